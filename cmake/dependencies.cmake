@@ -1,0 +1,20 @@
+# Third-party packages. docs/decisions says why each is here.
+find_package(PkgConfig REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(spdlog REQUIRED)
+find_package(Threads REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(GDAL REQUIRED)
+pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
+pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
+
+# LCM 1.3.1 (Debian) has no CMake package, 1.5 (upstream) has one whose target differs: find the header,
+# the library and the generator ourselves, so that both work.
+find_path(LCM_INCLUDE_DIR lcm/lcm-cpp.hpp REQUIRED)
+find_library(LCM_LIBRARY lcm REQUIRED)
+find_program(LCM_GEN lcm-gen REQUIRED)
+add_library(halocline_lcm INTERFACE)
+target_include_directories(halocline_lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
+target_link_libraries(halocline_lcm INTERFACE ${LCM_LIBRARY} Threads::Threads)

@@ -1,0 +1,37 @@
+// Checks of arguments and of ourselves, for two of the three kinds of error.
+//
+// require: the caller is wrong (bad configuration, impossible argument). Throws InvalidArgument, whose text
+//          says what was given and what is allowed. The program's edge turns it into one line and an exit code.
+// ensure:  we are wrong. Prints and aborts, in every build.
+// What the sea refuses (no path, out of range, outside the map) is an ordinary value and no business of this file.
+#pragma once
+
+#include <source_location>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace halocline {
+
+// The caller passed something outside of what the called function states it accepts.
+class InvalidArgument : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+// Throws InvalidArgument(message) unless `condition` holds.
+void require(bool condition, std::string_view message);
+
+// Throws InvalidArgument unless lowest <= value <= highest; a NaN is refused. The text reads
+// "<what> is <value> <unit>; allowed is <lowest> to <highest> <unit>". Returns `value`.
+double require_in_range(double value, double lowest, double highest, std::string_view what,
+                        std::string_view unit = "");
+
+// Throws InvalidArgument unless `value` is neither NaN nor infinite. Returns `value`.
+double require_finite(double value, std::string_view what);
+
+// Stops the program with the place of the call unless `condition` holds.
+void ensure(bool condition, std::string_view message,
+            std::source_location where = std::source_location::current());
+
+}  // namespace halocline

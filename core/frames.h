@@ -1,0 +1,54 @@
+// The two frames of the project and the pose that joins them.
+//
+// World: local NED at the scenario's geodetic origin: x north, y east, z down, metres; z = 0 is the datum of
+// the terrain. Depth below the sea surface = z - sea_surface_z: a tide moves the surface, not the vehicles.
+// Body: x forward, y starboard, z down. Orientation: unit quaternion that turns body coordinates into world
+// coordinates; written w-x-y-z wherever it is a list.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace halocline {
+
+using Vec3 = Eigen::Vector3d;
+using Quaternion = Eigen::Quaterniond;
+
+struct Pose {
+  Vec3 position_ned_m = Vec3::Zero();
+  Quaternion orientation = Quaternion::Identity();  // body to world
+};
+
+// A pose and its rate of change; linear velocity in the world frame, angular velocity in the body frame.
+struct KinematicState {
+  Pose pose;
+  Vec3 velocity_ned_mps = Vec3::Zero();
+  Vec3 angular_velocity_body_radps = Vec3::Zero();
+};
+
+// Roll, pitch, yaw: intrinsic z-y'-x'' (yaw about down first), radians; pitch within +-pi/2.
+struct EulerAngles {
+  double roll = 0, pitch = 0, yaw = 0;
+};
+
+inline Quaternion to_quaternion(const EulerAngles& e) {
+  return Quaternion(Eigen::AngleAxisd(e.yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(e.pitch, Vec3::UnitY()) *
+                    Eigen::AngleAxisd(e.roll, Vec3::UnitX()));
+}
+
+// At pitch = +-pi/2 roll and yaw are not unique; the pair returned is one of the possible.
+inline EulerAngles to_euler(const Quaternion& q) {
+  const Eigen::Matrix3d r = q.toRotationMatrix();
+  const double sine_pitch = std::clamp(-r(2, 0), -1.0, 1.0);
+  return {std::atan2(r(2, 1), r(2, 2)), std::asin(sine_pitch), std::atan2(r(1, 0), r(0, 0))};
+}
+
+// Depth below the sea surface, metres, positive down; `sea_surface_z_m` is the surface's z in the world frame.
+inline double depth_below_surface_m(const Vec3& position_ned_m, double sea_surface_z_m) {
+  return position_ned_m.z() - sea_surface_z_m;
+}
+
+}  // namespace halocline

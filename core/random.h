@@ -1,0 +1,43 @@
+// Random numbers addressed by what they are for, never by turn.
+//
+// A draw is a pure function of (seed, purpose, who, which): Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011,
+// "Parallel random numbers: as easy as 1, 2, 3"), a counter-based generator. There is no state: two threads,
+// two processes or two runs that ask for the same draw get the same number in whatever order they ask.
+//
+//   const double u = uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which = sequence});
+//
+// The distributions are our own, because those of the standard library differ between implementations.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace halocline {
+
+// Philox4x32-10: 128 bits of counter and 64 bits of key to 128 random bits.
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+
+// A stable 32-bit number for the name of a purpose (FNV-1a).
+constexpr std::uint32_t purpose_of(std::string_view name) {
+  std::uint32_t hash = 2166136261u;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash;
+}
+
+// The address of a draw. `who` and `which` identify the thing drawn for (a vehicle, a grid cell, a message).
+struct DrawAddress {
+  std::uint64_t seed = 0;
+  std::uint32_t purpose = 0;
+  std::uint32_t who = 0;
+  std::uint64_t which = 0;
+};
+
+// 64 random bits.
+std::uint64_t bits_at(const DrawAddress& address);
+// Uniform in (0, 1), both ends excluded; steps of 2^-52.
+double uniform_at(const DrawAddress& address);
+// Standard normal (Box-Muller).
+double normal_at(const DrawAddress& address);
+
+}  // namespace halocline

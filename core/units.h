@@ -1,0 +1,40 @@
+// Decibels and the few units that exist only at the edges (configuration, tables, output).
+//
+// Inside, everything is SI and radians. Decibels are their own type so that a level is never used as a ratio:
+// the reference of a level is part of its variable's name or of the comment beside it (dB re 1 uPa for
+// received levels, dB re 1 uPa at 1 m for source levels, dB re 1 uPa^2/Hz for noise spectra).
+#pragma once
+
+#include <cmath>
+#include <compare>
+#include <numbers>
+
+namespace halocline {
+
+// A logarithmic quantity, 10 log10 of a ratio of powers.
+struct Decibels {
+  double value = 0;
+
+  constexpr auto operator<=>(const Decibels&) const = default;
+  constexpr Decibels operator-() const { return {-value}; }
+  constexpr Decibels operator+(Decibels other) const { return {value + other.value}; }
+  constexpr Decibels operator-(Decibels other) const { return {value - other.value}; }
+};
+
+// A ratio of powers (or a power relative to the reference its name states). Never negative.
+struct PowerRatio {
+  double value = 0;
+  constexpr auto operator<=>(const PowerRatio&) const = default;
+  constexpr PowerRatio operator+(PowerRatio other) const { return {value + other.value}; }
+};
+
+inline PowerRatio to_power_ratio(Decibels level) { return {std::pow(10.0, level.value / 10.0)}; }
+// A ratio of 0 gives -infinity.
+inline Decibels to_decibels(PowerRatio ratio) { return {10.0 * std::log10(ratio.value)}; }
+
+constexpr double to_radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
+constexpr double to_degrees(double radians) { return radians * (180.0 / std::numbers::pi); }
+constexpr double hz_to_khz(double hz) { return hz / 1000.0; }
+constexpr double khz_to_hz(double khz) { return khz * 1000.0; }
+
+}  // namespace halocline
