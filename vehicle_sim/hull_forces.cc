@@ -1,0 +1,75 @@
+#include "vehicle_sim/hull_forces.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace halocline::vehicle_sim {
+
+Vec6 coriolis_force(const Mat6& mass, const Vec6& nu) {
+  const Vec6 momentum = mass * nu;
+  const Vec3 v = nu.head<3>(), w = nu.tail<3>();
+  const Vec3 p = momentum.head<3>(), h = momentum.tail<3>();
+  Vec6 force;
+  force << p.cross(w), h.cross(w) + p.cross(v);
+  return force;
+}
+
+Vec6 roll_only_coriolis_force(const Mat6& mass, const Vec6& nu) {
+  const Vec6 momentum = mass * nu;
+  const Vec3 w = nu.tail<3>(), h = momentum.tail<3>();
+  const double a2 = momentum[1], a3 = momentum[2], roll_rate = nu[3];
+  // Rows of C: 2: -a3 p, 3: +a2 p, 4: a3 v - a2 w, and w x H in rotation.
+  Vec6 force;
+  force << 0, a3 * roll_rate, -a2 * roll_rate, h.cross(w);
+  force[3] += a2 * nu[2] - a3 * nu[1];
+  return force;
+}
+
+Vec6 damping_force(const Damping& damping, const Vec6& nu_r, double relative_speed_mps) {
+  Vec6 force = -damping.linear.cwiseProduct(nu_r);
+  double last_decay = 0, attenuation = 1;
+  for (int k = 0; k < 6; ++k) {
+    const double decay = damping.decay_s_per_m[k];
+    if (decay == 0) continue;
+    if (decay != last_decay)
+      attenuation = std::exp(-decay * relative_speed_mps);  // degrees of freedom share it
+    last_decay = decay;
+    force[k] *= attenuation;
+  }
+  return force;
+}
+
+Vec6 lift_drag_force(const LiftDrag& l, double density, const Vec6& nu_r, double relative_speed_mps) {
+  const double u = nu_r[0], w = nu_r[2] + 0.0;  // -0 + 0 = +0: one branch of atan2 for both zeros
+  const double alpha = std::atan2(w, u);
+  const double in_plane = std::sqrt(u * u + w * w);
+  const double cos_alpha = in_plane > 0 ? u / in_plane : 1, sin_alpha = in_plane > 0 ? w / in_plane : 0;
+  const double cl = l.lift_slope_per_rad * alpha;
+  const double cd = l.zero_lift_drag + cl * cl / (std::numbers::pi * l.oswald_efficiency * l.aspect_ratio);
+  const double dynamic_force = 0.5 * density * relative_speed_mps * relative_speed_mps * l.reference_area_m2;
+  const double lift = dynamic_force * cl, drag = dynamic_force * cd;
+  Vec6 force = Vec6::Zero();
+  force[0] = -cos_alpha * drag + sin_alpha * lift;
+  force[2] = -sin_alpha * drag - cos_alpha * lift;
+  return force;
+}
+
+Vec6 cross_flow_force(const CrossFlow& c, double density, double diameter_m, const Vec6& nu_r) {
+  const double v = nu_r[1], r = nu_r[5];
+  const double first = -0.5 * (c.strips - 1) * c.strip_length_m;
+  double sway = 0, yaw = 0;  // sum of |v + x r| (v + x r) and of x times it
+  for (int i = 0; i < c.strips; ++i) {
+    const double x = first + i * c.strip_length_m;
+    const double flow = v + x * r;
+    const double square = std::abs(flow) * flow;
+    sway += square;
+    yaw += x * square;
+  }
+  const double scale = -0.5 * density * diameter_m * c.drag_coefficient * c.strip_length_m;
+  Vec6 force = Vec6::Zero();
+  force[1] = scale * sway;
+  force[5] = scale * yaw;
+  return force;
+}
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,149 @@
+// The description of an underwater vehicle: every number its equations of motion need, fixed once made.
+//
+// Model: rigid body with added mass in six degrees of freedom (Fossen, Handbook of Marine Craft Hydrodynamics
+// and Motion Control, 2nd ed. 2021, chapters 3, 6 and 8):
+//   M nu_dot = tau_actuators + tau_hull - C(nu_r) nu_r - D(nu_r) nu_r - g(eta),  nu_r = nu - nu_c.
+// Frame: body, origin CO at the hull's centre, x forward, y starboard, z down. 6-vectors are (surge, sway,
+// heave; roll, pitch, yaw). All SI and radians; propeller speed in revolutions per second (Hz). Left out:
+// shift of added mass near the surface, waves, fins' own added mass, propeller lateral forces. Threads: a
+// Model never changes; any number of threads may read one.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/frames.h"
+
+namespace halocline::vehicle_sim {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Mat3 = Eigen::Matrix3d;
+
+// The outer shape of the hull, for contact and for buoyancy at the surface: a spheroid about the body's x
+// axis.
+struct HullShape {
+  double length_m = 0;    // above 0
+  double diameter_m = 0;  // above 0, at most the length
+};
+
+// Which terms of the added-mass Coriolis matrix act.
+enum class AddedMassCoriolis {
+  kFull,      // all of it: with Munk moments
+  kRollOnly,  // only coupling through roll rate and the rotational block (what `remus100-pvs` keeps)
+};
+
+// How water that moves enters the equations.
+enum class CurrentTreatment {
+  // As published with `remus100-pvs`: the current is turned by yaw only, and the propeller sees the ground
+  // speed.
+  kUpstream,
+  // Exact: the current is turned by the whole attitude, the propeller sees the relative speed. Then a steady
+  // current v_c moves every path by v_c t and changes nothing else.
+  kGalilean,
+};
+
+// Linear damping, each degree of freedom k: D_k = damping_k exp(-decay_k |v_r|).
+struct Damping {
+  Vec6 linear = Vec6::Zero();         // N s/m (first three), N m s (last three); 0 or above
+  Vec6 decay_s_per_m = Vec6::Zero();  // 0 or above; 0 leaves the term constant
+};
+
+// Lift and drag of the hull in its x-z plane, of the angle of attack alpha = atan2(w_r, u_r):
+// C_L = lift_slope alpha, C_D = zero_lift_drag + C_L^2 / (pi oswald aspect_ratio).
+struct LiftDrag {
+  double reference_area_m2 = 0;   // 0 or above
+  double zero_lift_drag = 0;      // C_D0, 0 or above
+  double lift_slope_per_rad = 0;  // 0 or above
+  double aspect_ratio = 1;        // above 0
+  double oswald_efficiency = 1;   // e, above 0 and at most 1
+};
+
+// Drag of the cross-flow on a cylinder cut into strips along x, for sway and yaw (strip theory, Hoerner
+// 1965).
+struct CrossFlow {
+  double drag_coefficient = 0;  // of the cylinder's section, 0 or above
+  double strip_length_m = 0;    // 0 or above
+  int strips = 0;               // 0 or above; centres lie symmetric about CO, strip_length_m apart
+};
+
+// One pair of fins: force proportional to the deflection, drag to its square; both to the speed squared in
+// the fin's plane.
+struct FinPair {
+  double area_m2 = 0;             // 0 or above
+  double lift_slope_per_rad = 0;  // 0 or above
+  double x_m = 0;                 // place on the body's axis, negative aft
+};
+
+// A fixed-pitch propeller; K_T and K_Q fall linearly with the advance number J = V_a / (|n| D) from their
+// value at J = 0 to that at advance_max. V_a = (1 - wake) times the speed. Astern the values at J = 0 hold.
+struct Propeller {
+  double diameter_m = 0;           // 0 or above
+  double advance_speed_ratio = 1;  // V_a over the vehicle's speed, 1 - wake fraction
+  double thrust_at_rest = 0;       // K_T at J = 0
+  double thrust_at_max = 0;        // K_T at J = advance_max
+  double torque_at_rest = 0;       // K_Q at J = 0
+  double torque_at_max = 0;        // K_Q at J = advance_max
+  double advance_max = 1;          // above 0
+  double thrust_share = 1;         // 1 - thrust deduction: what reaches the hull
+  double torque_share = 1;         // of the shaft torque: what reaches the hull
+};
+
+// First-order lags towards the command, which is first held to the limits.
+struct ActuatorDynamics {
+  double fin_lag_s = 0.1;        // above 0
+  double propeller_lag_s = 1.0;  // above 0
+  double max_fin_angle_rad = 0;  // 0 to pi/2
+  double max_propeller_hz = 0;   // 0 or above
+};
+
+// What a model is made from. A plain struct, so that a file may fill it.
+struct ModelParameters {
+  std::string name;
+  double water_density_kg_m3 = 1026;
+  double gravity_m_s2 = 9.81;
+  HullShape hull;
+  double mass_kg = 0;                        // dry mass, above 0
+  double buoyancy_n = 0;                     // of the whole hull under water, 0 or above
+  Vec3 center_of_gravity_m = Vec3::Zero();   // from CO
+  Vec3 center_of_buoyancy_m = Vec3::Zero();  // from CO
+  Mat3 inertia_kg_m2 = Mat3::Identity();     // about the centre of gravity; symmetric, positive
+  Mat6 added_mass = Mat6::Zero();            // about CO; symmetric, none negative
+  AddedMassCoriolis added_mass_coriolis = AddedMassCoriolis::kFull;
+  CurrentTreatment current_treatment = CurrentTreatment::kGalilean;
+  Damping damping;
+  LiftDrag lift_drag;
+  CrossFlow cross_flow;
+  FinPair rudder;
+  FinPair stern_planes;
+  Propeller propeller;
+  ActuatorDynamics actuators;
+};
+
+// A model ready for use: the parameters, checked, and the matrices made from them.
+class Model {
+ public:
+  // Throws InvalidArgument where a parameter lies outside of its range, or where M is not positive definite.
+  explicit Model(ModelParameters parameters);
+
+  const ModelParameters& parameters() const { return parameters_; }
+  const std::string& name() const { return parameters_.name; }
+  double weight_n() const { return parameters_.mass_kg * parameters_.gravity_m_s2; }
+  const Mat6& rigid_body_mass() const { return rigid_body_mass_; }  // M_RB about CO
+  const Mat6& mass() const { return mass_; }                        // M = M_RB + M_A about CO
+  const Mat6& inverse_mass() const { return inverse_mass_; }        // M^-1
+
+ private:
+  ModelParameters parameters_;
+  Mat6 rigid_body_mass_, mass_, inverse_mass_;
+};
+
+// The matrix S(a) with S(a) b = a x b.
+Mat3 skew(const Vec3& a);
+
+// M_RB about CO = H' diag(m I, I_g) H with H = [I, S(r)'; 0, I] (Fossen 2021, eq. 3.35); r = CG from CO,
+// metres.
+Mat6 rigid_body_mass_matrix(double mass_kg, const Mat3& inertia_kg_m2, const Vec3& center_of_gravity_m);
+
+}  // namespace halocline::vehicle_sim

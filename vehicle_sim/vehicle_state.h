@@ -1,0 +1,53 @@
+// What changes as a vehicle moves: pose, velocity and actuator positions, and what it was told to do.
+//
+// Frames and units: see each field. Plain values, copied freely.
+#pragma once
+
+#include <limits>
+
+#include "core/frames.h"
+#include "vehicle_sim/vehicle_model.h"
+
+namespace halocline::vehicle_sim {
+
+// Propeller speed, rudder and stern planes, as commanded or as they are. Positive rudder turns to starboard
+// (positive yaw rate), positive stern planes push the bow down, a positive propeller drives ahead.
+struct ActuatorValues {
+  double rudder_rad = 0;
+  double stern_planes_rad = 0;
+  double propeller_hz = 0;  // revolutions per second
+
+  bool operator==(const ActuatorValues&) const = default;
+};
+
+struct VehicleState {
+  Vec3 position_ned_m = Vec3::Zero();               // of CO, the body's origin
+  Quaternion orientation = Quaternion::Identity();  // body to world, unit
+  Vec6 velocity_body = Vec6::Zero();                // of CO over ground: (u, v, w) m/s, (p, q, r) rad/s
+  ActuatorValues actuators;                         // where they are
+
+  auto linear_velocity_body_mps() const { return velocity_body.head<3>(); }
+  auto angular_velocity_body_radps() const { return velocity_body.tail<3>(); }
+};
+
+// The water round a vehicle.
+struct Water {
+  Vec3 current_ned_mps = Vec3::Zero();  // steady and uniform over the hull, finite
+  // z of the sea surface in the world frame, metres; minus infinity is water without a surface.
+  double sea_surface_z_m = -std::numeric_limits<double>::infinity();
+};
+
+// False when any number of the state is NaN or infinite.
+inline bool is_finite(const VehicleState& s) {
+  return s.position_ned_m.allFinite() && s.orientation.coeffs().allFinite() && s.velocity_body.allFinite() &&
+         Vec3(s.actuators.rudder_rad, s.actuators.stern_planes_rad, s.actuators.propeller_hz).allFinite();
+}
+
+// Pose and velocity in the project's common form.
+inline KinematicState to_kinematic_state(const VehicleState& s) {
+  return {{s.position_ned_m, s.orientation},
+          s.orientation * Vec3(s.linear_velocity_body_mps()),
+          s.angular_velocity_body_radps()};
+}
+
+}  // namespace halocline::vehicle_sim
