@@ -1,9 +1,11 @@
 // Checks of arguments and of ourselves, for two of the three kinds of error.
 //
 // require: the caller is wrong (bad configuration, impossible argument). Throws InvalidArgument, whose text
-//          says what was given and what is allowed. The program's edge turns it into one line and an exit code.
+//          says what was given and what is allowed. The program's edge turns it into one line and an exit
+//          code.
 // ensure:  we are wrong. Prints and aborts, in every build.
-// What the sea refuses (no path, out of range, outside the map) is an ordinary value and no business of this file.
+// What the sea refuses (no path, out of range, outside the map) is an ordinary value and no business of this
+// file.
 #pragma once
 
 #include <source_location>

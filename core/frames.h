@@ -46,7 +46,8 @@ inline EulerAngles to_euler(const Quaternion& q) {
   return {std::atan2(r(2, 1), r(2, 2)), std::asin(sine_pitch), std::atan2(r(1, 0), r(0, 0))};
 }
 
-// Depth below the sea surface, metres, positive down; `sea_surface_z_m` is the surface's z in the world frame.
+// Depth below the sea surface, metres, positive down; `sea_surface_z_m` is the surface's z in the world
+// frame.
 inline double depth_below_surface_m(const Vec3& position_ned_m, double sea_surface_z_m) {
   return position_ned_m.z() - sea_surface_z_m;
 }

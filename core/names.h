@@ -1,5 +1,5 @@
-// Names of vehicles, nodes and clients: the suffixes of channels, so kept to characters that mean nothing to a
-// regular expression or a file system.
+// Names of vehicles, nodes and clients: the suffixes of channels, so kept to characters that mean nothing to
+// a regular expression or a file system.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,9 @@ constexpr int kRounds = 10;
 
 std::array<std::uint32_t, 4> block_at(const DrawAddress& a) {
   // Seed (64 bits), purpose (32), who (32) and which (64) fill the 192 bits of key and counter, unmixed.
-  return philox4x32({static_cast<std::uint32_t>(a.which), static_cast<std::uint32_t>(a.which >> 32), a.who, a.purpose},
-                    {static_cast<std::uint32_t>(a.seed), static_cast<std::uint32_t>(a.seed >> 32)});
+  return philox4x32(
+      {static_cast<std::uint32_t>(a.which), static_cast<std::uint32_t>(a.which >> 32), a.who, a.purpose},
+      {static_cast<std::uint32_t>(a.seed), static_cast<std::uint32_t>(a.seed >> 32)});
 }
 
 // (k + 1/2) / 2^52 for the top 52 bits k: exact in a double, and never 0 or 1.
@@ -25,12 +26,15 @@ double to_open_unit_interval(std::uint32_t high, std::uint32_t low) {
 
 }  // namespace
 
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) {
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
+                                        std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < kRounds; ++round) {
     const std::uint64_t product0 = std::uint64_t{kMultiplier0} * counter[0];
     const std::uint64_t product1 = std::uint64_t{kMultiplier1} * counter[2];
-    counter = {static_cast<std::uint32_t>(product1 >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(product1),
-               static_cast<std::uint32_t>(product0 >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(product0)};
+    counter = {static_cast<std::uint32_t>(product1 >> 32) ^ counter[1] ^ key[0],
+               static_cast<std::uint32_t>(product1),
+               static_cast<std::uint32_t>(product0 >> 32) ^ counter[3] ^ key[1],
+               static_cast<std::uint32_t>(product0)};
     key[0] += kWeyl0;
     key[1] += kWeyl1;
   }

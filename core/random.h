@@ -4,7 +4,8 @@
 // "Parallel random numbers: as easy as 1, 2, 3"), a counter-based generator. There is no state: two threads,
 // two processes or two runs that ask for the same draw get the same number in whatever order they ask.
 //
-//   const double u = uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which = sequence});
+//   const double u = uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which =
+//   sequence});
 //
 // The distributions are our own, because those of the standard library differ between implementations.
 #pragma once
@@ -16,7 +17,8 @@
 namespace halocline {
 
 // Philox4x32-10: 128 bits of counter and 64 bits of key to 128 random bits.
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
+                                        std::array<std::uint32_t, 2> key);
 
 // A stable 32-bit number for the name of a purpose (FNV-1a).
 constexpr std::uint32_t purpose_of(std::string_view name) {

@@ -55,7 +55,9 @@ class SimTime {
   constexpr auto operator<=>(const SimTime&) const = default;
   constexpr SimTime operator+(SimDuration d) const { return SimTime(ns_ + d.nanoseconds()); }
   constexpr SimTime operator-(SimDuration d) const { return SimTime(ns_ - d.nanoseconds()); }
-  constexpr SimDuration operator-(SimTime other) const { return SimDuration::from_nanoseconds(ns_ - other.ns_); }
+  constexpr SimDuration operator-(SimTime other) const {
+    return SimDuration::from_nanoseconds(ns_ - other.ns_);
+  }
 
  private:
   explicit constexpr SimTime(std::int64_t ns) : ns_(ns) {}

@@ -29,7 +29,9 @@ TEST(Frames, PositiveRollLowersStarboard) {
 
 TEST(Frames, EulerAnglesSurviveTheRoundTrip) {
   for (std::uint32_t i = 0; i < 200; ++i) {
-    const auto draw = [&](std::uint64_t which) { return 2 * uniform_at({.seed = 1, .who = i, .which = which}) - 1; };
+    const auto draw = [&](std::uint64_t which) {
+      return 2 * uniform_at({.seed = 1, .who = i, .which = which}) - 1;
+    };
     const EulerAngles e{3.1 * draw(0), 1.5 * draw(1), 3.1 * draw(2)};
     const EulerAngles back = to_euler(to_quaternion(e));
     // Near pitch 1.5 the arcsine loses up to 1/cos(1.5) = 14 times the rounding error.

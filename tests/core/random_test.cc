@@ -22,8 +22,8 @@ TEST(Random, EveryPartOfTheAddressChangesTheDraw) {
   const DrawAddress base{.seed = 1, .purpose = 2, .who = 3, .which = 4};
   std::set<std::uint64_t> draws{bits_at(base)};
   for (const DrawAddress& other :
-       {DrawAddress{2, 2, 3, 4}, DrawAddress{1ull << 32 | 1, 2, 3, 4}, DrawAddress{1, 3, 3, 4}, DrawAddress{1, 2, 4, 4},
-        DrawAddress{1, 2, 3, 5}, DrawAddress{1, 2, 3, 1ull << 32 | 4}}) {
+       {DrawAddress{2, 2, 3, 4}, DrawAddress{1ull << 32 | 1, 2, 3, 4}, DrawAddress{1, 3, 3, 4},
+        DrawAddress{1, 2, 4, 4}, DrawAddress{1, 2, 3, 5}, DrawAddress{1, 2, 3, 1ull << 32 | 4}}) {
     EXPECT_TRUE(draws.insert(bits_at(other)).second);
   }
   EXPECT_EQ(bits_at(base), bits_at(base));

@@ -38,7 +38,8 @@ const std::string& CsvRow::text(const std::string& column) const {
 double CsvRow::number(const std::string& column) const {
   double value = 0;
   if (!parse_number(text(column), value)) {
-    throw std::runtime_error("line " + std::to_string(line_) + ", " + column + ": '" + text(column) + "' is no number");
+    throw std::runtime_error("line " + std::to_string(line_) + ", " + column + ": '" + text(column) +
+                             "' is no number");
   }
   return value;
 }

@@ -23,8 +23,8 @@ class CsvRow {
   int line_;
 };
 
-// Rows of `path`, relative to tests/data. Throws when the file is missing or holds no row, so that a test over
-// its rows cannot pass for lack of rows.
+// Rows of `path`, relative to tests/data. Throws when the file is missing or holds no row, so that a test
+// over its rows cannot pass for lack of rows.
 std::vector<CsvRow> read_reference_csv(const std::string& path);
 
 }  // namespace halocline::testing

@@ -6,8 +6,8 @@
 
 namespace halocline::testing {
 
-// `stated` times HALOCLINE_TOLERANCE_SCALE (0 < scale <= 1, default 1): setting it to 0.5 shows which tests pass
-// only just. It can never loosen a bound.
+// `stated` times HALOCLINE_TOLERANCE_SCALE (0 < scale <= 1, default 1): setting it to 0.5 shows which tests
+// pass only just. It can never loosen a bound.
 inline double tolerance(double stated) {
   const char* text = std::getenv("HALOCLINE_TOLERANCE_SCALE");
   const double scale = text != nullptr ? std::atof(text) : 1.0;

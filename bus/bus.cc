@@ -1,0 +1,97 @@
+#include "bus/bus.h"
+
+#include <stdexcept>
+
+#include "core/check.h"
+#include "core/names.h"
+
+namespace halocline::bus {
+namespace {
+
+// Messages a subscription may hold between two looks at the bus. LCM's default of 30 drops the newest of a
+// burst.
+constexpr int kQueueCapacity = 20'000;
+
+// Reports of refused messages: the first of a kind, then the 10th, the 100th, ...: a flood cannot fill a
+// disk.
+bool worth_a_report(std::int64_t count) {
+  while (count % 10 == 0) count /= 10;
+  return count == 1;
+}
+
+}  // namespace
+
+struct Bus::Subscription {
+  Bus* bus;
+  RawHandler handler;
+  lcm::Subscription* lcm_subscription = nullptr;
+
+  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    if (bus->failure_) return;  // one failure ends the node; nothing more is handled on its way out
+    try {
+      handler(channel, buffer->data, buffer->data_size);
+    } catch (...) {
+      bus->failure_ = std::current_exception();
+    }
+  }
+};
+
+Bus::Bus(lcm::LCM& lcm, NodeIdentity identity)
+    : lcm_(lcm), identity_(std::move(identity)), log_(identity_.name) {
+  require(is_valid_name(identity_.name),
+          "node name '" + identity_.name + "'; allowed is " + std::string(kNameRule));
+  require(lcm.good(), "the LCM instance is not usable");
+}
+
+Bus::~Bus() {
+  for (const auto& subscription : subscriptions_) lcm_.unsubscribe(subscription->lcm_subscription);
+}
+
+void Bus::rethrow_if_failed() {
+  if (!failure_) return;
+  const std::exception_ptr failure = std::exchange(failure_, nullptr);
+  std::rethrow_exception(failure);
+}
+
+void Bus::refuse(std::string_view channel, std::string_view reason) {
+  ++counters_.refused;
+  constexpr std::size_t kKindsKept = 1000;  // of refusals; a hostile publisher must not grow our memory
+  const std::string kind = std::string(channel) + " " + std::string(reason);
+  if (refusals_.size() >= kKindsKept && !refusals_.contains(kind)) return;
+  const std::int64_t count = ++refusals_[kind];
+  if (!worth_a_report(count)) return;
+  log_.warning("message-refused", "channel=" + std::string(channel) + " count=" + std::to_string(count) +
+                                      " reason=\"" + std::string(reason) + "\"");
+}
+
+void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t size) {
+  if (lcm_.publish(std::string(channel), data, static_cast<unsigned int>(size)) != 0) {
+    throw std::runtime_error("LCM could not publish on " + std::string(channel));
+  }
+  ++counters_.sent;
+}
+
+void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler) {
+  auto subscription = std::make_unique<Subscription>(Subscription{this, std::move(handler)});
+  subscription->lcm_subscription =
+      lcm_.subscribe(regular_expression, &Subscription::on_message, subscription.get());
+  ensure(subscription->lcm_subscription != nullptr, "LCM refuses the channel " + regular_expression);
+  subscription->lcm_subscription->setQueueCapacity(kQueueCapacity);
+  subscriptions_.push_back(std::move(subscription));
+}
+
+void Bus::watch(std::string_view channel, std::int64_t session, std::int64_t sequence) {
+  counters_.gaps += sequences_.missing_before(channel, session, sequence);
+}
+
+std::string escaped(std::string_view channel) {
+  constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";
+  std::string expression;
+  for (const char c : channel) {
+    if (kSpecial.find(c) != std::string_view::npos) expression += '\\';
+    expression += c;
+  }
+  return expression;
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,167 @@
+// Typed publish and subscribe on an lcm::LCM, safe against what a bus may carry.
+//
+// A message that does not decode, or holds what cannot be (message_checks.h), is counted, reported with its
+// channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session,
+// sequence) is counted. An exception that a handler throws never crosses LCM's C frames: it is kept, and
+// thrown by rethrow_if_failed().
+//
+//   Bus bus(lcm, {"channel-server", session});
+//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s)
+//   {...}); bus.publish(channels::kOutcome, outcome);
+//
+// One Bus belongs to one node; several may share an lcm::LCM (memq has one queue per LCM object, so nodes in
+// one process must share it). Not thread-safe. The lcm::LCM must outlive the Bus.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "bus/channels.h"
+#include "bus/event_log.h"
+#include "bus/message_checks.h"
+#include "bus/sequence_watch.h"
+#include "bus/wire_layout.h"
+#include "core/names.h"
+
+namespace halocline::bus {
+
+// Who speaks: the node's name (is_valid_name) and a number that differs each time it is started.
+struct NodeIdentity {
+  std::string name;
+  std::int64_t session = 0;
+};
+
+// What a node has counted since it started; published in STATUS.
+struct BusCounters {
+  std::int64_t received = 0;
+  std::int64_t sent = 0;
+  std::int64_t refused = 0;
+  std::int64_t gaps = 0;
+  std::int64_t repaired = 0;
+  std::int64_t late = 0;
+};
+
+class Bus {
+ public:
+  template <class Message>
+  using Handler = std::function<void(const Message&)>;
+  // `name` is the part of the channel after the family's dot; it is a valid name.
+  template <class Message>
+  using FamilyHandler = std::function<void(std::string_view name, const Message&)>;
+
+  Bus(lcm::LCM& lcm, NodeIdentity identity);
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  // Encodes and publishes. Throws std::runtime_error when LCM refuses (a network without a route).
+  template <class Message>
+  void publish(std::string_view channel, const Message& message);
+
+  template <class Message>
+  void subscribe(std::string_view channel, Handler<Message> handler);
+  template <class Message>
+  void subscribe(const Family& family, FamilyHandler<Message> handler);
+
+  // Throws, once, the exception that a handler threw while LCM was dispatching.
+  void rethrow_if_failed();
+
+  const NodeIdentity& identity() const { return identity_; }
+  BusCounters& counters() { return counters_; }
+  const BusCounters& counters() const { return counters_; }
+  EventLog& log() { return log_; }
+
+  // A message that a node itself finds impossible: counted and reported like one that did not decode.
+  void refuse(std::string_view channel, std::string_view reason);
+
+ private:
+  struct Subscription;
+  using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
+
+  void publish_bytes(std::string_view channel, const void* data, std::size_t size);
+  void subscribe_raw(const std::string& regular_expression, RawHandler handler);
+  template <class Message>
+  bool decode(std::string_view channel, const void* data, std::size_t size, Message& message);
+  void watch(std::string_view channel, std::int64_t session, std::int64_t sequence);
+
+  lcm::LCM& lcm_;
+  NodeIdentity identity_;
+  BusCounters counters_;
+  EventLog log_;
+  SequenceWatch sequences_;
+  std::map<std::string, std::int64_t, std::less<>>
+      refusals_;  // by "channel reason", for rate-limited reports
+  std::exception_ptr failure_;
+  std::vector<std::unique_ptr<Subscription>> subscriptions_;
+};
+
+// An LCM regular expression that matches `channel` and nothing else.
+std::string escaped(std::string_view channel);
+
+// ---- implementation of the templates
+
+template <class Message>
+void Bus::publish(std::string_view channel, const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  publish_bytes(channel, bytes.data(), bytes.size());
+}
+
+template <class Message>
+void Bus::subscribe(std::string_view channel, Handler<Message> handler) {
+  subscribe_raw(escaped(channel), [this, handler = std::move(handler)](std::string_view heard_on,
+                                                                       const void* data, std::size_t size) {
+    Message message;
+    if (decode(heard_on, data, size, message)) handler(message);
+  });
+}
+
+template <class Message>
+void Bus::subscribe(const Family& family, FamilyHandler<Message> handler) {
+  const std::string_view prefix = family.prefix;
+  subscribe_raw(escaped(prefix) + ".*", [this, prefix, handler = std::move(handler)](
+                                            std::string_view heard_on, const void* data, std::size_t size) {
+    const std::string_view name = heard_on.substr(prefix.size());
+    if (!is_valid_name(name)) return refuse(heard_on, "the channel's name is no valid name");
+    Message message;
+    if (decode(heard_on, data, size, message)) handler(name, message);
+  });
+}
+
+template <class Message>
+bool Bus::decode(std::string_view channel, const void* data, std::size_t size, Message& message) {
+  std::string problem = misfit(wire_layout<Message>(), data, size);
+  if (problem.empty() && message.decode(data, 0, static_cast<int>(size)) < 0) problem = "another type";
+  if (problem.empty()) problem = problem_in(message);
+  if (!problem.empty()) {
+    refuse(channel, problem);
+    return false;
+  }
+  ++counters_.received;
+  if constexpr (
+      requires {
+        message.packet_sequence;
+        message.payload_size;
+        message.source_id;
+        message.session;
+      } &&
+      !requires { message.sequence; }) {
+    watch(channel, message.session, message.packet_sequence);
+  } else if constexpr (requires {
+                         message.session;
+                         message.sequence;
+                       }) {
+    watch(channel, message.session, message.sequence);
+  }
+  return true;
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,29 @@
+#include "bus/config.h"
+
+#include <sstream>
+
+#include "core/units.h"
+
+namespace halocline::bus {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+}  // namespace
+
+ConfigErrors::ConfigErrors(std::vector<std::string> lines)
+    : InvalidArgument(joined(lines)), lines_(std::move(lines)) {}
+
+void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees) {
+  // Only what the file gives is converted, so that a default survives to the last bit.
+  double value_deg = to_degrees(radians);
+  const double before = value_deg;
+  v.number(key, value_deg, rule_in_degrees);
+  if (value_deg != before) radians = to_radians(value_deg);
+}
+
+}  // namespace halocline::bus

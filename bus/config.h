@@ -1,0 +1,129 @@
+// How a configuration struct is described once and then read from TOML, printed, and explained.
+//
+// Each `*_config.h` declares a plain struct with defaults and a function
+//     void visit(ConfigVisitor& v, MyConfig& c) { v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "wind at 10
+//     m height"}); }
+// A reader fills the struct and collects every error (wrong type, impossible value, unknown key) with file,
+// line, key and what is allowed; a writer prints the effective configuration, or an example with comments.
+// Configuration holds degrees, hours and kilohertz only where its key says so; the struct is SI: convert in
+// visit.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/check.h"
+#include "core/frames.h"
+
+namespace halocline::bus {
+
+// What a number may be. Both ends are allowed values.
+struct NumberRule {
+  double lowest;
+  double highest;
+  std::string_view unit;     // "" for pure numbers
+  std::string_view meaning;  // one line
+};
+
+class ConfigVisitor {
+ public:
+  virtual ~ConfigVisitor() = default;
+
+  // Each visits one key of the current table; `value` holds the default on entry.
+  virtual void number(std::string_view key, double& value, const NumberRule& rule) = 0;
+  virtual void integer(std::string_view key, std::int64_t& value, const NumberRule& rule) = 0;
+  virtual void boolean(std::string_view key, bool& value, std::string_view meaning) = 0;
+  // `allowed` empty: any text.
+  virtual void text(std::string_view key, std::string& value, const std::vector<std::string>& allowed,
+                    std::string_view meaning) = 0;
+  // An array of exactly three numbers, or of any count.
+  virtual void vector3(std::string_view key, Vec3& value, const NumberRule& rule) = 0;
+  virtual void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) = 0;
+  // An array of arrays of three numbers (waypoints).
+  virtual void points(std::string_view key, std::vector<Vec3>& values, const NumberRule& rule) = 0;
+  // A table within the current one.
+  virtual void section(std::string_view key, std::string_view meaning,
+                       const std::function<void(ConfigVisitor&)>& body) = 0;
+  // An array of tables: `resize(n)` makes room, `item(v, i)` visits the i-th. When written, `count` items
+  // are.
+  virtual void list(std::string_view key, std::string_view meaning, std::size_t count,
+                    const std::function<void(std::size_t)>& resize,
+                    const std::function<void(ConfigVisitor&, std::size_t)>& item) = 0;
+  // True when the scenario gives this key; always true when writing.
+  virtual bool given(std::string_view key) const = 0;
+  // Reports that the key's value is impossible in a way that no rule says; for checks across keys.
+  virtual void problem(std::string_view key, std::string_view what_is_allowed) = 0;
+  // This table also holds keys that other programs read: unknown ones are not errors here.
+  virtual void shared_with_others() = 0;
+};
+
+// An integer of another width through ConfigVisitor::integer.
+template <class Integer>
+void integer_as(ConfigVisitor& v, std::string_view key, Integer& value, const NumberRule& rule) {
+  std::int64_t wide = static_cast<std::int64_t>(value);
+  v.integer(key, wide, rule);
+  value = static_cast<Integer>(wide);
+}
+
+// An enumeration by name; `names[i]` belongs to static_cast<Enum>(i).
+template <class Enum>
+void choice(ConfigVisitor& v, std::string_view key, Enum& value, const std::vector<std::string>& names,
+            std::string_view meaning) {
+  std::string name = names.at(static_cast<std::size_t>(value));
+  v.text(key, name, names, meaning);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) value = static_cast<Enum>(i);
+  }
+}
+
+// An angle, in degrees in the file (its key ends in _deg), in radians in the struct.
+void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees);
+
+// Everything that is wrong with a configuration, one line each: "file:line: key: what; allowed is ...".
+class ConfigErrors : public InvalidArgument {
+ public:
+  explicit ConfigErrors(std::vector<std::string> lines);
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+struct ConfigDocument;  // the parsed TOML and what was found wrong with it
+
+// A parsed scenario file with overrides from the command line.
+class ConfigFile {
+ public:
+  // Throws ConfigErrors when the file cannot be read or is no TOML. Each override is "section.key=value" with
+  // value in TOML; "vehicle.0.key=value" reaches into an array of tables.
+  static ConfigFile load(const std::string& path, const std::vector<std::string>& overrides = {});
+  static ConfigFile parse(const std::string& text, const std::string& name_for_errors,
+                          const std::vector<std::string>& overrides = {});
+  ~ConfigFile();
+  ConfigFile(ConfigFile&&) noexcept;
+  ConfigFile& operator=(ConfigFile&&) noexcept;
+
+  // Visits the whole document as one table. May be called several times, for several structs; errors add up.
+  void read(const std::function<void(ConfigVisitor&)>& body);
+  // Throws ConfigErrors with everything that any read() found wrong; also, when `whole_file`, every key that
+  // no read() asked for. Without it, only unknown keys of sections that were read and not shared are errors.
+  void check(bool whole_file);
+
+  // The folder that relative paths in the file start from: the one that holds it.
+  std::string folder() const;
+  const std::string& path() const;
+
+ private:
+  explicit ConfigFile(std::unique_ptr<ConfigDocument> document);
+  std::unique_ptr<ConfigDocument> document_;
+};
+
+// The configuration as TOML: every key with its value; with_comments adds unit, range and meaning.
+std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments);
+
+}  // namespace halocline::bus

@@ -1,0 +1,38 @@
+// One line on stderr per event: simulation time, node, event, key=value. Nodes log, libraries do not.
+//
+// info is for a person who watches a run; per-packet detail is debug; what happens often is a counter in
+// STATUS.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/sim_time.h"
+
+namespace halocline::bus {
+
+enum class LogLevel { kDebug, kInfo, kWarning, kError, kSilent };
+
+// For the whole process; kInfo until set.
+void set_log_level(LogLevel level);
+// "debug", "info", "warning", "error" or "silent"; throws InvalidArgument that lists them otherwise.
+LogLevel log_level_from_name(std::string_view name);
+
+// The voice of one node. Not to be shared between threads.
+class EventLog {
+ public:
+  explicit EventLog(std::string node_name) : node_name_(std::move(node_name)) {}
+  void set_time(SimTime now) { now_ = now; }
+
+  // `details` is "key=value key=value ...", empty where the event says all.
+  void debug(std::string_view event, std::string_view details = "") const;
+  void info(std::string_view event, std::string_view details = "") const;
+  void warning(std::string_view event, std::string_view details = "") const;
+  void error(std::string_view event, std::string_view details = "") const;
+
+ private:
+  std::string node_name_;
+  SimTime now_;
+};
+
+}  // namespace halocline::bus

@@ -1,0 +1,269 @@
+#include "bus/message_checks.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <sstream>
+#include <string_view>
+
+#include "core/names.h"
+
+namespace halocline::bus {
+namespace {
+
+// Nobody sails further from the scenario's origin, faster or deeper; what is beyond is a unit mixed up.
+constexpr double kFarthestM = 1e7, kFastestMps = 100, kFastestTurnRadps = 100;
+constexpr double kHighestLevelDb = 400, kHighestFrequencyHz = 1e7;
+constexpr double kQuaternionTolerance = 1e-3;  // publishers in single precision stay well within
+// 100 years of microseconds either way, so that sums of times cannot overflow.
+constexpr std::int64_t kLatestUtime = 3'155'760'000'000'000;
+constexpr double kPi = std::numbers::pi;
+constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000;
+
+// Collects the first problem found.
+class Checker {
+ public:
+  Checker& utime(std::int64_t value, std::string_view field = "utime") {
+    return holds(value >= -kLatestUtime && value <= kLatestUtime, field, "is no time within 100 years");
+  }
+  Checker& within(std::string_view field, double value, double lowest, double highest) {
+    if (!problem_.empty() || (value >= lowest && value <= highest)) return *this;
+    std::ostringstream text;
+    text << field << " is " << value << "; allowed is " << lowest << " to " << highest;
+    problem_ = text.str();
+    return *this;
+  }
+  Checker& all_within(std::string_view field, std::span<const double> values, double lowest, double highest) {
+    for (const double value : values) within(field, value, lowest, highest);
+    return *this;
+  }
+  Checker& finite(std::string_view field, double value) {
+    return holds(std::isfinite(value), field, "is not a finite number");
+  }
+  Checker& all_finite(std::string_view field, std::span<const double> values) {
+    for (const double value : values) finite(field, value);
+    return *this;
+  }
+  Checker& name(std::string_view field, std::string_view value) {
+    return holds(is_valid_name(value), field, "is no name: " + std::string(kNameRule));
+  }
+  Checker& one_of(std::string_view field, int value, int first, int last) {
+    return holds(value >= first && value <= last, field, "is no value of its enumeration");
+  }
+  Checker& id(std::string_view field, std::int32_t value) {
+    return holds(value >= 1, field, "is no vehicle id (1 and up)");
+  }
+  Checker& id_or_all(std::string_view field, std::int32_t value) {
+    return holds(value >= 0, field, "is no vehicle id, nor 0 for all");
+  }
+  Checker& holds(bool condition, std::string_view field, std::string_view otherwise) {
+    if (problem_.empty() && !condition) problem_ = std::string(field) + " " + std::string(otherwise);
+    return *this;
+  }
+  std::string result() const { return problem_; }
+
+ private:
+  std::string problem_;
+};
+
+Checker check_modem(const modem_config_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .within("source_level_db", m.source_level_db, 0, kHighestLevelDb)
+      .within("center_frequency_hz", m.center_frequency_hz, 1, kHighestFrequencyHz)
+      .within("bandwidth_hz", m.bandwidth_hz, 1e-3, kHighestFrequencyHz)
+      .holds(m.bandwidth_hz < 2 * m.center_frequency_hz, "bandwidth_hz", "reaches below 0 Hz")
+      .within("directivity_index_db", m.directivity_index_db, -100, 100)
+      .within("cutoff_level_db", m.cutoff_level_db, -kHighestLevelDb, kHighestLevelDb)
+      .within("bit_rate_bps", m.bit_rate_bps, 1e-3, 1e9)
+      .within("packet_overhead_s", m.packet_overhead_s, 0, 3600)
+      .within("max_payload_bytes", m.max_payload_bytes, 0, kLongestPayload);
+}
+
+Checker check_link(const link_t& m) {
+  return Checker()
+      .id_or_all("transmitter_id", m.transmitter_id)
+      .id_or_all("receiver_id", m.receiver_id)
+      .within("range_m", m.range_m, 0, 4 * kFarthestM)
+      .within("delay_s", m.delay_s, 0, 1e6)
+      .finite("transmission_loss_db", m.transmission_loss_db)
+      .finite("received_level_db", m.received_level_db)
+      .finite("noise_level_db", m.noise_level_db)
+      .finite("snr_db", m.snr_db)
+      .within("capacity_bps", m.capacity_bps, 0, 1e12)
+      .one_of("multipath", m.multipath, link_t::MULTIPATH_UNLIKELY, link_t::MULTIPATH_UNKNOWN)
+      .finite("transmitter_age_s", m.transmitter_age_s)
+      .finite("receiver_age_s", m.receiver_age_s);
+}
+
+}  // namespace
+
+std::string problem_in(const sim_clock_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .within("clock_rate", m.clock_rate, 0, 1e6)
+      .within("clock_step_us", static_cast<double>(m.clock_step_us), 1, 3.6e9)
+      .result();
+}
+
+std::string problem_in(const vehicle_state_t& m) {
+  double square = 0;
+  for (const double q : m.orientation_wxyz) square += q * q;
+  return Checker()
+      .utime(m.utime)
+      .id("vehicle_id", m.vehicle_id)
+      .all_within("position_ned_m", m.position_ned_m, -kFarthestM, kFarthestM)
+      .within("|orientation_wxyz|", std::sqrt(square), 1 - kQuaternionTolerance, 1 + kQuaternionTolerance)
+      .all_within("velocity_ned_mps", m.velocity_ned_mps, -kFastestMps, kFastestMps)
+      .all_within("angular_velocity_body_radps", m.angular_velocity_body_radps, -kFastestTurnRadps,
+                  kFastestTurnRadps)
+      .result();
+}
+
+std::string problem_in(const vehicle_command_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .within("propeller_rpm", m.propeller_rpm, -1e5, 1e5)
+      .within("rudder_rad", m.rudder_rad, -kPi, kPi)
+      .within("stern_plane_rad", m.stern_plane_rad, -kPi, kPi)
+      .result();
+}
+
+std::string problem_in(const vehicle_sensors_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .within("depth_m", m.depth_m, -kFarthestM, kFarthestM)
+      .one_of("altitude_status", m.altitude_status, vehicle_sensors_t::ALTITUDE_MEASURED,
+              vehicle_sensors_t::ALTITUDE_UNAVAILABLE)
+      .within("altitude_m", m.altitude_m, 0, kFarthestM)
+      .within("water_speed_mps", m.water_speed_mps, -kFastestMps, kFastestMps)
+      .within("heading_rad", m.heading_rad, -2 * kPi, 2 * kPi)
+      .within("pitch_rad", m.pitch_rad, -kPi, kPi)
+      .within("roll_rad", m.roll_rad, -kPi, kPi)
+      .all_within("angular_rate_body_radps", m.angular_rate_body_radps, -kFastestTurnRadps, kFastestTurnRadps)
+      .finite("shaft_rpm", m.shaft_rpm)
+      .finite("rudder_angle_rad", m.rudder_angle_rad)
+      .finite("stern_angle_rad", m.stern_angle_rad)
+      .result();
+}
+
+std::string problem_in(const environment_t& m) {
+  Checker checker;
+  checker.utime(m.utime)
+      .within("num_layers", m.num_layers, 1, kMostLayers)
+      .all_within("layer_depth_m", m.layer_depth_m, 0, 12000)
+      .all_within("layer_sound_speed_mps", m.layer_sound_speed_mps, 1000, 2500)
+      .all_within("layer_temperature_degc", m.layer_temperature_degc, -10, 60)
+      .all_within("layer_salinity_psu", m.layer_salinity_psu, 0, 400)
+      .within("wind_speed_mps", m.wind_speed_mps, 0, 100)
+      .within("shipping_activity", m.shipping_activity, 0, 1)
+      .within("acidity_ph", m.acidity_ph, 0, 14)
+      .within("sea_surface_z_m", m.sea_surface_z_m, -1000, 1000)
+      .within("spreading_exponent", m.spreading_exponent, 0, 3);
+  for (std::size_t i = 1; i < m.layer_depth_m.size(); ++i) {
+    checker.holds(m.layer_depth_m[i] > m.layer_depth_m[i - 1], "layer_depth_m", "does not ascend");
+  }
+  return checker.result();
+}
+
+std::string problem_in(const modem_config_t& m) { return check_modem(m).result(); }
+
+std::string problem_in(const modem_send_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .id("source_id", m.source_id)
+      .id_or_all("destination_id", m.destination_id)
+      .within("payload_size", m.payload_size, 0, kLongestPayload)
+      .result();
+}
+
+std::string problem_in(const modem_receipt_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .one_of("receipt_result", m.receipt_result, modem_receipt_t::ACCEPTED,
+              modem_receipt_t::REFUSED_TOO_EARLY)
+      .utime(m.start_utime, "start_utime")
+      .within("duration_s", m.duration_s, 0, 1e7)
+      .result();
+}
+
+std::string problem_in(const modem_receive_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .id("source_id", m.source_id)
+      .id_or_all("destination_id", m.destination_id)
+      .id("receiver_id", m.receiver_id)
+      .utime(m.departure_utime, "departure_utime")
+      .within("travel_time_s", m.travel_time_s, 0, 1e6)
+      .finite("received_level_db", m.received_level_db)
+      .finite("snr_db", m.snr_db)
+      .within("payload_size", m.payload_size, 0, kLongestPayload)
+      .result();
+}
+
+std::string problem_in(const packet_outcome_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .id("source_id", m.source_id)
+      .id_or_all("destination_id", m.destination_id)
+      .id("receiver_id", m.receiver_id)
+      .one_of("packet_fate", m.packet_fate, packet_outcome_t::RECEIVED, packet_outcome_t::RECEIVER_GONE)
+      .utime(m.departure_utime, "departure_utime")
+      .within("travel_time_s", m.travel_time_s, 0, 1e6)
+      .within("duration_s", m.duration_s, 0, 1e7)
+      .within("range_m", m.range_m, 0, 4 * kFarthestM)
+      .all_finite("levels", std::array{m.transmission_loss_db, m.received_level_db, m.noise_level_db,
+                                       m.snr_db, m.cutoff_level_db})
+      .result();
+}
+
+std::string problem_in(const link_t& m) { return check_link(m).result(); }
+
+std::string problem_in(const link_table_t& m) {
+  Checker checker;
+  checker.utime(m.utime).id("vehicle_id", m.vehicle_id);
+  for (const link_t& peer : m.peers) checker.holds(problem_in(peer).empty(), "peers", problem_in(peer));
+  return checker.result();
+}
+
+std::string problem_in(const link_query_t& m) {
+  return Checker().utime(m.utime).name("client_name", m.client_name).result();
+}
+
+std::string problem_in(const link_reply_t& m) {
+  Checker checker;
+  checker.utime(m.utime).one_of("reply_status", m.reply_status, link_reply_t::OK, link_reply_t::REFUSED);
+  for (const link_answer_t& a : m.answers) {
+    checker.one_of("answer_status", a.answer_status, link_answer_t::ANSWERED, link_answer_t::BAD_INPUT);
+    checker.holds(problem_in(a.link).empty(), "link", problem_in(a.link));
+  }
+  return checker.result();
+}
+
+std::string problem_in(const ray_query_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .name("client_name", m.client_name)
+      .all_within("base_origin_ned_m", m.base_origin_ned_m, -kFarthestM, kFarthestM)
+      .result();
+}
+
+std::string problem_in(const ray_reply_t& m) {
+  Checker checker;
+  checker.utime(m.utime)
+      .one_of("reply_status", m.reply_status, ray_reply_t::OK, ray_reply_t::REFUSED_BAD_QUERY)
+      .all_finite("result_m", m.result_m)
+      .all_finite("sample_distance_m", m.sample_distance_m)
+      .all_finite("sample_seabed_z_m", m.sample_seabed_z_m);
+  for (const std::int8_t status : m.ray_status) {
+    checker.one_of("ray_status", status, ray_reply_t::HIT, ray_reply_t::BAD_INPUT);
+  }
+  return checker.result();
+}
+
+std::string problem_in(const node_status_t& m) {
+  return Checker().utime(m.utime).name("node_name", m.node_name).result();
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,70 @@
+// A node: the thin adapter between the bus and a pure core. Handlers store; a step computes and publishes.
+//
+// A node never reads a clock. Whoever runs it (run_node_process, LockstepRunner, a test) dispatches LCM, asks
+// when the node is due, and calls step with the time. Simulation time is what results depend on; steady time
+// is for what concerns the process alone: time-outs of answers, STATUS. Under lockstep the two are the same.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bus/bus.h"
+#include "core/sim_time.h"
+
+namespace halocline::bus {
+
+// The instant of a step: simulation time, and the process' steady time (since its start, never set back).
+struct Now {
+  SimTime sim;
+  SimTime steady;
+  bool sim_known = true;  // false until the process has learnt the simulation time; sim is 0 then
+};
+
+// When a node next wants to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting
+// that does not depend on simulation time (answering a query).
+struct Due {
+  SimTime sim = SimTime::never();
+  SimTime steady = SimTime::never();
+};
+
+class Node {
+ public:
+  // Subscriptions are made by the derived constructors; nothing is published before the first step.
+  Node(lcm::LCM& lcm, NodeIdentity identity) : bus_(lcm, std::move(identity)) {}
+  virtual ~Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  const std::string& name() const { return bus_.identity().name; }
+  const BusCounters& counters() const { return bus_.counters(); }
+
+  Due due() const;
+  // Rethrows what a handler threw; computes and publishes all that is due; then STATUS when a second has
+  // passed.
+  void step(const Now& now);
+  // Another run has begun at `now`.
+  void restart(const Now& now);
+  // The last step: publishes what is still to be said, then a final STATUS.
+  void stop(const Now& now);
+
+ protected:
+  virtual Due on_due() const = 0;
+  virtual void on_step(const Now& now) = 0;
+  virtual void on_stop(const Now& /*now*/) {}
+  // Simulation time jumped back: another run has begun. Forget what was heard of the old one.
+  virtual void on_restart(const Now& /*now*/) {}
+  // One line for a person, for STATUS.
+  virtual std::string status_text() const = 0;
+
+  Bus& bus() { return bus_; }
+  const Bus& bus() const { return bus_; }
+
+ private:
+  void publish_status(const Now& now, const std::string& text);
+
+  Bus bus_;
+  SimTime next_status_;  // steady
+  std::int64_t status_sequence_ = 0;
+};
+
+}  // namespace halocline::bus

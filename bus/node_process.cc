@@ -1,0 +1,141 @@
+#include "bus/node_process.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include <poll.h>
+#include <unistd.h>
+
+#include "bus/node_command_line.h"
+#include "bus/transport.h"
+
+namespace halocline::bus {
+namespace {
+
+volatile std::sig_atomic_t stop_signal_seen = 0;
+void on_stop_signal(int) { stop_signal_seen = 1; }
+
+// Longest sleep: a stop wished for by other means than a signal is seen within this.
+constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
+// Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
+constexpr int kMostMessagesPerTurn = 2000;
+
+// Sleeps until the bus has something, `wake` (steady) has come, or a stop signal. The signals are let in only
+// while sleeping, so that none slips by between the check and the sleep.
+void wait_for_bus(lcm::LCM& lcm, SimTime wake) {
+  const SimDuration left = std::min(std::max(wake, steady_now()) - steady_now(), kLongestSleep);
+  const timespec timeout{0, static_cast<long>(std::max<std::int64_t>(left.nanoseconds(), 0))};
+  pollfd bus{lcm.getFileno(), POLLIN, 0};
+  sigset_t blocked, before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGINT);
+  sigaddset(&blocked, SIGTERM);
+  sigprocmask(SIG_BLOCK, &blocked, &before);
+  if (!stop_requested()) ppoll(&bus, 1, &timeout, &before);
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+}
+
+void dispatch_waiting(lcm::LCM& lcm) {
+  for (int i = 0; i < kMostMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
+  }
+}
+
+// The steady time of the next step. A node that asks for "at once" gets the time now.
+SimTime wake_time(const Node& node, const TimeSource& time) {
+  const Due due = node.due();
+  return due.sim == SimTime::at_once() ? due.sim : std::min(due.steady, time.steady_at(due.sim));
+}
+
+std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name) {
+  switch (kind) {
+    case TimeSourceKind::kConductor:
+      return std::make_unique<ConductorTime>(lcm, name);
+    case TimeSourceKind::kMessages:
+      return std::make_unique<MessageTime>(lcm, name);
+    case TimeSourceKind::kWall:
+      break;
+  }
+  const auto unix_time = std::chrono::system_clock::now().time_since_epoch();
+  return std::make_unique<WallTime>(std::chrono::duration_cast<std::chrono::microseconds>(unix_time).count() -
+                                    steady_now().to_utime());
+}
+
+int run_checked(int argc, char** argv, const NodeProgram& program) {
+  const auto run = parse_node_command_line(argc, argv, program);
+  if (!run) return 0;
+  set_log_level(run->log_level);
+  const std::string url = effective_url(run->lcm_url);
+  const auto lcm = open_transport(url);
+  EventLog log(run->identity.name);
+  if (const std::string warning = receive_buffer_warning(url); !warning.empty()) {
+    log.warning("small-receive-buffer", warning);
+  }
+  catch_stop_signals();
+  const NodeProgram::Context context{*lcm, run->identity, run->scenario, run->folder};
+  const auto time = program.make_time_source ? program.make_time_source(context)
+                                             : make_time_source(run->time_source, *lcm, run->identity.name);
+  const auto node = program.make_node(context);
+  log.info("started", "url=" + url);
+  run_node(*lcm, *node, *time, stop_requested);
+  log.info("stopped");
+  return 0;
+}
+
+}  // namespace
+
+void catch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_stop_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool stop_requested() { return stop_signal_seen != 0; }
+
+SimTime steady_now() {
+  static const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = std::chrono::steady_clock::now() - start;
+  return SimTime::from_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed).count());
+}
+
+void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop) {
+  Now now{SimTime(), steady_now(), false};
+  const auto update_time = [&] {
+    now.steady = steady_now();
+    if (const auto known = time.now(now.steady)) {
+      now.sim = *known;
+      now.sim_known = true;
+    }
+  };
+  const auto is_due = [&](const Due& due) {
+    return due.steady <= now.steady || due.sim == SimTime::at_once() || (now.sim_known && due.sim <= now.sim);
+  };
+  while (!should_stop()) {
+    wait_for_bus(lcm, wake_time(node, time));
+    time.set_steady(steady_now());
+    dispatch_waiting(lcm);
+    update_time();
+    if (time.restarted()) node.restart(now);
+    if (is_due(node.due())) node.step(now);
+  }
+  dispatch_waiting(lcm);
+  update_time();
+  node.stop(now);
+}
+
+int run_node_program(int argc, char** argv, const NodeProgram& program) {
+  try {
+    return run_checked(argc, argv, program);
+  } catch (const InvalidArgument& error) {
+    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    return 1;
+  }
+}
+
+}  // namespace halocline::bus

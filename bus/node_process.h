@@ -1,0 +1,56 @@
+// A node in a process of its own: command line, transport, time source, loop, and an orderly end.
+//
+// Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT and SIGTERM end
+// the loop: what the bus has delivered is handled, the node takes its last step and says goodbye in STATUS;
+// exit code 0. An error of the user (configuration, command line) prints one line per problem; exit code 2.
+// Any other error: 1.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "bus/node.h"
+#include "bus/scenario.h"
+#include "bus/time_source.h"
+
+namespace halocline::bus {
+
+struct NodeProgram {
+  std::string program;    // "halocline-channel-server"
+  std::string purpose;    // one sentence
+  std::string node_name;  // default for --name
+  std::string interface;  // for --interface: the channels subscribed and published, one a line
+  TimeSourceKind time_source = TimeSourceKind::kConductor;
+
+  // Describes the program's own sections of the scenario file: read from it, printed by --example and
+  // --print-config.
+  std::function<void(ConfigVisitor&)> visit_config = nullptr;
+  // Makes the node after the configuration was read and checked; `folder` is where the scenario file lies.
+  struct Context {
+    lcm::LCM& lcm;
+    NodeIdentity identity;
+    const Scenario& scenario;
+    const std::string& folder;
+  };
+  std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
+  // Only for the program that makes the time itself; the others choose with --time-source.
+  std::function<std::unique_ptr<TimeSource>(const Context&)> make_time_source = nullptr;
+};
+
+// Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
+int run_node_program(int argc, char** argv, const NodeProgram& program);
+
+// The loop alone. `should_stop` is asked at least every 0.1 s. The conductor brings its own TimeSource.
+void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop);
+
+// From now on SIGINT and SIGTERM set a flag instead of ending the process; returns whether either came.
+void catch_stop_signals();
+bool stop_requested();
+
+// Nanoseconds since the process started; never goes back.
+SimTime steady_now();
+
+}  // namespace halocline::bus

@@ -1,0 +1,101 @@
+// Where a process takes its simulation time from.
+//
+// Steady time is given in, never read here: integer nanoseconds since the process started.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "bus/bus.h"
+#include "core/sim_time.h"
+
+namespace halocline::bus {
+
+class TimeSource {
+ public:
+  virtual ~TimeSource() = default;
+  // Called before messages are dispatched: the steady time at which they are heard.
+  virtual void set_steady(SimTime /*steady*/) {}
+  // Simulation time at `steady`; empty while none is known yet. Never goes back but where restarted() says
+  // so.
+  virtual std::optional<SimTime> now(SimTime steady) = 0;
+  // The steady time at which simulation time will reach `sim`; never() where that cannot be told.
+  virtual SimTime steady_at(SimTime sim) const = 0;
+  // True once after simulation time jumped back: another run has begun, state kept of the old one is void.
+  virtual bool restarted() { return false; }
+};
+
+// Follows the CLOCK of a conductor, and coasts at its last rate when the conductor falls silent.
+//
+// Each CLOCK says: at this simulation time, this rate. It was heard after an unknown delay, so the smallest
+// (steady - utime / rate) of the last second is the best estimate of when the conductor meant it.
+class ConductorTime : public TimeSource {
+ public:
+  explicit ConductorTime(lcm::LCM& lcm, std::string process_name);
+  void set_steady(SimTime steady) override { heard_at_ = steady; }
+
+  std::optional<SimTime> now(SimTime steady) override;
+  SimTime steady_at(SimTime sim) const override;
+  bool restarted() override { return std::exchange(restarted_, false); }
+
+  // What set_steady and a CLOCK message do together; for tests.
+  void on_clock(const sim_clock_t& clock);
+
+ private:
+  struct Sample {
+    SimTime heard;    // steady
+    double offset_s;  // heard - utime / rate, seconds
+  };
+  Bus bus_;
+  SimTime heard_at_;
+  double rate_ = 0;
+  std::int64_t session_ = 0;
+  std::deque<Sample> samples_;
+  std::optional<SimTime> paused_at_;
+  SimTime latest_ = SimTime::at_once();
+  bool restarted_ = false;
+};
+
+// The greatest utime heard in a STATE or SEND: for a lone channel server beside a replayed log. Stands still
+// between messages. A utime more than ten seconds before the greatest one heard means that a log was started
+// anew.
+class MessageTime : public TimeSource {
+ public:
+  explicit MessageTime(lcm::LCM& lcm, std::string process_name);
+  std::optional<SimTime> now(SimTime steady) override;
+  SimTime steady_at(SimTime sim) const override;
+  bool restarted() override { return std::exchange(restarted_, false); }
+
+  void on_utime(std::int64_t utime);
+
+ private:
+  Bus bus_;
+  std::optional<SimTime> latest_;
+  bool restarted_ = false;
+};
+
+// Simulation time is the wall clock's Unix time: for a lone channel server beside real vehicles that stamp
+// so.
+class WallTime : public TimeSource {
+ public:
+  // Unix time, microseconds, at steady time 0.
+  explicit WallTime(std::int64_t utime_at_start) : start_(SimTime::from_utime(utime_at_start)) {}
+  std::optional<SimTime> now(SimTime steady) override { return start_ + (steady - SimTime()); }
+  SimTime steady_at(SimTime sim) const override { return SimTime() + (sim - start_); }
+
+ private:
+  SimTime start_;
+};
+
+enum class TimeSourceKind { kConductor, kMessages, kWall };
+// "conductor", "messages" or "wall"; throws InvalidArgument that lists them otherwise.
+TimeSourceKind time_source_from_name(std::string_view name);
+
+}  // namespace halocline::bus

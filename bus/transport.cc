@@ -1,0 +1,62 @@
+#include "bus/transport.h"
+
+#include <cstdlib>
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "core/check.h"
+
+namespace halocline::bus {
+namespace {
+
+constexpr int kReceiveBufferBytes = 4'194'304;
+
+bool starts_with(std::string_view text, std::string_view prefix) {
+  return text.substr(0, prefix.size()) == prefix;
+}
+
+}  // namespace
+
+std::string effective_url(const std::string& given) {
+  const char* from_environment = std::getenv("LCM_DEFAULT_URL");
+  std::string url = given;
+  if (url.empty() && from_environment != nullptr) url = from_environment;
+  if (url.empty()) return std::string(kDefaultUrl);
+  if (starts_with(url, "udpm://") && url.find("recv_buf_size") == std::string::npos) {
+    url += (url.find('?') == std::string::npos ? "?" : "&");
+    url += "recv_buf_size=" + std::to_string(kReceiveBufferBytes);
+  }
+  return url;
+}
+
+std::unique_ptr<lcm::LCM> open_transport(const std::string& url) {
+  // tcpq without a server passes for good and aborts in handleTimeout; a file is read at the wall clock's
+  // pace.
+  require(starts_with(url, "udpm://") || starts_with(url, "memq://"),
+          "LCM URL is '" + url + "'; allowed are udpm://GROUP:PORT?ttl=N and memq://");
+  auto lcm = std::make_unique<lcm::LCM>(url);
+  require(lcm->good(),
+          "LCM cannot open '" + url +
+              "'. For udpm the host needs a multicast route: scripts/isolated COMMAND gives one on loopback");
+  return lcm;
+}
+
+std::string receive_buffer_warning(const std::string& url) {
+  if (!starts_with(url, "udpm://")) return "";
+  const int probe = socket(AF_INET, SOCK_DGRAM, 0);
+  if (probe < 0) return "";
+  const int asked = kReceiveBufferBytes;
+  int granted = 0;
+  socklen_t size = sizeof granted;
+  setsockopt(probe, SOL_SOCKET, SO_RCVBUF, &asked, sizeof asked);
+  getsockopt(probe, SOL_SOCKET, SO_RCVBUF, &granted, &size);
+  close(probe);
+  if (granted >= asked) return "";
+  return "the kernel grants " + std::to_string(granted) + " bytes of receive buffer, " +
+         std::to_string(asked) +
+         " are needed to lose nothing in a burst; as root: sysctl -w net.core.rmem_max=" +
+         std::to_string(asked);
+}
+
+}  // namespace halocline::bus

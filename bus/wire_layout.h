@@ -1,0 +1,40 @@
+// Whether the bytes of a message can be decoded at all, found out before anything is allocated.
+//
+// The decoders that lcm-gen writes trust the counts they read: a corrupt count makes them allocate gigabytes,
+// or throw. A layout lists the fields of a type in order; fits() walks the bytes along it. A test encodes a
+// message of each type and asserts that its layout consumes exactly its bytes, so a layout cannot drift from
+// its type.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bus/messages.h"
+
+namespace halocline::bus {
+
+struct WireField;
+using WireLayout = std::vector<WireField>;
+
+struct WireField {
+  enum class Kind {
+    kFixed,   // `bytes` bytes
+    kString,  // int32 length with the terminating 0, then that many bytes
+    kCount,   // int32, the number of elements of the kArray fields that follow
+    kArray,   // that many elements of `element`
+  };
+  Kind kind = Kind::kFixed;
+  std::size_t bytes = 0;
+  WireLayout element = {};
+};
+
+// An empty string when `size` bytes at `data` (with the 8-byte fingerprint in front) fit `layout` exactly;
+// otherwise what is wrong with them.
+std::string misfit(const WireLayout& layout, const void* data, std::size_t size);
+
+// The layout of each type of the bus.
+template <class Message>
+const WireLayout& wire_layout();
+
+}  // namespace halocline::bus

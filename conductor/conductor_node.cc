@@ -1,0 +1,34 @@
+#include "conductor/conductor_node.h"
+
+#include "core/check.h"
+
+namespace halocline::conductor {
+
+ConductorNode::ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDuration period, double rate)
+    : Node(lcm, std::move(identity)), period_(period), rate_(rate) {
+  require(period > SimDuration(), "the clock period must be positive");
+  require_in_range(rate, 0, 1e6, "clock rate");
+}
+
+bus::Due ConductorNode::on_due() const { return {.sim = next_clock_}; }
+
+// A clock says what time it is now, not what time it was to be: in a paced run the step comes a little after
+// the grid, and `now` is what others must follow.
+void ConductorNode::on_step(const bus::Now& now) {
+  if (now.sim < next_clock_) return;
+  sim_clock_t clock;
+  clock.utime = now.sim.to_utime();
+  clock.session = bus().identity().session;
+  clock.sequence = sequence_++;
+  clock.clock_rate = rate_;
+  clock.clock_step_us = period_.nanoseconds() / 1000;
+  clock.lockstep = rate_ == 0 ? 1 : 0;
+  bus().publish(bus::channels::kClock, clock);
+  next_clock_ = next_on_grid(now.sim, period_);
+}
+
+std::string ConductorNode::status_text() const {
+  return rate_ == 0 ? "lockstep" : "real time, rate " + std::to_string(rate_);
+}
+
+}  // namespace halocline::conductor

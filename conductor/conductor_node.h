@@ -1,0 +1,28 @@
+// Publishes CLOCK: the simulation time, on the grid of the clock period.
+#pragma once
+
+#include <memory>
+
+#include "bus/node.h"
+
+namespace halocline::conductor {
+
+class ConductorNode : public bus::Node {
+ public:
+  // `rate`: simulated seconds per wall second that CLOCK announces; 0 where time is not paced (lockstep in
+  // one process), so that whoever hears it does not run ahead. `period` > 0.
+  ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDuration period, double rate);
+
+ protected:
+  bus::Due on_due() const override;
+  void on_step(const bus::Now& now) override;
+  std::string status_text() const override;
+
+ private:
+  SimDuration period_;
+  double rate_;
+  SimTime next_clock_;
+  std::int64_t sequence_ = 0;
+};
+
+}  // namespace halocline::conductor

@@ -1,0 +1,42 @@
+// Simulation time as the conductor makes it: the steady clock times a rate.
+//
+// A conductor that is started into a running system takes up the time that the system has coasted to: it
+// listens for a little more than the period of STATUS, then goes on from the latest utime that it heard, or
+// from 0.
+#pragma once
+
+#include <optional>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "bus/bus.h"
+#include "bus/time_source.h"
+
+namespace halocline::conductor {
+
+class PacedTime : public bus::TimeSource {
+ public:
+  // Long enough to hear every node's STATUS, published once a second.
+  static constexpr SimDuration kListening = SimDuration::from_milliseconds(1200);
+
+  // `rate`: simulated seconds per second of steady time, above 0.
+  PacedTime(lcm::LCM& lcm, double rate);
+
+  void set_steady(SimTime steady) override { heard_at_ = steady; }
+  std::optional<SimTime> now(SimTime steady) override;
+  SimTime steady_at(SimTime sim) const override;
+
+  // A message of a running system that carried this utime was heard at the steady time last set.
+  void on_utime(std::int64_t utime);
+
+ private:
+  bus::Bus bus_;
+  double rate_;
+  SimTime heard_at_;
+  std::optional<SimTime> started_listening_;
+  SimTime zero_;  // simulation time at steady time 0, as heard so far
+  bool heard_ = false;
+  bool running_ = false;
+};
+
+}  // namespace halocline::conductor
