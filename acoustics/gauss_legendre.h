@@ -1,0 +1,40 @@
+// Gauss-Legendre quadrature: integrals of smooth functions over an interval.
+//
+// Model: nodes are the roots of the Legendre polynomial P_n, weights 2 / ((1 - x^2) P_n'(x)^2) (Abramowitz
+// and Stegun 1964, 25.4.29). Exact for polynomials up to degree 2n - 1; nodes come from Newton's iteration to
+// the last bit. The integrand has to be smooth inside the interval: split it where it has a kink.
+//
+//   const double area = integrate(gauss_legendre_5(), 0.0, 1.0, [](double x) { return x * x; });  // 1/3
+//
+// Values only: calls may overlap between threads.
+#pragma once
+
+#include <vector>
+
+namespace halocline::acoustics {
+
+// Nodes and weights on [-1, 1]; both have the same size, at least 1.
+struct GaussLegendreRule {
+  std::vector<double> nodes;
+  std::vector<double> weights;
+};
+
+// The rule of `count` nodes, 1 to 64; throws InvalidArgument outside of that.
+GaussLegendreRule make_gauss_legendre(int count);
+
+// The two rules the models use, made once: 5 nodes over a layer of water, 16 over a panel of frequencies.
+const GaussLegendreRule& gauss_legendre_5();
+const GaussLegendreRule& gauss_legendre_16();
+
+// The integral of function(x) dx from `from` to `to` (either may be the greater), in one panel.
+template <typename Function>
+double integrate(const GaussLegendreRule& rule, double from, double to, const Function& function) {
+  const double middle = (from + to) / 2, half = (to - from) / 2;
+  double sum = 0;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    sum += rule.weights[i] * function(middle + half * rule.nodes[i]);
+  }
+  return sum * half;
+}
+
+}  // namespace halocline::acoustics

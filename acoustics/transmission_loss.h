@@ -1,0 +1,23 @@
+// Loss of level along a straight path.
+//
+// Model: TL(l, f) = k 10 log10(l) + alpha l / 1000 (Urick 1983; Stojanovic 2006): l in metres re 1 m for
+// spreading, in kilometres for absorption (alpha in dB/km). k = 2 spherical (near, unbounded), 1 cylindrical
+// (far, ducted), 1.5 practical. Below 1 m the loss is 0: levels refer to 1 m and the law does not hold
+// nearer. Left out: bending, bounces, shadow zones (the ray model's business).
+#pragma once
+
+#include "core/units.h"
+
+namespace halocline::acoustics {
+
+inline constexpr double kReferenceRange = 1;  // m, of source levels
+
+// dB. Each part is 0 below 1 m.
+struct TransmissionLoss {
+  Decibels spreading, absorption, total;
+};
+
+// `range_m` >= 0, `spreading_exponent` 0..3 (1..2 in the sea), `absorption_db_per_km` >= 0.
+TransmissionLoss transmission_loss(double range_m, double spreading_exponent, double absorption_db_per_km);
+
+}  // namespace halocline::acoustics
