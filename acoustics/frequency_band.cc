@@ -7,14 +7,12 @@
 #include "core/check.h"
 
 namespace halocline::acoustics {
+namespace {
 
-std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio) {
-  require(low_hz > 0 && low_hz <= high_hz && std::isfinite(high_hz), "a band needs 0 < low_hz <= high_hz");
-  const double octaves = std::log(high_hz / low_hz) / std::log(panel_ratio);
-  const int panels = std::max(1, static_cast<int>(std::ceil(octaves)));
+void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz, double panel_ratio) {
+  const double wanted = std::log(high_hz / low_hz) / std::log(panel_ratio);
+  const int panels = std::max(1, static_cast<int>(std::ceil(wanted)));
   const GaussLegendreRule& rule = gauss_legendre_16();
-  std::vector<FrequencyNode> nodes;
-  nodes.reserve(panels * rule.nodes.size());
   double from = low_hz;
   for (int panel = 1; panel <= panels; ++panel) {
     const double share = static_cast<double>(panel) / panels;
@@ -24,6 +22,16 @@ std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double
     }
     from = to;
   }
+}
+
+}  // namespace
+
+std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio) {
+  require(low_hz > 0 && low_hz <= high_hz && std::isfinite(high_hz), "a band needs 0 < low_hz <= high_hz");
+  std::vector<FrequencyNode> nodes;
+  const bool joint_inside = low_hz < kThorpJointHz && kThorpJointHz < high_hz;
+  if (joint_inside) add_panels(nodes, low_hz, kThorpJointHz, panel_ratio);
+  add_panels(nodes, joint_inside ? kThorpJointHz : low_hz, high_hz, panel_ratio);
   return nodes;
 }
 

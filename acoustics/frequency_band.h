@@ -12,6 +12,9 @@ namespace halocline::acoustics {
 
 inline constexpr double kPanelRatio = 1.08;  // highest over lowest frequency of one panel, at most
 
+// Panels end here: the piecewise form of Thorp's absorption steps at this frequency.
+inline constexpr double kThorpJointHz = 400;
+
 struct FrequencyNode {
   double frequency_hz;
   double weight_hz;  // the weights of a band sum to its width
