@@ -56,14 +56,15 @@ Vec6 lift_drag_force(const LiftDrag& l, double density, const Vec6& nu_r, double
 
 Vec6 cross_flow_force(const CrossFlow& c, double density, double diameter_m, const Vec6& nu_r) {
   const double v = nu_r[1], r = nu_r[5];
-  const double first = -0.5 * (c.strips - 1) * c.strip_length_m;
-  double sway = 0, yaw = 0;  // sum of |v + x r| (v + x r) and of x times it
-  for (int i = 0; i < c.strips; ++i) {
-    const double x = first + i * c.strip_length_m;
-    const double flow = v + x * r;
-    const double square = std::abs(flow) * flow;
-    sway += square;
-    yaw += x * square;
+  const bool odd = c.strips % 2 == 1;
+  double sway = odd ? std::abs(v) * v : 0, yaw = 0;  // sums of |v + x r| (v + x r) and of x times it
+  const double innermost = odd ? c.strip_length_m : c.strip_length_m / 2;
+  for (int i = 0; i < c.strips / 2; ++i) {  // the strips at x and -x
+    const double x = innermost + i * c.strip_length_m;
+    const double fore = v + x * r, aft = v - x * r;
+    const double fore_square = std::abs(fore) * fore, aft_square = std::abs(aft) * aft;
+    sway += fore_square + aft_square;
+    yaw += x * (fore_square - aft_square);
   }
   const double scale = -0.5 * density * diameter_m * c.drag_coefficient * c.strip_length_m;
   Vec6 force = Vec6::Zero();
