@@ -1,0 +1,42 @@
+// Comma-separated tables as text: what profiles and the quantity calculator read and write.
+//
+// Format: RFC 4180 (quoted cells may hold commas and doubled quotes, but no line breaks); the first line that
+// is neither empty nor a comment names the columns; lines that start with '#' and empty lines are skipped;
+// spaces around a cell and a byte order mark at the start do not count. A row keeps its text, so it can be
+// written back unchanged. Works on streams: opening files is for the caller.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halocline {
+
+struct CsvLine {
+  int number;                      // in the stream, from 1
+  std::string text;                // as it stood, without the line's end
+  std::vector<std::string> cells;  // without quotes and surrounding spaces; as many as there are columns
+};
+
+struct CsvTable {
+  CsvLine header;
+  std::vector<CsvLine> rows;
+
+  // Index of the column of that very name; empty when there is none.
+  std::optional<std::size_t> column(std::string_view name) const;
+};
+
+// Appends what is wrong with the text (no header, a column named twice, rows with too few or too many cells,
+// a quote left open) to `errors`, a line of text each, and leaves such rows out.
+CsvTable read_csv(std::istream& in, std::vector<std::string>& errors);
+
+// The number a cell holds: a decimal number, finite, with nothing before or after it. Does not depend on the
+// locale.
+std::optional<double> parse_number(std::string_view cell);
+
+// The shortest text that reads back as the same double (up to 17 digits).
+std::string format_number(double value);
+
+}  // namespace halocline
