@@ -188,8 +188,8 @@ GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model) {
                       salinity_path);
   require(temperature.matches(salinity), salinity_path + ": temperature and salinity are on different grids");
 
-  const Column at =
-      nearest_column(temperature, salinity, to_degrees(query.latitude_rad), to_degrees(query.longitude_rad));
+  const Column at = nearest_column(temperature, salinity, to_degrees(query.latitude_rad),
+                                   std::remainder(to_degrees(query.longitude_rad), kTurnDeg));
   require(at.distance_m <= kFarthestColumn,
           query.temperature_path + ": no water within 300 km of the position");
   std::vector<WaterRow> rows = read_column(temperature, salinity, at);

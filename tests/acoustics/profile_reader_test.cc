@@ -110,9 +110,9 @@ TEST_F(LevitusTest, NorthIsNorth) {
 }
 
 TEST_F(LevitusTest, LongitudesOfEveryTurnAreTheSame) {
-  const double warm = levitus_at(20, -40).profile.water(0).temperature_degc;
-  EXPECT_EQ(levitus_at(20, 320).profile.water(0).temperature_degc, warm);
-  EXPECT_EQ(levitus_at(20, 320 - 720).profile.water(0).temperature_degc, warm);
+  const double warm = levitus_at(20.2, -40.3).profile.water(0).temperature_degc;
+  EXPECT_EQ(levitus_at(20.2, 319.7).profile.water(0).temperature_degc, warm);
+  EXPECT_EQ(levitus_at(20.2, 319.7 - 720).profile.water(0).temperature_degc, warm);
 }
 
 TEST_F(LevitusTest, FillValuesAreNeverUsedAndTheColumnIsStated) {
