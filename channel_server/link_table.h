@@ -1,0 +1,49 @@
+// The link tables of an instant: the quality of the link from every vehicle present to every other.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "channel_server/fleet.h"
+#include "channel_server/propagation.h"
+
+namespace halocline::channel_server {
+
+// What is known of bottom echoes on a link.
+enum class Multipath {
+  kUnlikely,
+  kLikely,   // an echo reaches the receiver above its cut-off
+  kUnknown,  // the terrain was not told
+};
+
+struct LinkRow {
+  VehicleId transmitter_id = 0;  // 0 for a position that holds no vehicle
+  VehicleId receiver_id = 0;     // likewise
+  acoustics::LinkBudget budget;
+  Multipath multipath = Multipath::kUnknown;
+  SimDuration transmitter_age, receiver_age;  // of the states used
+};
+
+struct LinkTable {
+  VehicleId vehicle_id = 0;   // the transmitter of every row
+  std::vector<LinkRow> rows;  // by receiver id
+};
+
+// A vehicle with its place and modem at one instant.
+struct PlacedVehicle {
+  VehicleId id = 0;
+  Placement placement;
+  const VehicleModem* modem = nullptr;  // lives as long as the fleet is not changed
+};
+
+// All present at `instant`, by id.
+std::vector<PlacedVehicle> place_all(const Fleet& fleet, SimTime instant);
+
+using MultipathJudge =
+    std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
+
+// One table a vehicle, by id; a vehicle alone has an empty one.
+std::vector<LinkTable> link_tables(const std::vector<PlacedVehicle>& vehicles, Propagation& propagation,
+                                   const MultipathJudge& multipath);
+
+}  // namespace halocline::channel_server

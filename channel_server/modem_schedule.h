@@ -1,0 +1,37 @@
+// Which modem a vehicle carries at an instant: the one configured, until it announces another.
+//
+// Announcements hold from the instant they name, in whatever order they were heard.
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "acoustics/modem.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+struct VehicleModem {
+  acoustics::Modem modem;
+  std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768
+  bool operator==(const VehicleModem&) const = default;
+};
+
+class ModemSchedule {
+ public:
+  explicit ModemSchedule(VehicleModem configured) : configured_(configured) {}
+
+  // `modem` holds from `from` on, until an announcement of a later instant. A repetition of what holds
+  // already changes nothing.
+  void announce(SimTime from, const VehicleModem& modem);
+  const VehicleModem& at(SimTime instant) const;
+  // Drops announcements that were superseded before `time`.
+  void forget_before(SimTime time);
+
+ private:
+  static constexpr std::size_t kMostAnnouncements = 64;  // the earliest make room
+  VehicleModem configured_;
+  std::map<SimTime, VehicleModem> announced_;
+};
+
+}  // namespace halocline::channel_server

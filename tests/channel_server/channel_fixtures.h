@@ -1,0 +1,76 @@
+// Waters, modems and fleets that several tests of the channel server start from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "channel_server/fleet.h"
+#include "channel_server/packet_medium.h"
+#include "channel_server/propagation.h"
+
+namespace halocline::channel_server::testing {
+
+inline SimTime at_s(double seconds) { return SimTime::from_seconds(seconds); }
+inline SimDuration for_s(double seconds) { return SimDuration::from_seconds(seconds); }
+
+// The same speed everywhere, so that delays are range over speed.
+inline constexpr double kSpeedMps = 1500;
+inline acoustics::Environment even_water() {
+  acoustics::Environment water;
+  water.profile = acoustics::SoundSpeedProfile::isovelocity(kSpeedMps, {10, 35});
+  return water;
+}
+
+// 8 bits take 10 ms, no overhead: durations are easy to tell.
+inline VehicleModem quick_modem() {
+  VehicleModem modem;
+  modem.modem.bit_rate_bps = 800;
+  modem.max_payload_bytes = 64;
+  return modem;
+}
+
+inline StampedState state_at(double time_s, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
+  return {at_s(time_s), position, velocity};
+}
+
+// Vehicle `id` is called "v<id>".
+inline std::string name_of(VehicleId id) { return "v" + std::to_string(id); }
+
+// States ten times a second over [begin, end], along a straight line.
+inline void move_steadily(Fleet& fleet, VehicleId id, const Vec3& at_zero, const Vec3& velocity,
+                          double begin_s, double end_s) {
+  for (int tick = static_cast<int>(begin_s * 10); tick <= static_cast<int>(end_s * 10); ++tick) {
+    const double time_s = tick / 10.0;
+    fleet.hear_state(name_of(id), id, state_at(time_s, at_zero + time_s * velocity, velocity));
+  }
+}
+
+inline SendRequest request_of(VehicleId source, double start_s, std::int64_t sequence,
+                              std::size_t bytes = 1) {
+  SendRequest request;
+  request.vehicle = name_of(source);
+  request.source_id = source;
+  request.session = 7;
+  request.packet_sequence = sequence;
+  request.start = at_s(start_s);
+  request.payload.assign(bytes, 0x5a);
+  return request;
+}
+
+inline std::vector<Receipt> receipts_in(const std::vector<MediumEvent>& events) {
+  std::vector<Receipt> receipts;
+  for (const auto& event : events) {
+    if (const auto* receipt = std::get_if<Receipt>(&event.what)) receipts.push_back(*receipt);
+  }
+  return receipts;
+}
+
+inline std::vector<PacketEnd> ends_in(const std::vector<MediumEvent>& events) {
+  std::vector<PacketEnd> ends;
+  for (const auto& event : events) {
+    if (const auto* end = std::get_if<PacketEnd>(&event.what)) ends.push_back(*end);
+  }
+  return ends;
+}
+
+}  // namespace halocline::channel_server::testing
