@@ -7,8 +7,6 @@
 
 #include <optional>
 
-#include <lcm/lcm-cpp.hpp>
-
 #include "bus/bus.h"
 #include "bus/time_source.h"
 

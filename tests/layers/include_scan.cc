@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cctype>
+
+#include "tests/layers/include_rules.h"
+
+namespace halocline::layers {
+namespace {
+
+// The source with each comment turned into one space (line ends kept) and continued lines joined by spaces.
+std::string without_comments(std::string_view source) {
+  std::string text;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const std::string_view rest = source.substr(i);
+    if (rest.starts_with("//")) {
+      const std::size_t end = std::min(source.find('\n', i), source.size());
+      i = end - 1;
+    } else if (rest.starts_with("/*")) {
+      const std::size_t end = std::min(source.find("*/", i + 2), source.size() - 2) + 2;
+      text += ' ';
+      text.append(static_cast<std::size_t>(std::count(&source[i], &source[i] + (end - i), '\n')), '\n');
+      i = end - 1;
+    } else {
+      text += source[i];
+    }
+  }
+  return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return text;
+}
+
+bool take(std::string_view& text, std::string_view prefix) {
+  text = trimmed(text);
+  if (!text.starts_with(prefix)) return false;
+  text = trimmed(text.substr(prefix.size()));
+  return true;
+}
+
+// What an include directive names; empty when the line is none.
+std::string included_in(std::string_view line) {
+  const bool directive =
+      (take(line, "#") || take(line, "%:")) && (take(line, "include") || take(line, "import"));
+  if (!directive || line.empty()) return "";
+  const char end = line[0] == '<' ? '>' : line[0];
+  const std::size_t close = line.find(end, 1);
+  if ((line[0] != '<' && line[0] != '"') || close == std::string_view::npos) return std::string(line);
+  return std::string(line.substr(1, close - 1));
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(std::string_view source) {
+  const std::string text = without_comments(source);
+  std::vector<Include> includes;
+  int line_number = 1;
+  for (std::size_t start = 0; start < text.size();) {
+    const int first_line = line_number;
+    std::string line;
+    bool continued = true;
+    while (continued && start < text.size()) {
+      const std::size_t end = std::min(text.find('\n', start), text.size());
+      line += text.substr(start, end - start);
+      continued = !line.empty() && line.back() == '\\';
+      if (continued) line.back() = ' ';
+      start = end + 1;
+      ++line_number;
+    }
+    const std::string path = included_in(line);
+    if (!path.empty()) includes.push_back({first_line, path});
+  }
+  return includes;
+}
+
+}  // namespace halocline::layers
