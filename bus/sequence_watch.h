@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <vector>
 
 namespace halocline::bus {
 
@@ -19,9 +19,13 @@ class SequenceWatch {
   std::int64_t missing_before(std::string_view channel, std::int64_t session, std::int64_t sequence);
 
  private:
-  // A channel remembers few sessions: the oldest makes room, so that a long run does not grow.
+  struct Publisher {
+    std::int64_t session = 0;
+    std::int64_t sequence = 0;  // the greatest heard
+  };
+  // A channel remembers few sessions: the one silent for longest makes room, so that a long run does not grow.
   static constexpr std::size_t kSessionsKept = 8;
-  std::map<std::string, std::map<std::int64_t, std::int64_t>, std::less<>> last_;
+  std::map<std::string, std::vector<Publisher>, std::less<>> heard_;  // each ends in the one heard last
 };
 
 }  // namespace halocline::bus
