@@ -1,6 +1,7 @@
 #include "bus/bus.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "core/check.h"
 #include "core/names.h"
@@ -17,6 +18,20 @@ constexpr int kQueueCapacity = 20'000;
 bool worth_a_report(std::int64_t count) {
   while (count % 10 == 0) count /= 10;
   return count == 1;
+}
+
+// What kind of refusal this is: the channel and the field, whatever value it held.
+std::string kind_of(std::string_view channel, std::string_view reason) {
+  return std::string(channel) + " " + std::string(reason.substr(0, reason.find(" is ")));
+}
+
+// A channel as a terminal may show it: anyone can publish on a channel with control characters in its name.
+std::string printable(std::string_view text) {
+  std::string shown(text);
+  for (char& c : shown) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return shown;
 }
 
 }  // namespace
@@ -56,11 +71,11 @@ void Bus::rethrow_if_failed() {
 void Bus::refuse(std::string_view channel, std::string_view reason) {
   ++counters_.refused;
   constexpr std::size_t kKindsKept = 1000;  // of refusals; a hostile publisher must not grow our memory
-  const std::string kind = std::string(channel) + " " + std::string(reason);
+  const std::string kind = kind_of(channel, reason);
   if (refusals_.size() >= kKindsKept && !refusals_.contains(kind)) return;
   const std::int64_t count = ++refusals_[kind];
   if (!worth_a_report(count)) return;
-  log_.warning("message-refused", "channel=" + std::string(channel) + " count=" + std::to_string(count) +
+  log_.warning("message-refused", "channel=" + printable(channel) + " count=" + std::to_string(count) +
                                       " reason=\"" + std::string(reason) + "\"");
 }
 

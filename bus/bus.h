@@ -97,8 +97,7 @@ class Bus {
   BusCounters counters_;
   EventLog log_;
   SequenceWatch sequences_;
-  std::map<std::string, std::int64_t, std::less<>>
-      refusals_;  // by "channel reason", for rate-limited reports
+  std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
 };

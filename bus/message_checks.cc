@@ -237,6 +237,10 @@ std::string problem_in(const link_reply_t& m) {
   for (const link_answer_t& a : m.answers) {
     checker.one_of("answer_status", a.answer_status, link_answer_t::ANSWERED, link_answer_t::BAD_INPUT);
     checker.holds(problem_in(a.link).empty(), "link", problem_in(a.link));
+    checker.all_finite(
+        "get*", std::array{a.getss_received_strength_db, a.getpd_propagation_delay_s, a.getbw_capacity_kbps});
+    checker.one_of("getml_multipath", a.getml_multipath, link_t::MULTIPATH_UNLIKELY,
+                   link_t::MULTIPATH_UNKNOWN);
   }
   return checker.result();
 }
