@@ -24,13 +24,14 @@ toml::node* child_of(toml::node& parent, std::string_view key) {
 }
 
 // Joins `from` into `into` key by key. Only tables are descended into; anything else replaces.
-void merge(toml::node& into, const toml::table& from, const std::string& override_text) {
-  for (const auto& [key, value] : from) {
+void merge(toml::node& into, toml::table& from, const std::string& override_text) {
+  for (auto&& [key, value] : from) {
     toml::node* target = child_of(into, key.str());
     if (target != nullptr && value.is_table() && !target->is_value()) {
       merge(*target, *value.as_table(), override_text);
     } else if (toml::table* table = into.as_table()) {
-      table->insert_or_assign(key.str(), value);
+      // Moved, because a copy forgets that it came from the command line.
+      value.visit([&, name = key.str()](auto& given) { table->insert_or_assign(name, std::move(given)); });
     } else {
       throw ConfigErrors(
           {"override '" + override_text + "': there is no '" + std::string(key.str()) + "' to change"});
@@ -40,7 +41,8 @@ void merge(toml::node& into, const toml::table& from, const std::string& overrid
 
 void apply_override(toml::table& root, const std::string& text) {
   try {
-    merge(root, toml::parse(text, std::string_view("command line")), text);
+    toml::table given = toml::parse(text, std::string_view("command line"));
+    merge(root, given, text);
   } catch (const toml::parse_error& error) {
     throw ConfigErrors({"override '" + text + "': " + std::string(error.description()) +
                         "; allowed is section.key=value, value in TOML (texts in quotes)"});

@@ -25,9 +25,12 @@ std::string exact(double value) {
 std::string quoted(const std::string& value) {
   std::string text = "\"";
   for (const char c : value) {
+    const auto code = static_cast<unsigned char>(c);
     if (c == '\\' || c == '"') text += '\\';
-    if (c == '\n') {
-      text += "\\n";
+    if (code < 0x20 || code == 0x7f) {  // control characters: TOML takes them by their code alone
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\u%04X", unsigned{code});
+      text += escape;
     } else {
       text += c;
     }
