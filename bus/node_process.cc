@@ -43,6 +43,14 @@ void dispatch_waiting(lcm::LCM& lcm) {
   }
 }
 
+// What the bus has delivered when the end is wished for: until it is silent for a moment, since LCM's own
+// thread hands over what the socket holds one by one. A flood does not keep us for ever.
+void dispatch_until_silent(lcm::LCM& lcm) {
+  constexpr int kSilenceMs = 10, kMostMessages = 20'000;
+  for (int i = 0; i < kMostMessages && lcm.handleTimeout(kSilenceMs) > 0; ++i) {
+  }
+}
+
 // The steady time of the next step. A node that asks for "at once" gets the time now.
 SimTime wake_time(const Node& node, const TimeSource& time) {
   const Due due = node.due();
@@ -121,8 +129,10 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
     if (time.restarted()) node.restart(now);
     if (is_due(node.due())) node.step(now);
   }
-  dispatch_waiting(lcm);
+  time.set_steady(steady_now());
+  dispatch_until_silent(lcm);
   update_time();
+  if (is_due(node.due())) node.step(now);
   node.stop(now);
 }
 

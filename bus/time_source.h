@@ -88,7 +88,9 @@ class WallTime : public TimeSource {
   // Unix time, microseconds, at steady time 0.
   explicit WallTime(std::int64_t utime_at_start) : start_(SimTime::from_utime(utime_at_start)) {}
   std::optional<SimTime> now(SimTime steady) override { return start_ + (steady - SimTime()); }
-  SimTime steady_at(SimTime sim) const override { return SimTime() + (sim - start_); }
+  SimTime steady_at(SimTime sim) const override {
+    return sim == SimTime::never() || sim == SimTime::at_once() ? sim : SimTime() + (sim - start_);
+  }
 
  private:
   SimTime start_;
