@@ -39,8 +39,8 @@ const Words kImpure{"chrono",     "ctime",   "thread",   "mutex",      "shared_m
                     "random",     "fstream", "iostream", "filesystem", "cstdio",       "csignal",
                     "syncstream", "print"};
 // The named readers of files, behind an interface that gives values.
-const Words kReaders{"acoustics/profile_reader", "bathymetry/terrain_loader", "bathymetry/raster_",
-                     "bathymetry/gdal_"};
+const Words kReaders{"acoustics/profile_reader", "acoustics/profile_grid_reader", "bathymetry/terrain_loader",
+                     "bathymetry/raster_", "bathymetry/gdal_"};
 const Words kReaderHeaders{"fstream", "filesystem", "iostream", "mutex", "cstdio", "atomic"};
 
 struct Folder {

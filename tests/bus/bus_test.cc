@@ -1,0 +1,266 @@
+#include "bus/bus.h"
+
+#include <random>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/check.h"
+#include "tests/bus/messages_for_tests.h"
+
+namespace halocline::bus {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::encoded;
+using ::testing::HasSubstr;
+using testing::valid_message;
+
+class BusTest : public ::testing::Test {
+ protected:
+  BusTest() { set_log_level(LogLevel::kSilent); }
+  ~BusTest() override { set_log_level(LogLevel::kInfo); }
+
+  void drain() {
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+  }
+  void publish_raw(const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+    lcm_.publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
+  }
+
+  lcm::LCM lcm_{"memq://"};
+  Bus bus_{lcm_, {"listener", 11}};
+};
+
+TEST_F(BusTest, DeliversWhatWasPublished) {
+  std::vector<double> heard;
+  bus_.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t& m) { heard.push_back(m.clock_rate); });
+  sim_clock_t clock = valid_message<sim_clock_t>(1);
+  clock.clock_rate = 2.5;
+  bus_.publish(channels::kClock, clock);
+  drain();
+  EXPECT_THAT(heard, ElementsAre(2.5));
+  EXPECT_EQ(bus_.counters().received, 1);
+  EXPECT_EQ(bus_.counters().sent, 1);
+}
+
+TEST_F(BusTest, AFamilyHandlerGetsTheNameAfterTheDot) {
+  std::vector<std::string> names;
+  bus_.subscribe<vehicle_state_t>(
+      channels::kState, [&](std::string_view name, const vehicle_state_t&) { names.emplace_back(name); });
+  bus_.publish("STATE.alpha", valid_message<vehicle_state_t>(1));
+  bus_.publish("STATE.b-2", valid_message<vehicle_state_t>(2));
+  bus_.publish("XSTATE.alpha", valid_message<vehicle_state_t>(3));
+  bus_.publish("STATEx", valid_message<vehicle_state_t>(4));
+  drain();
+  EXPECT_THAT(names, ElementsAre("alpha", "b-2"));
+}
+
+TEST_F(BusTest, ANameThatIsNoNameIsRefused) {
+  int heard = 0;
+  bus_.subscribe<vehicle_state_t>(channels::kState,
+                                  [&](std::string_view, const vehicle_state_t&) { ++heard; });
+  for (const char* channel : {"STATE.", "STATE.Upper", "STATE.a.b", "STATE.much-too-long-for-a-vehicle"}) {
+    bus_.publish(channel, valid_message<vehicle_state_t>(1));
+  }
+  drain();
+  EXPECT_EQ(heard, 0);
+  EXPECT_EQ(bus_.counters().refused, 4);
+  EXPECT_EQ(bus_.counters().received, 0);
+}
+
+TEST_F(BusTest, ALiteralChannelHearsNoOtherChannel) {
+  int heard = 0;
+  bus_.subscribe<sim_clock_t>("A.B", [&](const sim_clock_t&) { ++heard; });
+  for (const char* channel : {"AxB", "A.BC", "XA.B", "A.B"})
+    bus_.publish(channel, valid_message<sim_clock_t>(1));
+  drain();
+  EXPECT_EQ(heard, 1);
+}
+
+TEST(Escaped, EveryCharacterThatMeansSomethingIsEscaped) {
+  EXPECT_EQ(escaped(R"(a.b*c+(d)[e]{f}^g$h|i?j\k)"), R"(a\.b\*c\+\(d\)\[e\]\{f\}\^g\$h\|i\?j\\k)");
+  EXPECT_EQ(escaped("plain_NAME-1"), "plain_NAME-1");
+}
+
+TEST_F(BusTest, AnotherTypeOfTheSameLengthIsRefused) {
+  int heard = 0;
+  bus_.subscribe<vehicle_state_t>(channels::kState,
+                                  [&](std::string_view, const vehicle_state_t&) { ++heard; });
+  auto bytes = encoded(valid_message<vehicle_state_t>(1));
+  bytes[0] ^= 1;  // of the fingerprint
+  publish_raw("STATE.a", bytes);
+  drain();
+  EXPECT_EQ(heard, 0);
+  EXPECT_EQ(bus_.counters().refused, 1);
+}
+
+TEST_F(BusTest, AnImpossibleMessageIsCountedAndIgnoredAndTheNextIsHeard) {
+  int heard = 0;
+  bus_.subscribe<vehicle_state_t>(channels::kState,
+                                  [&](std::string_view, const vehicle_state_t&) { ++heard; });
+  vehicle_state_t state = valid_message<vehicle_state_t>(1);
+  state.position_ned_m[0] = std::numeric_limits<double>::quiet_NaN();
+  bus_.publish("STATE.a", state);
+  bus_.publish("STATE.a", valid_message<vehicle_state_t>(1));
+  drain();
+  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(bus_.counters().refused, 1);
+}
+
+TEST_F(BusTest, ReportsARefusalWithChannelAndReasonFirstTenthAndHundredthTime) {
+  set_log_level(LogLevel::kWarning);
+  bus_.subscribe<vehicle_state_t>(channels::kState, [](std::string_view, const vehicle_state_t&) {});
+  vehicle_state_t state = valid_message<vehicle_state_t>(1);
+  state.vehicle_id = -1;
+  ::testing::internal::CaptureStderr();
+  for (int i = 0; i < 250; ++i) bus_.publish("STATE.a", state);
+  drain();
+  const std::string reports = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(reports.begin(), reports.end(), '\n'), 3) << reports;
+  EXPECT_THAT(reports, HasSubstr("channel=STATE.a count=1 reason=\"vehicle_id is no vehicle id"));
+  EXPECT_THAT(reports, HasSubstr("count=10 "));
+  EXPECT_THAT(reports, HasSubstr("count=100 "));
+  EXPECT_EQ(bus_.counters().refused, 250);
+}
+
+TEST_F(BusTest, RefusalsOfOneReasonAreOneKindWhateverTheNumbers) {
+  set_log_level(LogLevel::kWarning);
+  bus_.subscribe<vehicle_command_t>("COMMAND.a", [](const vehicle_command_t&) {});
+  ::testing::internal::CaptureStderr();
+  for (int i = 0; i < 500; ++i) {
+    vehicle_command_t command = valid_message<vehicle_command_t>(1);
+    command.rudder_rad = 10 + i;
+    bus_.publish("COMMAND.a", command);
+  }
+  drain();
+  const std::string reports = ::testing::internal::GetCapturedStderr();
+  EXPECT_LE(std::count(reports.begin(), reports.end(), '\n'), 3) << reports;
+}
+
+TEST_F(BusTest, AChannelWithControlCharactersIsShownWithoutThem) {
+  set_log_level(LogLevel::kWarning);
+  bus_.subscribe<vehicle_state_t>(channels::kState, [](std::string_view, const vehicle_state_t&) {});
+  ::testing::internal::CaptureStderr();
+  bus_.publish("STATE.a\x1b[31mforged", valid_message<vehicle_state_t>(1));
+  drain();
+  const std::string reports = ::testing::internal::GetCapturedStderr();
+  EXPECT_THAT(reports, HasSubstr("channel=STATE.a?[31mforged "));
+}
+
+TEST_F(BusTest, AHandlersExceptionIsKeptAndThrownOnce) {
+  bus_.subscribe<sim_clock_t>(channels::kClock, [](const sim_clock_t&) { throw std::runtime_error("boom"); });
+  bus_.publish(channels::kClock, valid_message<sim_clock_t>(1));
+  EXPECT_NO_THROW(drain());
+  EXPECT_THROW(bus_.rethrow_if_failed(), std::runtime_error);
+  EXPECT_NO_THROW(bus_.rethrow_if_failed());
+}
+
+TEST_F(BusTest, AfterAFailureNothingMoreIsHandled) {
+  int heard = 0;
+  bus_.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t&) {
+    ++heard;
+    throw std::runtime_error("boom");
+  });
+  for (int i = 0; i < 3; ++i) bus_.publish(channels::kClock, valid_message<sim_clock_t>(1));
+  drain();
+  EXPECT_EQ(heard, 1);
+}
+
+TEST_F(BusTest, CountsWhatIsMissingInASession) {
+  bus_.subscribe<sim_clock_t>(channels::kClock, [](const sim_clock_t&) {});
+  sim_clock_t clock = valid_message<sim_clock_t>(1);
+  clock.session = 5;
+  for (const std::int64_t sequence : {7, 8, 11, 11, 9, 12}) {
+    clock.sequence = sequence;
+    bus_.publish(channels::kClock, clock);
+  }
+  drain();
+  EXPECT_EQ(bus_.counters().gaps, 2);  // 9 and 10, at the time of 11
+}
+
+TEST_F(BusTest, PacketsAreNumberedBySendersAndGapsAmongThemShow) {
+  bus_.subscribe<modem_send_t>(channels::kSend, [](std::string_view, const modem_send_t&) {});
+  modem_send_t send = valid_message<modem_send_t>(1);
+  send.session = 9;
+  for (const std::int64_t sequence : {1, 4}) {
+    send.packet_sequence = sequence;
+    bus_.publish("SEND.a", send);
+  }
+  drain();
+  EXPECT_EQ(bus_.counters().gaps, 2);
+}
+
+TEST_F(BusTest, EndsItsSubscriptionsWithItsLife) {
+  int heard = 0;
+  {
+    Bus brief(lcm_, {"brief", 1});
+    brief.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t&) { ++heard; });
+  }
+  bus_.publish(channels::kClock, valid_message<sim_clock_t>(1));
+  drain();
+  EXPECT_EQ(heard, 0);
+}
+
+TEST_F(BusTest, ANodeHasAValidName) {
+  EXPECT_THROW(Bus(lcm_, {"", 1}), InvalidArgument);
+  EXPECT_THROW(Bus(lcm_, {"Node.1", 1}), InvalidArgument);
+}
+
+TEST_F(BusTest, MessagesPublishedInAHandlerFollowInOrder) {
+  std::vector<std::int64_t> order;
+  bus_.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t& m) {
+    order.push_back(m.sequence);
+    sim_clock_t next = m;
+    next.sequence += 10;
+    if (m.sequence < 10) bus_.publish(channels::kClock, next);
+  });
+  sim_clock_t clock = valid_message<sim_clock_t>(1);
+  for (const std::int64_t sequence : {1, 2}) {
+    clock.sequence = sequence;
+    bus_.publish(channels::kClock, clock);
+  }
+  drain();
+  EXPECT_THAT(order, ElementsAre(1, 2, 11, 12));
+}
+
+// Random bytes, and valid messages with random bytes changed: each is either delivered or counted, none ends us.
+TEST_F(BusTest, NoBytesOnAnyChannelCauseAFailure) {
+  const auto subscribe = [&](auto message, const char* channel) {
+    using Message = decltype(message);
+    bus_.subscribe<Message>(channel, [](const Message&) {});
+  };
+  subscribe(sim_clock_t(), "C0");
+  subscribe(vehicle_state_t(), "C1");
+  subscribe(environment_t(), "C2");
+  subscribe(modem_send_t(), "C3");
+  subscribe(link_query_t(), "C4");
+  subscribe(link_reply_t(), "C5");
+  subscribe(ray_query_t(), "C6");
+  subscribe(ray_reply_t(), "C7");
+  subscribe(node_status_t(), "C8");
+  subscribe(link_table_t(), "C9");
+  const std::vector<std::vector<std::uint8_t>> samples{
+      encoded(valid_message<sim_clock_t>(1)),   encoded(valid_message<vehicle_state_t>(2)),
+      encoded(valid_message<environment_t>(3)), encoded(valid_message<modem_send_t>(4)),
+      encoded(valid_message<link_query_t>(1)),  encoded(valid_message<link_reply_t>(2)),
+      encoded(valid_message<ray_query_t>(3)),   encoded(valid_message<ray_reply_t>(4)),
+      encoded(valid_message<node_status_t>(1)), encoded(valid_message<link_table_t>(2))};
+  std::mt19937 random(7);
+  constexpr int kRounds = 20'000;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::uint8_t> bytes = samples[random() % samples.size()];
+    if (round % 3 == 0) bytes.assign(random() % 200, 0);
+    for (int i = 0; i < 8 && !bytes.empty(); ++i)
+      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    publish_raw("C" + std::to_string(random() % 10), bytes);
+    drain();
+  }
+  EXPECT_NO_THROW(bus_.rethrow_if_failed());
+  EXPECT_EQ(bus_.counters().received + bus_.counters().refused, kRounds);
+}
+
+}  // namespace
+}  // namespace halocline::bus

@@ -1,0 +1,170 @@
+#include "bus/message_checks.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/bus/messages_for_tests.h"
+
+namespace halocline::bus {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::valid_message;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// link_end_t and link_answer_t are judged inside their query and reply.
+template <class Message>
+std::string problem_of(const Message& message) {
+  if constexpr (std::is_same_v<Message, link_end_t> || std::is_same_v<Message, link_answer_t>) {
+    return "";
+  } else {
+    return problem_in(message);
+  }
+}
+
+template <class Message>
+void expect_valid() {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    EXPECT_EQ(problem_of(valid_message<Message>(seed)), "") << Message::getTypeName() << " seed " << seed;
+  }
+}
+
+TEST(MessageChecks, EveryValidMessagePasses) {
+  std::apply([](auto... message) { (expect_valid<decltype(message)>(), ...); }, testing::AllMessages());
+}
+
+// `places` change one field each; every NaN and infinity there must be refused.
+template <class Message, class... Places>
+void expect_finite(Places... places) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    int number = 0;
+    const auto check = [&](auto place) {
+      Message message = valid_message<Message>(2);
+      place(message) = bad;
+      EXPECT_NE(problem_in(message), "") << Message::getTypeName() << " field " << number << " = " << bad;
+      ++number;
+    };
+    (check(places), ...);
+  }
+}
+
+#define FIELD(name) [](auto& m) -> double& { return m.name; }
+
+TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
+  expect_finite<sim_clock_t>(FIELD(clock_rate));
+  expect_finite<vehicle_state_t>(FIELD(position_ned_m[0]), FIELD(position_ned_m[2]),
+                                 FIELD(orientation_wxyz[0]), FIELD(orientation_wxyz[3]),
+                                 FIELD(velocity_ned_mps[1]), FIELD(angular_velocity_body_radps[2]));
+  expect_finite<vehicle_command_t>(FIELD(propeller_rpm), FIELD(rudder_rad), FIELD(stern_plane_rad));
+  expect_finite<vehicle_sensors_t>(FIELD(depth_m), FIELD(altitude_m), FIELD(water_speed_mps),
+                                   FIELD(heading_rad), FIELD(pitch_rad), FIELD(roll_rad),
+                                   FIELD(angular_rate_body_radps[0]), FIELD(shaft_rpm),
+                                   FIELD(rudder_angle_rad), FIELD(stern_angle_rad));
+  expect_finite<environment_t>(FIELD(layer_depth_m[1]), FIELD(layer_sound_speed_mps[0]),
+                               FIELD(layer_temperature_degc[0]), FIELD(layer_salinity_psu[0]),
+                               FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(acidity_ph),
+                               FIELD(sea_surface_z_m), FIELD(spreading_exponent));
+  expect_finite<modem_config_t>(FIELD(source_level_db), FIELD(center_frequency_hz), FIELD(bandwidth_hz),
+                                FIELD(directivity_index_db), FIELD(cutoff_level_db), FIELD(bit_rate_bps),
+                                FIELD(packet_overhead_s));
+  expect_finite<modem_receipt_t>(FIELD(duration_s));
+  expect_finite<modem_receive_t>(FIELD(travel_time_s), FIELD(received_level_db), FIELD(snr_db));
+  expect_finite<packet_outcome_t>(FIELD(travel_time_s), FIELD(duration_s), FIELD(range_m),
+                                  FIELD(transmission_loss_db), FIELD(received_level_db),
+                                  FIELD(noise_level_db), FIELD(snr_db), FIELD(cutoff_level_db));
+  expect_finite<link_t>(FIELD(range_m), FIELD(delay_s), FIELD(transmission_loss_db), FIELD(received_level_db),
+                        FIELD(noise_level_db), FIELD(snr_db), FIELD(capacity_bps), FIELD(transmitter_age_s),
+                        FIELD(receiver_age_s));
+  expect_finite<link_table_t>(FIELD(peers[3].snr_db));
+  expect_finite<link_reply_t>(FIELD(answers[1].link.range_m), FIELD(answers[1].getss_received_strength_db),
+                              FIELD(answers[1].getpd_propagation_delay_s),
+                              FIELD(answers[1].getbw_capacity_kbps));
+  expect_finite<ray_query_t>(FIELD(base_origin_ned_m[1]));
+  expect_finite<ray_reply_t>(FIELD(result_m[4]), FIELD(sample_distance_m[2]), FIELD(sample_seabed_z_m[0]));
+}
+
+#undef FIELD
+
+template <class Message, class Change>
+std::string problem_after(Change change) {
+  Message message = valid_message<Message>(2);
+  change(message);
+  return problem_in(message);
+}
+
+TEST(MessageChecks, RefusesEnumerationsWithoutAMeaning) {
+  for (const int bad : {-128, -1, 7, 127}) {
+    const auto value = static_cast<std::int8_t>(bad);
+    EXPECT_NE(problem_after<vehicle_sensors_t>([&](auto& m) { m.altitude_status = value; }), "");
+    EXPECT_NE(problem_after<modem_receipt_t>([&](auto& m) { m.receipt_result = value; }), "");
+    EXPECT_NE(problem_after<packet_outcome_t>([&](auto& m) { m.packet_fate = value; }), "");
+    EXPECT_NE(problem_after<link_t>([&](auto& m) { m.multipath = value; }), "");
+    EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.reply_status = value; }), "");
+    EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.answers[0].answer_status = value; }), "");
+    EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.answers[0].getml_multipath = value; }), "");
+    EXPECT_NE(problem_after<ray_reply_t>([&](auto& m) { m.reply_status = value; }), "");
+    EXPECT_NE(problem_after<ray_reply_t>([&](auto& m) { m.ray_status[0] = value; }), "");
+  }
+}
+
+TEST(MessageChecks, AVehicleHasAnIdFromOneAndAPacketMayGoToAll) {
+  EXPECT_NE(problem_after<vehicle_state_t>([](auto& m) { m.vehicle_id = 0; }), "");
+  EXPECT_NE(problem_after<vehicle_state_t>([](auto& m) { m.vehicle_id = -5; }), "");
+  EXPECT_NE(problem_after<modem_send_t>([](auto& m) { m.source_id = 0; }), "");
+  EXPECT_NE(problem_after<modem_send_t>([](auto& m) { m.destination_id = -1; }), "");
+  EXPECT_EQ(problem_after<modem_send_t>([](auto& m) { m.destination_id = 0; }), "");
+}
+
+TEST(MessageChecks, RefusesAClientNameThatNoChannelMayHave) {
+  for (const char* name : {"", "A", "a.b", "a*", "with space", "a-name-that-is-longer-than-24", "\xff"}) {
+    EXPECT_NE(problem_after<link_query_t>([&](auto& m) { m.client_name = name; }), "") << name;
+    EXPECT_NE(problem_after<ray_query_t>([&](auto& m) { m.client_name = name; }), "") << name;
+    EXPECT_NE(problem_after<node_status_t>([&](auto& m) { m.node_name = name; }), "") << name;
+  }
+}
+
+TEST(MessageChecks, RefusesTimesThatWouldOverflow) {
+  for (const std::int64_t utime :
+       {std::numeric_limits<std::int64_t>::min(), std::int64_t{-4'000'000'000'000'000},
+        std::int64_t{4'000'000'000'000'000}, std::numeric_limits<std::int64_t>::max()}) {
+    EXPECT_NE(problem_after<vehicle_state_t>([&](auto& m) { m.utime = utime; }), "");
+    EXPECT_NE(problem_after<modem_receipt_t>([&](auto& m) { m.start_utime = utime; }), "");
+    EXPECT_NE(problem_after<modem_receive_t>([&](auto& m) { m.departure_utime = utime; }), "");
+  }
+  // Unix time in microseconds is a time: real vehicles stamp so.
+  EXPECT_EQ(problem_after<vehicle_state_t>([](auto& m) { m.utime = 1'760'000'000'000'000; }), "");
+}
+
+TEST(MessageChecks, AQuaternionHasUnitLength) {
+  const auto scaled = [](double factor) {
+    return problem_after<vehicle_state_t>([&](auto& m) {
+      for (double& q : m.orientation_wxyz) q *= factor;
+    });
+  };
+  EXPECT_EQ(scaled(1 + 5e-4), "");  // single precision errs by 1e-7; 1e-3 is allowed
+  EXPECT_THAT(scaled(0), HasSubstr("orientation"));
+  EXPECT_THAT(scaled(1.01), HasSubstr("orientation"));
+}
+
+TEST(MessageChecks, DepthsOfLayersAscend) {
+  EXPECT_THAT(problem_after<environment_t>([](auto& m) { m.layer_depth_m[2] = m.layer_depth_m[1]; }),
+              HasSubstr("does not ascend"));
+  EXPECT_NE(problem_after<environment_t>([](auto& m) {
+              m.num_layers = 0;
+              m.layer_depth_m.clear();
+            }),
+            "");
+}
+
+TEST(MessageChecks, TheReasonNamesTheFieldAndWhatIsAllowed) {
+  EXPECT_EQ(problem_after<vehicle_command_t>([](auto& m) { m.rudder_rad = 90; }),
+            "rudder_rad is 90; allowed is -3.14159 to 3.14159");
+}
+
+}  // namespace
+}  // namespace halocline::bus

@@ -1,0 +1,355 @@
+#include "tests/bus/messages_for_tests.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace halocline::bus::testing {
+namespace {
+
+// Small numbers that differ from field to field, so that an exchange of two shows.
+class Numbers {
+ public:
+  explicit Numbers(unsigned seed) : next_(seed * 7u % 50u) {}
+  int whole() { return static_cast<int>(++next_ % 90u) + 1; }
+  double real() { return whole() + 0.25; }
+  std::vector<double> reals(int count) {
+    std::vector<double> values(static_cast<std::size_t>(count));
+    std::generate(values.begin(), values.end(), [this] { return real(); });
+    return values;
+  }
+  std::vector<std::vector<double>> points(int count) {
+    std::vector<std::vector<double>> values(static_cast<std::size_t>(count));
+    std::generate(values.begin(), values.end(), [this] { return reals(3); });
+    return values;
+  }
+
+ private:
+  unsigned next_;
+};
+
+template <class Message>
+void fill_head(Message& m, Numbers& n) {
+  m.utime = n.whole();
+  m.session = n.whole();
+  m.sequence = n.whole();
+}
+
+int size_of_arrays(unsigned seed) { return static_cast<int>(seed * 5u % 23u); }
+
+std::vector<std::uint8_t> payload_of(int size) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+  std::iota(bytes.begin(), bytes.end(), std::uint8_t{1});
+  return bytes;
+}
+
+}  // namespace
+
+template <>
+sim_clock_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  sim_clock_t m;
+  fill_head(m, n);
+  m.clock_rate = n.real();
+  m.clock_step_us = n.whole();
+  m.lockstep = 1;
+  return m;
+}
+
+template <>
+vehicle_state_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  vehicle_state_t m;
+  fill_head(m, n);
+  m.vehicle_id = n.whole();
+  for (double& x : m.position_ned_m) x = n.real();
+  const double quaternion[4] = {0.5, -0.5, 0.5, -0.5};
+  std::copy(quaternion, quaternion + 4, m.orientation_wxyz);
+  for (double& v : m.velocity_ned_mps) v = n.real();
+  for (double& w : m.angular_velocity_body_radps) w = n.real();
+  return m;
+}
+
+template <>
+vehicle_command_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  vehicle_command_t m;
+  fill_head(m, n);
+  m.propeller_rpm = n.real();
+  m.rudder_rad = 0.25;
+  m.stern_plane_rad = -0.25;
+  return m;
+}
+
+template <>
+vehicle_sensors_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  vehicle_sensors_t m;
+  fill_head(m, n);
+  m.depth_m = n.real();
+  m.altitude_status = vehicle_sensors_t::ALTITUDE_MEASURED;
+  m.altitude_m = n.real();
+  m.water_speed_mps = n.real();
+  m.heading_rad = -3;
+  m.pitch_rad = 0.5;
+  m.roll_rad = -0.5;
+  for (double& w : m.angular_rate_body_radps) w = n.real();
+  m.shaft_rpm = n.real();
+  m.rudder_angle_rad = 0.125;
+  m.stern_angle_rad = -0.125;
+  m.safe_state = 0;
+  m.on_seabed = 1;
+  return m;
+}
+
+template <>
+environment_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  environment_t m;
+  fill_head(m, n);
+  m.num_layers = std::max(1, size_of_arrays(seed));
+  m.layer_salinity_psu = n.reals(m.num_layers);
+  for (int i = 0; i < m.num_layers; ++i) {
+    m.layer_depth_m.push_back(10.0 * i);
+    m.layer_sound_speed_mps.push_back(1500 - i);
+    m.layer_temperature_degc.push_back(20 - 0.5 * i);
+  }
+  m.wind_speed_mps = n.real();
+  m.shipping_activity = 0.5;
+  m.acidity_ph = 8;
+  m.sea_surface_z_m = -1;
+  m.spreading_exponent = 1.5;
+  m.sound_speed_model = "mackenzie";
+  m.absorption_model = "francois-garrison";
+  m.terrain_version = std::string(static_cast<std::size_t>(size_of_arrays(seed)), 'v');
+  return m;
+}
+
+template <>
+modem_config_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  modem_config_t m;
+  m.utime = n.whole();
+  m.source_level_db = 185;
+  m.center_frequency_hz = 25'000;
+  m.bandwidth_hz = 5'000;
+  m.directivity_index_db = n.real();
+  m.cutoff_level_db = n.real();
+  m.bit_rate_bps = n.real();
+  m.packet_overhead_s = n.real();
+  m.max_payload_bytes = n.whole();
+  return m;
+}
+
+template <>
+modem_send_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  modem_send_t m;
+  m.utime = n.whole();
+  m.session = n.whole();
+  m.packet_sequence = n.whole();
+  m.source_id = n.whole();
+  m.destination_id = 0;
+  m.payload_size = size_of_arrays(seed);
+  m.payload = payload_of(m.payload_size);
+  return m;
+}
+
+template <>
+modem_receipt_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  modem_receipt_t m;
+  fill_head(m, n);
+  m.send_session = n.whole();
+  m.packet_sequence = n.whole();
+  m.receipt_result = modem_receipt_t::REFUSED_TOO_EARLY;
+  m.start_utime = n.whole();
+  m.duration_s = n.real();
+  return m;
+}
+
+template <>
+modem_receive_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  modem_receive_t m;
+  fill_head(m, n);
+  m.send_session = n.whole();
+  m.packet_sequence = n.whole();
+  m.source_id = n.whole();
+  m.destination_id = n.whole();
+  m.receiver_id = n.whole();
+  m.departure_utime = n.whole();
+  m.travel_time_s = n.real();
+  m.received_level_db = n.real();
+  m.snr_db = n.real();
+  m.payload_size = size_of_arrays(seed);
+  m.payload = payload_of(m.payload_size);
+  return m;
+}
+
+template <>
+packet_outcome_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  packet_outcome_t m;
+  fill_head(m, n);
+  m.send_session = n.whole();
+  m.packet_sequence = n.whole();
+  m.source_id = n.whole();
+  m.destination_id = n.whole();
+  m.receiver_id = n.whole();
+  m.packet_fate = packet_outcome_t::BELOW_CUTOFF;
+  m.departure_utime = n.whole();
+  m.travel_time_s = n.real();
+  m.duration_s = n.real();
+  m.range_m = n.real();
+  m.transmission_loss_db = n.real();
+  m.received_level_db = n.real();
+  m.noise_level_db = n.real();
+  m.snr_db = n.real();
+  m.cutoff_level_db = n.real();
+  return m;
+}
+
+template <>
+link_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  link_t m;
+  m.transmitter_id = n.whole();
+  m.receiver_id = n.whole();
+  m.range_m = n.real();
+  m.delay_s = n.real();
+  m.transmission_loss_db = n.real();
+  m.received_level_db = n.real();
+  m.noise_level_db = n.real();
+  m.snr_db = -n.real();
+  m.capacity_bps = n.real();
+  m.receivable = 1;
+  m.multipath = link_t::MULTIPATH_UNKNOWN;
+  m.transmitter_age_s = n.real();
+  m.receiver_age_s = n.real();
+  return m;
+}
+
+template <>
+link_table_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  link_table_t m;
+  fill_head(m, n);
+  m.vehicle_id = n.whole();
+  m.num_peers = size_of_arrays(seed);
+  for (int i = 0; i < m.num_peers; ++i)
+    m.peers.push_back(valid_message<link_t>(seed + static_cast<unsigned>(i)));
+  return m;
+}
+
+template <>
+link_end_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  link_end_t m;
+  m.vehicle_name = std::string(seed % 5u, 'a');
+  for (double& x : m.position_ned_m) x = n.real();
+  m.modem_choice = link_end_t::MODEM_GIVEN;
+  m.modem = valid_message<modem_config_t>(seed);
+  return m;
+}
+
+template <>
+link_query_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  link_query_t m;
+  m.utime = n.whole();
+  m.client_name = "client-1";
+  m.request_id = n.whole();
+  m.num_links = size_of_arrays(seed);
+  for (int i = 0; i < m.num_links; ++i) {
+    m.transmitters.push_back(valid_message<link_end_t>(seed + static_cast<unsigned>(i)));
+    m.receivers.push_back(valid_message<link_end_t>(seed + 1 + static_cast<unsigned>(i)));
+  }
+  return m;
+}
+
+template <>
+link_answer_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  link_answer_t m;
+  m.answer_status = link_answer_t::ANSWERED;
+  m.problem = std::string(seed % 7u, 'p');
+  m.link = valid_message<link_t>(seed);
+  m.getss_received_strength_db = n.real();
+  m.getpd_propagation_delay_s = n.real();
+  m.getbw_capacity_kbps = n.real();
+  m.getml_multipath = link_t::MULTIPATH_LIKELY;
+  return m;
+}
+
+template <>
+link_reply_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  link_reply_t m;
+  m.utime = n.whole();
+  m.session = n.whole();
+  m.request_id = n.whole();
+  m.reply_status = link_reply_t::OK;
+  m.refusal = std::string(seed % 3u, 'r');
+  m.num_answers = size_of_arrays(seed);
+  for (int i = 0; i < m.num_answers; ++i) {
+    m.answers.push_back(valid_message<link_answer_t>(seed + static_cast<unsigned>(i)));
+  }
+  return m;
+}
+
+template <>
+ray_query_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  ray_query_t m;
+  m.utime = n.whole();
+  m.client_name = "client_2";
+  m.request_id = n.whole();
+  m.expected_terrain = std::string(seed % 4u, 't');
+  m.query_mode = ray_query_t::DEPTH;
+  m.sample_spacing_m = n.real();
+  for (double& x : m.base_origin_ned_m) x = n.real();
+  m.num_rays = size_of_arrays(seed);
+  m.offset_m = n.points(m.num_rays);
+  m.direction = n.points(m.num_rays);
+  m.greatest_range_m = n.reals(m.num_rays);
+  return m;
+}
+
+template <>
+ray_reply_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  ray_reply_t m;
+  m.utime = n.whole();
+  m.session = n.whole();
+  m.request_id = n.whole();
+  m.terrain_version = "etopo5-1234";
+  m.reply_status = ray_reply_t::OK;
+  m.refusal = std::string(seed % 3u, 'r');
+  m.num_rays = size_of_arrays(seed);
+  m.ray_status.assign(static_cast<std::size_t>(m.num_rays), ray_reply_t::BELOW_BOTTOM);
+  m.result_m = n.reals(m.num_rays);
+  m.num_samples = size_of_arrays(seed + 1);
+  m.sample_distance_m = n.reals(m.num_samples);
+  m.sample_seabed_z_m = n.reals(m.num_samples);
+  m.sample_valid.assign(static_cast<std::size_t>(m.num_samples), 1);
+  return m;
+}
+
+template <>
+node_status_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  node_status_t m;
+  fill_head(m, n);
+  m.node_name = "node-a";
+  m.node_version = std::string(seed % 6u, '1');
+  m.messages_received = n.whole();
+  m.messages_sent = n.whole();
+  m.messages_refused = n.whole();
+  m.gaps = n.whole();
+  m.repaired = n.whole();
+  m.late = n.whole();
+  m.status_text = std::string(static_cast<std::size_t>(size_of_arrays(seed)), 's');
+  return m;
+}
+
+}  // namespace halocline::bus::testing

@@ -1,0 +1,75 @@
+#include "conductor/paced_time.h"
+
+#include <gtest/gtest.h>
+
+#include "core/check.h"
+
+namespace halocline::conductor {
+namespace {
+
+SimTime at(double seconds) { return SimTime::from_seconds(seconds); }
+
+class PacedTimeTest : public ::testing::Test {
+ protected:
+  lcm::LCM lcm_{"memq://"};
+};
+
+TEST_F(PacedTimeTest, StartsAtZeroOnASilentBusWhenItHasListened) {
+  PacedTime time(lcm_, 4);
+  EXPECT_FALSE(time.now(at(3)).has_value());
+  EXPECT_EQ(time.steady_at(at(0)), at(3) + PacedTime::kListening);
+  EXPECT_FALSE(time.now(at(3) + SimDuration::from_milliseconds(1199)).has_value());
+  EXPECT_EQ(time.now(at(4.2)), at(0));
+  EXPECT_EQ(time.now(at(5.2)), at(4));
+  EXPECT_EQ(time.steady_at(at(8)), at(6.2));
+}
+
+TEST_F(PacedTimeTest, TakesUpTheTimeOfARunningSystem) {
+  PacedTime time(lcm_, 2);
+  time.now(at(1));
+  time.set_steady(at(1.5));
+  time.on_utime(100'000'000);
+  time.set_steady(at(2));
+  time.on_utime(100'500'000);  // an older word than the first: 101 is due by now
+  EXPECT_EQ(time.now(at(2.5)), at(102));
+}
+
+TEST_F(PacedTimeTest, HearsStatesAndStatuses) {
+  PacedTime time(lcm_, 1);
+  bus::Bus mouth(lcm_, {"mouth", 1});
+  time.now(at(0));
+  time.set_steady(at(0));
+  node_status_t status;
+  status.utime = 50'000'000;
+  status.session = status.sequence = 1;
+  status.messages_received = status.messages_sent = status.messages_refused = 0;
+  status.gaps = status.repaired = status.late = 0;
+  status.node_name = "vehicle-sim";
+  mouth.publish("STATUS.vehicle-sim", status);
+  while (lcm_.handleTimeout(0) > 0) {
+  }
+  EXPECT_EQ(time.now(at(2)), at(52));
+}
+
+TEST_F(PacedTimeTest, ANodeThatKnowsNoTimeDoesNotSetIt) {
+  PacedTime time(lcm_, 1);
+  time.now(at(0));
+  time.on_utime(0);
+  EXPECT_EQ(time.now(at(2)), at(0));
+}
+
+TEST_F(PacedTimeTest, OnceRunningItFollowsNobody) {
+  PacedTime time(lcm_, 1);
+  time.now(at(0));
+  time.now(at(2));
+  time.on_utime(900'000'000);
+  EXPECT_EQ(time.now(at(3)), at(1));
+}
+
+TEST_F(PacedTimeTest, ARateIsAboveZero) {
+  EXPECT_THROW(PacedTime(lcm_, 0), InvalidArgument);
+  EXPECT_THROW(PacedTime(lcm_, -1), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace halocline::conductor

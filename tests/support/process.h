@@ -1,0 +1,35 @@
+// Child processes, for tests of whole programs.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace halocline::testing {
+
+// A program running beside the test, its standard output and error kept. Killed when it goes out of scope.
+class Process {
+ public:
+  // `command[0]` is a path; the others are its arguments.
+  explicit Process(const std::vector<std::string>& command);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  pid_t pid() const { return pid_; }
+  void signal(int number) const;
+  bool running();
+  // Waits for the end: the exit code, 128 + the signal that ended it, or -1 when it still runs after `limit`.
+  int wait(std::chrono::milliseconds limit = std::chrono::seconds(20));
+  // What it has written so far, both streams in one.
+  std::string output() const;
+
+ private:
+  pid_t pid_ = -1;
+  int status_ = -1;
+  std::string output_path_;
+};
+
+}  // namespace halocline::testing
