@@ -8,12 +8,15 @@
 
 #include <vector>
 
+#include "acoustics/absorption.h"
+#include "core/units.h"
+
 namespace halocline::acoustics {
 
 inline constexpr double kPanelRatio = 1.08;  // highest over lowest frequency of one panel, at most
 
 // Panels end here: the piecewise form of Thorp's absorption steps at this frequency.
-inline constexpr double kThorpJointHz = 400;
+inline constexpr double kThorpJointHz = khz_to_hz(AbsorptionSpectrum::kThorpJoinKhz);
 
 struct FrequencyNode {
   double frequency_hz;

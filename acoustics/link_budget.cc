@@ -60,22 +60,25 @@ LinkModel::LinkModel(const Environment& environment, const Modem& transmitter, c
   }
   centre_noise_ = noise_components(band.centre_hz(), environment.noise).total;
   noise_level_ = noise_level_over_band(band.low_hz, band.high_hz, environment.noise);
+  tabulate_absorption();
+}
 
+// The running integral of alpha dz, boundary by boundary.
+void LinkModel::tabulate_absorption() {
   const std::vector<double>& boundaries = environment_.profile.cell_boundaries_m();
   const GaussLegendreRule& rule = gauss_legendre_5();
-  absorption_to_boundary_.assign(frequency_khz_squared_.size(), 0);
+  std::vector<double> sum(frequency_khz_squared_.size(), 0);
+  absorption_to_boundary_ = sum;
   for (std::size_t cell = 1; cell < boundaries.size(); ++cell) {
     const double half = (boundaries[cell] - boundaries[cell - 1]) / 2;
-    std::vector<double> row(absorption_to_boundary_.end() - frequency_khz_squared_.size(),
-                            absorption_to_boundary_.end());
     for (int i = 0; i < kNodesPerPiece; ++i) {
       const double depth = boundaries[cell - 1] + half * (1 + rule.nodes[i]);
       const AbsorptionSpectrum spectrum = absorption_spectrum_at(environment_, depth);
-      for (std::size_t f = 0; f < row.size(); ++f) {
-        row[f] += rule.weights[i] * half * spectrum.db_per_km(frequency_khz_squared_[f]);
+      for (std::size_t f = 0; f < sum.size(); ++f) {
+        sum[f] += rule.weights[i] * half * spectrum.db_per_km(frequency_khz_squared_[f]);
       }
     }
-    absorption_to_boundary_.insert(absorption_to_boundary_.end(), row.begin(), row.end());
+    absorption_to_boundary_.insert(absorption_to_boundary_.end(), sum.begin(), sum.end());
   }
 }
 

@@ -74,6 +74,7 @@ class LinkModel {
   struct Sample;
   struct Samples;
 
+  void tabulate_absorption();
   Samples sample_path(double from_depth_m, double to_depth_m) const;
   double mean_absorption(const Samples& samples, std::size_t frequency) const;
   double capacity(const Samples& samples, double range_m) const;

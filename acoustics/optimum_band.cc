@@ -13,7 +13,7 @@ namespace {
 constexpr double kLowestHz = 1;  // the search's ends: beyond them turbulence or thermal noise hides all
 constexpr double kHighestHz = 1e7;
 const double kBandEdgeDb = 10 * std::log10(2.0);     // "3 dB": twice the minimum
-constexpr int kBisections = 200;                     // halves any interval to the last bit
+constexpr int kBisections = 64;                      // halves 16 nepers to below the last bit
 constexpr double kGoldenShare = 0.3819660112501051;  // (3 - sqrt 5) / 2
 
 // A(l, f) and N(f).

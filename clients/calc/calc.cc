@@ -137,6 +137,7 @@ void describe(const Quantity& quantity, std::ostream& out) {
   for (const QuantityForm& form : quantity.forms) {
     std::vector<std::string> needed, optional;
     for (const InputColumn& input : form.inputs) {
+      if (input.names.empty()) continue;
       const std::string& name = input.names.front();
       if (!input.otherwise) {
         needed.push_back(name);

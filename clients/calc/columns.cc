@@ -12,6 +12,8 @@ InputColumn or_else(InputColumn column, double value) {
   return column;
 }
 
+InputColumn unread(double value) { return {{}, value, value, value}; }
+
 InputColumn frequency_column(const std::string& name) { return {{name}, 1e-6, 1e6, {}}; }
 InputColumn temperature_column(const std::string& name) { return {{name}, -10, 60, {}}; }
 InputColumn salinity_column() { return {{"S_ppt", "S_psu"}, 0, 60, {}}; }
@@ -28,12 +30,11 @@ std::vector<InputColumn> absorbing_water_columns(acoustics::AbsorptionModel mode
   const bool fisher = model == AbsorptionModel::kFisherSimmons1977;
   const bool salts =
       model == AbsorptionModel::kFrancoisGarrison1982 || model == AbsorptionModel::kAinslieMcColm1998;
-  const InputColumn t = temperature_column("T_degC");
-  return {fisher || salts ? t : or_else(t, 4),
-          or_else(salinity_column(), 35),
-          or_else(depth_column("depth_m"), 0),
-          {{"P_atm"}, 0, 2000, kDerived},
-          {{"pH"}, 5, 10, 8}};
+  return {fisher || salts ? temperature_column("T_degC") : unread(4),
+          salts ? or_else(salinity_column(), 35) : unread(35),
+          fisher || salts ? or_else(depth_column("depth_m"), 0) : unread(0),
+          fisher ? InputColumn{{"P_atm"}, 0, 2000, kDerived} : unread(kDerived),
+          salts ? InputColumn{{"pH"}, 5, 10, 8} : unread(8)};
 }
 
 acoustics::AbsorbingWater to_absorbing_water(const std::vector<double>& values, std::size_t first) {

@@ -24,7 +24,7 @@ struct CalcOptions {
 
 // A column that is read.
 struct InputColumn {
-  std::vector<std::string> names;   // the first is its name, others are understood as well
+  std::vector<std::string> names;   // the first is its name, others are understood; none: unread
   double lowest, highest;           // allowed
   std::optional<double> otherwise;  // value where the column is missing; empty: the column is needed
 };

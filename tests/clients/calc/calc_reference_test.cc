@@ -78,8 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"absorption_ainslie_mccolm1998.csv", {.quantity = "absorption", .model = "ainslie-mccolm"}},
         Case{"absorption_thorp.csv", {.quantity = "absorption", .model = "thorp"}},
         Case{"noise_psd.csv", {.quantity = "noise"}},
-        // A_linear spans 20 orders of magnitude: 1e-14 of the decibels is 1e-11 of the ratio.
-        Case{"transmission_loss.csv", {.quantity = "transmission-loss"}, 1e-9, 1e-11},
+        Case{"transmission_loss.csv", {.quantity = "transmission-loss"}},
         Case{"snr_eq7.csv", {.quantity = "snr"}}, Case{"capacity_eq8.csv", {.quantity = "capacity"}},
         Case{"pressure_from_depth_leroy_parthiot1998.csv", {.quantity = "pressure"}},
         Case{"depth_from_pressure_unesco.csv", {.quantity = "depth"}},

@@ -103,6 +103,18 @@ TEST(Calc, TheModelMovesTheResult) {
             run({.quantity = "absorption", .model = "francois-garrison"}, table).out);
 }
 
+TEST(Calc, AFormulaDoesNotReadWhatItDoesNotKnow) {
+  // Fisher and Simmons fix salinity and pH: offering the columns would be an input that changes nothing.
+  const Outcome fisher = run({.quantity = "absorption", .model = "fisher-simmons", .list = true}, "");
+  EXPECT_EQ(fisher.out.substr(0, fisher.out.find("gives")).find("pH"), std::string::npos);
+  const std::string salty = "f_kHz,T_degC,S_ppt\n25,10,38\n", fresh = "f_kHz,T_degC,S_ppt\n25,10,20\n";
+  const auto result = [](const Outcome& o) {
+    return o.out.substr(o.out.rfind('\n', o.out.size() - 2) + 1 + 9);
+  };
+  EXPECT_NE(result(run({.quantity = "absorption", .model = "ainslie-mccolm"}, salty)),
+            result(run({.quantity = "absorption", .model = "ainslie-mccolm"}, fresh)));
+}
+
 TEST(Calc, TheProfileMovesTheDelay) {
   const std::string table = "depth_tx_m,depth_rx_m,horizontal_range_m\n0,1000,500\n";
   EXPECT_NE(run({.quantity = "delay"}, table).out, run({.quantity = "delay", .profile = "munk"}, table).out);
