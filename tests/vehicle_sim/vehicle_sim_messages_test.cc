@@ -1,0 +1,117 @@
+#include "vehicle_sim/vehicle_sim_messages.h"
+
+#include <gtest/gtest.h>
+
+#include "bus/message_checks.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+using halocline::testing::tolerance;
+
+const SimTime kWhen = SimTime::from_utime(123'456'789);
+
+TEST(VehicleSimMessages, AStateSurvivesTheRoundTrip) {
+  KinematicState state;
+  state.pose = {{1, -2, 3}, to_quaternion({0.1, 0.2, 0.3})};
+  state.velocity_ned_mps = {0.4, 0.5, -0.6};
+  state.angular_velocity_body_radps = {0.01, 0.02, 0.03};
+  const vehicle_state_t message = to_state_message(kWhen, 7, state);
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.utime, 123'456'789);
+  EXPECT_EQ(message.vehicle_id, 7);
+  EXPECT_EQ(message.orientation_wxyz[0], state.pose.orientation.w());
+  const KinematicState back = from_message(message);
+  EXPECT_EQ(back.pose.position_ned_m, state.pose.position_ned_m);
+  EXPECT_EQ(back.pose.orientation.coeffs(), state.pose.orientation.coeffs());
+  EXPECT_EQ(back.velocity_ned_mps, state.velocity_ned_mps);
+  EXPECT_EQ(back.angular_velocity_body_radps, state.angular_velocity_body_radps);
+}
+
+TEST(VehicleSimMessages, ACommandSurvivesTheRoundTrip) {
+  const TimedCommand command{kWhen, {0.1, -0.2, 25}};
+  const vehicle_command_t message = to_command_message(command);
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.propeller_rpm, 1500);
+  const TimedCommand back = from_message(message);
+  EXPECT_EQ(back.from, kWhen);
+  EXPECT_EQ(back.actuators, command.actuators);
+}
+
+TEST(VehicleSimMessages, SensorsSurviveTheRoundTrip) {
+  SensorReading r;
+  r.depth_m = 12;
+  r.altitude_status = AltitudeStatus::kNoBottom;
+  r.altitude_m = 0;
+  r.water_speed_mps = 1.5;
+  r.attitude = {0.1, 0.2, -3};
+  r.angular_velocity_body_radps = {0.1, 0.2, 0.3};
+  r.actuators = {0.05, -0.05, 20};
+  r.safe_state = true;
+  const vehicle_sensors_t message = to_sensors_message(kWhen, r);
+  EXPECT_EQ(bus::problem_in(message), "");
+  const SensorReading back = from_message(message);
+  EXPECT_EQ(back.depth_m, r.depth_m);
+  EXPECT_EQ(back.altitude_status, r.altitude_status);
+  EXPECT_EQ(back.water_speed_mps, r.water_speed_mps);
+  EXPECT_EQ(back.attitude.roll, r.attitude.roll);
+  EXPECT_EQ(back.attitude.pitch, r.attitude.pitch);
+  EXPECT_EQ(back.attitude.yaw, r.attitude.yaw);
+  EXPECT_EQ(back.angular_velocity_body_radps, r.angular_velocity_body_radps);
+  EXPECT_NEAR(back.actuators.propeller_hz, 20, tolerance(1e-12));
+  EXPECT_EQ(back.actuators.rudder_rad, 0.05);
+  EXPECT_TRUE(back.safe_state);
+  EXPECT_FALSE(back.on_seabed);
+}
+
+TEST(VehicleSimMessages, AltitudeStatusesAreThoseOfTheWire) {
+  EXPECT_EQ(static_cast<int>(AltitudeStatus::kMeasured), vehicle_sensors_t::ALTITUDE_MEASURED);
+  EXPECT_EQ(static_cast<int>(AltitudeStatus::kNoBottom), vehicle_sensors_t::ALTITUDE_NO_BOTTOM);
+  EXPECT_EQ(static_cast<int>(AltitudeStatus::kUnavailable), vehicle_sensors_t::ALTITUDE_UNAVAILABLE);
+}
+
+TEST(VehicleSimMessages, ARayQueryAsksForTheFirstHitOfEachBeam) {
+  const ray_query_t query =
+      to_ray_query(kWhen, "sim-1", 42, {{{1, 2, 3}, {0, 0, 1}}, {{4, 5, 6}, {0, 1, 0}}}, 80);
+  EXPECT_EQ(bus::problem_in(query), "");
+  EXPECT_EQ(query.num_rays, 2);
+  EXPECT_EQ(query.request_id, 42);
+  EXPECT_EQ(query.query_mode, ray_query_t::CLOSEST_HIT);
+  EXPECT_EQ(query.offset_m[1], (std::vector<double>{4, 5, 6}));
+  EXPECT_EQ(query.direction[1], (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(query.greatest_range_m, (std::vector<double>{80, 80}));
+}
+
+ray_reply_t reply_of(std::vector<std::int8_t> statuses, std::vector<double> results) {
+  ray_reply_t reply{};
+  reply.reply_status = ray_reply_t::OK;
+  reply.num_rays = static_cast<std::int32_t>(statuses.size());
+  reply.ray_status = std::move(statuses);
+  reply.result_m = std::move(results);
+  return reply;
+}
+
+TEST(VehicleSimMessages, EachRaysStatusBecomesAnAltitudesStatus) {
+  const auto a =
+      altitudes_from(reply_of({ray_reply_t::HIT, ray_reply_t::MISS, ray_reply_t::OUTSIDE,
+                               ray_reply_t::NO_DATA, ray_reply_t::BELOW_BOTTOM, ray_reply_t::BAD_INPUT},
+                              {12, 0, 0, 0, 0, 0}),
+                     6);
+  EXPECT_EQ(a[0].status, AltitudeStatus::kMeasured);
+  EXPECT_EQ(a[0].altitude_m, 12);
+  for (const int beyond : {1, 2, 3}) EXPECT_EQ(a[beyond].status, AltitudeStatus::kNoBottom);
+  EXPECT_EQ(a[4].status, AltitudeStatus::kMeasured);
+  EXPECT_EQ(a[4].altitude_m, 0);
+  EXPECT_EQ(a[5].status, AltitudeStatus::kUnavailable);
+}
+
+TEST(VehicleSimMessages, ARefusedOrShortReplyGivesNoAltitudes) {
+  ray_reply_t refused = reply_of({}, {});
+  refused.reply_status = ray_reply_t::REFUSED_TOO_MANY;
+  EXPECT_EQ(altitudes_from(refused, 2)[1].status, AltitudeStatus::kUnavailable);
+  EXPECT_EQ(altitudes_from(reply_of({ray_reply_t::HIT}, {1}), 2)[0].status, AltitudeStatus::kUnavailable);
+}
+
+}  // namespace
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,30 @@
+#include "vehicle_sim/altimeter_desk.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace halocline::vehicle_sim {
+
+void AltimeterDesk::wait(std::int64_t request_id, SensorTick tick, SimTime deadline) {
+  waiting_.push_back({request_id, std::move(tick), deadline});
+}
+
+SensorTick* AltimeterDesk::answer(std::int64_t request_id) {
+  const auto entry = std::find_if(waiting_.begin(), waiting_.end(),
+                                  [&](const Entry& e) { return e.request_id == request_id && !e.answered; });
+  if (entry == waiting_.end()) return nullptr;
+  entry->answered = true;
+  return &entry->tick;
+}
+
+std::optional<SensorTick> AltimeterDesk::take(SimTime steady) {
+  if (waiting_.empty()) return {};
+  Entry& oldest = waiting_.front();
+  if (!oldest.answered && steady < oldest.deadline) return {};
+  if (!oldest.answered) ++given_up_;
+  SensorTick tick = std::move(oldest.tick);
+  waiting_.pop_front();
+  return tick;
+}
+
+}  // namespace halocline::vehicle_sim

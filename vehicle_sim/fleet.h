@@ -1,0 +1,70 @@
+// The vehicles of a scenario that we move, on a grid of physics steps, with their commands and sensors.
+//
+// Time runs in whole steps from the start; what is asked for between two steps is a look ahead from the earlier one
+// that changes nothing, so the motion does not depend on how often anyone looks. Given the same commands (with
+// their times) the same fleet moves the same, bit by bit.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vehicle_sim/command_schedule.h"
+#include "vehicle_sim/sensors.h"
+#include "vehicle_sim/vehicle_world.h"
+
+namespace halocline::vehicle_sim {
+
+// One vehicle at the start.
+struct FleetMember {
+  std::string name;
+  std::shared_ptr<const Model> model;  // null: fixed, its pose never changes
+  VehicleState start;                  // velocity over ground; zero for a fixed one
+};
+
+struct FleetSettings {
+  SimDuration step = SimDuration::from_milliseconds(10);               // 1 to 20 ms
+  SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // above 0
+  Water water{.sea_surface_z_m = 0};
+  double seabed_friction = VehicleWorld::kDefaultFriction;
+};
+
+class Fleet {
+ public:
+  // All members are where they start at `start`. `seabed` may be null: no ground.
+  Fleet(const FleetSettings& settings, std::vector<FleetMember> members, std::shared_ptr<const Seabed> seabed,
+        SimTime start);
+
+  std::size_t size() const { return members_.size(); }
+  const FleetMember& member(std::size_t index) const { return members_[index]; }
+  SimTime time() const { return time_; }  // reached in whole steps
+
+  // Takes note of a command for a vehicle; fixed ones refuse none and obey none. It is obeyed from the first physics
+  // step at or after its time.
+  CommandVerdict command(std::size_t index, const TimedCommand& command);
+
+  // Takes all whole steps that end at or before `until`.
+  void advance(SimTime until);
+
+  // Where a vehicle is at `when`, time() <= when < time() + step.
+  VehicleState state_at(std::size_t index, SimTime when) const;
+  // Its sensors then; altitude is left unavailable.
+  SensorReading reading_at(std::size_t index, SimTime when) const;
+
+  bool is_lost(std::size_t index) const;    // VehicleWorld::is_lost
+  bool on_seabed(std::size_t index) const;  // touched the ground in the last step
+
+ private:
+  bool moves(std::size_t index) const { return members_[index].model != nullptr; }
+
+  FleetSettings settings_;
+  std::vector<FleetMember> members_;
+  std::vector<std::size_t> world_index_;  // of members that move
+  std::vector<CommandSchedule> commands_;
+  std::vector<ActuatorValues> obeyed_;
+  VehicleWorld world_;
+  SimTime time_;
+};
+
+}  // namespace halocline::vehicle_sim

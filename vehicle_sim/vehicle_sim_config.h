@@ -1,0 +1,37 @@
+// What a scenario tells the vehicle simulator: its section [vehicle_sim], and the vehicles that it moves.
+//
+//   [vehicle_sim]
+//   state_rate_hz = 10
+//   current_ned_mps = [0.1, 0.0, 0.0]
+#pragma once
+
+#include <vector>
+
+#include "bus/scenario.h"
+#include "vehicle_sim/fleet.h"
+
+namespace halocline::vehicle_sim {
+
+struct VehicleSimConfig {
+  SimDuration step = SimDuration::from_milliseconds(10);               // of the physics
+  SimDuration state_period = SimDuration::from_milliseconds(100);      // between STATEs
+  SimDuration sensor_period = SimDuration::from_milliseconds(200);     // between SENSORS
+  SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // age at which a command is void
+  double altimeter_range_m = 100;
+  SimDuration altimeter_patience = SimDuration::from_milliseconds(250);  // wait for the bathymetry service
+  Vec3 current_ned_mps = Vec3::Zero();
+  CurrentTreatment current_treatment = CurrentTreatment::kGalilean;
+  double buoyancy_over_weight = 1;
+  double seabed_friction = VehicleWorld::kDefaultFriction;
+};
+
+// Section [vehicle_sim]; also reports each [[vehicle]] whose model nobody moves.
+void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
+
+// The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle starts
+// level, with its speed through the water. Throws InvalidArgument where the model is unknown.
+std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
+
+FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,121 @@
+#include "vehicle_sim/vehicle_sim_messages.h"
+
+#include <algorithm>
+
+namespace halocline::vehicle_sim {
+namespace {
+
+constexpr double kSecondsPerMinute = 60;
+
+void write(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
+Vec3 read(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
+
+// The same meanings in the same order: see the constants of vehicle_sensors_t.
+std::int8_t to_wire(AltitudeStatus status) { return static_cast<std::int8_t>(status); }
+static_assert(static_cast<int>(AltitudeStatus::kMeasured) == 0 &&
+              static_cast<int>(AltitudeStatus::kNoBottom) == 1 &&
+              static_cast<int>(AltitudeStatus::kUnavailable) == 2);
+
+}  // namespace
+
+vehicle_state_t to_state_message(SimTime when, std::int32_t vehicle_id, const KinematicState& state) {
+  vehicle_state_t m{};
+  m.utime = when.to_utime();
+  m.vehicle_id = vehicle_id;
+  write(state.pose.position_ned_m, m.position_ned_m);
+  const Quaternion& q = state.pose.orientation;
+  const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
+  std::copy(std::begin(wxyz), std::end(wxyz), m.orientation_wxyz);
+  write(state.velocity_ned_mps, m.velocity_ned_mps);
+  write(state.angular_velocity_body_radps, m.angular_velocity_body_radps);
+  return m;
+}
+
+KinematicState from_message(const vehicle_state_t& m) {
+  const double* q = m.orientation_wxyz;
+  return {{read(m.position_ned_m), Quaternion(q[0], q[1], q[2], q[3])},
+          read(m.velocity_ned_mps),
+          read(m.angular_velocity_body_radps)};
+}
+
+vehicle_command_t to_command_message(const TimedCommand& command) {
+  vehicle_command_t m{};
+  m.utime = command.from.to_utime();
+  m.propeller_rpm = command.actuators.propeller_hz * kSecondsPerMinute;
+  m.rudder_rad = command.actuators.rudder_rad;
+  m.stern_plane_rad = command.actuators.stern_planes_rad;
+  return m;
+}
+
+TimedCommand from_message(const vehicle_command_t& m) {
+  return {SimTime::from_utime(m.utime),
+          {m.rudder_rad, m.stern_plane_rad, m.propeller_rpm / kSecondsPerMinute}};
+}
+
+vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
+  vehicle_sensors_t m{};
+  m.utime = when.to_utime();
+  m.depth_m = r.depth_m;
+  m.altitude_status = to_wire(r.altitude_status);
+  m.altitude_m = r.altitude_m;
+  m.water_speed_mps = r.water_speed_mps;
+  m.heading_rad = r.attitude.yaw;
+  m.pitch_rad = r.attitude.pitch;
+  m.roll_rad = r.attitude.roll;
+  write(r.angular_velocity_body_radps, m.angular_rate_body_radps);
+  m.shaft_rpm = r.actuators.propeller_hz * kSecondsPerMinute;
+  m.rudder_angle_rad = r.actuators.rudder_rad;
+  m.stern_angle_rad = r.actuators.stern_planes_rad;
+  m.safe_state = r.safe_state ? 1 : 0;
+  m.on_seabed = r.on_seabed ? 1 : 0;
+  return m;
+}
+
+SensorReading from_message(const vehicle_sensors_t& m) {
+  SensorReading r;
+  r.depth_m = m.depth_m;
+  r.altitude_status = static_cast<AltitudeStatus>(m.altitude_status);
+  r.altitude_m = m.altitude_m;
+  r.water_speed_mps = m.water_speed_mps;
+  r.attitude = {m.roll_rad, m.pitch_rad, m.heading_rad};
+  r.angular_velocity_body_radps = read(m.angular_rate_body_radps);
+  r.actuators = {m.rudder_angle_rad, m.stern_angle_rad, m.shaft_rpm / kSecondsPerMinute};
+  r.safe_state = m.safe_state != 0;
+  r.on_seabed = m.on_seabed != 0;
+  return r;
+}
+
+ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t request_id,
+                         const std::vector<AltimeterBeam>& beams, double range_m) {
+  ray_query_t m{};
+  m.utime = when.to_utime();
+  m.client_name = client;
+  m.request_id = request_id;
+  m.query_mode = ray_query_t::CLOSEST_HIT;
+  m.num_rays = static_cast<std::int32_t>(beams.size());
+  const auto list = [](const Vec3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
+  for (const AltimeterBeam& beam : beams) {
+    m.offset_m.push_back(list(beam.origin_ned_m));
+    m.direction.push_back(list(beam.direction_ned));
+    m.greatest_range_m.push_back(range_m);
+  }
+  return m;
+}
+
+std::vector<Altitude> altitudes_from(const ray_reply_t& reply, std::size_t beams) {
+  std::vector<Altitude> altitudes(beams);
+  if (reply.reply_status != ray_reply_t::OK || reply.ray_status.size() != beams) return altitudes;
+  for (std::size_t i = 0; i < beams; ++i) {
+    const std::int8_t status = reply.ray_status[i];
+    if (status == ray_reply_t::HIT) {
+      altitudes[i] = {AltitudeStatus::kMeasured, reply.result_m[i]};
+    } else if (status == ray_reply_t::BELOW_BOTTOM) {
+      altitudes[i] = {AltitudeStatus::kMeasured, 0};  // the altimeter lies in the ground it stands on
+    } else if (status != ray_reply_t::BAD_INPUT) {
+      altitudes[i] = {AltitudeStatus::kNoBottom, 0};
+    }
+  }
+  return altitudes;
+}
+
+}  // namespace halocline::vehicle_sim
