@@ -44,11 +44,11 @@ VehicleState at(const Vec3& position, const EulerAngles& attitude = {}, double s
 // so never less than the true depth.
 double penetration(const VehicleState& s, const HullShape& hull, const testing::FormulaGround& ground) {
   double deepest = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= 50; ++i) {
-    const double along = i / 25.0 - 1,
+  for (int i = 0; i <= 40; ++i) {
+    const double along = i / 20.0 - 1,
                  radius = hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along));
-    for (int k = 0; k < 16; ++k) {
-      const double angle = 2 * std::numbers::pi * k / 16;
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 2 * std::numbers::pi * k / 12;
       const Vec3 point =
           s.position_ned_m +
           s.orientation * Vec3(along * hull.length_m / 2, radius * std::cos(angle), radius * std::sin(angle));
@@ -75,7 +75,7 @@ Outcome run(const GroundPointer& ground, double buoyancy_ratio, const VehicleSta
   for (long i = 0; i < steps; ++i) {
     world.step(step_s);
     EXPECT_FALSE(world.is_lost(0));
-    if (i % std::lround(0.02 / step_s) == 0) {
+    if (i % std::lround(0.04 / step_s) == 0) {
       const double depth = penetration(world.state(0), world.model(0).parameters().hull, *ground);
       result.deepest_m = std::max(result.deepest_m, depth);
     }
@@ -123,7 +123,7 @@ TEST_P(Grounding, AVehicleRestsOnASlopeOfTenDegrees) {
   for (const double yaw :
        {0.0, std::numbers::pi / 2}) {  // a hull at another heading pivots on its one contact
     const auto ground = testing::slope(10, to_radians(10));
-    const Outcome r = run(ground, 0.98, at({0, 0, 9.7}, {0, 0, yaw}), {}, 60, GetParam());
+    const Outcome r = run(ground, 0.98, at({0, 0, 9.7}, {0, 0, yaw}), {}, 40, GetParam());
     const double expected = 0.02 * remus(1)->weight_n();
     EXPECT_LT(r.deepest_m, tolerance(kMostPenetration)) << yaw;
     EXPECT_NEAR(-r.mean_force.z(), expected, tolerance(0.01) * expected) << yaw;
@@ -132,15 +132,18 @@ TEST_P(Grounding, AVehicleRestsOnASlopeOfTenDegrees) {
 }
 
 TEST_P(Grounding, AVehicleDroppedOnASharpRidgeIsNotCutByIt) {
-  for (const double angle : {20.0, 45.0, 60.0}) {
-    for (const double yaw : {0.0, 0.4, std::numbers::pi / 2}) {  // across, askew and along the crest
-      for (const double off : {0.0, 0.03, 0.3}) {
-        const auto ground = testing::ridge(10, to_radians(angle));
-        const Outcome r = run(ground, 0.95, at({off, 0, 9.5}, {0, 0, yaw}), {}, 15, GetParam());
-        EXPECT_LT(r.deepest_m, tolerance(kMostPenetration))
-            << angle << " degrees, yaw " << yaw << ", off " << off;
-      }
-    }
+  struct Drop {
+    double angle_deg, yaw, off_m;  // across, askew and along the crest; on it and beside it
+  };
+  for (const Drop& d : {Drop{20, 0, 0},
+                        {45, 0, 0.3},
+                        {60, 0, 0},
+                        {45, 0.4, 0.03},
+                        {20, std::numbers::pi / 2, 0.03},
+                        {60, std::numbers::pi / 2, 0}}) {
+    const auto ground = testing::ridge(10, to_radians(d.angle_deg));
+    const Outcome r = run(ground, 0.95, at({d.off_m, 0, 9.5}, {0, 0, d.yaw}), {}, 12, GetParam());
+    EXPECT_LT(r.deepest_m, tolerance(kMostPenetration)) << d.angle_deg << " degrees, yaw " << d.yaw;
   }
 }
 
