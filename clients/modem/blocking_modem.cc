@@ -1,0 +1,68 @@
+#include "clients/modem/blocking_modem.h"
+
+#include <algorithm>
+
+#include <poll.h>
+
+#include "bus/node_process.h"
+
+namespace halocline::clients {
+namespace {
+constexpr SimDuration kLongestWaitForClock = SimDuration::from_milliseconds(1000);
+// Between two looks at what is to be repeated.
+constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(50);
+
+void sleep_until_heard(lcm::LCM& lcm, SimDuration longest) {
+  pollfd bus{lcm.getFileno(), POLLIN, 0};
+  poll(&bus, 1, static_cast<int>(longest.nanoseconds() / 1'000'000));
+}
+}  // namespace
+
+BlockingModem::BlockingModem(lcm::LCM& lcm, ModemAddress address, ResendPolicy policy)
+    : lcm_(lcm),
+      bus_(lcm, {address.vehicle, address.session}),
+      time_(lcm, address.vehicle),
+      client_(bus_, address, policy) {}
+
+std::optional<SimTime> BlockingModem::sim_now(SimDuration timeout) {
+  wait(timeout, [this] { return time_.now(bus::steady_now()).has_value(); });
+  return time_.now(bus::steady_now());
+}
+
+std::int64_t BlockingModem::send_at(SimTime start, std::int32_t destination,
+                                    std::span<const std::uint8_t> payload) {
+  return client_.send(bus::steady_now(), start, destination, payload);
+}
+
+std::optional<std::int64_t> BlockingModem::send(std::int32_t destination,
+                                                std::span<const std::uint8_t> payload) {
+  const auto now = sim_now(kLongestWaitForClock);
+  return now ? std::optional(send_at(*now, destination, payload)) : std::nullopt;
+}
+
+std::optional<modem_receipt_t> BlockingModem::wait_receipt(std::int64_t packet_sequence,
+                                                           SimDuration timeout) {
+  wait(timeout, [&] { return !client_.is_pending(packet_sequence); });
+  return client_.receipt_of(packet_sequence);
+}
+
+std::optional<modem_receive_t> BlockingModem::wait_receive(SimDuration timeout) {
+  std::optional<modem_receive_t> packet;
+  wait(timeout, [&] { return (packet = client_.take_received()).has_value(); });
+  return packet;
+}
+
+void BlockingModem::wait(SimDuration timeout, const std::function<bool()>& done) {
+  const SimTime end = bus::steady_now() + timeout;
+  while (!done()) {
+    const SimDuration left = end - bus::steady_now();
+    sleep_until_heard(lcm_, std::clamp(left, SimDuration(), kLongestSleep));
+    time_.set_steady(bus::steady_now());
+    const bool heard = lcm_.handleTimeout(0) > 0;
+    bus_.rethrow_if_failed();
+    client_.resend(bus::steady_now());
+    if (left <= SimDuration() && !heard) return;
+  }
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,50 @@
+// A modem for simple programs: calls that wait. One lcm::LCM, no node, no loop of one's own.
+//
+//   const auto lcm = bus::open_transport(bus::effective_url(""));
+//   BlockingModem modem(*lcm, {.vehicle = "auv-1", .vehicle_id = 1, .session = my_session});
+//   const auto packet = modem.send(kBroadcastId, payload);
+//   if (packet && modem.wait_receipt(*packet, SimDuration::from_seconds(2))) ...
+//   while (const auto heard = modem.wait_receive(SimDuration::from_seconds(60))) ...
+//
+// Time-outs are of steady (wall) time. While a call waits, everything on the LCM is dispatched, so other
+// subscriptions made on it are served too. Not thread-safe; the LCM must outlive the modem.
+#pragma once
+
+#include <functional>
+
+#include "bus/time_source.h"
+#include "clients/modem/modem_client.h"
+
+namespace halocline::clients {
+
+class BlockingModem {
+ public:
+  BlockingModem(lcm::LCM& lcm, ModemAddress address, ResendPolicy policy = {});
+
+  // The simulation time that the conductor's CLOCK tells; waits for the first CLOCK up to `timeout`. Empty
+  // when none came.
+  std::optional<SimTime> sim_now(SimDuration timeout);
+
+  // Sends at simulation time `start`, or now (empty when there is no CLOCK within a second); returns the
+  // packet_sequence at once. Throws as ModemClient::send.
+  std::int64_t send_at(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload);
+  std::optional<std::int64_t> send(std::int32_t destination, std::span<const std::uint8_t> payload);
+
+  // Waits for the packet's receipt, repeating the SEND meanwhile; empty after `timeout`.
+  std::optional<modem_receipt_t> wait_receipt(std::int64_t packet_sequence, SimDuration timeout);
+  // Waits for a packet to arrive; empty after `timeout`. A timeout of 0 takes what is there.
+  std::optional<modem_receive_t> wait_receive(SimDuration timeout);
+
+  const ModemClient& client() const { return client_; }
+
+ private:
+  // Dispatches until `done` or `timeout`.
+  void wait(SimDuration timeout, const std::function<bool()>& done);
+
+  lcm::LCM& lcm_;
+  bus::Bus bus_;
+  bus::ConductorTime time_;
+  ModemClient client_;
+};
+
+}  // namespace halocline::clients

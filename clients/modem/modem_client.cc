@@ -1,0 +1,113 @@
+#include "clients/modem/modem_client.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "core/names.h"
+
+namespace halocline::clients {
+namespace {
+constexpr std::size_t kLongestPayload = 32768;  // modem_send_t
+}
+
+ModemClient::ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy)
+    : bus_(bus), address_(std::move(address)), policy_(policy) {
+  require(is_valid_name(address_.vehicle), "vehicle name '" + address_.vehicle + "'; allowed is a name of " +
+                                               std::string(kNameRule));
+  require(address_.vehicle_id >= 1, "a vehicle's id is a whole number from 1");
+  require(policy_.interval > SimDuration(), "the interval between repetitions must be above 0");
+  bus_.subscribe<modem_receipt_t>(bus::channels::kReceipt.of(address_.vehicle),
+                                  [this](const modem_receipt_t& receipt) { take_receipt(receipt); });
+  bus_.subscribe<modem_receive_t>(bus::channels::kReceive.of(address_.vehicle),
+                                  [this](const modem_receive_t& packet) { take_packet(packet); });
+}
+
+std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t destination,
+                               std::span<const std::uint8_t> payload) {
+  require(destination >= kBroadcastId, "a destination is a vehicle's id, or 0 for all");
+  require(payload.size() <= kLongestPayload, "a payload holds at most 32768 bytes");
+  modem_send_t message;
+  message.utime = start.to_utime();
+  message.session = address_.session;
+  message.packet_sequence = next_sequence_++;
+  message.source_id = address_.vehicle_id;
+  message.destination_id = destination;
+  message.payload_size = static_cast<std::int32_t>(payload.size());
+  message.payload.assign(payload.begin(), payload.end());
+  // Kept before it is published: on memq the receipt may be dispatched before publish() returns to the node.
+  pending_[message.packet_sequence] = {message, steady + policy_.interval, steady + policy_.give_up_after};
+  ++counters_.sent;
+  bus_.publish(bus::channels::kSend.of(address_.vehicle), message);
+  return message.packet_sequence;
+}
+
+std::optional<modem_receipt_t> ModemClient::receipt_of(std::int64_t packet_sequence) const {
+  const auto found = receipts_.find(packet_sequence);
+  return found == receipts_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<modem_receive_t> ModemClient::take_received() {
+  if (waiting_.empty()) return std::nullopt;
+  modem_receive_t packet = std::move(waiting_.front());
+  waiting_.pop_front();
+  return packet;
+}
+
+void ModemClient::resend(SimTime steady) {
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    Pending& pending = it->second;
+    if (steady >= pending.last_try) {
+      ++counters_.unanswered;
+      it = pending_.erase(it);
+      continue;
+    }
+    if (steady >= pending.next_try) {
+      pending.next_try = steady + policy_.interval;
+      ++counters_.resent;
+      bus_.publish(bus::channels::kSend.of(address_.vehicle), pending.message);
+    }
+    ++it;
+  }
+}
+
+SimTime ModemClient::next_resend() const {
+  SimTime next = SimTime::never();
+  for (const auto& [sequence, pending] : pending_)
+    next = std::min({next, pending.next_try, pending.last_try});
+  return next;
+}
+
+void ModemClient::take_receipt(const modem_receipt_t& receipt) {
+  // Not pending: a packet of an earlier life, or the answer to a repetition.
+  if (receipt.send_session != address_.session || pending_.erase(receipt.packet_sequence) == 0) return;
+  ++(receipt.receipt_result == modem_receipt_t::ACCEPTED ? counters_.accepted : counters_.refused);
+  receipts_[receipt.packet_sequence] = receipt;
+  if (receipts_.size() > kMostReceipts) receipts_.erase(receipts_.begin());
+  if (receipt_handler_) receipt_handler_(receipt);
+}
+
+void ModemClient::take_packet(const modem_receive_t& packet) {
+  if (!is_new({packet.send_session, packet.source_id, packet.packet_sequence})) {
+    ++counters_.duplicates;
+    return;
+  }
+  ++counters_.received;
+  if (receive_handler_) return receive_handler_(packet);
+  waiting_.push_back(packet);
+  if (waiting_.size() > kMostWaiting) {
+    waiting_.pop_front();
+    ++counters_.discarded;
+  }
+}
+
+bool ModemClient::is_new(const PacketName& packet) {
+  if (!known_.insert(packet).second) return false;
+  known_in_order_.push_back(packet);
+  if (known_in_order_.size() > kMostRemembered) {
+    known_.erase(known_in_order_.front());
+    known_in_order_.pop_front();
+  }
+  return true;
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,123 @@
+// A vehicle's side of its modem: send a packet, learn whether it was accepted, take in what arrives.
+//
+// The bus may lose datagrams; the library repairs that and nothing else. A SEND is repeated, with the same
+// (session, packet_sequence), until its RECEIPT is heard; the channel server answers a repetition with the same
+// receipt and transmits once. A RECEIVE that comes twice is handed on once. What the water loses stays lost.
+//
+// For use within a node: nothing here blocks or reads a clock. Call resend() from the node's step, and take
+// next_resend() into its due time (steady):
+//
+//   ModemClient modem(bus(), {.vehicle = "auv-1", .vehicle_id = 1, .session = session});
+//   const std::int64_t packet = modem.send(now.steady, now.sim, kBroadcastId, payload);
+//   ...
+//   if (const auto receipt = modem.receipt_of(packet)) { ... }
+//   while (const auto packet = modem.take_received()) { ... }
+//
+// A program without nodes uses BlockingModem (blocking_modem.h). The Bus must outlive the client, and the
+// client must live as long as the Bus dispatches. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+
+#include "bus/bus.h"
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+
+// Whose modem this is. `session` must differ each time the sender is started (bus::session_of).
+struct ModemAddress {
+  std::string vehicle;          // is_valid_name
+  std::int32_t vehicle_id = 0;  // 1 and up
+  std::int64_t session = 0;
+};
+
+// When to repeat a SEND that was not answered; steady time.
+struct ResendPolicy {
+  SimDuration interval = SimDuration::from_milliseconds(200);   // above 0
+  SimDuration give_up_after = SimDuration::from_seconds(10.0);  // from the first SEND
+};
+
+struct ModemCounters {
+  std::int64_t sent = 0;        // packets handed over by send()
+  std::int64_t resent = 0;      // repetitions of a SEND
+  std::int64_t accepted = 0;    // receipts
+  std::int64_t refused = 0;     // receipts
+  std::int64_t unanswered = 0;  // given up
+  std::int64_t received = 0;    // packets that arrived, each once
+  std::int64_t duplicates = 0;  // RECEIVEs that came again
+  std::int64_t discarded = 0;   // arrived, but nobody took them before kMostWaiting others came
+};
+
+class ModemClient {
+ public:
+  using ReceiptHandler = std::function<void(const modem_receipt_t&)>;
+  using ReceiveHandler = std::function<void(const modem_receive_t&)>;
+
+  // What a client keeps at most: packets that nobody has taken, receipts to be asked for, packets remembered
+  // in order to know a duplicate.
+  static constexpr std::size_t kMostWaiting = 10'000, kMostReceipts = 10'000, kMostRemembered = 10'000;
+
+  ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {});
+  ModemClient(const ModemClient&) = delete;
+  ModemClient& operator=(const ModemClient&) = delete;
+
+  // Called for each receipt of a packet of ours, once, while LCM dispatches.
+  void on_receipt(ReceiptHandler handler) { receipt_handler_ = std::move(handler); }
+  // Called for each packet that arrives, once. Without a handler packets wait for take_received().
+  void on_receive(ReceiveHandler handler) { receive_handler_ = std::move(handler); }
+
+  // Publishes a SEND that starts at `start` (simulation time) and returns its packet_sequence.
+  // `destination`: a vehicle's id, or kBroadcastId. `payload`: 0 to 32768 bytes; a modem's own limit shows in
+  // the receipt. Throws InvalidArgument otherwise.
+  std::int64_t send(SimTime steady, SimTime start, std::int32_t destination,
+                    std::span<const std::uint8_t> payload);
+
+  // The answer to a packet; empty while none has come.
+  std::optional<modem_receipt_t> receipt_of(std::int64_t packet_sequence) const;
+  // Whether SENDs of this packet still go out: neither answered nor given up.
+  bool is_pending(std::int64_t packet_sequence) const { return pending_.contains(packet_sequence); }
+  // The longest-waiting packet that arrived; empty when there is none.
+  std::optional<modem_receive_t> take_received();
+
+  // Repeats what has waited for its receipt for the policy's interval.
+  void resend(SimTime steady);
+  // The steady time at which resend() has something to do; never() while every packet is answered.
+  SimTime next_resend() const;
+
+  const ModemAddress& address() const { return address_; }
+  const ModemCounters& counters() const { return counters_; }
+
+ private:
+  struct Pending {
+    modem_send_t message;
+    SimTime next_try, last_try;  // steady
+  };
+  using PacketName = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // session, source, sequence
+
+  void take_receipt(const modem_receipt_t& receipt);
+  void take_packet(const modem_receive_t& packet);
+  bool is_new(const PacketName& packet);
+
+  bus::Bus& bus_;
+  ModemAddress address_;
+  ResendPolicy policy_;
+  ReceiptHandler receipt_handler_;
+  ReceiveHandler receive_handler_;
+  ModemCounters counters_;
+  std::int64_t next_sequence_ = 0;
+  std::map<std::int64_t, Pending> pending_;
+  std::map<std::int64_t, modem_receipt_t> receipts_;
+  std::deque<modem_receive_t> waiting_;
+  std::set<PacketName> known_;
+  std::deque<PacketName> known_in_order_;
+};
+
+}  // namespace halocline::clients

@@ -1,0 +1,74 @@
+#include "clients/modem/blocking_modem.h"
+
+#include <gtest/gtest.h>
+
+#include "core/names.h"
+#include "tests/clients/modem/fake_server.h"
+
+namespace halocline::clients {
+namespace {
+
+constexpr SimDuration kPlenty = SimDuration::from_milliseconds(5000);
+constexpr SimDuration kShort = SimDuration::from_milliseconds(20);
+
+class BlockingModemTest : public ::testing::Test {
+ protected:
+  void publish_clock(std::int64_t utime) {
+    sim_clock_t clock{};
+    clock.utime = utime;
+    clock.session = 7;
+    clock.clock_rate = 1;
+    clock.clock_step_us = 100'000;
+    ear_.publish(bus::channels::kClock, clock);
+  }
+
+  lcm::LCM lcm_{"memq://"};
+  bus::Bus ear_{lcm_, {"ear", 1}};
+  testing::FakeServer server_{lcm_, "auv-1"};
+  BlockingModem modem_{lcm_,
+                       {.vehicle = "auv-1", .vehicle_id = 1, .session = 42},
+                       {.interval = SimDuration::from_milliseconds(10), .give_up_after = kPlenty}};
+  const std::vector<std::uint8_t> payload_{1, 2, 3};
+};
+
+TEST_F(BlockingModemTest, WaitReceiptReturnsTheAnswer) {
+  server_.answers = true;
+  const auto packet = modem_.send_at(SimTime::from_seconds(3), kBroadcastId, payload_);
+  const auto receipt = modem_.wait_receipt(packet, kPlenty);
+  ASSERT_TRUE(receipt);
+  EXPECT_EQ(receipt->start_utime, 3'000'000);
+}
+
+TEST_F(BlockingModemTest, WaitReceiptRepeatsTheSendMeanwhile) {
+  const auto packet = modem_.send_at(SimTime(), kBroadcastId, payload_);
+  EXPECT_FALSE(modem_.wait_receipt(packet, SimDuration::from_milliseconds(200)));
+  EXPECT_GT(server_.sends.size(), 1u);
+  server_.answers = true;
+  EXPECT_TRUE(modem_.wait_receipt(packet, kPlenty));
+}
+
+TEST_F(BlockingModemTest, WaitReceiveReturnsWhatArrivesAndNothingOtherwise) {
+  EXPECT_FALSE(modem_.wait_receive(kShort));
+  server_.deliver(8, 2, 5);
+  const auto packet = modem_.wait_receive(kPlenty);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(packet->packet_sequence, 5);
+}
+
+TEST_F(BlockingModemTest, SendWithoutATimeStartsAtTheConductorsTime) {
+  publish_clock(60'000'000);
+  ASSERT_TRUE(modem_.send(kBroadcastId, payload_));
+  modem_.wait_receive(kShort);
+  ASSERT_FALSE(server_.sends.empty());
+  // The clock runs at rate 1 from the CLOCK on; ten seconds are far more than the test takes.
+  EXPECT_GE(server_.sends[0].utime, 60'000'000);
+  EXPECT_LT(server_.sends[0].utime, 70'000'000);
+}
+
+TEST_F(BlockingModemTest, SendWithoutAConductorSendsNothing) {
+  EXPECT_FALSE(modem_.send(kBroadcastId, payload_));
+  EXPECT_EQ(modem_.client().counters().sent, 0);
+}
+
+}  // namespace
+}  // namespace halocline::clients

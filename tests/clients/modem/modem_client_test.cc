@@ -1,0 +1,189 @@
+#include "clients/modem/modem_client.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/check.h"
+#include "core/names.h"
+#include "tests/clients/modem/fake_server.h"
+
+namespace halocline::clients {
+namespace {
+
+using ::testing::ElementsAre;
+
+SimTime at_ms(std::int64_t ms) { return SimTime() + SimDuration::from_milliseconds(ms); }
+
+class ModemClientTest : public ::testing::Test {
+ protected:
+  void drain() {
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+    bus_.rethrow_if_failed();
+  }
+  std::int64_t send(std::int64_t ms, std::vector<std::uint8_t> payload = {1, 2, 3}) {
+    return modem_.send(at_ms(ms), at_ms(ms), 7, payload);
+  }
+  void step(std::int64_t ms) {
+    modem_.resend(at_ms(ms));
+    drain();
+  }
+
+  lcm::LCM lcm_{"memq://"};
+  testing::FakeServer server_{lcm_, "auv-1"};
+  bus::Bus bus_{lcm_, {"node", 5}};
+  ModemClient modem_{bus_,
+                     {.vehicle = "auv-1", .vehicle_id = 3, .session = 42},
+                     {.interval = SimDuration::from_milliseconds(200),
+                      .give_up_after = SimDuration::from_milliseconds(1000)}};
+};
+
+TEST_F(ModemClientTest, SendCarriesWhatWasAskedFor) {
+  modem_.send(at_ms(1000), at_ms(2500), 7, std::vector<std::uint8_t>{9, 8});
+  drain();
+  ASSERT_EQ(server_.sends.size(), 1u);
+  const modem_send_t& heard = server_.sends[0];
+  EXPECT_EQ(heard.utime, 2'500'000);
+  EXPECT_EQ(heard.session, 42);
+  EXPECT_EQ(heard.packet_sequence, 0);
+  EXPECT_EQ(heard.source_id, 3);
+  EXPECT_EQ(heard.destination_id, 7);
+  EXPECT_THAT(heard.payload, ElementsAre(9, 8));
+}
+
+TEST_F(ModemClientTest, PacketsAreNumberedInTurn) {
+  EXPECT_EQ(send(0), 0);
+  EXPECT_EQ(send(0), 1);
+  EXPECT_EQ(send(0), 2);
+}
+
+TEST_F(ModemClientTest, EmptyPayloadIsAPacket) {
+  send(0, {});
+  drain();
+  ASSERT_EQ(server_.sends.size(), 1u);
+  EXPECT_EQ(server_.sends[0].payload_size, 0);
+}
+
+TEST_F(ModemClientTest, SendIsRepeatedUnchangedUntilItsReceiptComes) {
+  send(0);
+  drain();
+  step(199);
+  EXPECT_EQ(server_.sends.size(), 1u);
+  step(200);
+  step(400);
+  ASSERT_EQ(server_.sends.size(), 3u);
+  EXPECT_EQ(server_.sends[2].utime, server_.sends[0].utime);
+  EXPECT_EQ(server_.sends[2].packet_sequence, server_.sends[0].packet_sequence);
+  server_.accept(server_.sends[0]);
+  drain();
+  step(600);
+  EXPECT_EQ(server_.sends.size(), 3u);
+  EXPECT_EQ(modem_.counters().resent, 2);
+}
+
+TEST_F(ModemClientTest, NextResendIsWhenTheOldestWantsRepeating) {
+  EXPECT_EQ(modem_.next_resend(), SimTime::never());
+  send(50);
+  send(100);
+  EXPECT_EQ(modem_.next_resend(), at_ms(250));
+}
+
+TEST_F(ModemClientTest, UnansweredPacketIsGivenUp) {
+  const auto packet = send(0);
+  step(999);
+  EXPECT_TRUE(modem_.is_pending(packet));
+  step(1000);
+  EXPECT_FALSE(modem_.is_pending(packet));
+  EXPECT_FALSE(modem_.receipt_of(packet));
+  EXPECT_EQ(modem_.counters().unanswered, 1);
+  EXPECT_EQ(modem_.next_resend(), SimTime::never());
+}
+
+TEST_F(ModemClientTest, ReceiptIsToldOnceHoweverOftenItComes) {
+  int told = 0;
+  modem_.on_receipt([&](const modem_receipt_t&) { ++told; });
+  const auto packet = send(0);
+  drain();
+  server_.accept(server_.sends[0]);
+  server_.accept(server_.sends[0]);
+  drain();
+  EXPECT_EQ(told, 1);
+  ASSERT_TRUE(modem_.receipt_of(packet));
+  EXPECT_EQ(modem_.receipt_of(packet)->receipt_result, modem_receipt_t::ACCEPTED);
+  EXPECT_EQ(modem_.counters().accepted, 1);
+}
+
+TEST_F(ModemClientTest, RefusalIsAReceiptToo) {
+  const auto packet = send(0);
+  drain();
+  server_.answer(server_.sends[0], modem_receipt_t::REFUSED_BUSY);
+  drain();
+  ASSERT_TRUE(modem_.receipt_of(packet));
+  EXPECT_EQ(modem_.receipt_of(packet)->receipt_result, modem_receipt_t::REFUSED_BUSY);
+  EXPECT_EQ(modem_.counters().refused, 1);
+}
+
+TEST_F(ModemClientTest, ReceiptOfAnotherLifeIsNotOurs) {
+  const auto packet = send(0);
+  drain();
+  modem_send_t recorded = server_.sends[0];
+  recorded.session = 41;
+  server_.accept(recorded);
+  drain();
+  EXPECT_TRUE(modem_.is_pending(packet));
+}
+
+TEST_F(ModemClientTest, ReceivedPacketsComeOutInOrder) {
+  server_.deliver(8, 2, 0);
+  server_.deliver(8, 2, 1);
+  drain();
+  EXPECT_EQ(modem_.take_received()->packet_sequence, 0);
+  EXPECT_EQ(modem_.take_received()->packet_sequence, 1);
+  EXPECT_FALSE(modem_.take_received());
+}
+
+TEST_F(ModemClientTest, DuplicateOfAPacketIsDropped) {
+  server_.deliver(8, 2, 0);
+  server_.deliver(8, 2, 0);
+  drain();
+  EXPECT_TRUE(modem_.take_received());
+  EXPECT_FALSE(modem_.take_received());
+  EXPECT_EQ(modem_.counters().duplicates, 1);
+}
+
+TEST_F(ModemClientTest, SameNumberFromAnotherSenderOrSessionIsAnotherPacket) {
+  server_.deliver(8, 2, 0);
+  server_.deliver(8, 3, 0);
+  server_.deliver(9, 2, 0);
+  drain();
+  EXPECT_EQ(modem_.counters().received, 3);
+}
+
+TEST_F(ModemClientTest, ReceiveHandlerTakesPacketsInsteadOfTheQueue) {
+  std::vector<std::int64_t> heard;
+  modem_.on_receive([&](const modem_receive_t& packet) { heard.push_back(packet.packet_sequence); });
+  server_.deliver(8, 2, 4);
+  drain();
+  EXPECT_THAT(heard, ElementsAre(4));
+  EXPECT_FALSE(modem_.take_received());
+}
+
+TEST_F(ModemClientTest, MemoryStaysBoundedWhenNobodyTakesPackets) {
+  const auto count = static_cast<std::int64_t>(ModemClient::kMostWaiting) + 5;
+  for (std::int64_t i = 0; i < count; ++i) {
+    server_.deliver(8, 2, i);
+    drain();
+  }
+  EXPECT_EQ(modem_.counters().discarded, 5);
+  EXPECT_EQ(modem_.take_received()->packet_sequence, 5);
+}
+
+TEST_F(ModemClientTest, ImpossibleArgumentsAreRefused) {
+  EXPECT_THROW(modem_.send(at_ms(0), at_ms(0), -1, {}), InvalidArgument);
+  EXPECT_THROW(send(0, std::vector<std::uint8_t>(32769)), InvalidArgument);
+  EXPECT_THROW(ModemClient(bus_, {.vehicle = "AUV 1", .vehicle_id = 1, .session = 1}), InvalidArgument);
+  EXPECT_THROW(ModemClient(bus_, {.vehicle = "auv-1", .vehicle_id = 0, .session = 1}), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace halocline::clients
