@@ -12,8 +12,8 @@ constexpr std::size_t kLongestPayload = 32768;  // modem_send_t
 
 ModemClient::ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy)
     : bus_(bus), address_(std::move(address)), policy_(policy) {
-  require(is_valid_name(address_.vehicle), "vehicle name '" + address_.vehicle + "'; allowed is a name of " +
-                                               std::string(kNameRule));
+  require(is_valid_name(address_.vehicle),
+          "vehicle name '" + address_.vehicle + "'; allowed is a name of " + std::string(kNameRule));
   require(address_.vehicle_id >= 1, "a vehicle's id is a whole number from 1");
   require(policy_.interval > SimDuration(), "the interval between repetitions must be above 0");
   bus_.subscribe<modem_receipt_t>(bus::channels::kReceipt.of(address_.vehicle),

@@ -1,8 +1,9 @@
 // A vehicle's side of its modem: send a packet, learn whether it was accepted, take in what arrives.
 //
 // The bus may lose datagrams; the library repairs that and nothing else. A SEND is repeated, with the same
-// (session, packet_sequence), until its RECEIPT is heard; the channel server answers a repetition with the same
-// receipt and transmits once. A RECEIVE that comes twice is handed on once. What the water loses stays lost.
+// (session, packet_sequence), until its RECEIPT is heard; the channel server answers a repetition with the
+// same receipt and transmits once. A RECEIVE that comes twice is handed on once. What the water loses stays
+// lost.
 //
 // For use within a node: nothing here blocks or reads a clock. Call resend() from the node's step, and take
 // next_resend() into its due time (steady):

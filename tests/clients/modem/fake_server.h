@@ -1,4 +1,5 @@
-// The channel server's side of one modem, as far as a client sees it: what it hears, and answers made by hand.
+// The channel server's side of one modem, as far as a client sees it: what it hears, and answers made by
+// hand.
 #pragma once
 
 #include <string>

@@ -1,0 +1,86 @@
+#include "clients/autopilot/guidance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kOrbitGain = 2.0;  // how sharply the orbit is approached; Beard and McLain use 1 to 4
+
+Eigen::Vector2d horizontal(const Vec3& from, const Vec3& to) { return (to - from).head<2>(); }
+
+double azimuth(const Eigen::Vector2d& north_east) { return std::atan2(north_east.y(), north_east.x()); }
+
+bool is_reached(const Mission& mission, const Progress& progress, const Vec3& position) {
+  const Vec3& waypoint = mission.waypoints[progress.target];
+  if (horizontal(position, waypoint).norm() <= mission.acceptance_radius_m) return true;
+  const Eigen::Vector2d leg = horizontal(progress.leg_start_ned_m, waypoint);
+  const bool has_direction = leg.norm() > mission.acceptance_radius_m;
+  return has_direction && horizontal(waypoint, position).dot(leg) >= 0;
+}
+
+double course_on_leg(const Mission& mission, const Progress& progress, const Vec3& position) {
+  const Vec3& waypoint = mission.waypoints[progress.target];
+  const Eigen::Vector2d leg = horizontal(progress.leg_start_ned_m, waypoint);
+  if (leg.norm() <= mission.acceptance_radius_m) return azimuth(horizontal(position, waypoint));
+  const Eigen::Vector2d along = leg.normalized();
+  const Eigen::Vector2d starboard(-along.y(), along.x());
+  const double cross_track_m = horizontal(progress.leg_start_ned_m, position).dot(starboard);
+  return wrapped(azimuth(along) - std::atan2(cross_track_m, mission.lookahead_m));
+}
+
+double course_on_orbit(const Mission& mission, const Vec3& position) {
+  const Eigen::Vector2d from_center = horizontal(mission.waypoints.back(), position);
+  const double radius = mission.hold_radius_m;
+  return wrapped(azimuth(from_center) + kPi / 2 +
+                 std::atan(kOrbitGain * (from_center.norm() - radius) / radius));
+}
+
+}  // namespace
+
+double wrapped(double angle_rad) {
+  const double turned = std::remainder(angle_rad, 2 * kPi);
+  return turned == -kPi ? kPi : turned;
+}
+
+Progress begin(const Vec3& position_ned_m) { return {.leg_start_ned_m = position_ned_m}; }
+
+Progress advance(const Mission& mission, Progress progress, const Vec3& position_ned_m) {
+  require(!mission.waypoints.empty(), "a mission needs a waypoint");
+  // At most once round: a mission whose waypoints all lie within reach does not spin here.
+  for (std::size_t i = 0; i < mission.waypoints.size() && !progress.at_end; ++i) {
+    if (!is_reached(mission, progress, position_ned_m)) break;
+    const bool last = progress.target + 1 == mission.waypoints.size();
+    if (last && mission.at_end != AtEnd::kLoop) {
+      progress.at_end = true;
+    } else {
+      progress.leg_start_ned_m = mission.waypoints[progress.target];
+      progress.target = last ? 0 : progress.target + 1;
+    }
+  }
+  return progress;
+}
+
+SetPoints set_points(const Mission& mission, const Progress& progress, const Vec3& position_ned_m) {
+  SetPoints points{.z_ned_m = mission.waypoints.at(progress.target).z(), .speed_mps = mission.speed_mps};
+  if (progress.at_end && mission.at_end == AtEnd::kStop) {
+    points.propel = false;
+    points.speed_mps = 0;
+  } else if (progress.at_end) {
+    points.course_rad = course_on_orbit(mission, position_ned_m);
+  } else {
+    points.course_rad = course_on_leg(mission, progress, position_ned_m);
+  }
+  return points;
+}
+
+double above_seabed(const Mission& mission, double z_ned_m, double position_z_m, double altitude_m) {
+  return std::min(z_ned_m, position_z_m + altitude_m - mission.min_altitude_m);
+}
+
+}  // namespace halocline::clients

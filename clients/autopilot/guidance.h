@@ -1,0 +1,63 @@
+// From a mission's waypoints and a vehicle's position to where to head, how deep and how fast.
+//
+// Model: the waypoints are joined by straight legs. On a leg, line-of-sight guidance (Fossen 2021, Handbook,
+// 2nd ed., section 12.3): course = leg's azimuth - atan(cross-track error / lookahead). A waypoint is reached
+// within the acceptance radius (horizontal), or when the plane through it across the leg is passed. After the
+// last one the mission starts again, stops, or holds: a clockwise orbit by a vector field (Beard and McLain
+// 2012, Small Unmanned Aircraft, eq. 10.13): course = azimuth from the centre + pi/2 + atan(gain (distance -
+// radius) / radius). Depth is that of the waypoint ahead, from the start of its leg. Frame: world NED,
+// metres; course clockwise from north, radians. Left out: current (the error it leaves shrinks with the
+// lookahead), obstacles, time of arrival. Pure functions; threads do not matter.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/frames.h"
+
+namespace halocline::clients {
+
+enum class AtEnd { kLoop, kHold, kStop };
+
+struct Mission {
+  std::vector<Vec3> waypoints;     // at least one
+  double speed_mps = 1.5;          // through the water, above 0
+  AtEnd at_end = AtEnd::kHold;     // after the last waypoint
+  double acceptance_radius_m = 5;  // above 0
+  double hold_radius_m = 30;       // of the orbit, above 0
+  double lookahead_m = 15;         // of the line of sight, above 0
+  double min_altitude_m = 3;       // kept above the seabed where the altimeter sees it; 0 or above
+};
+
+// How far a mission has come.
+struct Progress {
+  std::size_t target = 0;  // index of the waypoint ahead
+  Vec3 leg_start_ned_m = Vec3::Zero();
+  bool at_end = false;  // the last waypoint was reached, and the mission does not loop
+};
+
+// What to steer for.
+struct SetPoints {
+  bool propel = true;     // false: stopped, fins amidships
+  double course_rad = 0;  // -pi to pi
+  double z_ned_m = 0;
+  double speed_mps = 0;
+};
+
+// The start of a mission from where the vehicle is.
+Progress begin(const Vec3& position_ned_m);
+
+// Moves on past every waypoint that is reached at this position.
+Progress advance(const Mission& mission, Progress progress, const Vec3& position_ned_m);
+
+// The set points at this position. `progress` is from advance() at the same position.
+SetPoints set_points(const Mission& mission, const Progress& progress, const Vec3& position_ned_m);
+
+// `z_ned_m`, or the deepest z that keeps `mission.min_altitude_m` above a seabed seen `altitude_m` below
+// `position_z_m`, whichever is shallower.
+double above_seabed(const Mission& mission, double z_ned_m, double position_z_m, double altitude_m);
+
+// The same direction within -pi (excluded) to pi.
+double wrapped(double angle_rad);
+
+}  // namespace halocline::clients

@@ -1,0 +1,20 @@
+#include "bus/node_process.h"
+#include "clients/autopilot/autopilot_node.h"
+
+using halocline::bus::NodeProgram;
+
+int main(int argc, char** argv) {
+  halocline::clients::AutopilotConfig config;
+  NodeProgram program;
+  program.program = "halocline-autopilot";
+  program.purpose = "Steers the vehicles that have a [vehicle.mission] along their waypoints.";
+  program.node_name = "autopilot";
+  program.interface =
+      "hears:     CLOCK, STATE.<vehicle>, SENSORS.<vehicle>\n"
+      "publishes: COMMAND.<vehicle>, STATUS.<name>";
+  program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
+  program.make_node = [&](const NodeProgram::Context& context) {
+    return std::make_unique<halocline::clients::AutopilotNode>(context.lcm, context.identity, config);
+  };
+  return halocline::bus::run_node_program(argc, argv, program);
+}
