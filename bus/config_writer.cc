@@ -2,7 +2,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <memory>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "bus/config.h"
 
@@ -38,10 +42,44 @@ std::string quoted(const std::string& value) {
   return text + "\"";
 }
 
+// A table as it will be written. Several bodies may visit one table (each program its keys of [[vehicle]]): the
+// first visit of a key, a section or an item makes it, later ones add what they know.
+struct Table {
+  std::string header;  // comment and [path] line; empty for the document itself
+  std::vector<std::pair<std::string, std::string>> lines;  // key, and its whole line
+  std::vector<std::string> order;                          // of sections and lists
+  std::map<std::string, std::vector<std::unique_ptr<Table>>, std::less<>> tables;
+
+  // The i-th table under `key`, made when it is missing.
+  Table& table(const std::string& key, std::size_t i, const std::string& table_header) {
+    if (!tables.contains(key)) order.push_back(key);
+    auto& list = tables[key];
+    if (i >= list.size()) {
+      list.push_back(std::make_unique<Table>());
+      list.back()->header = table_header;
+    }
+    return *list[i];
+  }
+  void add_line(std::string_view key, std::string line) {
+    for (const auto& [known, text] : lines) {
+      if (known == key) return;
+    }
+    lines.emplace_back(key, std::move(line));
+  }
+  // TOML wants a table's own keys before its sub-tables.
+  void print(std::ostream& out) const {
+    out << header;
+    for (const auto& [key, line] : lines) out << line;
+    for (const std::string& key : order) {
+      for (const auto& table : tables.find(key)->second) table->print(out);
+    }
+  }
+};
+
 class Writer : public ConfigVisitor {
  public:
-  Writer(std::ostringstream& out, std::string path, bool with_comments)
-      : out_(out), path_(std::move(path)), with_comments_(with_comments) {}
+  Writer(Table& table, std::string path, bool with_comments)
+      : table_(table), path_(std::move(path)), with_comments_(with_comments) {}
 
   void number(std::string_view key, double& value, const NumberRule& rule) override {
     line(key, exact(value), described(rule));
@@ -71,41 +109,31 @@ class Writer : public ConfigVisitor {
     for (const Vec3& value : values) text += (text.empty() ? "" : ", ") + array(value);
     line(key, "[" + text + "]", described(rule));
   }
-  // TOML wants a table's own keys before its sub-tables: sections are kept back until the table ends.
   void section(std::string_view key, std::string_view meaning,
                const std::function<void(ConfigVisitor&)>& body) override {
-    std::ostringstream text;
     const std::string path = path_ + std::string(key);
-    text << "\n" << comment_line(meaning) << "[" << path << "]\n";
-    finish(text, path, body);
+    Writer nested(table_.table(std::string(key), 0, "\n" + comment_line(meaning) + "[" + path + "]\n"),
+                  path + ".", with_comments_);
+    body(nested);
   }
   void list(std::string_view key, std::string_view meaning, std::size_t count,
             const std::function<void(std::size_t)>& /*resize*/,
             const std::function<void(ConfigVisitor&, std::size_t)>& item) override {
+    const std::string path = path_ + std::string(key);
     for (std::size_t i = 0; i < count; ++i) {
-      std::ostringstream text;
-      const std::string path = path_ + std::string(key);
-      text << "\n" << comment_line(i == 0 ? meaning : "") << "[[" << path << "]]\n";
-      finish(text, path, [&](ConfigVisitor& v) { item(v, i); });
+      const std::string header = "\n" + comment_line(i == 0 ? meaning : "") + "[[" + path + "]]\n";
+      Writer nested(table_.table(std::string(key), i, header), path + ".", with_comments_);
+      item(nested, i);
     }
   }
   bool given(std::string_view) const override { return true; }
   void problem(std::string_view, std::string_view) override {}
   void shared_with_others() override {}
 
-  const std::string& sections() const { return sections_; }
-
  private:
-  void finish(std::ostringstream& text, const std::string& path,
-              const std::function<void(ConfigVisitor&)>& body) {
-    Writer nested(text, path + ".", with_comments_);
-    body(nested);
-    sections_ += text.str() + nested.sections();
-  }
   void line(std::string_view key, const std::string& value, const std::string& comment) {
-    out_ << key << " = " << value;
-    if (with_comments_ && !comment.empty()) out_ << "  # " << comment;
-    out_ << "\n";
+    const std::string tail = with_comments_ && !comment.empty() ? "  # " + comment : "";
+    table_.add_line(key, std::string(key) + " = " + value + tail + "\n");
   }
   std::string comment_line(std::string_view meaning) const {
     return with_comments_ && !meaning.empty() ? "# " + std::string(meaning) + "\n" : "";
@@ -120,19 +148,20 @@ class Writer : public ConfigVisitor {
     return text.str();
   }
 
-  std::ostringstream& out_;
+  Table& table_;
   std::string path_;
   bool with_comments_;
-  std::string sections_;
 };
 
 }  // namespace
 
 std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments) {
-  std::ostringstream out;
-  Writer writer(out, "", with_comments);
+  Table document;
+  Writer writer(document, "", with_comments);
   body(writer);
-  return out.str() + writer.sections();
+  std::ostringstream out;
+  document.print(out);
+  return out.str();
 }
 
 }  // namespace halocline::bus

@@ -1,0 +1,97 @@
+#include "clients/traffic/traffic_node.h"
+
+#include <algorithm>
+
+#include "bus/scenario.h"
+
+namespace halocline::clients {
+namespace {
+
+constexpr std::int32_t kNumberBytes = 8;
+
+// The first instant of start + k period that is not before `time`.
+SimTime next_packet_at(const VehicleTraffic& traffic, SimTime time) {
+  if (traffic.period == SimDuration()) return SimTime::never();
+  if (time <= traffic.start) return traffic.start;
+  const std::int64_t period = traffic.period.nanoseconds();
+  const std::int64_t passed = ((time - traffic.start).nanoseconds() + period - 1) / period;
+  return traffic.start + traffic.period * passed;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> traffic_payload(std::int64_t number, std::int32_t size) {
+  std::vector<std::uint8_t> payload(static_cast<std::size_t>(size));
+  const auto bits = static_cast<std::uint64_t>(number);
+  for (std::int32_t i = 0; i < size; ++i) {
+    const std::uint64_t value = i < kNumberBytes ? bits >> (8 * i) : bits + static_cast<std::uint64_t>(i);
+    payload[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(value & 0xff);
+  }
+  return payload;
+}
+
+TrafficNode::TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const TrafficConfig& config)
+    : Node(lcm, std::move(identity)) {
+  for (const VehicleTraffic& traffic : config.vehicles) add_sender(config, traffic);
+}
+
+void TrafficNode::add_sender(const TrafficConfig& config, const VehicleTraffic& traffic) {
+  // A session for each vehicle, so that (session, packet_sequence) names a packet without its sender.
+  const auto entropy = static_cast<std::uint64_t>(bus().identity().session);
+  const ModemAddress address{traffic.vehicle, traffic.vehicle_id, bus::session_of(entropy, traffic.vehicle)};
+  senders_.emplace_back(new Sender{traffic,
+                                   destination_id(config, traffic),
+                                   {bus(), address},
+                                   next_packet_at(traffic, SimTime())});
+  Sender* sender = senders_.back().get();
+  sender->modem.on_receive([this, sender](const modem_receive_t& packet) {
+    bus().log().debug("packet-received", "vehicle=" + sender->traffic.vehicle +
+                                             " source=" + std::to_string(packet.source_id) +
+                                             " packet=" + std::to_string(packet.packet_sequence));
+  });
+}
+
+bus::Due TrafficNode::on_due() const {
+  bus::Due due;
+  for (const auto& sender : senders_) {
+    due.sim = std::min(due.sim, sender->next_packet);
+    due.steady = std::min(due.steady, sender->modem.next_resend());
+  }
+  return due;
+}
+
+void TrafficNode::on_step(const bus::Now& now) {
+  for (const auto& sender : senders_) {
+    send_due(*sender, now);
+    sender->modem.resend(now.steady);
+  }
+}
+
+void TrafficNode::send_due(Sender& sender, const bus::Now& now) {
+  if (now.sim < sender.next_packet) return;
+  const VehicleTraffic& traffic = sender.traffic;
+  // Started into a running simulation: packets of the past stay unsent.
+  const SimTime latest = next_packet_at(traffic, now.sim + SimDuration::from_nanoseconds(1)) - traffic.period;
+  const auto number = sender.modem.counters().sent;
+  sender.modem.send(now.steady, latest, sender.destination, traffic_payload(number, traffic.payload_bytes));
+  sender.next_packet = latest + traffic.period;
+}
+
+void TrafficNode::on_restart(const bus::Now& now) {
+  for (const auto& sender : senders_) sender->next_packet = next_packet_at(sender->traffic, now.sim);
+}
+
+std::string TrafficNode::status_text() const {
+  ModemCounters sum;
+  for (const auto& sender : senders_) {
+    const ModemCounters& counters = sender->modem.counters();
+    sum.sent += counters.sent;
+    sum.accepted += counters.accepted;
+    sum.refused += counters.refused;
+    sum.received += counters.received;
+  }
+  return "sent " + std::to_string(sum.sent) + ", accepted " + std::to_string(sum.accepted) + ", refused " +
+         std::to_string(sum.refused) + ", received " + std::to_string(sum.received);
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,49 @@
+// Sends packets for the vehicles of a scenario on a time grid, through the modem library, and counts what comes
+// of them.
+//
+// Packets start at start + k period. A payload begins with the packet's number (8 bytes, little-endian) as far
+// as it is long enough, and goes on with a pattern of it, so that a receiver can check what it got. A packet
+// whose instant passed while the program was not running is not sent late.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bus/node.h"
+#include "clients/modem/modem_client.h"
+#include "clients/traffic/traffic_config.h"
+
+namespace halocline::clients {
+
+// The payload of a packet: `size` bytes told by its number.
+std::vector<std::uint8_t> traffic_payload(std::int64_t number, std::int32_t size);
+
+class TrafficNode : public bus::Node {
+ public:
+  // Throws InvalidArgument for a destination that the scenario does not have.
+  TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const TrafficConfig& config);
+
+  // Of the modem of the i-th vehicle in the configuration.
+  const ModemCounters& counters_of(std::size_t i) const { return senders_.at(i)->modem.counters(); }
+
+ protected:
+  bus::Due on_due() const override;
+  void on_step(const bus::Now& now) override;
+  void on_restart(const bus::Now& now) override;
+  std::string status_text() const override;
+
+ private:
+  struct Sender {
+    VehicleTraffic traffic;
+    std::int32_t destination;
+    ModemClient modem;
+    SimTime next_packet;
+  };
+
+  void add_sender(const TrafficConfig& config, const VehicleTraffic& traffic);
+  void send_due(Sender& sender, const bus::Now& now);
+
+  std::vector<std::unique_ptr<Sender>> senders_;
+};
+
+}  // namespace halocline::clients
