@@ -39,10 +39,8 @@ void TrafficNode::add_sender(const TrafficConfig& config, const VehicleTraffic& 
   // A session for each vehicle, so that (session, packet_sequence) names a packet without its sender.
   const auto entropy = static_cast<std::uint64_t>(bus().identity().session);
   const ModemAddress address{traffic.vehicle, traffic.vehicle_id, bus::session_of(entropy, traffic.vehicle)};
-  senders_.emplace_back(new Sender{traffic,
-                                   destination_id(config, traffic),
-                                   {bus(), address},
-                                   next_packet_at(traffic, SimTime())});
+  senders_.emplace_back(new Sender{
+      traffic, destination_id(config, traffic), {bus(), address}, next_packet_at(traffic, SimTime())});
   Sender* sender = senders_.back().get();
   sender->modem.on_receive([this, sender](const modem_receive_t& packet) {
     bus().log().debug("packet-received", "vehicle=" + sender->traffic.vehicle +
