@@ -18,7 +18,8 @@ Due Node::due() const {
 void Node::step(const Now& now) {
   bus_.log().set_time(now.sim);
   bus_.rethrow_if_failed();
-  if (now.sim_known || on_due().sim == SimTime::at_once()) on_step(now);
+  const Due due = on_due();
+  if (now.sim_known || due.sim == SimTime::at_once() || due.steady <= now.steady) on_step(now);
   if (now.steady >= next_status_) {
     publish_status(now, status_text());
     next_status_ = next_on_grid(now.steady, kStatusPeriod);

@@ -21,7 +21,8 @@ struct Now {
 };
 
 // When a node next wants to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting
-// that does not depend on simulation time (answering a query).
+// that does not depend on simulation time (answering a query). A node that asks for a steady time is stepped
+// then also before simulation time is known (Now::sim_known tells).
 struct Due {
   SimTime sim = SimTime::never();
   SimTime steady = SimTime::never();
