@@ -37,7 +37,7 @@ class EchoBook {
   // Place of a vehicle at the last tick; the vehicle was among those of begin_tick.
   const Vec3& place(VehicleId id) const { return places_.at(id); }
 
-  // The pair is being asked about now.
+  // The terrain was asked about the pair, whether it answered or not.
   void note_asked(const VehiclePair& pair);
   // The survey's `from` is the lower id.
   void store(const VehiclePair& pair, EchoSurvey survey);

@@ -1,0 +1,241 @@
+#include "channel_server/channel_server_messages.h"
+
+#include <algorithm>
+
+#include "bus/message_checks.h"
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+Vec3 to_vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+
+std::vector<double> as_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+AskedEnd to_asked_end(const link_end_t& message) {
+  AskedEnd end{message.vehicle_name, to_vec3(message.position_ned_m)};
+  if (message.modem_choice == link_end_t::MODEM_SCENARIO) return end;
+  if (message.modem_choice != link_end_t::MODEM_GIVEN) {
+    end.problem = "modem_choice is no value of its enumeration";
+    return end;
+  }
+  end.problem = bus::problem_in(message.modem);
+  if (!end.problem.empty()) return end;
+  try {
+    end.modem = to_modem(message.modem);
+  } catch (const InvalidArgument& error) {
+    end.problem = error.what();
+  }
+  return end;
+}
+
+link_answer_t to_message(const LinkAnswer& answer) {
+  link_answer_t message{};
+  message.answer_status = static_cast<std::int8_t>(answer.status);
+  message.problem = answer.problem;
+  if (answer.status != LinkAnswer::Status::kAnswered) return message;
+  message.link = to_message(answer.row);
+  message.getss_received_strength_db = message.link.received_level_db;
+  message.getpd_propagation_delay_s = message.link.delay_s;
+  message.getbw_capacity_kbps = message.link.capacity_bps / 1000;
+  message.getml_multipath = message.link.multipath;
+  return message;
+}
+
+constexpr double kFormulaStepM = 100, kFormulaDepthM = 5000;
+constexpr std::size_t kMostLayers = 2000;  // environment_t
+
+std::vector<double> depths_to_tell(const acoustics::SoundSpeedProfile& profile) {
+  const std::vector<double> rows = profile.row_depths_m();
+  const std::size_t stride = rows.size() / kMostLayers + 1;
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < rows.size(); i += stride) depths.push_back(rows[i]);
+  if (!depths.empty()) return depths;
+  for (double depth = 0; depth <= kFormulaDepthM; depth += kFormulaStepM) depths.push_back(depth);
+  return depths;
+}
+
+}  // namespace
+
+StampedState to_state(const vehicle_state_t& message) {
+  return {SimTime::from_utime(message.utime), to_vec3(message.position_ned_m),
+          to_vec3(message.velocity_ned_mps)};
+}
+
+VehicleModem to_modem(const modem_config_t& message) {
+  VehicleModem modem;
+  modem.modem.source_level = {message.source_level_db};
+  modem.modem.least_receivable_level = {message.cutoff_level_db};
+  modem.modem.centre_frequency_hz = message.center_frequency_hz;
+  modem.modem.bandwidth_hz = message.bandwidth_hz;
+  modem.modem.directivity_index = {message.directivity_index_db};
+  modem.modem.bit_rate_bps = message.bit_rate_bps;
+  modem.modem.packet_overhead = SimDuration::from_seconds(message.packet_overhead_s);
+  modem.max_payload_bytes = message.max_payload_bytes;
+  validate(modem.modem);
+  return modem;
+}
+
+modem_config_t to_message(const VehicleModem& modem, SimTime from) {
+  modem_config_t message{};
+  message.utime = from.to_utime();
+  message.source_level_db = modem.modem.source_level.value;
+  message.cutoff_level_db = modem.modem.least_receivable_level.value;
+  message.center_frequency_hz = modem.modem.centre_frequency_hz;
+  message.bandwidth_hz = modem.modem.bandwidth_hz;
+  message.directivity_index_db = modem.modem.directivity_index.value;
+  message.bit_rate_bps = modem.modem.bit_rate_bps;
+  message.packet_overhead_s = modem.modem.packet_overhead.seconds();
+  message.max_payload_bytes = modem.max_payload_bytes;
+  return message;
+}
+
+SendRequest to_request(std::string_view vehicle, const modem_send_t& message) {
+  return {std::string(vehicle), message.source_id,       message.destination_id,
+          message.session,      message.packet_sequence, SimTime::from_utime(message.utime),
+          message.payload};
+}
+
+modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at) {
+  modem_receipt_t message{};
+  message.utime = answered_at.to_utime();
+  message.send_session = receipt.session;
+  message.packet_sequence = receipt.packet_sequence;
+  message.receipt_result = static_cast<std::int8_t>(receipt.result);
+  message.start_utime = receipt.start.to_utime();
+  message.duration_s = receipt.duration.seconds();
+  return message;
+}
+
+packet_outcome_t to_outcome(const PacketEnd& end, SimTime at) {
+  const SendRequest& request = end.packet->request;
+  packet_outcome_t message{};
+  message.utime = at.to_utime();
+  message.send_session = request.session;
+  message.packet_sequence = request.packet_sequence;
+  message.source_id = request.source_id;
+  message.destination_id = request.destination_id;
+  message.receiver_id = end.receiver_id;
+  message.packet_fate = static_cast<std::int8_t>(end.fate);
+  message.departure_utime = request.start.to_utime();
+  message.travel_time_s = end.travel_time_s;
+  message.duration_s = end.packet->duration.seconds();
+  message.range_m = end.budget.range_m;
+  message.transmission_loss_db = end.budget.transmission_loss.value;
+  message.received_level_db = end.budget.received_level.value;
+  message.noise_level_db = end.budget.noise_level.value;
+  message.snr_db = end.budget.snr.value;
+  message.cutoff_level_db = end.cutoff.value;
+  return message;
+}
+
+modem_receive_t to_receive(const PacketEnd& end, SimTime at) {
+  const SendRequest& request = end.packet->request;
+  modem_receive_t message{};
+  message.utime = at.to_utime();
+  message.send_session = request.session;
+  message.packet_sequence = request.packet_sequence;
+  message.source_id = request.source_id;
+  message.destination_id = request.destination_id;
+  message.receiver_id = end.receiver_id;
+  message.departure_utime = request.start.to_utime();
+  message.travel_time_s = end.travel_time_s;
+  message.received_level_db = end.budget.received_level.value;
+  message.snr_db = end.budget.snr.value;
+  message.payload_size = static_cast<std::int32_t>(request.payload.size());
+  message.payload = request.payload;
+  return message;
+}
+
+link_t to_message(const LinkRow& row) {
+  link_t message{};
+  message.transmitter_id = row.transmitter_id;
+  message.receiver_id = row.receiver_id;
+  message.range_m = row.budget.range_m;
+  message.delay_s = row.budget.delay_s;
+  message.transmission_loss_db = row.budget.transmission_loss.value;
+  message.received_level_db = row.budget.received_level.value;
+  message.noise_level_db = row.budget.noise_level.value;
+  message.snr_db = row.budget.snr.value;
+  message.capacity_bps = row.budget.capacity_bps;
+  message.receivable = row.budget.receivable ? 1 : 0;
+  message.multipath = static_cast<std::int8_t>(row.multipath);
+  message.transmitter_age_s = row.transmitter_age.seconds();
+  message.receiver_age_s = row.receiver_age.seconds();
+  return message;
+}
+
+link_table_t to_message(const LinkTable& table, SimTime at) {
+  link_table_t message{};
+  message.utime = at.to_utime();
+  message.vehicle_id = table.vehicle_id;
+  message.num_peers = static_cast<std::int32_t>(table.rows.size());
+  for (const LinkRow& row : table.rows) message.peers.push_back(to_message(row));
+  return message;
+}
+
+LinkQuestion to_question(const link_query_t& message) {
+  LinkQuestion question{message.client_name, message.request_id, {}, {}};
+  for (const link_end_t& end : message.transmitters) question.transmitters.push_back(to_asked_end(end));
+  for (const link_end_t& end : message.receivers) question.receivers.push_back(to_asked_end(end));
+  return question;
+}
+
+link_reply_t to_message(const LinkReply& reply) {
+  link_reply_t message{};
+  message.utime = reply.at.to_utime();
+  message.request_id = reply.request_id;
+  message.reply_status = reply.refusal.empty() ? link_reply_t::OK : link_reply_t::REFUSED;
+  message.refusal = reply.refusal;
+  message.num_answers = static_cast<std::int32_t>(reply.answers.size());
+  for (const LinkAnswer& answer : reply.answers) message.answers.push_back(to_message(answer));
+  return message;
+}
+
+ray_query_t to_message(const RayBatch& batch, std::string_view client, SimTime asked_at) {
+  ray_query_t message{};
+  message.utime = asked_at.to_utime();
+  message.client_name = client;
+  message.request_id = batch.request_id;
+  message.query_mode = batch.kind == RayBatch::Kind::kDepths ? ray_query_t::DEPTH : ray_query_t::OCCLUDED;
+  message.num_rays = static_cast<std::int32_t>(batch.rays.size());
+  for (const EchoRay& ray : batch.rays) {
+    message.offset_m.push_back(as_vector(ray.origin_ned_m));
+    message.direction.push_back(as_vector(ray.direction));
+    message.greatest_range_m.push_back(ray.greatest_range_m);
+  }
+  return message;
+}
+
+std::vector<RayAnswer> to_answers(const ray_reply_t& message) {
+  std::vector<RayAnswer> answers;
+  for (std::size_t i = 0; i < message.ray_status.size(); ++i) {
+    answers.push_back({static_cast<RayAnswer::Kind>(message.ray_status[i]), message.result_m[i]});
+  }
+  return answers;
+}
+
+environment_t to_message(const acoustics::Environment& environment, SimTime from,
+                         const std::string& terrain_version) {
+  environment_t message{};
+  message.utime = from.to_utime();
+  for (const double depth_m : depths_to_tell(environment.profile)) {
+    const acoustics::WaterSample water = environment.profile.water(depth_m);
+    message.layer_depth_m.push_back(depth_m);
+    message.layer_sound_speed_mps.push_back(environment.profile.sound_speed_mps(depth_m));
+    message.layer_temperature_degc.push_back(water.temperature_degc);
+    message.layer_salinity_psu.push_back(water.salinity_psu);
+  }
+  message.num_layers = static_cast<std::int32_t>(message.layer_depth_m.size());
+  message.wind_speed_mps = environment.noise.wind_mps;
+  message.shipping_activity = environment.noise.shipping;
+  message.acidity_ph = environment.ph;
+  message.sea_surface_z_m = environment.sea_surface_z_m;
+  message.spreading_exponent = environment.spreading_exponent;
+  message.sound_speed_model = to_name(environment.profile.model());
+  message.absorption_model = to_name(environment.absorption_model);
+  message.terrain_version = terrain_version;
+  return message;
+}
+
+}  // namespace halocline::channel_server

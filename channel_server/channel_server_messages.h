@@ -1,0 +1,46 @@
+// Messages of the bus to what the pure part of the channel server knows, and back: total, no judgement beyond
+// what the types force.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bus/messages.h"
+#include "channel_server/echo_asker.h"
+#include "channel_server/fleet.h"
+#include "channel_server/link_desk.h"
+#include "channel_server/link_table.h"
+#include "channel_server/packet.h"
+
+namespace halocline::channel_server {
+
+StampedState to_state(const vehicle_state_t& message);
+
+// A modem that acoustics/modem.h refuses throws InvalidArgument.
+VehicleModem to_modem(const modem_config_t& message);
+modem_config_t to_message(const VehicleModem& modem, SimTime from);
+
+SendRequest to_request(std::string_view vehicle, const modem_send_t& message);
+
+// Session and sequence are the publisher's to fill in.
+modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);
+packet_outcome_t to_outcome(const PacketEnd& end, SimTime at);
+// Only for an end that is to be delivered.
+modem_receive_t to_receive(const PacketEnd& end, SimTime at);
+
+link_t to_message(const LinkRow& row);
+link_table_t to_message(const LinkTable& table, SimTime at);
+
+// An end that cannot be read (a modem with a NaN) carries the problem.
+LinkQuestion to_question(const link_query_t& message);
+link_reply_t to_message(const LinkReply& reply);
+
+ray_query_t to_message(const RayBatch& batch, std::string_view client, SimTime asked_at);
+std::vector<RayAnswer> to_answers(const ray_reply_t& message);
+
+// The profile at the depths of its rows (of more than 2000, every second, third, ...); of a formula, every
+// 100 m down to 5000 m.
+environment_t to_message(const acoustics::Environment& environment, SimTime from,
+                         const std::string& terrain_version);
+
+}  // namespace halocline::channel_server

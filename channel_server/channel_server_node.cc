@@ -1,0 +1,337 @@
+#include "channel_server/channel_server_node.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "bus/channels.h"
+#include "channel_server/channel_server_messages.h"
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+namespace channels = bus::channels;
+
+// What is heard between two steps at most; a second of a thousand vehicles at 50 Hz.
+constexpr std::size_t kMostWaiting = 50'000;
+// A state from further in the future than this says nothing of the present: a clock is wrong.
+constexpr SimDuration kFurthestAhead = SimDuration::from_milliseconds(10'000);
+constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
+// After a jump of time no more tables than these are made up for.
+constexpr std::int64_t kMostTicksBehind = 100;
+// How much longer than their rules say states and receipts are kept, so that no instant still asked about lacks
+// them.
+constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
+// Due as soon as simulation time is known: before every time that a message may tell.
+constexpr SimTime kBeforeAll = SimTime::from_nanoseconds(-4'000'000'000'000'000'000);
+
+SimTime on_grid_from(SimTime now, SimDuration period) {
+  return next_on_grid(now - SimDuration::from_nanoseconds(1), period);
+}
+
+std::string in_base_36(std::uint64_t number) {
+  std::string digits;
+  do {
+    digits += "0123456789abcdefghijklmnopqrstuvwxyz"[number % 36];
+    number /= 36;
+  } while (number != 0);
+  return {digits.rbegin(), digits.rend()};
+}
+
+}  // namespace
+
+ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity,
+                                     std::unique_ptr<Propagation> propagation, const ConfiguredModems& modems,
+                                     const ServerRules& rules)
+    : Node(lcm, std::move(identity)),
+      rules_(rules),
+      propagation_(std::move(propagation)),
+      ray_client_(ray_client_name(bus().identity().session)),
+      fleet_(rules.position, modems),
+      medium_(fleet_, *propagation_, rules.medium),
+      book_(rules.echo_reuse_distance_m),
+      asker_(rules.asking),
+      desk_(fleet_, *propagation_, book_, asker_, {rules.bottom_points, rules.asking.answer_deadline}),
+      next_tick_(kBeforeAll),
+      next_environment_(kBeforeAll) {
+  subscribe_all();
+}
+
+// 13 digits of base 36 hold every session; the name has 24 characters at most.
+std::string ChannelServerNode::ray_client_name(std::int64_t session) {
+  return "channel-" + in_base_36(static_cast<std::uint64_t>(session));
+}
+
+void ChannelServerNode::subscribe_all() {
+  bus().subscribe<vehicle_state_t>(channels::kState,
+                                   [this](std::string_view vehicle, const vehicle_state_t& m) {
+                                     keep(states_, vehicle, m, channels::kState);
+                                   });
+  bus().subscribe<modem_config_t>(channels::kModem,
+                                  [this](std::string_view vehicle, const modem_config_t& m) {
+                                    keep(modems_, vehicle, m, channels::kModem);
+                                  });
+  bus().subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
+    keep(sends_, vehicle, m, channels::kSend);
+  });
+  bus().subscribe<link_query_t>(channels::kLinkQuery, [this](const link_query_t& m) {
+    if (queries_.size() >= LinkDesk::kMostWaiting) {
+      return bus().refuse(channels::kLinkQuery, "too many questions at once");
+    }
+    queries_.push_back(m);
+  });
+  bus().subscribe<ray_reply_t>(channels::kRayReply.of(ray_client_),
+                               [this](const ray_reply_t& m) { ray_replies_.push_back(m); });
+}
+
+template <class Message>
+void ChannelServerNode::keep(Heard<Message>& inbox, std::string_view vehicle, const Message& message,
+                             const bus::Family& family) {
+  if (inbox.size() >= kMostWaiting) return bus().refuse(family.of(vehicle), "too many messages at once");
+  inbox.emplace_back(vehicle, message);
+}
+
+bus::Due ChannelServerNode::on_due() const {
+  bus::Due due;
+  due.sim = std::min({next_tick_, next_environment_, medium_.next_event()});
+  for (const auto& [vehicle, send] : sends_) due.sim = std::min(due.sim, SimTime::from_utime(send.utime));
+  if (!queries_.empty()) due.sim = SimTime::at_once();
+  due.steady = ray_replies_.empty() ? std::min(asker_.due(), desk_.due()) : SimTime::at_once();
+  return due;
+}
+
+void ChannelServerNode::on_step(const bus::Now& now) {
+  take_ray_replies();
+  if (now.sim_known) {
+    take_states(now.sim);
+    take_modems();
+    take_sends(now.sim);
+    run_water_to(now.sim);
+    forget_old(now.sim);
+  }
+  take_questions(now);
+  ask_terrain(now);
+  publish_replies(now.steady);
+}
+
+void ChannelServerNode::take_ray_replies() {
+  for (const ray_reply_t& reply : std::exchange(ray_replies_, {})) {
+    if (reply.terrain_version != terrain_version_) {
+      forget_echoes();
+      terrain_version_ = reply.terrain_version;
+      next_environment_ = kBeforeAll;
+    }
+    if (reply.reply_status == ray_reply_t::OK) {
+      asker_.answer(reply.request_id, to_answers(reply));
+    } else {
+      bus().refuse(channels::kRayReply.of(ray_client_), "the service refused: " + reply.refusal);
+      asker_.refuse(reply.request_id);
+    }
+  }
+  take_finished_surveys();
+}
+
+// Those of another terrain; what is being asked is answered by a mixture of the two.
+void ChannelServerNode::forget_echoes() {
+  if (terrain_version_.empty()) return;
+  book_.clear();
+  surveyed_pairs_.clear();
+}
+
+void ChannelServerNode::take_finished_surveys() {
+  for (EchoAsker::Finished& finished : asker_.take_finished()) {
+    if (desk_.finish(finished)) continue;
+    const auto pair = surveyed_pairs_.extract(finished.id);
+    if (pair.empty()) continue;
+    book_.note_asked(pair.mapped());
+    if (finished.answered) book_.store(pair.mapped(), std::move(finished.survey));
+  }
+}
+
+// By time and name, so that of two that claim one id at one time the same one gets it in every run.
+void ChannelServerNode::take_states(SimTime now) {
+  auto heard = std::exchange(states_, {});
+  std::stable_sort(heard.begin(), heard.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.utime, a.first) < std::tie(b.second.utime, b.first);
+  });
+  for (const auto& [vehicle, message] : heard) {
+    const StampedState state = to_state(message);
+    const std::string problem = state.time > now + kFurthestAhead
+                                    ? "utime lies more than 10 s ahead of simulation time"
+                                    : fleet_.hear_state(vehicle, message.vehicle_id, state);
+    if (!problem.empty()) bus().refuse(channels::kState.of(vehicle), problem);
+  }
+}
+
+void ChannelServerNode::take_modems() {
+  for (const auto& [vehicle, message] : std::exchange(modems_, {})) {
+    try {
+      const std::string problem =
+          fleet_.hear_modem(vehicle, SimTime::from_utime(message.utime), to_modem(message));
+      if (!problem.empty()) bus().refuse(channels::kModem.of(vehicle), problem);
+    } catch (const InvalidArgument& error) {
+      bus().refuse(channels::kModem.of(vehicle), error.what());
+    }
+  }
+}
+
+void ChannelServerNode::take_sends(SimTime now) {
+  auto heard = std::exchange(sends_, {});
+  std::stable_sort(heard.begin(), heard.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.utime, a.first, a.second.session, a.second.packet_sequence) <
+           std::tie(b.second.utime, b.first, b.second.session, b.second.packet_sequence);
+  });
+  for (const auto& [vehicle, message] : heard) {
+    if (const auto receipt = medium_.transmit(to_request(vehicle, message), now))
+      publish_receipt(*receipt, now);
+  }
+}
+
+void ChannelServerNode::run_water_to(SimTime now) {
+  if (now >= next_environment_) publish_environment(now);
+  const SimDuration period = rules_.link_period;
+  if (next_tick_ == kBeforeAll) next_tick_ = on_grid_from(now, period);
+  const SimTime earliest = now - period * kMostTicksBehind;
+  if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, period);
+  for (; next_tick_ <= now; next_tick_ = next_on_grid(next_tick_, period)) {
+    for (const MediumEvent& event : medium_.advance_to(next_tick_)) publish_event(event);
+    publish_links(next_tick_);
+  }
+  for (const MediumEvent& event : medium_.advance_to(now)) publish_event(event);
+}
+
+void ChannelServerNode::publish_event(const MediumEvent& event) {
+  if (const auto* receipt = std::get_if<Receipt>(&event.what)) return publish_receipt(*receipt, event.at);
+  if (event.late) ++bus().counters().late;
+  publish_end(std::get<PacketEnd>(event.what), event.at);
+}
+
+void ChannelServerNode::publish_receipt(const Receipt& receipt, SimTime at) {
+  publish_numbered(channels::kReceipt.of(receipt.vehicle), to_message(receipt, at));
+}
+
+void ChannelServerNode::publish_end(const PacketEnd& end, SimTime at) {
+  if (end.deliver) publish_numbered(channels::kReceive.of(end.receiver), to_receive(end, at));
+  publish_numbered(std::string(channels::kOutcome), to_outcome(end, at));
+}
+
+void ChannelServerNode::publish_environment(SimTime now) {
+  publish_numbered(std::string(channels::kEnvironment),
+                   to_message(propagation_->environment(), now, terrain_version_));
+  next_environment_ = next_on_grid(now, kEnvironmentPeriod);
+}
+
+void ChannelServerNode::publish_links(SimTime tick) {
+  const auto vehicles = place_all(fleet_, tick);
+  const auto tables = link_tables(vehicles, *propagation_, [this](const auto& from, const auto& to) {
+    return book_.at_last_tick(from, to, *propagation_);
+  });
+  for (const LinkTable& table : tables) {
+    publish_numbered(channels::kLinks.of(fleet_.name_of(table.vehicle_id)), to_message(table, tick));
+    links_published_ += static_cast<std::int64_t>(table.rows.size());
+  }
+  begin_echo_tick(vehicles);
+  tell_who_came_and_left(vehicles);
+}
+
+void ChannelServerNode::begin_echo_tick(const std::vector<PlacedVehicle>& vehicles) {
+  for (const EchoAsker::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
+  for (const VehiclePair& pair : book_.begin_tick(vehicles)) {
+    const EchoSurvey survey(book_.place(pair.first), book_.place(pair.second), rules_.bottom_points);
+    surveyed_pairs_.emplace(asker_.ask_routine(survey), pair);
+  }
+}
+
+void ChannelServerNode::tell_who_came_and_left(const std::vector<PlacedVehicle>& vehicles) {
+  std::set<std::string> present;
+  for (const PlacedVehicle& vehicle : vehicles) present.insert(fleet_.name_of(vehicle.id));
+  for (const std::string& name : present) {
+    if (!present_.contains(name)) bus().log().info("vehicle-present", "vehicle=" + name);
+  }
+  for (const std::string& name : present_) {
+    if (!present.contains(name)) bus().log().info("vehicle-gone", "vehicle=" + name);
+  }
+  present_ = std::move(present);
+}
+
+// The earliest instant that can still be asked about is the start of a transmission heard late; its sender may
+// have been silent for the time-out before.
+void ChannelServerNode::forget_old(SimTime now) {
+  const SimTime horizon = now - rules_.medium.greatest_lateness - kKeptLonger;
+  medium_.forget_before(horizon);
+  fleet_.forget_before(horizon - rules_.position.state_timeout - rules_.position.state_lag);
+}
+
+void ChannelServerNode::take_questions(const bus::Now& now) {
+  for (const link_query_t& query : std::exchange(queries_, {})) {
+    desk_.ask(to_question(query), now.sim_known ? std::optional(now.sim) : std::nullopt, now.steady);
+  }
+}
+
+void ChannelServerNode::ask_terrain(const bus::Now& now) {
+  for (const RayBatch& batch : asker_.take_batches(now.steady)) {
+    bus().publish(channels::kRayQuery, to_message(batch, ray_client_, now.sim));
+  }
+  take_finished_surveys();
+  if (asker_.is_away() == told_away_) return;
+  told_away_ = asker_.is_away();
+  if (told_away_) {
+    bus().log().warning("bathymetry-away", "multipath=unknown");
+  } else {
+    bus().log().info("bathymetry-back");
+  }
+}
+
+void ChannelServerNode::publish_replies(SimTime steady) {
+  for (const LinkReply& reply : desk_.take_replies(steady)) {
+    link_reply_t message = to_message(reply);
+    message.session = bus().identity().session;
+    bus().publish(channels::kLinkReply.of(reply.client), message);
+  }
+}
+
+template <class Message>
+void ChannelServerNode::publish_numbered(const std::string& channel, Message message) {
+  message.session = bus().identity().session;
+  message.sequence = sequences_[channel]++;
+  bus().publish(channel, message);
+}
+
+// What was heard in the same turn as the first message of the new run may belong to it, and stays.
+void ChannelServerNode::on_restart(const bus::Now& now) {
+  fleet_.clear();
+  medium_.clear();
+  book_.clear();
+  asker_.clear();
+  desk_.clear();
+  surveyed_pairs_.clear();
+  present_.clear();
+  const std::int64_t latest = (now.sim + kFurthestAhead).to_utime();
+  const auto of_old_run = [&](const auto& heard) { return heard.second.utime > latest; };
+  std::erase_if(states_, of_old_run);
+  std::erase_if(modems_, of_old_run);
+  std::erase_if(sends_, of_old_run);
+  next_tick_ = next_environment_ = kBeforeAll;
+}
+
+std::string ChannelServerNode::status_text() const {
+  const std::string terrain = asker_.is_away()           ? "away"
+                              : terrain_version_.empty() ? "not heard"
+                                                         : "answering";
+  return std::to_string(present_.size()) + " vehicles, " + std::to_string(links_published_) +
+         " links told, " + std::to_string(medium_.packets_in_flight()) + " packets in flight, bathymetry " +
+         terrain + ", " + std::to_string(asker_.counters().surveys_dropped) + " echo surveys dropped, " +
+         std::to_string(asker_.counters().surveys_failed) + " failed";
+}
+
+std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
+                                                       const ChannelServerConfig& config,
+                                                       const bus::Scenario& scenario,
+                                                       const std::string& folder) {
+  auto propagation =
+      std::make_unique<StraightPropagation>(make_environment(config.environment, scenario, folder));
+  return std::make_unique<ChannelServerNode>(lcm, identity, std::move(propagation), make_modems(config),
+                                             config.rules);
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,105 @@
+// The channel server on the bus: hears states, modems and transmissions; publishes the water, the link tables,
+// and what becomes of every packet; answers questions about links.
+//
+// Hears STATE.*, MODEM.*, SEND.*, LINK_QUERY, and RAY_REPLY of its own client name (which contains its session,
+// so that a recorded reply is not taken for its own). Publishes ENVIRONMENT, LINKS.<vehicle>, RECEIPT.<vehicle>,
+// RECEIVE.<vehicle>, OUTCOME, LINK_REPLY.<client>, RAY_QUERY.
+//
+// A step, in this order: answers of the bathymetry service; what was heard of vehicles; the events of the
+// water and the link tables, in the order of their instants, up to now; questions; what is to be asked of the
+// bathymetry service; replies.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/node.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/link_desk.h"
+
+namespace halocline::channel_server {
+
+class ChannelServerNode : public bus::Node {
+ public:
+  ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, std::unique_ptr<Propagation> propagation,
+                    const ConfiguredModems& modems, const ServerRules& rules);
+
+  // Where the bathymetry service's replies to this life of the node go.
+  static std::string ray_client_name(std::int64_t session);
+
+ protected:
+  bus::Due on_due() const override;
+  void on_step(const bus::Now& now) override;
+  void on_restart(const bus::Now& now) override;
+  std::string status_text() const override;
+
+ private:
+  template <class Message>
+  using Heard = std::vector<std::pair<std::string, Message>>;  // by vehicle, in order of arrival
+
+  void subscribe_all();
+  template <class Message>
+  void keep(Heard<Message>& inbox, std::string_view vehicle, const Message& message,
+            const bus::Family& family);
+
+  // Of a step, in order.
+  void take_ray_replies();
+  void forget_echoes();
+  void take_finished_surveys();
+  void take_states(SimTime now);
+  void take_modems();
+  void take_sends(SimTime now);
+  void run_water_to(SimTime now);
+  void take_questions(const bus::Now& now);
+  void ask_terrain(const bus::Now& now);
+  void publish_replies(SimTime steady);
+
+  void publish_event(const MediumEvent& event);
+  void publish_receipt(const Receipt& receipt, SimTime at);
+  void publish_end(const PacketEnd& end, SimTime at);
+  void publish_environment(SimTime now);
+  void publish_links(SimTime tick);
+  void begin_echo_tick(const std::vector<PlacedVehicle>& vehicles);
+  void tell_who_came_and_left(const std::vector<PlacedVehicle>& vehicles);
+  void forget_old(SimTime now);
+  // Publishes `message` with this node's session and the channel's next sequence.
+  template <class Message>
+  void publish_numbered(const std::string& channel, Message message);
+
+  ServerRules rules_;
+  std::unique_ptr<Propagation> propagation_;
+  std::string ray_client_;
+  Fleet fleet_;
+  PacketMedium medium_;
+  EchoBook book_;
+  EchoAsker asker_;
+  LinkDesk desk_;
+
+  Heard<vehicle_state_t> states_;
+  Heard<modem_config_t> modems_;
+  Heard<modem_send_t> sends_;
+  std::vector<link_query_t> queries_;
+  std::vector<ray_reply_t> ray_replies_;
+
+  SimTime next_tick_, next_environment_;
+  std::map<EchoAsker::SurveyId, VehiclePair> surveyed_pairs_;
+  std::map<std::string, std::int64_t> sequences_;  // by channel
+  std::string terrain_version_;
+  std::set<std::string> present_;
+  std::int64_t links_published_ = 0;
+  bool told_away_ = false;
+};
+
+// The node of a scenario whose file lies in `folder`, with straight propagation. Throws InvalidArgument when
+// the water or a modem is impossible.
+std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
+                                                       const ChannelServerConfig& config,
+                                                       const bus::Scenario& scenario,
+                                                       const std::string& folder);
+
+}  // namespace halocline::channel_server
