@@ -1,0 +1,140 @@
+#include "channel_server/channel_server_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/channel_server/channel_fixtures.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using testing::for_s;
+using ::testing::HasSubstr;
+
+ChannelServerConfig read(const std::string& toml) {
+  auto file = bus::ConfigFile::parse(toml, "test.toml");
+  ChannelServerConfig config;
+  file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
+  file.check(/*whole_file=*/false);
+  return config;
+}
+
+std::string errors_of(const std::string& toml) {
+  try {
+    read(toml);
+  } catch (const bus::ConfigErrors& errors) {
+    return errors.what();
+  }
+  return {};
+}
+
+acoustics::Environment water_of(const std::string& toml, const std::string& folder = "") {
+  return make_environment(read(toml).environment, {}, folder);
+}
+
+TEST(ChannelServerConfig, AnEmptyScenarioHasTheWaterOfTheReferenceFigures) {
+  const auto water = water_of("");
+  EXPECT_EQ(water.noise.shipping, 0.5);
+  EXPECT_EQ(water.noise.wind_mps, 0);
+  EXPECT_EQ(water.spreading_exponent, 1.5);
+  EXPECT_EQ(water.profile.row_depths_m().size(), 15u);
+}
+
+TEST(ChannelServerConfig, EveryBuiltInProfileCanBeNamed) {
+  for (const std::string name :
+       {"global-mean", "global-mean-salinity-35", "harris-zorzi", "munk", "isovelocity"}) {
+    EXPECT_GT(water_of("[environment]\nprofile = \"" + name + "\"").profile.sound_speed_mps(500), 1400)
+        << name;
+  }
+}
+
+TEST(ChannelServerConfig, ATableOfWaterIsTaken) {
+  const auto water = water_of(
+      "[environment]\nprofile = \"water-table\"\nwater_rows = [[0, 20, 35], [100, 10, 36]]\n"
+      "wind_mps = 7\nshipping = 0.25\nacidity_ph = 7.9\nabsorption_model = \"thorp\"");
+  EXPECT_EQ(water.profile.water(50).temperature_degc, 15);
+  EXPECT_EQ(water.noise.wind_mps, 7);
+  EXPECT_EQ(water.noise.shipping, 0.25);
+  EXPECT_EQ(water.ph, 7.9);
+  EXPECT_EQ(water.absorption_model, acoustics::AbsorptionModel::kThorp1967);
+}
+
+TEST(ChannelServerConfig, ATableOfSpeedsIsTaken) {
+  const auto water = water_of(
+      "[environment]\nprofile = \"speed-table\"\nspeed_depths_m = [0, 100]\nspeeds_mps = [1500, 1520]\n"
+      "assumed_temperature_degc = 4");
+  EXPECT_EQ(water.profile.sound_speed_mps(50), 1510);
+  EXPECT_EQ(water.profile.water(50).temperature_degc, 4);
+}
+
+TEST(ChannelServerConfig, AFileThatIsNotThereIsAnErrorThatNamesIt) {
+  try {
+    water_of("[environment]\nprofile = \"file\"\nprofile_file = \"no-such.csv\"", "/nowhere");
+    FAIL();
+  } catch (const InvalidArgument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/nowhere/no-such.csv"));
+  }
+}
+
+TEST(ChannelServerConfig, TheScenariosSurfaceAndLatitudeEnterTheWater) {
+  bus::Scenario scenario;
+  scenario.sea_surface_z_m = -1.5;
+  scenario.origin_latitude_deg = 60;
+  const auto water = make_environment({}, scenario, "");
+  EXPECT_EQ(water.sea_surface_z_m, -1.5);
+  EXPECT_NEAR(water.latitude_rad, 1.0472, 1e-4);
+}
+
+TEST(ChannelServerConfig, AVehiclesModemDiffersFromTheStandardOneInWhatItSays) {
+  const auto config = read(
+      "[modem]\nsource_level_db = 170\nbit_rate_bps = 300\n"
+      "[[vehicle]]\nname = \"a\"\nid = 1\n"
+      "[[vehicle]]\nname = \"b\"\nid = 2\n[vehicle.modem]\nsource_level_db = 190\n");
+  const auto modems = make_modems(config);
+  EXPECT_EQ(modems.of("a").modem.source_level.value, 170);
+  EXPECT_EQ(modems.of("b").modem.source_level.value, 190);
+  EXPECT_EQ(modems.of("b").modem.bit_rate_bps, 300);
+}
+
+TEST(ChannelServerConfig, RatesAndTimesAreTaken) {
+  const auto rules =
+      read("[channel_server]\nlink_rate_hz = 4\nstate_lag_s = 0.1\nstate_timeout_s = 3\nbottom_points = 5\n")
+          .rules;
+  EXPECT_EQ(rules.link_period, for_s(0.25));
+  EXPECT_EQ(rules.position.state_lag, for_s(0.1));
+  EXPECT_EQ(rules.position.state_timeout, for_s(3));
+  EXPECT_EQ(rules.bottom_points, 5);
+}
+
+TEST(ChannelServerConfig, EveryErrorIsToldAtOnceWithItsPlace) {
+  const std::string errors = errors_of(
+      "[environment]\nwind_mps = 99\nprofile = \"lake\"\n[modem]\nbandwidth_hz = 60000\n"
+      "[channel_server]\nlink_rate = 3\n");
+  EXPECT_THAT(errors, HasSubstr("test.toml:2"));
+  EXPECT_THAT(errors, HasSubstr("profile"));
+  EXPECT_THAT(errors, HasSubstr("bandwidth_hz"));
+  EXPECT_THAT(errors, HasSubstr("link_rate"));
+}
+
+TEST(ChannelServerConfig, ImpossibleTablesAreErrorsOfTheFile) {
+  EXPECT_THAT(
+      errors_of("[environment]\nprofile = \"water-table\"\nwater_rows = [[100, 20, 35], [0, 10, 36]]"),
+      HasSubstr("water_rows"));
+  EXPECT_THAT(errors_of("[environment]\nprofile = \"water-table\""), HasSubstr("water_rows"));
+  EXPECT_THAT(errors_of("[environment]\nprofile = \"speed-table\"\nspeeds_mps = [1500]"),
+              HasSubstr("speeds_mps"));
+  EXPECT_THAT(errors_of("[environment]\nprofile = \"file\""), HasSubstr("profile_file"));
+}
+
+TEST(ChannelServerConfig, WhatIsPrintedReadsBackTheSame) {
+  ChannelServerConfig config =
+      read("[environment]\nprofile = \"munk\"\n[channel_server]\nlink_rate_hz = 3\n");
+  const std::string printed = bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, true);
+  ChannelServerConfig again = read(printed);
+  EXPECT_EQ(again.environment.profile.source, ProfileSource::kMunk);
+  EXPECT_EQ(again.rules.link_period, config.rules.link_period);
+  EXPECT_EQ(again.modem, config.modem);
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

@@ -1,0 +1,217 @@
+#include "channel_server/channel_server_messages.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "bus/message_checks.h"
+#include "core/check.h"
+#include "tests/channel_server/channel_fixtures.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using testing::at_s;
+using testing::for_s;
+
+VehicleModem odd_modem() {
+  VehicleModem modem;
+  modem.modem.source_level = {171.5};
+  modem.modem.least_receivable_level = {-12.25};
+  modem.modem.centre_frequency_hz = 11520;
+  modem.modem.bandwidth_hz = 4160;
+  modem.modem.directivity_index = {3};
+  modem.modem.bit_rate_bps = 160;
+  modem.modem.packet_overhead = for_s(0.275);
+  modem.max_payload_bytes = 77;
+  return modem;
+}
+
+PacketEnd some_end() {
+  PacketEnd end;
+  SendRequest request = testing::request_of(3, 10, 44, 5);
+  request.destination_id = 4;
+  end.packet = std::make_shared<const Packet>(Packet{request, for_s(0.05), odd_modem().modem, {1, 2, 3}});
+  end.receiver_id = 4;
+  end.receiver = "v4";
+  end.travel_time_s = 1.25;
+  end.cutoff = {70};
+  end.budget = acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5});
+  return end;
+}
+
+TEST(ChannelServerMessages, AModemSurvivesTheRoundTrip) {
+  const modem_config_t message = to_message(odd_modem(), at_s(3));
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(to_modem(message), odd_modem());
+  EXPECT_EQ(message.utime, 3'000'000);
+}
+
+TEST(ChannelServerMessages, AModemOutOfRangeIsRefused) {
+  modem_config_t message = to_message(odd_modem(), at_s(3));
+  message.source_level_db = 300;
+  EXPECT_THROW(to_modem(message), InvalidArgument);
+}
+
+TEST(ChannelServerMessages, AStateKeepsTimePositionAndVelocity) {
+  vehicle_state_t message{};
+  message.utime = 1'500'000;
+  message.position_ned_m[1] = 7;
+  message.velocity_ned_mps[2] = -1;
+  const StampedState state = to_state(message);
+  EXPECT_EQ(state.time, at_s(1.5));
+  EXPECT_EQ(state.position_ned_m, Vec3(0, 7, 0));
+  EXPECT_EQ(state.velocity_ned_mps, Vec3(0, 0, -1));
+}
+
+TEST(ChannelServerMessages, ASendKeepsWhatNamesThePacket) {
+  modem_send_t message{};
+  message.utime = 2'000'000;
+  message.session = 5;
+  message.packet_sequence = 6;
+  message.source_id = 1;
+  message.destination_id = 2;
+  message.payload = {9, 8, 7};
+  const SendRequest request = to_request("auv1", message);
+  EXPECT_EQ(request.vehicle, "auv1");
+  EXPECT_EQ(request.session, 5);
+  EXPECT_EQ(request.packet_sequence, 6);
+  EXPECT_EQ(request.source_id, 1);
+  EXPECT_EQ(request.destination_id, 2);
+  EXPECT_EQ(request.start, at_s(2));
+  EXPECT_EQ(request.payload, message.payload);
+}
+
+TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
+  EXPECT_EQ(static_cast<int>(SendResult::kAccepted), modem_receipt_t::ACCEPTED);
+  EXPECT_EQ(static_cast<int>(SendResult::kBusy), modem_receipt_t::REFUSED_BUSY);
+  EXPECT_EQ(static_cast<int>(SendResult::kTooLarge), modem_receipt_t::REFUSED_TOO_LARGE);
+  EXPECT_EQ(static_cast<int>(SendResult::kUnknownVehicle), modem_receipt_t::REFUSED_UNKNOWN_VEHICLE);
+  EXPECT_EQ(static_cast<int>(SendResult::kWrongSource), modem_receipt_t::REFUSED_WRONG_SOURCE);
+  EXPECT_EQ(static_cast<int>(SendResult::kStale), modem_receipt_t::REFUSED_STALE);
+  EXPECT_EQ(static_cast<int>(SendResult::kTooEarly), modem_receipt_t::REFUSED_TOO_EARLY);
+  EXPECT_EQ(static_cast<int>(PacketFate::kReceived), packet_outcome_t::RECEIVED);
+  EXPECT_EQ(static_cast<int>(PacketFate::kBelowCutoff), packet_outcome_t::BELOW_CUTOFF);
+  EXPECT_EQ(static_cast<int>(PacketFate::kReceiverGone), packet_outcome_t::RECEIVER_GONE);
+  EXPECT_EQ(static_cast<int>(Multipath::kUnlikely), link_t::MULTIPATH_UNLIKELY);
+  EXPECT_EQ(static_cast<int>(Multipath::kLikely), link_t::MULTIPATH_LIKELY);
+  EXPECT_EQ(static_cast<int>(Multipath::kUnknown), link_t::MULTIPATH_UNKNOWN);
+  EXPECT_EQ(static_cast<int>(LinkAnswer::Status::kUnknownVehicle), link_answer_t::UNKNOWN_VEHICLE);
+  EXPECT_EQ(static_cast<int>(LinkAnswer::Status::kBadInput), link_answer_t::BAD_INPUT);
+  EXPECT_EQ(static_cast<int>(RayAnswer::Kind::kHit), ray_reply_t::HIT);
+  EXPECT_EQ(static_cast<int>(RayAnswer::Kind::kMiss), ray_reply_t::MISS);
+  EXPECT_EQ(static_cast<int>(RayAnswer::Kind::kOutside), ray_reply_t::OUTSIDE);
+  EXPECT_EQ(static_cast<int>(RayAnswer::Kind::kNoData), ray_reply_t::NO_DATA);
+  EXPECT_EQ(static_cast<int>(RayAnswer::Kind::kBelowBottom), ray_reply_t::BELOW_BOTTOM);
+  EXPECT_EQ(static_cast<int>(RayAnswer::Kind::kBadInput), ray_reply_t::BAD_INPUT);
+}
+
+TEST(ChannelServerMessages, APacketsEndTellsWhatDecidedIt) {
+  const packet_outcome_t outcome = to_outcome(some_end(), at_s(11.3));
+  EXPECT_EQ(bus::problem_in(outcome), "");
+  EXPECT_EQ(outcome.utime, 11'300'000);
+  EXPECT_EQ(outcome.departure_utime, 10'000'000);
+  EXPECT_EQ(outcome.source_id, 3);
+  EXPECT_EQ(outcome.receiver_id, 4);
+  EXPECT_EQ(outcome.travel_time_s, 1.25);
+  EXPECT_EQ(outcome.duration_s, 0.05);
+  EXPECT_EQ(outcome.range_m, 900);
+  EXPECT_EQ(outcome.cutoff_level_db, 70);
+  EXPECT_EQ(outcome.received_level_db, some_end().budget.received_level.value);
+}
+
+TEST(ChannelServerMessages, AReceivedPacketCarriesItsPayload) {
+  const modem_receive_t receive = to_receive(some_end(), at_s(11.3));
+  EXPECT_EQ(bus::problem_in(receive), "");
+  EXPECT_EQ(receive.payload_size, 5);
+  EXPECT_EQ(receive.payload, some_end().packet->request.payload);
+  EXPECT_EQ(receive.destination_id, 4);
+  EXPECT_EQ(receive.snr_db, some_end().budget.snr.value);
+}
+
+TEST(ChannelServerMessages, AReceiptTellsStartAndDuration) {
+  const Receipt receipt{"v3", 7, 44, SendResult::kAccepted, at_s(10), for_s(0.5)};
+  const modem_receipt_t message = to_message(receipt, at_s(10.1));
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.utime, 10'100'000);
+  EXPECT_EQ(message.start_utime, 10'000'000);
+  EXPECT_EQ(message.duration_s, 0.5);
+  EXPECT_EQ(message.send_session, 7);
+}
+
+TEST(ChannelServerMessages, ALinkTableTellsEveryFieldOfItsRows) {
+  LinkRow row{
+      1,          2,          acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5}), Multipath::kLikely,
+      for_s(0.5), for_s(0.25)};
+  const link_table_t message = to_message(LinkTable{1, {row}}, at_s(4));
+  EXPECT_EQ(bus::problem_in(message), "");
+  ASSERT_EQ(message.num_peers, 1);
+  const link_t& link = message.peers[0];
+  EXPECT_EQ(link.transmitter_id, 1);
+  EXPECT_EQ(link.receiver_id, 2);
+  EXPECT_EQ(link.range_m, row.budget.range_m);
+  EXPECT_EQ(link.delay_s, row.budget.delay_s);
+  EXPECT_EQ(link.transmission_loss_db, row.budget.transmission_loss.value);
+  EXPECT_EQ(link.received_level_db, row.budget.received_level.value);
+  EXPECT_EQ(link.noise_level_db, row.budget.noise_level.value);
+  EXPECT_EQ(link.snr_db, row.budget.snr.value);
+  EXPECT_EQ(link.capacity_bps, row.budget.capacity_bps);
+  EXPECT_EQ(link.receivable, 1);
+  EXPECT_EQ(link.multipath, link_t::MULTIPATH_LIKELY);
+  EXPECT_EQ(link.transmitter_age_s, 0.5);
+  EXPECT_EQ(link.receiver_age_s, 0.25);
+}
+
+TEST(ChannelServerMessages, AModemThatCannotBeReadIsTheProblemOfItsEndAlone) {
+  link_query_t query{};
+  query.client_name = "me";
+  query.transmitters.resize(1);
+  query.receivers.resize(1);
+  query.receivers[0].modem_choice = link_end_t::MODEM_GIVEN;
+  query.receivers[0].modem = to_message(odd_modem(), at_s(0));
+  query.receivers[0].modem.bit_rate_bps = std::numeric_limits<double>::quiet_NaN();
+  const LinkQuestion question = to_question(query);
+  EXPECT_EQ(question.transmitters[0].problem, "");
+  EXPECT_NE(question.receivers[0].problem, "");
+  EXPECT_FALSE(question.receivers[0].modem);
+}
+
+TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {
+  RayBatch batch{7, RayBatch::Kind::kWays, std::vector<EchoRay>(1024, {{1, 2, 3}, {0, 0, 1}, 50})};
+  const ray_query_t message = to_message(batch, "channel-xyz", at_s(9));
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.query_mode, ray_query_t::OCCLUDED);
+  EXPECT_EQ(message.offset_m.at(1023), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(message.greatest_range_m.at(1023), 50);
+  EXPECT_LT(message.getEncodedSize(), 60'000);
+}
+
+TEST(ChannelServerMessages, TheEnvironmentExplainsItself) {
+  const acoustics::Environment water;
+  const environment_t message = to_message(water, at_s(60), "terrain-7");
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.num_layers, 15);
+  EXPECT_EQ(message.layer_temperature_degc.at(1), 15.09);
+  EXPECT_EQ(message.sound_speed_model, "mackenzie");
+  EXPECT_EQ(message.absorption_model, "fisher-simmons");
+  EXPECT_EQ(message.terrain_version, "terrain-7");
+}
+
+TEST(ChannelServerMessages, AProfileThatIsAFormulaIsTabulated) {
+  acoustics::Environment water;
+  water.profile = acoustics::SoundSpeedProfile::munk({10, 35});
+  const environment_t message = to_message(water, at_s(0), "");
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.num_layers, 51);
+}
+
+TEST(ChannelServerMessages, ALongProfileIsThinnedToWhatAMessageHolds) {
+  std::vector<acoustics::SpeedRow> rows;
+  for (int i = 0; i < 5000; ++i) rows.push_back({1.0 * i, 1500});
+  acoustics::Environment water;
+  water.profile = acoustics::SoundSpeedProfile::from_speeds(rows, {10, 35});
+  EXPECT_EQ(bus::problem_in(to_message(water, at_s(0), "")), "");
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

@@ -1,0 +1,195 @@
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/event_log.h"
+#include "tests/channel_server/node_bench.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using halocline::testing::tolerance;
+using testing::FlatBottom;
+using ::testing::HasSubstr;
+using testing::kSpeedMps;
+using testing::NodeBench;
+
+link_end_t at(double north_m, double depth_m) {
+  link_end_t end{};
+  end.position_ned_m[0] = north_m;
+  end.position_ned_m[2] = depth_m;
+  return end;
+}
+
+link_end_t named(const std::string& vehicle) {
+  link_end_t end{};
+  end.vehicle_name = vehicle;
+  return end;
+}
+
+link_end_t with_modem(link_end_t end, const VehicleModem& modem) {
+  end.modem_choice = link_end_t::MODEM_GIVEN;
+  end.modem = to_message(modem, SimTime());
+  return end;
+}
+
+class LinkQueryTest : public ::testing::Test {
+ protected:
+  LinkQueryTest() : bottom_(bench_.lcm(), 100) { bus::set_log_level(bus::LogLevel::kSilent); }
+
+  void publish(const std::vector<std::pair<link_end_t, link_end_t>>& links, std::int64_t request_id = 1) {
+    link_query_t query{};
+    query.client_name = "tester";
+    query.request_id = request_id;
+    query.num_links = static_cast<std::int32_t>(links.size());
+    for (const auto& [from, to] : links) query.transmitters.push_back(from), query.receivers.push_back(to);
+    bench_.bus().publish("LINK_QUERY", query);
+  }
+  link_reply_t ask(const std::vector<std::pair<link_end_t, link_end_t>>& links, double time_s = 1) {
+    publish(links);
+    bench_.step(time_s);
+    return bench_.replies.at(0).message;
+  }
+  link_answer_t ask_one(const link_end_t& from, const link_end_t& to) {
+    return ask({{from, to}}).answers.at(0);
+  }
+  void expect_bad(const link_end_t& end, const std::string& text) {
+    bench_.replies.clear();
+    const auto answer = ask_one(at(0, 50), end);
+    EXPECT_EQ(answer.answer_status, link_answer_t::BAD_INPUT);
+    EXPECT_THAT(answer.problem, HasSubstr(text));
+    EXPECT_THAT(answer.problem, HasSubstr("receiver"));
+  }
+
+  NodeBench bench_;
+  FlatBottom bottom_;
+};
+
+TEST_F(LinkQueryTest, TheFourQueriesOfThePaperAreFieldsOfTheAnswer) {
+  const auto answer = ask_one(at(0, 50), at(1500, 50));
+  EXPECT_EQ(answer.answer_status, link_answer_t::ANSWERED);
+  EXPECT_EQ(answer.getss_received_strength_db, answer.link.received_level_db);
+  EXPECT_NEAR(answer.getpd_propagation_delay_s, 1500 / kSpeedMps, tolerance(1e-12));
+  EXPECT_EQ(answer.getbw_capacity_kbps, answer.link.capacity_bps / 1000);
+  EXPECT_EQ(answer.getml_multipath, answer.link.multipath);
+  EXPECT_EQ(answer.link.transmitter_id, 0);
+}
+
+TEST_F(LinkQueryTest, TheAnswerIsThatOfTheLinkModelForModemsGiven) {
+  VehicleModem quiet = testing::quick_modem(), keen = testing::quick_modem();
+  quiet.modem.source_level = {150};
+  keen.modem.directivity_index = {10};
+  const auto answer = ask_one(with_modem(at(0, 50), quiet), with_modem(at(700, 90), keen));
+  const auto expected =
+      acoustics::link_budget(testing::even_water(), quiet.modem, keen.modem, {0, 0, 50}, {700, 0, 90});
+  EXPECT_EQ(answer.link.received_level_db, expected.received_level.value);
+  EXPECT_EQ(answer.link.snr_db, expected.snr.value);
+  EXPECT_EQ(answer.link.capacity_bps, expected.capacity_bps);
+}
+
+TEST_F(LinkQueryTest, VehiclesAreWhereTheirStatesSayAtThatInstant) {
+  bench_.state(1, 0, {0, 0, 50});
+  bench_.state(2, 0, {1000, 0, 50}, {10, 0, 0});
+  bench_.step(2);
+  const auto answer = ask({{named("v1"), named("v2")}}, 3).answers.at(0);
+  EXPECT_EQ(answer.link.receiver_id, 2);
+  EXPECT_NEAR(answer.link.range_m, 1030, tolerance(1e-9));
+  EXPECT_NEAR(answer.link.receiver_age_s, 3, tolerance(1e-12));
+}
+
+TEST_F(LinkQueryTest, AVehicleNotHeardIsSaidToBeUnknown) {
+  const auto answer = ask_one(named("ghost"), at(0, 50));
+  EXPECT_EQ(answer.answer_status, link_answer_t::UNKNOWN_VEHICLE);
+  EXPECT_THAT(answer.problem, HasSubstr("ghost"));
+}
+
+TEST_F(LinkQueryTest, WithoutSimulationTimeVehiclesAreUnknownAndPositionsAreAnswered) {
+  bench_.state(1, 0, {0, 0, 50});
+  publish({{named("v1"), at(0, 50)}, {at(0, 50), at(100, 50)}});
+  bench_.step(1, /*known=*/false);
+  const auto& answers = bench_.replies.at(0).message.answers;
+  EXPECT_EQ(answers.at(0).answer_status, link_answer_t::UNKNOWN_VEHICLE);
+  EXPECT_EQ(answers.at(1).answer_status, link_answer_t::ANSWERED);
+}
+
+TEST_F(LinkQueryTest, EachLinkIsJudgedOnItsOwn) {
+  const auto reply = ask({{at(0, 50), at(100, 50)}, {at(0, 50), at(0, -5)}, {at(0, 50), at(200, 50)}});
+  EXPECT_EQ(reply.reply_status, link_reply_t::OK);
+  EXPECT_EQ(reply.answers.at(0).answer_status, link_answer_t::ANSWERED);
+  EXPECT_EQ(reply.answers.at(1).answer_status, link_answer_t::BAD_INPUT);
+  EXPECT_NEAR(reply.answers.at(2).link.range_m, 200, tolerance(1e-9));
+}
+
+TEST_F(LinkQueryTest, ImpossibleEndsAreRefusedWithClearWords) {
+  expect_bad(at(0, -1), "above the sea surface");
+  expect_bad(at(0, 13000), "deeper than 12000 m");
+  expect_bad(at(std::numeric_limits<double>::quiet_NaN(), 50), "no position");
+  expect_bad(at(std::numeric_limits<double>::infinity(), 50), "no position");
+  expect_bad(named("Not A Name"), "no name");
+  link_end_t strange = at(0, 50);
+  strange.modem_choice = 7;
+  expect_bad(strange, "modem_choice");
+}
+
+TEST_F(LinkQueryTest, ImpossibleModemsAreRefusedWithClearWords) {
+  VehicleModem modem = testing::quick_modem();
+  modem.modem.bandwidth_hz = 60'000;  // around 25 kHz
+  expect_bad(with_modem(at(0, 50), modem), "bandwidth");
+  modem = testing::quick_modem();
+  modem.modem.source_level = {std::numeric_limits<double>::quiet_NaN()};
+  expect_bad(with_modem(at(0, 50), modem), "source_level_db");
+  modem = testing::quick_modem();
+  modem.modem.directivity_index = {41};
+  expect_bad(with_modem(at(0, 50), modem), "directivity index");
+}
+
+TEST_F(LinkQueryTest, AQuestionWithoutLinksOrWithTooManyIsRefusedAsAWhole) {
+  EXPECT_EQ(ask({}).reply_status, link_reply_t::REFUSED);
+  bench_.replies.clear();
+  const auto reply = ask(std::vector<std::pair<link_end_t, link_end_t>>(201, {at(0, 50), at(1, 50)}));
+  EXPECT_EQ(reply.reply_status, link_reply_t::REFUSED);
+  EXPECT_THAT(reply.refusal, HasSubstr("1 to 200"));
+  EXPECT_TRUE(reply.answers.empty());
+}
+
+TEST_F(LinkQueryTest, TwoHundredLinksAreAnswered) {
+  const auto reply = ask(std::vector<std::pair<link_end_t, link_end_t>>(200, {at(0, 50), at(400, 50)}));
+  ASSERT_EQ(reply.num_answers, 200);
+  EXPECT_EQ(reply.answers.back().link.multipath, link_t::MULTIPATH_LIKELY);
+}
+
+TEST_F(LinkQueryTest, ARepetitionWhileWaitingIsAnsweredOnce) {
+  bottom_.set_away(true);
+  publish({{at(0, 50), at(1, 50)}}, 3);
+  publish({{at(0, 50), at(1, 50)}}, 3);
+  bench_.step(1);
+  bench_.step(1.25);
+  EXPECT_EQ(bench_.replies.size(), 1u);
+}
+
+TEST_F(LinkQueryTest, TooManyWaitingQuestionsAreRefused) {
+  bottom_.set_away(true);
+  for (int i = 0; i < 40; ++i) publish({{at(0, 50), at(1, 50)}}, i);
+  bench_.step(1);
+  for (int i = 40; i < 80; ++i) publish({{at(0, 50), at(1, 50)}}, i);
+  bench_.step(1.01);
+  EXPECT_EQ(bench_.replies.size(), 16u);
+  EXPECT_THAT(bench_.replies.back().message.refusal, HasSubstr("too many questions"));
+  bench_.step(1.26);
+  EXPECT_EQ(bench_.replies.size(), 80u);
+}
+
+TEST_F(LinkQueryTest, TheReplyGoesToItsClientWithItsNumber) {
+  publish({{at(0, 50), at(1, 50)}}, 123456789);
+  bench_.step(7);
+  EXPECT_EQ(bench_.replies.at(0).channel, "LINK_REPLY.tester");
+  EXPECT_EQ(bench_.replies.at(0).message.request_id, 123456789);
+  EXPECT_EQ(bench_.replies.at(0).message.utime, 7'000'000);
+  EXPECT_EQ(bench_.replies.at(0).message.session, NodeBench::kSession);
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

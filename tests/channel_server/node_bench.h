@@ -1,0 +1,174 @@
+// A channel server on a bus of its own (memq), with hands to publish as vehicles do, an ear for everything it
+// says, and a bathymetry service that can be switched off.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "bus/channels.h"
+#include "channel_server/channel_server_messages.h"
+#include "channel_server/channel_server_node.h"
+#include "tests/channel_server/channel_fixtures.h"
+
+namespace halocline::channel_server::testing {
+
+namespace channels = bus::channels;
+
+// Answers RAY_QUERY over a flat bottom: every way free.
+class FlatBottom {
+ public:
+  FlatBottom(lcm::LCM& lcm, double bottom_z_m) : bus_(lcm, {"bathymetry", 11}), bottom_z_m_(bottom_z_m) {
+    bus_.subscribe<ray_query_t>(channels::kRayQuery, [this](const ray_query_t& query) { answer(query); });
+  }
+  void set_away(bool away) { away_ = away; }
+  void set_terrain(const std::string& version) { terrain_ = version; }
+  const std::vector<ray_query_t>& heard() const { return heard_; }
+
+ private:
+  void answer(const ray_query_t& query) {
+    heard_.push_back(query);
+    if (away_) return;
+    const bool depth = query.query_mode == ray_query_t::DEPTH;
+    ray_reply_t reply{};
+    reply.utime = query.utime;
+    reply.session = 11;
+    reply.request_id = query.request_id;
+    reply.terrain_version = terrain_;
+    reply.num_rays = query.num_rays;
+    reply.ray_status.assign(static_cast<std::size_t>(query.num_rays),
+                            depth ? ray_reply_t::HIT : ray_reply_t::MISS);
+    reply.result_m.assign(static_cast<std::size_t>(query.num_rays), depth ? bottom_z_m_ : 0);
+    bus_.publish(channels::kRayReply.of(query.client_name), reply);
+  }
+
+  bus::Bus bus_;
+  double bottom_z_m_;
+  bool away_ = false;
+  std::string terrain_ = "flat-1";
+  std::vector<ray_query_t> heard_;
+};
+
+// One message heard, by channel and arrival.
+template <class Message>
+struct HeardOn {
+  std::string channel;
+  Message message;
+};
+
+class NodeBench {
+ public:
+  static constexpr std::int64_t kSession = 4711;
+
+  explicit NodeBench(ServerRules rules = {}, ConfiguredModems modems = {quick_modem(), {}},
+                     acoustics::Environment water = even_water())
+      : lcm_("memq://"),
+        node_(lcm_, {"channel-server", kSession}, std::make_unique<StraightPropagation>(std::move(water)),
+              modems, rules),
+        bus_(lcm_, {"test", 1}) {
+    hear(channels::kLinks, links);
+    hear(channels::kReceipt, receipts);
+    hear(channels::kReceive, receives);
+    hear(channels::kLinkReply, replies);
+    hear(channels::kStatus, statuses);
+    bus_.subscribe<packet_outcome_t>(channels::kOutcome,
+                                     [this](const packet_outcome_t& m) { outcomes.push_back(m); });
+    bus_.subscribe<environment_t>(channels::kEnvironment,
+                                  [this](const environment_t& m) { environments.push_back(m); });
+  }
+
+  lcm::LCM& lcm() { return lcm_; }
+  ChannelServerNode& node() { return node_; }
+  bus::Bus& bus() { return bus_; }
+
+  void state(VehicleId id, double time_s, const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
+    state_of(name_of(id), id, time_s, position, velocity);
+  }
+  void state_of(const std::string& name, VehicleId id, double time_s, const Vec3& position,
+                const Vec3& velocity = Vec3::Zero()) {
+    vehicle_state_t message{};
+    message.utime = at_s(time_s).to_utime();
+    message.vehicle_id = id;
+    message.orientation_wxyz[0] = 1;
+    for (int i = 0; i < 3; ++i)
+      message.position_ned_m[i] = position[i], message.velocity_ned_mps[i] = velocity[i];
+    bus_.publish(channels::kState.of(name), message);
+  }
+  modem_send_t send(VehicleId source, double time_s, std::int64_t sequence, std::int32_t bytes = 1,
+                    VehicleId destination = 0) {
+    modem_send_t message{};
+    message.utime = at_s(time_s).to_utime();
+    message.session = 7;
+    message.packet_sequence = sequence;
+    message.source_id = source;
+    message.destination_id = destination;
+    message.payload_size = bytes;
+    message.payload.assign(static_cast<std::size_t>(bytes), 0x42);
+    bus_.publish(channels::kSend.of(name_of(source)), message);
+    return message;
+  }
+
+  // Steps at `time_s` until the node wants no more at that instant. `known` false: no simulation time yet.
+  void step(double time_s, bool known = true) { step(at_s(time_s), at_s(time_s), known); }
+  void step(SimTime sim, SimTime steady, bool known = true) {
+    drain();
+    for (int turn = 0; turn < 1000; ++turn) {
+      node_.step({known ? sim : SimTime(), steady, known});
+      drain();
+      const bus::Due due = node_.due();
+      const bool again = due.steady <= steady || due.sim == SimTime::at_once() || (known && due.sim <= sim);
+      if (!again) return;
+    }
+    ADD_FAILURE() << "the node keeps itself busy";
+  }
+  // As a runner does: from instant to instant at which the node is due, up to and with `end_s`.
+  void run_to(double end_s) {
+    for (;;) {
+      drain();
+      const bus::Due due = node_.due();
+      const SimTime next = std::max(std::min(due.sim, due.steady), now_);
+      if (next > at_s(end_s)) break;
+      now_ = next;
+      step(now_, now_);
+    }
+    now_ = at_s(end_s);
+  }
+  void drain() {
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+  }
+
+  // Rows of the last table of a vehicle; fails the test when there is none.
+  const link_table_t& last_table(VehicleId id) const {
+    for (auto table = links.rbegin(); table != links.rend(); ++table) {
+      if (table->message.vehicle_id == id) return table->message;
+    }
+    throw std::runtime_error("no table of vehicle " + std::to_string(id));
+  }
+
+  std::vector<HeardOn<link_table_t>> links;
+  std::vector<HeardOn<modem_receipt_t>> receipts;
+  std::vector<HeardOn<modem_receive_t>> receives;
+  std::vector<HeardOn<link_reply_t>> replies;
+  std::vector<HeardOn<node_status_t>> statuses;
+  std::vector<packet_outcome_t> outcomes;
+  std::vector<environment_t> environments;
+
+ private:
+  template <class Message>
+  void hear(const bus::Family& family, std::vector<HeardOn<Message>>& into) {
+    bus_.subscribe<Message>(family, [&into, family](std::string_view name, const Message& message) {
+      into.push_back({family.of(name), message});
+    });
+  }
+
+  lcm::LCM lcm_;
+  ChannelServerNode node_;
+  bus::Bus bus_;
+  SimTime now_;
+};
+
+}  // namespace halocline::channel_server::testing
