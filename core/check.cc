@@ -27,10 +27,10 @@ double require_finite(double value, std::string_view what) {
   throw InvalidArgument(text.str());
 }
 
-void ensure(bool condition, std::string_view message, std::source_location where) {
+void ensure(bool condition, std::string_view message, CallPlace where) {
   if (condition) return;
-  std::fprintf(stderr, "%s:%u: broken invariant in %s: %.*s\n", where.file_name(), unsigned{where.line()},
-               where.function_name(), static_cast<int>(message.size()), message.data());
+  std::fprintf(stderr, "%s:%d: broken invariant in %s: %.*s\n", where.file, where.line, where.function,
+               static_cast<int>(message.size()), message.data());
   std::abort();
 }
 

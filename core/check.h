@@ -8,7 +8,6 @@
 // file.
 #pragma once
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -32,8 +31,18 @@ double require_in_range(double value, double lowest, double highest, std::string
 // Throws InvalidArgument unless `value` is neither NaN nor infinite. Returns `value`.
 double require_finite(double value, std::string_view what);
 
+// Where a call stands: what std::source_location tells, which clang 14 (clang-tidy, clangd) lacks.
+struct CallPlace {
+  const char* file;
+  int line;
+  const char* function;
+  static constexpr CallPlace here(const char* file = __builtin_FILE(), int line = __builtin_LINE(),
+                                  const char* function = __builtin_FUNCTION()) {
+    return {file, line, function};
+  }
+};
+
 // Stops the program with the place of the call unless `condition` holds.
-void ensure(bool condition, std::string_view message,
-            std::source_location where = std::source_location::current());
+void ensure(bool condition, std::string_view message, CallPlace where = CallPlace::here());
 
 }  // namespace halocline
