@@ -41,6 +41,7 @@ struct Bus::Subscription {
   RawHandler handler;
   lcm::Subscription* lcm_subscription = nullptr;
 
+  // LCM takes no const handler. NOLINTNEXTLINE(readability-make-member-function-const)
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     if (bus->failure_) return;  // one failure ends the node; nothing more is handled on its way out
     try {

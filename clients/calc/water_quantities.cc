@@ -14,7 +14,7 @@ using acoustics::AbsorptionModel;
 
 // A form that needs no preparation.
 QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
-                   RowFunction function) {
+                   const RowFunction& function) {
   return {std::move(model), std::move(inputs), std::move(outputs),
           [function](const CalcOptions&) { return function; }};
 }
