@@ -10,8 +10,6 @@ constexpr double kTinyDirection = 1e-20;
 // A block is leapt over only when the ray clears it by this: far above the rounding of the ray's depth (1e-12
 // m), far below what anyone measures.
 constexpr double kBlockSlackM = 1e-9;
-// Where the search starts: blocks of 4 x 4 cells. Steep rays end there, long ones climb as they go.
-constexpr int kStartLevel = 2;
 
 // The tiny component points into the grid, so that a ray along the grid's edge stays inside.
 double away_from_zero(double component, double position, int cells) {

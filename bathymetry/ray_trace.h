@@ -34,6 +34,9 @@ struct GridRay {
 // so that no division is 0 / 0.
 GridRay to_grid_ray(const GridGeometry& geometry, const Vec3& origin_ned_m, const Vec3& direction);
 
+// The pyramid level on which a search starts: blocks of 8 x 8 cells. Steep rays end there, long ones climb.
+inline constexpr int kStartLevel = 3;
+
 // A range of the ray's parameter, metres. Empty when begin >= end.
 struct Interval {
   double begin_m = 0, end_m = 0;

@@ -114,6 +114,7 @@ class Terrain {
   void nest(NestedGrid nested, std::size_t number);
   std::size_t patch_around(const GridGeometry& geometry, std::size_t number) const;
   const Patch& finest_patch(const Patch& from, double x_m, double y_m) const;
+  bool is_surely_in_water(const Vec3& point_ned_m) const;
   DepthSample sample(const Patch& patch, double x_m, double y_m) const;
   TraceResult trace(const Patch& patch, const Ray& unit_ray, Interval interval, const Patch** owner) const;
   RayHit finish(const Ray& unit_ray, const TraceResult& result, const Patch* owner, Interval inside) const;
