@@ -1,0 +1,137 @@
+#include "bathymetry/bathymetry_config.h"
+
+namespace halocline::bathymetry {
+namespace {
+
+using bus::ConfigVisitor;
+
+void visit_domain(ConfigVisitor& v, DomainRecipe& d) {
+  v.number("center_north_m", d.center_north_m, {-1e6, 1e6, "m", "centre of the grid, north of the origin"});
+  v.number("center_east_m", d.center_east_m, {-1e6, 1e6, "m", "centre of the grid, east of the origin"});
+  v.number("size_north_m", d.size_north_m, {0.1, 1e6, "m", "extent, a whole multiple of the spacing"});
+  v.number("size_east_m", d.size_east_m, {0.1, 1e6, "m", "extent, a whole multiple of the spacing"});
+  v.number("spacing_m", d.spacing_m, {0.01, 1e5, "m", "distance between posts"});
+  if (!d.is_possible()) {
+    v.problem("spacing_m",
+              "allowed is a spacing that divides size_north_m and size_east_m, 1 to 32768 times");
+  }
+}
+
+void visit_bounds(ConfigVisitor& v, RasterOptions& r) {
+  RasterBounds bounds = r.bounds.value_or(RasterBounds{});
+  const bool given = v.given("bounds") && (r.bounds || v.given("row_order"));
+  std::vector<double> numbers;
+  if (r.bounds) numbers = {bounds.west, bounds.south, bounds.east, bounds.north};
+  v.numbers("bounds", numbers,
+            {-1e8, 1e8, "",
+             "only for a raster without a geotransform: west, south, east, north of its pixel edges"});
+  bus::choice(v, "row_order", bounds.row_order, {"north_first", "south_first"},
+              "with bounds: how the file stores rows");
+  if (numbers.empty()) return;
+  if (numbers.size() != 4 || !(numbers[0] < numbers[2] && numbers[1] < numbers[3])) {
+    return v.problem("bounds",
+                     "allowed are four numbers: west, south, east, north; west < east, south < north");
+  }
+  if (!given) v.problem("row_order", "bounds need it: allowed are north_first, south_first");
+  r.bounds = RasterBounds{numbers[0], numbers[1], numbers[2], numbers[3], bounds.row_order};
+}
+
+void visit_raster(ConfigVisitor& v, RasterOptions& r) {
+  v.text("path", r.path, {}, "the file, or what GDAL calls it; relative to the scenario's folder");
+  v.text("variable", r.variable, {}, "of a netCDF file that holds several; empty: the only one");
+  bus::integer_as(v, "band", r.band, {1, 1000, "", "band of the raster"});
+  v.boolean("positive_down", r.positive_down, "true for a file of depths instead of heights");
+  std::vector<double> no_data;
+  if (r.no_data) no_data = {*r.no_data};
+  v.numbers("no_data", no_data, {-3.5e38, 3.5e38, "", "empty, or one more value that means no data"});
+  if (no_data.size() > 1) v.problem("no_data", "allowed is an array of no or one number");
+  if (no_data.size() == 1) r.no_data = no_data.front();
+  v.boolean("trust_every_value", r.trust_every_value,
+            "true: no value is suspected of being undeclared no data");
+  bus::choice(v, "registration", r.registration, {"as_declared", "node"},
+              "node: the outermost posts lie on the file's bounds, not half a pixel inside");
+  visit_bounds(v, r);
+  v.text("coordinate_system", r.coordinate_system, {},
+         "where the file names none: EPSG:..., or local for metres");
+  v.text("vertical_datum", r.vertical_datum, {}, "name of the file's vertical datum, where it names none");
+  v.number("datum_offset_m", r.datum_offset_m, {-200, 200, "m", "added to every depth"});
+}
+
+void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
+  constexpr double kDeep = 12'000;
+  v.section("flat", "kind = flat", [&](ConfigVisitor& s) {
+    s.number("depth_m", t.flat.depth_m, {-kDeep, kDeep, "m", "z of the bottom"});
+  });
+  v.section("slope", "kind = slope: a plane", [&](ConfigVisitor& s) {
+    s.number("depth_m", t.slope.depth_m, {-kDeep, kDeep, "m", "z of the bottom at the origin"});
+    s.number("slope", t.slope.slope, {-10, 10, "", "metres down a metre along the azimuth"});
+    bus::degrees(s, "azimuth_deg", t.slope.azimuth_rad,
+                 {-360, 360, "deg", "where it falls away, clockwise from north"});
+  });
+  v.section("ridge", "kind = ridge: Gaussian across, endless along", [&](ConfigVisitor& s) {
+    s.number("depth_m", t.ridge.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
+    s.number("height_m", t.ridge.height_m,
+             {-kDeep, kDeep, "m", "of the crest above that; negative: a trench"});
+    s.number("half_width_m", t.ridge.half_width_m, {0.001, 1e6, "m", "Gaussian scale across"});
+    s.number("crest_north_m", t.ridge.crest_x_m, {-1e6, 1e6, "m", "a point of the crest, north"});
+    s.number("crest_east_m", t.ridge.crest_y_m, {-1e6, 1e6, "m", "a point of the crest, east"});
+    bus::degrees(s, "azimuth_deg", t.ridge.azimuth_rad,
+                 {-360, 360, "deg", "along the crest, clockwise from north"});
+  });
+  v.section("seamount", "kind = seamount: a round Gaussian", [&](ConfigVisitor& s) {
+    s.number("depth_m", t.seamount.depth_m, {-kDeep, kDeep, "m", "z of the bottom far from it"});
+    s.number("height_m", t.seamount.height_m,
+             {-kDeep, kDeep, "m", "of the summit above that; negative: a basin"});
+    s.number("radius_m", t.seamount.radius_m, {0.001, 1e6, "m", "Gaussian scale"});
+    s.number("summit_north_m", t.seamount.summit_x_m, {-1e6, 1e6, "m", "the summit, north"});
+    s.number("summit_east_m", t.seamount.summit_y_m, {-1e6, 1e6, "m", "the summit, east"});
+  });
+}
+
+void visit_relief(ConfigVisitor& v, FractalRelief& r) {
+  v.number("rms_m", r.rms_m, {0, 5000, "m", "standard deviation; 0: no relief"});
+  v.number("longest_wavelength_m", r.longest_wavelength_m, {0.01, 1e6, "m", "of the largest features"});
+  v.number("shortest_wavelength_m", r.shortest_wavelength_m,
+           {0.01, 1e6, "m", "of the smallest; below two posts: cut"});
+  v.number("hurst", r.hurst, {0, 1, "", "smaller is rougher at small scale; the sea floor has about 0.9"});
+  bus::integer_as(v, "seed", r.seed, {0, 9e15, "", "another seed is another relief"});
+  if (r.shortest_wavelength_m > r.longest_wavelength_m) {
+    v.problem("shortest_wavelength_m", "allowed is at most longest_wavelength_m");
+  }
+}
+
+void visit_nested(ConfigVisitor& v, NestedRecipe& n) {
+  visit_domain(v, n.domain);
+  v.number("blend_width_m", n.blend_width_m,
+           {0, 1e5, "m", "inside its border, drawn to the grid around over this"});
+  bus::choice(v, "holes", n.holes, {"keep", "fill_from_around"}, "posts without data in the finer raster");
+  v.section("raster", "the finer file", [&](ConfigVisitor& s) { visit_raster(s, n.raster); });
+  if (n.raster.path.empty()) v.problem("raster", "allowed is a table with the path of a raster file");
+}
+
+}  // namespace
+
+void visit(ConfigVisitor& v, TerrainRecipe& t) {
+  v.section("terrain", "The seabed", [&](ConfigVisitor& s) {
+    bus::choice(s, "kind", t.kind, {"flat", "slope", "ridge", "seamount", "raster"},
+                "what the seabed is made from");
+    bus::choice(s, "frame", t.frame, {"flat", "enu"},
+                "rasters: flat (z is depth) or enu (the earth's curvature in z)");
+    visit_domain(s, t.domain);
+    visit_shapes(s, t);
+    s.section("raster", "kind = raster: any file GDAL reads", [&](ConfigVisitor& r) {
+      visit_raster(r, t.raster);
+      if (t.kind == TerrainKind::raster && t.raster.path.empty())
+        r.problem("path", "kind = raster needs a file");
+    });
+    s.boolean("whole_file", t.whole_file,
+              "true: a raster in local metres, post by post; the grid above is not used");
+    s.section("relief", "Synthetic relief on top, fractal and seeded",
+              [&](ConfigVisitor& r) { visit_relief(r, t.relief); });
+    s.list(
+        "nested", "A finer raster inside", t.nested.size(), [&](std::size_t n) { t.nested.resize(n); },
+        [&](ConfigVisitor& item, std::size_t n) { visit_nested(item, t.nested[n]); });
+  });
+}
+
+}  // namespace halocline::bathymetry

@@ -1,0 +1,105 @@
+#include "bathymetry/bathymetry_messages.h"
+
+#include <algorithm>
+
+namespace halocline::bathymetry {
+namespace {
+
+// The order of the enumerations is that of the message's constants.
+static_assert(static_cast<int>(QueryMode::closest_hit) == ray_query_t::CLOSEST_HIT);
+static_assert(static_cast<int>(QueryMode::occluded) == ray_query_t::OCCLUDED);
+static_assert(static_cast<int>(QueryMode::depth) == ray_query_t::DEPTH);
+static_assert(static_cast<int>(QueryMode::uniform_profile) == ray_query_t::UNIFORM_PROFILE);
+static_assert(static_cast<int>(QueryMode::exact_profile) == ray_query_t::EXACT_PROFILE);
+static_assert(static_cast<int>(RayStatus::hit) == ray_reply_t::HIT);
+static_assert(static_cast<int>(RayStatus::miss) == ray_reply_t::MISS);
+static_assert(static_cast<int>(RayStatus::outside) == ray_reply_t::OUTSIDE);
+static_assert(static_cast<int>(RayStatus::no_data) == ray_reply_t::NO_DATA);
+static_assert(static_cast<int>(RayStatus::started_below_bottom) == ray_reply_t::BELOW_BOTTOM);
+static_assert(static_cast<int>(RayStatus::bad_input) == ray_reply_t::BAD_INPUT);
+static_assert(static_cast<int>(Refusal::none) == ray_reply_t::OK);
+static_assert(static_cast<int>(Refusal::too_many) == ray_reply_t::REFUSED_TOO_MANY);
+static_assert(static_cast<int>(Refusal::other_terrain) == ray_reply_t::REFUSED_OTHER_TERRAIN);
+static_assert(static_cast<int>(Refusal::bad_query) == ray_reply_t::REFUSED_BAD_QUERY);
+
+std::vector<double> as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 as_vector(const std::vector<double>& list) { return {list[0], list[1], list[2]}; }
+
+}  // namespace
+
+QueryHeader header_of(const ray_query_t& message) {
+  return {message.utime, message.client_name, message.request_id};
+}
+
+RayBatch from_message(const ray_query_t& message) {
+  RayBatch batch;
+  batch.mode = static_cast<QueryMode>(static_cast<std::uint8_t>(message.query_mode));
+  batch.expected_terrain = message.expected_terrain;
+  batch.sample_spacing_m = message.sample_spacing_m;
+  const Vec3 base(message.base_origin_ned_m[0], message.base_origin_ned_m[1], message.base_origin_ned_m[2]);
+  const auto count = static_cast<std::size_t>(std::max(message.num_rays, 0));
+  batch.rays.reserve(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    batch.rays.push_back({base + as_vector(message.offset_m[n]), as_vector(message.direction[n]),
+                          message.greatest_range_m[n]});
+  }
+  return batch;
+}
+
+ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const Vec3& base_ned_m) {
+  ray_query_t message;
+  message.utime = header.utime;
+  message.client_name = header.client_name;
+  message.request_id = header.request_id;
+  message.expected_terrain = batch.expected_terrain;
+  message.query_mode = static_cast<std::int8_t>(batch.mode);
+  message.sample_spacing_m = batch.sample_spacing_m;
+  for (int axis = 0; axis < 3; ++axis) message.base_origin_ned_m[axis] = base_ned_m[axis];
+  message.num_rays = static_cast<std::int32_t>(batch.rays.size());
+  for (const Ray& ray : batch.rays) {
+    message.offset_m.push_back(as_list(ray.origin_ned_m - base_ned_m));
+    message.direction.push_back(as_list(ray.direction));
+    message.greatest_range_m.push_back(ray.max_range_m);
+  }
+  return message;
+}
+
+ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
+                       const std::string& terrain_version, std::int64_t session) {
+  ray_reply_t message;
+  message.utime = header.utime;
+  message.session = session;
+  message.request_id = header.request_id;
+  message.terrain_version = terrain_version;
+  message.reply_status = static_cast<std::int8_t>(answers.refusal);
+  message.refusal = answers.reason;
+  message.num_rays = static_cast<std::int32_t>(answers.statuses.size());
+  for (const RayStatus status : answers.statuses)
+    message.ray_status.push_back(static_cast<std::int8_t>(status));
+  message.result_m = answers.results_m;
+  message.num_samples = static_cast<std::int32_t>(answers.samples.size());
+  for (const ProfilePoint& sample : answers.samples) {
+    const bool valid = sample.status == DepthStatus::ok;
+    message.sample_distance_m.push_back(sample.distance_m);
+    message.sample_seabed_z_m.push_back(valid ? sample.z_m : 0);
+    message.sample_valid.push_back(valid ? 1 : 0);
+  }
+  return message;
+}
+
+RayAnswers from_message(const ray_reply_t& message) {
+  RayAnswers answers;
+  answers.refusal = static_cast<Refusal>(message.reply_status);
+  answers.reason = message.refusal;
+  for (const std::int8_t status : message.ray_status)
+    answers.statuses.push_back(static_cast<RayStatus>(status));
+  answers.results_m = message.result_m;
+  for (std::size_t n = 0; n < message.sample_distance_m.size(); ++n) {
+    const bool valid = message.sample_valid[n] != 0;
+    answers.samples.push_back({message.sample_distance_m[n], valid ? message.sample_seabed_z_m[n] : kUnknown,
+                               valid ? DepthStatus::ok : DepthStatus::no_data});
+  }
+  return answers;
+}
+
+}  // namespace halocline::bathymetry

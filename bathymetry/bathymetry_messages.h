@@ -1,0 +1,37 @@
+// Between ray_query_t / ray_reply_t and the values the service computes with.
+//
+// A query is read as it stands: rays that are impossible get their status from the service, an impossible mode,
+// count or spacing its refusal. Both directions exist for both types, for clients and for round-trip tests.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bathymetry/ray_service.h"
+#include "bus/messages.h"
+
+namespace halocline::bathymetry {
+
+// Who asked what, to be repeated in the reply.
+struct QueryHeader {
+  std::int64_t utime = 0;
+  std::string client_name;
+  std::int64_t request_id = 0;
+};
+
+QueryHeader header_of(const ray_query_t& message);
+
+// num_rays 0 or less: no rays. A mode below 0 becomes one above the last, which the service refuses.
+RayBatch from_message(const ray_query_t& message);
+
+// Rays relative to `base_ned_m`, so that far from the origin offsets stay short.
+ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const Vec3& base_ned_m);
+
+// session: of the service's life.
+ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
+                       const std::string& terrain_version, std::int64_t session);
+
+// A sample that is not valid on the bus comes back as no_data.
+RayAnswers from_message(const ray_reply_t& message);
+
+}  // namespace halocline::bathymetry

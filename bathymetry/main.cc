@@ -1,0 +1,28 @@
+#include "bathymetry/bathymetry_config.h"
+#include "bathymetry/bathymetry_node.h"
+#include "bus/node_process.h"
+
+using halocline::bathymetry::BathymetryNode;
+using halocline::bathymetry::PreparedTerrain;
+using halocline::bathymetry::TerrainRecipe;
+using halocline::bus::NodeProgram;
+
+int main(int argc, char** argv) {
+  TerrainRecipe recipe;
+  NodeProgram program;
+  program.program = "halocline-bathymetry";
+  program.purpose = "Answers batches of ray, depth and profile queries over the scenario's seabed.";
+  program.node_name = "bathymetry";
+  program.interface =
+      "hears:     RAY_QUERY, CLOCK\n"
+      "publishes: RAY_REPLY.<client>, STATUS.<name>";
+  program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, recipe); };
+  program.make_node = [&](const NodeProgram::Context& context) {
+    PreparedTerrain prepared = prepare_terrain(
+        recipe,
+        {context.scenario.origin_latitude_deg, context.scenario.origin_longitude_deg, context.folder});
+    return std::make_unique<BathymetryNode>(context.lcm, context.identity, std::move(prepared.terrain),
+                                            std::move(prepared.summary));
+  };
+  return halocline::bus::run_node_program(argc, argv, program);
+}

@@ -1,0 +1,126 @@
+#include "bathymetry/ray_service.h"
+
+#include <cmath>
+
+namespace halocline::bathymetry {
+namespace {
+
+RayAnswers refused(Refusal refusal, std::string reason) { return {refusal, std::move(reason), {}, {}, {}}; }
+
+bool is_profile(QueryMode mode) {
+  return mode == QueryMode::uniform_profile || mode == QueryMode::exact_profile;
+}
+
+RayStatus as_ray_status(DepthStatus status) {
+  switch (status) {
+    case DepthStatus::ok:
+      return RayStatus::hit;
+    case DepthStatus::outside:
+      return RayStatus::outside;
+    case DepthStatus::no_data:
+      return RayStatus::no_data;
+    case DepthStatus::bad_input:
+      break;
+  }
+  return RayStatus::bad_input;
+}
+
+void append(RayAnswers& answers, RayStatus status, double result_m) {
+  answers.statuses.push_back(status);
+  answers.results_m.push_back(status == RayStatus::hit ? result_m : 0);
+}
+
+void append_depth(const Terrain& terrain, const Ray& ray, RayAnswers& answers) {
+  const DepthSample sample = terrain.depth_at(ray.origin_ned_m.x(), ray.origin_ned_m.y());
+  append(answers, as_ray_status(sample.status), sample.z_m);
+}
+
+RayAnswers too_many_samples(double count) {
+  return refused(Refusal::too_many, "the profile has " + std::to_string(static_cast<long long>(count)) +
+                                        " samples; allowed are " + std::to_string(kMostRays));
+}
+
+std::vector<ProfilePoint> spaced_samples(const Terrain& terrain, PlanePoint from, const Vec3& along,
+                                         double spacing_m, std::size_t count) {
+  if (count == 1) {
+    const DepthSample only = terrain.depth_at(from.x_m, from.y_m);
+    return {{0, only.z_m, only.status}};
+  }
+  const double length = spacing_m * static_cast<double>(count - 1);
+  return uniform_profile(terrain, from, {from.x_m + length * along.x(), from.y_m + length * along.y()},
+                         count);
+}
+
+RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
+  const Ray& ray = batch.rays.front();
+  const Vec3 level(ray.direction.x(), ray.direction.y(), 0);
+  const double length = level.norm();
+  RayAnswers answers;
+  const bool possible = ray.origin_ned_m.allFinite() && std::isfinite(length) && length > 0 &&
+                        std::isfinite(ray.max_range_m) && ray.max_range_m >= 0;
+  if (!possible) {
+    append(answers, RayStatus::bad_input, 0);
+    return answers;
+  }
+  const Vec3 along = level / length;
+  const PlanePoint from{ray.origin_ned_m.x(), ray.origin_ned_m.y()};
+  if (batch.mode == QueryMode::uniform_profile) {
+    // A range that is a multiple of the spacing but for rounding includes its end.
+    constexpr double kRounding = 1e-9;
+    const double count = std::floor(ray.max_range_m / batch.sample_spacing_m + kRounding) + 1;
+    if (count > static_cast<double>(kMostRays)) return too_many_samples(count);
+    answers.samples =
+        spaced_samples(terrain, from, along, batch.sample_spacing_m, static_cast<std::size_t>(count));
+  } else {
+    answers.samples = exact_profile(
+        terrain, from, {from.x_m + ray.max_range_m * along.x(), from.y_m + ray.max_range_m * along.y()});
+    if (answers.samples.size() > kMostRays)
+      return too_many_samples(static_cast<double>(answers.samples.size()));
+  }
+  append(answers, RayStatus::hit, answers.samples.back().distance_m);
+  return answers;
+}
+
+// Why the batch as a whole cannot be answered; Refusal::none when it can.
+RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch) {
+  const std::size_t count = batch.rays.size();
+  if (batch.mode > QueryMode::exact_profile)
+    return refused(Refusal::bad_query, "query_mode is none of the five");
+  if (count == 0) return refused(Refusal::bad_query, "there is no ray");
+  if (count > kMostRays) {
+    return refused(Refusal::too_many,
+                   "there are " + std::to_string(count) + " rays; allowed are " + std::to_string(kMostRays));
+  }
+  if (is_profile(batch.mode) && count != 1)
+    return refused(Refusal::bad_query, "a profile takes exactly one ray");
+  const bool spacing_possible = std::isfinite(batch.sample_spacing_m) && batch.sample_spacing_m > 0;
+  if (batch.mode == QueryMode::uniform_profile && !spacing_possible) {
+    return refused(Refusal::bad_query, "sample_spacing_m must be above 0");
+  }
+  if (!batch.expected_terrain.empty() && batch.expected_terrain != terrain_version) {
+    return refused(Refusal::other_terrain, "the terrain served is another");
+  }
+  return {};
+}
+
+}  // namespace
+
+RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, const RayBatch& batch) {
+  RayAnswers answers = refusal_of(terrain_version, batch);
+  if (answers.refusal != Refusal::none) return answers;
+  if (is_profile(batch.mode)) return answer_profile(terrain, batch);
+  answers.statuses.reserve(batch.rays.size());
+  answers.results_m.reserve(batch.rays.size());
+  for (const Ray& ray : batch.rays) {
+    if (batch.mode == QueryMode::depth) {
+      append_depth(terrain, ray, answers);
+    } else {
+      // Occlusion is a closest hit: the search runs along the ray and ends at the first one.
+      const RayHit hit = terrain.closest_hit(ray);
+      append(answers, hit.status, hit.range_m);
+    }
+  }
+  return answers;
+}
+
+}  // namespace halocline::bathymetry

@@ -1,0 +1,47 @@
+// Answers a batch of questions about the terrain: what the bathymetry service computes, without the bus.
+//
+// Model: a query is of one mode. closest_hit and occluded follow each ray; depth looks below each origin; the two
+// profiles take one ray, whose horizontal direction and range say where the line lies. A query is answered whole or
+// refused whole, with the reason: never cut. Stateless: the same query always has the same answer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bathymetry/profile.h"
+#include "bathymetry/terrain.h"
+
+namespace halocline::bathymetry {
+
+// A message of this many rays is 57 kB: what one should ask at a time.
+inline constexpr std::size_t kUsualRays = 1024;
+// More rays, or more samples of a profile, are refused.
+inline constexpr std::size_t kMostRays = 4096;
+
+enum class QueryMode : std::uint8_t { closest_hit, occluded, depth, uniform_profile, exact_profile };
+
+struct RayBatch {
+  QueryMode mode = QueryMode::closest_hit;
+  std::string expected_terrain = {};  // version_text of the terrain relied upon; empty: any
+  double sample_spacing_m = 0;        // uniform_profile: above 0
+  std::vector<Ray> rays = {};         // 1 to kMostRays; exactly 1 for a profile
+};
+
+enum class Refusal : std::uint8_t { none, too_many, other_terrain, bad_query };
+
+struct RayAnswers {
+  Refusal refusal = Refusal::none;
+  std::string reason = {};               // empty unless refused
+  std::vector<RayStatus> statuses = {};  // one a ray, in order; empty when refused
+  // One a ray: the range of a hit; for depth z of the bottom (status hit); for a profile its length (status hit).
+  // 0 with any other status.
+  std::vector<double> results_m = {};
+  std::vector<ProfilePoint> samples = {};  // of a profile
+};
+
+// terrain_version: version_text(terrain.version()), made once by the caller.
+RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, const RayBatch& batch);
+
+}  // namespace halocline::bathymetry

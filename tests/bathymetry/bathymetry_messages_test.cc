@@ -1,0 +1,84 @@
+#include "bathymetry/bathymetry_messages.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace halocline::bathymetry {
+namespace {
+
+// Encodes and decodes, as a bus does.
+template <class Message>
+Message over_the_wire(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  Message decoded;
+  EXPECT_GT(decoded.decode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+  return decoded;
+}
+
+TEST(BathymetryMessages, AQueryComesBackAsItWas) {
+  const RayBatch batch{
+      .mode = QueryMode::uniform_profile,
+      .expected_terrain = "0123456789abcdef",
+      .sample_spacing_m = 2.5,
+      .rays = {{{1000.5, 2000.25, 30}, {0.5, -0.25, 1}, 77}, {{999, 2001, -1}, {0, 0, 1}, 0}}};
+  const ray_query_t message = over_the_wire(to_message({123'456, "alpha", 42}, batch, {1000, 2000, 0}));
+  EXPECT_EQ(message.offset_m[0], (std::vector<double>{0.5, 0.25, 30}));
+  const QueryHeader header = header_of(message);
+  EXPECT_EQ(header.utime, 123'456);
+  EXPECT_EQ(header.client_name, "alpha");
+  EXPECT_EQ(header.request_id, 42);
+  const RayBatch back = from_message(message);
+  EXPECT_EQ(back.mode, batch.mode);
+  EXPECT_EQ(back.expected_terrain, batch.expected_terrain);
+  EXPECT_EQ(back.sample_spacing_m, batch.sample_spacing_m);
+  ASSERT_EQ(back.rays.size(), 2u);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(back.rays[n].origin_ned_m, batch.rays[n].origin_ned_m);
+    EXPECT_EQ(back.rays[n].direction, batch.rays[n].direction);
+    EXPECT_EQ(back.rays[n].max_range_m, batch.rays[n].max_range_m);
+  }
+}
+
+TEST(BathymetryMessages, AnImpossibleModeStaysImpossible) {
+  ray_query_t message = to_message({0, "alpha", 1}, {.rays = {{}}}, Vec3::Zero());
+  for (const int mode : {-1, -128, 5, 127}) {
+    message.query_mode = static_cast<std::int8_t>(mode);
+    EXPECT_GT(from_message(message).mode, QueryMode::exact_profile) << mode;
+  }
+}
+
+TEST(BathymetryMessages, AReplyComesBackAsItWas) {
+  using enum RayStatus;
+  const RayAnswers answers{Refusal::none,
+                           "",
+                           {hit, miss, outside, no_data, started_below_bottom, bad_input},
+                           {60, 0, 0, 0, 0, 0},
+                           {{0, 100, DepthStatus::ok}, {5, kUnknown, DepthStatus::no_data}}};
+  const ray_reply_t message =
+      over_the_wire(to_message({123'456, "alpha", 42}, answers, "0123456789abcdef", 99));
+  EXPECT_EQ(message.utime, 123'456);
+  EXPECT_EQ(message.request_id, 42);
+  EXPECT_EQ(message.session, 99);
+  EXPECT_EQ(message.terrain_version, "0123456789abcdef");
+  EXPECT_EQ(message.sample_seabed_z_m[1], 0) << "no NaN travels on the bus";
+  const RayAnswers back = from_message(message);
+  EXPECT_EQ(back.statuses, answers.statuses);
+  EXPECT_EQ(back.results_m, answers.results_m);
+  ASSERT_EQ(back.samples.size(), 2u);
+  EXPECT_EQ(back.samples[0].z_m, 100);
+  EXPECT_EQ(back.samples[1].status, DepthStatus::no_data);
+  EXPECT_TRUE(std::isnan(back.samples[1].z_m));
+}
+
+TEST(BathymetryMessages, ARefusalComesBackAsItWas) {
+  const RayAnswers answers{Refusal::other_terrain, "the terrain served is another", {}, {}, {}};
+  const RayAnswers back = from_message(over_the_wire(to_message({1, "alpha", 2}, answers, "v", 3)));
+  EXPECT_EQ(back.refusal, Refusal::other_terrain);
+  EXPECT_EQ(back.reason, answers.reason);
+  EXPECT_TRUE(back.statuses.empty());
+}
+
+}  // namespace
+}  // namespace halocline::bathymetry
