@@ -22,6 +22,13 @@ struct Include {
 // All includes of a C++ source, those in comments left out.
 std::vector<Include> includes_of(std::string_view source);
 
+// The source with each comment turned into a space; line ends are kept.
+std::string without_comments(std::string_view source);
+
+// What a pure file uses of a clock, a file, the console or the environment through a header that it may include;
+// empty when nothing, or when `file` is not pure.
+std::string impure_name(std::string_view file, std::string_view source);
+
 // Why `file` (from the root, "acoustics/noise.cc") may not include `path`; empty when it may.
 std::string objection(std::string_view file, std::string_view path);
 

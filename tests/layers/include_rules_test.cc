@@ -93,6 +93,13 @@ TEST(IncludeRules, PureFilesHaveNoClockThreadFileOrLog) {
   EXPECT_TRUE(allowed("vehicle_sim/hull_forces.cc", "cmath"));
 }
 
+TEST(IncludeRules, PureFilesUseNoneOfThatThroughAnAllowedHeader) {
+  EXPECT_EQ(impure_name("acoustics/noise.cc", "std::snprintf(text, 3, format);  // not fopen"), "");
+  EXPECT_EQ(impure_name("acoustics/noise.cc", "auto* file = std::fopen(path, mode);"), "fopen");
+  EXPECT_EQ(impure_name("core/random.cc", "std::random_device device;"), "random_device");
+  EXPECT_EQ(impure_name("bus/node_process.cc", "std::chrono::steady_clock::now();"), "");
+}
+
 TEST(IncludeRules, OnlyNamedReadersReadFiles) {
   EXPECT_TRUE(allowed("bathymetry/raster_source.cc", "gdal_priv.h"));
   EXPECT_TRUE(allowed("bathymetry/terrain_loader.cc", "filesystem"));

@@ -6,26 +6,6 @@
 namespace halocline::layers {
 namespace {
 
-// The source with each comment turned into one space (line ends kept) and continued lines joined by spaces.
-std::string without_comments(std::string_view source) {
-  std::string text;
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    const std::string_view rest = source.substr(i);
-    if (rest.starts_with("//")) {
-      const std::size_t end = std::min(source.find('\n', i), source.size());
-      i = end - 1;
-    } else if (rest.starts_with("/*")) {
-      const std::size_t end = std::min(source.find("*/", i + 2), source.size() - 2) + 2;
-      text += ' ';
-      text.append(static_cast<std::size_t>(std::count(&source[i], &source[i] + (end - i), '\n')), '\n');
-      i = end - 1;
-    } else {
-      text += source[i];
-    }
-  }
-  return text;
-}
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
@@ -51,6 +31,25 @@ std::string included_in(std::string_view line) {
 }
 
 }  // namespace
+
+std::string without_comments(std::string_view source) {
+  std::string text;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const std::string_view rest = source.substr(i);
+    if (rest.starts_with("//")) {
+      const std::size_t end = std::min(source.find('\n', i), source.size());
+      i = end - 1;
+    } else if (rest.starts_with("/*")) {
+      const std::size_t end = std::min(source.find("*/", i + 2), source.size() - 2) + 2;
+      text += ' ';
+      text.append(static_cast<std::size_t>(std::count(&source[i], &source[i] + (end - i), '\n')), '\n');
+      i = end - 1;
+    } else {
+      text += source[i];
+    }
+  }
+  return text;
+}
 
 std::vector<Include> includes_of(std::string_view source) {
   const std::string text = without_comments(source);
