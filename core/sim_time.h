@@ -22,7 +22,7 @@ class SimDuration {
   static SimDuration from_seconds(double seconds) { return SimDuration(std::llround(seconds * 1e9)); }
 
   constexpr std::int64_t nanoseconds() const { return ns_; }
-  constexpr double seconds() const { return static_cast<double>(ns_) * 1e-9; }
+  constexpr double seconds() const { return static_cast<double>(ns_) / 1e9; }
 
   constexpr auto operator<=>(const SimDuration&) const = default;
   constexpr SimDuration operator-() const { return SimDuration(-ns_); }
@@ -50,7 +50,7 @@ class SimTime {
   constexpr std::int64_t to_utime() const {
     return ns_ >= 0 ? (ns_ / 1000 + (ns_ % 1000 >= 500)) : -((-ns_) / 1000 + ((-ns_) % 1000 > 500));
   }
-  constexpr double seconds() const { return static_cast<double>(ns_) * 1e-9; }
+  constexpr double seconds() const { return static_cast<double>(ns_) / 1e9; }
 
   constexpr auto operator<=>(const SimTime&) const = default;
   constexpr SimTime operator+(SimDuration d) const { return SimTime(ns_ + d.nanoseconds()); }
