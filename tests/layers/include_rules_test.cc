@@ -126,6 +126,9 @@ TEST(IncludeRules, NodesStandOnTheirOwnPurePartAlone) {
   EXPECT_FALSE(allowed("channel_server/channel_server_node.cc", "vehicle_sim/vehicle_model.h"));
   EXPECT_FALSE(allowed("vehicle_sim/vehicle_sim_node.cc", "channel_server/channel_server_node.h"));
   EXPECT_FALSE(allowed("conductor/main.cc", "bathymetry/bathymetry_node.h"));
+  EXPECT_TRUE(allowed("vehicle_sim/main.cc", "bathymetry/bathymetry_config.h"));  // makes the same terrain
+  EXPECT_FALSE(allowed("vehicle_sim/vehicle_sim_node.cc", "bathymetry/bathymetry_config.h"));
+  EXPECT_FALSE(allowed("vehicle_sim/main.cc", "bathymetry/bathymetry_node.h"));
 }
 
 TEST(IncludeRules, PureFilesKnowNoNodeOfTheirOwnFolder) {

@@ -1,0 +1,31 @@
+#include "bathymetry/bathymetry_config.h"
+#include "bus/node_process.h"
+#include "vehicle_sim/terrain_seabed.h"
+#include "vehicle_sim/vehicle_sim_node.h"
+
+using halocline::bus::NodeProgram;
+using namespace halocline::vehicle_sim;
+
+int main(int argc, char** argv) {
+  halocline::bathymetry::TerrainRecipe recipe;
+  VehicleSimConfig config;
+  NodeProgram program;
+  program.program = "halocline-vehicle-sim";
+  program.purpose = "Moves the scenario's vehicles and publishes their states and sensors.";
+  program.node_name = "vehicle-sim";
+  program.interface =
+      "hears:     COMMAND.<vehicle>, RAY_REPLY.<client>, CLOCK\n"
+      "publishes: STATE.<vehicle>, SENSORS.<vehicle>, RAY_QUERY, STATUS.<name>";
+  program.visit_config = [&](halocline::bus::ConfigVisitor& v) {
+    visit(v, recipe);
+    visit(v, config);
+  };
+  // The ground that hulls touch is the same terrain that the bathymetry service answers from, made in this process.
+  program.make_node = [&](const NodeProgram::Context& context) {
+    const auto prepared = prepare_terrain(recipe, {context.scenario.origin_latitude_deg,
+                                                   context.scenario.origin_longitude_deg, context.folder});
+    return std::make_unique<VehicleSimNode>(context.lcm, context.identity, context.scenario, config,
+                                            std::make_shared<TerrainSeabed>(prepared.terrain));
+  };
+  return halocline::bus::run_node_program(argc, argv, program);
+}
