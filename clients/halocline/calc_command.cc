@@ -1,0 +1,63 @@
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "clients/calc/calc.h"
+#include "clients/halocline/commands.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+struct CalcArguments {
+  CalcOptions options;
+  std::string input, output;
+};
+
+std::string names() {
+  std::string text;
+  for (const std::string& name : quantity_names()) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+int calc(CalcArguments& arguments) {
+  if (arguments.options.quantity.empty()) arguments.options.list = true;
+  std::ifstream file;
+  if (!arguments.input.empty() && arguments.input != "-") {
+    file.open(arguments.input);
+    require(file.is_open(), "cannot read " + arguments.input);
+  }
+  std::ostringstream text;  // so that nothing is written unless all went well
+  const int code = run_calc(arguments.options, file.is_open() ? file : std::cin, text, std::cerr);
+  if (arguments.output.empty() || arguments.output == "-") return std::cout << text.str() << std::flush, code;
+  if (code != kDone) return code;
+  std::ofstream out(arguments.output);
+  out << text.str();
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + arguments.output);
+  return kDone;
+}
+
+}  // namespace
+
+void add_calc_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<CalcArguments>();
+  CLI::App* command = app.add_subcommand("calc", "Compute a quantity for each row of a table (CSV)");
+  command->add_option("quantity", arguments->options.quantity, "one of: " + names());
+  command->add_option("input", arguments->input, "CSV with the columns of the quantity; default or -: stdin");
+  command->add_option("--out", arguments->output, "CSV with the results appended; default or -: stdout");
+  command->add_option("--model", arguments->options.model, "formula; --list names them");
+  command->add_option("--profile", arguments->options.profile, "sound-speed profile: built-in name or file");
+  command->add_option("--latitude", arguments->options.latitude_deg, "degrees, -90 to 90")
+      ->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--longitude", arguments->options.longitude_deg, "degrees")
+      ->check(CLI::Range(-180.0, 360.0));
+  command->add_flag("--list", arguments->options.list, "describe the quantities, or the one named, and exit");
+  command->footer(footer(
+      "  printf 'T_degC,S_ppt,depth_m\\n25,35,1000\\n' | halocline calc sound-speed --model mackenzie\n"
+      "  halocline calc --list"));
+  command->callback([arguments, &exit_code] { exit_code = calc(*arguments); });
+}
+
+}  // namespace halocline::clients

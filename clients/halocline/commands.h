@@ -1,0 +1,27 @@
+// The subcommands of `halocline`. Each adds itself to the command line; when it was asked for, its callback does the
+// work and leaves the exit code: 0 done, 1 failed, 2 the user's error. What it throws is reported by main.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace halocline::clients {
+
+inline constexpr int kDone = 0, kFailed = 1, kUserError = 2;
+inline constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration.";
+
+// The end of a subcommand's --help.
+std::string footer(const std::string& examples);
+
+void add_run_command(CLI::App& app, int& exit_code);
+void add_link_command(CLI::App& app, int& exit_code);
+void add_calc_command(CLI::App& app, int& exit_code);
+void add_log_command(CLI::App& app, int& exit_code);
+void add_replay_command(CLI::App& app, int& exit_code);
+void add_config_command(CLI::App& app, int& exit_code);
+void add_completion_command(CLI::App& app, int& exit_code);
+
+// Bash code that completes the command line of `app`; for `eval "$(halocline completion bash)"`.
+std::string bash_completion(const CLI::App& app);
+
+}  // namespace halocline::clients

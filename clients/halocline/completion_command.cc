@@ -1,0 +1,75 @@
+#include <iostream>
+#include <memory>
+
+#include "clients/calc/calc.h"
+#include "clients/halocline/commands.h"
+
+namespace halocline::clients {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::vector<std::string> words_of(const CLI::App& command) {
+  std::vector<std::string> words;
+  for (const CLI::App* sub : command.get_subcommands(nullptr)) words.push_back(sub->get_name());
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  }
+  return words;
+}
+
+// One case for each command: what may follow it.
+void append_cases(const CLI::App& command, const std::string& path, std::string& text) {
+  std::string words = joined(words_of(command));
+  if (command.get_name() == "calc") words += " " + joined(quantity_names());
+  if (command.get_name() == "completion") words += " bash";
+  text += "    '" + path + "') words='" + words + "' ;;\n";
+  for (const CLI::App* sub : command.get_subcommands(nullptr)) {
+    append_cases(*sub, path.empty() ? sub->get_name() : path + " " + sub->get_name(), text);
+  }
+}
+
+}  // namespace
+
+std::string footer(const std::string& examples) { return "Example:\n" + examples + "\n\n" + kExitCodes; }
+
+std::string bash_completion(const CLI::App& app) {
+  std::string cases;
+  append_cases(app, "", cases);
+  return "# bash completion of halocline: eval \"$(halocline completion bash)\"\n"
+         "_halocline() {\n"
+         "  local path='' words='' word i\n"
+         "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
+         "    word=${COMP_WORDS[i]}\n"
+         "    case \"${path:+$path }$word\" in\n"
+         "      run|link|calc|log|replay|config|completion|'log info'|'log export') path=\"${path:+$path "
+         "}$word\" ;;\n"
+         "    esac\n"
+         "  done\n"
+         "  case \"$path\" in\n" +
+         cases +
+         "  esac\n"
+         "  COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n"
+         "  [[ -n $path && ${COMP_WORDS[COMP_CWORD]} != -* ]] &&\n"
+         "    COMPREPLY+=($(compgen -f -- \"${COMP_WORDS[COMP_CWORD]}\"))\n"
+         "  return 0\n"
+         "}\n"
+         "complete -o filenames -F _halocline halocline\n";
+}
+
+void add_completion_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("completion", "Print the completion of a shell");
+  auto shell = std::make_shared<std::string>();
+  command->add_option("shell", *shell, "bash")->required()->check(CLI::IsMember({"bash"}));
+  command->footer(footer("  eval \"$(halocline completion bash)\""));
+  command->callback([shell, &app, &exit_code] {
+    std::cout << bash_completion(app);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace halocline::clients

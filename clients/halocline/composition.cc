@@ -1,0 +1,107 @@
+#include "clients/halocline/composition.h"
+
+#include <filesystem>
+
+#include "bathymetry/bathymetry_config.h"
+#include "bathymetry/bathymetry_node.h"
+#include "channel_server/channel_server_node.h"
+#include "clients/autopilot/autopilot_node.h"
+#include "clients/traffic/traffic_node.h"
+#include "conductor/conductor_node.h"
+#include "vehicle_sim/terrain_seabed.h"
+#include "vehicle_sim/vehicle_sim_node.h"
+
+namespace halocline::clients {
+namespace {
+
+// A path of a scenario, made to hold wherever the configuration is written. What is no file (GDAL takes other
+// names too) stays as it is.
+void make_absolute(std::string& path, const std::string& folder) {
+  const auto joined = std::filesystem::path(folder) / path;
+  if (!path.empty() && std::filesystem::exists(joined))
+    path = std::filesystem::absolute(joined).lexically_normal();
+}
+
+// What the scenario says by leaving it out, said.
+void resolve(ScenarioConfig& config) {
+  make_absolute(config.terrain.raster.path, config.folder);
+  for (auto& nested : config.terrain.nested) make_absolute(nested.raster.path, config.folder);
+  auto& profile = config.channel_server.environment.profile;
+  make_absolute(profile.file, config.folder);
+  make_absolute(profile.salinity_file, config.folder);
+  if (!profile.position_given) {
+    profile.latitude_rad = to_radians(config.scenario.origin_latitude_deg);
+    profile.longitude_rad = to_radians(config.scenario.origin_longitude_deg);
+  }
+}
+
+}  // namespace
+
+void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
+  bus::visit(v, config.scenario);
+  bathymetry::visit(v, config.terrain);
+  channel_server::visit(v, config.channel_server);
+  vehicle_sim::visit(v, config.vehicle_sim);
+  visit(v, config.autopilot);
+  visit(v, config.traffic);
+}
+
+ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides) {
+  ScenarioConfig config;
+  auto file = bus::ConfigFile::load(path, overrides);
+  file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
+  file.check(/*whole_file=*/true);
+  config.folder = file.folder();
+  for (const VehicleTraffic& traffic : config.traffic.vehicles) destination_id(config.traffic, traffic);
+  return config;
+}
+
+std::string effective_toml(const ScenarioConfig& config) {
+  ScenarioConfig resolved = config;
+  resolve(resolved);
+  return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, resolved); }, /*with_comments=*/false);
+}
+
+std::string commented_toml() {
+  ScenarioConfig config;
+  config.scenario.vehicles.resize(1);
+  config.scenario.vehicles[0].name = "auv-1";
+  config.scenario.vehicles[0].id = 1;
+  config.channel_server.vehicles.resize(1);
+  config.autopilot.vehicles.resize(1);
+  config.traffic.vehicles.resize(1);
+  return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);
+}
+
+bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config) {
+  return prepare_terrain(config.terrain, {config.scenario.origin_latitude_deg,
+                                          config.scenario.origin_longitude_deg, config.folder});
+}
+
+template <class NodeType, class... Arguments>
+void Composition::add(const std::string& name, Arguments&&... arguments) {
+  const bus::NodeIdentity identity{name, bus::session_of(seed_, name)};
+  owned_.push_back(std::make_unique<NodeType>(lcm_, identity, std::forward<Arguments>(arguments)...));
+  order_.push_back(owned_.back().get());
+}
+
+Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded)
+    : lcm_(lcm), seed_(config.scenario.seed), terrain_(make_terrain(config)) {
+  // Nothing paces lockstep: the clock announces rate 0.
+  add<conductor::ConductorNode>("conductor", config.scenario.clock_period, 0.0);
+  add<bathymetry::BathymetryNode>("bathymetry", terrain_.terrain, terrain_.summary);
+  if (kind == kReplay) {
+    order_.push_back(recorded);
+  } else {
+    add<vehicle_sim::VehicleSimNode>("vehicle-sim", config.scenario, config.vehicle_sim,
+                                     std::make_shared<vehicle_sim::TerrainSeabed>(terrain_.terrain));
+    add<AutopilotNode>("autopilot", config.autopilot);
+    add<TrafficNode>("traffic", config.traffic);
+  }
+  const bus::NodeIdentity identity{"channel-server", bus::session_of(seed_, "channel-server")};
+  owned_.push_back(channel_server::make_channel_server(lcm_, identity, config.channel_server, config.scenario,
+                                                       config.folder));
+  order_.push_back(owned_.back().get());
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,39 @@
+#include <iostream>
+#include <memory>
+
+#include "clients/halocline/commands.h"
+#include "clients/halocline/composition.h"
+
+namespace halocline::clients {
+namespace {
+
+struct ConfigArguments {
+  std::string scenario;
+  std::vector<std::string> overrides;
+};
+
+int show(const ConfigArguments& arguments) {
+  if (arguments.scenario.empty()) {
+    std::cout << commented_toml();
+  } else {
+    std::cout << effective_toml(load_scenario(arguments.scenario, arguments.overrides));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_config_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<ConfigArguments>();
+  CLI::App* command = app.add_subcommand(
+      "config",
+      "Check a scenario file and print all it says; without one, every key with its default and meaning");
+  command->add_option("scenario", arguments->scenario, "scenario file (TOML)");
+  command->add_option("--set", arguments->overrides, "change a key: section.key=value (repeatable)")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->footer(footer("  halocline config scenarios/seamount.toml"));
+  command->callback([arguments, &exit_code] { exit_code = show(*arguments); });
+}
+
+}  // namespace halocline::clients

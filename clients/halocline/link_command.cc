@@ -1,0 +1,124 @@
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "clients/halocline/commands.h"
+#include "clients/halocline/link_survey.h"
+
+namespace halocline::clients {
+namespace {
+
+struct LinkOptions {
+  std::string scenario, from, to;
+  std::vector<std::string> overrides;
+  std::optional<double> source_level_db, cutoff_level_db, center_frequency_hz, bandwidth_hz;
+  bool json = false;
+};
+
+const char* name_of(channel_server::Multipath multipath) {
+  switch (multipath) {
+    case channel_server::Multipath::kUnlikely:
+      return "unlikely";
+    case channel_server::Multipath::kLikely:
+      return "likely";
+    case channel_server::Multipath::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+void apply(const LinkOptions& options, acoustics::Modem& modem) {
+  if (options.source_level_db) modem.source_level = {*options.source_level_db};
+  if (options.cutoff_level_db) modem.least_receivable_level = {*options.cutoff_level_db};
+  if (options.center_frequency_hz) modem.centre_frequency_hz = *options.center_frequency_hz;
+  if (options.bandwidth_hz) modem.bandwidth_hz = *options.bandwidth_hz;
+}
+
+nlohmann::ordered_json to_json(const LinkEnd& end) {
+  const Vec3& p = end.position_ned_m;
+  return {{"name", end.name}, {"position_ned_m", {p.x(), p.y(), p.z()}}};
+}
+
+void print_json(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer) {
+  const acoustics::LinkBudget& b = answer.budget;
+  nlohmann::ordered_json json;
+  json["from"] = to_json(from);
+  json["to"] = to_json(to);
+  json["range_m"] = b.range_m;
+  json["delay_s"] = b.delay_s;
+  json["mean_sound_speed_mps"] = b.mean_sound_speed_mps;
+  json["absorption_db_per_km"] = b.absorption_db_per_km;
+  json["transmission_loss_db"] = b.transmission_loss.value;
+  json["received_level_db"] = b.received_level.value;
+  json["noise_level_db"] = b.noise_level.value;
+  json["snr_db"] = b.snr.value;
+  json["snr_narrowband_db"] = b.snr_narrowband.value;
+  json["capacity_bps"] = b.capacity_bps;
+  json["receivable"] = b.receivable;
+  json["multipath"] = name_of(answer.multipath);
+  std::cout << json.dump(2) << "\n";
+}
+
+void print_table(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer) {
+  const acoustics::LinkBudget& b = answer.budget;
+  const auto line = [](const char* what, double value, int digits, const char* unit) {
+    std::cout << std::left << std::setw(22) << what << std::right << std::fixed << std::setprecision(digits)
+              << std::setw(14) << value << " " << unit << "\n";
+  };
+  const auto place = [](const LinkEnd& end) {
+    std::cout << end.name << " (" << end.position_ned_m.x() << ", " << end.position_ned_m.y() << ", "
+              << end.position_ned_m.z() << ")";
+  };
+  std::cout << "from ";
+  place(from);
+  std::cout << " to ";
+  place(to);
+  std::cout << ", NED m\n";
+  line("range", b.range_m, 3, "m");
+  line("delay", b.delay_s, 6, "s");
+  line("mean sound speed", b.mean_sound_speed_mps, 3, "m/s");
+  line("absorption", b.absorption_db_per_km, 4, "dB/km");
+  line("transmission loss", b.transmission_loss.value, 3, "dB");
+  line("received level", b.received_level.value, 3, "dB re 1 uPa");
+  line("noise in the band", b.noise_level.value, 3, "dB re 1 uPa");
+  line("SNR", b.snr.value, 3, "dB");
+  line("capacity", b.capacity_bps, 1, "bit/s");
+  std::cout << "receivable            " << (b.receivable ? "yes" : "no") << "\n"
+            << "bottom echo           " << name_of(answer.multipath) << "\n";
+}
+
+int link(const LinkOptions& options) {
+  const ScenarioConfig config = load_scenario(options.scenario, options.overrides);
+  LinkEnd from = link_end(config, options.from), to = link_end(config, options.to);
+  apply(options, from.modem.modem);
+  apply(options, to.modem.modem);
+  const LinkAnswer answer = survey_link(config, from, to);
+  options.json ? print_json(from, to, answer) : print_table(from, to, answer);
+  return kDone;
+}
+
+}  // namespace
+
+void add_link_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<LinkOptions>();
+  CLI::App* command = app.add_subcommand("link", "The budget of one link between two points of a scenario");
+  command->add_option("scenario", options->scenario, "scenario file (TOML)")->required();
+  const std::string end = "a vehicle of the scenario (where it starts), or NORTH,EAST,DOWN in metres";
+  command->add_option("--from", options->from, end)->required();
+  command->add_option("--to", options->to, end)->required();
+  command->add_option("--source-level-db", options->source_level_db, "of the modems, dB re 1 uPa at 1 m");
+  command->add_option("--cutoff-level-db", options->cutoff_level_db, "of the modems, dB re 1 uPa");
+  command->add_option("--center-frequency-hz", options->center_frequency_hz, "of the modems, hertz");
+  command->add_option("--bandwidth-hz", options->bandwidth_hz, "of the modems, hertz");
+  command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "as JSON");
+  command->footer(footer("  halocline link scenarios/figure6.toml --from 0,0,100 --to 180,0,100 --json"));
+  command->callback([options, &exit_code] { exit_code = link(*options); });
+}
+
+}  // namespace halocline::clients

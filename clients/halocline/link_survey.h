@@ -1,0 +1,36 @@
+// One link of a scenario between two points, computed here and now: budget, and whether the bottom sends echoes.
+//
+// The same computation as a channel server's table: channel_server/link_table.h for the water, echo_survey.h over the
+// scenario's terrain.
+#pragma once
+
+#include <string>
+
+#include "channel_server/echo_survey.h"
+#include "channel_server/link_table.h"
+#include "clients/halocline/composition.h"
+
+namespace halocline::clients {
+
+struct LinkEnd {
+  std::string name;  // of the vehicle, or the position as text
+  Vec3 position_ned_m = Vec3::Zero();
+  channel_server::VehicleModem modem;
+};
+
+struct LinkAnswer {
+  acoustics::LinkBudget budget;
+  channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
+};
+
+// An end by the name of a vehicle of the scenario (where it starts, with its modem) or by "north,east,down" in metres
+// (with the standard modem). Throws InvalidArgument when `text` is neither, or lies above the surface.
+LinkEnd link_end(const ScenarioConfig& config, const std::string& text);
+
+LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to);
+
+// Which echoes the bottom can send between two points of a terrain.
+channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                         const Vec3& to_ned_m, int bottom_points);
+
+}  // namespace halocline::clients

@@ -1,0 +1,69 @@
+#include <iostream>
+#include <memory>
+
+#include "clients/halocline/commands.h"
+#include "clients/halocline/csv_export.h"
+#include "clients/halocline/log_statistics.h"
+
+namespace halocline::clients {
+namespace {
+
+struct LogArguments {
+  std::string log, out, channel;
+  bool json = false;
+};
+
+void tell_damage(const LogReader& log) {
+  if (log.truncated()) std::cerr << "halocline: the log ends within an event; all before it was read\n";
+  if (log.bytes_skipped() > 0) {
+    std::cerr << "halocline: " << log.bytes_skipped()
+              << " bytes of the log are no sound event and were skipped\n";
+  }
+}
+
+int info(const LogArguments& arguments) {
+  LogReader log(arguments.log);
+  const LogStatistics statistics = statistics_of(log);
+  if (arguments.json) {
+    std::cout << to_json(statistics) << "\n";
+  } else {
+    print(std::cout, statistics);
+  }
+  tell_damage(log);
+  return kDone;
+}
+
+int export_all(const LogArguments& arguments) {
+  LogReader log(arguments.log);
+  const ExportResult result = export_csv(log, arguments.out, arguments.channel);
+  for (const auto& [file, rows] : result.rows_by_file) std::cout << file << ": " << rows << " rows\n";
+  if (result.foreign > 0)
+    std::cout << "left out: " << result.foreign << " events on channels that are none of ours\n";
+  if (result.undecodable > 0)
+    std::cout << "left out: " << result.undecodable << " events that do not decode\n";
+  tell_damage(log);
+  return kDone;
+}
+
+}  // namespace
+
+void add_log_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<LogArguments>();
+  CLI::App* command = app.add_subcommand("log", "Look into an LCM log, or turn it into CSV");
+  command->require_subcommand(1);
+  command->footer(footer("  halocline log info runs/seamount/seamount.lcm"));
+  CLI::App* info_command = command->add_subcommand("info", "Say what a log holds");
+  info_command->add_option("log", arguments->log, "LCM log")->required();
+  info_command->add_flag("--json", arguments->json, "as JSON");
+  info_command->footer(footer("  halocline log info runs/seamount/seamount.lcm --json"));
+  info_command->callback([arguments, &exit_code] { exit_code = info(*arguments); });
+  CLI::App* export_command = command->add_subcommand("export", "Write a CSV file for each channel family");
+  export_command->add_option("log", arguments->log, "LCM log")->required();
+  export_command->add_option("--out", arguments->out, "folder for the CSVs")->required();
+  export_command->add_option("--channel", arguments->channel,
+                             "only channels that match this regular expression");
+  export_command->footer(footer("  halocline log export run.lcm --out csv --channel 'STATE\\..*|OUTCOME'"));
+  export_command->callback([arguments, &exit_code] { exit_code = export_all(*arguments); });
+}
+
+}  // namespace halocline::clients

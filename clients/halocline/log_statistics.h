@@ -1,0 +1,56 @@
+// What happened in a run, counted from its messages: for the end of `halocline run` and for `halocline log info`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iosfwd>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "clients/halocline/log_reader.h"
+
+namespace halocline::clients {
+
+struct LogStatistics {
+  static constexpr std::size_t kReceiptResults = 7;  // modem_receipt_t.ACCEPTED to REFUSED_TOO_EARLY
+  static constexpr std::size_t kFates = 3;           // packet_outcome_t.RECEIVED to RECEIVER_GONE
+
+  std::int64_t events = 0;
+  std::int64_t bytes = 0;        // of payloads
+  std::int64_t foreign = 0;      // on channels that are none of ours
+  std::int64_t undecodable = 0;  // on our channels, but no sound message
+  std::int64_t first_stamp_us = 0, last_stamp_us = 0;
+  std::map<std::string, std::int64_t> by_channel;  // all channels
+  std::map<std::string, std::int64_t> undecodable_by_channel;
+  std::int64_t packets_sent = 0;       // that a receipt came for
+  std::int64_t packets_delivered = 0;  // RECEIVEs
+  std::array<std::int64_t, kReceiptResults> receipts{};
+  std::array<std::int64_t, kFates> outcomes{};
+  std::vector<double> travel_times_s;  // of the delivered, as they came
+
+  void count(const LoggedEvent& event);
+
+ private:
+  template <class Message>
+  void count_message(const LoggedEvent& event, const Message& message);
+  // Names of the packets that a receipt was counted for: a receipt that came again is not another packet.
+  std::set<std::tuple<std::string, std::int64_t, std::int64_t>> answered_;
+};
+
+// Counts a whole log.
+LogStatistics statistics_of(LogReader& log);
+
+// Writes them for a person.
+void print(std::ostream& out, const LogStatistics& statistics);
+
+// As JSON, one object.
+std::string to_json(const LogStatistics& statistics);
+
+// Names of receipt results and fates, by their number; "?" for others.
+const char* receipt_name(std::size_t result);
+const char* fate_name(std::size_t fate);
+
+}  // namespace halocline::clients

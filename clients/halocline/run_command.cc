@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "bus/event_log.h"
+#include "bus/node_process.h"
+#include "clients/halocline/commands.h"
+#include "clients/halocline/composition.h"
+#include "clients/halocline/csv_export.h"
+#include "clients/halocline/embedded_run.h"
+#include "clients/halocline/log_statistics.h"
+#include "clients/halocline/run_files.h"
+
+namespace halocline::clients {
+namespace {
+
+struct RunOptions {
+  std::string scenario, out, log, csv, mirror, log_level = "warning";
+  std::vector<std::string> overrides;
+  double duration_s = 0, rate = 0;
+  std::int64_t seed = -1;
+  bool quiet = false, no_csv = false;
+};
+
+std::vector<std::string> overrides_of(const RunOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.duration_s > 0)
+    overrides.push_back("scenario.duration_s=" + std::to_string(options.duration_s));
+  if (options.seed >= 0) overrides.push_back("scenario.seed=" + std::to_string(options.seed));
+  return overrides;
+}
+
+void print_end(const RunOptions& options, const RunFiles& files, const ScenarioConfig& config,
+               const RunOutcome& outcome) {
+  LogReader log(files.log);
+  std::cout << "scenario    " << config.scenario.name << ": " << config.scenario.description << "\n";
+  std::printf("simulated   %.3f s%s in %.3f s, %.1f times real time\n", outcome.reached.seconds(),
+              outcome.interrupted ? " (interrupted)" : "", outcome.wall_s,
+              outcome.reached.seconds() / std::max(outcome.wall_s, 1e-9));
+  std::fflush(stdout);
+  print(std::cout, statistics_of(log));
+  std::cout << "log         " << files.log << "\n";
+  std::cout << "config      " << files.config << "\n";
+  if (!options.no_csv) std::cout << "CSVs        " << files.csv << "\n";
+}
+
+int run(const RunOptions& options) {
+  bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : options.log_level));
+  const ScenarioConfig config = load_scenario(options.scenario, overrides_of(options));
+  const RunFiles files = run_files(options.out.empty() ? "runs/" + config.scenario.name : options.out,
+                                   config.scenario.name, options.log, options.csv);
+  write_text(files.config, effective_toml(config));
+  lcm::LCM lcm("memq://");
+  Composition all(lcm, config, Composition::kRun);
+  if (!options.quiet) std::fprintf(stderr, "terrain     %s\n", all.terrain().summary.c_str());
+  bus::catch_stop_signals();
+  EmbeddedRun run;
+  run.end = SimTime() + config.scenario.duration;
+  run.log_path = files.log;
+  run.rate = options.rate;
+  run.mirror_url = options.mirror;
+  run.quiet = options.quiet;
+  run.should_stop = bus::stop_requested;
+  const RunOutcome outcome = run_embedded(lcm, all.nodes(), run);
+  if (!options.no_csv) {
+    LogReader log(files.log);
+    export_csv(log, files.csv);
+  }
+  print_end(options, files, config, outcome);
+  return kDone;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Run a scenario in this process, in lockstep, into a log");
+  command->add_option("scenario", options->scenario, "scenario file (TOML)")->required();
+  command->add_option("--duration", options->duration_s, "simulated seconds; default: the scenario's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->seed, "seed of all random draws; default: the scenario's")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--rate", options->rate, "simulated seconds per wall second; 0: as fast as it computes")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "folder of the results; default: runs/<scenario>");
+  command->add_option("--log", options->log, "LCM log; default: <out>/<scenario>.lcm");
+  command->add_option("--csv", options->csv, "folder of the CSVs; default: <out>/csv");
+  command->add_flag("--no-csv", options->no_csv, "write no CSVs");
+  command->add_option("--mirror", options->mirror, "udpm URL on which the run is shown as well, for lcm-spy");
+  command->add_option("--log-level", options->log_level, "debug, info, warning, error or silent");
+  command->add_flag("--quiet", options->quiet, "no progress line, errors only");
+  command->footer(
+      footer("  halocline run scenarios/seamount.toml --duration 120 --set modem.source_level_db=170"));
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,74 @@
+#include "clients/halocline/log_reader.h"
+
+#include "core/check.h"
+#include "tests/clients/halocline/log_fixture.h"
+
+namespace halocline::clients {
+namespace {
+
+using testing::all_of;
+using testing::TemporaryLog;
+
+TEST(LogReader, ReadsWhatLcmWrites) {
+  TemporaryLog file;
+  file.add_bytes(1'500'000, "ANYTHING", {1, 2, 3});
+  file.add_bytes(2'500'000, "ELSE", {});
+  LogReader log(file.path());
+  const auto events = all_of(log);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].channel, "ANYTHING");
+  EXPECT_EQ(events[0].stamp_us, 1'500'000);
+  EXPECT_EQ(events[0].data, (std::vector<std::uint8_t>{1, 2, 3}));
+  EXPECT_EQ(events[1].number, 1);
+  EXPECT_TRUE(events[1].data.empty());
+  EXPECT_FALSE(log.truncated());
+  EXPECT_EQ(log.bytes_skipped(), 0);
+}
+
+TEST(LogReader, EveryTruncationYieldsTheEventsBeforeIt) {
+  TemporaryLog file;
+  for (std::uint8_t i = 0; i < 3; ++i) file.add_bytes(i, "CHANNEL", {i, i});
+  const std::string whole = file.bytes();
+  const std::size_t event_bytes = whole.size() / 3;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    file.replace_bytes(whole.substr(0, size));
+    LogReader log(file.path());
+    EXPECT_EQ(all_of(log).size(), size / event_bytes) << "of " << size << " bytes";
+  }
+}
+
+TEST(LogReader, GoesOnBehindBytesThatAreNoEvent) {
+  TemporaryLog file;
+  file.add_bytes(1, "A", {1});
+  file.add_bytes(2, "B", {2});
+  const std::string whole = file.bytes();
+  file.replace_bytes(whole.substr(0, whole.size() / 2) + "rubbish" + whole.substr(whole.size() / 2));
+  LogReader log(file.path());
+  EXPECT_EQ(all_of(log).size(), 2u);
+  EXPECT_EQ(log.bytes_skipped(), 7);
+}
+
+TEST(LogReader, CorruptLengthCostsOneEventAndNoMemory) {
+  TemporaryLog file;
+  file.add_bytes(1, "A", {1});
+  file.add_bytes(2, "B", {2});
+  std::string bytes = file.bytes();
+  constexpr std::size_t kDataLength = 24;  // sync 4, number 8, stamp 8, channel length 4
+  bytes[kDataLength] = 0x0f;
+  file.replace_bytes(bytes);
+  LogReader log(file.path());
+  const auto events = all_of(log);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].channel, "B");
+}
+
+TEST(LogReader, EmptyLogHoldsNothing) {
+  TemporaryLog file;
+  LogReader log(file.path());
+  EXPECT_TRUE(all_of(log).empty());
+}
+
+TEST(LogReader, MissingFileIsRefused) { EXPECT_THROW(LogReader("/nonexistent/log.lcm"), InvalidArgument); }
+
+}  // namespace
+}  // namespace halocline::clients

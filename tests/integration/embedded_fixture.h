@@ -1,0 +1,86 @@
+// Whole scenarios run in this process, into logs of the test's own.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "bus/event_log.h"
+#include "clients/halocline/channel_types.h"
+#include "clients/halocline/composition.h"
+#include "clients/halocline/embedded_run.h"
+#include "clients/halocline/log_reader.h"
+#include "clients/halocline/replay_node.h"
+
+namespace halocline::clients::testing {
+
+class EmbeddedTest : public ::testing::Test {
+ protected:
+  EmbeddedTest() {
+    bus::set_log_level(bus::LogLevel::kSilent);
+    std::filesystem::create_directories(folder_);
+  }
+  ~EmbeddedTest() override { std::filesystem::remove_all(folder_); }
+
+  ScenarioConfig load(const std::string& name, const std::vector<std::string>& overrides) {
+    return load_scenario(std::string(HALOCLINE_SOURCE_DIR) + "/scenarios/" + name + ".toml", overrides);
+  }
+  std::string log_path(const std::string& name) const { return folder_ + "/" + name + ".lcm"; }
+
+  // Runs the scenario to its end and returns the log's path.
+  std::string run(
+      const ScenarioConfig& config, const std::string& name,
+      const std::function<bool()>& should_stop = [] { return false; }) {
+    lcm::LCM lcm("memq://");
+    Composition all(lcm, config, Composition::kRun);
+    EmbeddedRun settings{.end = SimTime() + config.scenario.duration, .log_path = log_path(name)};
+    settings.quiet = true;
+    settings.should_stop = should_stop;
+    run_embedded(lcm, all.nodes(), settings);
+    return settings.log_path;
+  }
+  std::string replay(const ScenarioConfig& config, const std::string& original, const std::string& name) {
+    LogReader log(original);
+    Recording recording = read_recording(log);
+    EmbeddedRun settings{.end = recording.end, .log_path = log_path(name)};
+    settings.quiet = true;
+    lcm::LCM lcm("memq://");
+    ReplayNode recorded(lcm, {"replay", 1}, std::move(recording));
+    Composition nodes(lcm, config, Composition::kReplay, &recorded);
+    run_embedded(lcm, nodes.nodes(), settings);
+    return settings.log_path;
+  }
+
+  static std::string bytes_of(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    return bytes.str();
+  }
+  // All sound messages of one type, with their channels.
+  template <class Message>
+  static std::vector<std::pair<std::string, Message>> messages_in(const std::string& path) {
+    std::vector<std::pair<std::string, Message>> messages;
+    LogReader log(path);
+    for (LoggedEvent event; log.next(event);) {
+      with_type_of(event.channel, [&]<class Found>() {
+        if constexpr (std::is_same_v<Found, Message>) {
+          Message message;
+          if (decode_checked(event.data, message)) messages.emplace_back(event.channel, message);
+        }
+      });
+    }
+    return messages;
+  }
+
+ private:
+  std::string folder_ = ::testing::TempDir() + "halocline-run-" + std::to_string(getpid());
+};
+
+}  // namespace halocline::clients::testing

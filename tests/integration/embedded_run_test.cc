@@ -1,0 +1,121 @@
+// What a whole run promises: the same bytes each time, a log that replays to the same answers, a sound end.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/integration/embedded_fixture.h"
+
+namespace halocline::clients {
+namespace {
+
+class EmbeddedRunTest : public testing::EmbeddedTest {
+ protected:
+  ScenarioConfig harbour() { return load("harbour", {"scenario.duration_s=25"}); }
+};
+
+// The bytes of all events on a family's channels, stamps and channels included, without the log's numbering.
+std::string bytes_of_families(const std::string& path, const std::vector<std::string>& families) {
+  std::string all;
+  LogReader log(path);
+  for (LoggedEvent event; log.next(event);) {
+    const std::string family(family_of(event.channel));
+    if (std::find(families.begin(), families.end(), family) == families.end()) continue;
+    all += std::to_string(event.stamp_us) + event.channel + std::string(event.data.begin(), event.data.end());
+  }
+  return all;
+}
+
+TEST_F(EmbeddedRunTest, TwoRunsWriteTheSameBytes) {
+  const std::string first = bytes_of(run(harbour(), "first"));
+  EXPECT_GT(first.size(), 100'000u);
+  EXPECT_TRUE(first == bytes_of(run(harbour(), "second")));
+}
+
+TEST_F(EmbeddedRunTest, AnotherSeedIsAnotherSessionAndTheSameWater) {
+  ScenarioConfig config = harbour();
+  const std::string one = run(config, "one");
+  config.scenario.seed = 99;
+  const std::string other = run(config, "other");
+  const auto a = messages_in<link_table_t>(one), b = messages_in<link_table_t>(other);
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_NE(a.back().second.session, b.back().second.session);
+  EXPECT_EQ(a.back().second.peers[0].received_level_db, b.back().second.peers[0].received_level_db);
+}
+
+TEST_F(EmbeddedRunTest, PacketsArriveWithTheirDelay) {
+  const std::string log = run(harbour(), "log");
+  const auto packets = messages_in<modem_receive_t>(log);
+  ASSERT_FALSE(packets.empty());
+  std::map<std::pair<std::int64_t, std::int64_t>, double> durations;
+  for (const auto& [channel, receipt] : messages_in<modem_receipt_t>(log)) {
+    durations[{receipt.send_session, receipt.packet_sequence}] = receipt.duration_s;
+  }
+  for (const auto& [channel, packet] : packets) {
+    EXPECT_GT(packet.travel_time_s, 0.02);  // the nearest two are 50 m apart
+    const double last_bit_s = static_cast<double>(packet.departure_utime) * 1e-6 + packet.travel_time_s +
+                              durations.at({packet.send_session, packet.packet_sequence});
+    EXPECT_NEAR(static_cast<double>(packet.utime) * 1e-6, last_bit_s, 2e-6);  // utime is rounded
+  }
+}
+
+TEST_F(EmbeddedRunTest, EveryAcceptedPacketHasAnOutcomeAtEveryOtherVehicle) {
+  const ScenarioConfig config = harbour();
+  const std::string log = run(config, "log");
+  std::int64_t ended = 0;
+  for (const auto& [channel, receipt] : messages_in<modem_receipt_t>(log)) {
+    const double end_s = static_cast<double>(receipt.start_utime) * 1e-6 + receipt.duration_s + 2;
+    if (receipt.receipt_result == modem_receipt_t::ACCEPTED && end_s < 25) ++ended;
+  }
+  ASSERT_GT(ended, 3);
+  const auto outcomes = static_cast<std::int64_t>(messages_in<packet_outcome_t>(log).size());
+  EXPECT_GE(outcomes, ended * 4);  // five vehicles; packets of the last two seconds may have theirs too
+}
+
+TEST_F(EmbeddedRunTest, ReplayGivesTheAnswersOfTheRun) {
+  const std::string original = run(harbour(), "original");
+  const std::string again = replay(harbour(), original, "again");
+  const std::vector<std::string> answers{"LINKS", "OUTCOME", "RECEIPT", "RECEIVE", "ENVIRONMENT"};
+  const std::string expected = bytes_of_families(original, answers);
+  EXPECT_GT(expected.size(), 10'000u);
+  EXPECT_TRUE(expected == bytes_of_families(again, answers));
+}
+
+TEST_F(EmbeddedRunTest, ReplayOfAReplayStaysTheSame) {
+  const std::string original = run(harbour(), "original");
+  const std::string again = replay(harbour(), original, "again");
+  EXPECT_TRUE(bytes_of(again) == bytes_of(replay(harbour(), again, "once-more")));
+}
+
+TEST_F(EmbeddedRunTest, ReplayInOtherWaterGivesOtherAnswers) {
+  const std::string original = run(harbour(), "original");
+  ScenarioConfig windy = harbour();
+  windy.channel_server.environment.noise.wind_mps += 10;
+  const std::string again = replay(windy, original, "again");
+  const auto before = messages_in<link_table_t>(original), after = messages_in<link_table_t>(again);
+  ASSERT_EQ(before.size(), after.size());
+  EXPECT_GT(after.back().second.peers[0].noise_level_db, before.back().second.peers[0].noise_level_db + 1);
+}
+
+TEST_F(EmbeddedRunTest, InterruptedRunLeavesASoundLog) {
+  int instants = 0;
+  const std::string path = run(harbour(), "cut", [&] { return ++instants > 200; });
+  LogReader log(path);
+  std::int64_t events = 0;
+  for (LoggedEvent event; log.next(event);) ++events;
+  EXPECT_GT(events, 100);
+  EXPECT_FALSE(log.truncated());
+  EXPECT_EQ(log.bytes_skipped(), 0);
+}
+
+TEST_F(EmbeddedRunTest, VehiclesFollowTheirMissions) {
+  const std::string log = run(load("seamount", {"scenario.duration_s=60"}), "log");
+  double deepest = 0;
+  for (const auto& [channel, state] : messages_in<vehicle_state_t>(log)) {
+    if (channel == "STATE.auv-1") deepest = std::max(deepest, state.position_ned_m[2]);
+  }
+  EXPECT_GT(deepest, 40);  // from 30 m towards the first waypoint's 60 m
+}
+
+}  // namespace
+}  // namespace halocline::clients
