@@ -1,6 +1,6 @@
 #include "bus/config.h"
 
-#include <sstream>
+#include <cmath>
 
 #include "core/units.h"
 
@@ -13,6 +13,13 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
+// 15 degrees rather than 14.999999999999998 where both are the same angle in radians.
+double readable_degrees(double radians) {
+  constexpr double kScale = 1e9;
+  const double rounded = std::round(to_degrees(radians) * kScale) / kScale;
+  return to_radians(rounded) == radians ? rounded : to_degrees(radians);
+}
+
 }  // namespace
 
 ConfigErrors::ConfigErrors(std::vector<std::string> lines)
@@ -20,7 +27,7 @@ ConfigErrors::ConfigErrors(std::vector<std::string> lines)
 
 void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees) {
   // Only what the file gives is converted, so that a default survives to the last bit.
-  double value_deg = to_degrees(radians);
+  double value_deg = readable_degrees(radians);
   const double before = value_deg;
   v.number(key, value_deg, rule_in_degrees);
   if (value_deg != before) radians = to_radians(value_deg);
