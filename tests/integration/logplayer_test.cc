@@ -1,0 +1,118 @@
+// A recorded log, played by LCM's own lcm-logplayer into a lone channel server, gives the link tables and outcomes
+// of the original run; what the log holds of the original server's answers is not taken for the new server's.
+// Runs inside a network namespace of its own (scripts/isolated).
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/integration/bus_ear.h"
+#include "tests/support/process.h"
+
+namespace halocline {
+namespace {
+
+using testing::BusEar;
+using testing::Process;
+using Bytes = std::vector<std::uint8_t>;
+// What names a message whoever publishes it, and its bytes without the publisher's own numbers.
+using Tables = std::map<std::pair<std::int32_t, std::int64_t>, Bytes>;
+using Outcomes = std::map<std::tuple<std::int64_t, std::int64_t, std::int32_t>, Bytes>;
+
+const char* const kScenario = HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml";
+
+template <class Message>
+Bytes bytes_without_publisher(Message message) {
+  message.session = 0;
+  message.sequence = 0;
+  Bytes bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+struct Answers {
+  Tables tables;
+  Outcomes outcomes;
+  std::int64_t last_state_utime = 0;
+
+  void add(const link_table_t& t) { tables[{t.vehicle_id, t.utime}] = bytes_without_publisher(t); }
+  void add(const packet_outcome_t& o) {
+    outcomes[{o.send_session, o.packet_sequence, o.receiver_id}] = bytes_without_publisher(o);
+  }
+};
+
+struct Original {
+  Answers answers;
+  std::int64_t server_session = 0;
+};
+
+Original read_log(const std::string& path) {
+  Original original;
+  lcm::LogFile log(path, "r");
+  while (const lcm::LogEvent* event = log.readNextEvent()) {
+    link_table_t table;
+    packet_outcome_t outcome;
+    vehicle_state_t state;
+    if (table.decode(event->data, 0, event->datalen) > 0) {
+      original.answers.add(table);
+      original.server_session = table.session;
+    } else if (outcome.decode(event->data, 0, event->datalen) > 0) {
+      original.answers.add(outcome);
+    } else if (state.decode(event->data, 0, event->datalen) > 0) {
+      original.answers.last_state_utime = state.utime;
+    }
+  }
+  return original;
+}
+
+class LogPlayer : public ::testing::TestWithParam<double> {};
+
+TEST_P(LogPlayer, GivesTheTablesAndOutcomesOfTheOriginalRun) {
+  const std::string folder = ::testing::TempDir();
+  const std::string log = folder + "/original.lcm";
+  Process run(
+      {HALOCLINE_BIN_DIR "/halocline", "run", kScenario, "--quiet", "--log", log, "--out", folder + "/run"});
+  ASSERT_EQ(run.wait(std::chrono::seconds(60)), 0) << run.output();
+  const Original original = read_log(log);
+  ASSERT_GE(original.answers.tables.size(), 20u);
+  ASSERT_GE(original.answers.outcomes.size(), 15u);
+
+  BusEar ear;
+  Process bathymetry({HALOCLINE_BIN_DIR "/halocline-bathymetry", kScenario});
+  Process server({HALOCLINE_BIN_DIR "/halocline-channel-server", kScenario, "--time-source", "messages"});
+  ASSERT_TRUE(ear.listen_until(10, [&] { return ear.last_status.size() == 2; }));
+  Process player({"/usr/bin/lcm-logplayer", "--lcm-url=" + bus::effective_url(""),
+                  "--speed=" + std::to_string(GetParam()), log});
+  ASSERT_TRUE(ear.listen_until(60, [&] { return !player.running(); }));
+  ASSERT_EQ(player.wait(), 0) << player.output();
+  ear.listen(0.5);
+
+  Answers replayed;
+  for (const auto& table : ear.tables) {
+    if (table.session != original.server_session) replayed.add(table);
+  }
+  for (const auto& outcome : ear.outcomes) {
+    if (outcome.session != original.server_session) replayed.add(outcome);
+  }
+  EXPECT_EQ(replayed.tables, original.answers.tables);
+  for (const auto& [key, bytes] : original.answers.outcomes) {
+    packet_outcome_t outcome;
+    outcome.decode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    // Time in the messages ends with the last state: what was decided after it is never reached again.
+    if (outcome.utime > original.answers.last_state_utime) continue;
+    const auto found = replayed.outcomes.find(key);
+    ASSERT_NE(found, replayed.outcomes.end());
+    EXPECT_EQ(found->second, bytes);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, LogPlayer, ::testing::Values(1.0, 10.0), [](const auto& test) {
+  return "Times" + std::to_string(static_cast<int>(test.param));
+});
+
+}  // namespace
+}  // namespace halocline
