@@ -121,7 +121,7 @@ void visit(ConfigVisitor& v, TerrainRecipe& t) {
     visit_shapes(s, t);
     s.section("raster", "kind = raster: any file GDAL reads", [&](ConfigVisitor& r) {
       visit_raster(r, t.raster);
-      if (t.kind == TerrainKind::raster && t.raster.path.empty())
+      if (t.kind == TerrainKind::kRaster && t.raster.path.empty())
         r.problem("path", "kind = raster needs a file");
     });
     s.boolean("whole_file", t.whole_file,

@@ -6,21 +6,21 @@ namespace halocline::bathymetry {
 namespace {
 
 // The order of the enumerations is that of the message's constants.
-static_assert(static_cast<int>(QueryMode::closest_hit) == ray_query_t::CLOSEST_HIT);
-static_assert(static_cast<int>(QueryMode::occluded) == ray_query_t::OCCLUDED);
-static_assert(static_cast<int>(QueryMode::depth) == ray_query_t::DEPTH);
-static_assert(static_cast<int>(QueryMode::uniform_profile) == ray_query_t::UNIFORM_PROFILE);
-static_assert(static_cast<int>(QueryMode::exact_profile) == ray_query_t::EXACT_PROFILE);
-static_assert(static_cast<int>(RayStatus::hit) == ray_reply_t::HIT);
-static_assert(static_cast<int>(RayStatus::miss) == ray_reply_t::MISS);
-static_assert(static_cast<int>(RayStatus::outside) == ray_reply_t::OUTSIDE);
-static_assert(static_cast<int>(RayStatus::no_data) == ray_reply_t::NO_DATA);
-static_assert(static_cast<int>(RayStatus::started_below_bottom) == ray_reply_t::BELOW_BOTTOM);
-static_assert(static_cast<int>(RayStatus::bad_input) == ray_reply_t::BAD_INPUT);
-static_assert(static_cast<int>(Refusal::none) == ray_reply_t::OK);
-static_assert(static_cast<int>(Refusal::too_many) == ray_reply_t::REFUSED_TOO_MANY);
-static_assert(static_cast<int>(Refusal::other_terrain) == ray_reply_t::REFUSED_OTHER_TERRAIN);
-static_assert(static_cast<int>(Refusal::bad_query) == ray_reply_t::REFUSED_BAD_QUERY);
+static_assert(static_cast<int>(QueryMode::kClosestHit) == ray_query_t::CLOSEST_HIT);
+static_assert(static_cast<int>(QueryMode::kOccluded) == ray_query_t::OCCLUDED);
+static_assert(static_cast<int>(QueryMode::kDepth) == ray_query_t::DEPTH);
+static_assert(static_cast<int>(QueryMode::kUniformProfile) == ray_query_t::UNIFORM_PROFILE);
+static_assert(static_cast<int>(QueryMode::kExactProfile) == ray_query_t::EXACT_PROFILE);
+static_assert(static_cast<int>(RayStatus::kHit) == ray_reply_t::HIT);
+static_assert(static_cast<int>(RayStatus::kMiss) == ray_reply_t::MISS);
+static_assert(static_cast<int>(RayStatus::kOutside) == ray_reply_t::OUTSIDE);
+static_assert(static_cast<int>(RayStatus::kNoData) == ray_reply_t::NO_DATA);
+static_assert(static_cast<int>(RayStatus::kStartedBelowBottom) == ray_reply_t::BELOW_BOTTOM);
+static_assert(static_cast<int>(RayStatus::kBadInput) == ray_reply_t::BAD_INPUT);
+static_assert(static_cast<int>(Refusal::kNone) == ray_reply_t::OK);
+static_assert(static_cast<int>(Refusal::kTooMany) == ray_reply_t::REFUSED_TOO_MANY);
+static_assert(static_cast<int>(Refusal::kOtherTerrain) == ray_reply_t::REFUSED_OTHER_TERRAIN);
+static_assert(static_cast<int>(Refusal::kBadQuery) == ray_reply_t::REFUSED_BAD_QUERY);
 
 std::vector<double> as_list(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 as_vector(const std::vector<double>& list) { return {list[0], list[1], list[2]}; }
@@ -79,7 +79,7 @@ ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
   message.result_m = answers.results_m;
   message.num_samples = static_cast<std::int32_t>(answers.samples.size());
   for (const ProfilePoint& sample : answers.samples) {
-    const bool valid = sample.status == DepthStatus::ok;
+    const bool valid = sample.status == DepthStatus::kOk;
     message.sample_distance_m.push_back(sample.distance_m);
     message.sample_seabed_z_m.push_back(valid ? sample.z_m : 0);
     message.sample_valid.push_back(valid ? 1 : 0);
@@ -97,7 +97,7 @@ RayAnswers from_message(const ray_reply_t& message) {
   for (std::size_t n = 0; n < message.sample_distance_m.size(); ++n) {
     const bool valid = message.sample_valid[n] != 0;
     answers.samples.push_back({message.sample_distance_m[n], valid ? message.sample_seabed_z_m[n] : kUnknown,
-                               valid ? DepthStatus::ok : DepthStatus::no_data});
+                               valid ? DepthStatus::kOk : DepthStatus::kNoData});
   }
   return answers;
 }

@@ -32,7 +32,7 @@ LocalFrame::LocalFrame(FrameMode mode, double origin_latitude_rad, double origin
 Vec3 LocalFrame::to_ned(const GeodeticPoint& point) const {
   const double latitude = to_degrees(point.latitude_rad), longitude = to_degrees(point.longitude_rad);
   double east = 0, north = 0, up = 0;
-  if (mode_ == FrameMode::enu) {
+  if (mode_ == FrameMode::kEnu) {
     tangent_plane_.Forward(latitude, longitude, -point.depth_m, east, north, up);
     return {north, east, -up};
   }
@@ -42,7 +42,7 @@ Vec3 LocalFrame::to_ned(const GeodeticPoint& point) const {
 
 GeodeticPoint LocalFrame::to_geodetic(const Vec3& position_ned_m) const {
   double latitude = 0, longitude = 0, height = -position_ned_m.z();
-  if (mode_ == FrameMode::enu) {
+  if (mode_ == FrameMode::kEnu) {
     tangent_plane_.Reverse(position_ned_m.y(), position_ned_m.x(), -position_ned_m.z(), latitude, longitude,
                            height);
   } else {

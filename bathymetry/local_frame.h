@@ -20,7 +20,7 @@
 
 namespace halocline::bathymetry {
 
-enum class FrameMode { flat, enu };
+enum class FrameMode { kFlat, kEnu };
 
 struct GeodeticPoint {
   double latitude_rad = 0;   // north positive, WGS84, within +-pi/2

@@ -56,7 +56,7 @@ std::vector<double> all_crossings(const Terrain& terrain, const Line& line) {
 
 // The piece of the line between two neighbouring crossings: it lies in one cell, that of its middle.
 struct Piece {
-  DepthStatus status = DepthStatus::outside;
+  DepthStatus status = DepthStatus::kOutside;
   double begin_m = 0, end_m = 0;
   double z = 0, slope = 0, curvature = 0;  // z + slope s + curvature s^2, s from begin_m
 
@@ -71,7 +71,7 @@ Piece piece_between(const Terrain& terrain, const Line& line, double begin_m, do
   const HeightGrid& grid = terrain.grid(static_cast<std::size_t>(index));
   const CellPosition at = *grid.locate(middle.x_m, middle.y_m);
   const BilinearCell cell = grid.cell(at.i, at.j);
-  piece.status = is_no_data(cell) ? DepthStatus::no_data : DepthStatus::ok;
+  piece.status = is_no_data(cell) ? DepthStatus::kNoData : DepthStatus::kOk;
   const double du = line.north / grid.geometry().spacing_m, dv = line.east / grid.geometry().spacing_m;
   const double half = 0.5 * (end_m - begin_m);
   const double u = std::clamp(at.u - du * half, 0.0, 1.0), v = std::clamp(at.v - dv * half, 0.0, 1.0);
@@ -84,20 +84,20 @@ Piece piece_between(const Terrain& terrain, const Line& line, double begin_m, do
 void append_point(std::vector<ProfilePoint>& points, double distance_m, double z_m, DepthStatus status) {
   const bool same_place =
       !points.empty() && points.back().distance_m == distance_m && points.back().status == status;
-  if (!same_place) points.push_back({distance_m, status == DepthStatus::ok ? z_m : kUnknown, status});
+  if (!same_place) points.push_back({distance_m, status == DepthStatus::kOk ? z_m : kUnknown, status});
 }
 
 // A gap is written once, from its first to its last point.
 void append_piece(std::vector<ProfilePoint>& points, const Piece& piece) {
   const double length = piece.end_m - piece.begin_m;
-  if (piece.status != DepthStatus::ok && points.size() > 1 && points.back().status == piece.status &&
+  if (piece.status != DepthStatus::kOk && points.size() > 1 && points.back().status == piece.status &&
       points[points.size() - 2].status == piece.status) {
     points.back().distance_m = piece.end_m;
     return;
   }
   append_point(points, piece.begin_m, piece.z, piece.status);
   const double turn = -piece.slope / (2 * piece.curvature);
-  if (piece.status == DepthStatus::ok && turn > 0 && turn < length) {
+  if (piece.status == DepthStatus::kOk && turn > 0 && turn < length) {
     append_point(points, piece.begin_m + turn, piece.depth(turn), piece.status);
   }
   append_point(points, piece.end_m, piece.depth(length), piece.status);
@@ -127,7 +127,7 @@ std::vector<ProfilePoint> uniform_profile(const Terrain& terrain, PlanePoint fro
 std::vector<ProfilePoint> exact_profile(const Terrain& terrain, PlanePoint from, PlanePoint to) {
   const Line line = line_between(from, to);
   std::vector<ProfilePoint> points;
-  if (!is_finite(line)) return {{0, kUnknown, DepthStatus::bad_input}};
+  if (!is_finite(line)) return {{0, kUnknown, DepthStatus::kBadInput}};
   if (line.length_m == 0) {
     const DepthSample sample = terrain.depth_at(from.x_m, from.y_m);
     return {{0, sample.z_m, sample.status}};

@@ -22,7 +22,7 @@ struct PlanePoint {
 struct ProfilePoint {
   double distance_m = 0;  // along the line from its first point
   double z_m = kUnknown;  // of the bottom; NaN unless ok
-  DepthStatus status = DepthStatus::outside;
+  DepthStatus status = DepthStatus::kOutside;
 };
 
 // `count` (from 2) samples from `from` to `to`, both included; sample k lies at distance k length / (count -

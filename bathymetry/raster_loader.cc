@@ -31,7 +31,7 @@ class PostMap {
   double depth(double x_m, double y_m, double z_m) const {
     return source_.is_local() ? z_m : frame_.to_geodetic({x_m, y_m, z_m}).depth_m;
   }
-  bool depends_on_z() const { return !source_.is_local() && frame_.mode() == FrameMode::enu; }
+  bool depends_on_z() const { return !source_.is_local() && frame_.mode() == FrameMode::kEnu; }
 
  private:
   const RasterSource& source_;

@@ -8,7 +8,7 @@
 // ETOPO5 (nodes), EMODnet, ESRI ASCII and GeoTIFF are read as they declare themselves; for what files do not
 // say, see raster_options.h. The one part of the terrain that reads files.
 //
-//   const LocalFrame frame(FrameMode::flat, to_radians(29.9167), to_radians(-28.4167));
+//   const LocalFrame frame(FrameMode::kFlat, to_radians(29.9167), to_radians(-28.4167));
 //   const LoadedRaster loaded = load_raster({.path = "etopo5.cdf"}, frame, {-8000, -8000, 20, 801, 801});
 //   const Terrain terrain(loaded.grid);
 #pragma once

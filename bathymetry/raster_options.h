@@ -11,17 +11,17 @@ namespace halocline::bathymetry {
 
 // Where the outermost posts lie relative to the bounds that the file declares.
 enum class Registration {
-  as_declared,  // posts are pixel centres, half a pixel inside the bounds (and GDAL's reading of each format)
-  node          // the first and last posts lie on the bounds themselves
+  kAsDeclared,  // posts are pixel centres, half a pixel inside the bounds (and GDAL's reading of each format)
+  kNode         // the first and last posts lie on the bounds themselves
 };
 
-enum class RowOrder { north_first, south_first };
+enum class RowOrder { kNorthFirst, kSouthFirst };
 
 // Bounds of a raster that has none, in units of its coordinate system (degrees east / north, or metres).
 struct RasterBounds {
   double west = 0, south = 0, east = 0,
          north = 0;  // west < east, south < north; of pixel edges (see Registration)
-  RowOrder row_order = RowOrder::north_first;  // of the rows as the file stores them
+  RowOrder row_order = RowOrder::kNorthFirst;  // of the rows as the file stores them
 };
 
 struct RasterOptions {
@@ -33,7 +33,7 @@ struct RasterOptions {
   std::optional<double> no_data = {};  // a value to take as no data beside the declared ones, before scaling
   bool trust_every_value = false;      // no value is suspected of being undeclared no data
 
-  Registration registration = Registration::as_declared;
+  Registration registration = Registration::kAsDeclared;
   std::optional<RasterBounds> bounds = {};  // only for a raster without a geotransform
   // For a raster that names no coordinate system: anything PROJ knows ("EPSG:4326"), or "local": metres east
   // and north of the scenario's origin. Without it, such a raster is taken as degrees when, so read, it holds

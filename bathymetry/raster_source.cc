@@ -42,12 +42,12 @@ EdgeTransform edges_of(const RasterBounds& bounds, int columns, int rows) {
   require(bounds.west < bounds.east && bounds.south < bounds.north,
           "bounds: west < east and south < north are needed");
   const double step_x = (bounds.east - bounds.west) / columns, step_y = (bounds.north - bounds.south) / rows;
-  if (bounds.row_order == RowOrder::south_first) return {bounds.west, step_x, 0, bounds.south, 0, step_y};
+  if (bounds.row_order == RowOrder::kSouthFirst) return {bounds.west, step_x, 0, bounds.south, 0, step_y};
   return {bounds.west, step_x, 0, bounds.north, 0, -step_y};
 }
 
 PostTransform posts_of(const EdgeTransform& edges, Registration registration, int columns, int rows) {
-  if (registration == Registration::node) {
+  if (registration == Registration::kNode) {
     require(edges[2] == 0 && edges[4] == 0, "registration = node needs unrotated axes");
     return {edges[0], edges[1] * columns / (columns - 1), 0, edges[3], 0, edges[5] * rows / (rows - 1)};
   }

@@ -8,26 +8,26 @@ namespace {
 RayAnswers refused(Refusal refusal, std::string reason) { return {refusal, std::move(reason), {}, {}, {}}; }
 
 bool is_profile(QueryMode mode) {
-  return mode == QueryMode::uniform_profile || mode == QueryMode::exact_profile;
+  return mode == QueryMode::kUniformProfile || mode == QueryMode::kExactProfile;
 }
 
 RayStatus as_ray_status(DepthStatus status) {
   switch (status) {
-    case DepthStatus::ok:
-      return RayStatus::hit;
-    case DepthStatus::outside:
-      return RayStatus::outside;
-    case DepthStatus::no_data:
-      return RayStatus::no_data;
-    case DepthStatus::bad_input:
+    case DepthStatus::kOk:
+      return RayStatus::kHit;
+    case DepthStatus::kOutside:
+      return RayStatus::kOutside;
+    case DepthStatus::kNoData:
+      return RayStatus::kNoData;
+    case DepthStatus::kBadInput:
       break;
   }
-  return RayStatus::bad_input;
+  return RayStatus::kBadInput;
 }
 
 void append(RayAnswers& answers, RayStatus status, double result_m) {
   answers.statuses.push_back(status);
-  answers.results_m.push_back(status == RayStatus::hit ? result_m : 0);
+  answers.results_m.push_back(status == RayStatus::kHit ? result_m : 0);
 }
 
 void append_depth(const Terrain& terrain, const Ray& ray, RayAnswers& answers) {
@@ -36,7 +36,7 @@ void append_depth(const Terrain& terrain, const Ray& ray, RayAnswers& answers) {
 }
 
 RayAnswers too_many_samples(double count) {
-  return refused(Refusal::too_many, "the profile has " + std::to_string(static_cast<long long>(count)) +
+  return refused(Refusal::kTooMany, "the profile has " + std::to_string(static_cast<long long>(count)) +
                                         " samples; allowed are " + std::to_string(kMostRays));
 }
 
@@ -59,12 +59,12 @@ RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
   const bool possible = ray.origin_ned_m.allFinite() && std::isfinite(length) && length > 0 &&
                         std::isfinite(ray.max_range_m) && ray.max_range_m >= 0;
   if (!possible) {
-    append(answers, RayStatus::bad_input, 0);
+    append(answers, RayStatus::kBadInput, 0);
     return answers;
   }
   const Vec3 along = level / length;
   const PlanePoint from{ray.origin_ned_m.x(), ray.origin_ned_m.y()};
-  if (batch.mode == QueryMode::uniform_profile) {
+  if (batch.mode == QueryMode::kUniformProfile) {
     // A range that is a multiple of the spacing but for rounding includes its end.
     constexpr double kRounding = 1e-9;
     const double count = std::floor(ray.max_range_m / batch.sample_spacing_m + kRounding) + 1;
@@ -77,28 +77,28 @@ RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
     if (answers.samples.size() > kMostRays)
       return too_many_samples(static_cast<double>(answers.samples.size()));
   }
-  append(answers, RayStatus::hit, answers.samples.back().distance_m);
+  append(answers, RayStatus::kHit, answers.samples.back().distance_m);
   return answers;
 }
 
-// Why the batch as a whole cannot be answered; Refusal::none when it can.
+// Why the batch as a whole cannot be answered; Refusal::kNone when it can.
 RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch) {
   const std::size_t count = batch.rays.size();
-  if (batch.mode > QueryMode::exact_profile)
-    return refused(Refusal::bad_query, "query_mode is none of the five");
-  if (count == 0) return refused(Refusal::bad_query, "there is no ray");
+  if (batch.mode > QueryMode::kExactProfile)
+    return refused(Refusal::kBadQuery, "query_mode is none of the five");
+  if (count == 0) return refused(Refusal::kBadQuery, "there is no ray");
   if (count > kMostRays) {
-    return refused(Refusal::too_many,
+    return refused(Refusal::kTooMany,
                    "there are " + std::to_string(count) + " rays; allowed are " + std::to_string(kMostRays));
   }
   if (is_profile(batch.mode) && count != 1)
-    return refused(Refusal::bad_query, "a profile takes exactly one ray");
+    return refused(Refusal::kBadQuery, "a profile takes exactly one ray");
   const bool spacing_possible = std::isfinite(batch.sample_spacing_m) && batch.sample_spacing_m > 0;
-  if (batch.mode == QueryMode::uniform_profile && !spacing_possible) {
-    return refused(Refusal::bad_query, "sample_spacing_m must be above 0");
+  if (batch.mode == QueryMode::kUniformProfile && !spacing_possible) {
+    return refused(Refusal::kBadQuery, "sample_spacing_m must be above 0");
   }
   if (!batch.expected_terrain.empty() && batch.expected_terrain != terrain_version) {
-    return refused(Refusal::other_terrain, "the terrain served is another");
+    return refused(Refusal::kOtherTerrain, "the terrain served is another");
   }
   return {};
 }
@@ -107,12 +107,12 @@ RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch)
 
 RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, const RayBatch& batch) {
   RayAnswers answers = refusal_of(terrain_version, batch);
-  if (answers.refusal != Refusal::none) return answers;
+  if (answers.refusal != Refusal::kNone) return answers;
   if (is_profile(batch.mode)) return answer_profile(terrain, batch);
   answers.statuses.reserve(batch.rays.size());
   answers.results_m.reserve(batch.rays.size());
   for (const Ray& ray : batch.rays) {
-    if (batch.mode == QueryMode::depth) {
+    if (batch.mode == QueryMode::kDepth) {
       append_depth(terrain, ray, answers);
     } else {
       // Occlusion is a closest hit: the search runs along the ray and ends at the first one.

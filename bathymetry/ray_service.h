@@ -20,19 +20,19 @@ inline constexpr std::size_t kUsualRays = 1024;
 // More rays, or more samples of a profile, are refused.
 inline constexpr std::size_t kMostRays = 4096;
 
-enum class QueryMode : std::uint8_t { closest_hit, occluded, depth, uniform_profile, exact_profile };
+enum class QueryMode : std::uint8_t { kClosestHit, kOccluded, kDepth, kUniformProfile, kExactProfile };
 
 struct RayBatch {
-  QueryMode mode = QueryMode::closest_hit;
+  QueryMode mode = QueryMode::kClosestHit;
   std::string expected_terrain = {};  // version_text of the terrain relied upon; empty: any
   double sample_spacing_m = 0;        // uniform_profile: above 0
   std::vector<Ray> rays = {};         // 1 to kMostRays; exactly 1 for a profile
 };
 
-enum class Refusal : std::uint8_t { none, too_many, other_terrain, bad_query };
+enum class Refusal : std::uint8_t { kNone, kTooMany, kOtherTerrain, kBadQuery };
 
 struct RayAnswers {
-  Refusal refusal = Refusal::none;
+  Refusal refusal = Refusal::kNone;
   std::string reason = {};               // empty unless refused
   std::vector<RayStatus> statuses = {};  // one a ray, in order; empty when refused
   // One a ray: the range of a hit; for depth z of the bottom (status hit); for a profile its length (status hit).

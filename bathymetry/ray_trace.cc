@@ -82,7 +82,7 @@ class Walk {
           descend();
           continue;
         }
-      } else if (const TraceResult result = enter_cell(exit); result.end != TraceEnd::passed) {
+      } else if (const TraceResult result = enter_cell(exit); result.end != TraceEnd::kPassed) {
         return result;
       }
       if (exit >= end_) return {};
@@ -124,12 +124,12 @@ class Walk {
     const double du = ray_.direction_x, dv = ray_.direction_y;
     // Bottom minus ray along the ray: f(s) = a + b s + c s^2, s from the entry into the cell.
     const double a = cell.depth(u, v) - (ray_.origin_z_m + ray_.direction_z * t_);
-    if (is_no_data(cell)) return {TraceEnd::no_data, t_, {bi_, bj_, u, v}};
-    if (a <= 0) return {TraceEnd::hit, t_, {bi_, bj_, u, v}};
+    if (is_no_data(cell)) return {TraceEnd::kNoData, t_, {bi_, bj_, u, v}};
+    if (a <= 0) return {TraceEnd::kHit, t_, {bi_, bj_, u, v}};
     const double b = cell.slope_u(v) * du + cell.slope_v(u) * dv - ray_.direction_z;
     const double s = first_root(a, b, cell.c * du * dv, exit - t_);
     if (s < 0) return {};
-    return {TraceEnd::hit,
+    return {TraceEnd::kHit,
             t_ + s,
             {bi_, bj_, std::clamp(u + du * s, 0.0, 1.0), std::clamp(v + dv * s, 0.0, 1.0)}};
   }

@@ -54,10 +54,10 @@ inline CellBlock all_cells(const GridGeometry& geometry) {
 // The part of `interval` above the block, by the crossings of the grid whose cells these are.
 Interval clip_to_cells(const CellBlock& block, const GridRay& ray, Interval interval);
 
-enum class TraceEnd { passed, hit, no_data };
+enum class TraceEnd { kPassed, kHit, kNoData };
 
 struct TraceResult {
-  TraceEnd end = TraceEnd::passed;
+  TraceEnd end = TraceEnd::kPassed;
   double range_m = 0;    // of the hit, or of the entry into the no-data cell
   CellPosition at = {};  // valid with hit
 };

@@ -58,7 +58,7 @@ std::size_t Terrain::patch_around(const GridGeometry& geometry, std::size_t numb
 void Terrain::nest(NestedGrid nested, std::size_t number) {
   require_in_range(nested.blend_width_m, 0, 1e6, "blend_width_m of a nested grid", "m");
   const std::size_t around = patch_around(nested.grid.geometry(), number);
-  blend_into(patches_[around].grid, nested.blend_width_m, nested.holes == Holes::fill_from_around,
+  blend_into(patches_[around].grid, nested.blend_width_m, nested.holes == Holes::kFillFromAround,
              nested.grid);
   patches_[around].inside.push_back(patches_.size());
   const CellBlock covers = cells_covered(nested.grid.geometry(), patches_[around].grid.geometry());
@@ -83,13 +83,13 @@ DepthSample Terrain::sample(const Patch& patch, double x_m, double y_m) const {
   if (!at) return {};
   const BilinearCell cell = patch.grid.cell(at->i, at->j);
   const double z = cell.depth(at->u, at->v);
-  if (is_no_data(cell)) return {.status = DepthStatus::no_data};
+  if (is_no_data(cell)) return {.status = DepthStatus::kNoData};
   const double spacing = patch.grid.geometry().spacing_m;
-  return {DepthStatus::ok, z, cell.slope_u(at->v) / spacing, cell.slope_v(at->u) / spacing};
+  return {DepthStatus::kOk, z, cell.slope_u(at->v) / spacing, cell.slope_v(at->u) / spacing};
 }
 
 DepthSample Terrain::depth_at(double x_m, double y_m) const {
-  if (!std::isfinite(x_m) || !std::isfinite(y_m)) return {.status = DepthStatus::bad_input};
+  if (!std::isfinite(x_m) || !std::isfinite(y_m)) return {.status = DepthStatus::kBadInput};
   const Patch& base = patches_.front();
   return sample(base.inside.empty() ? base : finest_patch(base, x_m, y_m), x_m, y_m);
 }
@@ -117,10 +117,10 @@ TraceResult Terrain::trace(const Patch& patch, const Ray& unit_ray, Interval int
         clip_to_cells(all_cells(patch.grid.geometry()), ray, {interval.begin_m, piece.interval.begin_m});
     if (!before.empty()) {
       const TraceResult own = trace_grid(patch.grid, patch.pyramid, ray, before);
-      if (own.end != TraceEnd::passed) return own;
+      if (own.end != TraceEnd::kPassed) return own;
     }
     const TraceResult inner = trace(*piece.patch, unit_ray, piece.interval, owner);
-    if (inner.end != TraceEnd::passed) return inner;
+    if (inner.end != TraceEnd::kPassed) return inner;
     interval.begin_m = std::max(interval.begin_m, piece.interval.end_m);
     *owner = &patch;
   }
@@ -130,14 +130,14 @@ TraceResult Terrain::trace(const Patch& patch, const Ray& unit_ray, Interval int
 
 RayHit Terrain::finish(const Ray& unit_ray, const TraceResult& result, const Patch* owner,
                        Interval inside) const {
-  if (result.end == TraceEnd::no_data) return ended(RayStatus::no_data, result.range_m);
-  if (result.end == TraceEnd::passed) {
+  if (result.end == TraceEnd::kNoData) return ended(RayStatus::kNoData, result.range_m);
+  if (result.end == TraceEnd::kPassed) {
     const bool whole = inside.end_m >= unit_ray.max_range_m;
-    return ended(whole ? RayStatus::miss : RayStatus::outside, inside.end_m);
+    return ended(whole ? RayStatus::kMiss : RayStatus::kOutside, inside.end_m);
   }
   const BilinearCell cell = owner->grid.cell(result.at.i, result.at.j);
   const double spacing = owner->grid.geometry().spacing_m;
-  return {RayStatus::hit, result.range_m,
+  return {RayStatus::kHit, result.range_m,
           upward_normal(cell.slope_u(result.at.v) / spacing, cell.slope_v(result.at.u) / spacing)};
 }
 
@@ -152,19 +152,19 @@ bool Terrain::is_surely_in_water(const Vec3& point_ned_m) const {
 
 RayHit Terrain::closest_hit(const Ray& ray) const {
   const Ray unit = normalised(ray);
-  if (unit.direction.isZero(0)) return ended(RayStatus::bad_input);
+  if (unit.direction.isZero(0)) return ended(RayStatus::kBadInput);
   if (!is_surely_in_water(unit.origin_ned_m)) {
     const DepthSample start = depth_at(unit.origin_ned_m.x(), unit.origin_ned_m.y());
-    if (start.status == DepthStatus::outside) return ended(RayStatus::outside, 0);
-    if (start.status == DepthStatus::no_data) return ended(RayStatus::no_data, 0);
-    if (unit.origin_ned_m.z() > start.z_m) return ended(RayStatus::started_below_bottom);
-    if (unit.origin_ned_m.z() == start.z_m) return {RayStatus::hit, 0, start.normal_ned()};
+    if (start.status == DepthStatus::kOutside) return ended(RayStatus::kOutside, 0);
+    if (start.status == DepthStatus::kNoData) return ended(RayStatus::kNoData, 0);
+    if (unit.origin_ned_m.z() > start.z_m) return ended(RayStatus::kStartedBelowBottom);
+    if (unit.origin_ned_m.z() == start.z_m) return {RayStatus::kHit, 0, start.normal_ned()};
   }
   const Patch& base = patches_.front();
   const GridRay base_ray = to_grid_ray(base.grid.geometry(), unit.origin_ned_m, unit.direction);
   const Interval inside = clip_to_cells(all_cells(base.grid.geometry()), base_ray, {0, unit.max_range_m});
   if (inside.empty()) {
-    return unit.max_range_m == 0 ? ended(RayStatus::miss, 0) : ended(RayStatus::outside, 0);
+    return unit.max_range_m == 0 ? ended(RayStatus::kMiss, 0) : ended(RayStatus::kOutside, 0);
   }
   const Patch* owner = &base;
   const TraceResult result = base.inside.empty() ? trace_grid(base.grid, base.pyramid, base_ray, inside)
@@ -175,10 +175,10 @@ RayHit Terrain::closest_hit(const Ray& ray) const {
 RayHit Terrain::occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const {
   const Vec3 along = to_ned_m - from_ned_m;
   const double length = along.norm();
-  if (!std::isfinite(length) || !(skin_m >= 0)) return ended(RayStatus::bad_input);
-  if (length <= 2 * skin_m || length == 0) return ended(RayStatus::miss, length);
+  if (!std::isfinite(length) || !(skin_m >= 0)) return ended(RayStatus::kBadInput);
+  if (length <= 2 * skin_m || length == 0) return ended(RayStatus::kMiss, length);
   RayHit hit = closest_hit({from_ned_m + along * (skin_m / length), along, length - 2 * skin_m});
-  hit.range_m = hit.status == RayStatus::miss ? length : hit.range_m + skin_m;
+  hit.range_m = hit.status == RayStatus::kMiss ? length : hit.range_m + skin_m;
   return hit;
 }
 

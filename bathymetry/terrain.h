@@ -31,11 +31,11 @@ namespace halocline::bathymetry {
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-enum class DepthStatus : std::uint8_t { ok, outside, no_data, bad_input };
+enum class DepthStatus : std::uint8_t { kOk, kOutside, kNoData, kBadInput };
 
 // The bottom below (or above) one point of the plane.
 struct DepthSample {
-  DepthStatus status = DepthStatus::outside;
+  DepthStatus status = DepthStatus::kOutside;
   double z_m = kUnknown;    // of the bottom; NaN unless ok
   double slope_north = 0;   // dz/dx: above 0 where the bottom falls away towards north; 0 unless ok
   double slope_east = 0;    // dz/dy
@@ -43,12 +43,12 @@ struct DepthSample {
 };
 
 enum class RayStatus : std::uint8_t {
-  hit,                   // met the bottom at range_m
-  miss,                  // water over known bottom all the way to max_range_m
-  outside,               // left the terrain at range_m without a hit (0: began there)
-  no_data,               // came over a no-data cell at range_m without a hit before
-  started_below_bottom,  // the origin lies below the bottom
-  bad_input,             // not finite, no direction, or a range below 0
+  kHit,                 // met the bottom at range_m
+  kMiss,                // water over known bottom all the way to max_range_m
+  kOutside,             // left the terrain at range_m without a hit (0: began there)
+  kNoData,              // came over a no-data cell at range_m without a hit before
+  kStartedBelowBottom,  // the origin lies below the bottom
+  kBadInput,            // not finite, no direction, or a range below 0
 };
 
 struct Ray {
@@ -58,21 +58,21 @@ struct Ray {
 };
 
 struct RayHit {
-  RayStatus status = RayStatus::bad_input;
+  RayStatus status = RayStatus::kBadInput;
   double range_m = kUnknown;       // see RayStatus; max_range_m for a miss; NaN below the bottom, bad input
   Vec3 normal_ned = Vec3::Zero();  // of the bottom at a hit, unit, into the water; zero otherwise
 };
 
 // What to do with the posts a nested grid lacks.
 enum class Holes : std::uint8_t {
-  keep,             // no data stays no data
-  fill_from_around  // take the surface of the grid around it at that post
+  kKeep,           // no data stays no data
+  kFillFromAround  // take the surface of the grid around it at that post
 };
 
 struct NestedGrid {
   HeightGrid grid;
   double blend_width_m = 0;  // from its border inwards; 0 or more; posts of the border itself always join
-  Holes holes = Holes::keep;
+  Holes holes = Holes::kKeep;
 };
 
 class Terrain {

@@ -33,15 +33,15 @@ HeightGrid base_grid(const TerrainRecipe& recipe, const LocalFrame& frame, const
                      std::vector<RasterReport>& reports) {
   const auto shaped = [&](const Shape& shape) { return make_grid(recipe.domain.geometry(), shape); };
   switch (recipe.kind) {
-    case TerrainKind::flat:
+    case TerrainKind::kFlat:
       return shaped(recipe.flat);
-    case TerrainKind::slope:
+    case TerrainKind::kSlope:
       return shaped(recipe.slope);
-    case TerrainKind::ridge:
+    case TerrainKind::kRidge:
       return shaped(recipe.ridge);
-    case TerrainKind::seamount:
+    case TerrainKind::kSeamount:
       return shaped(recipe.seamount);
-    case TerrainKind::raster:
+    case TerrainKind::kRaster:
       break;
   }
   const RasterOptions options = located(recipe.raster, site.folder);

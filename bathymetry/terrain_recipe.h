@@ -18,7 +18,7 @@
 
 namespace halocline::bathymetry {
 
-enum class TerrainKind { flat, slope, ridge, seamount, raster };
+enum class TerrainKind { kFlat, kSlope, kRidge, kSeamount, kRaster };
 
 // A rectangle of posts around a centre, local NED.
 struct DomainRecipe {
@@ -35,13 +35,13 @@ struct DomainRecipe {
 struct NestedRecipe {
   DomainRecipe domain = {};
   double blend_width_m = 200;
-  Holes holes = Holes::keep;
+  Holes holes = Holes::kKeep;
   RasterOptions raster = {};
 };
 
 struct TerrainRecipe {
-  TerrainKind kind = TerrainKind::flat;
-  FrameMode frame = FrameMode::flat;  // for rasters
+  TerrainKind kind = TerrainKind::kFlat;
+  FrameMode frame = FrameMode::kFlat;  // for rasters
   DomainRecipe domain = {};
   FlatShape flat;
   SlopeShape slope;

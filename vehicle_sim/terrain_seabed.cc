@@ -13,7 +13,7 @@ TerrainSeabed::TerrainSeabed(std::shared_ptr<const bathymetry::Terrain> terrain)
 
 std::optional<SeabedPlane> TerrainSeabed::plane_at(double north_m, double east_m) const {
   const bathymetry::DepthSample sample = terrain_->depth_at(north_m, east_m);
-  if (sample.status != bathymetry::DepthStatus::ok) return {};
+  if (sample.status != bathymetry::DepthStatus::kOk) return {};
   return SeabedPlane{sample.z_m, sample.normal_ned()};
 }
 

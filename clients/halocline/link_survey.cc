@@ -16,17 +16,17 @@ using channel_server::RayAnswer;
 RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
   using Status = bathymetry::RayStatus;
   switch (status) {
-    case Status::hit:
+    case Status::kHit:
       return RayAnswer::Kind::kHit;
-    case Status::miss:
+    case Status::kMiss:
       return RayAnswer::Kind::kMiss;
-    case Status::outside:
+    case Status::kOutside:
       return RayAnswer::Kind::kOutside;
-    case Status::no_data:
+    case Status::kNoData:
       return RayAnswer::Kind::kNoData;
-    case Status::started_below_bottom:
+    case Status::kStartedBelowBottom:
       return RayAnswer::Kind::kBelowBottom;
-    case Status::bad_input:
+    case Status::kBadInput:
       break;
   }
   return RayAnswer::Kind::kBadInput;
@@ -81,8 +81,8 @@ LinkEnd link_end(const ScenarioConfig& config, const std::string& text) {
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                          const Vec3& to_ned_m, int bottom_points) {
   channel_server::EchoSurvey survey(from_ned_m, to_ned_m, bottom_points);
-  survey.take_depths(ask(terrain, bathymetry::QueryMode::depth, survey.depth_rays()));
-  survey.take_ways(ask(terrain, bathymetry::QueryMode::occluded, survey.way_rays()));
+  survey.take_depths(ask(terrain, bathymetry::QueryMode::kDepth, survey.depth_rays()));
+  survey.take_ways(ask(terrain, bathymetry::QueryMode::kOccluded, survey.way_rays()));
   return survey;
 }
 

@@ -33,7 +33,7 @@ std::string errors_of(const std::string& text) {
 
 TEST(BathymetryConfig, WithoutASectionIsAFlatBottom) {
   const TerrainRecipe recipe = parse("");
-  EXPECT_EQ(recipe.kind, TerrainKind::flat);
+  EXPECT_EQ(recipe.kind, TerrainKind::kFlat);
   EXPECT_EQ(prepare_terrain(recipe, {}).terrain->depth_at(0, 0).z_m, 100);
 }
 
@@ -67,19 +67,19 @@ TEST(BathymetryConfig, FillsTheRecipe) {
     [terrain.nested.raster]
     path = "fine.tif"
   )");
-  EXPECT_EQ(recipe.kind, TerrainKind::raster);
-  EXPECT_EQ(recipe.frame, FrameMode::enu);
+  EXPECT_EQ(recipe.kind, TerrainKind::kRaster);
+  EXPECT_EQ(recipe.frame, FrameMode::kEnu);
   EXPECT_EQ(recipe.domain.geometry(), (GridGeometry{-4000, -3000, 25, 321, 241}));
   EXPECT_DOUBLE_EQ(recipe.ridge.azimuth_rad, std::numbers::pi / 2);
   EXPECT_TRUE(recipe.raster.positive_down);
-  EXPECT_EQ(recipe.raster.registration, Registration::node);
+  EXPECT_EQ(recipe.raster.registration, Registration::kNode);
   EXPECT_EQ(recipe.raster.no_data, -1.0);
   ASSERT_TRUE(recipe.raster.bounds.has_value());
   EXPECT_EQ(recipe.raster.bounds->east, -28);
-  EXPECT_EQ(recipe.raster.bounds->row_order, RowOrder::south_first);
+  EXPECT_EQ(recipe.raster.bounds->row_order, RowOrder::kSouthFirst);
   EXPECT_EQ(recipe.relief.seed, 5u);
   ASSERT_EQ(recipe.nested.size(), 1u);
-  EXPECT_EQ(recipe.nested[0].holes, Holes::fill_from_around);
+  EXPECT_EQ(recipe.nested[0].holes, Holes::kFillFromAround);
   EXPECT_EQ(recipe.nested[0].raster.path, "fine.tif");
 }
 
@@ -109,9 +109,9 @@ TEST(BathymetryConfig, BoundsNeedFourNumbersAndARowOrder) {
 
 TEST(BathymetryConfig, WrittenConfigurationReadsBackTheSame) {
   TerrainRecipe recipe;
-  recipe.kind = TerrainKind::seamount;
+  recipe.kind = TerrainKind::kSeamount;
   recipe.raster.path = "x.tif";
-  recipe.raster.bounds = RasterBounds{1, 2, 3, 4, RowOrder::south_first};
+  recipe.raster.bounds = RasterBounds{1, 2, 3, 4, RowOrder::kSouthFirst};
   recipe.raster.no_data = -5;
   const auto write = [](TerrainRecipe& r) {
     return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, r); }, false);
@@ -123,13 +123,13 @@ TEST(BathymetryConfig, WrittenConfigurationReadsBackTheSame) {
 
 TEST(TerrainRecipe, EveryGeneratedKindMakesItsTerrain) {
   TerrainRecipe recipe;
-  recipe.kind = TerrainKind::seamount;
+  recipe.kind = TerrainKind::kSeamount;
   recipe.seamount = {.depth_m = 500, .height_m = 300, .radius_m = 400};
   EXPECT_EQ(prepare_terrain(recipe, {}).terrain->depth_at(0, 0).z_m, 200);
-  recipe.kind = TerrainKind::ridge;
+  recipe.kind = TerrainKind::kRidge;
   recipe.ridge = {.depth_m = 90, .height_m = 50, .half_width_m = 100};
   EXPECT_EQ(prepare_terrain(recipe, {}).terrain->depth_at(500, 0).z_m, 40);
-  recipe.kind = TerrainKind::slope;
+  recipe.kind = TerrainKind::kSlope;
   recipe.slope = {.depth_m = 50, .slope = 0.1};
   EXPECT_EQ(prepare_terrain(recipe, {}).terrain->depth_at(100, 0).z_m, 60);
 }
@@ -155,7 +155,7 @@ TEST(TerrainRecipe, ReadsRastersRelativeToTheScenarioAndNestsThem) {
   testing::write_raster(coarse, [](int, int) { return -400.0; });
   testing::write_raster(fine, [](int, int) { return -300.0; });
   TerrainRecipe recipe;
-  recipe.kind = TerrainKind::raster;
+  recipe.kind = TerrainKind::kRaster;
   recipe.raster.path = "recipe_coarse.tif";
   recipe.nested.push_back({.domain = {.size_north_m = 1000, .size_east_m = 1000, .spacing_m = 10},
                            .blend_width_m = 100,

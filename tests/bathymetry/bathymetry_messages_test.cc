@@ -19,7 +19,7 @@ Message over_the_wire(const Message& message) {
 
 TEST(BathymetryMessages, AQueryComesBackAsItWas) {
   const RayBatch batch{
-      .mode = QueryMode::uniform_profile,
+      .mode = QueryMode::kUniformProfile,
       .expected_terrain = "0123456789abcdef",
       .sample_spacing_m = 2.5,
       .rays = {{{1000.5, 2000.25, 30}, {0.5, -0.25, 1}, 77}, {{999, 2001, -1}, {0, 0, 1}, 0}}};
@@ -45,17 +45,17 @@ TEST(BathymetryMessages, AnImpossibleModeStaysImpossible) {
   ray_query_t message = to_message({0, "alpha", 1}, {.rays = {{}}}, Vec3::Zero());
   for (const int mode : {-1, -128, 5, 127}) {
     message.query_mode = static_cast<std::int8_t>(mode);
-    EXPECT_GT(from_message(message).mode, QueryMode::exact_profile) << mode;
+    EXPECT_GT(from_message(message).mode, QueryMode::kExactProfile) << mode;
   }
 }
 
 TEST(BathymetryMessages, AReplyComesBackAsItWas) {
   using enum RayStatus;
-  const RayAnswers answers{Refusal::none,
+  const RayAnswers answers{Refusal::kNone,
                            "",
-                           {hit, miss, outside, no_data, started_below_bottom, bad_input},
+                           {kHit, kMiss, kOutside, kNoData, kStartedBelowBottom, kBadInput},
                            {60, 0, 0, 0, 0, 0},
-                           {{0, 100, DepthStatus::ok}, {5, kUnknown, DepthStatus::no_data}}};
+                           {{0, 100, DepthStatus::kOk}, {5, kUnknown, DepthStatus::kNoData}}};
   const ray_reply_t message =
       over_the_wire(to_message({123'456, "alpha", 42}, answers, "0123456789abcdef", 99));
   EXPECT_EQ(message.utime, 123'456);
@@ -68,14 +68,14 @@ TEST(BathymetryMessages, AReplyComesBackAsItWas) {
   EXPECT_EQ(back.results_m, answers.results_m);
   ASSERT_EQ(back.samples.size(), 2u);
   EXPECT_EQ(back.samples[0].z_m, 100);
-  EXPECT_EQ(back.samples[1].status, DepthStatus::no_data);
+  EXPECT_EQ(back.samples[1].status, DepthStatus::kNoData);
   EXPECT_TRUE(std::isnan(back.samples[1].z_m));
 }
 
 TEST(BathymetryMessages, ARefusalComesBackAsItWas) {
-  const RayAnswers answers{Refusal::other_terrain, "the terrain served is another", {}, {}, {}};
+  const RayAnswers answers{Refusal::kOtherTerrain, "the terrain served is another", {}, {}, {}};
   const RayAnswers back = from_message(over_the_wire(to_message({1, "alpha", 2}, answers, "v", 3)));
-  EXPECT_EQ(back.refusal, Refusal::other_terrain);
+  EXPECT_EQ(back.refusal, Refusal::kOtherTerrain);
   EXPECT_EQ(back.reason, answers.reason);
   EXPECT_TRUE(back.statuses.empty());
 }

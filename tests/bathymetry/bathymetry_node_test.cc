@@ -148,7 +148,7 @@ TEST_F(BathymetryNodeTest, ACorruptQueryIsCountedAndNotAnswered) {
 
 TEST_F(BathymetryNodeTest, RefusesQueriesBeyondWhatMayWait) {
   for (std::size_t n = 0; n <= BathymetryNode::kMostWaiting; ++n) {
-    ask({.mode = QueryMode::depth, .rays = {kDown}}, static_cast<std::int64_t>(n));
+    ask({.mode = QueryMode::kDepth, .rays = {kDown}}, static_cast<std::int64_t>(n));
   }
   EXPECT_EQ(node_.counters().refused, 1);
   step();
@@ -157,7 +157,7 @@ TEST_F(BathymetryNodeTest, RefusesQueriesBeyondWhatMayWait) {
 }
 
 TEST_F(BathymetryNodeTest, RepliesPassTheChecksOfTheBus) {
-  ask_and_step({.mode = QueryMode::exact_profile, .rays = {{{-50, 100, 0}, {1, 0.3, 0}, 900}}});
+  ask_and_step({.mode = QueryMode::kExactProfile, .rays = {{{-50, 100, 0}, {1, 0.3, 0}, 900}}});
   ASSERT_EQ(replies_.size(), 1u);  // a NaN would have been refused on the way
   EXPECT_EQ(client_.counters().refused, 0);
   EXPECT_GT(replies_[0].num_samples, 60);

@@ -26,7 +26,7 @@ class Etopo5 : public ::testing::Test {
 };
 
 double depth_at(double latitude_deg, double longitude_deg) {
-  const LocalFrame frame(FrameMode::flat, to_radians(latitude_deg), to_radians(longitude_deg));
+  const LocalFrame frame(FrameMode::kFlat, to_radians(latitude_deg), to_radians(longitude_deg));
   return load_raster({.path = kPath}, frame, {0, 0, 1, 2, 2}).grid.post(0, 0);
 }
 
@@ -44,7 +44,7 @@ TEST_F(Etopo5, HasGreatMeteorSeamountWhereItIs) {
 }
 
 TEST_F(Etopo5, IsReadByAWindow) {
-  const LocalFrame frame(FrameMode::flat, to_radians(29.9167), to_radians(-28.4167));
+  const LocalFrame frame(FrameMode::kFlat, to_radians(29.9167), to_radians(-28.4167));
   const LoadedRaster loaded =
       load_raster({.path = kPath, .variable = "ROSE"}, frame, {-8000, -8000, 100, 161, 161});
   EXPECT_LE(loaded.report.window_columns, 8);
@@ -55,14 +55,14 @@ TEST_F(Etopo5, IsReadByAWindow) {
 }
 
 TEST_F(Etopo5, CrossesGreenwichWithoutASeam) {
-  const LocalFrame frame(FrameMode::flat, to_radians(0.0), to_radians(0.0));
+  const LocalFrame frame(FrameMode::kFlat, to_radians(0.0), to_radians(0.0));
   const LoadedRaster loaded = load_raster({.path = kPath}, frame, {-20'000, -20'000, 500, 81, 81});
   EXPECT_EQ(loaded.report.posts_without_depth, 0u);
   EXPECT_GT(loaded.report.shallowest_m, 4000);  // the Gulf of Guinea
 }
 
 TEST_F(Etopo5, NamesTheVariablesItHasWhenAskedForAnother) {
-  const LocalFrame frame(FrameMode::flat, 0.5, -0.5);
+  const LocalFrame frame(FrameMode::kFlat, 0.5, -0.5);
   EXPECT_THROW(load_raster({.path = kPath, .variable = "elevation"}, frame, {0, 0, 1, 2, 2}),
                InvalidArgument);
 }

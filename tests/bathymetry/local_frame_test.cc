@@ -28,7 +28,7 @@ GeodeticPoint along_geodesic(double latitude_deg, double longitude_deg, double a
 }
 
 TEST(LocalFrame, OriginIsZeroInBothModes) {
-  for (const FrameMode mode : {FrameMode::flat, FrameMode::enu}) {
+  for (const FrameMode mode : {FrameMode::kFlat, FrameMode::kEnu}) {
     const LocalFrame frame = frame_at(mode, 30, -28);
     const Vec3 origin = frame.to_ned({to_radians(30), to_radians(-28), 0});
     EXPECT_LT(origin.norm(), tolerance(1e-8)) << "nanometres of a projection of 3000 km";
@@ -36,7 +36,7 @@ TEST(LocalFrame, OriginIsZeroInBothModes) {
 }
 
 TEST(LocalFrame, ComesBackToWhereItWas) {
-  for (const FrameMode mode : {FrameMode::flat, FrameMode::enu}) {
+  for (const FrameMode mode : {FrameMode::kFlat, FrameMode::kEnu}) {
     for (const double latitude : {-75.0, 0.0, 30.0, 60.0}) {
       const LocalFrame frame = frame_at(mode, latitude, 179.9);  // the date line is no edge
       const Vec3 point(12'345, 23'456, 789);
@@ -46,7 +46,7 @@ TEST(LocalFrame, ComesBackToWhereItWas) {
 }
 
 TEST(LocalFrame, NorthIsXAndEastIsY) {
-  for (const FrameMode mode : {FrameMode::flat, FrameMode::enu}) {
+  for (const FrameMode mode : {FrameMode::kFlat, FrameMode::kEnu}) {
     const LocalFrame frame = frame_at(mode, 30, -28);
     EXPECT_GT(frame.to_ned({to_radians(30.01), to_radians(-28), 0}).x(), 1000);
     EXPECT_GT(frame.to_ned({to_radians(30), to_radians(-27.99), 0}).y(), 900);
@@ -54,7 +54,7 @@ TEST(LocalFrame, NorthIsXAndEastIsY) {
 }
 
 TEST(LocalFrame, FlatKeepsDepthAndDistance) {
-  const LocalFrame frame = frame_at(FrameMode::flat, 30, -28);
+  const LocalFrame frame = frame_at(FrameMode::kFlat, 30, -28);
   for (double azimuth = 0; azimuth < 360; azimuth += 30) {
     GeodeticPoint point = along_geodesic(30, -28, azimuth, 10'000);
     point.depth_m = 321;
@@ -66,7 +66,7 @@ TEST(LocalFrame, FlatKeepsDepthAndDistance) {
 }
 
 TEST(LocalFrame, EnuDropsWithTheCurvatureOfTheEarth) {
-  const LocalFrame frame = frame_at(FrameMode::enu, 0, 0);
+  const LocalFrame frame = frame_at(FrameMode::kEnu, 0, 0);
   // Along the equator, where the radius is 6 378 137 m: R (1 - cos(d / R)).
   const double radius = 6'378'137;
   for (const double distance : {10'000.0, 50'000.0}) {
@@ -75,16 +75,16 @@ TEST(LocalFrame, EnuDropsWithTheCurvatureOfTheEarth) {
   }
   EXPECT_NEAR(frame.to_ned(along_geodesic(0, 0, 90, 10'000)).z(), 7.84, tolerance(0.005));
   // 7.85 m where the radius is the mean one, at some 30 degrees along the meridian.
-  EXPECT_NEAR(frame_at(FrameMode::enu, 30, 0).to_ned(along_geodesic(30, 0, 0, 10'000)).z(), 7.85,
+  EXPECT_NEAR(frame_at(FrameMode::kEnu, 30, 0).to_ned(along_geodesic(30, 0, 0, 10'000)).z(), 7.85,
               tolerance(0.03));
-  EXPECT_NEAR(frame_at(FrameMode::enu, 30, 0).to_ned(along_geodesic(30, 0, 90, 50'000)).z(), 196,
+  EXPECT_NEAR(frame_at(FrameMode::kEnu, 30, 0).to_ned(along_geodesic(30, 0, 90, 50'000)).z(), 196,
               tolerance(0.5));
 }
 
 TEST(LocalFrame, RefusesPolesAndNaN) {
-  EXPECT_THROW(frame_at(FrameMode::flat, 90, 0), InvalidArgument);
-  EXPECT_THROW(frame_at(FrameMode::enu, std::nan(""), 0), InvalidArgument);
-  EXPECT_THROW(frame_at(FrameMode::enu, 0, HUGE_VAL), InvalidArgument);
+  EXPECT_THROW(frame_at(FrameMode::kFlat, 90, 0), InvalidArgument);
+  EXPECT_THROW(frame_at(FrameMode::kEnu, std::nan(""), 0), InvalidArgument);
+  EXPECT_THROW(frame_at(FrameMode::kEnu, 0, HUGE_VAL), InvalidArgument);
 }
 
 }  // namespace

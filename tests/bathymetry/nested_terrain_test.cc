@@ -59,7 +59,7 @@ double range_by_stepping(const Terrain& terrain, const Ray& ray) {
   for (double t = 0; t <= ray.max_range_m; t += 0.25) {
     const Vec3 p = ray.origin_ned_m + t * ray.direction;
     const DepthSample sample = terrain.depth_at(p.x(), p.y());
-    if (sample.status != DepthStatus::ok) return -1;
+    if (sample.status != DepthStatus::kOk) return -1;
     if (p.z() >= sample.z_m) return t;
   }
   return -1;
@@ -80,7 +80,7 @@ TEST(NestedTerrain, RaysMeetTheSurfaceThatDepthsShow) {
     const RayHit hit = terrain.closest_hit(ray);
     if (stepped < 0) continue;
     ++hits;
-    ASSERT_EQ(hit.status, RayStatus::hit) << n;
+    ASSERT_EQ(hit.status, RayStatus::kHit) << n;
     EXPECT_LE(hit.range_m, stepped) << n;
     const Vec3 at = ray.origin_ned_m + hit.range_m * ray.direction;
     EXPECT_NEAR(terrain.depth_at(at.x(), at.y()).z_m, at.z(), tolerance(kFloatStepM)) << n;
@@ -94,21 +94,21 @@ TEST(NestedTerrain, NoDataUnderANestedGridIsNotSeen) {
   std::vector<NestedGrid> nested;
   nested.push_back({fine(), 100});
   const Terrain terrain(std::move(base), std::move(nested));
-  EXPECT_EQ(terrain.depth_at(1010, 1010).status, DepthStatus::ok);
+  EXPECT_EQ(terrain.depth_at(1010, 1010).status, DepthStatus::kOk);
   const RayHit hit = terrain.closest_hit({{100, 1010, 50}, {1, 0, 0}, 1800});
-  EXPECT_EQ(hit.status, RayStatus::miss);
+  EXPECT_EQ(hit.status, RayStatus::kMiss);
 }
 
 TEST(NestedTerrain, HolesStayOrAreFilledFromAroundAsAsked) {
   HeightGrid with_hole = fine();
   with_hole.posts_for_editing()[with_hole.index(50, 50)] = kNoData;
-  for (const Holes holes : {Holes::keep, Holes::fill_from_around}) {
+  for (const Holes holes : {Holes::kKeep, Holes::kFillFromAround}) {
     std::vector<NestedGrid> nested;
     nested.push_back({with_hole, 100, holes});
     const Terrain terrain(coarse(), std::move(nested));
     const DepthSample sample = terrain.depth_at(1000, 1000);
-    if (holes == Holes::keep) {
-      EXPECT_EQ(sample.status, DepthStatus::no_data);
+    if (holes == Holes::kKeep) {
+      EXPECT_EQ(sample.status, DepthStatus::kNoData);
     } else {
       EXPECT_NEAR(sample.z_m, Terrain(coarse()).depth_at(1000, 1000).z_m, tolerance(kFloatStepM));
     }
@@ -123,7 +123,7 @@ TEST(NestedTerrain, GridsNestInGridsThatAreNested) {
   EXPECT_EQ(terrain.grid_index_at(1000, 1000), 2);
   EXPECT_EQ(terrain.depth_at(1000, 1000).z_m, 20);
   const RayHit hit = terrain.closest_hit({{600, 1000, 40}, {1, 0, 0}, 1000});
-  EXPECT_EQ(hit.status, RayStatus::hit);
+  EXPECT_EQ(hit.status, RayStatus::kHit);
   EXPECT_NEAR(hit.range_m, 301, tolerance(1e-6));  // half way up the wall of one 2 m cell, from 60 m to 20 m
 }
 

@@ -33,9 +33,9 @@ TEST(UniformProfile, SamplesBothEndsAndEvenlyBetween) {
 
 TEST(UniformProfile, SaysWhereItIsOutside) {
   const auto points = uniform_profile(rugged_terrain(), {-100, 50}, {100, 50}, 5);
-  EXPECT_EQ(points[0].status, DepthStatus::outside);
+  EXPECT_EQ(points[0].status, DepthStatus::kOutside);
   EXPECT_TRUE(std::isnan(points[0].z_m));
-  EXPECT_EQ(points[2].status, DepthStatus::ok);
+  EXPECT_EQ(points[2].status, DepthStatus::kOk);
 }
 
 TEST(UniformProfile, RefusesFewerThanTwoSamples) {
@@ -44,7 +44,7 @@ TEST(UniformProfile, RefusesFewerThanTwoSamples) {
 
 TEST(UniformProfile, OfInfiniteLengthIsBadInput) {
   const auto points = uniform_profile(rugged_terrain(), {0, 0}, {HUGE_VAL, 1}, 3);
-  EXPECT_EQ(points.back().status, DepthStatus::bad_input);
+  EXPECT_EQ(points.back().status, DepthStatus::kBadInput);
 }
 
 TEST(ExactProfile, HasAPointAtEveryCrossing) {
@@ -113,7 +113,7 @@ TEST(ExactProfile, MarksAGapByItsFirstAndLastPoint) {
   std::vector<DepthStatus> statuses;
   for (const ProfilePoint& point : points) statuses.push_back(point.status);
   using enum DepthStatus;
-  EXPECT_EQ(statuses, (std::vector{outside, outside, ok, ok, no_data, no_data, outside, outside}));
+  EXPECT_EQ(statuses, (std::vector{kOutside, kOutside, kOk, kOk, kNoData, kNoData, kOutside, kOutside}));
   EXPECT_EQ(points[1].distance_m, 7);
   EXPECT_EQ(points[2].distance_m, 7);
   EXPECT_EQ(points[3].distance_m, 17);
@@ -129,7 +129,7 @@ TEST(ExactProfile, OfAPointIsThatPoint) {
 TEST(ExactProfile, NotFiniteIsBadInput) {
   const auto points = exact_profile(rugged_terrain(), {0, std::nan("")}, {1, 1});
   ASSERT_EQ(points.size(), 1u);
-  EXPECT_EQ(points[0].status, DepthStatus::bad_input);
+  EXPECT_EQ(points[0].status, DepthStatus::kBadInput);
 }
 
 TEST(ExactProfile, AlongAGridLineFollowsItsPosts) {

@@ -22,7 +22,7 @@ using testing::write_text;
 // Float posts near 1000 m round by 3e-5 m.
 constexpr double kFloatM = 1e-4;
 
-LocalFrame frame_at(double latitude_deg, double longitude_deg, FrameMode mode = FrameMode::flat) {
+LocalFrame frame_at(double latitude_deg, double longitude_deg, FrameMode mode = FrameMode::kFlat) {
   return LocalFrame(mode, to_radians(latitude_deg), to_radians(longitude_deg));
 }
 
@@ -78,8 +78,8 @@ TEST(RasterLoader, ReadsRowsThatRunFromSouthToNorth) {
 
 TEST(RasterLoader, WithoutAGeotransformGoesByTheBoundsAndRowOrderGiven) {
   const LocalFrame frame = frame_at(30, -28);
-  for (const RowOrder order : {RowOrder::north_first, RowOrder::south_first}) {
-    const bool south_first = order == RowOrder::south_first;
+  for (const RowOrder order : {RowOrder::kNorthFirst, RowOrder::kSouthFirst}) {
+    const bool south_first = order == RowOrder::kSouthFirst;
     TestRaster raster = slanted_raster(south_first ? "bare_south" : "bare_north");
     raster.geotransform.reset();
     raster.coordinate_system.clear();
@@ -206,7 +206,7 @@ TEST(RasterLoader, NodeRegistrationPutsTheOuterPostsOnTheBounds) {
       write_raster(raster, [](int c, int r) { return -slanted_depth(30.1 - 0.1 * r, -28.1 + 0.1 * c); });
   const LocalFrame frame = frame_at(30, -28);
   const LoadedRaster node =
-      load_raster({.path = path, .registration = Registration::node}, frame, around_origin(8000, 100));
+      load_raster({.path = path, .registration = Registration::kNode}, frame, around_origin(8000, 100));
   expect_slanted(node.grid, frame, 3e-3);
   EXPECT_EQ(node.report.posts_without_depth, 0u);
 }
@@ -278,7 +278,7 @@ TEST(RasterLoader, ReprojectsFromUtm) {
 
 TEST(RasterLoader, InEnuModeTheBottomFallsAwayWithTheEarth) {
   const auto path = write_raster(slanted_raster("curved"), [](int, int) { return -1000.0; });
-  const LocalFrame frame = frame_at(30, -28, FrameMode::enu);
+  const LocalFrame frame = frame_at(30, -28, FrameMode::kEnu);
   const LoadedRaster loaded = load_raster({.path = path}, frame, {-10'000, 0, 1000, 21, 2});
   EXPECT_NEAR(loaded.grid.post(10, 0), 1000, tolerance(1e-3));
   EXPECT_NEAR(loaded.grid.post(20, 0) - 1000, 7.85, tolerance(0.03));

@@ -51,7 +51,7 @@ struct Score {
 };
 
 bool agree(const RayHit& actual, const testing::ReferenceHit& expected) {
-  if ((actual.status == RayStatus::hit) != expected.hit) return false;
+  if ((actual.status == RayStatus::kHit) != expected.hit) return false;
   return !expected.hit || std::abs(static_cast<double>(actual.range_m - expected.range_m)) < 1e-3;
 }
 
@@ -131,7 +131,7 @@ Vec3 aimed_target(std::uint64_t n) {
 
 void compare_aimed(const Vec3& from, const Vec3& at, Score& score) {
   const DepthSample start = rugged_terrain().depth_at(from.x(), from.y());
-  if (start.status != DepthStatus::ok || from.z() >= start.z_m || from == at) return;
+  if (start.status != DepthStatus::kOk || from.z() >= start.z_m || from == at) return;
   compare({from, (at - from).normalized(), 20'000}, score);
 }
 

@@ -31,8 +31,8 @@ TEST(RayService, AnswersEveryRayInItsOrderWithItsStatus) {
                                            {{0, 0, 140}, {0, 0, 1}, 500},
                                            {{0, 0, 40}, {0, 0, 0}, 500}}});
   using enum RayStatus;
-  EXPECT_EQ(answers.refusal, Refusal::none);
-  EXPECT_EQ(answers.statuses, (std::vector{hit, miss, outside, no_data, started_below_bottom, bad_input}));
+  EXPECT_EQ(answers.refusal, Refusal::kNone);
+  EXPECT_EQ(answers.statuses, (std::vector{kHit, kMiss, kOutside, kNoData, kStartedBelowBottom, kBadInput}));
   ASSERT_EQ(answers.results_m.size(), 6u);
   EXPECT_NEAR(answers.results_m[0], 60, tolerance(1e-9));
   for (std::size_t n = 1; n < 6; ++n) EXPECT_EQ(answers.results_m[n], 0) << n;
@@ -40,26 +40,26 @@ TEST(RayService, AnswersEveryRayInItsOrderWithItsStatus) {
 
 TEST(RayService, OcclusionIsAHitWithinTheRange) {
   const RayAnswers answers =
-      ask({.mode = QueryMode::occluded, .rays = {{{0, 0, 90}, {0, 3, 4}, 20}, {{0, 0, 90}, {0, 3, 4}, 12}}});
-  EXPECT_EQ(answers.statuses, (std::vector{RayStatus::hit, RayStatus::miss}));
+      ask({.mode = QueryMode::kOccluded, .rays = {{{0, 0, 90}, {0, 3, 4}, 20}, {{0, 0, 90}, {0, 3, 4}, 12}}});
+  EXPECT_EQ(answers.statuses, (std::vector{RayStatus::kHit, RayStatus::kMiss}));
 }
 
 TEST(RayService, DepthIgnoresDirections) {
-  const RayAnswers answers = ask({.mode = QueryMode::depth,
+  const RayAnswers answers = ask({.mode = QueryMode::kDepth,
                                   .rays = {{{3, 4, 0}, {0, 0, 0}, 0},
                                            {{300, 4, 0}, {0, 0, 0}, 0},
                                            {{99, 99, 0}, {0, 0, 0}, 0},
                                            {{std::nan(""), 0, 0}, {0, 0, 0}, 0}}});
   using enum RayStatus;
-  EXPECT_EQ(answers.statuses, (std::vector{hit, outside, no_data, bad_input}));
+  EXPECT_EQ(answers.statuses, (std::vector{kHit, kOutside, kNoData, kBadInput}));
   EXPECT_EQ(answers.results_m, (std::vector<double>{100, 0, 0, 0}));
 }
 
 TEST(RayService, UniformProfileSamplesAtTheSpacingAlongTheHorizontalDirection) {
   const RayAnswers answers = ask(
-      {.mode = QueryMode::uniform_profile, .sample_spacing_m = 2.5, .rays = {{{0, 0, 7}, {0, 2, 5}, 100}}});
+      {.mode = QueryMode::kUniformProfile, .sample_spacing_m = 2.5, .rays = {{{0, 0, 7}, {0, 2, 5}, 100}}});
   ASSERT_EQ(answers.samples.size(), 41u);
-  EXPECT_EQ(answers.statuses, std::vector{RayStatus::hit});
+  EXPECT_EQ(answers.statuses, std::vector{RayStatus::kHit});
   EXPECT_NEAR(answers.results_m[0], 100, tolerance(1e-9));
   EXPECT_NEAR(answers.samples[4].distance_m, 10, tolerance(1e-12));
   EXPECT_EQ(answers.samples[4].z_m, 100);
@@ -67,21 +67,21 @@ TEST(RayService, UniformProfileSamplesAtTheSpacingAlongTheHorizontalDirection) {
 
 TEST(RayService, AProfileShorterThanItsSpacingIsOneSample) {
   const RayAnswers answers =
-      ask({.mode = QueryMode::uniform_profile, .sample_spacing_m = 10, .rays = {{{0, 0, 0}, {1, 0, 0}, 3}}});
+      ask({.mode = QueryMode::kUniformProfile, .sample_spacing_m = 10, .rays = {{{0, 0, 0}, {1, 0, 0}, 3}}});
   ASSERT_EQ(answers.samples.size(), 1u);
   EXPECT_EQ(answers.samples[0].z_m, 100);
 }
 
 TEST(RayService, ExactProfileHasEveryCrossing) {
-  const RayAnswers answers = ask({.mode = QueryMode::exact_profile, .rays = {{{0, 5, 0}, {1, 0, 0}, 45}}});
+  const RayAnswers answers = ask({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {1, 0, 0}, 45}}});
   ASSERT_EQ(answers.samples.size(), 6u);
   EXPECT_EQ(answers.samples.back().distance_m, 45);
 }
 
 TEST(RayService, AProfileStraightDownIsBadInput) {
-  const RayAnswers answers = ask({.mode = QueryMode::exact_profile, .rays = {{{0, 5, 0}, {0, 0, 1}, 45}}});
-  EXPECT_EQ(answers.refusal, Refusal::none);
-  EXPECT_EQ(answers.statuses, std::vector{RayStatus::bad_input});
+  const RayAnswers answers = ask({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {0, 0, 1}, 45}}});
+  EXPECT_EQ(answers.refusal, Refusal::kNone);
+  EXPECT_EQ(answers.statuses, std::vector{RayStatus::kBadInput});
   EXPECT_TRUE(answers.samples.empty());
 }
 
@@ -90,35 +90,35 @@ TEST(RayService, TakesTheCapAndRefusesOneMore) {
   EXPECT_EQ(ask(batch).statuses.size(), kMostRays);
   batch.rays.push_back(batch.rays.front());
   const RayAnswers answers = ask(batch);
-  EXPECT_EQ(answers.refusal, Refusal::too_many);
+  EXPECT_EQ(answers.refusal, Refusal::kTooMany);
   EXPECT_TRUE(answers.statuses.empty()) << "refused, not cut";
   EXPECT_NE(answers.reason.find("4097"), std::string::npos);
 }
 
 TEST(RayService, RefusesAProfileOfTooManySamples) {
   RayBatch batch{
-      .mode = QueryMode::uniform_profile, .sample_spacing_m = 1e-3, .rays = {{{0, 0, 0}, {1, 0, 0}, 90}}};
-  EXPECT_EQ(ask(batch).refusal, Refusal::too_many);
+      .mode = QueryMode::kUniformProfile, .sample_spacing_m = 1e-3, .rays = {{{0, 0, 0}, {1, 0, 0}, 90}}};
+  EXPECT_EQ(ask(batch).refusal, Refusal::kTooMany);
   batch.sample_spacing_m = 1e-300;
-  EXPECT_EQ(ask(batch).refusal, Refusal::too_many);
+  EXPECT_EQ(ask(batch).refusal, Refusal::kTooMany);
 }
 
 TEST(RayService, RefusesToAnswerForAnotherTerrain) {
   RayBatch batch{.expected_terrain = kVersion, .rays = {{{0, 0, 40}, {0, 0, 1}, 500}}};
-  EXPECT_EQ(ask(batch).refusal, Refusal::none);
+  EXPECT_EQ(ask(batch).refusal, Refusal::kNone);
   batch.expected_terrain = "fedcba9876543210";
-  EXPECT_EQ(ask(batch).refusal, Refusal::other_terrain);
+  EXPECT_EQ(ask(batch).refusal, Refusal::kOtherTerrain);
 }
 
 TEST(RayService, RefusesQueriesThatAreNone) {
   const Ray ray{{0, 0, 40}, {1, 0, 0}, 50};
-  EXPECT_EQ(ask({.rays = {}}).refusal, Refusal::bad_query);
-  EXPECT_EQ(ask({.mode = static_cast<QueryMode>(5), .rays = {ray}}).refusal, Refusal::bad_query);
-  EXPECT_EQ(ask({.mode = static_cast<QueryMode>(255), .rays = {ray}}).refusal, Refusal::bad_query);
-  EXPECT_EQ(ask({.mode = QueryMode::exact_profile, .rays = {ray, ray}}).refusal, Refusal::bad_query);
+  EXPECT_EQ(ask({.rays = {}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(ask({.mode = static_cast<QueryMode>(5), .rays = {ray}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(ask({.mode = static_cast<QueryMode>(255), .rays = {ray}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(ask({.mode = QueryMode::kExactProfile, .rays = {ray, ray}}).refusal, Refusal::kBadQuery);
   for (const double spacing : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
-    const RayBatch batch{.mode = QueryMode::uniform_profile, .sample_spacing_m = spacing, .rays = {ray}};
-    EXPECT_EQ(ask(batch).refusal, Refusal::bad_query) << spacing;
+    const RayBatch batch{.mode = QueryMode::kUniformProfile, .sample_spacing_m = spacing, .rays = {ray}};
+    EXPECT_EQ(ask(batch).refusal, Refusal::kBadQuery) << spacing;
   }
 }
 

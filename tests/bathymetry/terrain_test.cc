@@ -55,27 +55,27 @@ TEST(TerrainDepth, NormalPointsIntoTheWaterAndDownhill) {
 
 TEST(TerrainDepth, EdgesBelongToTheTerrainAndBeyondIsOutside) {
   const Terrain terrain = flat_terrain();
-  EXPECT_EQ(terrain.depth_at(100, -100).status, DepthStatus::ok);
-  EXPECT_EQ(terrain.depth_at(100.001, 0).status, DepthStatus::outside);
-  EXPECT_EQ(terrain.depth_at(0, -100.001).status, DepthStatus::outside);
+  EXPECT_EQ(terrain.depth_at(100, -100).status, DepthStatus::kOk);
+  EXPECT_EQ(terrain.depth_at(100.001, 0).status, DepthStatus::kOutside);
+  EXPECT_EQ(terrain.depth_at(0, -100.001).status, DepthStatus::kOutside);
   EXPECT_TRUE(std::isnan(terrain.depth_at(0, 1e9).z_m));
 }
 
 TEST(TerrainDepth, NothingIsInterpolatedNextToNoData) {
   const Terrain terrain(testing::small_grid({kNoData, 1, 1, 1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(terrain.depth_at(9.9, 9.9).status, DepthStatus::no_data);
+  EXPECT_EQ(terrain.depth_at(9.9, 9.9).status, DepthStatus::kNoData);
   EXPECT_TRUE(std::isnan(terrain.depth_at(9.9, 9.9).z_m));
-  EXPECT_EQ(terrain.depth_at(10.1, 9.9).status, DepthStatus::ok);
+  EXPECT_EQ(terrain.depth_at(10.1, 9.9).status, DepthStatus::kOk);
 }
 
 TEST(TerrainDepth, NotFiniteIsBadInput) {
-  EXPECT_EQ(flat_terrain().depth_at(kNaN, 0).status, DepthStatus::bad_input);
-  EXPECT_EQ(flat_terrain().depth_at(0, -kInfinity).status, DepthStatus::bad_input);
+  EXPECT_EQ(flat_terrain().depth_at(kNaN, 0).status, DepthStatus::kBadInput);
+  EXPECT_EQ(flat_terrain().depth_at(0, -kInfinity).status, DepthStatus::kBadInput);
 }
 
 TEST(TerrainRay, HitsAFlatBottomAtTheRightRange) {
   const RayHit hit = flat_terrain().closest_hit({{0, 0, 40}, {3, 0, 4}, 500});
-  EXPECT_EQ(hit.status, RayStatus::hit);
+  EXPECT_EQ(hit.status, RayStatus::kHit);
   EXPECT_NEAR(hit.range_m, 75, tolerance(1e-12));  // 60 m down at 4/5
   EXPECT_EQ(hit.normal_ned, Vec3(0, 0, -1));
 }
@@ -95,35 +95,35 @@ TEST(TerrainRay, HitsAPlaneAtTheRightRangeFromEveryDirection) {
 
 TEST(TerrainRay, MissesWhatLiesBeyondItsRange) {
   const RayHit hit = flat_terrain().closest_hit({{0, 0, 40}, {0, 0, 1}, 59.999});
-  EXPECT_EQ(hit.status, RayStatus::miss);
+  EXPECT_EQ(hit.status, RayStatus::kMiss);
   EXPECT_EQ(hit.range_m, 59.999);
 }
 
 TEST(TerrainRay, LeavesTheTerrainAsOutsideWithTheRangeOfTheEdge) {
   const RayHit hit = flat_terrain().closest_hit({{0, 20, 40}, {0, 1, 0}, 500});
-  EXPECT_EQ(hit.status, RayStatus::outside);
+  EXPECT_EQ(hit.status, RayStatus::kOutside);
   EXPECT_NEAR(hit.range_m, 80, tolerance(1e-12));
 }
 
 TEST(TerrainRay, ThatBeginsOutsideIsOutsideEvenWhenItPointsIn) {
   const RayHit hit = flat_terrain().closest_hit({{0, 120, 40}, {0, -1, 1}, 500});
-  EXPECT_EQ(hit.status, RayStatus::outside);
+  EXPECT_EQ(hit.status, RayStatus::kOutside);
   EXPECT_EQ(hit.range_m, 0);
 }
 
 TEST(TerrainRay, UpwardsEndsAtItsRangeOrTheEdgeOnly) {
-  EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 40}, {0, 0, -1}, 500}).status, RayStatus::miss);
-  EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 40}, {1, 0, -1}, 500}).status, RayStatus::outside);
+  EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 40}, {0, 0, -1}, 500}).status, RayStatus::kMiss);
+  EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 40}, {1, 0, -1}, 500}).status, RayStatus::kOutside);
 }
 
 TEST(TerrainRay, BelowTheBottomSaysSoAndGivesNoRange) {
   const RayHit hit = flat_terrain().closest_hit({{0, 0, 100.5}, {0, 0, -1}, 500});
-  EXPECT_EQ(hit.status, RayStatus::started_below_bottom);
+  EXPECT_EQ(hit.status, RayStatus::kStartedBelowBottom);
   EXPECT_TRUE(std::isnan(hit.range_m));
 }
 
 TEST(TerrainRay, OnTheBottomHitsAtOnce) {
-  EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 100}, {1, 0, 0}, 50}).status, RayStatus::hit);
+  EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 100}, {1, 0, 0}, 50}).status, RayStatus::kHit);
   EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 100}, {1, 0, 0}, 50}).range_m, 0);
 }
 
@@ -133,7 +133,7 @@ TEST(TerrainRay, ComingOverNoDataEndsThereAtAnyDepth) {
   const Terrain terrain(testing::small_grid(posts));
   for (const double z : {-50.0, 0.0, 99.0}) {
     const RayHit hit = terrain.closest_hit({{5, 5, z}, {0, 1, 0}, 500});
-    EXPECT_EQ(hit.status, RayStatus::no_data) << z;
+    EXPECT_EQ(hit.status, RayStatus::kNoData) << z;
     EXPECT_NEAR(hit.range_m, 5, tolerance(1e-12)) << z;
   }
 }
@@ -142,14 +142,14 @@ TEST(TerrainRay, ThatHitsBeforeNoDataIsAHit) {
   std::vector<float> posts(9, 100.0f);
   posts[2] = kNoData;
   EXPECT_EQ(Terrain(testing::small_grid(posts)).closest_hit({{5, 5, 98}, {0, 1, 1}, 500}).status,
-            RayStatus::hit);
+            RayStatus::kHit);
 }
 
 TEST(TerrainRay, ThatBeginsOverNoDataIsNoData) {
   std::vector<float> posts(9, 100.0f);
   posts[4] = kNoData;
   const RayHit hit = Terrain(testing::small_grid(posts)).closest_hit({{5, 5, 10}, {0, 0, 1}, 500});
-  EXPECT_EQ(hit.status, RayStatus::no_data);
+  EXPECT_EQ(hit.status, RayStatus::kNoData);
   EXPECT_EQ(hit.range_m, 0);
 }
 
@@ -158,18 +158,18 @@ TEST(TerrainRay, ImpossibleInputIsRefusedAsBad) {
   for (const Ray& ray : {Ray{{kNaN, 0, 0}, {0, 0, 1}, 10}, Ray{{0, 0, kInfinity}, {0, 0, 1}, 10},
                          Ray{{0, 0, 0}, {0, 0, 0}, 10}, Ray{{0, 0, 0}, {0, kNaN, 1}, 10},
                          Ray{{0, 0, 0}, {0, 0, 1}, -1}, Ray{{0, 0, 0}, {0, 0, 1}, kInfinity}}) {
-    EXPECT_EQ(terrain.closest_hit(ray).status, RayStatus::bad_input);
+    EXPECT_EQ(terrain.closest_hit(ray).status, RayStatus::kBadInput);
   }
 }
 
 TEST(TerrainRay, AlongEveryEdgeOfTheTerrainStaysInside) {
   const Terrain terrain = flat_terrain();
   for (const double edge : {-100.0, 100.0}) {
-    EXPECT_EQ(terrain.closest_hit({{edge, 0, 10}, {0, 0, 1}, 500}).status, RayStatus::hit) << edge;
-    EXPECT_EQ(terrain.closest_hit({{0, edge, 10}, {0, 0, 1}, 500}).status, RayStatus::hit) << edge;
-    EXPECT_EQ(terrain.closest_hit({{edge, 0, 10}, {0, 1, 0}, 50}).status, RayStatus::miss) << edge;
+    EXPECT_EQ(terrain.closest_hit({{edge, 0, 10}, {0, 0, 1}, 500}).status, RayStatus::kHit) << edge;
+    EXPECT_EQ(terrain.closest_hit({{0, edge, 10}, {0, 0, 1}, 500}).status, RayStatus::kHit) << edge;
+    EXPECT_EQ(terrain.closest_hit({{edge, 0, 10}, {0, 1, 0}, 50}).status, RayStatus::kMiss) << edge;
   }
-  EXPECT_EQ(terrain.closest_hit({{100, 100, 10}, {0, 0, 1}, 500}).status, RayStatus::hit);
+  EXPECT_EQ(terrain.closest_hit({{100, 100, 10}, {0, 0, 1}, 500}).status, RayStatus::kHit);
 }
 
 TEST(TerrainRay, AOneCellRidgeBetweenSamplesIsNotTunnelled) {
@@ -177,25 +177,25 @@ TEST(TerrainRay, AOneCellRidgeBetweenSamplesIsNotTunnelled) {
   posts[50 * 3] = posts[50 * 3 + 1] = posts[50 * 3 + 2] = 20;
   const Terrain terrain(HeightGrid({0, 0, 10, 101, 3}, posts));
   const RayHit hit = terrain.closest_hit({{0, 10, 21}, {1, 0, 0}, 900});
-  EXPECT_EQ(hit.status, RayStatus::hit);
+  EXPECT_EQ(hit.status, RayStatus::kHit);
   EXPECT_NEAR(hit.range_m, 500 - 10.0 / 180, tolerance(1e-9));
 }
 
 TEST(TerrainOcclusion, SeesAndIsBlocked) {
   const Terrain terrain(
       make_grid(square_of_200_m(), RidgeShape{.depth_m = 100, .height_m = 60, .half_width_m = 20}));
-  EXPECT_EQ(terrain.occluded({0, -80, 30}, {0, 80, 30}, 0).status, RayStatus::miss);
+  EXPECT_EQ(terrain.occluded({0, -80, 30}, {0, 80, 30}, 0).status, RayStatus::kMiss);
   const RayHit blocked = terrain.occluded({0, -80, 50}, {0, 80, 50}, 0);
-  EXPECT_EQ(blocked.status, RayStatus::hit);
+  EXPECT_EQ(blocked.status, RayStatus::kHit);
   EXPECT_GT(blocked.range_m, 60);
   EXPECT_LT(blocked.range_m, 80);
 }
 
 TEST(TerrainOcclusion, SkinLetsEndsLieOnTheBottom) {
   const Terrain terrain = flat_terrain();
-  EXPECT_EQ(terrain.occluded({0, 0, 10}, {0, 50, 100}, 1e-3).status, RayStatus::miss);
-  EXPECT_EQ(terrain.occluded({0, 50, 100}, {0, 0, 10}, 1e-3).status, RayStatus::miss);
-  EXPECT_EQ(terrain.occluded({0, 0, 10}, {0, 50, 101}, 1e-3).status, RayStatus::hit);
+  EXPECT_EQ(terrain.occluded({0, 0, 10}, {0, 50, 100}, 1e-3).status, RayStatus::kMiss);
+  EXPECT_EQ(terrain.occluded({0, 50, 100}, {0, 0, 10}, 1e-3).status, RayStatus::kMiss);
+  EXPECT_EQ(terrain.occluded({0, 0, 10}, {0, 50, 101}, 1e-3).status, RayStatus::kHit);
 }
 
 TEST(TerrainVersion, IsTheSameForTheSameContentAndMovesWithEveryPost) {
