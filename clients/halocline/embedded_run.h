@@ -10,11 +10,11 @@
 namespace halocline::clients {
 
 struct EmbeddedRun {
-  SimTime end;             // the run goes from 0 to here, both included
-  std::string log_path;    // replaced
-  double rate = 0;         // simulated seconds per wall second; 0: as fast as it computes
+  SimTime end;                  // the run goes from 0 to here, both included
+  std::string log_path;         // replaced
+  double rate = 0;              // simulated seconds per wall second; 0: as fast as it computes
   std::string mirror_url = {};  // where everything is shown as well (a udpm URL); empty: nowhere
-  bool quiet = false;      // no progress line
+  bool quiet = false;           // no progress line
   // Asked before each instant; true ends the run there.
   std::function<bool()> should_stop = [] { return false; };
 };
