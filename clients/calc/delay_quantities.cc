@@ -1,6 +1,7 @@
 // Quantities that need a profile of the water: delays, and the figures of the 2010 IEEE SMC paper.
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "acoustics/link_budget.h"
 #include "acoustics/profile_reader.h"
@@ -42,7 +43,8 @@ std::vector<QuantityForm> forms_by_speed(const std::vector<InputColumn>& inputs,
   std::vector<QuantityForm> forms;
   for (const SoundSpeedModel model : acoustics::kSoundSpeedModels) {
     const auto prepare = [model, function](const CalcOptions& options) -> RowFunction {
-      const auto chosen = options.model.empty() ? std::nullopt : std::optional(model);
+      std::optional<SoundSpeedModel> chosen;
+      if (!options.model.empty()) chosen = model;
       const auto profile = std::make_shared<const SoundSpeedProfile>(load_profile(options, chosen));
       return [profile, function](const std::vector<double>& v) { return function(*profile, v); };
     };
