@@ -1,0 +1,54 @@
+// Closed forms for one ray within one layer of constant gradient, written so that they hold for every gradient
+// (zero among them) and every angle (vertical among them).
+//
+// A ray of Snell's invariant xi = cos(angle)/c goes from speed c1 to speed c2 over a thickness h without turning,
+// sines s1, s2 of its angles. With g = (c2 - c1)/h:
+//   range    r   = h xi (c1 + c2) / (s1 + s2)
+//   dr/dxi       = r / (xi s1 s2)
+//   time     tau = ln(1 + y) / g,  y = g h K,  K = [1 + s1 + c1 xi^2 (c1 + c2)/(s1 + s2)] / (c1 (1 + s2))
+//   length   L   = asin(v) / (xi g),  v = xi g h (c1 + c2)/(s1 c2 + s2 c1)
+// which follow from s1 - s2 = xi^2 g h (c1 + c2)/(s1 + s2). Along the arc sines change evenly with length (to first
+// order in (c2 - c1)/c), so the mean over the path of the share u of the thickness is (1 + p)/3, that of u^2 is
+// (2 p^2 + 3 p + 3)/15, p = s1/(s1 + s2): from straight (1/2, 1/3) to turning at the end (2/3, 8/15).
+#pragma once
+
+#include <cmath>
+
+#include "acoustics/ray_water.h"
+
+namespace halocline::acoustics {
+
+// ln(1 + y) / y for y > -1, to 1e-14; 1 at 0. Near 0 by the series of 2 atanh(y / (2 + y)), else by the logarithm.
+inline double log1p_over(double y) {
+  if (std::abs(y) > 0.1) return std::log1p(y) / y;
+  const double z = y / (2 + y), z2 = z * z;  // |z| < 0.053: the next term is below 1e-14
+  return 2 / (2 + y) * (1 + z2 * (1.0 / 3 + z2 * (1.0 / 5 + z2 * (1.0 / 7 + z2 * (1.0 / 9)))));
+}
+
+// asin(v) / v for |v| <= 1, to 1e-13; 1 at 0.
+inline double asin_over(double v) {
+  if (std::abs(v) > 0.1) return std::asin(std::fmin(1.0, std::fmax(-1.0, v))) / v;
+  const double v2 = v * v;
+  return 1 + v2 * (1.0 / 6 + v2 * (3.0 / 40 + v2 * (15.0 / 336 + v2 * (105.0 / 3456 + v2 * (945.0 / 42240)))));
+}
+
+// atanh(x) / x for |x| < 1, to 1e-13; 1 at 0.
+inline double atanh_over(double x) {
+  if (std::abs(x) > 0.1) return std::atanh(x) / x;
+  const double x2 = x * x;
+  return 1 + x2 * (1.0 / 3 + x2 * (1.0 / 5 + x2 * (1.0 / 7 + x2 * (1.0 / 9 + x2 * (1.0 / 11)))));
+}
+
+// Mean along a path that crosses a layer from sine s1 to sine s2, of absorption a0 + a1 u + a2 u^2, dB/m.
+inline double mean_absorption(const LayerAbsorption& layer, double s1, double s2) {
+  const double sum = s1 + s2, p = sum > 0 ? s1 / sum : 0.5;
+  return layer.a0 + layer.a1 * (1 + p) / 3 + layer.a2 * (2 * p * p + 3 * p + 3) / 15;
+}
+
+// `layer` seen from the share `from` to the share `to` of its thickness: a new u runs 0..1 over that stretch.
+inline LayerAbsorption restricted(const LayerAbsorption& layer, double from, double to) {
+  const double d = to - from;
+  return {layer.a0 + from * (layer.a1 + from * layer.a2), d * (layer.a1 + 2 * from * layer.a2), d * d * layer.a2};
+}
+
+}  // namespace halocline::acoustics

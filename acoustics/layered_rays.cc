@@ -1,0 +1,299 @@
+#include "acoustics/layered_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "acoustics/layered_path.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kLeastAngle = 1e-9;       // rad at the barrier: where tables begin
+constexpr int kDeepestRefinement = 12;     // halvings of an interval between barriers
+constexpr double kCubicTolerance = 0.03;   // of f: what its cubic may err by at the middle of a cell
+constexpr double kNearFold = 0.2;          // of f: a turn nearer to a whole number is sought out exactly
+constexpr double kRangeTolerance = 1e-4;   // m before the last step of Newton, which squares the error
+constexpr double kMarginOfFactor = 0.7;    // ln: cells are left out only when clearly below the least factor
+
+// f = (r - b)/X of the four families and its slope, at one angle of one interval.
+struct Node {
+  double theta = 0;
+  SpanSums sums;
+  std::array<double, 4> f{}, slope{};
+  double log_factor = 0;  // ln of the bottom's factor a bounce
+};
+
+// One crossing to be found: between two nodes where f - n has opposite signs.
+struct Bracket {
+  double from, to;        // theta
+  bool rising;
+  double guess;
+};
+
+class Search {
+ public:
+  Search(const FlatSea& sea, const RayLink& link)
+      : link_(sea, link),
+        spans_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m),
+        omega_(2 * pi * sea.options.frequency_hz) {}
+
+  std::vector<Arrival> run() {
+    add_horizontal();
+    do {
+      scan_interval();
+    } while (!past_steepest_ && spans_.advance());
+    finish(paths_, link_.sea.options);
+    return std::move(paths_);
+  }
+
+ private:
+  // Ends at one depth within a layer of one speed: the straight horizontal ray, which no angle > 0 reaches.
+  void add_horizontal();
+  void scan_interval();
+  // The angle at the barrier at which rays reach speed `c`, which is at least the barrier's.
+  double theta_reaching(double c) const;
+  Node node_at(double theta) const;
+  void refine(const Node& a, const Node& b, int depth);
+  void solve_cell(const Node& a, const Node& b);
+  void solve_family(const Node& a, const Node& b, std::size_t family);
+  // Rays between two nodes between which f is monotone; `fold_theta` is the angle of a turn of f at one of them, or
+  // negative.
+  void solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta);
+  void polish(const Bracket& bracket, std::size_t family, int cycles, double fold_theta);
+  bool too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const;
+  Node turn_of(const Node& a, const Node& b, std::size_t family) const;
+  double fold_slope(std::size_t family, int cycles, double theta, double fold_theta) const;
+
+  LayeredLink link_;
+  LayeredSpans spans_;
+  double omega_;
+  std::vector<Arrival> paths_;
+  bool direct_only_ = false, past_steepest_ = false;
+};
+
+// Cubic through values and slopes at both ends of [0, h], at t = 0..1.
+struct Cubic {
+  double a, b, c, d;  // a + b t + c t^2 + d t^3
+  Cubic(double f0, double s0, double f1, double s1, double h)
+      : a(f0), b(s0 * h), c(3 * (f1 - f0) - (2 * s0 + s1) * h), d(2 * (f0 - f1) + (s0 + s1) * h) {}
+  double operator()(double t) const { return a + t * (b + t * (c + t * d)); }
+  double slope(double t) const { return b + t * (2 * c + t * 3 * d); }
+};
+
+Cubic cubic_of(const Node& a, const Node& b, std::size_t family) {
+  return {a.f[family], a.slope[family], b.f[family], b.slope[family], b.theta - a.theta};
+}
+
+// Where the cubic passes `value`, 0..1, between ends that bracket it: a start for Newton, not more.
+double crossing(const Cubic& cubic, double value) {
+  double low = 0, high = 1, t = (value - cubic(0)) / (cubic(1) - cubic(0));
+  const bool rising = cubic(1) > cubic(0);
+  for (int i = 0; i < 4; ++i) {
+    const double error = cubic(t) - value, slope = cubic.slope(t);
+    ((error > 0) == rising ? high : low) = t;
+    const double next = slope != 0 ? t - error / slope : -1;
+    t = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return t;
+}
+
+// Turns of the cubic strictly inside 0..1, rising; how many.
+int turns_of(const Cubic& cubic, std::array<double, 2>& turns) {
+  const double a = 3 * cubic.d, half_b = cubic.c, c = cubic.b, disc = half_b * half_b - a * c;
+  if (disc <= 0) return 0;
+  const double w = -(half_b + std::copysign(std::sqrt(disc), half_b));
+  std::array<double, 2> roots = {a != 0 ? w / a : -1, w != 0 ? c / w : -1};
+  if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
+  int count = 0;
+  for (const double t : roots) {
+    if (t > 0 && t < 1) turns[static_cast<std::size_t>(count++)] = t;
+  }
+  return count;
+}
+
+void Search::add_horizontal() {
+  if (link_.upper_m != link_.lower_m) return;
+  const RayWater& water = link_.sea.water;
+  const double z = link_.upper_m;
+  const std::size_t layer = water.layer_at(z);
+  const bool still = water.gradients_per_s()[layer] == 0 ||
+                     (layer > 0 && z == water.depths_m()[layer] && water.gradients_per_s()[layer - 1] == 0);
+  if (!still) return;
+  Arrival path;
+  path.delay_s = link_.range_m / link_.source_speed_mps;
+  path.amplitude = 1 / link_.range_m;
+  path.path_length_m = link_.range_m;
+  path.absorption_db = link_.range_m * water.absorption_db_per_m(z);
+  paths_.push_back(path);
+}
+
+double Search::theta_reaching(double c) const {
+  const double barrier = spans_.barrier_mps();
+  return std::atan2(std::sqrt(std::max(0.0, (c - barrier) * (c + barrier))), barrier);
+}
+
+void Search::scan_interval() {
+  // Launched at the greatest angle a ray reaches speed c_source / cos(angle) where it is horizontal.
+  const double cosine = std::cos(link_.sea.options.max_launch_angle_rad);
+  const double next = spans_.next_barrier_mps();
+  const double steepest =
+      cosine > 1e-12 ? theta_reaching(std::max(link_.source_speed_mps / cosine, spans_.barrier_mps())) : pi / 2;
+  double to = next > 0 ? theta_reaching(next) : pi / 2;
+  past_steepest_ = next <= 0;
+  const double limit = direct_only_ ? kLeastAngle : std::min(to, steepest);
+  if (limit > kLeastAngle) refine(node_at(kLeastAngle), node_at(limit), 0);
+  if (limit >= to) return;
+  direct_only_ = true;
+  refine(node_at(std::max(limit, kLeastAngle)), node_at(to), 0);
+}
+
+Node Search::node_at(double theta) const {
+  Node node;
+  node.theta = theta;
+  const double sine = std::sin(theta), cosine = std::cos(theta), r = link_.range_m;
+  node.sums = spans_.sums(sine, cosine);
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    const RangeTerms t = range_terms(node.sums, kFamilies[k]);
+    // f = (r / xi - b_q) / X_q; dxi/dtheta = -sin / c*. Vertical rays (xi = 0) go nowhere: f = -b / X.
+    node.f[k] = (r - node.sums.xi * t.bq) / (node.sums.xi * t.xq);
+    node.slope[k] = (t.bm + node.f[k] * t.xm) * sine / (cosine * t.xq);
+  }
+  node.log_factor = spans_.meets_bottom() ? std::log(link_.bottom_factor(node.sums)) : 0;
+  return node;
+}
+
+bool Search::too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const {
+  if (direct_only_) return family != 0;
+  const int below = std::max(0, static_cast<int>(std::ceil(least_f))) + (kFamilies[family].down ? 1 : 0);
+  const double log_factor = std::max(a.log_factor, b.log_factor);
+  return below * log_factor < link_.log_min_factor - kMarginOfFactor;
+}
+
+void Search::refine(const Node& a, const Node& b, int depth) {
+  bool any = false, fits = true;
+  const Node middle = node_at(0.5 * (a.theta + b.theta));
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    const double least = std::min({a.f[k], b.f[k], middle.f[k]});
+    if (too_faint(a, b, k, least - 0.5)) continue;
+    any = true;
+    const double error = std::abs(cubic_of(a, b, k)(0.5) - middle.f[k]);
+    // Where f is large its rays are many and the cubic only has to keep them apart.
+    fits = fits && error <= kCubicTolerance * (1 + 0.05 * std::abs(middle.f[k]));
+  }
+  if (!any) return;
+  if (fits || depth >= kDeepestRefinement) {
+    solve_cell(a, middle);
+    solve_cell(middle, b);
+  } else {
+    refine(a, middle, depth + 1);
+    refine(middle, b, depth + 1);
+  }
+}
+
+void Search::solve_cell(const Node& a, const Node& b) {
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    if (!too_faint(a, b, k, std::min(a.f[k], b.f[k]) - 0.5)) solve_family(a, b, k);
+  }
+}
+
+void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
+  std::array<double, 2> turns;
+  const Cubic cubic = cubic_of(a, b, family);
+  const int count = turns_of(cubic, turns);
+  Node from = a;
+  double fold_theta = -1;
+  for (int i = 0; i < count; ++i) {
+    const double t = turns[static_cast<std::size_t>(i)];
+    const double expected = cubic(t);
+    Node turn = node_at(a.theta + t * (b.theta - a.theta));
+    if (std::abs(expected - std::round(expected)) < kNearFold) {
+      const double reach = 0.25 * (b.theta - a.theta);
+      turn = turn_of(node_at(std::max(a.theta, turn.theta - reach)), node_at(std::min(b.theta, turn.theta + reach)),
+                     family);
+    }
+    solve_monotone(from, turn, family, turn.theta);
+    fold_theta = turn.theta;
+    from = turn;
+  }
+  solve_monotone(from, b, family, fold_theta);
+}
+
+// The turn of f between two nodes: where its slope is 0, by bisection that follows the secant.
+Node Search::turn_of(const Node& a, const Node& b, std::size_t family) const {
+  Node low = a, high = b;
+  if ((low.slope[family] > 0) == (high.slope[family] > 0)) {
+    return node_at(0.5 * (a.theta + b.theta));
+  }
+  Node middle = a;
+  for (int i = 0; i < 40; ++i) {
+    const double share = low.slope[family] / (low.slope[family] - high.slope[family]);
+    const double bounded = i % 3 == 2 ? 0.5 : std::clamp(share, 0.01, 0.99);
+    middle = node_at(low.theta + bounded * (high.theta - low.theta));
+    if (std::abs(middle.slope[family]) * (high.theta - low.theta) < 1e-12) break;
+    ((middle.slope[family] > 0) == (low.slope[family] > 0) ? low : high) = middle;
+  }
+  return middle;
+}
+
+void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta) {
+  const double low = std::min(a.f[family], b.f[family]), high = std::max(a.f[family], b.f[family]);
+  if (!(high >= 0)) return;
+  const int most = direct_only_ ? 0 : link_.sea.options.max_bounces;
+  const int first = static_cast<int>(std::ceil(std::max(low, 0.0)));
+  const int last = static_cast<int>(std::min(std::ceil(high) - 1, static_cast<double>(most)));  // low <= n < high
+  if (last < first) return;
+  const Cubic cubic = cubic_of(a, b, family);
+  for (int n = first; n <= last; ++n) {
+    const double t = crossing(cubic, n);
+    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta)}, family, n, fold_theta);
+  }
+}
+
+void Search::polish(const Bracket& bracket, std::size_t family, int cycles, double fold_theta) {
+  double low = bracket.from, high = bracket.to, theta = bracket.guess, sine = 0, cosine = 0;
+  const auto step_to = [&](double next) {
+    theta = next > low && next < high ? next : 0.5 * (low + high);
+  };
+  for (int i = 0; i < 60; ++i) {
+    sine = std::sin(theta);
+    cosine = std::cos(theta);
+    const SpanSums sums = spans_.sums(sine, cosine);
+    const RangeTerms t = range_terms(sums, kFamilies[family]);
+    const double off = link_.range_m - sums.xi * (t.bq + cycles * t.xq);  // (f - n) X
+    const double f = cycles + off / (sums.xi * t.xq);
+    const double slope = (t.bm + f * t.xm) * sine / (cosine * t.xq);
+    ((off > 0) == bracket.rising ? high : low) = theta;
+    step_to(slope != 0 ? theta - (f - cycles) / slope : -1);
+    if (std::abs(off) < kRangeTolerance || high - low < 1e-15 * high) break;
+  }
+  const LayeredRay ray{kFamilies[family], cycles, std::sin(theta), std::cos(theta),
+                       fold_slope(family, cycles, theta, fold_theta)};
+  const double xi = ray.cosine / spans_.barrier_mps();
+  const bool trapped = cycles > 0 && !spans_.meets_surface() && !spans_.meets_bottom();
+  const double wavelength = 2 * pi * spans_.barrier_mps() / omega_;
+  if (trapped && spans_.height_of_swing_m(xi) < wavelength) return;
+  append_arrival(link_, spans_, ray, paths_);
+}
+
+double Search::fold_slope(std::size_t family, int cycles, double theta, double fold_theta) const {
+  if (fold_theta < 0 || theta == fold_theta) return 0;
+  const double sine = std::sin(theta), cosine = std::cos(theta);
+  const RangeTerms t = range_terms(spans_.sums(sine, cosine), kFamilies[family]);
+  const double slope = t.bm + cycles * t.xm, xi = cosine / spans_.barrier_mps();
+  const double fold_xi = std::cos(fold_theta) / spans_.barrier_mps();
+  const double curvature = std::abs(slope / (xi - fold_xi));
+  return 0.555 * std::cbrt(curvature * curvature / (4 * omega_));
+}
+
+}  // namespace
+
+std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link) {
+  validate(sea.options);
+  return Search(sea, link).run();
+}
+
+}  // namespace halocline::acoustics
