@@ -1,0 +1,312 @@
+#include "acoustics/arc_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "acoustics/arc_math.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kOffBoundary = 1e-6;      // m, as in acoustics/layered_path.cc
+constexpr double kGiveUp = 0.25;           // of the least factor
+constexpr double kLeastSine = 1e-9;        // where 1 / sin is taken
+constexpr double kLeastCosine = 1e-3;      // steeper than 89.94 degrees a ray counts as turned back
+constexpr double kTouching = 1e-9;         // m: nearer than that to a facet is on it
+constexpr std::size_t kLossSteps = 64;
+constexpr int kMostSteps = 200'000;        // crossings of layers: a guard, never met
+
+}  // namespace
+
+// The ray at one point. Depth, sine and c = cos / xi belong together.
+struct ArcTracer::State {
+  double r, z, sine, xi, c;
+  double q, p;              // the tube
+  double qx, px;            // the same for rays as they are reflected, facet by facet: the slope of zeta
+  std::size_t layer, facet;
+  bool on_facet = false;    // just reflected by `facet`
+  double orientation = 1, images = 0;  // o and k of zeta
+};
+
+// To the next knot or through a turn back to the same depth.
+struct ArcTracer::Step {
+  double dr, z, sine;
+  double deepest_slope;  // the arc stays above z + deepest_slope * (way)
+  bool turns, down;
+};
+
+ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link) : sea_(sea), range_(std::max(link.range_m, 1e-3)) {
+  require_in_range(link.range_m, 0, 1e7, "range", "m");
+  bottom_at_receiver_ = sea.profile.depth_at(range_);
+  const double bottom_at_source = sea.profile.depth_at(0);
+  require_in_range(link.source_depth_m, 0, bottom_at_source, "depth of the source", "m");
+  require_in_range(link.receiver_depth_m, 0, bottom_at_receiver_, "depth of the receiver", "m");
+  source_depth_ = std::clamp(link.source_depth_m, kOffBoundary, bottom_at_source - kOffBoundary);
+  receiver_depth_ = std::clamp(link.receiver_depth_m, kOffBoundary, bottom_at_receiver_ - kOffBoundary);
+  source_layer_ = sea.water.layer_at(source_depth_);
+  source_facet_ = sea.profile.facet_at(0);
+  source_speed_ = sea.water.speed_at(source_depth_);
+  least_factor_ = kGiveUp * sea.options.min_boundary_factor;
+  const double bottom_speed = sea.water.speed_at(sea.profile.deepest_m());
+  bottom_factor_.resize(kLossSteps + 1);
+  for (std::size_t i = 0; i <= kLossSteps; ++i) {
+    bottom_factor_[i] =
+        bottom_magnitude_at_sine(sea.bottom, static_cast<double>(i) / static_cast<double>(kLossSteps), bottom_speed);
+  }
+}
+
+double ArcTracer::rough_bottom_factor(double sine) const {
+  const double place = sine * static_cast<double>(kLossSteps);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), kLossSteps - 1);
+  return bottom_factor_[i] + (place - static_cast<double>(i)) * (bottom_factor_[i + 1] - bottom_factor_[i]);
+}
+
+ArcTracer::Step ArcTracer::next_step(const State& s) const {
+  const double g = sea_.water.gradients_per_s()[s.layer];
+  const bool down = s.sine > 0 || (s.sine == 0 && g <= 0);
+  const std::size_t knot = down ? s.layer + 1 : s.layer;
+  const double c = sea_.water.speeds_mps()[knot], z = sea_.water.depths_m()[knot];
+  const double cosine = s.xi * c, steep = std::abs(s.sine);
+  if (cosine < 1 && (steep > 0 || g != 0)) {
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+    const double dr = std::abs(z - s.z) * s.xi * (s.c + c) / (steep + sine);
+    // Curving up the arc stays above its tangent, curving down above its chord.
+    const double slope = g >= 0 || dr <= 0 ? s.sine / (s.xi * s.c) : (z - s.z) / dr;
+    return {dr, z, down ? sine : -sine, slope, false, down};
+  }
+  if (g == 0 || steep == 0) return {std::numeric_limits<double>::infinity(), s.z, s.sine, 0, false, down};
+  return {2 * steep / (s.xi * std::abs(g)), s.z, -s.sine, g > 0 ? s.sine / (s.xi * s.c) : 0, true, down};
+}
+
+// Circle through the ray's point against the facet's line, x along r: A x^2 + B x + C = 0, see below.
+bool ArcTracer::solve_facet(const State& s, std::size_t index, double until, double& dr) const {
+  const Facet& facet = sea_.profile.facets()[index];
+  const double st = s.sine, ct = s.xi * s.c, b = facet.slope;
+  const double curvature = -s.xi * sea_.water.gradients_per_s()[s.layer];  // d angle / d length
+  double d = facet.z0 + b * (s.r - facet.r0) - s.z;                        // how far the line is below the ray
+  // The ray is curvature (x^2 + y^2) / 2 = ct y - st x; on the line y = d + b x.
+  double x;
+  if (s.on_facet && index == s.facet) {
+    const double a2 = curvature * (1 + b * b) / 2, b2 = st - ct * b;
+    x = b2 < 0 && a2 > 0 ? -b2 / a2 : -1;
+  } else {
+    if (std::abs(d) < kTouching) d = std::max(d, 0.0);
+    const double a2 = curvature * (1 + b * b) / 2, b2 = curvature * d * b + st - ct * b;
+    const double c2 = curvature * d * d / 2 - ct * d, disc = b2 * b2 - 4 * a2 * c2;
+    const double bottom = disc >= 0 ? b2 + std::sqrt(disc) : -1;
+    x = bottom > 0 ? -2 * c2 / bottom : -1;
+  }
+  const double first = std::max(facet.r0 - s.r, 0.0), last = std::min(facet.r1 - s.r, until);
+  if (!(x >= first - kTouching && x <= last + kTouching)) return false;
+  dr = std::clamp(x, first, std::max(first, last));
+  return true;
+}
+
+bool ArcTracer::find_hit(const State& s, const Step& step, double until, Hit& hit) const {
+  const std::vector<Facet>& facets = sea_.profile.facets();
+  const std::vector<double>& blocks = sea_.profile.block_shallowest_m();
+  const double end = s.r + until, margin = kTouching;
+  const auto below = [&](double shallowest, double r0, double r1) {  // the arc cannot reach down there
+    const double far = step.deepest_slope > 0 ? std::min(r1, end) - s.r : std::max(r0 - s.r, 0.0);
+    return s.z + step.deepest_slope * far + margin < shallowest;
+  };
+  for (std::size_t i = s.facet; i < facets.size() && facets[i].r0 <= end;) {
+    if (i % BottomProfile::kBlock == 0) {
+      const std::size_t last = std::min(i + BottomProfile::kBlock, facets.size()) - 1;
+      if (below(blocks[i / BottomProfile::kBlock], facets[i].r0, facets[last].r1)) {
+        i += BottomProfile::kBlock;
+        continue;
+      }
+    }
+    if (!below(facets[i].shallowest_m, facets[i].r0, facets[i].r1) && solve_facet(s, i, until, hit.dr)) {
+      hit.facet = i;
+      return true;
+    }
+    ++i;
+  }
+  return false;
+}
+
+void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
+  const double q = s.q + s.p * dr / s.xi;
+  if (q * s.q < 0) ++ray.caustics;
+  s.q = q;
+  s.qx += s.px * dr / s.xi;
+  if (details != nullptr && dr > 0) {
+    const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
+    const double chord = std::hypot(dr, z - s.z);
+    const double length = chord * asin_over(s.xi * g * chord / 2);
+    details->delay_s += s.xi * dr / mix * atanh_over(s.xi * g * dr / mix);
+    details->length_m += length;
+    const double top = sea_.water.depths_m()[s.layer], height = sea_.water.depths_m()[s.layer + 1] - top;
+    const LayerAbsorption& layer = sea_.water.absorption()[s.layer];
+    const double u1 = (s.z - top) / height, u2 = (z - top) / height;
+    if (s.sine * sine >= 0) {
+      details->absorption_db +=
+          length * mean_absorption(restricted(layer, u1, u2), std::abs(s.sine), std::abs(sine));
+    } else {  // through a turn: two ways, of lengths as their sines
+      const double turn = (1 / s.xi - sea_.water.speeds_mps()[s.layer]) / g / height;
+      const double share = std::abs(s.sine) / (std::abs(s.sine) + std::abs(sine));
+      details->absorption_db += length * (share * mean_absorption(restricted(layer, u1, turn), std::abs(s.sine), 0) +
+                                          (1 - share) * mean_absorption(restricted(layer, u2, turn), std::abs(sine), 0));
+    }
+  }
+  s.r += dr;
+  s.z = z;
+  s.sine = sine;
+  s.on_facet = s.on_facet && dr == 0;
+}
+
+void ArcTracer::cross_knot(State& s, bool down) const {
+  const double before = sea_.water.gradients_per_s()[s.layer];
+  s.layer = down ? s.layer + 1 : s.layer - 1;
+  s.c = sea_.water.speeds_mps()[down ? s.layer : s.layer + 1];
+  const double change = (sea_.water.gradients_per_s()[s.layer] - before) * (down ? 1 : -1);
+  const double kink = s.xi * s.xi * change / std::max(std::abs(s.sine), kLeastSine);
+  s.p -= s.q * kink;
+  s.px -= s.qx * kink;
+}
+
+bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
+  const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kLeastSine);
+  s.c = sea_.water.speeds_mps()[0];
+  s.p -= 2 * s.q * s.xi * s.xi * g / sine;
+  s.px -= 2 * s.qx * s.xi * s.xi * g / sine;
+  s.sine = -s.sine;
+  s.orientation = -s.orientation;
+  ray.events.push_back({RayEvent::kSurface, 0});
+  ++ray.surface_bounces;
+  const bool lossless = sea_.surface.model == SurfaceModel::kFlat ||
+                        (sea_.surface.model == SurfaceModel::kAplBubbles && sea_.surface.wind_mps <= 0);
+  if (!lossless) {
+    const double one = surface_magnitude(sea_.surface, std::atan2(sine, s.xi * s.c), sea_.options.frequency_hz);
+    ray.factor *= one;
+    if (details != nullptr) details->surface_loss_db -= 20 * std::log10(one);
+  }
+  return ray.factor >= least_factor_;
+}
+
+bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
+  const Facet& facet = sea_.profile.facets()[index];
+  const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
+  double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // of the slope that reflects
+  const double grazing_facet = st * sine * 0 + st * cosine - ct * sine;      // sin(angle - slope)
+  if (facet.bent()) {
+    const double share = (s.r - facet.r0) / (facet.r1 - facet.r0);
+    const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = std::sin(turn), tc = std::cos(turn);
+    const double bent_sine = sine * tc + cosine * ts, bent_cosine = cosine * tc - sine * ts;
+    // Where the bent slope would throw the ray into the facet, or did not meet it at all, the facet's own reflects.
+    const double grazing = st * bent_cosine - ct * bent_sine;
+    const double leaving = grazing * tc - (ct * bent_cosine + st * bent_sine) * ts;  // sin(angle - 2 bent + own)
+    if (grazing > kLeastSine && leaving > kLeastSine) {
+      sine = bent_sine;
+      cosine = bent_cosine;
+    } else {
+      bend = 0;
+    }
+  }
+  const double sin_g = std::max(st * cosine - ct * sine, kLeastSine), cos_g = ct * cosine + st * sine;
+  const double out_sine = sine * cos_g - cosine * sin_g, out_cosine = cosine * cos_g + sine * sin_g;
+  if (out_cosine < kLeastCosine) return false;
+  const double xi = out_cosine / s.c;
+  s.p += s.q * (g * (s.xi + xi) * cos_g + 2 * bend) / (s.c * sin_g);
+  // As the rays are: they meet the facet itself, and leave it at another angle than they came.
+  const double in_s = std::max(grazing_facet, kLeastSine), in_c = ct * facet.cosine + st * facet.sine;
+  const double off_s = facet.sine * out_cosine - facet.cosine * out_sine;
+  const double off_c = facet.cosine * out_cosine + facet.sine * out_sine;
+  s.px += s.qx * (g * (s.xi * in_c + xi * off_c) + 2 * bend) / (s.c * in_s);
+  s.qx *= off_s / in_s;
+  s.sine = out_sine;
+  s.xi = xi;
+  s.facet = index;
+  s.on_facet = true;
+  s.images += s.orientation;
+  s.orientation = -s.orientation;
+  ray.events.push_back({RayEvent::kBottom, facet.smooth_group});
+  ++ray.bottom_bounces;
+  if (details == nullptr) {
+    ray.factor *= rough_bottom_factor(sin_g);
+  } else {
+    const Reflection one = bottom_reflection_at_sine(sea_.bottom, std::min(sin_g, 1.0), s.c);
+    ray.factor *= one.magnitude;
+    details->bottom_phase_rad += one.phase_rad;
+    details->bottom_loss_db += one.loss_db();
+  }
+  return ray.factor >= least_factor_;
+}
+
+void ArcTracer::arrive(const State& s, TracedRay& ray) const {
+  ray.arrived = true;
+  ray.z = s.z;
+  ray.sine = s.sine;
+  ray.xi = s.xi;
+  ray.q = s.q;
+  ray.p = s.p;
+  ray.zeta = s.orientation * s.z + 2 * bottom_at_receiver_ * s.images;
+  ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kLeastCosine * kLeastCosine));
+}
+
+void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
+  ray.theta = theta;
+  ray.arrived = false;
+  ray.factor = 1;
+  ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
+  ray.events.clear();
+  const double sine = std::sin(theta), cosine = std::cos(theta);
+  State s{0, source_depth_, sine, cosine / source_speed_, source_speed_, 0, 1 / source_speed_, 0, 1 / source_speed_,
+          source_layer_, source_facet_};
+  // At a knot the layer is the one into which the ray goes.
+  const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);
+  if (s.z == sea_.water.depths_m()[s.layer] && rises) --s.layer;
+  const double g_limit = sea_.profile.shallowest_m();
+  for (int steps = 0; steps < kMostSteps; ++steps) {
+    const Step step = next_step(s);
+    const double left = range_ - s.r, until = std::min(step.dr, left);
+    Hit hit;
+    const double g = sea_.water.gradients_per_s()[s.layer];
+    const double lowest = sea_.water.depths_m()[s.layer + 1];
+    const auto part = [&](double dr) {  // to a point within the step
+      const double sine2 = s.sine - s.xi * g * dr;
+      const double c2 = std::sqrt(std::max(1 - sine2 * sine2, 0.0)) / s.xi;
+      if (s.sine * sine2 < 0) {
+        const bool lower = s.sine > 0;
+        ray.events.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
+        ++(lower ? ray.lower_turns : ray.upper_turns);
+      }
+      const double z2 = s.z + dr * (s.sine + sine2) / (s.xi * (s.c + c2));
+      go(s, dr, z2, sine2, ray, details);
+      s.c = c2;
+    };
+    if (lowest > g_limit && find_hit(s, step, until, hit)) {
+      part(hit.dr);
+      const Facet& facet = sea_.profile.facets()[hit.facet];
+      s.z = facet.z0 + facet.slope * (s.r - facet.r0);
+      s.c = sea_.water.speeds_mps()[s.layer] + g * (s.z - sea_.water.depths_m()[s.layer]);
+      if (!meet_bottom(s, hit.facet, ray, details)) return;
+    } else if (step.dr >= left) {
+      part(left);
+      arrive(s, ray);
+      return;
+    } else {
+      if (step.turns) {
+        ray.events.push_back({step.down ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
+        ++(step.down ? ray.lower_turns : ray.upper_turns);
+      }
+      go(s, step.dr, step.z, step.sine, ray, details);
+      while (sea_.profile.facets()[s.facet].r1 < s.r) ++s.facet;
+      if (step.turns) continue;
+      if (!step.down && s.layer == 0) {
+        if (!meet_surface(s, ray, details)) return;
+      } else {
+        cross_knot(s, step.down);
+      }
+    }
+    if (ray.surface_bounces + ray.bottom_bounces > sea_.options.max_bounces) return;
+    if (ray.surface_bounces + ray.bottom_bounces > 0 && std::abs(theta) > sea_.options.max_launch_angle_rad) return;
+  }
+}
+
+}  // namespace halocline::acoustics

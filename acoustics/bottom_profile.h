@@ -1,0 +1,73 @@
+// The bottom along the vertical plane of a link, as rays meet it.
+//
+// Model: depth is linear between given points and constant before the first and after the last. A bottom given by many
+// points of a smooth one makes false and missing rays at its corners. So where two facets turn by no more than the
+// crease angle, and neither is longer than twice the depth there (longer ones are slopes that are meant, not samples of
+// a curve), the direction in which rays are reflected is the mean of both at the common point and goes evenly from
+// point to point, as unit normals of a curved bottom do; its change along the facet focuses or spreads the ray tube. At
+// any other corner each facet keeps its own slope. A crease angle of 0 makes all corners sharp.
+//
+// Immutable: calls may overlap between threads. Ranges are from the source, m, rising; depths below the surface, m.
+// Left out: slopes across the link, which turn rays out of its plane.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/units.h"
+
+namespace halocline::acoustics {
+
+struct ProfiledDepth {
+  double range_m;
+  double depth_m;
+  bool operator==(const ProfiledDepth&) const = default;
+};
+
+// Above it two facets meet in a corner, below in a bend: 5 degrees tells crests from samples of a curve.
+inline const double kDefaultCreaseAngle = to_radians(5);
+
+// One straight piece, z = z0 + slope (r - r0) for r in r0..r1.
+struct Facet {
+  double r0, r1, z0, slope;
+  double shallowest_m;
+  double sine, cosine;      // of its own angle atan(slope), positive down
+  double turn0, turn1;      // angle of reflection at both ends minus its own, rad
+  double bend_per_m;        // change of that along the facet, rad / m
+  int smooth_group;         // facets between two corners share a number
+  bool bent() const { return turn0 != 0 || turn1 != 0; }
+};
+
+class BottomProfile {
+ public:
+  // At least one point; ranges strictly rising, depths 0.1..12 000 m, crease 0..pi. Throws InvalidArgument.
+  explicit BottomProfile(std::vector<ProfiledDepth> points, double crease_angle_rad = kDefaultCreaseAngle);
+  static BottomProfile flat(double depth_m) { return BottomProfile({{0, depth_m}}); }
+
+  double depth_at(double range_m) const;
+  // Whether the bottom is level from 0 to `range_m`.
+  bool is_flat_until(double range_m) const;
+  // The same bottom seen from its other end: `range_m` becomes 0.
+  BottomProfile reversed(double range_m) const;
+
+  const std::vector<ProfiledDepth>& points() const { return points_; }
+  const std::vector<Facet>& facets() const { return facets_; }
+  std::size_t facet_at(double range_m) const;
+  double shallowest_m() const { return shallowest_; }
+  double deepest_m() const { return deepest_; }
+  // Shallowest of the facets [kBlock block, kBlock (block + 1)), m.
+  static constexpr std::size_t kBlock = 8;
+  const std::vector<double>& block_shallowest_m() const { return block_shallowest_; }
+
+ private:
+  void build_facets();
+  void bend_facets();
+
+  std::vector<ProfiledDepth> points_;
+  double crease_;
+  std::vector<Facet> facets_;
+  std::vector<double> block_shallowest_;
+  double shallowest_ = 0, deepest_ = 0;
+};
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,59 @@
+// The cubic through values and slopes at both ends of an interval: predicts a function within a cell of a table, where
+// it turns, and where it passes a value.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace halocline::acoustics {
+
+// Over t = 0..1, which stands for an interval of width h: a + b t + c t^2 + d t^3.
+class HermiteCubic {
+ public:
+  // Values f0, f1 and slopes s0, s1 (per unit of the interval's own measure) at both ends.
+  HermiteCubic(double f0, double s0, double f1, double s1, double h)
+      : a_(f0), b_(s0 * h), c_(3 * (f1 - f0) - (2 * s0 + s1) * h), d_(2 * (f0 - f1) + (s0 + s1) * h) {}
+
+  double operator()(double t) const { return a_ + t * (b_ + t * (c_ + t * d_)); }
+  double slope(double t) const { return b_ + t * (2 * c_ + t * 3 * d_); }
+
+  // Where it turns strictly inside 0..1, rising: at most two places.
+  struct Turns {
+    std::array<double, 2> at{};
+    int count = 0;
+    const double* begin() const { return at.data(); }
+    const double* end() const { return at.data() + count; }
+  };
+  Turns turns() const {
+    Turns turns;
+    const double a = 3 * d_, disc = c_ * c_ - a * b_;
+    if (disc <= 0) return turns;
+    const double w = -(c_ + std::copysign(std::sqrt(disc), c_));
+    std::array<double, 2> roots = {a != 0 ? w / a : -1, w != 0 ? b_ / w : -1};
+    if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
+    for (const double t : roots) {
+      if (t > 0 && t < 1) turns.at[static_cast<std::size_t>(turns.count++)] = t;
+    }
+    return turns;
+  }
+
+  // About where it passes `value`, 0..1, when its ends lie on both sides of it: a start for Newton's method.
+  double crossing(double value) const {
+    const double end = (*this)(1);
+    const bool rising = end > a_;
+    double low = 0, high = 1, t = std::clamp((value - a_) / (end - a_), 0.0, 1.0);
+    for (int i = 0; i < 4; ++i) {
+      const double error = (*this)(t)-value, along = slope(t);
+      ((error > 0) == rising ? high : low) = t;
+      const double next = along != 0 ? t - error / along : -1;
+      t = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return t;
+  }
+
+ private:
+  double a_, b_, c_, d_;
+};
+
+}  // namespace halocline::acoustics
