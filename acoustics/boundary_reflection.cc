@@ -61,6 +61,10 @@ Root root_of(double re, double im) {
 
 struct Quotient {
   double numerator_re, numerator_im, denominator_re, denominator_im;
+  double magnitude() const {
+    return std::sqrt((numerator_re * numerator_re + numerator_im * numerator_im) /
+                     (denominator_re * denominator_re + denominator_im * denominator_im));
+  }
 };
 
 Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps) {
@@ -153,13 +157,11 @@ Reflection bottom_reflection_at_sine(const FluidBottom& bottom, double sine, dou
   // arg V = arg(numerator conj(denominator)).
   const double re = v.numerator_re * v.denominator_re + v.numerator_im * v.denominator_im;
   const double im = v.numerator_im * v.denominator_re - v.numerator_re * v.denominator_im;
-  return {bottom_magnitude_at_sine(bottom, sine, water_speed_mps), -std::atan2(im, re)};
+  return {v.magnitude(), -std::atan2(im, re)};
 }
 
 double bottom_magnitude_at_sine(const FluidBottom& bottom, double sine, double water_speed_mps) {
-  const Quotient v = rayleigh(bottom, sine, water_speed_mps);
-  return std::sqrt((v.numerator_re * v.numerator_re + v.numerator_im * v.numerator_im) /
-                   (v.denominator_re * v.denominator_re + v.denominator_im * v.denominator_im));
+  return rayleigh(bottom, sine, water_speed_mps).magnitude();
 }
 
 std::string_view to_name(SurfaceModel model) {
