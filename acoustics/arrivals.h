@@ -78,6 +78,12 @@ struct RayLink {
   double source_depth_m = 0, receiver_depth_m = 0, range_m = 0;
 };
 
+// Paths of a link whose ends moved, found by following those it had before.
+struct FollowedRays {
+  std::vector<Arrival> paths;
+  bool complete = false;  // false: one of them is gone or was lost, the rest says little
+};
+
 // Last touches common to the solvers: drops what the options exclude, merges folds (paths alike, launched within 0.02
 // degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the carrier), sorts by delay,
 // numbers branches.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "acoustics/hermite_cubic.h"
 #include "acoustics/layered_path.h"
 #include "core/check.h"
 
@@ -75,44 +76,8 @@ class Search {
   bool direct_only_ = false, past_steepest_ = false;
 };
 
-// Cubic through values and slopes at both ends of [0, h], at t = 0..1.
-struct Cubic {
-  double a, b, c, d;  // a + b t + c t^2 + d t^3
-  Cubic(double f0, double s0, double f1, double s1, double h)
-      : a(f0), b(s0 * h), c(3 * (f1 - f0) - (2 * s0 + s1) * h), d(2 * (f0 - f1) + (s0 + s1) * h) {}
-  double operator()(double t) const { return a + t * (b + t * (c + t * d)); }
-  double slope(double t) const { return b + t * (2 * c + t * 3 * d); }
-};
-
-Cubic cubic_of(const Node& a, const Node& b, std::size_t family) {
+HermiteCubic cubic_of(const Node& a, const Node& b, std::size_t family) {
   return {a.f[family], a.slope[family], b.f[family], b.slope[family], b.theta - a.theta};
-}
-
-// Where the cubic passes `value`, 0..1, between ends that bracket it: a start for Newton, not more.
-double crossing(const Cubic& cubic, double value) {
-  double low = 0, high = 1, t = (value - cubic(0)) / (cubic(1) - cubic(0));
-  const bool rising = cubic(1) > cubic(0);
-  for (int i = 0; i < 4; ++i) {
-    const double error = cubic(t) - value, slope = cubic.slope(t);
-    ((error > 0) == rising ? high : low) = t;
-    const double next = slope != 0 ? t - error / slope : -1;
-    t = next > low && next < high ? next : 0.5 * (low + high);
-  }
-  return t;
-}
-
-// Turns of the cubic strictly inside 0..1, rising; how many.
-int turns_of(const Cubic& cubic, std::array<double, 2>& turns) {
-  const double a = 3 * cubic.d, half_b = cubic.c, c = cubic.b, disc = half_b * half_b - a * c;
-  if (disc <= 0) return 0;
-  const double w = -(half_b + std::copysign(std::sqrt(disc), half_b));
-  std::array<double, 2> roots = {a != 0 ? w / a : -1, w != 0 ? c / w : -1};
-  if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
-  int count = 0;
-  for (const double t : roots) {
-    if (t > 0 && t < 1) turns[static_cast<std::size_t>(count++)] = t;
-  }
-  return count;
 }
 
 void Search::add_horizontal() {
@@ -201,13 +166,10 @@ void Search::solve_cell(const Node& a, const Node& b) {
 }
 
 void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
-  std::array<double, 2> turns;
-  const Cubic cubic = cubic_of(a, b, family);
-  const int count = turns_of(cubic, turns);
+  const HermiteCubic cubic = cubic_of(a, b, family);
   Node from = a;
   double fold_theta = -1;
-  for (int i = 0; i < count; ++i) {
-    const double t = turns[static_cast<std::size_t>(i)];
+  for (const double t : cubic.turns()) {
     const double expected = cubic(t);
     Node turn = node_at(a.theta + t * (b.theta - a.theta));
     if (std::abs(expected - std::round(expected)) < kNearFold) {
@@ -246,9 +208,9 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, do
   const int first = static_cast<int>(std::ceil(std::max(low, 0.0)));
   const int last = static_cast<int>(std::min(std::ceil(high) - 1, static_cast<double>(most)));  // low <= n < high
   if (last < first) return;
-  const Cubic cubic = cubic_of(a, b, family);
+  const HermiteCubic cubic = cubic_of(a, b, family);
   for (int n = first; n <= last; ++n) {
-    const double t = crossing(cubic, n);
+    const double t = cubic.crossing(n);
     polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta)}, family, n, fold_theta);
   }
 }

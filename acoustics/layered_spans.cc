@@ -21,6 +21,7 @@ LayeredSpans::LayeredSpans(const RayWater& water, double upper_m, double lower_m
   append(down_, water, lower_m, bottom_m);
   barrier_ = std::max(water.speed_at(upper_m), water.speed_at(lower_m));
   for (const Slab& slab : between_) barrier_ = std::max({barrier_, slab.c1, slab.c2});
+  first_barrier_ = barrier_;
   pass_what_is_slower();
 }
 
@@ -65,6 +66,15 @@ bool LayeredSpans::advance() {
   if (next <= 0) return false;
   barrier_ = next;
   pass_what_is_slower();
+  return true;
+}
+
+bool LayeredSpans::seek(double xi) {
+  if (!(xi * first_barrier_ < 1)) return false;
+  barrier_ = first_barrier_;
+  up_reach_ = down_reach_ = 0;
+  pass_what_is_slower();
+  for (double next = next_barrier_mps(); next > 0 && xi * next < 1; next = next_barrier_mps()) advance();
   return true;
 }
 

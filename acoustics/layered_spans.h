@@ -46,6 +46,9 @@ class LayeredSpans {
   double next_barrier_mps() const;
   // Moves on to it; false when there is none.
   bool advance();
+  // Back to the first barrier and on to the one that rays of invariant `xi` passed last; false when they do not reach
+  // from one end to the other.
+  bool seek(double xi);
 
   bool meets_surface() const { return up_reach_ == up_.size(); }
   bool meets_bottom() const { return down_reach_ == down_.size(); }
@@ -75,7 +78,7 @@ class LayeredSpans {
   static void add_slab(const Slab& slab, double s1, double s2, double xi, std::size_t stretch, SpanDetails& details);
 
   std::vector<Slab> up_, between_, down_;
-  double barrier_ = 0, inverse_barrier_squared_ = 0;
+  double first_barrier_ = 0, barrier_ = 0, inverse_barrier_squared_ = 0;
   std::size_t up_reach_ = 0, down_reach_ = 0;  // slabs passed whole
 };
 

@@ -22,4 +22,7 @@ namespace halocline::acoustics {
 // All rays of `link`; depths between the surface and the bottom at both ends (at a boundary: a micrometre off it).
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
 
+// The same from paths found before, for ends that moved little (acoustics/layered_rays.h says what that means).
+FollowedRays follow_profile_rays(const ProfiledSea& sea, const RayLink& link, const std::vector<Arrival>& before);
+
 }  // namespace halocline::acoustics
