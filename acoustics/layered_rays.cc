@@ -217,9 +217,6 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, do
 
 void Search::polish(const Bracket& bracket, std::size_t family, int cycles, double fold_theta) {
   double low = bracket.from, high = bracket.to, theta = bracket.guess, sine = 0, cosine = 0;
-  const auto step_to = [&](double next) {
-    theta = next > low && next < high ? next : 0.5 * (low + high);
-  };
   for (int i = 0; i < 60; ++i) {
     sine = std::sin(theta);
     cosine = std::cos(theta);
@@ -229,8 +226,13 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles, doub
     const double f = cycles + off / (sums.xi * t.xq);
     const double slope = (t.bm + f * t.xm) * sine / (cosine * t.xq);
     ((off > 0) == bracket.rising ? high : low) = theta;
-    step_to(slope != 0 ? theta - (f - cycles) / slope : -1);
-    if (std::abs(off) < kRangeTolerance || high - low < 1e-15 * high) break;
+    const double next = slope != 0 ? theta - (f - cycles) / slope : -1;
+    if (std::abs(off) < kRangeTolerance) {  // the last step squares the error, or is none where rounding rules
+      if (next > low && next < high) theta = next;
+      break;
+    }
+    theta = next > low && next < high ? next : 0.5 * (low + high);
+    if (high - low < 1e-15 * high) break;
   }
   const LayeredRay ray{kFamilies[family], cycles, std::sin(theta), std::cos(theta),
                        fold_slope(family, cycles, theta, fold_theta)};

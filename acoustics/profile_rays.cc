@@ -166,8 +166,12 @@ void Search::polish(const TracedRay& a, const TracedRay& b, double target, doubl
     const double off = ray.zeta - target;
     ((off > 0) == rising ? high : low) = theta;
     const double next = ray.zeta_slope != 0 ? theta - off / ray.zeta_slope : low - 1;
+    if (std::abs(off) < kDepthTolerance) {  // the last step squares the error, or is none where rounding rules
+      if (next > low && next < high) theta = next;
+      break;
+    }
     theta = next > low && next < high ? next : 0.5 * (low + high);
-    if (std::abs(off) < kDepthTolerance || high - low < 1e-15) break;
+    if (high - low < 1e-15) break;
   }
   append_profile_arrival(tracer_, theta, fold_theta, target, paths_);
 }

@@ -1,0 +1,36 @@
+// How much of its sound a transducer sends or hears in each direction of the vertical plane.
+//
+// Model: a table of loss against elevation, linear in decibels between rows, constant beyond the ends; no table is
+// omnidirectional. Elevation is the angle from the horizontal, positive down (as launch angles are); the pattern is the
+// same all around the vertical. Left out: bearing, the tilt of the vehicle (the caller may turn the angles).
+#pragma once
+
+#include <vector>
+
+#include "core/units.h"
+
+namespace halocline::acoustics {
+
+struct BeamRow {
+  double elevation_rad;  // -pi/2..pi/2, rising
+  double loss_db;        // re the direction to which the source level refers, -60..200
+  bool operator==(const BeamRow&) const = default;
+};
+
+class BeamPattern {
+ public:
+  BeamPattern() = default;  // omnidirectional
+  // At least one row. Throws InvalidArgument, naming the row, unless rows are in range and rise.
+  explicit BeamPattern(std::vector<BeamRow> rows);
+
+  bool is_omnidirectional() const { return rows_.empty(); }
+  Decibels loss(double elevation_rad) const;
+  // On pressure: 10^(-loss/20).
+  double factor(double elevation_rad) const;
+  const std::vector<BeamRow>& rows() const { return rows_; }
+
+ private:
+  std::vector<BeamRow> rows_;
+};
+
+}  // namespace halocline::acoustics
