@@ -10,7 +10,9 @@
 // Each change of q's sign is a caustic. Depth is unfolded, so that it does not jump where a bounce passes the
 // receiver: zeta = o z + 2 H k, H the depth at the receiver, o flips at each bounce, k grows by o at the bottom.
 //
-// Immutable between calls of trace, which may overlap between threads. Left out: rays that turn back.
+// Immutable between calls of trace, which may overlap between threads. Left out: rays that turn back; the bottom's slope
+// across the link, so tubes widen across the plane as over a bottom that is the same all around the source (which makes
+// amplitudes over slopes differ from those of the swapped link by the ratio of xi at both ends).
 #pragma once
 
 #include <cstdint>

@@ -42,7 +42,7 @@ const double kDecibelsPerLossParameter = 40 * pi * std::numbers::log10e;
 
 constexpr double kGravity = 9.8;                  // m/s^2, as the wave spectrum was fitted
 constexpr double kWaveModelSpeed = 1500;          // m/s, of Gamma
-constexpr double kKnot = 1852.0 / 3600.0;         // m/s
+constexpr double kKnotsPerMps = 1.94384;          // as Coates's form is commonly evaluated
 constexpr double kLeastGrazing = 1e-9;            // rad: the bubble law has 1 / sin G
 constexpr double kGreatestLoss = 400;             // dB: beyond it a bounce leaves nothing
 
@@ -93,7 +93,7 @@ double eckart_loss_db(double wind_mps, double grazing_rad, double khz) {
 }
 
 double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
-  const double knots = wind_mps / kKnot;
+  const double knots = wind_mps * kKnotsPerMps;
   const double f2 = knots > 0 ? 378 / (knots * knots) : 1e30, f1 = std::sqrt(10.0) * f2;  // kHz
   const double low = 10 * std::log10((1 + khz * khz / (f1 * f1)) / (1 + khz * khz / (f2 * f2)));
   const double tilt = to_degrees(grazing_rad) / 30;

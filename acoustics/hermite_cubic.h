@@ -47,7 +47,7 @@ class HermiteCubic {
       const double error = (*this)(t)-value, along = slope(t);
       ((error > 0) == rising ? high : low) = t;
       const double next = along != 0 ? t - error / along : -1;
-      t = next > low && next < high ? next : 0.5 * (low + high);
+      t = next >= low && next <= high ? next : 0.5 * (low + high);
     }
     return t;
   }

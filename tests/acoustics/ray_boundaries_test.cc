@@ -57,7 +57,7 @@ TEST(BottomReflection, ReflectsAllBelowTheCriticalAngleOfALosslessFastBottom) {
   const FluidBottom lossless{1.9, 1.1, 0, 0, BottomLoss::kComplexWaveNumber};
   const double critical = std::acos(1 / 1.1);
   EXPECT_NEAR(bottom_reflection(lossless, 0.9 * critical, 1500).magnitude, 1, tolerance(1e-15));
-  EXPECT_LT(bottom_reflection(lossless, 1.1 * critical, 1500).magnitude, 0.6);
+  EXPECT_LT(bottom_reflection(lossless, 1.1 * critical, 1500).magnitude, 0.7);
 }
 
 TEST(BottomReflection, AtNormalIncidenceIsTheRatioOfImpedances) {
