@@ -17,6 +17,7 @@ constexpr double kLeastSine = 1e-9;        // where 1 / sin is taken
 constexpr double kLeastCosine = 1e-3;      // steeper than 89.94 degrees a ray counts as turned back
 constexpr double kTouching = 1e-9;         // m: nearer than that to a facet is on it
 constexpr std::size_t kLossSteps = 64;
+constexpr std::size_t kUsualEvents = 48;   // of one ray: its history rarely has to grow
 constexpr int kMostSteps = 200'000;        // crossings of layers: a guard, never met
 
 }  // namespace
@@ -255,6 +256,7 @@ void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) cons
   ray.factor = 1;
   ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
   ray.events.clear();
+  ray.events.reserve(kUsualEvents);
   const double sine = std::sin(theta), cosine = std::cos(theta);
   State s{0, source_depth_, sine, cosine / source_speed_, source_speed_, 0, 1 / source_speed_, 0, 1 / source_speed_,
           source_layer_, source_facet_};

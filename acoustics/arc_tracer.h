@@ -38,7 +38,7 @@ struct ProfiledSea {
 enum class RayEvent : std::uint8_t { kSurface, kUpperTurn, kLowerTurn, kBottom };
 struct EventCode {
   RayEvent event;
-  int group;  // of the facet, at the bottom; 0 elsewhere
+  std::uint16_t group;  // of the facet, at the bottom; 0 elsewhere
   bool operator==(const EventCode&) const = default;
 };
 

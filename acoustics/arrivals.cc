@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <numbers>
-#include <tuple>
 
 #include "core/check.h"
 
@@ -17,14 +17,26 @@ using std::numbers::pi;
 constexpr double kMergedDelay = 1e-6;                  // s
 const double kMergedAngle = to_radians(0.02);
 
-auto kind(const Arrival& path) {
+// What sorting looks at: paths themselves are large and are moved once.
+struct Key {
+  std::uint64_t kind;
+  double launch_rad, delay_s;
+  std::size_t index;
+};
+
+// All of an identity but its branch; counts are below 16 384.
+std::uint64_t kind(const Arrival& path) {
   const PathIdentity& id = path.identity;
-  return std::tuple(id.launched_up, id.surface_bounces, id.bottom_bounces, id.upper_turns, id.lower_turns);
+  std::uint64_t packed = id.launched_up ? 1 : 0;
+  for (const int count : {id.surface_bounces, id.bottom_bounces, id.upper_turns, id.lower_turns}) {
+    packed = (packed << 14) | static_cast<std::uint64_t>(std::min(count, 16'383));
+  }
+  return packed;
 }
 
-bool are_one_fold(const Arrival& a, const Arrival& b) {
-  return kind(a) == kind(b) && std::abs(a.delay_s - b.delay_s) < kMergedDelay &&
-         std::abs(a.launch_angle_rad - b.launch_angle_rad) < kMergedAngle;
+bool are_one_fold(const Key& a, const Key& b) {
+  return a.kind == b.kind && std::abs(a.delay_s - b.delay_s) < kMergedDelay &&
+         std::abs(a.launch_rad - b.launch_rad) < kMergedAngle;
 }
 
 // The louder of the two, with the pressure of both.
@@ -40,23 +52,51 @@ Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   return both;
 }
 
-void merge_folds(std::vector<Arrival>& paths, double frequency_hz) {
-  std::size_t kept = 0;
+// Keys of the paths that are kept, by kind and launch angle; paths of a fold become one.
+std::vector<Key> keys_by_kind(std::vector<Arrival>& paths, const RayOptions& options) {
+  std::vector<Key> keys, kept;
+  keys.reserve(paths.size());
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (kept > 0 && are_one_fold(paths[kept - 1], paths[i])) {
-      paths[kept - 1] = merged(paths[kept - 1], paths[i], frequency_hz);
+    if (paths[i].amplitude < options.min_amplitude) continue;
+    keys.push_back({kind(paths[i]), paths[i].launch_angle_rad, paths[i].delay_s, i});
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.launch_rad < b.launch_rad;
+  });
+  kept.reserve(keys.size());
+  for (const Key& key : keys) {
+    if (!kept.empty() && are_one_fold(kept.back(), key)) {
+      Arrival& one = paths[kept.back().index];
+      one = merged(one, paths[key.index], options.frequency_hz);
     } else {
-      paths[kept++] = paths[i];
+      kept.push_back(key);
     }
   }
-  paths.resize(kept);
+  return kept;
 }
 
-void number_branches(std::vector<Arrival>& paths) {
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const bool same = i > 0 && kind(paths[i - 1]) == kind(paths[i]);
-    paths[i].identity.branch = same ? paths[i - 1].identity.branch + 1 : 0;
+void number_branches(const std::vector<Key>& keys, std::vector<Arrival>& paths) {
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const bool same = i > 0 && keys[i - 1].kind == keys[i].kind;
+    paths[keys[i].index].identity.branch = same ? paths[keys[i - 1].index].identity.branch + 1 : 0;
   }
+}
+
+// Whether two paths that were lost are the two sides of one fold, which end together as the receiver leaves them.
+bool were_one_fold(const Arrival& a, const Arrival& b) {
+  constexpr double kFoldWidth = 0.02;  // rad
+  return a.surface_bounces == b.surface_bounces && a.bottom_bounces == b.bottom_bounces &&
+         std::abs(a.caustics - b.caustics) == 1 && std::abs(a.launch_angle_rad - b.launch_angle_rad) < kFoldWidth;
+}
+
+double unexplained_power(const std::vector<Arrival>& lost) {
+  double power = 0;
+  for (const Arrival& path : lost) {
+    const bool folded = std::any_of(lost.begin(), lost.end(),
+                                    [&path](const Arrival& other) { return were_one_fold(path, other); });
+    if (!folded) power += path.amplitude * path.amplitude;
+  }
+  return power;
 }
 
 }  // namespace
@@ -78,6 +118,33 @@ bool Arrivals::has_direct_path() const {
   });
 }
 
+FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options, const FollowOne& follow_one) {
+  constexpr double kMostLostPower = 0.01;  // of all
+  FollowedRays now;
+  now.paths.reserve(before.size());
+  std::vector<Arrival> lost;
+  double power = 0;
+  for (const Arrival& path : before) {
+    power += path.amplitude * path.amplitude;
+    if (!follow_one(path, now.paths)) lost.push_back(path);
+  }
+  now.complete = unexplained_power(lost) <= kMostLostPower * power;
+  finish(now.paths, options);
+  return now;
+}
+
+bool is_followed(const std::vector<Arrival>& paths, const Arrival& before) {
+  constexpr double kSameRay = 1e-8;  // rad
+  const Arrival& now = paths.back();
+  const bool same = now.surface_bounces == before.surface_bounces && now.bottom_bounces == before.bottom_bounces &&
+                    now.caustics == before.caustics && now.identity.launched_up == before.identity.launched_up;
+  return same && std::none_of(paths.begin(), paths.end() - 1, [&now](const Arrival& other) {
+           return std::abs(other.launch_angle_rad - now.launch_angle_rad) < kSameRay &&
+                  other.identity.surface_bounces == now.identity.surface_bounces &&
+                  other.identity.bottom_bounces == now.identity.bottom_bounces;
+         });
+}
+
 void validate(const RayOptions& options) {
   require_in_range(options.frequency_hz, 10, 1e6, "ray frequency", "Hz");
   require_in_range(options.max_launch_angle_rad, 1e-6, pi / 2, "greatest launch angle", "rad");
@@ -87,15 +154,15 @@ void validate(const RayOptions& options) {
 }
 
 void finish(std::vector<Arrival>& paths, const RayOptions& options) {
-  std::erase_if(paths, [&options](const Arrival& path) { return path.amplitude < options.min_amplitude; });
-  std::sort(paths.begin(), paths.end(), [](const Arrival& a, const Arrival& b) {
-    return std::tuple(kind(a), a.launch_angle_rad) < std::tuple(kind(b), b.launch_angle_rad);
+  std::vector<Key> keys = keys_by_kind(paths, options);
+  number_branches(keys, paths);
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.delay_s != b.delay_s ? a.delay_s < b.delay_s : a.launch_rad < b.launch_rad;
   });
-  merge_folds(paths, options.frequency_hz);
-  number_branches(paths);
-  std::sort(paths.begin(), paths.end(), [](const Arrival& a, const Arrival& b) {
-    return std::tuple(a.delay_s, a.launch_angle_rad) < std::tuple(b.delay_s, b.launch_angle_rad);
-  });
+  std::vector<Arrival> sorted;
+  sorted.reserve(keys.size());
+  for (const Key& key : keys) sorted.push_back(paths[key.index]);
+  paths = std::move(sorted);
 }
 
 }  // namespace halocline::acoustics

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <compare>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct Arrival {
   double phase_rad = 0;           // 0..2 pi: pi a surface bounce, the bottom's own, pi / 2 a caustic
   double launch_angle_rad = 0;
   double arrival_angle_rad = 0;
+  double launch_slowness_spm = 0;  // cos(launch angle) / sound speed at the source, s/m: Snell's invariant
   double path_length_m = 0;       // along the arcs
   double absorption_db = 0;       // along the arcs, at RayOptions::frequency_hz
   double surface_loss_db = 0;     // of all surface bounces, part of the amplitude
@@ -81,8 +83,17 @@ struct RayLink {
 // Paths of a link whose ends moved, found by following those it had before.
 struct FollowedRays {
   std::vector<Arrival> paths;
-  bool complete = false;  // false: one of them is gone or was lost, the rest says little
+  // False: more than 1 % of the power was lost otherwise than by the two rays of a fold meeting and ending.
+  bool complete = false;
 };
+
+// Follows each of `before` by `follow_one`, which appends the path as it is now and says whether it could.
+using FollowOne = std::function<bool(const Arrival& before, std::vector<Arrival>& paths)>;
+FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options, const FollowOne& follow_one);
+
+// Whether a path that was followed is the one it was before: as many bounces and caustics, launched to the same side, and
+// not one that another path has come to already (all but the last of `paths`).
+bool is_followed(const std::vector<Arrival>& paths, const Arrival& before);
 
 // Last touches common to the solvers: drops what the options exclude, merges folds (paths alike, launched within 0.02
 // degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the carrier), sorts by delay,

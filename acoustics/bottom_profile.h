@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/units.h"
@@ -34,7 +35,7 @@ struct Facet {
   double sine, cosine;      // of its own angle atan(slope), positive down
   double turn0, turn1;      // angle of reflection at both ends minus its own, rad
   double bend_per_m;        // change of that along the facet, rad / m
-  int smooth_group;         // facets between two corners share a number
+  std::uint16_t smooth_group;  // facets between two corners share a number (modulo 65536)
   bool bent() const { return turn0 != 0 || turn1 != 0; }
 };
 

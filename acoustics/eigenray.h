@@ -55,9 +55,9 @@ Arrivals arrivals(const RaySea& sea, const Vec3& source_ned_m, const Vec3& recei
 RayLink ray_link(const Vec3& source_ned_m, const Vec3& receiver_ned_m, double sea_surface_z_m);
 
 // The same link after its ends moved a little (up to some metres): the paths of `before` are followed to where they are
-// now by Newton's method, which costs a fraction of a search. Where one of them cannot be followed (it ended at a fold
-// or an edge) all are searched for again. Paths that came into being are not found: search afresh every so often, as
-// the ends move by more than the link's water changes.
+// now by Newton's method, which costs a fraction of a search. One that cannot be followed (it ended at a fold or an
+// edge) is dropped; where such paths carried 1 % of the power, all are searched for again. Paths that came into being
+// are not found: search afresh once the ends have moved by some metres.
 Arrivals follow(const RaySea& sea, const RayLink& link, const Arrivals& before);
 
 }  // namespace halocline::acoustics

@@ -8,7 +8,12 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr int kMostSteps = 12;
+// Newton's method at full steps, then, where that left the branch, at short ones.
+struct Pace {
+  double share;
+  int most_steps;
+};
+constexpr Pace kPaces[] = {{1, 10}, {0.3, 40}};
 constexpr double kRangeTolerance = 1e-4;  // m before the last step, as in the search
 
 // Family and cycles of a path: how often it ran U and D follows from its bounces and turns, and where those are equal
@@ -21,9 +26,9 @@ LayeredRay ray_of(const LayeredLink& link, const PathIdentity& id) {
 }
 
 // Newton's method in the angle at the barrier, which changes as the ray passes knots. False when it does not settle.
-bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, LayeredRay& ray) {
+bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, Pace pace, LayeredRay& ray) {
   bool last = false;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < pace.most_steps; ++i) {
     if (!spans.seek(xi)) xi = (1 - 1e-12) / spans.barrier_mps();
     if (!spans.seek(xi)) return false;
     ray.cosine = xi * spans.barrier_mps();
@@ -35,18 +40,26 @@ bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, LayeredRay&
     // dr/dtheta = dr/dxi dxi/dtheta, dxi/dtheta = -sin / c*.
     const double slope = -(t.bm + ray.cycles * t.xm) * ray.sine / spans.barrier_mps();
     if (slope == 0) return false;
-    const double theta = std::atan2(ray.sine, ray.cosine), next = theta + off / slope;
-    xi = std::cos(next > 0 ? next : theta / 2) / spans.barrier_mps();
     last = std::abs(off) < kRangeTolerance;
+    const double theta = std::atan2(ray.sine, ray.cosine), next = theta + (last ? 1 : pace.share) * off / slope;
+    xi = std::cos(next > 0 ? next : theta / 2) / spans.barrier_mps();
   }
   return false;
 }
 
-bool is_same_path(const Arrival& now, const Arrival& before) {
-  const PathIdentity &a = now.identity, &b = before.identity;
-  return a.launched_up == b.launched_up && a.surface_bounces == b.surface_bounces &&
-         a.bottom_bounces == b.bottom_bounces && a.upper_turns == b.upper_turns && a.lower_turns == b.lower_turns &&
-         now.caustics == before.caustics;
+// The path as it is now at the end of `paths`; false when it was lost or is too faint.
+bool follow_path(const LayeredLink& link, LayeredSpans& spans, const Arrival& before, std::vector<Arrival>& paths) {
+  LayeredRay ray = ray_of(link, before.identity);
+  if (ray.cycles < 0) return false;
+  for (const Pace pace : kPaces) {
+    if (!settle(link, spans, before.launch_slowness_spm, pace, ray)) continue;
+    const std::size_t count = paths.size();
+    append_arrival(link, spans, ray, paths);
+    if (paths.size() == count) return false;
+    if (is_followed(paths, before)) return true;
+    paths.pop_back();
+  }
+  return false;
 }
 
 }  // namespace
@@ -54,19 +67,9 @@ bool is_same_path(const Arrival& now, const Arrival& before) {
 FollowedRays follow_layered_rays(const FlatSea& sea, const RayLink& ray_link, const std::vector<Arrival>& before) {
   const LayeredLink link(sea, ray_link);
   LayeredSpans spans(sea.water, link.upper_m, link.lower_m, sea.bottom_depth_m);
-  FollowedRays now;
-  now.paths.reserve(before.size());
-  for (const Arrival& path : before) {
-    LayeredRay ray = ray_of(link, path.identity);
-    if (ray.cycles < 0 || !settle(link, spans, std::cos(path.launch_angle_rad) / link.source_speed_mps, ray)) return now;
-    const std::size_t count = now.paths.size();
-    append_arrival(link, spans, ray, now.paths);
-    if (now.paths.size() == count) continue;  // too faint by now
-    if (!is_same_path(now.paths.back(), path)) return now;
-  }
-  finish(now.paths, sea.options);
-  now.complete = true;
-  return now;
+  return follow_each(before, sea.options, [&](const Arrival& path, std::vector<Arrival>& paths) {
+    return follow_path(link, spans, path, paths);
+  });
 }
 
 }  // namespace halocline::acoustics

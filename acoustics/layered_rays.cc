@@ -15,10 +15,13 @@ using std::numbers::pi;
 
 constexpr double kLeastAngle = 1e-9;       // rad at the barrier: where tables begin
 constexpr int kDeepestRefinement = 12;     // halvings of an interval between barriers
-constexpr double kCubicTolerance = 0.03;   // of f: what its cubic may err by at the middle of a cell
+constexpr double kCubicTolerance = 0.08;   // of f: what its cubic may err by at the middle of a cell
 constexpr double kNearFold = 0.2;          // of f: a turn nearer to a whole number is sought out exactly
 constexpr double kRangeTolerance = 1e-4;   // m before the last step of Newton, which squares the error
 constexpr double kMarginOfFactor = 0.7;    // ln: cells are left out only when clearly below the least factor
+
+constexpr double kClearOfRays = 0.3;       // of f: a cell whose cubic stays further from whole numbers holds no ray
+constexpr std::size_t kUsualPaths = 64;    // of one link
 
 // f = (r - b)/X of the four families and its slope, at one angle of one interval.
 struct Node {
@@ -43,6 +46,7 @@ class Search {
         omega_(2 * pi * sea.options.frequency_hz) {}
 
   std::vector<Arrival> run() {
+    paths_.reserve(kUsualPaths);
     add_horizontal();
     do {
       scan_interval();
@@ -59,6 +63,7 @@ class Search {
   double theta_reaching(double c) const;
   Node node_at(double theta) const;
   void refine(const Node& a, const Node& b, int depth);
+  bool is_clear(const Node& a, const Node& b) const;
   void solve_cell(const Node& a, const Node& b);
   void solve_family(const Node& a, const Node& b, std::size_t family);
   // Rays between two nodes between which f is monotone; `fold_theta` is the angle of a turn of f at one of them, or
@@ -91,6 +96,7 @@ void Search::add_horizontal() {
   Arrival path;
   path.delay_s = link_.range_m / link_.source_speed_mps;
   path.amplitude = 1 / link_.range_m;
+  path.launch_slowness_spm = 1 / link_.source_speed_mps;
   path.path_length_m = link_.range_m;
   path.absorption_db = link_.range_m * water.absorption_db_per_m(z);
   paths_.push_back(path);
@@ -139,6 +145,7 @@ bool Search::too_faint(const Node& a, const Node& b, std::size_t family, double 
 }
 
 void Search::refine(const Node& a, const Node& b, int depth) {
+  if (is_clear(a, b)) return;
   bool any = false, fits = true;
   const Node middle = node_at(0.5 * (a.theta + b.theta));
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
@@ -157,6 +164,17 @@ void Search::refine(const Node& a, const Node& b, int depth) {
     refine(a, middle, depth + 1);
     refine(middle, b, depth + 1);
   }
+}
+
+// No ray of any family between two nodes, by far: f goes straight from one to the other between two whole numbers.
+bool Search::is_clear(const Node& a, const Node& b) const {
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    const double least = std::min(a.f[k], b.f[k]), most = std::max(a.f[k], b.f[k]);
+    if (most < -kClearOfRays || too_faint(a, b, k, least - 0.5)) continue;
+    const bool apart = std::floor(least - kClearOfRays) == std::floor(most + kClearOfRays);
+    if (!apart || cubic_of(a, b, k).turns().count > 0) return false;
+  }
+  return true;
 }
 
 void Search::solve_cell(const Node& a, const Node& b) {

@@ -35,8 +35,9 @@ struct FlatSea {
 // All rays of `link`, whose depths are within 0..bottom_depth_m (at a boundary: a micrometre off it).
 std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link);
 
-// The same from paths found before, for ends that moved little: each is followed to where it is now. Not complete when
-// one of them could not be (it ended at a fold or an edge): search again. Paths that came into being are not found.
+// The same from paths found before, for ends that moved little: each is followed to where it is now. Those that could not
+// be (they ended at a fold or an edge) are dropped, and where they carried 1 % of the power the answer is not complete:
+// search again. Paths that came into being are not found.
 FollowedRays follow_layered_rays(const FlatSea& sea, const RayLink& link, const std::vector<Arrival>& before);
 
 }  // namespace halocline::acoustics

@@ -7,7 +7,12 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr int kMostSteps = 8;
+// Newton's method at full steps, then, where that left the branch, at short ones.
+struct Pace {
+  double share;
+  int most_steps;
+};
+constexpr Pace kPaces[] = {{1, 6}, {0.3, 30}};
 constexpr double kDepthTolerance = 1e-4;  // m before the last step, as in the search
 
 // Launch angle and image of the receiver that a path has now.
@@ -16,45 +21,47 @@ struct Settled {
   double theta = 0, target = 0;
 };
 
-Settled settle(const ArcTracer& tracer, const Arrival& before, TracedRay& ray) {
+Settled settle(const ArcTracer& tracer, const Arrival& before, Pace pace, TracedRay& ray) {
   const double sign = (before.surface_bounces + before.bottom_bounces) % 2 == 0 ? 1 : -1;
   const double image = sign * tracer.receiver_depth_m(), period = 2 * tracer.bottom_at_receiver_m();
-  Settled at{false, before.launch_angle_rad, 0};
-  for (int i = 0; i < kMostSteps; ++i) {
+  // With the same invariant of Snell as before: what grazed a layer still does when the source has changed depth.
+  const double cosine = before.launch_slowness_spm * tracer.source_speed_mps();
+  const double start = cosine < 1 ? std::copysign(std::acos(cosine), before.launch_angle_rad) : before.launch_angle_rad;
+  Settled at{false, start, 0};
+  for (int i = 0; i < pace.most_steps; ++i) {
     tracer.trace(at.theta, ray);
     if (!ray.arrived || ray.zeta_slope == 0) return at;
     if (i == 0) at.target = image + period * std::round((ray.zeta - image) / period);
     const double off = ray.zeta - at.target;
-    at.theta -= off / ray.zeta_slope;
     at.found = std::abs(off) < kDepthTolerance;
+    at.theta -= (at.found ? 1 : pace.share) * off / ray.zeta_slope;
     if (at.found) return at;
   }
   return at;
 }
 
-bool is_same_path(const Arrival& now, const Arrival& before) {
-  return now.surface_bounces == before.surface_bounces && now.bottom_bounces == before.bottom_bounces &&
-         now.identity.launched_up == before.identity.launched_up && now.caustics == before.caustics;
+// The path as it is now at the end of `paths`; false when it was lost or is too faint.
+bool follow_path(const ArcTracer& tracer, const Arrival& before, TracedRay& ray, std::vector<Arrival>& paths) {
+  for (const Pace pace : kPaces) {
+    const Settled at = settle(tracer, before, pace, ray);
+    if (!at.found) continue;
+    const std::size_t count = paths.size();
+    append_profile_arrival(tracer, at.theta, kNoFold, at.target, paths);
+    if (paths.size() == count) return false;
+    if (is_followed(paths, before)) return true;
+    paths.pop_back();
+  }
+  return false;
 }
 
 }  // namespace
 
 FollowedRays follow_profile_rays(const ProfiledSea& sea, const RayLink& link, const std::vector<Arrival>& before) {
   const ArcTracer tracer(sea, link);
-  FollowedRays now;
-  now.paths.reserve(before.size());
   TracedRay ray;
-  for (const Arrival& path : before) {
-    const Settled at = settle(tracer, path, ray);
-    if (!at.found) return now;
-    const std::size_t count = now.paths.size();
-    append_profile_arrival(tracer, at.theta, kNoFold, at.target, now.paths);
-    if (now.paths.size() == count) continue;  // too faint by now
-    if (!is_same_path(now.paths.back(), path)) return now;
-  }
-  finish(now.paths, sea.options);
-  now.complete = true;
-  return now;
+  return follow_each(before, sea.options, [&](const Arrival& path, std::vector<Arrival>& paths) {
+    return follow_path(tracer, path, ray, paths);
+  });
 }
 
 }  // namespace halocline::acoustics

@@ -48,6 +48,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, double fold_t
   const double phase = pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2;
   path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
   path.launch_angle_rad = theta;
+  path.launch_slowness_spm = std::cos(theta) / tracer.source_speed_mps();
   path.arrival_angle_rad = std::asin(ray.sine);
   path.path_length_m = details.length_m;
   path.absorption_db = details.absorption_db;
