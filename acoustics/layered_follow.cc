@@ -54,7 +54,7 @@ bool follow_path(const LayeredLink& link, LayeredSpans& spans, const Arrival& be
   for (const Pace pace : kPaces) {
     if (!settle(link, spans, before.launch_slowness_spm, pace, ray)) continue;
     const std::size_t count = paths.size();
-    append_arrival(link, spans, ray, paths);
+    append_arrival(link, spans, ray, spans.sums(ray.sine, ray.cosine), paths);
     if (paths.size() == count) return false;
     if (is_followed(paths, before)) return true;
     paths.pop_back();

@@ -120,11 +120,10 @@ LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link) : sea(fla
                                                        : -std::numeric_limits<double>::infinity();
 }
 
-void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, const SpanSums& sums,
                     std::vector<Arrival>& paths) {
   const Bounces bounces = bounces_of(spans, ray);
   if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return;
-  const SpanSums sums = spans.sums(ray.sine, ray.cosine);
   Arrival path;
   if (!set_boundaries(link, sums, bounces, path)) return;
   set_spreading(link, spans, ray, sums, bounces, path);

@@ -52,8 +52,8 @@ struct LayeredRay {
   double least_slope = 0;  // of |dr/dxi|, near a fold; 0 elsewhere
 };
 
-// Appends the arrival unless the options exclude it.
-void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+// Appends the arrival unless the options exclude it; `sums` are those of the ray.
+void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, const SpanSums& sums,
                     std::vector<Arrival>& paths);
 
 }  // namespace halocline::acoustics

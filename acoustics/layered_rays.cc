@@ -20,7 +20,7 @@ constexpr double kNearFold = 0.2;          // of f: a turn nearer to a whole num
 constexpr double kRangeTolerance = 1e-4;   // m before the last step of Newton, which squares the error
 constexpr double kMarginOfFactor = 0.7;    // ln: cells are left out only when clearly below the least factor
 
-constexpr double kClearOfRays = 0.3;       // of f: a cell whose cubic stays further from whole numbers holds no ray
+constexpr double kClearOfRays = 0.02;      // of f: less than that and its slopes allow it does not change in a cell
 constexpr std::size_t kUsualPaths = 64;    // of one link
 
 // f = (r - b)/X of the four families and its slope, at one angle of one interval.
@@ -72,7 +72,7 @@ class Search {
   void polish(const Bracket& bracket, std::size_t family, int cycles, double fold_theta);
   bool too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const;
   Node turn_of(const Node& a, const Node& b, std::size_t family) const;
-  double fold_slope(std::size_t family, int cycles, double theta, double fold_theta) const;
+  double fold_slope(const RangeTerms& terms, int cycles, double xi, double fold_theta) const;
 
   LayeredLink link_;
   LayeredSpans spans_;
@@ -166,13 +166,13 @@ void Search::refine(const Node& a, const Node& b, int depth) {
   }
 }
 
-// No ray of any family between two nodes, by far: f goes straight from one to the other between two whole numbers.
+// No ray of any family between two nodes, by far: neither slope could bring f to a whole number within the cell.
 bool Search::is_clear(const Node& a, const Node& b) const {
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
-    const double least = std::min(a.f[k], b.f[k]), most = std::max(a.f[k], b.f[k]);
-    if (most < -kClearOfRays || too_faint(a, b, k, least - 0.5)) continue;
-    const bool apart = std::floor(least - kClearOfRays) == std::floor(most + kClearOfRays);
-    if (!apart || cubic_of(a, b, k).turns().count > 0) return false;
+    const double change = std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) + kClearOfRays;
+    const double least = std::min(a.f[k], b.f[k]) - change, most = std::max(a.f[k], b.f[k]) + change;
+    if (most < 0 || too_faint(a, b, k, least)) continue;
+    if (std::ceil(least) <= most) return false;
   }
   return true;
 }
@@ -252,22 +252,21 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles, doub
     theta = next > low && next < high ? next : 0.5 * (low + high);
     if (high - low < 1e-15 * high) break;
   }
-  const LayeredRay ray{kFamilies[family], cycles, std::sin(theta), std::cos(theta),
-                       fold_slope(family, cycles, theta, fold_theta)};
-  const double xi = ray.cosine / spans_.barrier_mps();
+  LayeredRay ray{kFamilies[family], cycles, std::sin(theta), std::cos(theta)};
+  const SpanSums sums = spans_.sums(ray.sine, ray.cosine);
+  ray.least_slope = fold_slope(range_terms(sums, ray.family), cycles, sums.xi, fold_theta);
+  const double xi = sums.xi;
   const bool trapped = cycles > 0 && !spans_.meets_surface() && !spans_.meets_bottom();
   const double wavelength = 2 * pi * spans_.barrier_mps() / omega_;
   if (trapped && spans_.height_of_swing_m(xi) < wavelength) return;
-  append_arrival(link_, spans_, ray, paths_);
+  append_arrival(link_, spans_, ray, sums, paths_);
 }
 
-double Search::fold_slope(std::size_t family, int cycles, double theta, double fold_theta) const {
-  if (fold_theta < 0 || theta == fold_theta) return 0;
-  const double sine = std::sin(theta), cosine = std::cos(theta);
-  const RangeTerms t = range_terms(spans_.sums(sine, cosine), kFamilies[family]);
-  const double slope = t.bm + cycles * t.xm, xi = cosine / spans_.barrier_mps();
-  const double fold_xi = std::cos(fold_theta) / spans_.barrier_mps();
-  const double curvature = std::abs(slope / (xi - fold_xi));
+double Search::fold_slope(const RangeTerms& terms, int cycles, double xi, double fold_theta) const {
+  if (fold_theta < 0) return 0;
+  const double off_fold = xi - std::cos(fold_theta) / spans_.barrier_mps();
+  if (off_fold == 0) return 0;
+  const double curvature = std::abs((terms.bm + cycles * terms.xm) / off_fold);  // d2r/dxi2
   return 0.555 * std::cbrt(curvature * curvature / (4 * omega_));
 }
 
