@@ -29,7 +29,8 @@ inline double log1p_over(double y) {
 inline double asin_over(double v) {
   if (std::abs(v) > 0.1) return std::asin(std::fmin(1.0, std::fmax(-1.0, v))) / v;
   const double v2 = v * v;
-  return 1 + v2 * (1.0 / 6 + v2 * (3.0 / 40 + v2 * (15.0 / 336 + v2 * (105.0 / 3456 + v2 * (945.0 / 42240)))));
+  return 1 +
+         v2 * (1.0 / 6 + v2 * (3.0 / 40 + v2 * (15.0 / 336 + v2 * (105.0 / 3456 + v2 * (945.0 / 42240)))));
 }
 
 // atanh(x) / x for |x| < 1, to 1e-13; 1 at 0.
@@ -48,7 +49,8 @@ inline double mean_absorption(const LayerAbsorption& layer, double s1, double s2
 // `layer` seen from the share `from` to the share `to` of its thickness: a new u runs 0..1 over that stretch.
 inline LayerAbsorption restricted(const LayerAbsorption& layer, double from, double to) {
   const double d = to - from;
-  return {layer.a0 + from * (layer.a1 + from * layer.a2), d * (layer.a1 + 2 * from * layer.a2), d * d * layer.a2};
+  return {layer.a0 + from * (layer.a1 + from * layer.a2), d * (layer.a1 + 2 * from * layer.a2),
+          d * d * layer.a2};
 }
 
 }  // namespace halocline::acoustics

@@ -11,24 +11,24 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kOffBoundary = 1e-6;      // m, as in acoustics/layered_path.cc
-constexpr double kGiveUp = 0.25;           // of the least factor
-constexpr double kLeastSine = 1e-9;        // where 1 / sin is taken
-constexpr double kLeastCosine = 1e-3;      // steeper than 89.94 degrees a ray counts as turned back
-constexpr double kTouching = 1e-9;         // m: nearer than that to a facet is on it
+constexpr double kOffBoundary = 1e-6;  // m, as in acoustics/layered_path.cc
+constexpr double kGiveUp = 0.25;       // of the least factor
+constexpr double kLeastSine = 1e-9;    // where 1 / sin is taken
+constexpr double kLeastCosine = 1e-3;  // steeper than 89.94 degrees a ray counts as turned back
+constexpr double kTouching = 1e-9;     // m: nearer than that to a facet is on it
 constexpr std::size_t kLossSteps = 64;
-constexpr std::size_t kUsualEvents = 48;   // of one ray: its history rarely has to grow
-constexpr int kMostSteps = 200'000;        // crossings of layers: a guard, never met
+constexpr std::size_t kUsualEvents = 48;  // of one ray: its history rarely has to grow
+constexpr int kMostSteps = 200'000;       // crossings of layers: a guard, never met
 
 }  // namespace
 
 // The ray at one point. Depth, sine and c = cos / xi belong together.
 struct ArcTracer::State {
   double r, z, sine, xi, c;
-  double q, p;              // the tube
-  double qx, px;            // the same for rays as they are reflected, facet by facet: the slope of zeta
+  double q, p;    // the tube
+  double qx, px;  // the same for rays as they are reflected, facet by facet: the slope of zeta
   std::size_t layer, facet;
-  bool on_facet = false;    // just reflected by `facet`
+  bool on_facet = false;               // just reflected by `facet`
   double orientation = 1, images = 0;  // o and k of zeta
 };
 
@@ -39,7 +39,8 @@ struct ArcTracer::Step {
   bool turns, down;
 };
 
-ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link) : sea_(sea), range_(std::max(link.range_m, 1e-3)) {
+ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
+    : sea_(sea), range_(std::max(link.range_m, 1e-3)) {
   require_in_range(link.range_m, 0, 1e7, "range", "m");
   bottom_at_receiver_ = sea.profile.depth_at(range_);
   const double bottom_at_source = sea.profile.depth_at(0);
@@ -54,8 +55,8 @@ ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link) : sea_(sea), r
   const double bottom_speed = sea.water.speed_at(sea.profile.deepest_m());
   bottom_factor_.resize(kLossSteps + 1);
   for (std::size_t i = 0; i <= kLossSteps; ++i) {
-    bottom_factor_[i] =
-        bottom_magnitude_at_sine(sea.bottom, static_cast<double>(i) / static_cast<double>(kLossSteps), bottom_speed);
+    bottom_factor_[i] = bottom_magnitude_at_sine(
+        sea.bottom, static_cast<double>(i) / static_cast<double>(kLossSteps), bottom_speed);
   }
 }
 
@@ -87,7 +88,7 @@ bool ArcTracer::solve_facet(const State& s, std::size_t index, double until, dou
   const Facet& facet = sea_.profile.facets()[index];
   const double st = s.sine, ct = s.xi * s.c, b = facet.slope;
   const double curvature = -s.xi * sea_.water.gradients_per_s()[s.layer];  // d angle / d length
-  double d = facet.z0 + b * (s.r - facet.r0) - s.z;                        // how far the line is below the ray
+  double d = facet.z0 + b * (s.r - facet.r0) - s.z;  // how far the line is below the ray
   // The ray is curvature (x^2 + y^2) / 2 = ct y - st x; on the line y = d + b x.
   double x;
   if (s.on_facet && index == s.facet) {
@@ -151,8 +152,9 @@ void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, T
     } else {  // through a turn: two ways, of lengths as their sines
       const double turn = (1 / s.xi - sea_.water.speeds_mps()[s.layer]) / g / height;
       const double share = std::abs(s.sine) / (std::abs(s.sine) + std::abs(sine));
-      details->absorption_db += length * (share * mean_absorption(restricted(layer, u1, turn), std::abs(s.sine), 0) +
-                                          (1 - share) * mean_absorption(restricted(layer, u2, turn), std::abs(sine), 0));
+      details->absorption_db +=
+          length * (share * mean_absorption(restricted(layer, u1, turn), std::abs(s.sine), 0) +
+                    (1 - share) * mean_absorption(restricted(layer, u2, turn), std::abs(sine), 0));
     }
   }
   s.r += dr;
@@ -183,7 +185,8 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
   const bool lossless = sea_.surface.model == SurfaceModel::kFlat ||
                         (sea_.surface.model == SurfaceModel::kAplBubbles && sea_.surface.wind_mps <= 0);
   if (!lossless) {
-    const double one = surface_magnitude(sea_.surface, std::atan2(sine, s.xi * s.c), sea_.options.frequency_hz);
+    const double one =
+        surface_magnitude(sea_.surface, std::atan2(sine, s.xi * s.c), sea_.options.frequency_hz);
     ray.factor *= one;
     if (details != nullptr) details->surface_loss_db -= 20 * std::log10(one);
   }
@@ -197,11 +200,13 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   const double grazing_facet = st * sine * 0 + st * cosine - ct * sine;      // sin(angle - slope)
   if (facet.bent()) {
     const double share = (s.r - facet.r0) / (facet.r1 - facet.r0);
-    const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = std::sin(turn), tc = std::cos(turn);
+    const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = std::sin(turn),
+                 tc = std::cos(turn);
     const double bent_sine = sine * tc + cosine * ts, bent_cosine = cosine * tc - sine * ts;
     // Where the bent slope would throw the ray into the facet, or did not meet it at all, the facet's own reflects.
     const double grazing = st * bent_cosine - ct * bent_sine;
-    const double leaving = grazing * tc - (ct * bent_cosine + st * bent_sine) * ts;  // sin(angle - 2 bent + own)
+    const double leaving =
+        grazing * tc - (ct * bent_cosine + st * bent_sine) * ts;  // sin(angle - 2 bent + own)
     if (grazing > kLeastSine && leaving > kLeastSine) {
       sine = bent_sine;
       cosine = bent_cosine;
@@ -258,8 +263,8 @@ void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) cons
   ray.events.clear();
   ray.events.reserve(kUsualEvents);
   const double sine = std::sin(theta), cosine = std::cos(theta);
-  State s{0, source_depth_, sine, cosine / source_speed_, source_speed_, 0, 1 / source_speed_, 0, 1 / source_speed_,
-          source_layer_, source_facet_};
+  State s{0, source_depth_,     sine,          cosine / source_speed_, source_speed_, 0, 1 / source_speed_,
+          0, 1 / source_speed_, source_layer_, source_facet_};
   // At a knot the layer is the one into which the ray goes.
   const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);
   if (s.z == sea_.water.depths_m()[s.layer] && rises) --s.layer;
@@ -307,7 +312,8 @@ void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) cons
       }
     }
     if (ray.surface_bounces + ray.bottom_bounces > sea_.options.max_bounces) return;
-    if (ray.surface_bounces + ray.bottom_bounces > 0 && std::abs(theta) > sea_.options.max_launch_angle_rad) return;
+    if (ray.surface_bounces + ray.bottom_bounces > 0 && std::abs(theta) > sea_.options.max_launch_angle_rad)
+      return;
   }
 }
 

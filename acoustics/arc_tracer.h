@@ -43,20 +43,21 @@ struct EventCode {
 };
 
 struct TracedRay {
-  double theta = 0;          // launch angle, rad, positive down
-  bool arrived = false;      // false: too faint, turned back or too many bounces
-  double zeta = 0;           // unfolded depth at the receiver's range, m
-  double zeta_slope = 0;     // d zeta / d theta of the rays as they are
+  double theta = 0;                // launch angle, rad, positive down
+  bool arrived = false;            // false: too faint, turned back or too many bounces
+  double zeta = 0;                 // unfolded depth at the receiver's range, m
+  double zeta_slope = 0;           // d zeta / d theta of the rays as they are
   double z = 0, sine = 0, xi = 0;  // at the receiver's range
-  double q = 0, p = 0;       // of the ray tube
-  double factor = 1;         // of pressure, by the bounces
+  double q = 0, p = 0;             // of the ray tube
+  double factor = 1;               // of pressure, by the bounces
   int surface_bounces = 0, bottom_bounces = 0, upper_turns = 0, lower_turns = 0, caustics = 0;
   std::vector<EventCode> events;
 };
 
 // What a kept ray needs besides.
 struct TracedDetails {
-  double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0, surface_loss_db = 0;
+  double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
+         surface_loss_db = 0;
 };
 
 class ArcTracer {

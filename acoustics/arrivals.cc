@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 
 // Nearer in both, two paths of one kind are the two sides of a fold that no receiver can tell apart.
-constexpr double kMergedDelay = 1e-6;                  // s
+constexpr double kMergedDelay = 1e-6;  // s
 const double kMergedAngle = to_radians(0.02);
 
 // What sorting looks at: paths themselves are large and are moved once.
@@ -86,7 +86,8 @@ void number_branches(const std::vector<Key>& keys, std::vector<Arrival>& paths) 
 bool were_one_fold(const Arrival& a, const Arrival& b) {
   constexpr double kFoldWidth = 0.02;  // rad
   return a.surface_bounces == b.surface_bounces && a.bottom_bounces == b.bottom_bounces &&
-         std::abs(a.caustics - b.caustics) == 1 && std::abs(a.launch_angle_rad - b.launch_angle_rad) < kFoldWidth;
+         std::abs(a.caustics - b.caustics) == 1 &&
+         std::abs(a.launch_angle_rad - b.launch_angle_rad) < kFoldWidth;
 }
 
 double unexplained_power(const std::vector<Arrival>& lost) {
@@ -105,9 +106,12 @@ double Arrival::received_pressure() const { return amplitude * std::pow(10.0, -a
 
 std::string_view to_name(RaySolver solver) {
   switch (solver) {
-    case RaySolver::kImages: return "images";
-    case RaySolver::kSnell: return "snell";
-    case RaySolver::kArcs: return "arcs";
+    case RaySolver::kImages:
+      return "images";
+    case RaySolver::kSnell:
+      return "snell";
+    case RaySolver::kArcs:
+      return "arcs";
   }
   return "";
 }
@@ -118,7 +122,8 @@ bool Arrivals::has_direct_path() const {
   });
 }
 
-FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options, const FollowOne& follow_one) {
+FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
+                         const FollowOne& follow_one) {
   constexpr double kMostLostPower = 0.01;  // of all
   FollowedRays now;
   now.paths.reserve(before.size());
@@ -136,8 +141,9 @@ FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& o
 bool is_followed(const std::vector<Arrival>& paths, const Arrival& before) {
   constexpr double kSameRay = 1e-8;  // rad
   const Arrival& now = paths.back();
-  const bool same = now.surface_bounces == before.surface_bounces && now.bottom_bounces == before.bottom_bounces &&
-                    now.caustics == before.caustics && now.identity.launched_up == before.identity.launched_up;
+  const bool same = now.surface_bounces == before.surface_bounces &&
+                    now.bottom_bounces == before.bottom_bounces && now.caustics == before.caustics &&
+                    now.identity.launched_up == before.identity.launched_up;
   return same && std::none_of(paths.begin(), paths.end() - 1, [&now](const Arrival& other) {
            return std::abs(other.launch_angle_rad - now.launch_angle_rad) < kSameRay &&
                   other.identity.surface_bounces == now.identity.surface_bounces &&

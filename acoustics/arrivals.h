@@ -21,23 +21,23 @@ struct PathIdentity {
   bool launched_up = false;
   int surface_bounces = 0, bottom_bounces = 0;
   int upper_turns = 0, lower_turns = 0;  // where the water itself bent the ray back, above and below
-  int branch = 0;                        // 0, 1, ... by rising launch angle among paths alike in all of the above
+  int branch = 0;  // 0, 1, ... by rising launch angle among paths alike in all of the above
   auto operator<=>(const PathIdentity&) const = default;
 };
 
 struct Arrival {
   double delay_s = 0;
-  double amplitude = 0;           // above 0: spreading and bounces
-  double phase_rad = 0;           // 0..2 pi: pi a surface bounce, the bottom's own, pi / 2 a caustic
+  double amplitude = 0;  // above 0: spreading and bounces
+  double phase_rad = 0;  // 0..2 pi: pi a surface bounce, the bottom's own, pi / 2 a caustic
   double launch_angle_rad = 0;
   double arrival_angle_rad = 0;
   double launch_slowness_spm = 0;  // cos(launch angle) / sound speed at the source, s/m: Snell's invariant
-  double path_length_m = 0;       // along the arcs
-  double absorption_db = 0;       // along the arcs, at RayOptions::frequency_hz
-  double surface_loss_db = 0;     // of all surface bounces, part of the amplitude
-  double bottom_loss_db = 0;      // of all bottom bounces, part of the amplitude
+  double path_length_m = 0;        // along the arcs
+  double absorption_db = 0;        // along the arcs, at RayOptions::frequency_hz
+  double surface_loss_db = 0;      // of all surface bounces, part of the amplitude
+  double bottom_loss_db = 0;       // of all bottom bounces, part of the amplitude
   int surface_bounces = 0, bottom_bounces = 0;
-  int caustics = 0;               // touched on the way
+  int caustics = 0;  // touched on the way
   PathIdentity identity;
 
   // Pressure relative to that at 1 m with everything in it.
@@ -63,7 +63,7 @@ struct Arrivals {
 
 // What to look for. The defaults keep what can matter to a modem.
 struct RayOptions {
-  double frequency_hz = 25'000;        // for absorption and reflection, 10..1e6
+  double frequency_hz = 25'000;  // for absorption and reflection, 10..1e6
   // Paths that bounce are followed when launched within this of the horizontal, (0, pi/2]. Those that do not bounce
   // are found at every angle.
   double max_launch_angle_rad = to_radians(80);
@@ -89,7 +89,8 @@ struct FollowedRays {
 
 // Follows each of `before` by `follow_one`, which appends the path as it is now and says whether it could.
 using FollowOne = std::function<bool(const Arrival& before, std::vector<Arrival>& paths)>;
-FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options, const FollowOne& follow_one);
+FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
+                         const FollowOne& follow_one);
 
 // Whether a path that was followed is the one it was before: as many bounces and caustics, launched to the same side, and
 // not one that another path has come to already (all but the last of `paths`).

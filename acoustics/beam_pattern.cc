@@ -13,7 +13,8 @@ BeamPattern::BeamPattern(std::vector<BeamRow> rows) : rows_(std::move(rows)) {
   require(!rows_.empty(), "a beam pattern needs at least one row; omnidirectional needs no table");
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const std::string row = "beam pattern row " + std::to_string(i + 1) + ": ";
-    require_in_range(rows_[i].elevation_rad, -std::numbers::pi / 2, std::numbers::pi / 2, row + "elevation", "rad");
+    require_in_range(rows_[i].elevation_rad, -std::numbers::pi / 2, std::numbers::pi / 2, row + "elevation",
+                     "rad");
     require_in_range(rows_[i].loss_db, -60, 200, row + "loss", "dB");
     require(i == 0 || rows_[i].elevation_rad > rows_[i - 1].elevation_rad, row + "elevation does not rise");
   }
@@ -21,8 +22,9 @@ BeamPattern::BeamPattern(std::vector<BeamRow> rows) : rows_(std::move(rows)) {
 
 Decibels BeamPattern::loss(double elevation_rad) const {
   if (rows_.empty()) return {0};
-  const auto above = std::upper_bound(rows_.begin(), rows_.end(), elevation_rad,
-                                      [](double angle, const BeamRow& row) { return angle < row.elevation_rad; });
+  const auto above =
+      std::upper_bound(rows_.begin(), rows_.end(), elevation_rad,
+                       [](double angle, const BeamRow& row) { return angle < row.elevation_rad; });
   if (above == rows_.begin()) return {rows_.front().loss_db};
   if (above == rows_.end()) return {rows_.back().loss_db};
   const BeamRow& below = *(above - 1);

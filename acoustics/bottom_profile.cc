@@ -10,13 +10,22 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kFar = 1e9;             // m: where the level pieces at both ends stop
-constexpr double kLongestInDepths = 2;   // of a facet that samples a curve, in depths of the water there
+constexpr double kFar = 1e9;            // m: where the level pieces at both ends stop
+constexpr double kLongestInDepths = 2;  // of a facet that samples a curve, in depths of the water there
 
 Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {
   const double slope = (b.depth_m - a.depth_m) / (b.range_m - a.range_m), hypotenuse = std::hypot(1.0, slope);
-  return {a.range_m, b.range_m, a.depth_m, slope, std::min(a.depth_m, b.depth_m), slope / hypotenuse, 1 / hypotenuse,
-          0, 0, 0, 0};
+  return {a.range_m,
+          b.range_m,
+          a.depth_m,
+          slope,
+          std::min(a.depth_m, b.depth_m),
+          slope / hypotenuse,
+          1 / hypotenuse,
+          0,
+          0,
+          0,
+          0};
 }
 
 }  // namespace
@@ -28,20 +37,21 @@ BottomProfile::BottomProfile(std::vector<ProfiledDepth> points, double crease_an
   for (std::size_t i = 0; i < points_.size(); ++i) {
     require_in_range(points_[i].range_m, -1e7, 1e7, "range of a bottom profile", "m");
     require_in_range(points_[i].depth_m, 0.1, kDeepestWater, "depth of a bottom profile", "m");
-    require(i == 0 || points_[i].range_m > points_[i - 1].range_m, "the ranges of a bottom profile do not rise");
+    require(i == 0 || points_[i].range_m > points_[i - 1].range_m,
+            "the ranges of a bottom profile do not rise");
   }
   build_facets();
   bend_facets();
 }
 
 void BottomProfile::build_facets() {
-  const auto [low, high] = std::minmax_element(points_.begin(), points_.end(), [](const auto& a, const auto& b) {
-    return a.depth_m < b.depth_m;
-  });
+  const auto [low, high] = std::minmax_element(
+      points_.begin(), points_.end(), [](const auto& a, const auto& b) { return a.depth_m < b.depth_m; });
   shallowest_ = low->depth_m;
   deepest_ = high->depth_m;
   facets_.push_back(facet_between({-kFar, points_.front().depth_m}, points_.front()));
-  for (std::size_t i = 0; i + 1 < points_.size(); ++i) facets_.push_back(facet_between(points_[i], points_[i + 1]));
+  for (std::size_t i = 0; i + 1 < points_.size(); ++i)
+    facets_.push_back(facet_between(points_[i], points_[i + 1]));
   facets_.push_back(facet_between(points_.back(), {kFar, points_.back().depth_m}));
   for (std::size_t first = 0; first < facets_.size(); first += kBlock) {
     double shallowest = facets_[first].shallowest_m;
@@ -66,7 +76,8 @@ void BottomProfile::bend_facets() {
       right.turn0 = -turn / 2;
     }
   }
-  for (Facet& facet : facets_) facet.bend_per_m = (facet.turn1 - facet.turn0) * facet.cosine / (facet.r1 - facet.r0);
+  for (Facet& facet : facets_)
+    facet.bend_per_m = (facet.turn1 - facet.turn0) * facet.cosine / (facet.r1 - facet.r0);
 }
 
 std::size_t BottomProfile::facet_at(double range_m) const {

@@ -32,9 +32,9 @@ inline const double kDefaultCreaseAngle = to_radians(5);
 struct Facet {
   double r0, r1, z0, slope;
   double shallowest_m;
-  double sine, cosine;      // of its own angle atan(slope), positive down
-  double turn0, turn1;      // angle of reflection at both ends minus its own, rad
-  double bend_per_m;        // change of that along the facet, rad / m
+  double sine, cosine;         // of its own angle atan(slope), positive down
+  double turn0, turn1;         // angle of reflection at both ends minus its own, rad
+  double bend_per_m;           // change of that along the facet, rad / m
   std::uint16_t smooth_group;  // facets between two corners share a number (modulo 65536)
   bool bent() const { return turn0 != 0 || turn1 != 0; }
 };

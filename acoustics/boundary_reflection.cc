@@ -21,17 +21,28 @@ struct NamedSediment {
 // APL-UW TR 9407, table 2. Where its print and its own polynomials disagree (speed of sandy gravel, density of very
 // coarse sand) the polynomials stand. Rock and pebbles: commonly quoted, from one source.
 constexpr std::array<NamedSediment, 22> kSediments = {{
-    {"Rock", 2.5, 2.5, 0.01374},           {"Pebbles", 2.5, 1.8, 0.01374},
-    {"SandyGravel", 2.492, 1.337, 0.01705}, {"VeryCoarseSand", 2.401, 1.3067, 0.01667},
-    {"MuddySandyGravel", 2.314, 1.2778, 0.0163}, {"CoarseSand", 2.231, 1.2503, 0.01638},
-    {"GravellyMuddySand", 2.151, 1.2241, 0.01645}, {"MediumSand", 1.845, 1.1782, 0.01624},
-    {"MuddyGravel", 1.615, 1.1396, 0.0161}, {"FineSand", 1.451, 1.1073, 0.01602},
-    {"MuddySand", 1.339, 1.08, 0.01728},   {"VeryFineSand", 1.268, 1.0568, 0.01875},
-    {"ClayeySand", 1.224, 1.0364, 0.02019}, {"CoarseSilt", 1.195, 1.0179, 0.02158},
-    {"SandySilt", 1.169, 0.9999, 0.01261}, {"MediumSilt", 1.149, 0.9885, 0.00676},
-    {"SandyMud", 1.149, 0.9873, 0.00386},  {"FineSilt", 1.148, 0.9861, 0.00306},
-    {"SandyClay", 1.147, 0.9849, 0.00242}, {"VeryFineSilt", 1.147, 0.9837, 0.00194},
-    {"SiltyClay", 1.146, 0.9824, 0.00163}, {"Clay", 1.145, 0.98, 0.00148},
+    {"Rock", 2.5, 2.5, 0.01374},
+    {"Pebbles", 2.5, 1.8, 0.01374},
+    {"SandyGravel", 2.492, 1.337, 0.01705},
+    {"VeryCoarseSand", 2.401, 1.3067, 0.01667},
+    {"MuddySandyGravel", 2.314, 1.2778, 0.0163},
+    {"CoarseSand", 2.231, 1.2503, 0.01638},
+    {"GravellyMuddySand", 2.151, 1.2241, 0.01645},
+    {"MediumSand", 1.845, 1.1782, 0.01624},
+    {"MuddyGravel", 1.615, 1.1396, 0.0161},
+    {"FineSand", 1.451, 1.1073, 0.01602},
+    {"MuddySand", 1.339, 1.08, 0.01728},
+    {"VeryFineSand", 1.268, 1.0568, 0.01875},
+    {"ClayeySand", 1.224, 1.0364, 0.02019},
+    {"CoarseSilt", 1.195, 1.0179, 0.02158},
+    {"SandySilt", 1.169, 0.9999, 0.01261},
+    {"MediumSilt", 1.149, 0.9885, 0.00676},
+    {"SandyMud", 1.149, 0.9873, 0.00386},
+    {"FineSilt", 1.148, 0.9861, 0.00306},
+    {"SandyClay", 1.147, 0.9849, 0.00242},
+    {"VeryFineSilt", 1.147, 0.9837, 0.00194},
+    {"SiltyClay", 1.146, 0.9824, 0.00163},
+    {"Clay", 1.145, 0.98, 0.00148},
 }};
 
 constexpr std::array kSurfaceModels = {SurfaceModel::kFlat, SurfaceModel::kAplBubbles, SurfaceModel::kEckart,
@@ -40,11 +51,11 @@ constexpr std::array kSurfaceModels = {SurfaceModel::kFlat, SurfaceModel::kAplBu
 // 40 pi log10(e): dB per wavelength of a loss parameter of 1.
 const double kDecibelsPerLossParameter = 40 * pi * std::numbers::log10e;
 
-constexpr double kGravity = 9.8;                  // m/s^2, as the wave spectrum was fitted
-constexpr double kWaveModelSpeed = 1500;          // m/s, of Gamma
-constexpr double kKnotsPerMps = 1.94384;          // as Coates's form is commonly evaluated
-constexpr double kLeastGrazing = 1e-9;            // rad: the bubble law has 1 / sin G
-constexpr double kGreatestLoss = 400;             // dB: beyond it a bounce leaves nothing
+constexpr double kGravity = 9.8;          // m/s^2, as the wave spectrum was fitted
+constexpr double kWaveModelSpeed = 1500;  // m/s, of Gamma
+constexpr double kKnotsPerMps = 1.94384;  // as Coates's form is commonly evaluated
+constexpr double kLeastGrazing = 1e-9;    // rad: the bubble law has 1 / sin G
+constexpr double kGreatestLoss = 400;     // dB: beyond it a bounce leaves nothing
 
 // The square root with a positive imaginary part: the wave in the bottom dies away downward.
 struct Root {
@@ -81,7 +92,8 @@ Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps
 
 double apl_bubble_loss_db(double wind_mps, double grazing_rad, double khz) {
   constexpr double kJoin = 6;  // m/s
-  const double steady = 1.26e-3 / std::sin(grazing_rad) * std::pow(std::max(wind_mps, kJoin), 1.57) * std::pow(khz, 0.85);
+  const double steady =
+      1.26e-3 / std::sin(grazing_rad) * std::pow(std::max(wind_mps, kJoin), 1.57) * std::pow(khz, 0.85);
   if (wind_mps <= 0) return 0;  // the fit leaves 7e-4 of its 6 m/s value: a still sea has no bubbles
   return wind_mps >= kJoin ? steady : steady * std::exp(1.2 * (wind_mps - kJoin));
 }
@@ -115,8 +127,10 @@ void validate(const FluidBottom& bottom) {
   require_in_range(bottom.density_ratio, 0.5, 10, "bottom density ratio");
   require((bottom.sound_speed_ratio > 0) != (bottom.sound_speed_mps > 0),
           "a bottom needs its sound speed either as a ratio or in m/s, not both");
-  if (bottom.sound_speed_ratio > 0) require_in_range(bottom.sound_speed_ratio, 0.5, 5, "bottom sound speed ratio");
-  if (bottom.sound_speed_mps > 0) require_in_range(bottom.sound_speed_mps, 500, 7000, "bottom sound speed", "m/s");
+  if (bottom.sound_speed_ratio > 0)
+    require_in_range(bottom.sound_speed_ratio, 0.5, 5, "bottom sound speed ratio");
+  if (bottom.sound_speed_mps > 0)
+    require_in_range(bottom.sound_speed_mps, 500, 7000, "bottom sound speed", "m/s");
   require_in_range(bottom.loss_parameter, 0, 1, "bottom loss parameter");
 }
 
@@ -132,12 +146,15 @@ double loss_parameter_from_attenuation(double db_per_wavelength) {
   return db_per_wavelength / kDecibelsPerLossParameter;
 }
 
-double attenuation_from_loss_parameter(double loss_parameter) { return loss_parameter * kDecibelsPerLossParameter; }
+double attenuation_from_loss_parameter(double loss_parameter) {
+  return loss_parameter * kDecibelsPerLossParameter;
+}
 
 std::optional<FluidBottom> sediment(std::string_view name) {
   for (const NamedSediment& row : kSediments) {
-    if (row.name == name) return FluidBottom{row.density_ratio, row.sound_speed_ratio, 0, row.loss_parameter,
-                                                    BottomLoss::kComplexWaveNumber};
+    if (row.name == name)
+      return FluidBottom{row.density_ratio, row.sound_speed_ratio, 0, row.loss_parameter,
+                         BottomLoss::kComplexWaveNumber};
   }
   return std::nullopt;
 }
@@ -166,11 +183,16 @@ double bottom_magnitude_at_sine(const FluidBottom& bottom, double sine, double w
 
 std::string_view to_name(SurfaceModel model) {
   switch (model) {
-    case SurfaceModel::kFlat: return "flat";
-    case SurfaceModel::kAplBubbles: return "apl-bubbles";
-    case SurfaceModel::kEckart: return "eckart";
-    case SurfaceModel::kCoates: return "coates";
-    case SurfaceModel::kJones: return "jones";
+    case SurfaceModel::kFlat:
+      return "flat";
+    case SurfaceModel::kAplBubbles:
+      return "apl-bubbles";
+    case SurfaceModel::kEckart:
+      return "eckart";
+    case SurfaceModel::kCoates:
+      return "coates";
+    case SurfaceModel::kJones:
+      return "jones";
   }
   return "";
 }
@@ -187,11 +209,16 @@ double rms_wave_height_m(double wind_mps) { return 0.22 * wind_mps * wind_mps / 
 double surface_loss_db(const RaySurface& surface, double grazing_rad, double frequency_hz) {
   const double khz = hz_to_khz(frequency_hz), grazing = std::max(grazing_rad, kLeastGrazing);
   switch (surface.model) {
-    case SurfaceModel::kFlat: return 0;
-    case SurfaceModel::kAplBubbles: return apl_bubble_loss_db(surface.wind_mps, grazing, khz);
-    case SurfaceModel::kEckart: return eckart_loss_db(surface.wind_mps, grazing, khz);
-    case SurfaceModel::kCoates: return coates_loss_db(surface.wind_mps, grazing, khz);
-    case SurfaceModel::kJones: return jones_loss_db(surface.wind_mps, grazing, khz);
+    case SurfaceModel::kFlat:
+      return 0;
+    case SurfaceModel::kAplBubbles:
+      return apl_bubble_loss_db(surface.wind_mps, grazing, khz);
+    case SurfaceModel::kEckart:
+      return eckart_loss_db(surface.wind_mps, grazing, khz);
+    case SurfaceModel::kCoates:
+      return coates_loss_db(surface.wind_mps, grazing, khz);
+    case SurfaceModel::kJones:
+      return jones_loss_db(surface.wind_mps, grazing, khz);
   }
   return 0;
 }

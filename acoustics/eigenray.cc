@@ -20,9 +20,12 @@ ProfiledSea profiled_sea(const RaySea& sea) {
 
 std::vector<Arrival> search(const RaySea& sea, const RayLink& link, RaySolver solver) {
   switch (solver) {
-    case RaySolver::kImages: return image_rays(flat_sea(sea, link), link);
-    case RaySolver::kSnell: return layered_rays(flat_sea(sea, link), link);
-    case RaySolver::kArcs: return profile_rays(profiled_sea(sea), link);
+    case RaySolver::kImages:
+      return image_rays(flat_sea(sea, link), link);
+    case RaySolver::kSnell:
+      return layered_rays(flat_sea(sea, link), link);
+    case RaySolver::kArcs:
+      return profile_rays(profiled_sea(sea), link);
   }
   return {};
 }
@@ -63,13 +66,15 @@ RayLink ray_link(const Vec3& source_ned_m, const Vec3& receiver_ned_m, double se
           std::hypot(receiver_ned_m.x() - source_ned_m.x(), receiver_ned_m.y() - source_ned_m.y())};
 }
 
-Arrivals arrivals(const RaySea& sea, const Vec3& source_ned_m, const Vec3& receiver_ned_m, double sea_surface_z_m) {
+Arrivals arrivals(const RaySea& sea, const Vec3& source_ned_m, const Vec3& receiver_ned_m,
+                  double sea_surface_z_m) {
   return arrivals(sea, ray_link(source_ned_m, receiver_ned_m, sea_surface_z_m));
 }
 
 Arrivals follow(const RaySea& sea, const RayLink& link, const Arrivals& before) {
   const bool flat = sea.bottom_profile.is_flat_until(link.range_m);
-  if (before.solver == RaySolver::kImages || (!flat && before.solver == RaySolver::kSnell)) return arrivals(sea, link);
+  if (before.solver == RaySolver::kImages || (!flat && before.solver == RaySolver::kSnell))
+    return arrivals(sea, link);
   FollowedRays now = before.solver == RaySolver::kSnell
                          ? follow_layered_rays(flat_sea(sea, link), link, before.paths)
                          : follow_profile_rays(profiled_sea(sea), link, before.paths);

@@ -49,7 +49,8 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link);
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver = std::nullopt);
 
 // The same for positions in the NED world frame, m; the profile starts at the source and runs towards the receiver.
-Arrivals arrivals(const RaySea& sea, const Vec3& source_ned_m, const Vec3& receiver_ned_m, double sea_surface_z_m);
+Arrivals arrivals(const RaySea& sea, const Vec3& source_ned_m, const Vec3& receiver_ned_m,
+                  double sea_surface_z_m);
 
 // Depths and horizontal distance of two positions.
 RayLink ray_link(const Vec3& source_ned_m, const Vec3& receiver_ned_m, double sea_surface_z_m);

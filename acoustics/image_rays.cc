@@ -45,7 +45,8 @@ class ImageSum {
         absorption_down_(mean_absorption_over(up_ + between_, sea.bottom_depth_m)),
         absorption_level_(sea.water.absorption_db_per_m(up_)) {
     const bool surface_first = up_ <= down_;
-    order_ = {{{false, false}, {surface_first, !surface_first}, {!surface_first, surface_first}, {true, true}}};
+    order_ = {
+        {{false, false}, {surface_first, !surface_first}, {!surface_first, surface_first}, {true, true}}};
   }
 
   std::vector<Arrival> run() {
@@ -60,14 +61,16 @@ class ImageSum {
 
  private:
   Image image(int n, bool up, bool down) const {
-    return {n, up, down, 2.0 * (n + (up ? 1 : 0)) * up_ + (2.0 * n + 1) * between_ + 2.0 * (n + (down ? 1 : 0)) * down_};
+    return {n, up, down,
+            2.0 * (n + (up ? 1 : 0)) * up_ + (2.0 * n + 1) * between_ + 2.0 * (n + (down ? 1 : 0)) * down_};
   }
 
   // Mean of the absorption between two depths, dB/m: Simpson's rule, exact for the parabola of one layer.
   double mean_absorption_over(double top, double base) const {
     const RayWater& water = sea_.water;
     return (water.absorption_db_per_m(top) + 4 * water.absorption_db_per_m((top + base) / 2) +
-            water.absorption_db_per_m(base)) / 6;
+            water.absorption_db_per_m(base)) /
+           6;
   }
 
   double absorption_db(const Image& image, double length) const;

@@ -41,14 +41,16 @@ bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, Pace pace, 
     const double slope = -(t.bm + ray.cycles * t.xm) * ray.sine / spans.barrier_mps();
     if (slope == 0) return false;
     last = std::abs(off) < kRangeTolerance;
-    const double theta = std::atan2(ray.sine, ray.cosine), next = theta + (last ? 1 : pace.share) * off / slope;
+    const double theta = std::atan2(ray.sine, ray.cosine),
+                 next = theta + (last ? 1 : pace.share) * off / slope;
     xi = std::cos(next > 0 ? next : theta / 2) / spans.barrier_mps();
   }
   return false;
 }
 
 // The path as it is now at the end of `paths`; false when it was lost or is too faint.
-bool follow_path(const LayeredLink& link, LayeredSpans& spans, const Arrival& before, std::vector<Arrival>& paths) {
+bool follow_path(const LayeredLink& link, LayeredSpans& spans, const Arrival& before,
+                 std::vector<Arrival>& paths) {
   LayeredRay ray = ray_of(link, before.identity);
   if (ray.cycles < 0) return false;
   for (const Pace pace : kPaces) {
@@ -64,7 +66,8 @@ bool follow_path(const LayeredLink& link, LayeredSpans& spans, const Arrival& be
 
 }  // namespace
 
-FollowedRays follow_layered_rays(const FlatSea& sea, const RayLink& ray_link, const std::vector<Arrival>& before) {
+FollowedRays follow_layered_rays(const FlatSea& sea, const RayLink& ray_link,
+                                 const std::vector<Arrival>& before) {
   const LayeredLink link(sea, ray_link);
   LayeredSpans spans(sea.water, link.upper_m, link.lower_m, sea.bottom_depth_m);
   return follow_each(before, sea.options, [&](const Arrival& path, std::vector<Arrival>& paths) {

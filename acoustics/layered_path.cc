@@ -21,8 +21,8 @@ struct Bounces {
 
 Bounces bounces_of(const LayeredSpans& spans, const LayeredRay& ray) {
   const int above = ray.cycles + (ray.family.up ? 1 : 0), below = ray.cycles + (ray.family.down ? 1 : 0);
-  return {spans.meets_surface() ? above : 0, spans.meets_bottom() ? below : 0, spans.meets_surface() ? 0 : above,
-          spans.meets_bottom() ? 0 : below};
+  return {spans.meets_surface() ? above : 0, spans.meets_bottom() ? below : 0,
+          spans.meets_surface() ? 0 : above, spans.meets_bottom() ? 0 : below};
 }
 
 // See the header of layered_rays.h.
@@ -54,7 +54,8 @@ bool set_boundaries(const LayeredLink& link, const SpanSums& sums, const Bounces
   const RayOptions& options = link.sea.options;
   double factor = 1, phase = pi * (bounces.surface % 2);
   if (bounces.bottom > 0) {
-    const Reflection one = bottom_reflection_at_sine(link.sea.bottom, sums.sine_bottom, link.bottom_speed_mps);
+    const Reflection one =
+        bottom_reflection_at_sine(link.sea.bottom, sums.sine_bottom, link.bottom_speed_mps);
     factor *= std::pow(one.magnitude, bounces.bottom);
     phase += one.phase_rad * bounces.bottom;
     path.bottom_loss_db = bounces.bottom * one.loss_db();
@@ -70,8 +71,8 @@ bool set_boundaries(const LayeredLink& link, const SpanSums& sums, const Bounces
   return factor >= options.min_boundary_factor;
 }
 
-void set_spreading(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, const SpanSums& sums,
-                   const Bounces& bounces, Arrival& path) {
+void set_spreading(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+                   const SpanSums& sums, const Bounces& bounces, Arrival& path) {
   const RangeTerms terms = range_terms(sums, ray.family);
   const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
   const double sines =
@@ -97,12 +98,15 @@ void set_lengths(const LayeredLink& link, const LayeredSpans& spans, const Layer
 
 }  // namespace
 
-LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link) : sea(flat_sea), range_m(link.range_m) {
+LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link)
+    : sea(flat_sea), range_m(link.range_m) {
   require_in_range(sea.bottom_depth_m, 0.1, kDeepestWater, "depth of the bottom", "m");
   require_in_range(link.source_depth_m, 0, sea.bottom_depth_m, "depth of the source", "m");
   require_in_range(link.receiver_depth_m, 0, sea.bottom_depth_m, "depth of the receiver", "m");
   require_in_range(link.range_m, 0, 1e7, "range", "m");
-  const auto inside = [this](double z) { return std::clamp(z, kOffBoundary, sea.bottom_depth_m - kOffBoundary); };
+  const auto inside = [this](double z) {
+    return std::clamp(z, kOffBoundary, sea.bottom_depth_m - kOffBoundary);
+  };
   const double source = inside(link.source_depth_m);
   double receiver = inside(link.receiver_depth_m);
   // Nearer than that, a direct ray in a layer of one speed is horizontal to all purposes.
@@ -120,8 +124,8 @@ LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link) : sea(fla
                                                        : -std::numeric_limits<double>::infinity();
 }
 
-void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, const SpanSums& sums,
-                    std::vector<Arrival>& paths) {
+void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+                    const SpanSums& sums, std::vector<Arrival>& paths) {
   const Bounces bounces = bounces_of(spans, ray);
   if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return;
   Arrival path;

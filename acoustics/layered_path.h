@@ -15,7 +15,8 @@ namespace halocline::acoustics {
 struct Family {
   bool up, down;
 };
-inline constexpr std::array<Family, 4> kFamilies = {{{false, false}, {true, false}, {false, true}, {true, true}}};
+inline constexpr std::array<Family, 4> kFamilies = {
+    {{false, false}, {true, false}, {false, true}, {true, true}}};
 
 // b and X of the equation b + n X = r in units of xi (q) and their derivatives (m).
 struct RangeTerms {
@@ -53,7 +54,7 @@ struct LayeredRay {
 };
 
 // Appends the arrival unless the options exclude it; `sums` are those of the ray.
-void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, const SpanSums& sums,
-                    std::vector<Arrival>& paths);
+void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+                    const SpanSums& sums, std::vector<Arrival>& paths);
 
 }  // namespace halocline::acoustics

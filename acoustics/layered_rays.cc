@@ -13,15 +13,16 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLeastAngle = 1e-9;       // rad at the barrier: where tables begin
-constexpr int kDeepestRefinement = 12;     // halvings of an interval between barriers
-constexpr double kCubicTolerance = 0.08;   // of f: what its cubic may err by at the middle of a cell
-constexpr double kNearFold = 0.2;          // of f: a turn nearer to a whole number is sought out exactly
-constexpr double kRangeTolerance = 1e-4;   // m before the last step of Newton, which squares the error
-constexpr double kMarginOfFactor = 0.7;    // ln: cells are left out only when clearly below the least factor
+constexpr double kLeastAngle = 1e-9;      // rad at the barrier: where tables begin
+constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
+constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
+constexpr double kNearFold = 0.2;         // of f: a turn nearer to a whole number is sought out exactly
+constexpr double kRangeTolerance = 1e-4;  // m before the last step of Newton, which squares the error
+constexpr double kMarginOfFactor = 0.7;   // ln: cells are left out only when clearly below the least factor
 
-constexpr double kClearOfRays = 0.02;      // of f: less than that and its slopes allow it does not change in a cell
-constexpr std::size_t kUsualPaths = 64;    // of one link
+constexpr double kClearOfRays =
+    0.02;  // of f: less than that and its slopes allow it does not change in a cell
+constexpr std::size_t kUsualPaths = 64;  // of one link
 
 // f = (r - b)/X of the four families and its slope, at one angle of one interval.
 struct Node {
@@ -33,7 +34,7 @@ struct Node {
 
 // One crossing to be found: between two nodes where f - n has opposite signs.
 struct Bracket {
-  double from, to;        // theta
+  double from, to;  // theta
   bool rising;
   double guess;
 };
@@ -112,7 +113,8 @@ void Search::scan_interval() {
   const double cosine = std::cos(link_.sea.options.max_launch_angle_rad);
   const double next = spans_.next_barrier_mps();
   const double steepest =
-      cosine > 1e-12 ? theta_reaching(std::max(link_.source_speed_mps / cosine, spans_.barrier_mps())) : pi / 2;
+      cosine > 1e-12 ? theta_reaching(std::max(link_.source_speed_mps / cosine, spans_.barrier_mps()))
+                     : pi / 2;
   double to = next > 0 ? theta_reaching(next) : pi / 2;
   past_steepest_ = next <= 0;
   const double limit = direct_only_ ? kLeastAngle : std::min(to, steepest);
@@ -152,7 +154,7 @@ void Search::refine(const Node& a, const Node& b, int depth) {
     const double least = std::min({a.f[k], b.f[k], middle.f[k]});
     if (too_faint(a, b, k, least - 0.5)) continue;
     any = true;
-    const double error = std::abs(cubic_of(a, b, k)(0.5) - middle.f[k]);
+    const double error = cubic_of(a, b, k).error_at_middle(middle.f[k], middle.slope[k], b.theta - a.theta);
     // Where f is large its rays are many and the cubic only has to keep them apart.
     fits = fits && error <= kCubicTolerance * (1 + 0.05 * std::abs(middle.f[k]));
   }
@@ -169,7 +171,8 @@ void Search::refine(const Node& a, const Node& b, int depth) {
 // No ray of any family between two nodes, by far: neither slope could bring f to a whole number within the cell.
 bool Search::is_clear(const Node& a, const Node& b) const {
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
-    const double change = std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) + kClearOfRays;
+    const double change =
+        std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) + kClearOfRays;
     const double least = std::min(a.f[k], b.f[k]) - change, most = std::max(a.f[k], b.f[k]) + change;
     if (most < 0 || too_faint(a, b, k, least)) continue;
     if (std::ceil(least) <= most) return false;
@@ -192,8 +195,8 @@ void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
     Node turn = node_at(a.theta + t * (b.theta - a.theta));
     if (std::abs(expected - std::round(expected)) < kNearFold) {
       const double reach = 0.25 * (b.theta - a.theta);
-      turn = turn_of(node_at(std::max(a.theta, turn.theta - reach)), node_at(std::min(b.theta, turn.theta + reach)),
-                     family);
+      turn = turn_of(node_at(std::max(a.theta, turn.theta - reach)),
+                     node_at(std::min(b.theta, turn.theta + reach)), family);
     }
     solve_monotone(from, turn, family, turn.theta);
     fold_theta = turn.theta;
@@ -224,12 +227,14 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, do
   if (!(high >= 0)) return;
   const int most = direct_only_ ? 0 : link_.sea.options.max_bounces;
   const int first = static_cast<int>(std::ceil(std::max(low, 0.0)));
-  const int last = static_cast<int>(std::min(std::ceil(high) - 1, static_cast<double>(most)));  // low <= n < high
+  const int last =
+      static_cast<int>(std::min(std::ceil(high) - 1, static_cast<double>(most)));  // low <= n < high
   if (last < first) return;
   const HermiteCubic cubic = cubic_of(a, b, family);
   for (int n = first; n <= last; ++n) {
     const double t = cubic.crossing(n);
-    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta)}, family, n, fold_theta);
+    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta)}, family, n,
+           fold_theta);
   }
 }
 
@@ -245,7 +250,8 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles, doub
     const double slope = (t.bm + f * t.xm) * sine / (cosine * t.xq);
     ((off > 0) == bracket.rising ? high : low) = theta;
     const double next = slope != 0 ? theta - (f - cycles) / slope : -1;
-    if (std::abs(off) < kRangeTolerance) {  // the last step squares the error, or is none where rounding rules
+    if (std::abs(off) <
+        kRangeTolerance) {  // the last step squares the error, or is none where rounding rules
       if (next > low && next < high) theta = next;
       break;
     }

@@ -8,8 +8,8 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kThinnestSlab = 1e-9;          // m
-constexpr double kLeastSquaredSine = 1e-28;     // keeps a ray that just grazes finite
+constexpr double kThinnestSlab = 1e-9;       // m
+constexpr double kLeastSquaredSine = 1e-28;  // keeps a ray that just grazes finite
 
 constexpr std::size_t index_of(Stretch stretch) { return static_cast<std::size_t>(stretch); }
 
@@ -29,7 +29,8 @@ void LayeredSpans::append(std::vector<Slab>& slabs, const RayWater& water, doubl
   if (std::abs(to_m - from_m) < kThinnestSlab) return;
   const bool downward = to_m > from_m;
   const std::vector<double>& knots = water.depths_m();
-  const std::size_t first = water.layer_at(std::min(from_m, to_m)), last = water.layer_at(std::max(from_m, to_m));
+  const std::size_t first = water.layer_at(std::min(from_m, to_m)),
+                    last = water.layer_at(std::max(from_m, to_m));
   slabs.reserve(last - first + 1);
   for (std::size_t step = 0; step <= last - first; ++step) {
     const std::size_t layer = downward ? first + step : last - step;
@@ -99,8 +100,8 @@ double LayeredSpans::height_of_swing_m(double xi) const {
   return height;
 }
 
-void LayeredSpans::add_sums(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine, Stretch stretch,
-                            SpanSums& sums, double& end_sine) const {
+void LayeredSpans::add_sums(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine,
+                            Stretch stretch, SpanSums& sums, double& end_sine) const {
   if (slabs.empty()) return;
   double s1 = std::sqrt(squared_sine_at(slabs.front().c1, squared_sine)), q = 0, m = 0;
   for (std::size_t i = 0; i < reach; ++i) {
@@ -126,12 +127,13 @@ SpanSums LayeredSpans::sums(double sine, double cosine) const {
   const double squared_sine = sine * sine;
   double unused = 0;
   sums.xi = cosine / barrier_;
-  sums.sine_top = up_.empty() ? std::sqrt(squared_sine_at(between_.empty() ? down_.front().c1 : between_.front().c1,
-                                                          squared_sine))
+  sums.sine_top = up_.empty() ? std::sqrt(squared_sine_at(
+                                    between_.empty() ? down_.front().c1 : between_.front().c1, squared_sine))
                               : 0;
   sums.sine_bottom =
-      down_.empty() ? std::sqrt(squared_sine_at(between_.empty() ? up_.front().c1 : between_.back().c2, squared_sine))
-                    : 0;
+      down_.empty()
+          ? std::sqrt(squared_sine_at(between_.empty() ? up_.front().c1 : between_.back().c2, squared_sine))
+          : 0;
   add_sums(up_, up_reach_, squared_sine, Stretch::kUp, sums, sums.sine_top);
   add_sums(between_, between_.size(), squared_sine, Stretch::kBetween, sums, unused);
   add_sums(down_, down_reach_, squared_sine, Stretch::kDown, sums, sums.sine_bottom);
@@ -150,8 +152,8 @@ void LayeredSpans::add_slab(const Slab& slab, double s1, double s2, double xi, s
   details.absorption_db[stretch] += length * mean_absorption(slab.absorption, s1, s2);
 }
 
-void LayeredSpans::add_details(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine, double xi,
-                               Stretch stretch, SpanDetails& details) const {
+void LayeredSpans::add_details(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine,
+                               double xi, Stretch stretch, SpanDetails& details) const {
   if (slabs.empty()) return;
   double s1 = std::sqrt(squared_sine_at(slabs.front().c1, squared_sine));
   for (std::size_t i = 0; i < reach; ++i) {
@@ -160,7 +162,8 @@ void LayeredSpans::add_details(const std::vector<Slab>& slabs, std::size_t reach
     s1 = s2;
   }
   if (reach == slabs.size()) return;
-  Slab part = slabs[reach];  // as far as the turn, where c = 1 / xi: 1 / xi - c1 = s1^2 / (xi^2 (1 / xi + c1))
+  Slab part =
+      slabs[reach];  // as far as the turn, where c = 1 / xi: 1 / xi - c1 = s1^2 / (xi^2 (1 / xi + c1))
   part.c2 = 1 / xi;
   part.height_m = s1 * s1 / (xi * xi * (part.c2 + part.c1) * part.gradient);
   part.hc = part.height_m * (part.c1 + part.c2);

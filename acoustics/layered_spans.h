@@ -29,7 +29,7 @@ struct SpanSums {
 
 // What the sums above leave out, for rays that are kept: one way along U, S and D.
 struct SpanDetails {
-  std::array<double, 3> intercept_s{};   // travel time - xi r
+  std::array<double, 3> intercept_s{};  // travel time - xi r
   std::array<double, 3> length_m{};
   std::array<double, 3> absorption_db{};
 };
@@ -73,9 +73,10 @@ class LayeredSpans {
   double squared_sine_at(double speed_mps, double squared_sine) const;
   void add_sums(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine, Stretch stretch,
                 SpanSums& sums, double& end_sine) const;
-  void add_details(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine, double xi, Stretch stretch,
-                   SpanDetails& details) const;
-  static void add_slab(const Slab& slab, double s1, double s2, double xi, std::size_t stretch, SpanDetails& details);
+  void add_details(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine, double xi,
+                   Stretch stretch, SpanDetails& details) const;
+  static void add_slab(const Slab& slab, double s1, double s2, double xi, std::size_t stretch,
+                       SpanDetails& details);
 
   std::vector<Slab> up_, between_, down_;
   double first_barrier_ = 0, barrier_ = 0, inverse_barrier_squared_ = 0;

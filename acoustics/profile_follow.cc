@@ -26,7 +26,8 @@ Settled settle(const ArcTracer& tracer, const Arrival& before, Pace pace, Traced
   const double image = sign * tracer.receiver_depth_m(), period = 2 * tracer.bottom_at_receiver_m();
   // With the same invariant of Snell as before: what grazed a layer still does when the source has changed depth.
   const double cosine = before.launch_slowness_spm * tracer.source_speed_mps();
-  const double start = cosine < 1 ? std::copysign(std::acos(cosine), before.launch_angle_rad) : before.launch_angle_rad;
+  const double start =
+      cosine < 1 ? std::copysign(std::acos(cosine), before.launch_angle_rad) : before.launch_angle_rad;
   Settled at{false, start, 0};
   for (int i = 0; i < pace.most_steps; ++i) {
     tracer.trace(at.theta, ray);
@@ -41,7 +42,8 @@ Settled settle(const ArcTracer& tracer, const Arrival& before, Pace pace, Traced
 }
 
 // The path as it is now at the end of `paths`; false when it was lost or is too faint.
-bool follow_path(const ArcTracer& tracer, const Arrival& before, TracedRay& ray, std::vector<Arrival>& paths) {
+bool follow_path(const ArcTracer& tracer, const Arrival& before, TracedRay& ray,
+                 std::vector<Arrival>& paths) {
   for (const Pace pace : kPaces) {
     const Settled at = settle(tracer, before, pace, ray);
     if (!at.found) continue;
@@ -56,7 +58,8 @@ bool follow_path(const ArcTracer& tracer, const Arrival& before, TracedRay& ray,
 
 }  // namespace
 
-FollowedRays follow_profile_rays(const ProfiledSea& sea, const RayLink& link, const std::vector<Arrival>& before) {
+FollowedRays follow_profile_rays(const ProfiledSea& sea, const RayLink& link,
+                                 const std::vector<Arrival>& before) {
   const ArcTracer tracer(sea, link);
   TracedRay ray;
   return follow_each(before, sea.options, [&](const Arrival& path, std::vector<Arrival>& paths) {

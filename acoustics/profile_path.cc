@@ -9,7 +9,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kFarOff = 1e-2;       // m of unfolded depth: a ray further off did not converge
+constexpr double kFarOff = 1e-2;         // m of unfolded depth: a ray further off did not converge
 constexpr double kBesideGrazing = 1e-9;  // rad
 
 // The phase between the two rays of a fold below which their amplitude stays that of the Airy function's peak
@@ -44,7 +44,8 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, double fold_t
   // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
   path.delay_s = details.delay_s + ray.sine / speed * down * (target - ray.zeta);
-  path.amplitude = ray.factor * std::sqrt(speed * std::cos(theta) / (tracer.source_speed_mps() * tracer.range_m() * tube));
+  path.amplitude =
+      ray.factor * std::sqrt(speed * std::cos(theta) / (tracer.source_speed_mps() * tracer.range_m() * tube));
   const double phase = pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2;
   path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
   path.launch_angle_rad = theta;

@@ -16,15 +16,16 @@ using std::numbers::pi;
 constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounce
 constexpr double kLeastParting = 1e-11;        // rad: between the rays on both sides of a parting
 constexpr int kDeepestHalving = 14;
-constexpr int kDeepestEdgeHalving = 7;         // towards where rays become too faint
-constexpr double kCubicTolerance = 0.02;       // of the water depth
-constexpr double kNearFold = 0.15;             // of the water depth: a turn nearer to an image is sought out exactly
-constexpr double kDepthTolerance = 1e-4;       // m before the last step of Newton
-constexpr int kMostTraces = 200'000;           // of one link: a guard against water of endless detail
+constexpr int kDeepestEdgeHalving = 7;    // towards where rays become too faint
+constexpr double kCubicTolerance = 0.02;  // of the water depth
+constexpr double kNearFold = 0.15;  // of the water depth: a turn nearer to an image is sought out exactly
+constexpr double kDepthTolerance = 1e-4;  // m before the last step of Newton
+constexpr int kMostTraces = 200'000;      // of one link: a guard against water of endless detail
 
 class Search {
  public:
-  Search(const ProfiledSea& sea, const RayLink& link) : tracer_(sea, link), depth_(tracer_.bottom_at_receiver_m()) {}
+  Search(const ProfiledSea& sea, const RayLink& link)
+      : tracer_(sea, link), depth_(tracer_.bottom_at_receiver_m()) {}
 
   std::vector<Arrival> run();
 
@@ -58,8 +59,9 @@ std::optional<std::size_t> parting(const TracedRay& a, const TracedRay& b) {
 }
 
 bool shares_event(const TracedRay& ray, const TracedRay& other, std::size_t event) {
-  return ray.events.size() > event && std::equal(ray.events.begin(), ray.events.begin() + static_cast<std::ptrdiff_t>(event) + 1,
-                                                 other.events.begin());
+  return ray.events.size() > event &&
+         std::equal(ray.events.begin(), ray.events.begin() + static_cast<std::ptrdiff_t>(event) + 1,
+                    other.events.begin());
 }
 
 TracedRay Search::traced(double theta) {
@@ -90,7 +92,8 @@ void Search::scan(const TracedRay& a, const TracedRay& b, int depth) {
   }
   const TracedRay middle = traced(0.5 * (a.theta + b.theta));
   const bool whole = a.arrived && b.arrived && middle.arrived && !parting(a, middle) && !parting(middle, b);
-  const double error = whole ? std::abs(cubic_of(a, b)(0.5) - middle.zeta) : 0;
+  const double error =
+      whole ? cubic_of(a, b).error_at_middle(middle.zeta, middle.zeta_slope, b.theta - a.theta) : 0;
   if (whole && error <= kCubicTolerance * depth_ + 0.01 * std::abs(b.zeta - a.zeta)) {
     solve(a, middle);
     solve(middle, b);
@@ -149,7 +152,8 @@ TracedRay Search::turn_between(const TracedRay& a, const TracedRay& b) {
 void Search::solve_monotone(const TracedRay& a, const TracedRay& b, double fold_theta) {
   const double low = std::min(a.zeta, b.zeta), high = std::max(a.zeta, b.zeta), period = 2 * depth_;
   for (const double image : {tracer_.receiver_depth_m(), -tracer_.receiver_depth_m()}) {
-    for (double k = std::ceil((low - image) / period); image + k * period < high; ++k) {  // low <= target < high
+    for (double k = std::ceil((low - image) / period); image + k * period < high;
+         ++k) {  // low <= target < high
       polish(a, b, image + k * period, fold_theta);
     }
   }
@@ -166,7 +170,8 @@ void Search::polish(const TracedRay& a, const TracedRay& b, double target, doubl
     const double off = ray.zeta - target;
     ((off > 0) == rising ? high : low) = theta;
     const double next = ray.zeta_slope != 0 ? theta - off / ray.zeta_slope : low - 1;
-    if (std::abs(off) < kDepthTolerance) {  // the last step squares the error, or is none where rounding rules
+    if (std::abs(off) <
+        kDepthTolerance) {  // the last step squares the error, or is none where rounding rules
       if (next > low && next < high) theta = next;
       break;
     }

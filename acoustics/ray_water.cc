@@ -8,8 +8,9 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kThinnestSample = 1.0;   // m: sampling a smooth profile goes no finer
-constexpr double kTallestSample = 250.0;  // m: nor coarser, so that a bump between two probes is not passed over
+constexpr double kThinnestSample = 1.0;  // m: sampling a smooth profile goes no finer
+constexpr double kTallestSample =
+    250.0;  // m: nor coarser, so that a bump between two probes is not passed over
 constexpr double kTallestProbe = 5000.0;  // m: below it formulas and tables are taken as constant
 
 LayerAbsorption parabola(double top, double middle, double bottom) {
@@ -74,11 +75,12 @@ RayWater::RayWater(std::vector<SpeedRow> knots, const AbsorptionAtDepth& absorpt
   }
 }
 
-RayWater RayWater::from_profile(const SoundSpeedProfile& profile, const AbsorptionAtDepth& absorption_db_per_km,
-                                double speed_tolerance_mps) {
+RayWater RayWater::from_profile(const SoundSpeedProfile& profile,
+                                const AbsorptionAtDepth& absorption_db_per_km, double speed_tolerance_mps) {
   require_in_range(speed_tolerance_mps, 1e-6, 10, "speed tolerance of a profile for rays", "m/s");
-  return RayWater(is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps),
-                  absorption_db_per_km);
+  return RayWater(
+      is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps),
+      absorption_db_per_km);
 }
 
 std::size_t RayWater::layer_at(double depth_m) const {

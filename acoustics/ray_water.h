@@ -31,7 +31,8 @@ class RayWater {
   RayWater(std::vector<SpeedRow> knots, const AbsorptionAtDepth& absorption_db_per_km);
 
   // Samples a profile: exact for a table of speeds.
-  static RayWater from_profile(const SoundSpeedProfile& profile, const AbsorptionAtDepth& absorption_db_per_km,
+  static RayWater from_profile(const SoundSpeedProfile& profile,
+                               const AbsorptionAtDepth& absorption_db_per_km,
                                double speed_tolerance_mps = 0.01);
 
   // From 0 to kDeepestWater; speeds at each.

@@ -91,8 +91,9 @@ Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const Fie
   return level_of(std::norm(sum), options);
 }
 
-std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz, double rate_hz,
-                                                   double from_s, std::size_t count, const Transducers& transducers) {
+std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
+                                                   double rate_hz, double from_s, std::size_t count,
+                                                   const Transducers& transducers) {
   require_in_range(carrier_hz, 0, 1e6, "carrier of an impulse response", "Hz");
   require_in_range(rate_hz, 1e-6, 1e7, "sampling rate of an impulse response", "Hz");
   require_in_range(static_cast<double>(count), 1, 1e7, "samples of an impulse response");

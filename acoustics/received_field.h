@@ -36,12 +36,12 @@ struct FieldOptions {
 
 // The whole of what the paths say.
 struct ReceivedField {
-  bool shadow = true;                     // no path at all
-  Decibels level{-1e300};                 // sum of powers, dB re the source level
-  double first_delay_s = 0;               // of the first path; 0 in a shadow
-  double mean_delay_s = 0;                // weighted by power
-  double delay_spread_s = 0;              // rms about that mean, weighted by power
-  double longest_echo_s = 0;              // last path within 30 dB of the strongest, after the first of those
+  bool shadow = true;         // no path at all
+  Decibels level{-1e300};     // sum of powers, dB re the source level
+  double first_delay_s = 0;   // of the first path; 0 in a shadow
+  double mean_delay_s = 0;    // weighted by power
+  double delay_spread_s = 0;  // rms about that mean, weighted by power
+  double longest_echo_s = 0;  // last path within 30 dB of the strongest, after the first of those
 };
 ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options = {});
 
@@ -50,8 +50,8 @@ Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const Fie
 
 // Taps of the complex envelope about `carrier_hz`, sampled at `rate_hz` from `from_s` on, `count` of them: each path falls
 // on its nearest sample with the phase of its own delay. Paths outside are left out. rate_hz in (0, 1e7], count 1..1e7.
-std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz, double rate_hz,
-                                                   double from_s, std::size_t count,
+std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
+                                                   double rate_hz, double from_s, std::size_t count,
                                                    const Transducers& transducers = {});
 
 }  // namespace halocline::acoustics

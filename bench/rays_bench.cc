@@ -2,10 +2,10 @@
 //
 // Claims (microseconds, cold): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots 80, a slope
 // 150, a bottom of many facets 1500; warm at most half of cold.
-#include <benchmark/benchmark.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <benchmark/benchmark.h>
 
 #include "acoustics/eigenray.h"
 
@@ -26,14 +26,16 @@ RaySea sea_of(const std::vector<SpeedRow>& knots, BottomProfile bottom) {
 }
 
 const std::vector<SpeedRow> kThreeKnots = {{0, 1520}, {50, 1490}, {100, 1490}};
-const std::vector<SpeedRow> kSevenKnots = {{0, 1522}, {10, 1521}, {20, 1512}, {35, 1500}, {50, 1494}, {70, 1492}, {100, 1493}};
+const std::vector<SpeedRow> kSevenKnots = {{0, 1522},  {10, 1521}, {20, 1512}, {35, 1500},
+                                           {50, 1494}, {70, 1492}, {100, 1493}};
 const std::vector<SpeedRow> kSeamountWater = {{0, 1520}, {50, 1490}, {200, 1492}};
 
 BottomProfile hill_of_facets() {  // a cosine hill in 100 facets of 50 m
   std::vector<ProfiledDepth> points;
   for (int i = 0; i <= 100; ++i) {
     const double along = (50.0 * i - 2500) / 1000;
-    points.push_back({50.0 * i, std::abs(along) < 1 ? 200 - 60 * (1 + std::cos(std::numbers::pi * along)) : 200});
+    points.push_back(
+        {50.0 * i, std::abs(along) < 1 ? 200 - 60 * (1 + std::cos(std::numbers::pi * along)) : 200});
   }
   return BottomProfile(std::move(points));
 }
@@ -45,19 +47,29 @@ struct Situation {
 
 Situation situation(int which) {
   switch (which) {
-    case 0: return {sea_of({{0, 1500}}, BottomProfile::flat(100)), {30, 50, 3000}};
-    case 1: return {sea_of(kThreeKnots, BottomProfile::flat(100)), {20, 50, 2000}};
-    case 2: return {sea_of(kSevenKnots, BottomProfile::flat(100)), {25, 60, 2000}};
-    case 3: return {sea_of(thinned(munk_of_101_knots(), 0.1), BottomProfile::flat(5000)), {1000, 800, 50000}};
-    case 4: return {sea_of(munk_of_101_knots(), BottomProfile::flat(5000)), {1000, 800, 50000}};
-    case 5: return {sea_of({{0, 1500}}, BottomProfile({{0, 100}, {5000, 40}})), {20, 30, 2000}};
-    case 6: return {sea_of(kSeamountWater, BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}})), {20, 50, 3000}};
-    default: return {sea_of(kSeamountWater, hill_of_facets()), {20, 50, 3000}};
+    case 0:
+      return {sea_of({{0, 1500}}, BottomProfile::flat(100)), {30, 50, 3000}};
+    case 1:
+      return {sea_of(kThreeKnots, BottomProfile::flat(100)), {20, 50, 2000}};
+    case 2:
+      return {sea_of(kSevenKnots, BottomProfile::flat(100)), {25, 60, 2000}};
+    case 3:
+      return {sea_of(thinned(munk_of_101_knots(), 0.1), BottomProfile::flat(5000)), {1000, 800, 50000}};
+    case 4:
+      return {sea_of(munk_of_101_knots(), BottomProfile::flat(5000)), {1000, 800, 50000}};
+    case 5:
+      return {sea_of({{0, 1500}}, BottomProfile({{0, 100}, {5000, 40}})), {20, 30, 2000}};
+    case 6:
+      return {sea_of(kSeamountWater, BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}})),
+              {20, 50, 3000}};
+    default:
+      return {sea_of(kSeamountWater, hill_of_facets()), {20, 50, 3000}};
   }
 }
 
-constexpr const char* kNames[] = {"isovelocity", "layered_3_knots", "layered_7_knots",    "deep_thinned",
-                                  "deep_101",    "slope",           "seamount_3_corners", "hill_of_100_facets"};
+constexpr const char* kNames[] = {"isovelocity",        "layered_3_knots",   "layered_7_knots",
+                                  "deep_thinned",       "deep_101",          "slope",
+                                  "seamount_3_corners", "hill_of_100_facets"};
 
 void cold(benchmark::State& state) {
   const auto which = static_cast<int>(state.range(0));

@@ -25,16 +25,21 @@ struct FanArrival {
 class DenseFan {
  public:
   DenseFan(std::vector<SpeedRow> knots, double bottom_m, RayLink link)
-      : bottom_(bottom_m), source_(link.source_depth_m), receiver_(link.receiver_depth_m), range_(link.range_m) {
+      : bottom_(bottom_m),
+        source_(link.source_depth_m),
+        receiver_(link.receiver_depth_m),
+        range_(link.range_m) {
     if (knots.front().depth_m > 0) knots.insert(knots.begin(), {0, knots.front().sound_speed_mps});
     if (knots.back().depth_m < bottom_m) knots.push_back({bottom_m, knots.back().sound_speed_mps});
     for (const SpeedRow& row : knots) {
       if (row.depth_m < bottom_m) levels_.push_back({row.depth_m, row.sound_speed_mps});
     }
-    const auto below = std::find_if(knots.begin(), knots.end(), [&](const SpeedRow& r) { return r.depth_m >= bottom_m; });
+    const auto below =
+        std::find_if(knots.begin(), knots.end(), [&](const SpeedRow& r) { return r.depth_m >= bottom_m; });
     const SpeedRow &a = *(below - 1), &b = *below;
-    levels_.push_back({bottom_m, a.sound_speed_mps + static_cast<Real>(b.sound_speed_mps - a.sound_speed_mps) *
-                                                          (bottom_m - a.depth_m) / (b.depth_m - a.depth_m)});
+    levels_.push_back(
+        {bottom_m, a.sound_speed_mps + static_cast<Real>(b.sound_speed_mps - a.sound_speed_mps) *
+                                           (bottom_m - a.depth_m) / (b.depth_m - a.depth_m)});
     add_level(source_);
     add_level(receiver_);
   }
@@ -68,18 +73,21 @@ class DenseFan {
   Real speed(Real z) const {
     std::size_t i = 0;
     while (i + 2 < levels_.size() && levels_[i + 1].z < z) ++i;
-    return levels_[i].c + (levels_[i + 1].c - levels_[i].c) * (z - levels_[i].z) / (levels_[i + 1].z - levels_[i].z);
+    return levels_[i].c +
+           (levels_[i + 1].c - levels_[i].c) * (z - levels_[i].z) / (levels_[i + 1].z - levels_[i].z);
   }
 
   void add_level(Real z) {
     const Real c = speed(z);
-    const auto at = std::lower_bound(levels_.begin(), levels_.end(), z, [](const Level& l, Real d) { return l.z < d; });
+    const auto at =
+        std::lower_bound(levels_.begin(), levels_.end(), z, [](const Level& l, Real d) { return l.z < d; });
     if (at == levels_.end() || at->z != z) levels_.insert(at, {z, c});
   }
 
   std::vector<Real> fan(double steepest, int count) const {
     std::vector<Real> angles;
-    for (int i = 0; i <= count; ++i) angles.push_back(-steepest + 2 * static_cast<Real>(steepest) * i / count);
+    for (int i = 0; i <= count; ++i)
+      angles.push_back(-steepest + 2 * static_cast<Real>(steepest) * i / count);
     const Real here = speed(source_);
     for (const Level& level : levels_) {
       if (level.c < here) continue;
@@ -100,11 +108,13 @@ class DenseFan {
     passages.clear();
     const Real xi = std::cos(theta) / speed(source_);
     auto at = static_cast<std::size_t>(
-        std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.z == source_; }) - levels_.begin());
+        std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.z == source_; }) -
+        levels_.begin());
     bool down = theta > 0;
     Real r = 0, time = 0;
     int surface = 0, bottom = 0, turns = 0;
-    while (r < 1.5L * range_ + 1000 && bottom <= most_bottom_) {
+    // A ray that hardly leaves the axis of a duct turns without end.
+    for (int step = 0; step < 4000 && r < 1.5L * range_ + 1000 && bottom <= most_bottom_; ++step) {
       if (down && at + 1 == levels_.size()) {
         ++bottom;
         down = false;
@@ -145,8 +155,8 @@ class DenseFan {
         ((middle[m].r > range_) == rising ? to : from) = theta;
       }
       if (middle.size() <= m || std::abs(middle[m].r - range_) > 1e-4L) continue;
-      found.push_back({static_cast<double>(middle[m].time), static_cast<double>((from + to) / 2), middle[m].surface,
-                       middle[m].bottom});
+      found.push_back({static_cast<double>(middle[m].time), static_cast<double>((from + to) / 2),
+                       middle[m].surface, middle[m].bottom});
     }
   }
 

@@ -1,9 +1,8 @@
-#include "acoustics/boundary_reflection.h"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/boundary_reflection.h"
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
@@ -29,7 +28,8 @@ TEST(BottomReflection, MatchesRayleighForTheSedimentsOfTr9407) {
   expect_column(kReflections, "abs_V", [](const CsvRow& row) { return reflection_of(row).magnitude; });
   expect_column(kReflections, "arg_V_rad(conv n=(1+i*delta)/cr)",
                 [](const CsvRow& row) { return -reflection_of(row).phase_rad; });
-  expect_decibels(kReflections, "bottom_loss_dB", [](const CsvRow& row) { return reflection_of(row).loss_db(); });
+  expect_decibels(kReflections, "bottom_loss_dB",
+                  [](const CsvRow& row) { return reflection_of(row).loss_db(); });
 }
 
 TEST(BottomReflection, SedimentsByNameAreTheOnesOfTheTable) {
@@ -63,7 +63,8 @@ TEST(BottomReflection, ReflectsAllBelowTheCriticalAngleOfALosslessFastBottom) {
 TEST(BottomReflection, AtNormalIncidenceIsTheRatioOfImpedances) {
   const FluidBottom lossless{1.9, 1.1, 0, 0, BottomLoss::kComplexWaveNumber};
   const double z = 1.9 * 1.1;
-  EXPECT_NEAR(bottom_reflection(lossless, std::numbers::pi / 2, 1500).magnitude, (z - 1) / (z + 1), tolerance(1e-15));
+  EXPECT_NEAR(bottom_reflection(lossless, std::numbers::pi / 2, 1500).magnitude, (z - 1) / (z + 1),
+              tolerance(1e-15));
 }
 
 TEST(BottomReflection, TurnsThePhaseByPiAtGrazing) {
@@ -73,7 +74,8 @@ TEST(BottomReflection, TurnsThePhaseByPiAtGrazing) {
 
 TEST(BottomReflection, SpeedGivenInMetresPerSecondDependsOnTheWaterAbove) {
   const FluidBottom absolute = fluid_bottom(1.9, 1650, 0.8);
-  EXPECT_NE(bottom_reflection(absolute, 0.3, 1500).magnitude, bottom_reflection(absolute, 0.3, 1480).magnitude);
+  EXPECT_NE(bottom_reflection(absolute, 0.3, 1500).magnitude,
+            bottom_reflection(absolute, 0.3, 1480).magnitude);
   const FluidBottom ratio = *sediment("MediumSand");
   EXPECT_EQ(bottom_reflection(ratio, 0.3, 1500).magnitude, bottom_reflection(ratio, 0.3, 1480).magnitude);
 }
@@ -126,7 +128,8 @@ TEST(SurfaceLoss, AStillSeaReflectsAllByTheDefaultModel) {
 
 TEST(SurfaceLoss, GrowsWithWindInEveryModelButTheFlatOne) {
   for (const SurfaceModel model : {SurfaceModel::kAplBubbles, SurfaceModel::kEckart, SurfaceModel::kJones}) {
-    EXPECT_GT(surface_loss_db({model, 12}, 0.2, 5e3), surface_loss_db({model, 6}, 0.2, 5e3)) << to_name(model);
+    EXPECT_GT(surface_loss_db({model, 12}, 0.2, 5e3), surface_loss_db({model, 6}, 0.2, 5e3))
+        << to_name(model);
   }
   EXPECT_GT(surface_loss_db({SurfaceModel::kCoates, 12}, 0.2, 5e3),
             surface_loss_db({SurfaceModel::kCoates, 3}, 0.2, 5e3));

@@ -1,10 +1,9 @@
-#include "acoustics/received_field.h"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/ray_doppler.h"
+#include "acoustics/received_field.h"
 #include "core/check.h"
 #include "tests/acoustics/reference_rows.h"
 
@@ -87,7 +86,8 @@ TEST(ImpulseResponse, KeepsTheEnergyOfPathsThatDoNotShareASample) {
 }
 
 TEST(ImpulseResponse, LeavesOutWhatFallsOutside) {
-  for (const auto& tap : impulse_response(of({path_of(1, 0.01)}), 25e3, 1000, 1.5, 10)) EXPECT_EQ(std::abs(tap), 0);
+  for (const auto& tap : impulse_response(of({path_of(1, 0.01)}), 25e3, 1000, 1.5, 10))
+    EXPECT_EQ(std::abs(tap), 0);
   EXPECT_THROW(impulse_response(of({}), 25e3, 0, 0, 10), InvalidArgument);
 }
 
@@ -148,7 +148,9 @@ TEST(RayDoppler, IsOneAtRestAndAboveOneWhenClosing) {
   EXPECT_GT(doppler_factor(Arrival{}, kMoving), 1);
 }
 
-TEST(RayDoppler, RefusesSupersonicEnds) { EXPECT_THROW(doppler_factor(1500, 1500, 0, 1500), InvalidArgument); }
+TEST(RayDoppler, RefusesSupersonicEnds) {
+  EXPECT_THROW(doppler_factor(1500, 1500, 0, 1500), InvalidArgument);
+}
 
 }  // namespace
 }  // namespace halocline::acoustics

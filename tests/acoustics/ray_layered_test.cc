@@ -1,10 +1,9 @@
 // Rays in water that depends on depth alone: closed forms, symmetries, and completeness against a dense fan.
-#include "acoustics/layered_rays.h"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/layered_rays.h"
 #include "core/check.h"
 #include "core/random.h"
 #include "tests/acoustics/dense_fan.h"
@@ -64,7 +63,8 @@ TEST(LayeredRays, DirectRayInAConstantGradientIsTheClosedForm) {
 
 TEST(LayeredRays, FirstEchoesAreThoseOfTheImageMethod) {
   for (const CsvRow& row : testing::read_reference_csv("acoustics/image_method_delays.csv")) {
-    const RaySea sea = sea_of({{0, row.number("c_m_per_s")}}, BottomProfile::flat(row.number("water_depth_m")));
+    const RaySea sea =
+        sea_of({{0, row.number("c_m_per_s")}}, BottomProfile::flat(row.number("water_depth_m")));
     RaySea open = sea;
     open.options.max_launch_angle_rad = std::numbers::pi / 2;
     open.options.min_boundary_factor = 0;
@@ -72,9 +72,10 @@ TEST(LayeredRays, FirstEchoesAreThoseOfTheImageMethod) {
     for (const RaySolver solver : {RaySolver::kImages, RaySolver::kSnell, RaySolver::kArcs}) {
       // Arcs stop at 89.9 degrees from the horizontal.
       if (solver == RaySolver::kArcs && row.number("range_m") < 0.05 * row.number("water_depth_m")) continue;
-      const Arrivals found = arrivals(
-          open, {row.number("depth_tx_m"), row.number("depth_rx_m"), row.number("range_m")}, solver);
-      for (const char* leg : {"t_direct_s", "t_surface_s", "t_bottom_s", "t_surface_bottom_s", "t_bottom_surface_s"}) {
+      const Arrivals found =
+          arrivals(open, {row.number("depth_tx_m"), row.number("depth_rx_m"), row.number("range_m")}, solver);
+      for (const char* leg :
+           {"t_direct_s", "t_surface_s", "t_bottom_s", "t_surface_bottom_s", "t_bottom_surface_s"}) {
         const bool is_found = std::any_of(found.paths.begin(), found.paths.end(), [&](const Arrival& path) {
           return std::abs(path.delay_s - row.number(leg)) < tolerance(1e-10);
         });
@@ -106,7 +107,8 @@ TEST(LayeredRays, AmplitudeIsTheWidthOfTheRayTubeByDifferences) {
     if (a == near.paths.end() || b == far.paths.end()) continue;
     const double slope = 2 * kStep / std::abs(b->launch_angle_rad - a->launch_angle_rad);
     const double tube = 2000 * slope * std::abs(std::sin(path.arrival_angle_rad));
-    const double spread = std::sqrt(sea.water.speed_at(80) * std::cos(path.launch_angle_rad) / (sea.water.speed_at(20) * tube));
+    const double spread =
+        std::sqrt(sea.water.speed_at(80) * std::cos(path.launch_angle_rad) / (sea.water.speed_at(20) * tube));
     const double bounces = std::pow(10.0, -path.bottom_loss_db / 20);
     EXPECT_NEAR(20 * std::log10(path.amplitude / (spread * bounces)), 0, tolerance(0.01)) << describe(path);
     ++compared;
@@ -119,16 +121,20 @@ TEST(LayeredRays, AmplitudeIsTheWidthOfTheRayTubeByDifferences) {
 class RayReciprocity : public ::testing::TestWithParam<RaySolver> {};
 
 TEST_P(RayReciprocity, SwappedEndsHaveTheSameDelaysAndAmplitudes) {
-  for (const auto& [knots, depth] : {std::pair(kSummer, 120.0), std::pair(kDucts, 200.0), std::pair(kThermocline, 100.0)}) {
+  for (const auto& [knots, depth] :
+       {std::pair(kSummer, 120.0), std::pair(kDucts, 200.0), std::pair(kThermocline, 100.0)}) {
     const RaySea sea = sea_of(knots, BottomProfile::flat(depth));
-    for (const RayLink link : {RayLink{15, 90, 700}, RayLink{40, 55, 2500}, RayLink{30, 31, 4000}, RayLink{5, 99, 50}}) {
+    for (const RayLink link :
+         {RayLink{15, 90, 700}, RayLink{40, 55, 2500}, RayLink{30, 31, 4000}, RayLink{5, 99, 50}}) {
       const Arrivals there = arrivals(sea, link, GetParam());
-      const Arrivals back = arrivals(sea, {link.receiver_depth_m, link.source_depth_m, link.range_m}, GetParam());
+      const Arrivals back =
+          arrivals(sea, {link.receiver_depth_m, link.source_depth_m, link.range_m}, GetParam());
       ASSERT_EQ(there.paths.size(), back.paths.size()) << link.range_m;
       for (std::size_t i = 0; i < there.paths.size(); ++i) {
         const Arrival &a = there.paths[i], &b = back.paths[i];
         EXPECT_NEAR(a.delay_s, b.delay_s, tolerance(1e-10)) << describe(a);
-        EXPECT_NEAR(20 * std::log10(a.amplitude / b.amplitude), 0, tolerance(1e-3)) << describe(a) << describe(b);
+        EXPECT_NEAR(20 * std::log10(a.amplitude / b.amplitude), 0, tolerance(1e-3))
+            << describe(a) << describe(b);
       }
     }
   }
@@ -138,18 +144,22 @@ INSTANTIATE_TEST_SUITE_P(Solvers, RayReciprocity, ::testing::Values(RaySolver::k
 
 TEST(LayeredRays, SumOfImagesAndSnellSolverAgreeInWaterOfOneSpeed) {
   const RaySea sea = sea_of({{0, 1487}}, BottomProfile::flat(73), [](double z) { return 3 + z / 50; });
-  for (const RayLink link : {RayLink{10, 60, 5}, RayLink{10, 60, 800}, RayLink{36.5, 36.5, 1500}, RayLink{1, 72, 6000}}) {
-    const Arrivals images = arrivals(sea, link, RaySolver::kImages), snell = arrivals(sea, link, RaySolver::kSnell);
+  for (const RayLink link :
+       {RayLink{10, 60, 5}, RayLink{10, 60, 800}, RayLink{36.5, 36.5, 1500}, RayLink{1, 72, 6000}}) {
+    const Arrivals images = arrivals(sea, link, RaySolver::kImages),
+                   snell = arrivals(sea, link, RaySolver::kSnell);
     ASSERT_EQ(images.paths.size(), snell.paths.size()) << link.range_m;
     for (std::size_t i = 0; i < images.paths.size(); ++i) {
       const Arrival& a = images.paths[i];
       std::vector<bool> used(snell.paths.size());
-      const int j = find_path(snell.paths, used, a.delay_s, a.launch_angle_rad, a.surface_bounces, a.bottom_bounces, 1e-12);
+      const int j = find_path(snell.paths, used, a.delay_s, a.launch_angle_rad, a.surface_bounces,
+                              a.bottom_bounces, 1e-12);
       ASSERT_GE(j, 0) << describe(a);
       const Arrival& b = snell.paths[static_cast<std::size_t>(j)];
       EXPECT_NEAR(a.amplitude / b.amplitude, 1, tolerance(1e-6)) << describe(a);
       EXPECT_NEAR(a.absorption_db, b.absorption_db, tolerance(1e-5)) << describe(a);
-      EXPECT_LE(degrees_between(to_degrees(a.phase_rad), to_degrees(b.phase_rad)), tolerance(1e-3)) << describe(a);
+      EXPECT_LE(degrees_between(to_degrees(a.phase_rad), to_degrees(b.phase_rad)), tolerance(1e-3))
+          << describe(a);
     }
   }
 }
@@ -202,7 +212,8 @@ TEST(LayeredRays, NearlyLevelRaysInALayerOfOneSpeedAreFound) {
 
 TEST(LayeredRays, EndsAtTheBoundariesHaveRaysOfFiniteAmplitude) {
   const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
-  for (const RayLink link : {RayLink{0, 50, 500}, RayLink{50, 100, 500}, RayLink{0, 100, 500}, RayLink{0, 0, 500}}) {
+  for (const RayLink link :
+       {RayLink{0, 50, 500}, RayLink{50, 100, 500}, RayLink{0, 100, 500}, RayLink{0, 0, 500}}) {
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
       const Arrivals found = arrivals(sea, link, solver);
       EXPECT_FALSE(found.shadow());
@@ -225,7 +236,8 @@ TEST(LayeredRays, FoldsHaveFiniteLevels) {
   const RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
   double loudest = 0;
   for (double range = 900; range < 1500; range += 0.5) {
-    for (const Arrival& path : arrivals(sea, {40, 60, range}).paths) loudest = std::max(loudest, path.amplitude);
+    for (const Arrival& path : arrivals(sea, {40, 60, range}).paths)
+      loudest = std::max(loudest, path.amplitude);
   }
   EXPECT_LT(loudest, 0.1);  // 20 dB above a free field at 100 m, at ten times the range
 }
@@ -265,7 +277,7 @@ struct Waters {
 class RayCompleteness : public ::testing::TestWithParam<Waters> {};
 
 RayLink random_link(const Waters& waters, std::uint32_t index) {
-  const auto draw = [&](std::uint64_t which) { 
+  const auto draw = [&](std::uint64_t which) {
     return uniform_at({.seed = 3, .purpose = purpose_of("links"), .who = index, .which = which});
   };
   const auto depth = [&](std::uint64_t which) { return (0.01 + 0.98 * draw(which)) * waters.bottom_m; };
@@ -298,8 +310,10 @@ TEST_P(RayCompleteness, NoRayOfADenseFanIsMissing) {
     std::vector<bool> used(found.paths.size());
     DenseFan fan(waters.knots, waters.bottom_m, link);
     for (const FanArrival& ray : fan.search(to_radians(80), most_bounces, waters.fan)) {
-      const double cosine = std::cos(ray.launch_angle_rad) / sea.water.speed_at(link.source_depth_m) * bottom_speed;
-      const double one = cosine < 1 ? bottom_magnitude_at_sine(sea.bottom, std::sqrt(1 - cosine * cosine), bottom_speed) : 1;
+      const double cosine =
+          std::cos(ray.launch_angle_rad) / sea.water.speed_at(link.source_depth_m) * bottom_speed;
+      const double one =
+          cosine < 1 ? bottom_magnitude_at_sine(sea.bottom, std::sqrt(1 - cosine * cosine), bottom_speed) : 1;
       if (std::pow(one, ray.bottom_bounces) < 0.005 * 1.001) continue;
       const int index = find_path(found.paths, used, ray.delay_s, ray.launch_angle_rad, ray.surface_bounces,
                                   ray.bottom_bounces, tolerance(1e-7));
@@ -310,10 +324,11 @@ TEST_P(RayCompleteness, NoRayOfADenseFanIsMissing) {
     }
     for (std::size_t k = 0; k < used.size(); ++k) {
       const Arrival& path = found.paths[k];
-      const bool seen = used[k] || path.launch_angle_rad == 0 || std::abs(path.launch_angle_rad) > to_radians(79.9);
-      EXPECT_TRUE(seen || path.amplitude < 0.03 * loudest) << waters.name << " " << link.source_depth_m << " "
-                                                           << link.receiver_depth_m << " " << link.range_m
-                                                           << ": extra " << describe(path);
+      const bool seen =
+          used[k] || path.launch_angle_rad == 0 || std::abs(path.launch_angle_rad) > to_radians(79.9);
+      EXPECT_TRUE(seen || path.amplitude < 0.03 * loudest)
+          << waters.name << " " << link.source_depth_m << " " << link.receiver_depth_m << " " << link.range_m
+          << ": extra " << describe(path);
     }
   }
 }
@@ -344,12 +359,12 @@ TEST(FollowedRays, AreThoseOfANewSearchWhenEndsMoveByMetres) {
       std::size_t same = 0;
       std::vector<bool> used(now.paths.size());
       for (const Arrival& path : fresh.paths) {
-        same += find_path(now.paths, used, path.delay_s, path.launch_angle_rad, path.surface_bounces, path.bottom_bounces,
-                          1e-9) >= 0
+        same += find_path(now.paths, used, path.delay_s, path.launch_angle_rad, path.surface_bounces,
+                          path.bottom_bounces, 1e-9) >= 0
                     ? 1U
                     : 0U;
       }
-      EXPECT_LE(now.paths.size(), fresh.paths.size());   // none invented
+      EXPECT_LE(now.paths.size(), fresh.paths.size());           // none invented
       EXPECT_GE(same + 2, fresh.paths.size()) << moved.range_m;  // a pair may have come into being
     }
   }
@@ -361,8 +376,9 @@ TEST(FollowedRays, KeepTheirIdentity) {
   for (int step = 0; step < 20; ++step) {
     const Arrivals next = follow(sea, {20 + 0.2 * step, 80, 2000.0 + step}, at);
     for (const Arrival& path : next.paths) {
-      const auto same = std::find_if(at.paths.begin(), at.paths.end(),
-                                     [&path](const Arrival& other) { return other.identity == path.identity; });
+      const auto same = std::find_if(at.paths.begin(), at.paths.end(), [&path](const Arrival& other) {
+        return other.identity == path.identity;
+      });
       if (same == at.paths.end()) continue;
       // A metre of range and 0.2 m of depth move no delay by more than they would straight.
       EXPECT_LT(std::abs(same->delay_s - path.delay_s), tolerance(1.3 / 1490)) << describe(path);

@@ -1,10 +1,9 @@
 // Rays over a bottom that changes with range: against a dense fan of straight lines, symmetries, moving ends.
-#include "acoustics/profile_rays.h"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/profile_rays.h"
 #include "core/check.h"
 #include "tests/acoustics/ray_reference.h"
 
@@ -33,7 +32,8 @@ struct StraightRay {
   std::vector<int> history;
 };
 
-StraightRay straight_ray(const BottomProfile& profile, double z0, double range, double theta, int most_bounces) {
+StraightRay straight_ray(const BottomProfile& profile, double z0, double range, double theta,
+                         int most_bounces) {
   double r = 0, z = z0, dr = std::cos(theta), dz = std::sin(theta);
   StraightRay ray;
   const std::vector<Facet>& facets = profile.facets();
@@ -73,7 +73,8 @@ StraightRay straight_ray(const BottomProfile& profile, double z0, double range, 
     }
     const Facet& f = facets[hit];
     const double turn = f.turn0 + (r - f.r0) / (f.r1 - f.r0) * (f.turn1 - f.turn0);
-    const double beta = std::atan(f.slope) + turn, nr = -std::sin(beta), nz = std::cos(beta);  // normal, downward
+    const double beta = std::atan(f.slope) + turn, nr = -std::sin(beta),
+                 nz = std::cos(beta);  // normal, downward
     const double along = dr * nr + dz * nz;
     dr -= 2 * along * nr;
     dz -= 2 * along * nz;
@@ -90,7 +91,8 @@ struct FanResult {
 };
 
 // Eigenrays between neighbours of a fan of straight rays with one history.
-std::vector<FanResult> straight_fan(const BottomProfile& profile, const RayLink& link, int count, int most_bounces) {
+std::vector<FanResult> straight_fan(const BottomProfile& profile, const RayLink& link, int count,
+                                    int most_bounces) {
   std::vector<FanResult> found;
   const auto off = [&](double theta, StraightRay& ray) {
     ray = straight_ray(profile, link.source_depth_m, link.range_m, theta, most_bounces);
@@ -103,7 +105,8 @@ std::vector<FanResult> straight_fan(const BottomProfile& profile, const RayLink&
     const double b = -steepest + 2 * steepest * i / count, fb = off(b, next);
     if (before.arrived && next.arrived && before.history == next.history && (fa > 0) != (fb > 0)) {
       double low = a, high = b;
-      for (int k = 0; k < 60; ++k) ((off(0.5 * (low + high), middle) > 0) == (fa > 0) ? low : high) = 0.5 * (low + high);
+      for (int k = 0; k < 60; ++k)
+        ((off(0.5 * (low + high), middle) > 0) == (fa > 0) ? low : high) = 0.5 * (low + high);
       if (std::abs(off(low, middle)) < 1e-3 && middle.history == before.history) {
         found.push_back({middle.length / 1500, low, middle.surface, middle.bottom});
       }
@@ -124,32 +127,44 @@ class ProfileCompleteness : public ::testing::TestWithParam<Terrain> {};
 
 TEST_P(ProfileCompleteness, NoRayOfADenseFanIsMissingOverTheBottom) {
   const RaySea sea = sea_of({{0, 1500}}, GetParam().profile);
-  for (const RayLink link : {RayLink{20, 50, 2000}, RayLink{20, 60, 3000}, RayLink{60, 120, 4500}, RayLink{150, 30, 5000}}) {
+  for (const RayLink link :
+       {RayLink{20, 50, 2000}, RayLink{20, 60, 3000}, RayLink{60, 120, 4500}, RayLink{150, 30, 5000}}) {
     const Arrivals found = arrivals(sea, link, RaySolver::kArcs);
     std::vector<bool> used(found.paths.size());
     int most = 0;
-    for (const Arrival& path : found.paths) most = std::max(most, path.surface_bounces + path.bottom_bounces);
+    double loudest = 0;
+    for (const Arrival& path : found.paths) {
+      most = std::max(most, path.surface_bounces + path.bottom_bounces);
+      loudest = std::max(loudest, path.amplitude);
+    }
     for (const FanResult& ray : straight_fan(GetParam().profile, link, 20'000, most)) {
       // Rays too faint for the solver are no loss: trace again for the bounces' factor.
       TracedRay traced;
       TracedDetails details;
       const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
       ArcTracer(profiled, link).trace(ray.theta, traced, &details);
-      if (traced.factor < 0.005 * 1.01) continue;
-      const int index = find_path(found.paths, used, ray.delay_s, ray.theta, ray.surface, ray.bottom, tolerance(1e-7));
-      EXPECT_GE(index, 0) << GetParam().name << " at " << link.range_m << " m: missing " << ray.delay_s << " s, "
-                          << to_degrees(ray.theta) << " deg, " << ray.surface << "+" << ray.bottom;
+      // Where a bent facet would throw a grazing ray into itself the solver lets the facet's own slope reflect it.
+      if (std::abs(traced.z - link.receiver_depth_m) > 0.01) continue;
+      // Nor are rays 30 dB fainter than the loudest, as those spread at the very edge of a crest are.
+      const double tube = link.range_m * std::abs(traced.zeta_slope);
+      const double amplitude = traced.factor * std::cos(ray.theta) / std::sqrt(tube * std::cos(ray.theta));
+      if (traced.factor < 0.005 * 1.01 || amplitude < 0.03 * loudest) continue;
+      const int index =
+          find_path(found.paths, used, ray.delay_s, ray.theta, ray.surface, ray.bottom, tolerance(1e-7));
+      EXPECT_GE(index, 0) << GetParam().name << " at " << link.range_m << " m: missing " << ray.delay_s
+                          << " s, " << to_degrees(ray.theta) << " deg, " << ray.surface << "+" << ray.bottom;
       if (index >= 0) used[static_cast<std::size_t>(index)] = true;
     }
-    double loudest = 0;
-    for (const Arrival& path : found.paths) loudest = std::max(loudest, path.amplitude);
     for (std::size_t i = 0; i < used.size(); ++i) {
-      // A fan of 0.008 degrees misses pairs nearer than that: what it lacks has to lie in one.
+      // The fan misses what lies between two of its rays of different history, and pairs: what it lacks has to be so near
+      // to its neighbour's other side, or be a ray by the independent way as well.
       const Arrival& path = found.paths[i];
-      const auto close = std::count_if(found.paths.begin(), found.paths.end(), [&](const Arrival& other) {
-        return std::abs(other.launch_angle_rad - path.launch_angle_rad) < to_radians(0.03);
-      });
-      EXPECT_TRUE(used[i] || close > 1 || path.amplitude < 0.03 * loudest) << GetParam().name << " extra " << describe(path);
+      const StraightRay again =
+          straight_ray(GetParam().profile, link.source_depth_m, link.range_m, path.launch_angle_rad, most);
+      const bool is_ray = again.arrived && again.surface == path.surface_bounces &&
+                          again.bottom == path.bottom_bounces &&
+                          std::abs(again.length / 1500 - path.delay_s) < 1e-6;
+      EXPECT_TRUE(used[i] || is_ray) << GetParam().name << " extra " << describe(path);
     }
   }
 }
@@ -221,7 +236,8 @@ TEST(ProfileRays, AHillInTheWayCastsAShadow) {
 }
 
 TEST(ProfileRays, FollowedOverASeamountAreThoseOfANewSearch) {
-  for (const BottomProfile& profile : {sharp_ridge(), cosine_hill(50), BottomProfile({{0, 200}, {5000, 120}})}) {
+  for (const BottomProfile& profile :
+       {sharp_ridge(), cosine_hill(50), BottomProfile({{0, 200}, {5000, 120}})}) {
     const RaySea sea = sea_of({{0, 1520}, {50, 1490}, {200, 1492}}, profile);
     const Arrivals before = arrivals(sea, {20, 50, 2000});
     const RayLink moved{21, 48, 2003};
@@ -229,8 +245,8 @@ TEST(ProfileRays, FollowedOverASeamountAreThoseOfANewSearch) {
     std::vector<bool> used(now.paths.size());
     std::size_t same = 0;
     for (const Arrival& path : fresh.paths) {
-      same += find_path(now.paths, used, path.delay_s, path.launch_angle_rad, path.surface_bounces, path.bottom_bounces,
-                        1e-9) >= 0
+      same += find_path(now.paths, used, path.delay_s, path.launch_angle_rad, path.surface_bounces,
+                        path.bottom_bounces, 1e-9) >= 0
                   ? 1U
                   : 0U;
     }
@@ -249,7 +265,8 @@ TEST(BottomProfile, IsLinearBetweenPointsAndConstantBeyond) {
 
 TEST(BottomProfile, KeepsCornersAndLongSlopesAndBendsSamplesOfACurve) {
   const auto bent_facets = [](const BottomProfile& profile) {
-    return std::count_if(profile.facets().begin(), profile.facets().end(), [](const Facet& f) { return f.bent(); });
+    return std::count_if(profile.facets().begin(), profile.facets().end(),
+                         [](const Facet& f) { return f.bent(); });
   };
   EXPECT_EQ(bent_facets(sharp_ridge()), 0);
   EXPECT_EQ(bent_facets(BottomProfile({{0, 100}, {5000, 40}})), 0);
@@ -259,7 +276,8 @@ TEST(BottomProfile, KeepsCornersAndLongSlopesAndBendsSamplesOfACurve) {
 
 TEST(BottomProfile, SeenFromTheOtherEndIsTheSame) {
   const BottomProfile there = cosine_hill(50), back = there.reversed(3000);
-  for (double r = -100; r < 3200; r += 37) EXPECT_NEAR(there.depth_at(r), back.depth_at(3000 - r), tolerance(1e-9));
+  for (double r = -100; r < 3200; r += 37)
+    EXPECT_NEAR(there.depth_at(r), back.depth_at(3000 - r), tolerance(1e-9));
 }
 
 TEST(BottomProfile, RefusesRangesThatDoNotRise) {

@@ -27,14 +27,16 @@ inline double no_absorption(double) { return 0; }
 
 inline RaySea sea_of(std::vector<SpeedRow> knots, BottomProfile bottom,
                      const AbsorptionAtDepth& absorption = no_absorption) {
-  return {RayWater(std::move(knots), absorption), std::move(bottom), kReferenceBottom, kFlatSurface, RayOptions{}};
+  return {RayWater(std::move(knots), absorption), std::move(bottom), kReferenceBottom, kFlatSurface,
+          RayOptions{}};
 }
 
 inline RaySea reference_sea(const std::string& name) {
   if (name == "C1_thermocline") return sea_of({{0, 1520}, {50, 1490}, {100, 1490}}, BottomProfile::flat(100));
   if (name == "D1_upslope_iso") return sea_of({{0, 1500}}, BottomProfile({{0, 100}, {5000, 40}}));
   if (name == "D2_seamount_tri") {
-    return sea_of({{0, 1520}, {50, 1490}, {200, 1492}}, BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}}));
+    return sea_of({{0, 1520}, {50, 1490}, {200, 1492}},
+                  BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}}));
   }
   if (name == "B_pekeris_thorp") {
     return sea_of({{0, 1500}}, BottomProfile::flat(100), [](double) { return 6.121954 / 1.00019998; });
@@ -52,8 +54,9 @@ inline std::map<LinkKey, std::vector<testing::CsvRow>> reference_links(const std
 }
 
 inline std::string describe(const Arrival& path) {
-  return std::to_string(path.delay_s) + " s, launched at " + std::to_string(to_degrees(path.launch_angle_rad)) +
-         " deg, " + std::to_string(path.surface_bounces) + "+" + std::to_string(path.bottom_bounces) + " bounces, " +
+  return std::to_string(path.delay_s) + " s, launched at " +
+         std::to_string(to_degrees(path.launch_angle_rad)) + " deg, " + std::to_string(path.surface_bounces) +
+         "+" + std::to_string(path.bottom_bounces) + " bounces, " +
          std::to_string(20 * std::log10(path.amplitude)) + " dB";
 }
 
@@ -67,7 +70,8 @@ inline int find_path(const std::vector<Arrival>& paths, const std::vector<bool>&
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const Arrival& path = paths[i];
     const double off = std::abs(path.launch_angle_rad - launch_rad);
-    if (used[i] || path.surface_bounces != surface || path.bottom_bounces != bottom || off > nearest) continue;
+    if (used[i] || path.surface_bounces != surface || path.bottom_bounces != bottom || off > nearest)
+      continue;
     if (std::abs(path.delay_s - delay_s) > delay_tolerance_s) continue;
     best = static_cast<int>(i);
     nearest = off;

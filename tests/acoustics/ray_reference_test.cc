@@ -41,8 +41,9 @@ TEST_P(RayReference, EveryRowIsFoundAndNothingElse) {
     const Arrivals found = arrivals(sea, {source, receiver, range}, GetParam().solver);
     std::vector<bool> used(found.paths.size());
     for (const testing::CsvRow& row : rows) {
-      const int index = find_path(found.paths, used, row.number("delay_s"), to_radians(row.number("launch_angle_deg")),
-                                  static_cast<int>(row.number("n_surface")), static_cast<int>(row.number("n_bottom")), 1e-6);
+      const int index = find_path(
+          found.paths, used, row.number("delay_s"), to_radians(row.number("launch_angle_deg")),
+          static_cast<int>(row.number("n_surface")), static_cast<int>(row.number("n_bottom")), 1e-6);
       ASSERT_GE(index, 0) << "missing: line " << row.line();
       used[static_cast<std::size_t>(index)] = true;
       expect_row(row, found.paths[static_cast<std::size_t>(index)]);
@@ -51,28 +52,28 @@ TEST_P(RayReference, EveryRowIsFoundAndNothingElse) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Waters, RayReference,
-                         ::testing::Values(Case{"B_pekeris", RaySolver::kImages}, Case{"B_pekeris", RaySolver::kSnell},
-                                           Case{"B_pekeris", RaySolver::kArcs},
-                                           Case{"B_pekeris_thorp", RaySolver::kImages},
-                                           Case{"B_pekeris_thorp", RaySolver::kSnell},
-                                           Case{"B_pekeris_thorp", RaySolver::kArcs},
-                                           Case{"C1_thermocline", RaySolver::kSnell},
-                                           Case{"C1_thermocline", RaySolver::kArcs},
-                                           Case{"D1_upslope_iso", RaySolver::kArcs},
-                                           Case{"D2_seamount_tri", RaySolver::kArcs}),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(
+    Waters, RayReference,
+    ::testing::Values(Case{"B_pekeris", RaySolver::kImages}, Case{"B_pekeris", RaySolver::kSnell},
+                      Case{"B_pekeris", RaySolver::kArcs}, Case{"B_pekeris_thorp", RaySolver::kImages},
+                      Case{"B_pekeris_thorp", RaySolver::kSnell}, Case{"B_pekeris_thorp", RaySolver::kArcs},
+                      Case{"C1_thermocline", RaySolver::kSnell}, Case{"C1_thermocline", RaySolver::kArcs},
+                      Case{"D1_upslope_iso", RaySolver::kArcs}, Case{"D2_seamount_tri", RaySolver::kArcs}),
+    case_name);
 
 TEST(RayReference, LevelsAndSpreadsOfTheSummaryFollow) {
   for (const testing::CsvRow& row : testing::read_reference_csv("rays/summary.csv")) {
-    const Arrivals found = arrivals(reference_sea(row.text("case")), {row.number("src_depth_m"), row.number("rcv_depth_m"),
-                                                                      row.number("rcv_range_m")});
+    const Arrivals found =
+        arrivals(reference_sea(row.text("case")),
+                 {row.number("src_depth_m"), row.number("rcv_depth_m"), row.number("rcv_range_m")});
     const ReceivedField field = received_field(found);
     // The table has 6 digits of level and of delays.
     EXPECT_NEAR(-field.level.value, row.number("incoherent_tl_db"), tolerance(1e-4)) << "line " << row.line();
     EXPECT_NEAR(field.first_delay_s, row.number("first_delay_s"), tolerance(1e-10)) << "line " << row.line();
-    EXPECT_NEAR(field.mean_delay_s, row.number("energy_mean_delay_s"), tolerance(1e-8)) << "line " << row.line();
-    EXPECT_NEAR(field.delay_spread_s, row.number("rms_delay_spread_s"), tolerance(1e-6)) << "line " << row.line();
+    EXPECT_NEAR(field.mean_delay_s, row.number("energy_mean_delay_s"), tolerance(1e-8))
+        << "line " << row.line();
+    EXPECT_NEAR(field.delay_spread_s, row.number("rms_delay_spread_s"), tolerance(1e-6))
+        << "line " << row.line();
   }
 }
 

@@ -27,7 +27,8 @@ TEST(RayWater, ATableOfSpeedsIsTakenAsItIs) {
 
 TEST(RayWater, AFormulaIsSampledToTheToleranceAsked) {
   for (const auto& profile : {SoundSpeedProfile::munk({4, 35}), SoundSpeedProfile::global_mean()}) {
-    const RayWater coarse = RayWater::from_profile(profile, nothing, 0.1), fine = RayWater::from_profile(profile, nothing, 0.01);
+    const RayWater coarse = RayWater::from_profile(profile, nothing, 0.1),
+                   fine = RayWater::from_profile(profile, nothing, 0.01);
     EXPECT_LT(coarse.layers(), fine.layers());
     for (double z = 0; z < 3900; z += 7.3) {
       EXPECT_NEAR(fine.speed_at(z), profile.sound_speed_mps(z), tolerance(0.02)) << z;
@@ -58,14 +59,16 @@ TEST(Thinned, StaysWithinTheToleranceAtEveryKnotItDrops) {
   const std::vector<SpeedRow> few = thinned(knots, 0.1);
   EXPECT_LT(few.size(), 35U);
   const RayWater water(few, nothing);
-  for (const SpeedRow& knot : knots) EXPECT_NEAR(water.speed_at(knot.depth_m), knot.sound_speed_mps, tolerance(0.1000001));
+  for (const SpeedRow& knot : knots)
+    EXPECT_NEAR(water.speed_at(knot.depth_m), knot.sound_speed_mps, tolerance(0.1000001));
   EXPECT_EQ(thinned(knots, 0).size(), knots.size());
 }
 
 TEST(RayWater, OfAnEnvironmentHasItsAbsorption) {
   Environment environment;
   const RayWater water = ray_water(environment, 25e3);
-  EXPECT_NEAR(water.absorption_db_per_m(100) * 1000, absorption_spectrum_at(environment, 100).db_per_km(625), tolerance(1e-3));
+  EXPECT_NEAR(water.absorption_db_per_m(100) * 1000, absorption_spectrum_at(environment, 100).db_per_km(625),
+              tolerance(1e-3));
 }
 
 TEST(ArcMath, SeriesAndFunctionsMeet) {
