@@ -132,31 +132,33 @@ bool ArcTracer::find_hit(const State& s, const Step& step, double until, Hit& hi
   return false;
 }
 
+void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
+  const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
+  const double chord = std::hypot(dr, z - s.z);
+  const double length = chord * asin_over(s.xi * g * chord / 2);
+  details.delay_s += s.xi * dr / mix * atanh_over(s.xi * g * dr / mix);
+  details.length_m += length;
+  const double top = sea_.water.depths_m()[s.layer], height = sea_.water.depths_m()[s.layer + 1] - top;
+  const LayerAbsorption& layer = sea_.water.absorption()[s.layer];
+  const double u1 = (s.z - top) / height, u2 = (z - top) / height;
+  if (s.sine * sine >= 0) {
+    details.absorption_db +=
+        length * mean_absorption(restricted(layer, u1, u2), std::abs(s.sine), std::abs(sine));
+  } else {  // through a turn: two ways, of lengths as their sines
+    const double turn = (1 / s.xi - sea_.water.speeds_mps()[s.layer]) / g / height;
+    const double share = std::abs(s.sine) / (std::abs(s.sine) + std::abs(sine));
+    details.absorption_db +=
+        length * (share * mean_absorption(restricted(layer, u1, turn), std::abs(s.sine), 0) +
+                  (1 - share) * mean_absorption(restricted(layer, u2, turn), std::abs(sine), 0));
+  }
+}
+
 void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
   const double q = s.q + s.p * dr / s.xi;
   if (q * s.q < 0) ++ray.caustics;
   s.q = q;
   s.qx += s.px * dr / s.xi;
-  if (details != nullptr && dr > 0) {
-    const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
-    const double chord = std::hypot(dr, z - s.z);
-    const double length = chord * asin_over(s.xi * g * chord / 2);
-    details->delay_s += s.xi * dr / mix * atanh_over(s.xi * g * dr / mix);
-    details->length_m += length;
-    const double top = sea_.water.depths_m()[s.layer], height = sea_.water.depths_m()[s.layer + 1] - top;
-    const LayerAbsorption& layer = sea_.water.absorption()[s.layer];
-    const double u1 = (s.z - top) / height, u2 = (z - top) / height;
-    if (s.sine * sine >= 0) {
-      details->absorption_db +=
-          length * mean_absorption(restricted(layer, u1, u2), std::abs(s.sine), std::abs(sine));
-    } else {  // through a turn: two ways, of lengths as their sines
-      const double turn = (1 / s.xi - sea_.water.speeds_mps()[s.layer]) / g / height;
-      const double share = std::abs(s.sine) / (std::abs(s.sine) + std::abs(sine));
-      details->absorption_db +=
-          length * (share * mean_absorption(restricted(layer, u1, turn), std::abs(s.sine), 0) +
-                    (1 - share) * mean_absorption(restricted(layer, u2, turn), std::abs(sine), 0));
-    }
-  }
+  if (details != nullptr && dr > 0) add_details(s, dr, z, sine, *details);
   s.r += dr;
   s.z = z;
   s.sine = sine;
@@ -197,7 +199,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   const Facet& facet = sea_.profile.facets()[index];
   const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
   double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // of the slope that reflects
-  const double grazing_facet = st * sine * 0 + st * cosine - ct * sine;      // sin(angle - slope)
+  const double grazing_facet = st * cosine - ct * sine;                      // sin(angle - slope)
   if (facet.bent()) {
     const double share = (s.r - facet.r0) / (facet.r1 - facet.r0);
     const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = std::sin(turn),
@@ -255,65 +257,76 @@ void ArcTracer::arrive(const State& s, TracedRay& ray) const {
   ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kLeastCosine * kLeastCosine));
 }
 
-void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
+ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   ray.theta = theta;
   ray.arrived = false;
   ray.factor = 1;
   ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
   ray.events.clear();
   ray.events.reserve(kUsualEvents);
-  const double sine = std::sin(theta), cosine = std::cos(theta);
-  State s{0, source_depth_,     sine,          cosine / source_speed_, source_speed_, 0, 1 / source_speed_,
-          0, 1 / source_speed_, source_layer_, source_facet_};
+  const double sine = std::sin(theta), xi = std::cos(theta) / source_speed_, p = 1 / source_speed_;
+  State s{0, source_depth_, sine, xi, source_speed_, 0, p, 0, p, source_layer_, source_facet_};
   // At a knot the layer is the one into which the ray goes.
   const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);
   if (s.z == sea_.water.depths_m()[s.layer] && rises) --s.layer;
-  const double g_limit = sea_.profile.shallowest_m();
-  for (int steps = 0; steps < kMostSteps; ++steps) {
+  return s;
+}
+
+void ArcTracer::note_turn(bool lower, TracedRay& ray) {
+  ray.events.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
+  ++(lower ? ray.lower_turns : ray.upper_turns);
+}
+
+void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const {
+  const double sine = s.sine - s.xi * sea_.water.gradients_per_s()[s.layer] * dr;
+  const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) / s.xi;
+  if (s.sine * sine < 0) note_turn(s.sine > 0, ray);
+  go(s, dr, s.z + dr * (s.sine + sine) / (s.xi * (s.c + c)), sine, ray, details);
+  s.c = c;
+}
+
+bool ArcTracer::go_to_bottom(State& s, const Hit& hit, TracedRay& ray, TracedDetails* details) const {
+  go_part(s, hit.dr, ray, details);
+  const Facet& facet = sea_.profile.facets()[hit.facet];
+  s.z = facet.z0 + facet.slope * (s.r - facet.r0);
+  s.c = sea_.water.speeds_mps()[s.layer] +
+        sea_.water.gradients_per_s()[s.layer] * (s.z - sea_.water.depths_m()[s.layer]);
+  return meet_bottom(s, hit.facet, ray, details);
+}
+
+bool ArcTracer::go_to_knot(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const {
+  if (step.turns) note_turn(step.down, ray);
+  go(s, step.dr, step.z, step.sine, ray, details);
+  while (sea_.profile.facets()[s.facet].r1 < s.r) ++s.facet;
+  if (step.turns) return true;
+  if (!step.down && s.layer == 0) return meet_surface(s, ray, details);
+  cross_knot(s, step.down);
+  return true;
+}
+
+bool ArcTracer::is_excluded(const TracedRay& ray) const {
+  const int bounces = ray.surface_bounces + ray.bottom_bounces;
+  return bounces > sea_.options.max_bounces ||
+         (bounces > 0 && std::abs(ray.theta) > sea_.options.max_launch_angle_rad);
+}
+
+void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
+  State s = start(theta, ray);
+  const double shallowest = sea_.profile.shallowest_m();
+  for (int steps = 0; steps < kMostSteps && !is_excluded(ray); ++steps) {
     const Step step = next_step(s);
-    const double left = range_ - s.r, until = std::min(step.dr, left);
+    const double left = range_ - s.r;
+    const bool near_bottom = sea_.water.depths_m()[s.layer + 1] > shallowest;
     Hit hit;
-    const double g = sea_.water.gradients_per_s()[s.layer];
-    const double lowest = sea_.water.depths_m()[s.layer + 1];
-    const auto part = [&](double dr) {  // to a point within the step
-      const double sine2 = s.sine - s.xi * g * dr;
-      const double c2 = std::sqrt(std::max(1 - sine2 * sine2, 0.0)) / s.xi;
-      if (s.sine * sine2 < 0) {
-        const bool lower = s.sine > 0;
-        ray.events.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
-        ++(lower ? ray.lower_turns : ray.upper_turns);
-      }
-      const double z2 = s.z + dr * (s.sine + sine2) / (s.xi * (s.c + c2));
-      go(s, dr, z2, sine2, ray, details);
-      s.c = c2;
-    };
-    if (lowest > g_limit && find_hit(s, step, until, hit)) {
-      part(hit.dr);
-      const Facet& facet = sea_.profile.facets()[hit.facet];
-      s.z = facet.z0 + facet.slope * (s.r - facet.r0);
-      s.c = sea_.water.speeds_mps()[s.layer] + g * (s.z - sea_.water.depths_m()[s.layer]);
-      if (!meet_bottom(s, hit.facet, ray, details)) return;
+    if (near_bottom && find_hit(s, step, std::min(step.dr, left), hit)) {
+      if (!go_to_bottom(s, hit, ray, details)) return;
     } else if (step.dr >= left) {
-      part(left);
+      go_part(s, left, ray, details);
       arrive(s, ray);
       return;
-    } else {
-      if (step.turns) {
-        ray.events.push_back({step.down ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
-        ++(step.down ? ray.lower_turns : ray.upper_turns);
-      }
-      go(s, step.dr, step.z, step.sine, ray, details);
-      while (sea_.profile.facets()[s.facet].r1 < s.r) ++s.facet;
-      if (step.turns) continue;
-      if (!step.down && s.layer == 0) {
-        if (!meet_surface(s, ray, details)) return;
-      } else {
-        cross_knot(s, step.down);
-      }
-    }
-    if (ray.surface_bounces + ray.bottom_bounces > sea_.options.max_bounces) return;
-    if (ray.surface_bounces + ray.bottom_bounces > 0 && std::abs(theta) > sea_.options.max_launch_angle_rad)
+    } else if (!go_to_knot(s, step, ray, details)) {
       return;
+    }
   }
 }
 

@@ -83,10 +83,18 @@ class ArcTracer {
     std::size_t facet;
   };
   struct Step;
+  State start(double theta, TracedRay& ray) const;
   Step next_step(const State& s) const;
   bool find_hit(const State& s, const Step& step, double until, Hit& hit) const;
   bool solve_facet(const State& s, std::size_t facet, double until, double& dr) const;
   void go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const;
+  void add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const;
+  static void note_turn(bool lower, TracedRay& ray);
+  // To a point within a step, to the bottom, to the end of a step; false when the ray is given up there.
+  void go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const;
+  bool go_to_bottom(State& s, const Hit& hit, TracedRay& ray, TracedDetails* details) const;
+  bool go_to_knot(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const;
+  bool is_excluded(const TracedRay& ray) const;
   void cross_knot(State& s, bool down) const;
   bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
   bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;

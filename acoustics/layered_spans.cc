@@ -71,6 +71,8 @@ bool LayeredSpans::advance() {
 }
 
 bool LayeredSpans::seek(double xi) {
+  const double beyond = next_barrier_mps();
+  if (xi * barrier_ < 1 && (beyond <= 0 || xi * beyond >= 1)) return true;  // there already
   if (!(xi * first_barrier_ < 1)) return false;
   barrier_ = first_barrier_;
   up_reach_ = down_reach_ = 0;
