@@ -1,15 +1,16 @@
-// Closed forms for one ray within one layer of constant gradient, written so that they hold for every gradient
-// (zero among them) and every angle (vertical among them).
+// Closed forms for one ray within one layer of constant gradient, written so that they hold for every
+// gradient (zero among them) and every angle (vertical among them).
 //
-// A ray of Snell's invariant xi = cos(angle)/c goes from speed c1 to speed c2 over a thickness h without turning,
-// sines s1, s2 of its angles. With g = (c2 - c1)/h:
+// A ray of Snell's invariant xi = cos(angle)/c goes from speed c1 to speed c2 over a thickness h without
+// turning, sines s1, s2 of its angles. With g = (c2 - c1)/h:
 //   range    r   = h xi (c1 + c2) / (s1 + s2)
 //   dr/dxi       = r / (xi s1 s2)
 //   time     tau = ln(1 + y) / g,  y = g h K,  K = [1 + s1 + c1 xi^2 (c1 + c2)/(s1 + s2)] / (c1 (1 + s2))
 //   length   L   = asin(v) / (xi g),  v = xi g h (c1 + c2)/(s1 c2 + s2 c1)
-// which follow from s1 - s2 = xi^2 g h (c1 + c2)/(s1 + s2). Along the arc sines change evenly with length (to first
-// order in (c2 - c1)/c), so the mean over the path of the share u of the thickness is (1 + p)/3, that of u^2 is
-// (2 p^2 + 3 p + 3)/15, p = s1/(s1 + s2): from straight (1/2, 1/3) to turning at the end (2/3, 8/15).
+// which follow from s1 - s2 = xi^2 g h (c1 + c2)/(s1 + s2). Along the arc sines change evenly with length (to
+// first order in (c2 - c1)/c), so the mean over the path of the share u of the thickness is (1 + p)/3, that
+// of u^2 is (2 p^2 + 3 p + 3)/15, p = s1/(s1 + s2): from straight (1/2, 1/3) to turning at the end (2/3,
+// 8/15).
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,8 @@
 
 namespace halocline::acoustics {
 
-// ln(1 + y) / y for y > -1, to 1e-14; 1 at 0. Near 0 by the series of 2 atanh(y / (2 + y)), else by the logarithm.
+// ln(1 + y) / y for y > -1, to 1e-14; 1 at 0. Near 0 by the series of 2 atanh(y / (2 + y)), else by the
+// logarithm.
 inline double log1p_over(double y) {
   if (std::abs(y) > 0.1) return std::log1p(y) / y;
   const double z = y / (2 + y), z2 = z * z;  // |z| < 0.053: the next term is below 1e-14

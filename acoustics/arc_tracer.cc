@@ -205,7 +205,8 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
     const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = std::sin(turn),
                  tc = std::cos(turn);
     const double bent_sine = sine * tc + cosine * ts, bent_cosine = cosine * tc - sine * ts;
-    // Where the bent slope would throw the ray into the facet, or did not meet it at all, the facet's own reflects.
+    // Where the bent slope would throw the ray into the facet, or did not meet it at all, the facet's own
+    // reflects.
     const double grazing = st * bent_cosine - ct * bent_sine;
     const double leaving =
         grazing * tc - (ct * bent_cosine + st * bent_sine) * ts;  // sin(angle - 2 bent + own)

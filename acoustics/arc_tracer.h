@@ -1,18 +1,23 @@
-// Follows one ray through layered water over a bottom that changes with range, arc by arc, without step error.
+// Follows one ray through layered water over a bottom that changes with range, arc by arc, without step
+// error.
 //
-// Model: within a layer of gradient g the sine s of the ray's angle falls evenly with range, ds/dr = -xi g, and depth
-// follows from z2 - z1 = (r2 - r1)(s1 + s2) / (xi (c1 + c2)); the meeting with a straight piece of bottom is the root of
-// a quadratic. xi = cos(angle)/c changes at sloping bottom only. The ray tube: q, how far the neighbouring ray of
-// launch angle 1 rad more is off, across the ray, and p, its change of direction over c (Cerveny; Jensen and others
-// 2011, section 3.3):
-//   q grows by p dr / xi within a layer; at a knot p loses q xi^2 (g2 - g1) / sin; at the surface 2 q xi^2 g / sin;
-//   at the bottom it gains q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle and k the bend of the bottom.
+// Model: within a layer of gradient g the sine s of the ray's angle falls evenly with range, ds/dr = -xi g,
+// and depth follows from z2 - z1 = (r2 - r1)(s1 + s2) / (xi (c1 + c2)); the meeting with a straight piece of
+// bottom is the root of a quadratic. xi = cos(angle)/c changes at sloping bottom only. The ray tube: q, how
+// far the neighbouring ray of launch angle 1 rad more is off, across the ray, and p, its change of direction
+// over c (Cerveny; Jensen and others 2011, section 3.3):
+//   q grows by p dr / xi within a layer; at a knot p loses q xi^2 (g2 - g1) / sin; at the surface 2 q xi^2 g
+//   / sin;
+//   at the bottom it gains q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle and k the bend of
+//   the bottom.
 // Each change of q's sign is a caustic. Depth is unfolded, so that it does not jump where a bounce passes the
-// receiver: zeta = o z + 2 H k, H the depth at the receiver, o flips at each bounce, k grows by o at the bottom.
+// receiver: zeta = o z + 2 H k, H the depth at the receiver, o flips at each bounce, k grows by o at the
+// bottom.
 //
-// Immutable between calls of trace, which may overlap between threads. Left out: rays that turn back; the bottom's slope
-// across the link, so tubes widen across the plane as over a bottom that is the same all around the source (which makes
-// amplitudes over slopes differ from those of the swapped link by the ratio of xi at both ends).
+// Immutable between calls of trace, which may overlap between threads. Left out: rays that turn back; the
+// bottom's slope across the link, so tubes widen across the plane as over a bottom that is the same all
+// around the source (which makes amplitudes over slopes differ from those of the swapped link by the ratio of
+// xi at both ends).
 #pragma once
 
 #include <cstdint>
@@ -65,8 +70,9 @@ class ArcTracer {
   // Link as RayLink; depths are moved a micrometre off the boundaries.
   ArcTracer(const ProfiledSea& sea, const RayLink& link);
 
-  // Follows the ray of `theta` to the receiver's range into `ray` (whose buffers are used again). Rays that bounces
-  // leave less than a quarter of the least factor are given up. With `details`, all sums are taken, and exactly.
+  // Follows the ray of `theta` to the receiver's range into `ray` (whose buffers are used again). Rays that
+  // bounces leave less than a quarter of the least factor are given up. With `details`, all sums are taken,
+  // and exactly.
   void trace(double theta, TracedRay& ray, TracedDetails* details = nullptr) const;
 
   double source_depth_m() const { return source_depth_; }

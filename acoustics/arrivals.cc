@@ -82,7 +82,8 @@ void number_branches(const std::vector<Key>& keys, std::vector<Arrival>& paths) 
   }
 }
 
-// Whether two paths that were lost are the two sides of one fold, which end together as the receiver leaves them.
+// Whether two paths that were lost are the two sides of one fold, which end together as the receiver leaves
+// them.
 bool were_one_fold(const Arrival& a, const Arrival& b) {
   constexpr double kFoldWidth = 0.02;  // rad
   return a.surface_bounces == b.surface_bounces && a.bottom_bounces == b.bottom_bounces &&

@@ -1,9 +1,10 @@
 // One path of sound from a source to a receiver, and what all ray solvers agree on about paths.
 //
-// Conventions: depth is positive down from the flat mean surface, m; angles are from the horizontal, positive down,
-// rad: a launch angle is the direction in which the ray leaves, an arrival angle the one in which it travels on when
-// it meets the receiver. Amplitude is pressure relative to that at 1 m in free water, of the spreading of the ray
-// tube and of reflections, without absorption (which depends most on frequency and is given beside it).
+// Conventions: depth is positive down from the flat mean surface, m; angles are from the horizontal, positive
+// down, rad: a launch angle is the direction in which the ray leaves, an arrival angle the one in which it
+// travels on when it meets the receiver. Amplitude is pressure relative to that at 1 m in free water, of the
+// spreading of the ray tube and of reflections, without absorption (which depends most on frequency and is
+// given beside it).
 #pragma once
 
 #include <compare>
@@ -15,8 +16,8 @@
 
 namespace halocline::acoustics {
 
-// What a path is, as long as its ends move only little: the same from step to step, so that delay and Doppler of a
-// path can be followed. Two paths of one link never have the same identity.
+// What a path is, as long as its ends move only little: the same from step to step, so that delay and Doppler
+// of a path can be followed. Two paths of one link never have the same identity.
 struct PathIdentity {
   bool launched_up = false;
   int surface_bounces = 0, bottom_bounces = 0;
@@ -64,8 +65,8 @@ struct Arrivals {
 // What to look for. The defaults keep what can matter to a modem.
 struct RayOptions {
   double frequency_hz = 25'000;  // for absorption and reflection, 10..1e6
-  // Paths that bounce are followed when launched within this of the horizontal, (0, pi/2]. Those that do not bounce
-  // are found at every angle.
+  // Paths that bounce are followed when launched within this of the horizontal, (0, pi/2]. Those that do not
+  // bounce are found at every angle.
   double max_launch_angle_rad = to_radians(80);
   int max_bounces = 400;               // surface and bottom together, 0..10 000
   double min_boundary_factor = 0.005;  // paths whose bounces leave less of the pressure are dropped, [0, 1)
@@ -92,13 +93,13 @@ using FollowOne = std::function<bool(const Arrival& before, std::vector<Arrival>
 FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
                          const FollowOne& follow_one);
 
-// Whether a path that was followed is the one it was before: as many bounces and caustics, launched to the same side, and
-// not one that another path has come to already (all but the last of `paths`).
+// Whether a path that was followed is the one it was before: as many bounces and caustics, launched to the
+// same side, and not one that another path has come to already (all but the last of `paths`).
 bool is_followed(const std::vector<Arrival>& paths, const Arrival& before);
 
-// Last touches common to the solvers: drops what the options exclude, merges folds (paths alike, launched within 0.02
-// degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the carrier), sorts by delay,
-// numbers branches.
+// Last touches common to the solvers: drops what the options exclude, merges folds (paths alike, launched
+// within 0.02 degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the
+// carrier), sorts by delay, numbers branches.
 void finish(std::vector<Arrival>& paths, const RayOptions& options);
 
 }  // namespace halocline::acoustics

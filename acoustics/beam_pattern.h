@@ -1,8 +1,9 @@
 // How much of its sound a transducer sends or hears in each direction of the vertical plane.
 //
-// Model: a table of loss against elevation, linear in decibels between rows, constant beyond the ends; no table is
-// omnidirectional. Elevation is the angle from the horizontal, positive down (as launch angles are); the pattern is the
-// same all around the vertical. Left out: bearing, the tilt of the vehicle (the caller may turn the angles).
+// Model: a table of loss against elevation, linear in decibels between rows, constant beyond the ends; no
+// table is omnidirectional. Elevation is the angle from the horizontal, positive down (as launch angles are);
+// the pattern is the same all around the vertical. Left out: bearing, the tilt of the vehicle (the caller may
+// turn the angles).
 #pragma once
 
 #include <vector>

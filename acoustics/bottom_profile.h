@@ -1,14 +1,15 @@
 // The bottom along the vertical plane of a link, as rays meet it.
 //
-// Model: depth is linear between given points and constant before the first and after the last. A bottom given by many
-// points of a smooth one makes false and missing rays at its corners. So where two facets turn by no more than the
-// crease angle, and neither is longer than twice the depth there (longer ones are slopes that are meant, not samples of
-// a curve), the direction in which rays are reflected is the mean of both at the common point and goes evenly from
-// point to point, as unit normals of a curved bottom do; its change along the facet focuses or spreads the ray tube. At
-// any other corner each facet keeps its own slope. A crease angle of 0 makes all corners sharp.
+// Model: depth is linear between given points and constant before the first and after the last. A bottom
+// given by many points of a smooth one makes false and missing rays at its corners. So where two facets turn
+// by no more than the crease angle, and neither is longer than twice the depth there (longer ones are slopes
+// that are meant, not samples of a curve), the direction in which rays are reflected is the mean of both at
+// the common point and goes evenly from point to point, as unit normals of a curved bottom do; its change
+// along the facet focuses or spreads the ray tube. At any other corner each facet keeps its own slope. A
+// crease angle of 0 makes all corners sharp.
 //
-// Immutable: calls may overlap between threads. Ranges are from the source, m, rising; depths below the surface, m.
-// Left out: slopes across the link, which turn rays out of its plane.
+// Immutable: calls may overlap between threads. Ranges are from the source, m, rising; depths below the
+// surface, m. Left out: slopes across the link, which turn rays out of its plane.
 #pragma once
 
 #include <cstddef>

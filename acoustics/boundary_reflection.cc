@@ -18,8 +18,8 @@ struct NamedSediment {
   double density_ratio, sound_speed_ratio, loss_parameter;
 };
 
-// APL-UW TR 9407, table 2. Where its print and its own polynomials disagree (speed of sandy gravel, density of very
-// coarse sand) the polynomials stand. Rock and pebbles: commonly quoted, from one source.
+// APL-UW TR 9407, table 2. Where its print and its own polynomials disagree (speed of sandy gravel, density
+// of very coarse sand) the polynomials stand. Rock and pebbles: commonly quoted, from one source.
 constexpr std::array<NamedSediment, 22> kSediments = {{
     {"Rock", 2.5, 2.5, 0.01374},
     {"Pebbles", 2.5, 1.8, 0.01374},
@@ -82,7 +82,8 @@ Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps
   const double ratio =
       bottom.sound_speed_ratio > 0 ? bottom.sound_speed_ratio : bottom.sound_speed_mps / water_speed_mps;
   const double delta = bottom.loss_parameter, speed_term = 1 + delta * delta;
-  // n^2 = (1 + i delta)^2 / ratio^2, or 1 / (ratio (1 - i delta))^2 = (1 + i delta)^2 / (ratio (1 + delta^2))^2
+  // n^2 = (1 + i delta)^2 / ratio^2, or 1 / (ratio (1 - i delta))^2 = (1 + i delta)^2 / (ratio (1 +
+  // delta^2))^2
   const double real = bottom.loss == BottomLoss::kComplexSpeed ? ratio * speed_term : ratio;
   const double n2 = 1 / (real * real);
   const Root below = root_of(n2 * (1 - delta * delta) - (1 - sine * sine), 2 * delta * n2);

@@ -1,17 +1,17 @@
 // What the bottom and the surface do to a ray that meets them: loss and turn of phase at one bounce.
 //
-// Bottom: Rayleigh reflection of a plane wave at a fluid half-space (Jensen, Kuperman, Porter and Schmidt 2011,
-// equation 1.60), with m the density ratio, n the index of refraction and G the grazing angle:
+// Bottom: Rayleigh reflection of a plane wave at a fluid half-space (Jensen, Kuperman, Porter and Schmidt
+// 2011, equation 1.60), with m the density ratio, n the index of refraction and G the grazing angle:
 //   V = (m sin G - sqrt(n^2 - cos^2 G)) / (m sin G + sqrt(n^2 - cos^2 G)).
-// Two conventions for a lossy bottom are in use and differ in second order, which is 0.02 dB a bounce near the
-// critical angle: a complex wave number, n = (1 + i delta) c_water / c_bottom (APL-UW TR 9407), or a complex speed,
-// n = c_water / (c_bottom (1 - i delta)) (ray and mode programs). delta is the attenuation in dB per wavelength over
-// 40 pi log10(e) = 54.575. Sediments by name are those of TR 9407 (1994), table 2, with ratios to the water just
-// above. A phase given out here turns an arrival the way a delay that shrinks does: V = |V| e^(-i phase). Left out:
-// shear, layers, roughness and volume scattering of the bottom.
+// Two conventions for a lossy bottom are in use and differ in second order, which is 0.02 dB a bounce near
+// the critical angle: a complex wave number, n = (1 + i delta) c_water / c_bottom (APL-UW TR 9407), or a
+// complex speed, n = c_water / (c_bottom (1 - i delta)) (ray and mode programs). delta is the attenuation in
+// dB per wavelength over 40 pi log10(e) = 54.575. Sediments by name are those of TR 9407 (1994), table 2,
+// with ratios to the water just above. A phase given out here turns an arrival the way a delay that shrinks
+// does: V = |V| e^(-i phase). Left out: shear, layers, roughness and volume scattering of the bottom.
 //
-// Surface: pressure release (V = -1), less by wind in one of four published forms. Left out: the spread in time and
-// frequency that a moving surface makes.
+// Surface: pressure release (V = -1), less by wind in one of four published forms. Left out: the spread in
+// time and frequency that a moving surface makes.
 //
 //   const FluidBottom sand = sediment("MediumSand").value();
 //   const double lost_db = bottom_reflection(sand, to_radians(15), 1500).loss_db();
@@ -67,13 +67,14 @@ double bottom_magnitude_at_sine(const FluidBottom& bottom, double sine, double w
 
 enum class SurfaceModel {
   kFlat,  // no loss
-  // APL-UW TR 9407, part II: absorption by the wind's bubbles, 1.26e-3 w^1.57 f^0.85 / sin G dB above 6 m/s, falling
-  // by e^(1.2 (w - 6)) below; f in kHz. 10..100 kHz. No loss without wind: the default.
+  // APL-UW TR 9407, part II: absorption by the wind's bubbles, 1.26e-3 w^1.57 f^0.85 / sin G dB above 6 m/s,
+  // falling by e^(1.2 (w - 6)) below; f in kHz. 10..100 kHz. No loss without wind: the default.
   kAplBubbles,
-  // Eckart 1953: the coherent part that a Gaussian surface leaves, e^(-Gamma^2 / 2), Gamma = 2 k h sin G, with the
-  // rms height of Pierson and Moskowitz, h = 0.22 w^2 / (4 g), and k at 1500 m/s.
+  // Eckart 1953: the coherent part that a Gaussian surface leaves, e^(-Gamma^2 / 2), Gamma = 2 k h sin G,
+  // with the rms height of Pierson and Moskowitz, h = 0.22 w^2 / (4 g), and k at 1500 m/s.
   kEckart,
-  // Coates 1988, from Beckmann and Spizzichino: wind inside in knots. 3.4 dB and more at steep angles without wind.
+  // Coates 1988, from Beckmann and Spizzichino: wind inside in knots. 3.4 dB and more at steep angles without
+  // wind.
   kCoates,
   // Jones, Duncan and others 2009 (Proceedings of Acoustics, Adelaide), from Beckmann and Spizzichino.
   kJones,

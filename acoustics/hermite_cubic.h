@@ -1,5 +1,5 @@
-// The cubic through values and slopes at both ends of an interval: predicts a function within a cell of a table, where
-// it turns, and where it passes a value.
+// The cubic through values and slopes at both ends of an interval: predicts a function within a cell of a
+// table, where it turns, and where it passes a value.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ class HermiteCubic {
   double operator()(double t) const { return a_ + t * (b_ + t * (c_ + t * d_)); }
   double slope(double t) const { return b_ + t * (2 * c_ + t * 3 * d_); }
 
-  // How far the function is from it at t = 1/2, by value and by slope: the larger of the error of the value and of what
-  // the error of the slope would make over an eighth of the width `h`.
+  // How far the function is from it at t = 1/2, by value and by slope: the larger of the error of the value
+  // and of what the error of the slope would make over an eighth of the width `h`.
   double error_at_middle(double value, double slope_there, double h) const {
     return std::max(std::abs((*this)(0.5) - value), std::abs(slope(0.5) - slope_there * h) / 8);
   }

@@ -106,8 +106,8 @@ bool ImageSum::add(const Image& image) {
   const Reflection one = bottom > 0 ? bottom_reflection_at_sine(sea_.bottom, sine, speed_) : Reflection{};
   double factor = power(one.magnitude, bottom);
   if (factor < options.min_boundary_factor) {
-    // Steeper ones have more bounces; the coefficient has one least value at most, so the rest is fainter unless the
-    // steepest of all comes back up.
+    // Steeper ones have more bounces; the coefficient has one least value at most, so the rest is fainter
+    // unless the steepest of all comes back up.
     return power(std::max(one.magnitude, steepest_factor_), bottom) >= options.min_boundary_factor;
   }
   const double angle = std::atan2(image.drop_m, range_);

@@ -16,8 +16,8 @@ struct Pace {
 constexpr Pace kPaces[] = {{1, 10}, {0.3, 40}};
 constexpr double kRangeTolerance = 1e-4;  // m before the last step, as in the search
 
-// Family and cycles of a path: how often it ran U and D follows from its bounces and turns, and where those are equal
-// from the way it left.
+// Family and cycles of a path: how often it ran U and D follows from its bounces and turns, and where those
+// are equal from the way it left.
 LayeredRay ray_of(const LayeredLink& link, const PathIdentity& id) {
   const int above = id.surface_bounces + id.upper_turns, below = id.bottom_bounces + id.lower_turns;
   Family family{above > below, below > above};
@@ -25,7 +25,8 @@ LayeredRay ray_of(const LayeredLink& link, const PathIdentity& id) {
   return {family, above - (family.up ? 1 : 0), 0, 1};
 }
 
-// Newton's method in the angle at the barrier, which changes as the ray passes knots. False when it does not settle.
+// Newton's method in the angle at the barrier, which changes as the ray passes knots. False when it does not
+// settle.
 bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, Pace pace, LayeredRay& ray) {
   bool last = false;
   for (int i = 0; i < pace.most_steps; ++i) {

@@ -11,8 +11,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Ends are kept this far from the boundaries, so that the ray that meets a boundary at the very receiver has a
-// direction before and after: 1e-9 s of delay.
+// Ends are kept this far from the boundaries, so that the ray that meets a boundary at the very receiver has
+// a direction before and after: 1e-9 s of delay.
 constexpr double kOffBoundary = 1e-6;  // m
 
 struct Bounces {

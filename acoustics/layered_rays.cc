@@ -67,8 +67,8 @@ class Search {
   bool is_clear(const Node& a, const Node& b) const;
   void solve_cell(const Node& a, const Node& b);
   void solve_family(const Node& a, const Node& b, std::size_t family);
-  // Rays between two nodes between which f is monotone; `fold_theta` is the angle of a turn of f at one of them, or
-  // negative.
+  // Rays between two nodes between which f is monotone; `fold_theta` is the angle of a turn of f at one of
+  // them, or negative.
   void solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta);
   void polish(const Bracket& bracket, std::size_t family, int cycles, double fold_theta);
   bool too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const;
@@ -168,7 +168,8 @@ void Search::refine(const Node& a, const Node& b, int depth) {
   }
 }
 
-// No ray of any family between two nodes, by far: neither slope could bring f to a whole number within the cell.
+// No ray of any family between two nodes, by far: neither slope could bring f to a whole number within the
+// cell.
 bool Search::is_clear(const Node& a, const Node& b) const {
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
     const double change =

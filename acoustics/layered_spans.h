@@ -1,13 +1,14 @@
 // The three one-way stretches of which every ray between two depths over a flat bottom is made.
 //
-// In water that depends on depth alone, a ray keeps xi = cos(angle)/c. Split at both ends, its way is made of U (upper
-// end up to the upper turn or the surface), S (upper to lower end) and D (lower end down to the lower turn or the
-// bottom): with n whole cycles, 2 (n + u) U + (2 n + 1) S + 2 (n + d) D, where u and d are 0 or 1 and say which way
-// the ray leaves and comes in. Range and its derivative of each stretch are sums over layers of the closed forms of
-// acoustics/arc_math.h.
+// In water that depends on depth alone, a ray keeps xi = cos(angle)/c. Split at both ends, its way is made of
+// U (upper end up to the upper turn or the surface), S (upper to lower end) and D (lower end down to the
+// lower turn or the bottom): with n whole cycles, 2 (n + u) U + (2 n + 1) S + 2 (n + d) D, where u and d are
+// 0 or 1 and say which way the ray leaves and comes in. Range and its derivative of each stretch are sums
+// over layers of the closed forms of acoustics/arc_math.h.
 //
-// Rays are addressed by their angle at a reference depth whose speed c* is the greatest that they have passed (a
-// "barrier"): 1 - xi^2 c^2 = ((c* - c)(c* + c) + c^2 sin^2) / c*^2 then keeps its precision down to grazing.
+// Rays are addressed by their angle at a reference depth whose speed c* is the greatest that they have passed
+// (a "barrier"): 1 - xi^2 c^2 = ((c* - c)(c* + c) + c^2 sin^2) / c*^2 then keeps its precision down to
+// grazing.
 #pragma once
 
 #include <array>
@@ -39,15 +40,15 @@ class LayeredSpans {
   // Depths 0 <= upper_m <= lower_m <= bottom_m.
   LayeredSpans(const RayWater& water, double upper_m, double lower_m, double bottom_m);
 
-  // Rays that pass the barrier just, and those up to the next one: [0, theta_end] at speed barrier_mps(). Starts with
-  // the steepest speed between the ends, which all rays that reach both have to pass.
+  // Rays that pass the barrier just, and those up to the next one: [0, theta_end] at speed barrier_mps().
+  // Starts with the steepest speed between the ends, which all rays that reach both have to pass.
   double barrier_mps() const { return barrier_; }
   // The speed at which rays meet the next barrier, m/s; 0 when surface and bottom are all that is left.
   double next_barrier_mps() const;
   // Moves on to it; false when there is none.
   bool advance();
-  // Back to the first barrier and on to the one that rays of invariant `xi` passed last; false when they do not reach
-  // from one end to the other.
+  // Back to the first barrier and on to the one that rays of invariant `xi` passed last; false when they do
+  // not reach from one end to the other.
   bool seek(double xi);
 
   bool meets_surface() const { return up_reach_ == up_.size(); }

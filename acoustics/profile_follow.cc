@@ -24,7 +24,8 @@ struct Settled {
 Settled settle(const ArcTracer& tracer, const Arrival& before, Pace pace, TracedRay& ray) {
   const double sign = (before.surface_bounces + before.bottom_bounces) % 2 == 0 ? 1 : -1;
   const double image = sign * tracer.receiver_depth_m(), period = 2 * tracer.bottom_at_receiver_m();
-  // With the same invariant of Snell as before: what grazed a layer still does when the source has changed depth.
+  // With the same invariant of Snell as before: what grazed a layer still does when the source has changed
+  // depth.
   const double cosine = before.launch_slowness_spm * tracer.source_speed_mps();
   const double start =
       cosine < 1 ? std::copysign(std::acos(cosine), before.launch_angle_rad) : before.launch_angle_rad;

@@ -16,8 +16,8 @@ constexpr double kBesideGrazing = 1e-9;  // rad
 // (see acoustics/layered_rays.h: omega |r'|^3 / r''^2 = 0.555^3 / 4).
 constexpr double kPeakPhase = 2.0 / 3 * 0.555 * 0.555 * 0.555 / 4;
 
-// Least |q| of a ray `off_fold` from a fold: zeta = zeta_e + zeta'' off^2 / 2 there, the two rays differ in time by
-// (2/3) p cos zeta'' off^3.
+// Least |q| of a ray `off_fold` from a fold: zeta = zeta_e + zeta'' off^2 / 2 there, the two rays differ in
+// time by (2/3) p cos zeta'' off^3.
 double least_tube(const TracedRay& ray, double off_fold, double frequency_hz) {
   if (off_fold == 0) return 0;
   const double cosine = std::sqrt(1 - ray.sine * ray.sine);

@@ -12,14 +12,15 @@ namespace halocline::acoustics {
 
 inline constexpr double kNoFold = 10;  // rad: no launch angle
 
-// Traces the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of unfolded depth,
-// and appends its arrival unless the options exclude it. `fold_theta` is the launch angle of a fold beside it, or
-// kNoFold.
+// Traces the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of
+// unfolded depth, and appends its arrival unless the options exclude it. `fold_theta` is the launch angle of
+// a fold beside it, or kNoFold.
 void append_profile_arrival(const ArcTracer& tracer, double theta, double fold_theta, double target,
                             std::vector<Arrival>& paths);
 
-// Launch angles above -steepest and up to `steepest`, rising, rad: close near the horizontal, where rays are many and
-// far apart in range; and just on both sides of the angles at which rays graze a knot of the water on their first leg.
+// Launch angles above -steepest and up to `steepest`, rising, rad: close near the horizontal, where rays are
+// many and far apart in range; and just on both sides of the angles at which rays graze a knot of the water
+// on their first leg.
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
 
 }  // namespace halocline::acoustics

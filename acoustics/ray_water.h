@@ -1,11 +1,12 @@
 // Water as rays see it: sound speed linear in depth between knots, absorption within each layer.
 //
-// Model: between two knots a ray is an arc of a circle, so travel time, range and length are closed forms. A table of
-// depth and speed is taken as it is (exact); temperature-salinity tables and Munk's formula are sampled where the
-// straight line between knots would be further than `speed_tolerance_mps` from the profile. Below the last knot and
-// above the first the speed is constant. Absorption in a layer is the parabola through its value at the top, the
-// middle and the bottom. Delay error of sampling and of thinning: below tolerance / speed of the delay, mostly far
-// less, as errors of both signs cancel (0.01 m/s: below 7e-6 of the delay).
+// Model: between two knots a ray is an arc of a circle, so travel time, range and length are closed forms. A
+// table of depth and speed is taken as it is (exact); temperature-salinity tables and Munk's formula are
+// sampled where the straight line between knots would be further than `speed_tolerance_mps` from the profile.
+// Below the last knot and above the first the speed is constant. Absorption in a layer is the parabola
+// through its value at the top, the middle and the bottom. Delay error of sampling and of thinning: below
+// tolerance / speed of the delay, mostly far less, as errors of both signs cancel (0.01 m/s: below 7e-6 of
+// the delay).
 //
 // Immutable: calls may overlap between threads. Left out: change of the water with range.
 #pragma once
@@ -55,8 +56,8 @@ class RayWater {
   std::vector<LayerAbsorption> absorption_;
 };
 
-// The fewest of the given knots (first and last among them) that stay within `tolerance_mps` of all of them: what
-// 101 knots of a deep profile say takes 20 to say to 0.1 m/s. Throws when tolerance_mps < 0.
+// The fewest of the given knots (first and last among them) that stay within `tolerance_mps` of all of them:
+// what 101 knots of a deep profile say takes 20 to say to 0.1 m/s. Throws when tolerance_mps < 0.
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps);
 
 }  // namespace halocline::acoustics

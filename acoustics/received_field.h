@@ -1,13 +1,14 @@
 // What a receiver makes of the paths of a link: level, spread of delays, impulse response.
 //
-// Model: pressures add. Incoherently their powers add, which is the mean over any small change of place (at 25 kHz a
-// centimetre moves the coherent level by 3 dB): the default. Coherently they add as phasors at one frequency, for the
-// ends exactly where they are. Both with spreading, bounces and absorption. A beam pattern weighs each path by the angle
-// in which it leaves or arrives.
+// Model: pressures add. Incoherently their powers add, which is the mean over any small change of place (at
+// 25 kHz a centimetre moves the coherent level by 3 dB): the default. Coherently they add as phasors at one
+// frequency, for the ends exactly where they are. Both with spreading, bounces and absorption. A beam pattern
+// weighs each path by the angle in which it leaves or arrives.
 //
-// Levels are relative to the source level: dB, never positive in practice; transmission loss is their negative. No path
-// is -infinity dB: a shadow, see acoustics/arrivals.h; a floor is the caller's to state. The impulse response is that of
-// the carrier's complex envelope: a tap per path, none of the modem's own filter.
+// Levels are relative to the source level: dB, never positive in practice; transmission loss is their
+// negative. No path is -infinity dB: a shadow, see acoustics/arrivals.h; a floor is the caller's to state.
+// The impulse response is that of the carrier's complex envelope: a tap per path, none of the modem's own
+// filter.
 #pragma once
 
 #include <complex>
@@ -45,11 +46,13 @@ struct ReceivedField {
 };
 ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options = {});
 
-// Level of the phasor sum at `frequency_hz`, dB re the source level; absorption as found at RayOptions::frequency_hz.
+// Level of the phasor sum at `frequency_hz`, dB re the source level; absorption as found at
+// RayOptions::frequency_hz.
 Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options = {});
 
-// Taps of the complex envelope about `carrier_hz`, sampled at `rate_hz` from `from_s` on, `count` of them: each path falls
-// on its nearest sample with the phase of its own delay. Paths outside are left out. rate_hz in (0, 1e7], count 1..1e7.
+// Taps of the complex envelope about `carrier_hz`, sampled at `rate_hz` from `from_s` on, `count` of them:
+// each path falls on its nearest sample with the phase of its own delay. Paths outside are left out. rate_hz
+// in (0, 1e7], count 1..1e7.
 std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
                                                    double rate_hz, double from_s, std::size_t count,
                                                    const Transducers& transducers = {});

@@ -1,7 +1,8 @@
-// What the eigenrays of one link cost on one core, cold (searched for) and warm (followed after the ends moved).
+// What the eigenrays of one link cost on one core, cold (searched for) and warm (followed after the ends
+// moved).
 //
-// Claims (microseconds, cold): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots 80, a slope
-// 150, a bottom of many facets 1500; warm at most half of cold.
+// Claims (microseconds, cold): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots
+// 80, a slope 150, a bottom of many facets 1500; warm at most half of cold.
 #include <cmath>
 #include <numbers>
 

@@ -1,11 +1,12 @@
-// All rays between two points of layered water over a flat bottom, found the slow and plain way: an independent
-// reference for tests.
+// All rays between two points of layered water over a flat bottom, found the slow and plain way: an
+// independent reference for tests.
 //
-// Each ray of a dense fan is followed layer by layer, in long double, with none of the formulas of the solvers: angles
-// by Snell's law, arcs of circles by differences of sines and cosines. Wherever it passes the receiver's depth its range
-// and history are noted. Two neighbours of the fan whose passages of one history lie on both sides of the receiver
-// hold an eigenray between them, which bisection finds. The fan is denser towards the angles that graze a knot. Pairs of
-// rays nearer than neighbours of the fan are missed: the fan may lack a faint pair, it never invents one.
+// Each ray of a dense fan is followed layer by layer, in long double, with none of the formulas of the
+// solvers: angles by Snell's law, arcs of circles by differences of sines and cosines. Wherever it passes the
+// receiver's depth its range and history are noted. Two neighbours of the fan whose passages of one history
+// lie on both sides of the receiver hold an eigenray between them, which bisection finds. The fan is denser
+// towards the angles that graze a knot. Pairs of rays nearer than neighbours of the fan are missed: the fan
+// may lack a faint pair, it never invents one.
 #pragma once
 
 #include <algorithm>

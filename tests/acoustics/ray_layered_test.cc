@@ -15,7 +15,8 @@ namespace {
 using testing::CsvRow;
 using testing::tolerance;
 
-// Waters like those that links run in: a summer thermocline above a duct, two ducts, the deep sea in 101 knots.
+// Waters like those that links run in: a summer thermocline above a duct, two ducts, the deep sea in 101
+// knots.
 const std::vector<SpeedRow> kSummer = {{0, 1522},  {10, 1521.5}, {20, 1512},  {35, 1496},
                                        {50, 1490}, {70, 1492},   {100, 1488}, {120, 1491}};
 const std::vector<SpeedRow> kDucts = {{0, 1500},  {30, 1503},  {50, 1492}, {60, 1490},
@@ -39,8 +40,8 @@ TEST(LayeredRays, DirectRayInAConstantGradientIsTheClosedForm) {
     const double c0 = row.number("c_surface_m_per_s"), g = row.number("gradient_per_s");
     const double bottom = depth_of_gradient(g), range = row.number("range_m");
     const double tx = row.number("depth_tx_m"), rx = row.number("depth_rx_m");
-    // Where the closed form's arc (about a parabola of sag g r^2 / 8 c below the chord) leaves the water there is no
-    // such ray.
+    // Where the closed form's arc (about a parabola of sag g r^2 / 8 c below the chord) leaves the water
+    // there is no such ray.
     const double sag = g * range * range / (8 * c0), quarter = 0.75 * tx + 0.25 * rx + 0.75 * sag;
     const double three_quarters = 0.25 * tx + 0.75 * rx + 0.75 * sag, half = 0.5 * (tx + rx) + sag;
     if (std::min({quarter, half, three_quarters}) < 0) continue;
@@ -173,7 +174,8 @@ TEST(LayeredRays, AbsorptionIsTheIntegralAlongTheArc) {
   EXPECT_NEAR(found.paths.front().absorption_db, 80e-3 * (2 + 0.1 * 50), tolerance(1e-9));
 }
 
-// ---------------------------------------------------------------------------------------------- where it gets hard
+// ---------------------------------------------------------------------------------------------- where it
+// gets hard
 
 TEST(LayeredRays, VerticalLinkHasItsDirectPathAtEveryRange) {
   const RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
@@ -292,8 +294,8 @@ RayLink random_link(const Waters& waters, std::uint32_t index) {
   return link;
 }
 
-// The fan may lack a faint pair but invents nothing: every ray of it has to be there. What is there beyond it has to
-// be faint, or horizontal (which a fan that turns in the water does not see).
+// The fan may lack a faint pair but invents nothing: every ray of it has to be there. What is there beyond it
+// has to be faint, or horizontal (which a fan that turns in the water does not see).
 TEST_P(RayCompleteness, NoRayOfADenseFanIsMissing) {
   const Waters& waters = GetParam();
   const RaySea sea = sea_of(waters.knots, BottomProfile::flat(waters.bottom_m));

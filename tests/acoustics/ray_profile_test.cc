@@ -143,7 +143,8 @@ TEST_P(ProfileCompleteness, NoRayOfADenseFanIsMissingOverTheBottom) {
       TracedDetails details;
       const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
       ArcTracer(profiled, link).trace(ray.theta, traced, &details);
-      // Where a bent facet would throw a grazing ray into itself the solver lets the facet's own slope reflect it.
+      // Where a bent facet would throw a grazing ray into itself the solver lets the facet's own slope
+      // reflect it.
       if (std::abs(traced.z - link.receiver_depth_m) > 0.01) continue;
       // Nor are rays 30 dB fainter than the loudest, as those spread at the very edge of a crest are.
       const double tube = link.range_m * std::abs(traced.zeta_slope);
@@ -156,8 +157,8 @@ TEST_P(ProfileCompleteness, NoRayOfADenseFanIsMissingOverTheBottom) {
       if (index >= 0) used[static_cast<std::size_t>(index)] = true;
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
-      // The fan misses what lies between two of its rays of different history, and pairs: what it lacks has to be so near
-      // to its neighbour's other side, or be a ray by the independent way as well.
+      // The fan misses what lies between two of its rays of different history, and pairs: what it lacks has
+      // to be so near to its neighbour's other side, or be a ray by the independent way as well.
       const Arrival& path = found.paths[i];
       const StraightRay again =
           straight_ray(GetParam().profile, link.source_depth_m, link.range_m, path.launch_angle_rad, most);
@@ -175,8 +176,9 @@ INSTANTIATE_TEST_SUITE_P(Terrains, ProfileCompleteness,
                                            Terrain{"facets", cosine_hill(200, 0)}),
                          [](const auto& terrain) { return std::string(terrain.param.name); });
 
-// The tube in the plane is reciprocal; its width across the plane is taken as round the source, r / cos(launch), which
-// is so only where Snell's invariant stays (see the header of arc_tracer.h): what is left is its ratio at both ends.
+// The tube in the plane is reciprocal; its width across the plane is taken as round the source, r /
+// cos(launch), which is so only where Snell's invariant stays (see the header of arc_tracer.h): what is left
+// is its ratio at both ends.
 TEST(ProfileRays, SwappedEndsHaveTheSameDelaysAndTubes) {
   for (const BottomProfile& profile : {sharp_ridge(), BottomProfile({{0, 200}, {4000, 120}})}) {
     const RayLink link{20, 60, 3000};
@@ -209,7 +211,8 @@ TEST(ProfileRays, OverAFlatBottomOfManyPointsAreThoseOfTheFlatSolver) {
 }
 
 TEST(ProfileRays, TubeOverABentBottomFollowsTheFocusOfABasin) {
-  // One bounce at the middle of a shallow bowl of radius R: the mirror equation of a line source, 1/q' = 1/q - 2/(R sin).
+  // One bounce at the middle of a shallow bowl of radius R: the mirror equation of a line source, 1/q' = 1/q
+  // - 2/(R sin).
   std::vector<ProfiledDepth> points;
   constexpr double kRadius = 5000, kMiddle = 500;
   for (double r = 0; r <= 1000; r += 10) {

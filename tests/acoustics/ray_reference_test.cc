@@ -17,8 +17,9 @@ std::string case_name(const ::testing::TestParamInfo<Case>& info) {
   return std::string(info.param.name) + "_" + std::string(to_name(info.param.solver));
 }
 
-// The references carry 12 digits of delay, 8 of amplitude and 5 to 7 decimals of angles: the tolerances below are those
-// of the last digits, a thousand times tighter than what was asked for (1e-6 s, 0.05 dB, 1 degree, 0.01 degree).
+// The references carry 12 digits of delay, 8 of amplitude and 5 to 7 decimals of angles: the tolerances below
+// are those of the last digits, a thousand times tighter than what was asked for (1e-6 s, 0.05 dB, 1 degree,
+// 0.01 degree).
 void expect_row(const testing::CsvRow& row, const Arrival& path) {
   const std::string where = "line " + std::to_string(row.line()) + ": " + describe(path);
   EXPECT_NEAR(path.delay_s, row.number("delay_s"), tolerance(1e-9)) << where;
