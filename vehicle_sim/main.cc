@@ -4,7 +4,9 @@
 #include "vehicle_sim/vehicle_sim_node.h"
 
 using halocline::bus::NodeProgram;
-using namespace halocline::vehicle_sim;
+using halocline::vehicle_sim::TerrainSeabed;
+using halocline::vehicle_sim::VehicleSimConfig;
+using halocline::vehicle_sim::VehicleSimNode;
 
 int main(int argc, char** argv) {
   halocline::bathymetry::TerrainRecipe recipe;

@@ -1,9 +1,9 @@
 #include "clients/halocline/embedded_run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
-
-#include <time.h>
+#include <thread>
 
 #include "bus/lockstep_runner.h"
 #include "bus/log_recorder.h"
@@ -35,10 +35,7 @@ class Mirror {
 };
 
 void sleep_for(SimDuration duration) {
-  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-  const std::int64_t ns = duration.nanoseconds();
-  const timespec time{ns / kNanosecondsPerSecond, ns % kNanosecondsPerSecond};
-  nanosleep(&time, nullptr);
+  std::this_thread::sleep_for(std::chrono::nanoseconds(duration.nanoseconds()));
 }
 
 // Waits until the wall has come as far as `sim` at `rate`; false when stopped meanwhile.
