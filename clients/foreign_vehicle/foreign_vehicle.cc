@@ -127,6 +127,7 @@ class Vehicle {
                 packet->source_id, packet->travel_time_s, packet->received_level_db, text.c_str());
     std::fflush(stdout);
   }
+  // LCM takes no const handler. NOLINTNEXTLINE(readability-make-member-function-const)
   void on_receipt(const lcm::ReceiveBuffer*, const std::string&, const halocline::modem_receipt_t* receipt) {
     if (receipt->send_session != session_) return;
     const bool accepted = receipt->receipt_result == halocline::modem_receipt_t::ACCEPTED;
