@@ -36,7 +36,7 @@ void link_table(benchmark::State& state) {
   for (auto _ : state) {
     now = now + SimDuration::from_microseconds(1);
     const auto placed = place_all(fleet, now);
-    benchmark::DoNotOptimize(link_tables(placed, propagation, [&](const auto& from, const auto& to) {
+    benchmark::DoNotOptimize(link_tables(now, placed, propagation, [&](const auto& from, const auto& to) {
       return book.at_last_tick(from, to, propagation);
     }));
   }

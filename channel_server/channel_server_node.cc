@@ -217,13 +217,13 @@ void ChannelServerNode::publish_end(const PacketEnd& end, SimTime at) {
 
 void ChannelServerNode::publish_environment(SimTime now) {
   publish_numbered(std::string(channels::kEnvironment),
-                   to_message(propagation_->environment(), now, terrain_version_));
+                   to_message(propagation_->environment(now), now, terrain_version_));
   next_environment_ = next_on_grid(now, kEnvironmentPeriod);
 }
 
 void ChannelServerNode::publish_links(SimTime tick) {
   const auto vehicles = place_all(fleet_, tick);
-  const auto tables = link_tables(vehicles, *propagation_, [this](const auto& from, const auto& to) {
+  const auto tables = link_tables(tick, vehicles, *propagation_, [this](const auto& from, const auto& to) {
     return book_.at_last_tick(from, to, *propagation_);
   });
   for (const LinkTable& table : tables) {

@@ -18,10 +18,9 @@
 
 #include "channel_server/modem_schedule.h"
 #include "channel_server/state_history.h"
+#include "channel_server/vehicle_id.h"
 
 namespace halocline::channel_server {
-
-using VehicleId = std::int32_t;
 
 // The modems that the scenario gives.
 struct ConfiguredModems {

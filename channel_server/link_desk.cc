@@ -61,7 +61,7 @@ LinkDesk::ResolvedEnd LinkDesk::resolve(const AskedEnd& end, std::optional<SimTi
   resolved.problem = end.problem;
   if (resolved.problem.empty() && end.modem) resolved.problem = problem_of_modem(end.modem->modem);
   if (resolved.problem.empty() && end.vehicle.empty())
-    resolved.problem = problem_of_place(end.position_ned_m);
+    resolved.problem = problem_of_place(end.position_ned_m, sim.value_or(SimTime()));
   if (!resolved.problem.empty()) {
     resolved.status = LinkAnswer::Status::kBadInput;
     return resolved;
@@ -92,11 +92,11 @@ LinkDesk::ResolvedEnd LinkDesk::resolve_vehicle(const AskedEnd& end, std::option
   return resolved;
 }
 
-std::string LinkDesk::problem_of_place(const Vec3& position_ned_m) const {
+std::string LinkDesk::problem_of_place(const Vec3& position_ned_m, SimTime at) const {
   for (const double coordinate : position_ned_m) {
     if (!(std::abs(coordinate) <= kFarthestM)) return "position_ned_m is no position within 1e7 m";
   }
-  const double depth_m = depth_below_surface_m(position_ned_m, propagation_.environment().sea_surface_z_m);
+  const double depth_m = depth_below_surface_m(position_ned_m, propagation_.environment(at).sea_surface_z_m);
   if (depth_m < 0) return "position_ned_m lies above the sea surface (z is down)";
   if (depth_m > acoustics::kDeepestWater) return "position_ned_m lies deeper than 12000 m";
   return {};
@@ -111,16 +111,11 @@ void LinkDesk::answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& w
     waiting.reply.answers.push_back(std::move(answer));
     return;
   }
-  const Vec3 &here = from.placement.position_ned_m, &there = to.placement.position_ned_m;
-  answer.row = {from.id,
-                to.id,
-                propagation_.budget(from.modem.modem, to.modem.modem, here, there),
-                Multipath::kUnknown,
-                from.placement.age,
-                to.placement.age};
+  const Reception reception =
+      propagation_.reception(waiting.reply.at, link_end(from.placed()), link_end(to.placed()));
+  answer.row = {from.id, to.id, reception.budget, Multipath::kUnknown, from.placement.age, to.placement.age};
   if (from.id != 0 && to.id != 0 && from.id != to.id) {
-    answer.row.multipath =
-        book_.at({from.id, from.placement, &from.modem}, {to.id, to.placement, &to.modem}, propagation_);
+    answer.row.multipath = book_.at(from.placed(), to.placed(), propagation_);
   }
   waiting.reply.answers.push_back(answer);
   if (answer.row.multipath == Multipath::kUnknown) ask_echo(from, to, waiting);

@@ -87,12 +87,13 @@ class LinkDesk {
     VehicleId id = 0;
     Placement placement;
     VehicleModem modem;
+    PlacedVehicle placed() const { return {id, placement, &modem}; }  // lives as long as this end
   };
   std::string refusal_of(const LinkQuestion& question) const;
   bool is_waiting(const LinkQuestion& question) const;
   ResolvedEnd resolve(const AskedEnd& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const AskedEnd& end, std::optional<SimTime> sim) const;
-  std::string problem_of_place(const Vec3& position_ned_m) const;
+  std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void ask_echo(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
 

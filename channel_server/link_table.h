@@ -36,14 +36,17 @@ struct PlacedVehicle {
   const VehicleModem* modem = nullptr;  // lives as long as the fleet is not changed
 };
 
+// As the propagation is asked about it.
+LinkEnd link_end(const PlacedVehicle& vehicle);
+
 // All present at `instant`, by id.
 std::vector<PlacedVehicle> place_all(const Fleet& fleet, SimTime instant);
 
 using MultipathJudge =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
-// One table a vehicle, by id; a vehicle alone has an empty one.
-std::vector<LinkTable> link_tables(const std::vector<PlacedVehicle>& vehicles, Propagation& propagation,
-                                   const MultipathJudge& multipath);
+// One table a vehicle, by id, of links whose sound leaves at `instant`; a vehicle alone has an empty one.
+std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
+                                   Propagation& propagation, const MultipathJudge& multipath);
 
 }  // namespace halocline::channel_server

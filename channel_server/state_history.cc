@@ -8,13 +8,16 @@ namespace {
 bool is_earlier(const StampedState& state, SimTime time) { return state.time < time; }
 bool is_later(SimTime time, const StampedState& state) { return time < state.time; }
 
-Vec3 between(const StampedState& before, const StampedState& after, SimTime instant) {
+Placement between(const StampedState& before, const StampedState& after, SimTime instant) {
   const double share = (instant - before.time).seconds() / (after.time - before.time).seconds();
-  return before.position_ned_m + share * (after.position_ned_m - before.position_ned_m);
+  return {before.position_ned_m + share * (after.position_ned_m - before.position_ned_m),
+          before.velocity_ned_mps + share * (after.velocity_ned_mps - before.velocity_ned_mps),
+          instant - before.time};
 }
 
-Vec3 carried_on(const StampedState& state, SimTime instant) {
-  return state.position_ned_m + (instant - state.time).seconds() * state.velocity_ned_mps;
+Placement carried_on(const StampedState& state, SimTime instant) {
+  return {state.position_ned_m + (instant - state.time).seconds() * state.velocity_ned_mps,
+          state.velocity_ned_mps, instant - state.time};
 }
 
 }  // namespace
@@ -35,8 +38,7 @@ std::optional<Placement> StateHistory::at(SimTime instant, SimTime decided_at,
   if (after == states_.begin()) return std::nullopt;
   const StampedState& before = *std::prev(after);
   const bool bracketed = after != unknown && after->time - before.time <= rule.state_timeout;
-  return Placement{bracketed ? between(before, *after, instant) : carried_on(before, instant),
-                   instant - before.time};
+  return bracketed ? between(before, *after, instant) : carried_on(before, instant);
 }
 
 void StateHistory::forget_before(SimTime time) {

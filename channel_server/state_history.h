@@ -6,6 +6,7 @@
 //     straight line between the two (linear interpolation);
 //   - else the latest known state at or before t, carried on by its velocity;
 //   - without a known state at or before t: nowhere.
+// The velocity is interpolated, or carried on unchanged, in the same cases.
 // The lag is longer than a message takes on the bus, so the answer does not depend on which datagram was
 // quicker, and it never uses what was not yet known at d (causal). A packet's arrival decided later than it
 // happened therefore profits from states heard meanwhile; one decided ahead extrapolates.
@@ -36,6 +37,7 @@ struct PositionRule {
 
 struct Placement {
   Vec3 position_ned_m = Vec3::Zero();
+  Vec3 velocity_ned_mps = Vec3::Zero();
   SimDuration age;  // from the latest known state at or before the instant, to the instant
 };
 

@@ -90,8 +90,10 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
   channel_server::StraightPropagation propagation(
       make_environment(config.channel_server.environment, config.scenario, config.folder));
   LinkAnswer answer;
-  answer.budget =
-      propagation.budget(from.modem.modem, to.modem.modem, from.position_ned_m, to.position_ned_m);
+  answer.budget = propagation
+                      .reception(SimTime(), {0, from.position_ned_m, Vec3::Zero(), &from.modem.modem},
+                                 {0, to.position_ned_m, Vec3::Zero(), &to.modem.modem})
+                      .budget;
   const auto survey = survey_echoes(*make_terrain(config).terrain, from.position_ned_m, to.position_ned_m,
                                     config.channel_server.rules.bottom_points);
   answer.multipath = multipath_of(survey, /*reversed=*/false, propagation, from.modem.modem, to.modem.modem);

@@ -14,7 +14,7 @@ using ::testing::IsEmpty;
 class EchoBookTest : public ::testing::Test {
  protected:
   PlacedVehicle vehicle(VehicleId id, double north_m) const {
-    return {id, {Vec3(north_m, 0, 50), SimDuration()}, &modem_};
+    return {id, {Vec3(north_m, 0, 50), Vec3::Zero(), SimDuration()}, &modem_};
   }
   // A survey as the book asked for it, over a flat bottom at 100 m.
   EchoSurvey survey_of(const VehiclePair& pair) const {

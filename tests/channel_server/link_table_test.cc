@@ -21,7 +21,7 @@ const MultipathJudge kUntold = [](const PlacedVehicle&, const PlacedVehicle&) { 
 class LinkTableTest : public ::testing::Test {
  protected:
   std::vector<LinkTable> tables_at(double time_s, const MultipathJudge& judge = kUntold) {
-    return link_tables(place_all(fleet_, at_s(time_s)), propagation_, judge);
+    return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, judge);
   }
   Fleet fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
   StraightPropagation propagation_{even_water()};

@@ -49,6 +49,15 @@ TEST(StateHistory, AYoungerStateThanTheLagDoesNotChangeTheAnswer) {
             with.at(at_s(2), at_s(2), kRule)->position_ned_m);
 }
 
+TEST(StateHistory, TheVelocityIsCarriedOnOrInterpolatedAsThePositionIs) {
+  StateHistory history;
+  history.insert(state_at(1, {0, 0, 0}, {50, 0, 0}));
+  history.insert(state_at(2, {10, 0, 0}, {60, 10, 0}));
+  EXPECT_EQ(history.at(at_s(1.3), at_s(2.04), kRule)->velocity_ned_mps, Vec3(50, 0, 0));
+  const Vec3 between = history.at(at_s(1.3), at_s(2.05), kRule)->velocity_ned_mps;
+  EXPECT_LT((between - Vec3(53, 3, 0)).norm(), tolerance(kRounding));
+}
+
 TEST(StateHistory, WhatHasPassedIsInterpolatedOnceALaterStateIsKnown) {
   StateHistory history;
   history.insert(state_at(1, {0, 0, 0}, {50, 0, 0}));
