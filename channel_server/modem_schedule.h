@@ -3,6 +3,7 @@
 // Announcements hold from the instant they name, in whatever order they were heard.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 
@@ -11,11 +12,23 @@
 
 namespace halocline::channel_server {
 
+// What a modem does that is asked to send while it is sending.
+enum class WhenBusy {
+  kRefuse,  // the transmission is refused
+  kQueue,   // it starts when those before it have ended
+};
+
 struct VehicleModem {
   acoustics::Modem modem;
-  std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768
+  std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768; the modem's own limit holds as well
+  WhenBusy when_busy = WhenBusy::kRefuse;
   bool operator==(const VehicleModem&) const = default;
 };
+
+// The largest payload of one packet that both limits allow.
+inline std::size_t largest_payload_bytes(const VehicleModem& modem) {
+  return std::min(static_cast<std::size_t>(modem.max_payload_bytes), max_payload_bytes(modem.modem));
+}
 
 class ModemSchedule {
  public:

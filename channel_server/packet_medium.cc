@@ -64,7 +64,9 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
 
 void PacketMedium::depart(const SendRequest& request, std::vector<MediumEvent>& events) {
   const VehicleModem& modem = fleet_.modem(request.vehicle, request.start);
-  const SimDuration duration = packet_duration(modem.modem, request.payload.size());
+  // A payload beyond the largest is refused, so its duration is of no consequence.
+  const std::size_t payload_bytes = std::min(request.payload.size(), largest_payload_bytes(modem));
+  const SimDuration duration = packet_timing(modem.modem, payload_bytes).duration;
   Receipt receipt{
       request.vehicle, request.session, request.packet_sequence, judge(request, duration), {}, {}};
   if (receipt.result == SendResult::kAccepted) {
@@ -82,8 +84,8 @@ SendResult PacketMedium::judge(const SendRequest& request, SimDuration duration)
   const auto id = fleet_.id_of(request.vehicle);
   if (!id || !fleet_.placement(*id, request.start, request.start)) return SendResult::kUnknownVehicle;
   if (*id != request.source_id) return SendResult::kWrongSource;
-  const std::int32_t largest = fleet_.modem(request.vehicle, request.start).max_payload_bytes;
-  if (request.payload.size() > static_cast<std::size_t>(largest)) return SendResult::kTooLarge;
+  const std::size_t largest = largest_payload_bytes(fleet_.modem(request.vehicle, request.start));
+  if (request.payload.size() > largest) return SendResult::kTooLarge;
   if (register_.is_busy(request.vehicle, request.start, duration)) return SendResult::kBusy;
   return SendResult::kAccepted;
 }

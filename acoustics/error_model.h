@@ -1,0 +1,43 @@
+// How often a modem decides an information bit wrongly, by the name of its modulation and code.
+//
+// Eb is always the energy of an information bit, so a model with a code (bits of the air carry less each) and
+// one without compare fairly. Each model's formula, source and limits: bit_error.h, convolutional_code.h,
+// block_code.h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/units.h"
+
+namespace halocline::acoustics {
+
+enum class ErrorModel {
+  kNone,           // no bit is ever wrong: only the level decides, as in the 2010 IEEE SMC paper
+  kBfsk,           // non-coherent binary FSK
+  kBfskRayleigh,   // the same, fading
+  kBpsk,           // coherent binary PSK (or QPSK, which is two of it)
+  kBpskRayleigh,   //
+  kDbpsk,          // differential binary PSK
+  kDbpskRayleigh,  //
+  kJanus,          // non-coherent FSK chips, JANUS's convolutional code, soft decisions
+  kJanusRayleigh,  // the same, every chip fading by itself
+  kBpskBch64,      // PSK with the extended BCH code (64, 10)
+  kBpskHamming14,  // PSK with the shortened Hamming code (14, 9)
+};
+
+inline constexpr std::array kErrorModels = {
+    ErrorModel::kNone,          ErrorModel::kBfsk,      ErrorModel::kBfskRayleigh,  ErrorModel::kBpsk,
+    ErrorModel::kBpskRayleigh,  ErrorModel::kDbpsk,     ErrorModel::kDbpskRayleigh, ErrorModel::kJanus,
+    ErrorModel::kJanusRayleigh, ErrorModel::kBpskBch64, ErrorModel::kBpskHamming14};
+
+// "none", "bfsk", "bfsk-rayleigh", "bpsk", "bpsk-rayleigh", "dbpsk", "dbpsk-rayleigh", "janus",
+// "janus-rayleigh", "bpsk-bch64", "bpsk-hamming14".
+std::string_view to_name(ErrorModel model);
+std::optional<ErrorModel> error_model_from_name(std::string_view name);
+
+// 0..0.5, never rising as eb_over_n0 (>= 0) rises.
+double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0);
+
+}  // namespace halocline::acoustics
