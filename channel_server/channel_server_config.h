@@ -10,9 +10,9 @@
 #include "acoustics/environment.h"
 #include "bus/config.h"
 #include "bus/scenario.h"
-#include "channel_server/echo_asker.h"
 #include "channel_server/fleet.h"
 #include "channel_server/packet_medium.h"
+#include "channel_server/terrain_asker.h"
 
 namespace halocline::channel_server {
 

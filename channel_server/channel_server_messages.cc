@@ -197,9 +197,9 @@ ray_query_t to_message(const RayBatch& batch, std::string_view client, SimTime a
   message.utime = asked_at.to_utime();
   message.client_name = client;
   message.request_id = batch.request_id;
-  message.query_mode = batch.kind == RayBatch::Kind::kDepths ? ray_query_t::DEPTH : ray_query_t::OCCLUDED;
+  message.query_mode = batch.kind == RayKind::kDepths ? ray_query_t::DEPTH : ray_query_t::OCCLUDED;
   message.num_rays = static_cast<std::int32_t>(batch.rays.size());
-  for (const EchoRay& ray : batch.rays) {
+  for (const TerrainRay& ray : batch.rays) {
     message.offset_m.push_back(as_vector(ray.origin_ned_m));
     message.direction.push_back(as_vector(ray.direction));
     message.greatest_range_m.push_back(ray.greatest_range_m);

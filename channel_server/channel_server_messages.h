@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "bus/messages.h"
-#include "channel_server/echo_asker.h"
 #include "channel_server/fleet.h"
 #include "channel_server/link_desk.h"
 #include "channel_server/link_table.h"
 #include "channel_server/packet.h"
+#include "channel_server/terrain_asker.h"
 
 namespace halocline::channel_server {
 

@@ -139,12 +139,12 @@ void ChannelServerNode::forget_echoes() {
 }
 
 void ChannelServerNode::take_finished_surveys() {
-  for (EchoAsker::Finished& finished : asker_.take_finished()) {
+  for (TerrainAsker::Finished& finished : asker_.take_finished()) {
     if (desk_.finish(finished)) continue;
     const auto pair = surveyed_pairs_.extract(finished.id);
     if (pair.empty()) continue;
     book_.note_asked(pair.mapped());
-    if (finished.answered) book_.store(pair.mapped(), std::move(finished.survey));
+    if (finished.answered) book_.store(pair.mapped(), std::get<EchoSurvey>(std::move(finished.survey)));
   }
 }
 
@@ -235,7 +235,7 @@ void ChannelServerNode::publish_links(SimTime tick) {
 }
 
 void ChannelServerNode::begin_echo_tick(const std::vector<PlacedVehicle>& vehicles) {
-  for (const EchoAsker::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
+  for (const TerrainAsker::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
   for (const VehiclePair& pair : book_.begin_tick(vehicles)) {
     const EchoSurvey survey(book_.place(pair.first), book_.place(pair.second), rules_.bottom_points);
     surveyed_pairs_.emplace(asker_.ask_routine(survey), pair);

@@ -77,7 +77,7 @@ class ChannelServerNode : public bus::Node {
   Fleet fleet_;
   PacketMedium medium_;
   EchoBook book_;
-  EchoAsker asker_;
+  TerrainAsker asker_;
   LinkDesk desk_;
 
   Heard<vehicle_state_t> states_;
@@ -87,7 +87,7 @@ class ChannelServerNode : public bus::Node {
   std::vector<ray_reply_t> ray_replies_;
 
   SimTime next_tick_, next_environment_;
-  std::map<EchoAsker::SurveyId, VehiclePair> surveyed_pairs_;
+  std::map<TerrainAsker::SurveyId, VehiclePair> surveyed_pairs_;
   std::map<std::string, std::int64_t> sequences_;  // by channel
   std::string terrain_version_;
   std::set<std::string> present_;

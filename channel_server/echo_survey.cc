@@ -9,10 +9,8 @@ namespace {
 
 // Ends closer to a bottom point than this are on it: nothing can stand between.
 constexpr double kOnTheBottomM = 2 * EchoSurvey::kShortOfBottomM;
-// A depth is asked for a place, not a ray; the range only has to be legal.
-constexpr double kAnyRangeM = 1;
 
-EchoRay way_to(const Vec3& end, const Vec3& bottom) {
+TerrainRay way_to(const Vec3& end, const Vec3& bottom) {
   const Vec3 way = bottom - end;
   if (way.norm() < kOnTheBottomM) return {end, -Vec3::UnitZ(), EchoSurvey::kShortOfBottomM};
   return {end, way, way.norm() - EchoSurvey::kShortOfBottomM};
@@ -35,9 +33,18 @@ EchoSurvey::EchoSurvey(const Vec3& from_ned_m, const Vec3& to_ned_m, int point_c
   }
 }
 
-std::vector<EchoRay> EchoSurvey::depth_rays() const {
-  std::vector<EchoRay> rays;
-  for (const Vec3& place : asked_) rays.push_back({place, Vec3::UnitZ(), kAnyRangeM});
+std::optional<RayKind> EchoSurvey::asks() const {
+  if (stage_ == Stage::kDepths) return RayKind::kDepths;
+  return stage_ == Stage::kWays && !bottom_.empty() ? std::optional(RayKind::kWays) : std::nullopt;
+}
+
+void EchoSurvey::take(std::span<const RayAnswer> answers) {
+  stage_ == Stage::kDepths ? take_depths(answers) : take_ways(answers);
+}
+
+std::vector<TerrainRay> EchoSurvey::depth_rays() const {
+  std::vector<TerrainRay> rays;
+  for (const Vec3& place : asked_) rays.push_back(depth_ray(place));
   return rays;
 }
 
@@ -49,10 +56,11 @@ void EchoSurvey::take_depths(std::span<const RayAnswer> answers) {
     bottom_.push_back({Vec3(asked_[i].x(), asked_[i].y(), answers[i].result_m), false, false});
   }
   complete_ = bottom_.size() == asked_.size();
+  stage_ = Stage::kWays;
 }
 
-std::vector<EchoRay> EchoSurvey::way_rays() const {
-  std::vector<EchoRay> rays;
+std::vector<TerrainRay> EchoSurvey::way_rays() const {
+  std::vector<TerrainRay> rays;
   for (const acoustics::BottomPoint& point : bottom_) {
     rays.push_back(way_to(from_, point.position_ned_m));
     rays.push_back(way_to(to_, point.position_ned_m));
@@ -68,6 +76,7 @@ void EchoSurvey::take_ways(std::span<const RayAnswer> answers) {
     bottom_[i].blocked_to_receiver = is_blocked(to);
     complete_ = complete_ && is_told(from) && is_told(to);
   }
+  stage_ = Stage::kDone;
 }
 
 Multipath multipath_of(const EchoSurvey& survey, bool reversed, Propagation& propagation,

@@ -17,27 +17,16 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "channel_server/link_table.h"
 #include "channel_server/propagation.h"
+#include "channel_server/terrain_rays.h"
 #include "core/frames.h"
 
 namespace halocline::channel_server {
-
-// World NED, m; `direction` of any length but 0.
-struct EchoRay {
-  Vec3 origin_ned_m;
-  Vec3 direction;
-  double greatest_range_m;
-};
-
-struct RayAnswer {
-  enum class Kind { kHit, kMiss, kOutside, kNoData, kBelowBottom, kBadInput };
-  Kind kind = Kind::kMiss;
-  double result_m = 0;  // z of the seabed for a depth, distance for a way; holds for kHit only
-};
 
 class EchoSurvey {
  public:
@@ -49,12 +38,17 @@ class EchoSurvey {
   // `point_count` >= 1.
   EchoSurvey(const Vec3& from_ned_m, const Vec3& to_ned_m, int point_count);
 
+  // What it is to be asked next; empty when it is through. Rays and answers of that question.
+  std::optional<RayKind> asks() const;
+  std::vector<TerrainRay> rays() const { return stage_ == Stage::kDepths ? depth_rays() : way_rays(); }
+  void take(std::span<const RayAnswer> answers);
+
   // One a point, straight down.
-  std::vector<EchoRay> depth_rays() const;
+  std::vector<TerrainRay> depth_rays() const;
   // As many answers as depth_rays().
   void take_depths(std::span<const RayAnswer> answers);
   // From `from`, then from `to`, for each point whose depth is known; empty when none is.
-  std::vector<EchoRay> way_rays() const;
+  std::vector<TerrainRay> way_rays() const;
   // As many answers as way_rays().
   void take_ways(std::span<const RayAnswer> answers);
 
@@ -67,6 +61,8 @@ class EchoSurvey {
   bool complete() const { return complete_; }
 
  private:
+  enum class Stage { kDepths, kWays, kDone };
+  Stage stage_ = Stage::kDepths;
   Vec3 from_ = Vec3::Zero(), to_ = Vec3::Zero();
   std::vector<Vec3> asked_;
   std::vector<acoustics::BottomPoint> bottom_;

@@ -23,7 +23,8 @@ std::string problem_of_modem(const acoustics::Modem& modem) {
 
 }  // namespace
 
-LinkDesk::LinkDesk(const Fleet& fleet, Propagation& propagation, EchoBook& book, EchoAsker& asker, Rule rule)
+LinkDesk::LinkDesk(const Fleet& fleet, Propagation& propagation, EchoBook& book, TerrainAsker& asker,
+                   Rule rule)
     : fleet_(fleet), propagation_(propagation), book_(book), asker_(asker), rule_(rule) {
   require(rule.bottom_points >= 1, "at least one bottom point is needed");
 }
@@ -129,15 +130,15 @@ void LinkDesk::ask_echo(const ResolvedEnd& from, const ResolvedEnd& to, Waiting&
   waiting.modems.emplace(index, std::pair(from.modem.modem, to.modem.modem));
 }
 
-bool LinkDesk::finish(const EchoAsker::Finished& finished) {
+bool LinkDesk::finish(const TerrainAsker::Finished& finished) {
   for (Waiting& waiting : waiting_) {
     const auto survey = waiting.surveys.find(finished.id);
     if (survey == waiting.surveys.end()) continue;
     const std::size_t index = survey->second;
     if (finished.answered) {
       const auto& [transmitter, receiver] = waiting.modems.at(index);
-      waiting.reply.answers[index].row.multipath =
-          multipath_of(finished.survey, /*reversed=*/false, propagation_, transmitter, receiver);
+      waiting.reply.answers[index].row.multipath = multipath_of(
+          std::get<EchoSurvey>(finished.survey), /*reversed=*/false, propagation_, transmitter, receiver);
     }
     waiting.surveys.erase(survey);
     return true;

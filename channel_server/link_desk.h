@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "channel_server/echo_asker.h"
 #include "channel_server/echo_book.h"
 #include "channel_server/fleet.h"
 #include "channel_server/link_table.h"
 #include "channel_server/propagation.h"
+#include "channel_server/terrain_asker.h"
 
 namespace halocline::channel_server {
 
@@ -62,12 +62,12 @@ class LinkDesk {
   };
 
   // All of them must outlive the desk.
-  LinkDesk(const Fleet& fleet, Propagation& propagation, EchoBook& book, EchoAsker& asker, Rule rule);
+  LinkDesk(const Fleet& fleet, Propagation& propagation, EchoBook& book, TerrainAsker& asker, Rule rule);
 
   // A repetition of a question that is still waiting is not asked twice. `sim` is empty while unknown.
   void ask(const LinkQuestion& question, std::optional<SimTime> sim, SimTime steady);
   // A survey has ended; true when it was one of this desk's.
-  bool finish(const EchoAsker::Finished& finished);
+  bool finish(const TerrainAsker::Finished& finished);
   // What is ready at `steady`, or has waited long enough.
   std::vector<LinkReply> take_replies(SimTime steady);
   // at_once() while a reply is ready.
@@ -78,7 +78,7 @@ class LinkDesk {
   struct Waiting {
     LinkReply reply;
     SimTime deadline;
-    std::map<EchoAsker::SurveyId, std::size_t> surveys;  // to the index of the answer
+    std::map<TerrainAsker::SurveyId, std::size_t> surveys;  // to the index of the answer
     std::map<std::size_t, std::pair<acoustics::Modem, acoustics::Modem>> modems;  // of those answers
   };
   struct ResolvedEnd {
@@ -100,7 +100,7 @@ class LinkDesk {
   const Fleet& fleet_;
   Propagation& propagation_;
   EchoBook& book_;
-  EchoAsker& asker_;
+  TerrainAsker& asker_;
   Rule rule_;
   std::deque<Waiting> waiting_;
 };

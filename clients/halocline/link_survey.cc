@@ -10,8 +10,8 @@
 namespace halocline::clients {
 namespace {
 
-using channel_server::EchoRay;
 using channel_server::RayAnswer;
+using channel_server::TerrainRay;
 
 RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
   using Status = bathymetry::RayStatus;
@@ -33,10 +33,10 @@ RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
 }
 
 std::vector<RayAnswer> ask(const bathymetry::Terrain& terrain, bathymetry::QueryMode mode,
-                           const std::vector<EchoRay>& rays) {
+                           const std::vector<TerrainRay>& rays) {
   if (rays.empty()) return {};
   bathymetry::RayBatch batch{.mode = mode};
-  for (const EchoRay& ray : rays)
+  for (const TerrainRay& ray : rays)
     batch.rays.push_back({ray.origin_ned_m, ray.direction, ray.greatest_range_m});
   const auto answers = bathymetry::answer(terrain, bathymetry::version_text(terrain.version()), batch);
   std::vector<RayAnswer> out;

@@ -56,7 +56,7 @@ TEST(EchoSurvey, AsksForBothWaysFromTheEndsDownAndStopsShortOfTheBottom) {
 TEST(EchoSurvey, AnEndOnTheBottomAsksNoImpossibleRay) {
   EchoSurvey survey({0, 0, 100}, {0, 0, 50}, 1);
   survey.take_depths(same_answer(1, {Kind::kHit, 100}));
-  for (const EchoRay& ray : survey.way_rays()) {
+  for (const TerrainRay& ray : survey.way_rays()) {
     EXPECT_GT(ray.direction.norm(), 0);
     EXPECT_GT(ray.greatest_range_m, 0);
   }

@@ -1,4 +1,4 @@
-#include "channel_server/echo_asker.h"
+#include "channel_server/terrain_asker.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using testing::at_s;
 using testing::for_s;
-using Kind = RayBatch::Kind;
+using Kind = RayKind;
 
 constexpr int kPoints = 8;
 const AskingRule kRule{
@@ -19,14 +19,14 @@ const AskingRule kRule{
 EchoSurvey survey() { return EchoSurvey({0, 0, 50}, {1000, 0, 50}, kPoints); }
 
 // A service that always answers: depth 100 m, every way free.
-void answer(EchoAsker& asker, const RayBatch& batch) {
+void answer(TerrainAsker& asker, const RayBatch& batch) {
   const RayAnswer one = batch.kind == Kind::kDepths ? RayAnswer{RayAnswer::Kind::kHit, 100}
                                                     : RayAnswer{RayAnswer::Kind::kMiss, 0};
   asker.answer(batch.request_id, std::vector<RayAnswer>(batch.rays.size(), one));
 }
 
-TEST(EchoAsker, ASurveyGoesThroughDepthsAndWays) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, ASurveyGoesThroughDepthsAndWays) {
+  TerrainAsker asker(kRule);
   const auto id = asker.ask_routine(survey());
   EXPECT_EQ(asker.due(), SimTime::at_once());
   const auto depths = asker.take_batches(at_s(0));
@@ -43,12 +43,12 @@ TEST(EchoAsker, ASurveyGoesThroughDepthsAndWays) {
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(finished[0].id, id);
   EXPECT_TRUE(finished[0].answered);
-  EXPECT_TRUE(finished[0].survey.complete());
+  EXPECT_TRUE(std::get<EchoSurvey>(finished[0].survey).complete());
   EXPECT_EQ(asker.due(), SimTime::never());
 }
 
-TEST(EchoAsker, SurveysShareBatchesUpToTheirSize) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, SurveysShareBatchesUpToTheirSize) {
+  TerrainAsker asker(kRule);
   for (int i = 0; i < 20; ++i) asker.ask_routine(survey());
   const auto batches = asker.take_batches(at_s(0));
   ASSERT_EQ(batches.size(), 2u);
@@ -56,8 +56,8 @@ TEST(EchoAsker, SurveysShareBatchesUpToTheirSize) {
   EXPECT_EQ(batches[1].rays.size(), 32u);
 }
 
-TEST(EchoAsker, OnlySoManyBatchesWaitForAnswers) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, OnlySoManyBatchesWaitForAnswers) {
+  TerrainAsker asker(kRule);
   for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
   const auto first = asker.take_batches(at_s(0));
   EXPECT_EQ(first.size(), 2u);
@@ -66,8 +66,8 @@ TEST(EchoAsker, OnlySoManyBatchesWaitForAnswers) {
   EXPECT_EQ(asker.take_batches(at_s(0.02)).size(), 1u);
 }
 
-TEST(EchoAsker, OnlySoManyBatchesAreSentATickAndTheRestIsDroppedAndCounted) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, OnlySoManyBatchesAreSentATickAndTheRestIsDroppedAndCounted) {
+  TerrainAsker asker(kRule);
   for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
   int sent = 0;
   for (auto batches = asker.take_batches(at_s(0)); !batches.empty(); batches = asker.take_batches(at_s(0))) {
@@ -83,8 +83,8 @@ TEST(EchoAsker, OnlySoManyBatchesAreSentATickAndTheRestIsDroppedAndCounted) {
   EXPECT_EQ(asker.due(), SimTime::never());
 }
 
-TEST(EchoAsker, UrgentSurveysGoFirstAndDoNotCount) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, UrgentSurveysGoFirstAndDoNotCount) {
+  TerrainAsker asker(kRule);
   for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
   const auto urgent = asker.ask_urgent(survey());
   const auto batches = asker.take_batches(at_s(0));
@@ -96,8 +96,8 @@ TEST(EchoAsker, UrgentSurveysGoFirstAndDoNotCount) {
   EXPECT_EQ(asker.take_finished().at(0).id, urgent);
 }
 
-TEST(EchoAsker, ALostBatchIsRepeatedOnceWithItsNumber) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, ALostBatchIsRepeatedOnceWithItsNumber) {
+  TerrainAsker asker(kRule);
   asker.ask_routine(survey());
   const auto sent = asker.take_batches(at_s(0));
   EXPECT_EQ(asker.due(), at_s(0.1));
@@ -110,8 +110,8 @@ TEST(EchoAsker, ALostBatchIsRepeatedOnceWithItsNumber) {
   EXPECT_EQ(asker.counters().batches_repeated, 1);
 }
 
-TEST(EchoAsker, AtTheDeadlineASurveyFailsAndTheServiceIsAway) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, AtTheDeadlineASurveyFailsAndTheServiceIsAway) {
+  TerrainAsker asker(kRule);
   asker.ask_routine(survey());
   asker.take_batches(at_s(0));
   asker.take_batches(at_s(0.2));
@@ -121,8 +121,8 @@ TEST(EchoAsker, AtTheDeadlineASurveyFailsAndTheServiceIsAway) {
   EXPECT_FALSE(finished[0].answered);
 }
 
-TEST(EchoAsker, WhileAwayUrgentSurveysFailAtOnceAndTheServiceIsProbed) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, WhileAwayUrgentSurveysFailAtOnceAndTheServiceIsProbed) {
+  TerrainAsker asker(kRule);
   asker.ask_urgent(survey());
   asker.take_batches(at_s(0));
   asker.take_batches(at_s(0.2));
@@ -142,8 +142,8 @@ TEST(EchoAsker, WhileAwayUrgentSurveysFailAtOnceAndTheServiceIsProbed) {
   EXPECT_TRUE(asker.take_finished().empty());  // nobody waited for the probe
 }
 
-TEST(EchoAsker, WhileAwayOneRoutineBatchAtATimeProbes) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, WhileAwayOneRoutineBatchAtATimeProbes) {
+  TerrainAsker asker(kRule);
   for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
   EXPECT_EQ(asker.take_batches(at_s(0)).size(), 2u);
   const auto probe = asker.take_batches(at_s(0.2));
@@ -153,8 +153,8 @@ TEST(EchoAsker, WhileAwayOneRoutineBatchAtATimeProbes) {
   EXPECT_FALSE(asker.is_away());
 }
 
-TEST(EchoAsker, ALateAnswerTellsThatTheServiceIsBack) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, ALateAnswerTellsThatTheServiceIsBack) {
+  TerrainAsker asker(kRule);
   asker.ask_routine(survey());
   const auto sent = asker.take_batches(at_s(0));
   asker.take_batches(at_s(0.2));
@@ -163,8 +163,8 @@ TEST(EchoAsker, ALateAnswerTellsThatTheServiceIsBack) {
   EXPECT_FALSE(asker.is_away());
 }
 
-TEST(EchoAsker, AnswersToNothingAskedAreIgnored) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, AnswersToNothingAskedAreIgnored) {
+  TerrainAsker asker(kRule);
   asker.answer(99, {});
   asker.ask_routine(survey());
   const auto sent = asker.take_batches(at_s(0));
@@ -173,8 +173,8 @@ TEST(EchoAsker, AnswersToNothingAskedAreIgnored) {
   EXPECT_EQ(asker.due(), at_s(0.1));
 }
 
-TEST(EchoAsker, AnAnswerOfAnotherCountAndARefusalAreNoAnswers) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, AnAnswerOfAnotherCountAndARefusalAreNoAnswers) {
+  TerrainAsker asker(kRule);
   asker.ask_routine(survey());
   asker.answer(asker.take_batches(at_s(0)).at(0).request_id, std::vector<RayAnswer>(7));
   EXPECT_FALSE(asker.take_finished().at(0).answered);
@@ -184,21 +184,58 @@ TEST(EchoAsker, AnAnswerOfAnotherCountAndARefusalAreNoAnswers) {
   EXPECT_FALSE(asker.is_away());
 }
 
-TEST(EchoAsker, ASurveyWithoutAKnownDepthIsAnsweredWithoutAskingForWays) {
-  EchoAsker asker(kRule);
+TEST(TerrainAsker, ASurveyWithoutAKnownDepthIsAnsweredWithoutAskingForWays) {
+  TerrainAsker asker(kRule);
   asker.ask_routine(survey());
   const auto sent = asker.take_batches(at_s(0));
   asker.answer(sent[0].request_id, std::vector<RayAnswer>(8, {RayAnswer::Kind::kOutside, 0}));
   const auto finished = asker.take_finished();
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_TRUE(finished[0].answered);
-  EXPECT_FALSE(finished[0].survey.complete());
+  EXPECT_FALSE(std::get<EchoSurvey>(finished[0].survey).complete());
 }
 
-TEST(EchoAsker, ImpossibleRulesAreRefused) {
-  EXPECT_THROW(EchoAsker({.rays_per_batch = 5000}), InvalidArgument);
-  EXPECT_THROW(EchoAsker({.batches_in_flight = 0}), InvalidArgument);
-  EXPECT_THROW(EchoAsker({.answer_deadline = for_s(0)}), InvalidArgument);
+TEST(TerrainAsker, ImpossibleRulesAreRefused) {
+  EXPECT_THROW(TerrainAsker({.rays_per_batch = 5000}), InvalidArgument);
+  EXPECT_THROW(TerrainAsker({.batches_in_flight = 0}), InvalidArgument);
+  EXPECT_THROW(TerrainAsker({.answer_deadline = for_s(0)}), InvalidArgument);
+}
+
+ProfileSurvey profile(std::int64_t cells_long) {
+  return ProfileSurvey({{0, 0}, {cells_long, 0}}, ProfileRule{});
+}
+
+TEST(TerrainAsker, AProfileSurveyIsThroughAfterItsDepths) {
+  TerrainAsker asker(kRule);
+  asker.ask_routine(profile(40));
+  const auto depths = asker.take_batches(at_s(0));
+  ASSERT_EQ(depths.size(), 1u);
+  EXPECT_EQ(depths[0].rays.size(), 17u);  // 400 m, 25 m apart
+  answer(asker, depths[0]);
+  const auto finished = asker.take_finished();
+  ASSERT_EQ(finished.size(), 1u);
+  EXPECT_NE(std::get<ProfileSurvey>(finished[0].survey).profile(), nullptr);
+  EXPECT_EQ(asker.due(), SimTime::never());
+}
+
+TEST(TerrainAsker, ProfilesAndEchoesShareABatchOfDepths) {
+  TerrainAsker asker(kRule);
+  asker.ask_routine(survey());
+  asker.ask_routine(profile(40));
+  const auto batches = asker.take_batches(at_s(0));
+  ASSERT_EQ(batches.size(), 1u);
+  EXPECT_EQ(batches[0].rays.size(), 8u + 17u);
+  answer(asker, batches[0]);
+  EXPECT_EQ(asker.take_batches(at_s(0)).at(0).kind, Kind::kWays);  // the echoes'
+}
+
+TEST(TerrainAsker, ASurveyLongerThanABatchGoesWhole) {
+  TerrainAsker asker(kRule);
+  asker.ask_routine(survey());
+  asker.ask_routine(profile(500));
+  const auto batches = asker.take_batches(at_s(0));
+  ASSERT_EQ(batches.size(), 2u);
+  EXPECT_EQ(batches[1].rays.size(), 201u);  // kRule allows 128
 }
 
 }  // namespace

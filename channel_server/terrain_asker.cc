@@ -1,4 +1,4 @@
-#include "channel_server/echo_asker.h"
+#include "channel_server/terrain_asker.h"
 
 #include <algorithm>
 #include <array>
@@ -11,25 +11,21 @@ namespace {
 
 SimDuration half(SimDuration duration) { return SimDuration::from_nanoseconds(duration.nanoseconds() / 2); }
 
-std::vector<EchoRay> rays_of(const EchoSurvey& survey, RayBatch::Kind stage) {
-  return stage == RayBatch::Kind::kDepths ? survey.depth_rays() : survey.way_rays();
-}
-
 }  // namespace
 
-EchoAsker::EchoAsker(AskingRule rule) : rule_(rule) {
+TerrainAsker::TerrainAsker(AskingRule rule) : rule_(rule) {
   require(rule.rays_per_batch >= 128 && rule.rays_per_batch <= 4096,
           "rays_per_batch: allowed is 128 to 4096");
   require(rule.batches_in_flight >= 1 && rule.batches_per_tick >= 1, "at least one batch must be allowed");
   require(rule.answer_deadline > SimDuration(), "the deadline of answers must be positive");
 }
 
-EchoAsker::SurveyId EchoAsker::ask_routine(EchoSurvey survey) {
+TerrainAsker::SurveyId TerrainAsker::ask_routine(TerrainSurvey survey) {
   routine_depths_.push_back({.id = ++last_survey_, .survey = std::move(survey)});
   return last_survey_;
 }
 
-EchoAsker::SurveyId EchoAsker::ask_urgent(EchoSurvey survey) {
+TerrainAsker::SurveyId TerrainAsker::ask_urgent(TerrainSurvey survey) {
   Waiting waiting{.id = ++last_survey_, .urgent = true, .survey = std::move(survey)};
   if (!away_) {
     urgent_depths_.push_back(std::move(waiting));
@@ -42,7 +38,7 @@ EchoAsker::SurveyId EchoAsker::ask_urgent(EchoSurvey survey) {
   return last_survey_;
 }
 
-std::vector<EchoAsker::SurveyId> EchoAsker::begin_tick() {
+std::vector<TerrainAsker::SurveyId> TerrainAsker::begin_tick() {
   std::vector<SurveyId> dropped;
   for (Queue* queue : {&routine_depths_, &routine_ways_}) {
     for (const Waiting& waiting : *queue) {
@@ -55,24 +51,24 @@ std::vector<EchoAsker::SurveyId> EchoAsker::begin_tick() {
   return dropped;
 }
 
-bool EchoAsker::may_send(bool urgent) const {
+bool TerrainAsker::may_send(bool urgent) const {
   if (away_) return in_flight_.empty();
   return in_flight_.size() < rule_.batches_in_flight && (urgent || sent_this_tick_ < rule_.batches_per_tick);
 }
 
-const EchoAsker::Queue* EchoAsker::next_queue() const {
+const TerrainAsker::Queue* TerrainAsker::next_queue() const {
   for (const Queue* queue : {&urgent_ways_, &urgent_depths_, &routine_ways_, &routine_depths_}) {
     if (!queue->empty()) return may_send(queue->front().urgent) ? queue : nullptr;
   }
   return nullptr;
 }
 
-EchoAsker::Queue& EchoAsker::queue_of(const Waiting& waiting) {
-  if (waiting.stage == RayBatch::Kind::kWays) return waiting.urgent ? urgent_ways_ : routine_ways_;
+TerrainAsker::Queue& TerrainAsker::queue_of(const Waiting& waiting) {
+  if (asks(waiting.survey) == RayKind::kWays) return waiting.urgent ? urgent_ways_ : routine_ways_;
   return waiting.urgent ? urgent_depths_ : routine_depths_;
 }
 
-std::vector<RayBatch> EchoAsker::take_batches(SimTime steady) {
+std::vector<RayBatch> TerrainAsker::take_batches(SimTime steady) {
   std::vector<RayBatch> batches;
   repeat_and_give_up(steady, batches);
   while (const Queue* queue = next_queue()) {
@@ -82,11 +78,11 @@ std::vector<RayBatch> EchoAsker::take_batches(SimTime steady) {
 }
 
 // Surveys are not split: all rays of one stage of one survey go in one batch.
-RayBatch EchoAsker::send_from(Queue& queue, SimTime steady) {
-  InFlight sent{{++last_request_, queue.front().stage, {}}, {}, steady, false};
+RayBatch TerrainAsker::send_from(Queue& queue, SimTime steady) {
+  InFlight sent{{++last_request_, *asks(queue.front().survey), {}}, {}, steady, false};
   if (!queue.front().urgent) ++sent_this_tick_;
   while (!queue.empty()) {
-    const auto rays = rays_of(queue.front().survey, sent.batch.kind);
+    const auto rays = rays_of(queue.front().survey);
     const bool fits = sent.batch.rays.size() + rays.size() <= rule_.rays_per_batch;
     if (!fits && !sent.surveys.empty()) break;
     sent.batch.rays.insert(sent.batch.rays.end(), rays.begin(), rays.end());
@@ -97,11 +93,11 @@ RayBatch EchoAsker::send_from(Queue& queue, SimTime steady) {
   return in_flight_.emplace(last_request_, std::move(sent)).first->second.batch;
 }
 
-SimTime EchoAsker::next_action(const InFlight& batch) const {
+SimTime TerrainAsker::next_action(const InFlight& batch) const {
   return batch.sent + (batch.repeated ? rule_.answer_deadline : half(rule_.answer_deadline));
 }
 
-void EchoAsker::repeat_and_give_up(SimTime steady, std::vector<RayBatch>& repeated) {
+void TerrainAsker::repeat_and_give_up(SimTime steady, std::vector<RayBatch>& repeated) {
   for (auto batch = in_flight_.begin(); batch != in_flight_.end();) {
     if (steady >= batch->second.sent + rule_.answer_deadline) {
       ++counters_.batches_failed;
@@ -119,7 +115,7 @@ void EchoAsker::repeat_and_give_up(SimTime steady, std::vector<RayBatch>& repeat
   }
 }
 
-void EchoAsker::declare_away() {
+void TerrainAsker::declare_away() {
   away_ = true;
   for (Queue* queue : {&urgent_ways_, &urgent_depths_}) {
     for (Waiting& waiting : *queue) finish(std::move(waiting), false);
@@ -127,7 +123,7 @@ void EchoAsker::declare_away() {
   }
 }
 
-void EchoAsker::answer(std::int64_t request_id, std::span<const RayAnswer> answers) {
+void TerrainAsker::answer(std::int64_t request_id, std::span<const RayAnswer> answers) {
   if (request_id < 1 || request_id > last_request_) return;
   away_ = false;
   auto found = in_flight_.extract(request_id);
@@ -135,51 +131,46 @@ void EchoAsker::answer(std::int64_t request_id, std::span<const RayAnswer> answe
   InFlight& answered = found.mapped();
   if (answers.size() != answered.batch.rays.size()) return fail_all(std::move(answered.surveys));
   for (Waiting& waiting : answered.surveys) {
-    const std::size_t count = rays_of(waiting.survey, answered.batch.kind).size();
+    const std::size_t count = rays_of(waiting.survey).size();
     advance(std::move(waiting), answers.first(count));
     answers = answers.subspan(count);
   }
 }
 
-void EchoAsker::refuse(std::int64_t request_id) {
+void TerrainAsker::refuse(std::int64_t request_id) {
   if (request_id < 1 || request_id > last_request_) return;
   away_ = false;
   auto found = in_flight_.extract(request_id);
   if (!found.empty()) fail_all(std::move(found.mapped().surveys));
 }
 
-void EchoAsker::advance(Waiting waiting, std::span<const RayAnswer> answers) {
-  if (waiting.stage == RayBatch::Kind::kWays) {
-    waiting.survey.take_ways(answers);
-    return finish(std::move(waiting), true);
-  }
-  waiting.survey.take_depths(answers);
-  if (waiting.silent || waiting.survey.way_rays().empty()) return finish(std::move(waiting), true);
-  waiting.stage = RayBatch::Kind::kWays;
+void TerrainAsker::advance(Waiting waiting, std::span<const RayAnswer> answers) {
+  take(waiting.survey, answers);
+  if (waiting.silent || !asks(waiting.survey)) return finish(std::move(waiting), true);
   Queue& queue = queue_of(waiting);
   queue.push_back(std::move(waiting));
 }
 
-void EchoAsker::finish(Waiting waiting, bool answered) {
+void TerrainAsker::finish(Waiting waiting, bool answered) {
   if (waiting.silent) return;
   ++(answered ? counters_.surveys_answered : counters_.surveys_failed);
   finished_.push_back({waiting.id, std::move(waiting.survey), answered});
 }
 
-void EchoAsker::fail_all(std::vector<Waiting> surveys) {
+void TerrainAsker::fail_all(std::vector<Waiting> surveys) {
   for (Waiting& waiting : surveys) finish(std::move(waiting), false);
 }
 
-std::vector<EchoAsker::Finished> EchoAsker::take_finished() { return std::exchange(finished_, {}); }
+std::vector<TerrainAsker::Finished> TerrainAsker::take_finished() { return std::exchange(finished_, {}); }
 
-SimTime EchoAsker::due() const {
+SimTime TerrainAsker::due() const {
   if (next_queue() != nullptr || !finished_.empty()) return SimTime::at_once();
   SimTime due = SimTime::never();
   for (const auto& [id, batch] : in_flight_) due = std::min(due, next_action(batch));
   return due;
 }
 
-void EchoAsker::clear() {
+void TerrainAsker::clear() {
   for (Queue* queue : {&urgent_ways_, &urgent_depths_, &routine_ways_, &routine_depths_}) queue->clear();
   in_flight_.clear();
   finished_.clear();

@@ -1,8 +1,8 @@
-// Gets echo surveys answered by a service that may be slow, deaf or gone: batches their rays, paces the
-// batches, gives up in time, and finds out when the service is back.
+// Gets surveys of the terrain answered by a service that may be slow, deaf or gone: batches their rays, paces
+// the batches, gives up in time, and finds out when the service is back.
 //
-// Surveys go through two stages (depths, then ways), each in batches of one kind of up to `rays_per_batch`
-// rays. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick` are sent between
+// Surveys go through their questions (depths; an echo survey then ways), each in batches of one kind of up to
+// `rays_per_batch` rays. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick` are sent between
 // two begin_tick(); routine surveys that have not been sent by the next tick are dropped and counted: their rows
 // say unknown, and their turn comes first then. Urgent surveys go before routine ones and do not count.
 //
@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "channel_server/echo_survey.h"
+#include "channel_server/terrain_survey.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -33,19 +33,18 @@ struct AskingRule {
 };
 
 struct RayBatch {
-  enum class Kind { kDepths, kWays };
   std::int64_t request_id = 0;
-  Kind kind = Kind::kDepths;
-  std::vector<EchoRay> rays;
+  RayKind kind = RayKind::kDepths;
+  std::vector<TerrainRay> rays;
 };
 
-class EchoAsker {
+class TerrainAsker {
  public:
   // The asker's name of a survey, ascending from 1.
   using SurveyId = std::int64_t;
   struct Finished {
     SurveyId id = 0;
-    EchoSurvey survey;
+    TerrainSurvey survey;
     bool answered = false;
   };
   struct Counters {
@@ -53,10 +52,10 @@ class EchoAsker {
     std::int64_t surveys_answered = 0, surveys_failed = 0, surveys_dropped = 0;
   };
 
-  explicit EchoAsker(AskingRule rule);
+  explicit TerrainAsker(AskingRule rule);
 
-  SurveyId ask_routine(EchoSurvey survey);
-  SurveyId ask_urgent(EchoSurvey survey);
+  SurveyId ask_routine(TerrainSurvey survey);
+  SurveyId ask_urgent(TerrainSurvey survey);
   // Drops routine surveys not sent yet and opens the allowance of a new tick; returns the dropped.
   std::vector<SurveyId> begin_tick();
 
@@ -82,8 +81,7 @@ class EchoAsker {
     SurveyId id = 0;
     bool urgent = false;
     bool silent = false;  // a probe: nobody waits for it
-    RayBatch::Kind stage = RayBatch::Kind::kDepths;
-    EchoSurvey survey;
+    TerrainSurvey survey;
   };
   struct InFlight {
     RayBatch batch;

@@ -1,0 +1,30 @@
+// What the channel server asks the owner of the terrain, and what it is told: world NED, m.
+#pragma once
+
+#include "core/frames.h"
+
+namespace halocline::channel_server {
+
+// What one message asks for: all rays of a kind.
+enum class RayKind {
+  kDepths,  // z of the seabed under each origin
+  kWays,    // whether the seabed cuts each ray
+};
+
+// `direction` of any length but 0.
+struct TerrainRay {
+  Vec3 origin_ned_m;
+  Vec3 direction;
+  double greatest_range_m;
+};
+
+struct RayAnswer {
+  enum class Kind { kHit, kMiss, kOutside, kNoData, kBelowBottom, kBadInput };
+  Kind kind = Kind::kMiss;
+  double result_m = 0;  // z of the seabed for a depth, distance for a way; holds for kHit only
+};
+
+// A depth is asked for a place, not a ray: its range only has to be legal.
+inline TerrainRay depth_ray(const Vec3& place_ned_m) { return {place_ned_m, Vec3::UnitZ(), 1}; }
+
+}  // namespace halocline::channel_server
