@@ -35,19 +35,31 @@ RelativeFlow relative_flow(const Model& model, const Vec6& nu, const Mat3& body_
 
 Vec6 hull_force(const ModelParameters& p, const RelativeFlow& flow) {
   const double rho = p.water_density_kg_m3;
-  return damping_force(p.damping, flow.nu_r, flow.speed_mps) +
-         lift_drag_force(p.lift_drag, rho, flow.nu_r, flow.speed_mps) +
-         cross_flow_force(p.cross_flow, rho, p.hull.diameter_m, flow.nu_r);
+  Vec6 force = damping_force(p.damping, flow.nu_r, flow.speed_mps) +
+               cross_flow_force(p.cross_flow, rho, p.hull.diameter_m, flow.nu_r);
+  if (p.lift_drag.reference_area_m2 > 0)
+    force += lift_drag_force(p.lift_drag, rho, flow.nu_r, flow.speed_mps);
+  if (p.body_lift.reference_area_m2 > 0) force += body_lift_force(p.body_lift, rho, flow.nu_r);
+  return force;
 }
 
-Vec6 actuator_force(const ModelParameters& p, const VehicleState& state, const RelativeFlow& flow) {
+Vec6 stern_force(const ModelParameters& p, const VehicleState& state, const RelativeFlow& flow) {
   const double rho = p.water_density_kg_m3;
   const double inflow_speed = p.current_treatment == CurrentTreatment::kUpstream
                                   ? state.linear_velocity_body_mps().norm()
                                   : flow.speed_mps;
   return rudder_force(p.rudder, rho, flow.nu_r, state.actuators.rudder_rad) +
          stern_planes_force(p.stern_planes, rho, flow.nu_r, state.actuators.stern_planes_rad) +
-         propeller_force(p.propeller, rho, inflow_speed, state.actuators.propeller_hz);
+         thruster_force(p.propeller, rho, flow.nu_r, inflow_speed, state.actuators.propeller_hz);
+}
+
+Vec6 thrusters_force(const ModelParameters& p, const VehicleState& state, const RelativeFlow& flow) {
+  Vec6 force = Vec6::Zero();
+  for (std::size_t i = 0; i < p.thrusters.size(); ++i) {
+    force += thruster_force(p.thrusters[i], p.water_density_kg_m3, flow.nu_r, flow.speed_mps,
+                            state.actuators.thruster_hz[i]);
+  }
+  return force;
 }
 
 // Weight at CG, buoyancy at CB; `down` is the world's z axis in the body frame.
@@ -72,8 +84,9 @@ Vec6 acceleration(const Model& model, const VehicleState& state, const Mat3& bod
   const ModelParameters& p = model.parameters();
   const RelativeFlow flow = relative_flow(model, state.velocity_body, body_to_world, water.current_ned_mps);
   const Submergence under = submergence(p, state, water.sea_surface_z_m);
-  const Vec6 force = total_coriolis_force(model, flow.nu_r) + under.hull * hull_force(p, flow) +
-                     under.stern * actuator_force(p, state, flow) +
+  const Vec6 force = total_coriolis_force(model, flow.nu_r) +
+                     under.hull * (hull_force(p, flow) + thrusters_force(p, state, flow)) +
+                     under.stern * stern_force(p, state, flow) +
                      restoring_force(model, body_to_world.row(2).transpose(), under);
   return flow.current_rate + model.inverse_mass() * force;
 }
@@ -84,8 +97,10 @@ Eigen::Vector4d quaternion_rate(const Quaternion& q, const Vec3& omega) {
 }
 
 ActuatorValues advanced(const ActuatorValues& a, const ActuatorValues& rate, double dt) {
-  return {a.rudder_rad + dt * rate.rudder_rad, a.stern_planes_rad + dt * rate.stern_planes_rad,
-          a.propeller_hz + dt * rate.propeller_hz};
+  ActuatorValues next{a.rudder_rad + dt * rate.rudder_rad, a.stern_planes_rad + dt * rate.stern_planes_rad,
+                      a.propeller_hz + dt * rate.propeller_hz, a.thruster_hz};
+  for (std::size_t i = 0; i < next.thruster_hz.size(); ++i) next.thruster_hz[i] += dt * rate.thruster_hz[i];
+  return next;
 }
 
 VehicleState advanced(const VehicleState& s, const StateRate& rate, double dt) {
@@ -121,12 +136,12 @@ StateRate rate_of_change(const Model& model, const VehicleState& state, const Ac
   return {body_to_world * state.linear_velocity_body_mps(),
           quaternion_rate(state.orientation, state.angular_velocity_body_radps()),
           acceleration(model, state, body_to_world, water),
-          actuator_rate(model.parameters().actuators, state.actuators, limited_command)};
+          actuator_rate(model.parameters(), state.actuators, limited_command)};
 }
 
 VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
                       const Water& water, double step_s) {
-  const ActuatorValues held = limited(model.parameters().actuators, command);
+  const ActuatorValues held = limited(model.parameters(), command);
   const StateRate k1 = rate_of_change(model, state, held, water);
   const StateRate k2 = rate_of_change(model, advanced(state, k1, step_s / 2), held, water);
   const StateRate k3 = rate_of_change(model, advanced(state, k2, step_s / 2), held, water);

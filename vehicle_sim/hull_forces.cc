@@ -25,6 +25,17 @@ Vec6 roll_only_coriolis_force(const Mat6& mass, const Vec6& nu) {
   return force;
 }
 
+Vec6 body_lift_force(const BodyLift& b, double density, const Vec6& nu_r) {
+  const double u = nu_r[0], v = nu_r[1], w = nu_r[2], q = nu_r[4], r = nu_r[5], x = b.center_aft_m;
+  const double scale = -0.5 * density * b.reference_area_m2, lift = scale * b.lift_slope_per_rad;
+  // |u| (v + x_l r) and, times x_l, its moment; x_l |u| = -x u, x_l^2 = x^2.
+  const double speed = std::abs(u);
+  Vec6 force;
+  force << scale * b.axial_drag * speed * u, lift * (speed * v - x * u * r), lift * (speed * w + x * u * q),
+      0, -lift * (-x * u * w - x * x * speed * q), lift * (-x * u * v + x * x * speed * r);
+  return force;
+}
+
 Vec6 damping_force(const Damping& damping, const Vec6& nu_r, double relative_speed_mps) {
   Vec6 force = -damping.linear.cwiseProduct(nu_r);
   double last_decay = 0, attenuation = 1;
@@ -54,8 +65,9 @@ Vec6 lift_drag_force(const LiftDrag& l, double density, const Vec6& nu_r, double
   return force;
 }
 
-Vec6 cross_flow_force(const CrossFlow& c, double density, double diameter_m, const Vec6& nu_r) {
-  const double v = nu_r[1], r = nu_r[5];
+namespace {
+
+Vec6 cross_flow_in_sway(const CrossFlow& c, double v, double r) {
   const bool odd = c.strips % 2 == 1;
   double sway = odd ? std::abs(v) * v : 0, yaw = 0;  // sums of |v + x r| (v + x r) and of x times it
   const double innermost = odd ? c.strip_length_m : c.strip_length_m / 2;
@@ -66,11 +78,35 @@ Vec6 cross_flow_force(const CrossFlow& c, double density, double diameter_m, con
     sway += fore_square + aft_square;
     yaw += x * (fore_square - aft_square);
   }
+  Vec6 sums = Vec6::Zero();
+  sums[1] = sway;
+  sums[5] = yaw;
+  return sums;
+}
+
+Vec6 cross_flow_in_both(const CrossFlow& c, const Vec6& nu_r) {
+  const double v = nu_r[1], w = nu_r[2], q = nu_r[4], r = nu_r[5];
+  double sway = 0, heave = 0, pitch = 0, yaw = 0;
+  for (int i = 0; i < c.strips; ++i) {
+    const double x = (i - 0.5 * (c.strips - 1)) * c.strip_length_m;
+    const double y_speed = v + x * r, z_speed = w - x * q;
+    const double speed = std::sqrt(y_speed * y_speed + z_speed * z_speed);
+    sway += speed * y_speed;
+    heave += speed * z_speed;
+    pitch -= x * speed * z_speed;
+    yaw += x * speed * y_speed;
+  }
+  Vec6 sums;
+  sums << 0, sway, heave, 0, pitch, yaw;
+  return sums;
+}
+
+}  // namespace
+
+Vec6 cross_flow_force(const CrossFlow& c, double density, double diameter_m, const Vec6& nu_r) {
   const double scale = -0.5 * density * diameter_m * c.drag_coefficient * c.strip_length_m;
-  Vec6 force = Vec6::Zero();
-  force[1] = scale * sway;
-  force[5] = scale * yaw;
-  return force;
+  return scale * (c.planes == CrossFlowPlanes::kSway ? cross_flow_in_sway(c, nu_r[1], nu_r[5])
+                                                     : cross_flow_in_both(c, nu_r));
 }
 
 }  // namespace halocline::vehicle_sim

@@ -26,7 +26,14 @@ Vec6 damping_force(const Damping& damping, const Vec6& nu_r, double relative_spe
 // in alpha = atan2(w, u) in [-pi, pi]; a w of -0 counts as +0. `density` in kg/m^3.
 Vec6 lift_drag_force(const LiftDrag& lift_drag, double density, const Vec6& nu_r, double relative_speed_mps);
 
-// Sway force and yaw moment of strips that each meet the cross-flow v + x r (eq. 6.91, 6.92).
+// X = -1/2 rho S C_Da u |u|, and across the hull -1/2 rho S C_L |u| v_l with v_l the velocity across it at the place of
+// the lift, center_aft behind the middle as the hull moves (x_l = -sign(u) center_aft): the sin(alpha) cos(alpha) law of
+// a slender body (Allen and Perkins 1951, NACA 1048; Hoerner 1965, chapter 19, for coefficient and place), which is
+// bounded, and the same for both directions of the flow. Smooth where u changes its sign: |u| x_l = -center_aft u.
+Vec6 body_lift_force(const BodyLift& body_lift, double density, const Vec6& nu_r);
+
+// Force and moment of strips that each meet the cross-flow (v + x r, w - x q) with its own size; with
+// CrossFlowPlanes::kSway of v + x r alone (eq. 6.91, 6.92).
 Vec6 cross_flow_force(const CrossFlow& cross_flow, double density, double diameter_m, const Vec6& nu_r);
 
 }  // namespace halocline::vehicle_sim

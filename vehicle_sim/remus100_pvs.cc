@@ -62,16 +62,22 @@ LiftDrag lift_drag() {
 }
 
 // Allen et al. 2000, with the wake fraction and thrust deduction of the published program.
-Propeller propeller() {
-  return {.diameter_m = 0.14,
-          .advance_speed_ratio = 0.944,
-          .thrust_at_rest = 0.4566,
-          .thrust_at_max = 0.1798,
-          .torque_at_rest = 0.0700,
-          .torque_at_max = 0.0312,
-          .advance_max = 0.6632,
-          .thrust_share = 0.9,
-          .torque_share = 0.1};
+Thruster propeller() {
+  Thruster t;
+  t.position_m = {kFinPlace, 0, 0};
+  t.diameter_m = 0.14;
+  t.inflow = ThrusterInflow::kSpeed;
+  t.advance_speed_ratio = 0.944;
+  t.thrust_at_rest = 0.4566;
+  t.thrust_at_max = 0.1798;
+  t.torque_at_rest = 0.0700;
+  t.torque_at_max = 0.0312;
+  t.advance_max = 0.6632;
+  t.thrust_share = 0.9;
+  t.torque_share = 0.1;
+  t.lag_s = 1.0;
+  t.max_hz = kMaxRpm / 60;
+  return t;
 }
 
 }  // namespace
@@ -105,11 +111,11 @@ ModelParameters remus100_pvs_parameters(CurrentTreatment treatment) {
   p.current_treatment = treatment;
   p.damping = damping(m, p.mass_kg * kGravity);
   p.lift_drag = lift_drag();
-  p.cross_flow = {kHoernerHalf, kLength / kStripIntervals, kStripIntervals + 1};
-  p.rudder = {2 * kFinArea, kRudderLift, kFinPlace};
-  p.stern_planes = {2 * kFinArea, kSternLift, kFinPlace};
+  p.cross_flow = {kHoernerHalf, kLength / kStripIntervals, kStripIntervals + 1, CrossFlowPlanes::kSway};
+  p.rudder = {2 * kFinArea, kRudderLift, kFinPlace, FinLaw::kDeflection};
+  p.stern_planes = {2 * kFinArea, kSternLift, kFinPlace, FinLaw::kDeflection};
+  p.fin_servo = {0.1, to_radians(kMaxFinDegrees)};
   p.propeller = propeller();
-  p.actuators = {0.1, 1.0, to_radians(kMaxFinDegrees), kMaxRpm / 60};
   return p;
 }
 

@@ -41,17 +41,47 @@ void check_forces(const ModelParameters& p) {
   require_not_negative(p.lift_drag.zero_lift_drag, "zero-lift drag coefficient", "");
   require_positive(p.lift_drag.aspect_ratio, "aspect ratio", "");
   require_in_range(p.lift_drag.oswald_efficiency, kLeast, 1, "Oswald efficiency", "");
+  require_not_negative(p.body_lift.reference_area_m2, "body lift reference area", "m^2");
+  require_not_negative(p.body_lift.axial_drag, "axial drag coefficient", "");
+  require_not_negative(p.body_lift.lift_slope_per_rad, "body lift slope", "1/rad");
+  require_not_negative(p.body_lift.center_aft_m, "centre of body lift", "m");
   require_not_negative(p.cross_flow.drag_coefficient, "cross-flow drag coefficient", "");
   require_not_negative(p.cross_flow.strip_length_m, "cross-flow strip length", "m");
   require_in_range(p.cross_flow.strips, 0, 1000, "cross-flow strips", "");
-  require_positive(p.propeller.advance_max, "greatest advance number", "");
 }
 
-void check_actuators(const ActuatorDynamics& a) {
-  require_positive(a.fin_lag_s, "fin lag", "s");
-  require_positive(a.propeller_lag_s, "propeller lag", "s");
-  require_in_range(a.max_fin_angle_rad, 0, std::numbers::pi / 2, "greatest fin angle", "rad");
-  require_not_negative(a.max_propeller_hz, "greatest propeller speed", "Hz");
+void check_fins(const FinPair& fins) {
+  require_not_negative(fins.area_m2, "fin area", "m^2");
+  require_not_negative(fins.lift_slope_per_rad, "fin lift slope", "1/rad");
+  require_not_negative(fins.normal_drag, "fin normal drag", "");
+  require_finite(fins.x_m, "place of the fins");
+}
+
+void check_thruster(const Thruster& t) {
+  constexpr double kUnitTolerance = 1e-6;
+  require(t.position_m.allFinite(), "the place of a thruster is not finite");
+  require_in_range(t.direction.norm(), 1 - kUnitTolerance, 1 + kUnitTolerance,
+                   "length of a thruster's direction");
+  require_not_negative(t.diameter_m, "propeller diameter", "m");
+  require_not_negative(t.advance_speed_ratio, "advance speed ratio", "");
+  for (const double k :
+       {t.thrust_at_rest, t.thrust_at_max, t.torque_at_rest, t.torque_at_max, t.torque_share})
+    require_finite(k, "propeller coefficient");
+  require_positive(t.advance_max, "greatest advance number", "");
+  require_in_range(t.thrust_share, 0, 1, "thrust share", "");
+  require_in_range(t.astern_ratio, 0, 1, "astern ratio", "");
+  require_positive(t.lag_s, "propeller lag", "s");
+  require_not_negative(t.max_hz, "greatest propeller speed", "Hz");
+}
+
+void check_actuators(const ModelParameters& p) {
+  check_fins(p.rudder);
+  check_fins(p.stern_planes);
+  require_positive(p.fin_servo.lag_s, "fin lag", "s");
+  require_in_range(p.fin_servo.max_angle_rad, 0, std::numbers::pi / 2, "greatest fin angle", "rad");
+  check_thruster(p.propeller);
+  require(p.thrusters.size() <= kMostThrusters, "a vehicle has 4 thrusters at most besides its propeller");
+  for (const Thruster& thruster : p.thrusters) check_thruster(thruster);
 }
 
 }  // namespace
@@ -74,7 +104,7 @@ Mat6 rigid_body_mass_matrix(double mass_kg, const Mat3& inertia_kg_m2, const Vec
 Model::Model(ModelParameters parameters) : parameters_(std::move(parameters)) {
   check_body(parameters_);
   check_forces(parameters_);
-  check_actuators(parameters_.actuators);
+  check_actuators(parameters_);
   rigid_body_mass_ =
       rigid_body_mass_matrix(parameters_.mass_kg, parameters_.inertia_kg_m2, parameters_.center_of_gravity_m);
   mass_ = rigid_body_mass_ + parameters_.added_mass;

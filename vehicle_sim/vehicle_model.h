@@ -4,12 +4,15 @@
 // and Motion Control, 2nd ed. 2021, chapters 3, 6 and 8):
 //   M nu_dot = tau_actuators + tau_hull - C(nu_r) nu_r - D(nu_r) nu_r - g(eta),  nu_r = nu - nu_c.
 // Frame: body, origin CO at the hull's centre, x forward, y starboard, z down. 6-vectors are (surge, sway,
-// heave; roll, pitch, yaw). All SI and radians; propeller speed in revolutions per second (Hz). Left out:
-// shift of added mass near the surface, waves, fins' own added mass, propeller lateral forces. Threads: a
-// Model never changes; any number of threads may read one.
+// heave; roll, pitch, yaw). All SI and radians; propeller speed in revolutions per second (Hz). An effect whose
+// area or coefficient is 0 is absent. docs/vehicles.md describes each effect and the models made of them. Left out:
+// shift of added mass near the surface, fins' own added mass, propeller lateral forces, the propeller's race over
+// the fins. Threads: a Model never changes; any number of threads may read one.
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -50,8 +53,8 @@ struct Damping {
   Vec6 decay_s_per_m = Vec6::Zero();  // 0 or above; 0 leaves the term constant
 };
 
-// Lift and drag of the hull in its x-z plane, of the angle of attack alpha = atan2(w_r, u_r):
-// C_L = lift_slope alpha, C_D = zero_lift_drag + C_L^2 / (pi oswald aspect_ratio).
+// Lift and drag of the hull in its x-z plane, of the angle of attack alpha = atan2(w_r, u_r), as `remus100-pvs` has it:
+// C_L = lift_slope alpha, C_D = zero_lift_drag + C_L^2 / (pi oswald aspect_ratio). Jumps in reverse flow.
 struct LiftDrag {
   double reference_area_m2 = 0;   // 0 or above
   double zero_lift_drag = 0;      // C_D0, 0 or above
@@ -60,27 +63,56 @@ struct LiftDrag {
   double oswald_efficiency = 1;   // e, above 0 and at most 1
 };
 
-// Drag of the cross-flow on a cylinder cut into strips along x, for sway and yaw (strip theory, Hoerner
-// 1965).
+// Drag along the hull and lift across it, bounded and smooth at every angle of attack: see body_lift_force.
+struct BodyLift {
+  double reference_area_m2 = 0;   // 0 or above
+  double axial_drag = 0;          // of u |u|, 0 or above
+  double lift_slope_per_rad = 0;  // of sin(alpha) cos(alpha), 0 or above
+  double center_aft_m = 0;        // how far behind the hull's middle, as it moves, the lift acts; 0 or above
+};
+
+enum class CrossFlowPlanes {
+  kSway,  // sway and yaw alone (`remus100-pvs`)
+  kBoth,  // sway and heave together, yaw and pitch
+};
+
+// Drag of the cross-flow on a cylinder cut into strips along x (strip theory, Hoerner 1965).
 struct CrossFlow {
   double drag_coefficient = 0;  // of the cylinder's section, 0 or above
   double strip_length_m = 0;    // 0 or above
   int strips = 0;               // 0 or above; centres lie symmetric about CO, strip_length_m apart
+  CrossFlowPlanes planes = CrossFlowPlanes::kSway;
 };
 
-// One pair of fins: force proportional to the deflection, drag to its square; both to the speed squared in
-// the fin's plane.
+enum class FinLaw {
+  kDeflection,  // force proportional to the deflection, whatever the flow's angle (`remus100-pvs`)
+  kLocalFlow,   // force of the flow's angle to the deflected fin, with the velocity of the fin itself
+};
+
+// One pair of fins.
 struct FinPair {
-  double area_m2 = 0;             // 0 or above
+  double area_m2 = 0;             // of the pair, 0 or above
   double lift_slope_per_rad = 0;  // 0 or above
   double x_m = 0;                 // place on the body's axis, negative aft
+  FinLaw law = FinLaw::kDeflection;
+  double normal_drag = 0;  // kLocalFlow: of the flow across the fin, 0 or above
 };
 
-// A fixed-pitch propeller; K_T and K_Q fall linearly with the advance number J = V_a / (|n| D) from their
-// value at J = 0 to that at advance_max. V_a = (1 - wake) times the speed. Astern the values at J = 0 hold.
-struct Propeller {
-  double diameter_m = 0;           // 0 or above
-  double advance_speed_ratio = 1;  // V_a over the vehicle's speed, 1 - wake fraction
+enum class ThrusterInflow {
+  // As published: V_a = advance_speed_ratio |v|, and astern K_T and K_Q stay at their values for J = 0.
+  kSpeed,
+  // V_a = advance_speed_ratio times the water's velocity along the shaft at the thruster, of either sign.
+  kAxial,
+};
+
+// A fixed-pitch propeller or thruster; K_T and K_Q fall linearly with the advance number J = V_a / (|n| D) from their
+// value at J = 0 to that at advance_max.
+struct Thruster {
+  Vec3 position_m = Vec3::Zero();  // from CO
+  Vec3 direction = Vec3::UnitX();  // of the force on the hull at positive speed; unit
+  double diameter_m = 0;           // 0 or above; 0: there is none
+  ThrusterInflow inflow = ThrusterInflow::kAxial;
+  double advance_speed_ratio = 1;  // V_a over the vehicle's speed, 1 - wake fraction; 0 or above
   double thrust_at_rest = 0;       // K_T at J = 0
   double thrust_at_max = 0;        // K_T at J = advance_max
   double torque_at_rest = 0;       // K_Q at J = 0
@@ -88,14 +120,17 @@ struct Propeller {
   double advance_max = 1;          // above 0
   double thrust_share = 1;         // 1 - thrust deduction: what reaches the hull
   double torque_share = 1;         // of the shaft torque: what reaches the hull
+  double astern_ratio = 1;         // K_T at rest astern over that ahead; 0 to 1
+  double lag_s = 1;                // of the first-order lag towards the command; above 0
+  double max_hz = 0;               // greatest speed either way; 0 or above
 };
 
-// First-order lags towards the command, which is first held to the limits.
-struct ActuatorDynamics {
-  double fin_lag_s = 0.1;        // above 0
-  double propeller_lag_s = 1.0;  // above 0
-  double max_fin_angle_rad = 0;  // 0 to pi/2
-  double max_propeller_hz = 0;   // 0 or above
+inline constexpr std::size_t kMostThrusters = 4;  // besides the propeller
+
+// First-order lag of the fins towards the command, which is first held to the limit.
+struct FinServo {
+  double lag_s = 0.1;        // above 0
+  double max_angle_rad = 0;  // 0 to pi/2
 };
 
 // What a model is made from. A plain struct, so that a file may fill it.
@@ -114,11 +149,13 @@ struct ModelParameters {
   CurrentTreatment current_treatment = CurrentTreatment::kGalilean;
   Damping damping;
   LiftDrag lift_drag;
+  BodyLift body_lift;
   CrossFlow cross_flow;
   FinPair rudder;
   FinPair stern_planes;
-  Propeller propeller;
-  ActuatorDynamics actuators;
+  FinServo fin_servo;
+  Thruster propeller;
+  std::vector<Thruster> thrusters;  // kMostThrusters at most
 };
 
 // A model ready for use: the parameters, checked, and the matrices made from them.

@@ -3,6 +3,9 @@
 // Frames and units: see each field. Plain values, copied freely.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "core/frames.h"
@@ -10,15 +13,22 @@
 
 namespace halocline::vehicle_sim {
 
-// Propeller speed, rudder and stern planes, as commanded or as they are. Positive rudder turns to starboard
-// (positive yaw rate), positive stern planes push the bow down, a positive propeller drives ahead.
+// Fins, propeller and thrusters, as commanded or as they are. Positive rudder turns to starboard (positive yaw rate),
+// positive stern planes push the bow down, a positive propeller drives ahead, a positive thruster pushes the hull along
+// its direction.
 struct ActuatorValues {
   double rudder_rad = 0;
   double stern_planes_rad = 0;
-  double propeller_hz = 0;  // revolutions per second
+  double propeller_hz = 0;                              // revolutions per second
+  std::array<double, kMostThrusters> thruster_hz = {};  // in the model's order; unused ones 0
 
   bool operator==(const ActuatorValues&) const = default;
 };
+
+inline bool is_finite(const ActuatorValues& a) {
+  return std::isfinite(a.rudder_rad) && std::isfinite(a.stern_planes_rad) && std::isfinite(a.propeller_hz) &&
+         std::all_of(a.thruster_hz.begin(), a.thruster_hz.end(), [](double n) { return std::isfinite(n); });
+}
 
 struct VehicleState {
   Vec3 position_ned_m = Vec3::Zero();               // of CO, the body's origin
@@ -32,7 +42,7 @@ struct VehicleState {
 
 // The water round a vehicle.
 struct Water {
-  Vec3 current_ned_mps = Vec3::Zero();  // steady and uniform over the hull, finite
+  Vec3 current_ned_mps = Vec3::Zero();  // where the vehicle is, uniform over the hull, finite
   // z of the sea surface in the world frame, metres; minus infinity is water without a surface.
   double sea_surface_z_m = -std::numeric_limits<double>::infinity();
 };
@@ -40,7 +50,7 @@ struct Water {
 // False when any number of the state is NaN or infinite.
 inline bool is_finite(const VehicleState& s) {
   return s.position_ned_m.allFinite() && s.orientation.coeffs().allFinite() && s.velocity_body.allFinite() &&
-         Vec3(s.actuators.rudder_rad, s.actuators.stern_planes_rad, s.actuators.propeller_hz).allFinite();
+         is_finite(s.actuators);
 }
 
 // Pose and velocity in the project's common form.

@@ -130,9 +130,7 @@ std::size_t VehicleWorld::add(std::shared_ptr<const Model> model, const VehicleS
 }
 
 void VehicleWorld::set_command(std::size_t index, const ActuatorValues& command) {
-  require_finite(command.rudder_rad, "rudder");
-  require_finite(command.stern_planes_rad, "stern planes");
-  require_finite(command.propeller_hz, "propeller speed");
+  require(is_finite(command), "a command is not finite");
   vehicles_.at(index).command = command;
 }
 

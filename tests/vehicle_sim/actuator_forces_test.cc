@@ -41,24 +41,24 @@ TEST(ActuatorForces, FinsWithoutFlowOrDeflectionDoNothing) {
 }
 
 TEST(ActuatorForces, ThrustFallsWithAdvanceAlongTheOpenWaterLine) {
-  const Propeller& p = kRemus.propeller;
+  const Thruster& p = kRemus.propeller;
   const double n = 20, d4 = std::pow(p.diameter_m, 4);
-  EXPECT_NEAR(propeller_force(p, kDensity, 0, n)[0], 0.9 * kDensity * d4 * 0.4566 * n * n, tolerance(1e-10));
+  EXPECT_NEAR(thruster_force(p, kDensity, Vec6::Zero(), 0, n)[0], 0.9 * kDensity * d4 * 0.4566 * n * n,
+              tolerance(1e-10));
   const double speed_at_jmax = p.advance_max * n * p.diameter_m / p.advance_speed_ratio;
-  const Vec6 at_max = propeller_force(p, kDensity, speed_at_jmax, n);
+  const Vec6 at_max = thruster_force(p, kDensity, Vec6::Zero(), speed_at_jmax, n);
   EXPECT_NEAR(at_max[0], 0.9 * kDensity * d4 * 0.1798 * n * n, tolerance(1e-10));
   EXPECT_NEAR(at_max[3], 0.1 * kDensity * d4 * p.diameter_m * 0.0312 * n * n, tolerance(1e-10));
 }
 
 TEST(ActuatorForces, AsternTheInflowDoesNotMatter) {
-  EXPECT_EQ(propeller_force(kRemus.propeller, kDensity, 2, -10),
-            propeller_force(kRemus.propeller, kDensity, 0, -10));
-  EXPECT_LT(propeller_force(kRemus.propeller, kDensity, 0, -10)[0], 0);
+  EXPECT_EQ(thruster_force(kRemus.propeller, kDensity, Vec6::Zero(), 2, -10),
+            thruster_force(kRemus.propeller, kDensity, Vec6::Zero(), 0, -10));
+  EXPECT_LT(thruster_force(kRemus.propeller, kDensity, Vec6::Zero(), 0, -10)[0], 0);
 }
 
 TEST(ActuatorForces, CommandsAreHeldToTheLimitsOnBothSides) {
-  const ActuatorValues high = limited(kRemus.actuators, {9, 9, 99}),
-                       low = limited(kRemus.actuators, {-9, -9, -99});
+  const ActuatorValues high = limited(kRemus, {9, 9, 99}), low = limited(kRemus, {-9, -9, -99});
   EXPECT_EQ(high, (ActuatorValues{to_radians(15), to_radians(15), 1525.0 / 60}));
   EXPECT_EQ(low, (ActuatorValues{-to_radians(15), -to_radians(15), -1525.0 / 60}));
 }

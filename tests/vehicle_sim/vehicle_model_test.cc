@@ -85,8 +85,8 @@ TEST(VehicleModel, ImpossibleParametersAreRefused) {
   refused([](auto& p) { p.buoyancy_n = -1; });
   refused([](auto& p) { p.hull.diameter_m = 2; });
   refused([](auto& p) { p.damping.linear[2] = -1; });
-  refused([](auto& p) { p.actuators.fin_lag_s = 0; });
-  refused([](auto& p) { p.actuators.max_fin_angle_rad = 2; });
+  refused([](auto& p) { p.fin_servo.lag_s = 0; });
+  refused([](auto& p) { p.fin_servo.max_angle_rad = 2; });
   refused([](auto& p) { p.added_mass(0, 1) = 3; });
   refused([](auto& p) { p.inertia_kg_m2(0, 0) = -1; });
   refused([](auto& p) { p.center_of_gravity_m.x() = std::numeric_limits<double>::infinity(); });

@@ -1,0 +1,48 @@
+#include "vehicle_sim/model_library.h"
+
+#include "vehicle_sim/hover.h"
+#include "vehicle_sim/remus100_pvs.h"
+#include "vehicle_sim/torpedo.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+struct Entry {
+  const char* name;
+  const char* purpose;
+  ModelParameters (*make)();
+};
+
+ModelParameters remus100_pvs_galilean() { return remus100_pvs_parameters(CurrentTreatment::kGalilean); }
+
+constexpr Entry kEntries[] = {
+    {kTorpedoName, "a fin-steered AUV of 1.6 m, valid in any flow: the default", torpedo_parameters},
+    {kHoverName, "four thrusters and no fins, 1.4 m: stands still in a current", hover_parameters},
+    {kRemus100PvsName, "one published REMUS 100, to the digit, with its artefacts", remus100_pvs_galilean}};
+
+}  // namespace
+
+const std::vector<std::string>& built_in_models() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const Entry& entry : kEntries) list.emplace_back(entry.name);
+    return list;
+  }();
+  return names;
+}
+
+std::optional<ModelParameters> built_in_model(std::string_view name) {
+  for (const Entry& entry : kEntries) {
+    if (name == entry.name) return entry.make();
+  }
+  return std::nullopt;
+}
+
+std::string purpose_of_model(std::string_view name) {
+  for (const Entry& entry : kEntries) {
+    if (name == entry.name) return entry.purpose;
+  }
+  return "";
+}
+
+}  // namespace halocline::vehicle_sim
