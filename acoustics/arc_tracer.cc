@@ -98,8 +98,11 @@ bool ArcTracer::solve_facet(const State& s, std::size_t index, double until, dou
     if (std::abs(d) < kTouching) d = std::max(d, 0.0);
     const double a2 = curvature * (1 + b * b) / 2, b2 = curvature * d * b + st - ct * b;
     const double c2 = curvature * d * d / 2 - ct * d, disc = b2 * b2 - 4 * a2 * c2;
-    const double bottom = disc >= 0 ? b2 + std::sqrt(disc) : -1;
-    x = bottom > 0 ? -2 * c2 / bottom : -1;
+    const double root = disc >= 0 ? std::sqrt(disc) : -1, bottom = b2 + root;
+    // The root at which the ray goes down through the line. Below the line drawn on beyond its facet (before a
+    // crest), a ray that bends down passes it upwards first.
+    if (root < 0) return false;
+    x = bottom > 0 ? -2 * c2 / bottom : c2 > 0 && a2 > 0 ? (root - b2) / (2 * a2) : -1;
   }
   const double first = std::max(facet.r0 - s.r, 0.0), last = std::min(facet.r1 - s.r, until);
   if (!(x >= first - kTouching && x <= last + kTouching)) return false;

@@ -10,8 +10,10 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kFar = 1e9;            // m: where the level pieces at both ends stop
-constexpr double kLongestInDepths = 2;  // of a facet that samples a curve, in depths of the water there
+constexpr double kFar = 1e9;               // m: where the level pieces at both ends stop
+constexpr double kLongestInDepths = 2;     // of a facet that samples a curve, in depths of the water there
+constexpr double kLeastShareOfBend = 0.5;  // of a bend that the ones beside it have where a curve is sampled
+constexpr double kPatienceAmongBends = 3;  // there facets may be that much longer and turn that much more
 
 Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {
   const double slope = (b.depth_m - a.depth_m) / (b.range_m - a.range_m), hypotenuse = std::hypot(1.0, slope);
@@ -62,18 +64,30 @@ void BottomProfile::build_facets() {
   }
 }
 
+// Whether facets i - 1 and i sample a curve where they meet.
+bool BottomProfile::is_bend(std::size_t i) const {
+  const auto turn_at = [this](std::size_t k) {
+    return k > 0 && k < facets_.size() ? std::atan(facets_[k].slope) - std::atan(facets_[k - 1].slope) : 0;
+  };
+  const auto length = [](const Facet& facet) { return facet.r1 - facet.r0; };
+  const double turn = turn_at(i);
+  const bool among_bends = std::min(turn_at(i - 1) / turn, turn_at(i + 1) / turn) >= kLeastShareOfBend;
+  const double patience = among_bends ? kPatienceAmongBends : 1;
+  return std::abs(turn) <= patience * crease_ &&
+         std::max(length(facets_[i - 1]), length(facets_[i])) <= patience * kLongestInDepths * facets_[i].z0;
+}
+
 void BottomProfile::bend_facets() {
   for (std::size_t i = 1; i < facets_.size(); ++i) {
     Facet &left = facets_[i - 1], &right = facets_[i];
     const double turn = std::atan(right.slope) - std::atan(left.slope);
     right.smooth_group = left.smooth_group;
-    const double longest = std::max(left.r1 - left.r0, right.r1 - right.r0);
     if (turn == 0) continue;  // one straight piece: no corner to part rays at
-    if (std::abs(turn) > crease_ || longest > kLongestInDepths * right.z0) {
-      ++right.smooth_group;
-    } else {
+    if (is_bend(i)) {
       left.turn1 = turn / 2;
       right.turn0 = -turn / 2;
+    } else {
+      ++right.smooth_group;
     }
   }
   for (Facet& facet : facets_)

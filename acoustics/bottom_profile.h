@@ -3,7 +3,8 @@
 // Model: depth is linear between given points and constant before the first and after the last. A bottom
 // given by many points of a smooth one makes false and missing rays at its corners. So where two facets turn
 // by no more than the crease angle, and neither is longer than twice the depth there (longer ones are slopes
-// that are meant, not samples of a curve), the direction in which rays are reflected is the mean of both at
+// that are meant, not samples of a curve; both limits are three times as wide where the corners on both sides
+// turn the same way by at least half as much, as those of a curve sampled coarsely do), the direction in which rays are reflected is the mean of both at
 // the common point and goes evenly from point to point, as unit normals of a curved bottom do; its change
 // along the facet focuses or spreads the ray tube. At any other corner each facet keeps its own slope. A
 // crease angle of 0 makes all corners sharp.
@@ -64,6 +65,7 @@ class BottomProfile {
  private:
   void build_facets();
   void bend_facets();
+  bool is_bend(std::size_t i) const;
 
   std::vector<ProfiledDepth> points_;
   double crease_;

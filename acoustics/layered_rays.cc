@@ -13,6 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double kNoFold = -1;            // no angle
 constexpr double kLeastAngle = 1e-9;      // rad at the barrier: where tables begin
 constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
 constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
@@ -37,6 +38,8 @@ struct Bracket {
   double from, to;  // theta
   bool rising;
   double guess;
+  double fold_theta;      // of a turn of f at one end, or kNoFold
+  double mean_curvature;  // of r between the ends, d2r/dxi2
 };
 
 class Search {
@@ -68,12 +71,12 @@ class Search {
   void solve_cell(const Node& a, const Node& b);
   void solve_family(const Node& a, const Node& b, std::size_t family);
   // Rays between two nodes between which f is monotone; `fold_theta` is the angle of a turn of f at one of
-  // them, or negative.
+  // them, or kNoFold.
   void solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta);
-  void polish(const Bracket& bracket, std::size_t family, int cycles, double fold_theta);
+  void polish(const Bracket& bracket, std::size_t family, int cycles);
   bool too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const;
-  Node turn_of(const Node& a, const Node& b, std::size_t family) const;
-  double fold_slope(const RangeTerms& terms, int cycles, double xi, double fold_theta) const;
+  bool seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const;
+  double fold_slope(const Bracket& bracket, double range_slope, double xi) const;
 
   LayeredLink link_;
   LayeredSpans spans_;
@@ -84,6 +87,12 @@ class Search {
 
 HermiteCubic cubic_of(const Node& a, const Node& b, std::size_t family) {
   return {a.f[family], a.slope[family], b.f[family], b.slope[family], b.theta - a.theta};
+}
+
+// dr/dxi of n cycles.
+double range_slope(const Node& node, std::size_t family, int cycles) {
+  const RangeTerms terms = range_terms(node.sums, kFamilies[family]);
+  return terms.bm + cycles * terms.xm;
 }
 
 void Search::add_horizontal() {
@@ -190,37 +199,36 @@ void Search::solve_cell(const Node& a, const Node& b) {
 void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
   const HermiteCubic cubic = cubic_of(a, b, family);
   Node from = a;
-  double fold_theta = -1;
+  double fold_theta = kNoFold;
   for (const double t : cubic.turns()) {
     const double expected = cubic(t);
     Node turn = node_at(a.theta + t * (b.theta - a.theta));
-    if (std::abs(expected - std::round(expected)) < kNearFold) {
-      const double reach = 0.25 * (b.theta - a.theta);
-      turn = turn_of(node_at(std::max(a.theta, turn.theta - reach)),
-                     node_at(std::min(b.theta, turn.theta + reach)), family);
-    }
-    solve_monotone(from, turn, family, turn.theta);
-    fold_theta = turn.theta;
+    if (turn.theta <= from.theta) continue;
+    const bool fold =
+        std::abs(expected - std::round(expected)) < kNearFold && seek_turn(from, b, family, turn);
+    const double at = fold ? turn.theta : kNoFold;
+    solve_monotone(from, turn, family, at);
+    fold_theta = at;
     from = turn;
   }
   solve_monotone(from, b, family, fold_theta);
 }
 
-// The turn of f between two nodes: where its slope is 0, by bisection that follows the secant.
-Node Search::turn_of(const Node& a, const Node& b, std::size_t family) const {
-  Node low = a, high = b;
-  if ((low.slope[family] > 0) == (high.slope[family] > 0)) {
-    return node_at(0.5 * (a.theta + b.theta));
-  }
-  Node middle = a;
+// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by bisection that follows the secant;
+// false when there is no such place.
+bool Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const {
+  const auto rises = [family](const Node& node) { return node.slope[family] > 0; };
+  const bool before = rises(a) != rises(turn);
+  if (!before && rises(turn) == rises(b)) return false;
+  Node low = before ? a : turn, high = before ? turn : b;
   for (int i = 0; i < 40; ++i) {
     const double share = low.slope[family] / (low.slope[family] - high.slope[family]);
     const double bounded = i % 3 == 2 ? 0.5 : std::clamp(share, 0.01, 0.99);
-    middle = node_at(low.theta + bounded * (high.theta - low.theta));
-    if (std::abs(middle.slope[family]) * (high.theta - low.theta) < 1e-12) break;
-    ((middle.slope[family] > 0) == (low.slope[family] > 0) ? low : high) = middle;
+    turn = node_at(low.theta + bounded * (high.theta - low.theta));
+    if (std::abs(turn.slope[family]) * (high.theta - low.theta) < 1e-12) break;
+    (rises(turn) == rises(low) ? low : high) = turn;
   }
-  return middle;
+  return true;
 }
 
 void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta) {
@@ -234,12 +242,14 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, do
   const HermiteCubic cubic = cubic_of(a, b, family);
   for (int n = first; n <= last; ++n) {
     const double t = cubic.crossing(n);
-    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta)}, family, n,
-           fold_theta);
+    const double bend =
+        std::abs((range_slope(b, family, n) - range_slope(a, family, n)) / (b.sums.xi - a.sums.xi));
+    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta), fold_theta, bend},
+           family, n);
   }
 }
 
-void Search::polish(const Bracket& bracket, std::size_t family, int cycles, double fold_theta) {
+void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
   double low = bracket.from, high = bracket.to, theta = bracket.guess, sine = 0, cosine = 0;
   for (int i = 0; i < 60; ++i) {
     sine = std::sin(theta);
@@ -261,7 +271,8 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles, doub
   }
   LayeredRay ray{kFamilies[family], cycles, std::sin(theta), std::cos(theta)};
   const SpanSums sums = spans_.sums(ray.sine, ray.cosine);
-  ray.least_slope = fold_slope(range_terms(sums, ray.family), cycles, sums.xi, fold_theta);
+  const RangeTerms terms = range_terms(sums, ray.family);
+  ray.least_slope = fold_slope(bracket, terms.bm + cycles * terms.xm, sums.xi);
   const double xi = sums.xi;
   const bool trapped = cycles > 0 && !spans_.meets_surface() && !spans_.meets_bottom();
   const double wavelength = 2 * pi * spans_.barrier_mps() / omega_;
@@ -269,11 +280,13 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles, doub
   append_arrival(link_, spans_, ray, sums, paths_);
 }
 
-double Search::fold_slope(const RangeTerms& terms, int cycles, double xi, double fold_theta) const {
-  if (fold_theta < 0) return 0;
-  const double off_fold = xi - std::cos(fold_theta) / spans_.barrier_mps();
+// A turn of f beside a ray need not be a fold of its r = b + n X: near a barrier X' is so large that f may turn
+// where r does not. There |r'| / off is far above the mean curvature of the cell.
+double Search::fold_slope(const Bracket& bracket, double range_slope, double xi) const {
+  if (bracket.fold_theta == kNoFold) return 0;
+  const double off_fold = xi - std::cos(bracket.fold_theta) / spans_.barrier_mps();
   if (off_fold == 0) return 0;
-  const double curvature = std::abs((terms.bm + cycles * terms.xm) / off_fold);  // d2r/dxi2
+  const double curvature = std::min(std::abs(range_slope / off_fold), 2 * bracket.mean_curvature);
   return 0.555 * std::cbrt(curvature * curvature / (4 * omega_));
 }
 

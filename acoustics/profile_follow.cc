@@ -49,7 +49,7 @@ bool follow_path(const ArcTracer& tracer, const Arrival& before, TracedRay& ray,
     const Settled at = settle(tracer, before, pace, ray);
     if (!at.found) continue;
     const std::size_t count = paths.size();
-    append_profile_arrival(tracer, at.theta, kNoFold, at.target, paths);
+    append_profile_arrival(tracer, at.theta, Fold{}, at.target, paths);
     if (paths.size() == count) return false;
     if (is_followed(paths, before)) return true;
     paths.pop_back();

@@ -16,19 +16,19 @@ constexpr double kBesideGrazing = 1e-9;  // rad
 // (see acoustics/layered_rays.h: omega |r'|^3 / r''^2 = 0.555^3 / 4).
 constexpr double kPeakPhase = 2.0 / 3 * 0.555 * 0.555 * 0.555 / 4;
 
-// Least |q| of a ray `off_fold` from a fold: zeta = zeta_e + zeta'' off^2 / 2 there, the two rays differ in
+// Least |q| of a ray `theta` beside a fold: off it by `off`, zeta = zeta_e + zeta'' off^2 / 2, the two rays differ in
 // time by (2/3) p cos zeta'' off^3.
-double least_tube(const TracedRay& ray, double off_fold, double frequency_hz) {
-  if (off_fold == 0) return 0;
+double least_tube(const TracedRay& ray, double theta, const Fold& fold, double frequency_hz) {
+  if (fold.none() || theta == fold.theta) return 0;
   const double cosine = std::sqrt(1 - ray.sine * ray.sine);
-  const double bend = std::abs(ray.q / (cosine * off_fold));
+  const double bend = std::min(std::abs(ray.q / (cosine * (theta - fold.theta))), 2 * fold.bend);
   const double omega = 2 * pi * frequency_hz;
   return cosine * bend * std::cbrt(kPeakPhase * 1.5 / (omega * std::abs(ray.p) * cosine * bend));
 }
 
 }  // namespace
 
-void append_profile_arrival(const ArcTracer& tracer, double theta, double fold_theta, double target,
+void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& fold, double target,
                             std::vector<Arrival>& paths) {
   TracedRay ray;
   TracedDetails details;
@@ -37,8 +37,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, double fold_t
   if (!ray.arrived || ray.factor < options.min_boundary_factor) return;
   if (ray.surface_bounces + ray.bottom_bounces > options.max_bounces) return;
   if (std::abs(ray.zeta - target) > kFarOff) return;
-  const double off_fold = fold_theta == kNoFold ? 0 : theta - fold_theta;
-  const double tube = std::max(std::abs(ray.q), least_tube(ray, off_fold, options.frequency_hz));
+  const double tube = std::max(std::abs(ray.q), least_tube(ray, theta, fold, options.frequency_hz));
   const double speed = std::sqrt(1 - ray.sine * ray.sine) / ray.xi;
   Arrival path;
   // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.

@@ -10,12 +10,17 @@
 
 namespace halocline::acoustics {
 
-inline constexpr double kNoFold = 10;  // rad: no launch angle
+// A turn of zeta beside a ray: the launch angle there, rad, and |d2zeta/dtheta2|, the mean from there to the
+// next ray beyond. None by default.
+struct Fold {
+  double theta = 10;  // no launch angle
+  double bend = 0;
+  bool none() const { return bend == 0; }
+};
 
 // Traces the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of
-// unfolded depth, and appends its arrival unless the options exclude it. `fold_theta` is the launch angle of
-// a fold beside it, or kNoFold.
-void append_profile_arrival(const ArcTracer& tracer, double theta, double fold_theta, double target,
+// unfolded depth, and appends its arrival unless the options exclude it.
+void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& fold, double target,
                             std::vector<Arrival>& paths);
 
 // Launch angles above -steepest and up to `steepest`, rising, rad: close near the horizontal, where rays are

@@ -17,6 +17,8 @@ constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounc
 constexpr double kLeastParting = 1e-11;        // rad: between the rays on both sides of a parting
 constexpr int kDeepestHalving = 14;
 constexpr int kDeepestEdgeHalving = 7;    // towards where rays become too faint
+constexpr double kFinestGraze = 1e-7;     // rad: nearest to the ray that grazes
+constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
 constexpr double kCubicTolerance = 0.02;  // of the water depth
 constexpr double kNearFold = 0.15;  // of the water depth: a turn nearer to an image is sought out exactly
 constexpr double kDepthTolerance = 1e-4;  // m before the last step of Newton
@@ -33,10 +35,14 @@ class Search {
   TracedRay traced(double theta);
   void scan(const TracedRay& a, const TracedRay& b, int depth);
   void part(const TracedRay& a, const TracedRay& b, std::size_t event, int depth);
+  // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster the
+  // less they bounce: they are looked at in steps that shrink towards the edge.
+  void scan_to_edge(const TracedRay& from, const TracedRay& edge, bool grazing, int depth);
   void solve(const TracedRay& a, const TracedRay& b);
-  void solve_monotone(const TracedRay& a, const TracedRay& b, double fold_theta);
-  void polish(const TracedRay& a, const TracedRay& b, double target, double fold_theta);
-  TracedRay turn_between(const TracedRay& a, const TracedRay& b);
+  // Rays between two between which zeta is monotone; `fold` is one of them or none.
+  void solve_monotone(const TracedRay& a, const TracedRay& b, const Fold& fold);
+  void polish(const TracedRay& a, const TracedRay& b, double target, const Fold& fold);
+  bool seek_turn(const TracedRay& a, const TracedRay& b, TracedRay& turn);
   double off_nearest_image(double zeta) const;
 
   ArcTracer tracer_;
@@ -47,6 +53,10 @@ class Search {
 
 HermiteCubic cubic_of(const TracedRay& a, const TracedRay& b) {
   return {a.zeta, a.zeta_slope, b.zeta, b.zeta_slope, b.theta - a.theta};
+}
+
+Fold fold_between(const TracedRay& turn, const TracedRay& other) {
+  return {turn.theta, std::abs((other.zeta_slope - turn.zeta_slope) / (other.theta - turn.theta))};
 }
 
 // The first event at which two rays differ; empty when one history begins with the other.
@@ -62,6 +72,10 @@ bool shares_event(const TracedRay& ray, const TracedRay& other, std::size_t even
   return ray.events.size() > event &&
          std::equal(ray.events.begin(), ray.events.begin() + static_cast<std::ptrdiff_t>(event) + 1,
                     other.events.begin());
+}
+
+bool meets_bottom_at(const TracedRay& ray, std::size_t event) {
+  return ray.events[event].event == RayEvent::kBottom;
 }
 
 TracedRay Search::traced(double theta) {
@@ -106,11 +120,29 @@ void Search::scan(const TracedRay& a, const TracedRay& b, int depth) {
 void Search::part(const TracedRay& a, const TracedRay& b, std::size_t event, int depth) {
   TracedRay low = a, high = b;
   while (high.theta - low.theta > kLeastParting && traces_ <= kMostTraces) {
-    const TracedRay middle = traced(0.5 * (low.theta + high.theta));
-    (shares_event(middle, a, event) ? low : high) = middle;
+    TracedRay middle = traced(0.5 * (low.theta + high.theta));
+    std::swap(shares_event(middle, a, event) ? low : high, middle);
   }
-  scan(a, low, std::max(0, depth - 4));
-  scan(high, b, std::max(0, depth - 4));
+  const bool bounce_below = meets_bottom_at(a, event), bounce_above = meets_bottom_at(b, event);
+  depth = std::max(0, depth - 4);
+  scan_to_edge(a, low, bounce_below && !bounce_above, depth);
+  scan_to_edge(b, high, bounce_above && !bounce_below, depth);
+}
+
+void Search::scan_to_edge(const TracedRay& from, const TracedRay& edge, bool grazing, int depth) {
+  TracedRay last = from;
+  const auto scan_last = [&](const TracedRay& next) {
+    last.theta < next.theta ? scan(last, next, depth) : scan(next, last, depth);
+  };
+  if (grazing) {
+    for (double off = kGrazeStep * (from.theta - edge.theta); std::abs(off) > kFinestGraze;
+         off *= kGrazeStep) {
+      TracedRay next = traced(edge.theta + off);
+      scan_last(next);
+      last = std::move(next);
+    }
+  }
+  scan_last(edge);
 }
 
 double Search::off_nearest_image(double zeta) const {
@@ -121,45 +153,47 @@ double Search::off_nearest_image(double zeta) const {
 void Search::solve(const TracedRay& a, const TracedRay& b) {
   const HermiteCubic cubic = cubic_of(a, b);
   TracedRay from = a;
-  double fold_theta = kNoFold;
+  Fold before;
   for (const double t : cubic.turns()) {
-    const double theta = a.theta + t * (b.theta - a.theta), reach = 0.25 * (b.theta - a.theta);
-    TracedRay turn = traced(theta);
-    if (off_nearest_image(cubic(t)) < kNearFold * depth_) {
-      turn = turn_between(traced(std::max(a.theta, theta - reach)), traced(std::min(b.theta, theta + reach)));
-    }
+    TracedRay turn = traced(a.theta + t * (b.theta - a.theta));
     if (!turn.arrived || turn.theta <= from.theta) continue;
-    solve_monotone(from, turn, turn.theta);
-    fold_theta = turn.theta;
+    const bool folds = off_nearest_image(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn);
+    solve_monotone(from, turn, folds ? fold_between(turn, from) : Fold{});
+    before = folds ? fold_between(turn, b) : Fold{};
     from = turn;
   }
-  solve_monotone(from, b, fold_theta);
+  solve_monotone(from, b, before);
 }
 
-TracedRay Search::turn_between(const TracedRay& a, const TracedRay& b) {
-  TracedRay low = a, high = b, middle = a;
-  if ((low.zeta_slope > 0) == (high.zeta_slope > 0)) return traced(0.5 * (a.theta + b.theta));
+// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; false when there is no such place.
+bool Search::seek_turn(const TracedRay& a, const TracedRay& b, TracedRay& turn) {
+  const auto rises = [](const TracedRay& ray) { return ray.zeta_slope > 0; };
+  const bool before = rises(a) != rises(turn);
+  if (!before && rises(turn) == rises(b)) return false;
+  TracedRay low = before ? a : turn, high = before ? turn : b;
   for (int i = 0; i < 40; ++i) {
     const double share = low.zeta_slope / (low.zeta_slope - high.zeta_slope);
     const double bounded = i % 3 == 2 ? 0.5 : std::clamp(share, 0.01, 0.99);
-    middle = traced(low.theta + bounded * (high.theta - low.theta));
-    if (!middle.arrived || std::abs(middle.zeta_slope) * (high.theta - low.theta) < 1e-9) break;
-    ((middle.zeta_slope > 0) == (low.zeta_slope > 0) ? low : high) = middle;
+    TracedRay middle = traced(low.theta + bounded * (high.theta - low.theta));
+    if (!middle.arrived) break;
+    turn = std::move(middle);
+    if (std::abs(turn.zeta_slope) * (high.theta - low.theta) < 1e-9) break;
+    (rises(turn) == rises(low) ? low : high) = turn;
   }
-  return middle;
+  return true;
 }
 
-void Search::solve_monotone(const TracedRay& a, const TracedRay& b, double fold_theta) {
+void Search::solve_monotone(const TracedRay& a, const TracedRay& b, const Fold& fold) {
   const double low = std::min(a.zeta, b.zeta), high = std::max(a.zeta, b.zeta), period = 2 * depth_;
   for (const double image : {tracer_.receiver_depth_m(), -tracer_.receiver_depth_m()}) {
     for (double k = std::ceil((low - image) / period); image + k * period < high;
          ++k) {  // low <= target < high
-      polish(a, b, image + k * period, fold_theta);
+      polish(a, b, image + k * period, fold);
     }
   }
 }
 
-void Search::polish(const TracedRay& a, const TracedRay& b, double target, double fold_theta) {
+void Search::polish(const TracedRay& a, const TracedRay& b, double target, const Fold& fold) {
   const bool rising = b.zeta > a.zeta;
   double low = a.theta, high = b.theta;
   double theta = low + cubic_of(a, b).crossing(target) * (high - low);
@@ -178,7 +212,7 @@ void Search::polish(const TracedRay& a, const TracedRay& b, double target, doubl
     theta = next > low && next < high ? next : 0.5 * (low + high);
     if (high - low < 1e-15) break;
   }
-  append_profile_arrival(tracer_, theta, fold_theta, target, paths_);
+  append_profile_arrival(tracer_, theta, fold, target, paths_);
 }
 
 }  // namespace

@@ -238,6 +238,21 @@ TEST(ProfileRays, AHillInTheWayCastsAShadow) {
   EXPECT_TRUE(arrivals(sea, {10, 10, 2000}).has_direct_path());
 }
 
+TEST(ProfileRays, AnArcThatBendsDownOverACrestMeetsItsFarSide) {
+  // Where it starts the ray is below the far slope drawn on. Its radius is 1.5 km: highest over the crest, 3 m
+  // above it, it meets the far slope 150 m on.
+  const RaySea sea = sea_of({{0, 1600}, {300, 1300}}, BottomProfile({{0, 200}, {500, 100}, {1500, 130}}));
+  const ProfiledSea profiled{sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
+  const double theta = -std::atan(500 / (1600.0 - 182));
+  TracedRay ray;
+  ArcTracer(profiled, {182, 50, 600}).trace(theta, ray);
+  EXPECT_TRUE(ray.arrived);
+  EXPECT_EQ(ray.bottom_bounces, 0);
+  ArcTracer(profiled, {182, 50, 700}).trace(theta, ray);
+  EXPECT_TRUE(ray.arrived);
+  EXPECT_EQ(ray.bottom_bounces, 1);
+}
+
 TEST(ProfileRays, FollowedOverASeamountAreThoseOfANewSearch) {
   for (const BottomProfile& profile :
        {sharp_ridge(), cosine_hill(50), BottomProfile({{0, 200}, {5000, 120}})}) {
@@ -275,6 +290,25 @@ TEST(BottomProfile, KeepsCornersAndLongSlopesAndBendsSamplesOfACurve) {
   EXPECT_EQ(bent_facets(BottomProfile({{0, 100}, {5000, 40}})), 0);
   EXPECT_GE(bent_facets(cosine_hill(50)), 38);
   EXPECT_EQ(bent_facets(cosine_hill(50, 0)), 0);
+}
+
+TEST(BottomProfile, ACurveSampledCoarselyIsNoRowOfCorners) {
+  // Up to 7 degrees from facet to facet, and crests in water shallower than half a facet; one corner as sharp
+  // by itself stays one.
+  std::vector<ProfiledDepth> steep, shoal;
+  for (double r = 0; r <= 5000; r += 100) {
+    const double u = (r - 2500) / 300, v = (r - 2500) / 800;
+    steep.push_back({r, 200 - 120 * std::exp(-u * u / 2)});
+    shoal.push_back({r, 200 - 170 * std::exp(-v * v / 2)});
+  }
+  for (const BottomProfile& profile : {BottomProfile(steep), BottomProfile(shoal)}) {
+    const std::size_t crest = profile.facet_at(2450), foot = profile.facet_at(1900);
+    for (std::size_t i = foot; i <= crest; ++i) {
+      EXPECT_EQ(profile.facets()[i].smooth_group, profile.facets()[foot].smooth_group) << i;
+    }
+  }
+  const BottomProfile corner({{0, 200}, {100, 200}, {200, 200}, {300, 188}, {400, 176}, {500, 164}});
+  EXPECT_FALSE(corner.facets()[corner.facet_at(150)].bent());
 }
 
 TEST(BottomProfile, SeenFromTheOtherEndIsTheSame) {
