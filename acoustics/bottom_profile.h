@@ -3,11 +3,11 @@
 // Model: depth is linear between given points and constant before the first and after the last. A bottom
 // given by many points of a smooth one makes false and missing rays at its corners. So where two facets turn
 // by no more than the crease angle, and neither is longer than twice the depth there (longer ones are slopes
-// that are meant, not samples of a curve; both limits are three times as wide where the corners on both sides
-// turn the same way by at least half as much, as those of a curve sampled coarsely do), the direction in which rays are reflected is the mean of both at
+// that are meant, not samples of a curve), the direction in which rays are reflected is the mean of both at
 // the common point and goes evenly from point to point, as unit normals of a curved bottom do; its change
-// along the facet focuses or spreads the ray tube. At any other corner each facet keeps its own slope. A
-// crease angle of 0 makes all corners sharp.
+// along the facet focuses or spreads the ray tube. Both limits are three times as wide where the corners on
+// both sides turn the same way by at least half as much, as those of a curve sampled coarsely do. At any
+// other corner each facet keeps its own slope. A crease angle of 0 makes all corners sharp.
 //
 // Immutable: calls may overlap between threads. Ranges are from the source, m, rising; depths below the
 // surface, m. Left out: slopes across the link, which turn rays out of its plane.
@@ -27,7 +27,7 @@ struct ProfiledDepth {
   bool operator==(const ProfiledDepth&) const = default;
 };
 
-// Above it two facets meet in a corner, below in a bend: 5 degrees tells crests from samples of a curve.
+// Above it two facets by themselves meet in a corner, below in a bend: 5 degrees tells crests from samples of a curve.
 inline const double kDefaultCreaseAngle = to_radians(5);
 
 // One straight piece, z = z0 + slope (r - r0) for r in r0..r1.

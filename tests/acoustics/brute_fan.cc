@@ -9,7 +9,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLeastStep = 2e-15;     // rad: neighbours of different histories
+constexpr double kLeastStep = 1e-12;     // rad: neighbours of different histories
 constexpr double kLeastTurnStep = 1e-6;  // rad: neighbours that turned in different layers
 
 BruteArrival arrival_of(const BruteTracer& tracer, const RayLink& link, const BruteRay& ray) {

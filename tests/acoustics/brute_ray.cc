@@ -33,6 +33,7 @@ BruteTracer::BruteTracer(const BruteSea& sea, double source_m, double range_m)
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const auto &a = points[i], &b = points[i + 1];
     const double slope = (b.depth_m - a.depth_m) / (b.range_m - a.range_m), angle = std::atan(slope);
+    shallowest_ = std::min({shallowest_, a.depth_m, b.depth_m});
     facets_.push_back({a.range_m, b.range_m, a.depth_m, slope, angle, angle, angle});
   }
   for (std::size_t i = 2; sea.curved && i + 1 < facets_.size(); ++i) {
@@ -88,10 +89,19 @@ bool BruteTracer::first_meeting(const State& s, double reach, double& x, std::si
     } else {
       continue;
     }
-    while (high - low > 1e-12 * (1 + std::abs(high))) {
-      const double middle = 0.5 * (low + high);
+    // The secant where it helps, halves otherwise.
+    double at_low = below(low), at_high = below(high);
+    for (int k = 0; high - low > 1e-12 * (1 + std::abs(high)); ++k) {
+      const double share = std::clamp(at_low / (at_low - at_high), 1e-3, 1 - 1e-3);
+      const double middle = low + (k % 3 == 2 || !(at_low < 0) ? 0.5 : share) * (high - low);
       if (middle <= low || middle >= high) break;
-      (below(middle) > 0 ? high : low) = middle;
+      const double off = below(middle);
+      (off > 0 ? high : low) = middle;
+      (off > 0 ? at_high : at_low) = off;
+      if (std::abs(off) < 1e-13) {
+        low = high = middle;
+        break;
+      }
     }
     x = 0.5 * (low + high);
     index = i;
@@ -195,7 +205,8 @@ BruteRay BruteTracer::trace(double theta) const {
     const double reach = std::min(dx, range_ - s.r);
     double x = 0;
     std::size_t facet = 0;
-    if (first_meeting(s, reach, x, facet)) {
+    const double deepest = turns && down ? s.z + (1 / xi - s.c) / s.g : std::max(s.z, z);
+    if (deepest > shallowest_ - 1e-6 && first_meeting(s, reach, x, facet)) {
       double there = 0;
       depth_after(s, x, &there);
       if (s.sine > 0 && there < 0 && s.g > 0) note(ray.turns, s.layer);

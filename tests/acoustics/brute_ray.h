@@ -60,7 +60,7 @@ class BruteTracer {
 
   BruteSea sea_;
   std::vector<Facet> facets_;
-  double source_, range_, source_speed_;
+  double source_, range_, source_speed_, shallowest_ = 1e9;
 };
 
 }  // namespace halocline::acoustics

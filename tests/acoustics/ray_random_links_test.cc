@@ -68,6 +68,8 @@ RayLink random_link(const RandomWaters& waters, std::uint32_t index) {
   if (index % 6 == 1) link.receiver_depth_m = std::min(link.source_depth_m, 0.99 * at_receiver);
   if (index % 6 == 2) link.source_depth_m = knot(4, at_source);
   if (index % 7 == 3) link.receiver_depth_m = knot(5, at_receiver);
+  // Both ends on the axis of a duct: rays without number that no wave resolves.
+  if (index % 6 == 2 && link.receiver_depth_m == link.source_depth_m) link.receiver_depth_m -= 1;
   if (index % 11 == 5) link.receiver_depth_m = at_receiver - 0.5;
   if (index % 11 == 7) link.receiver_depth_m = 0.5;
   return link;
