@@ -2,9 +2,10 @@
 #include "channel_server/channel_server_node.h"
 
 using halocline::bus::NodeProgram;
+using halocline::channel_server::ChannelServerConfig;
+using halocline::channel_server::make_channel_server;
 
 int main(int argc, char** argv) {
-  using namespace halocline::channel_server;
   ChannelServerConfig config;
   NodeProgram program;
   program.program = "halocline-channel-server";
