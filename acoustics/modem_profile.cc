@@ -115,4 +115,17 @@ Modem profile_modem(ModemProfile profile, int psk_rate) {
   return micromodem_psk(psk_rate);
 }
 
+void validate_profile(const Modem& modem) {
+  if (modem.profile == ModemProfile::kGeneric) return;
+  const Modem own = profile_modem(modem.profile, modem.psk_rate);
+  const auto fixed = [&](bool same, const std::string& what) {
+    require(same, what + " of profile " + std::string(to_name(modem.profile)) +
+                      " is its own; only the generic profile has another");
+  };
+  fixed(modem.bit_rate_bps == own.bit_rate_bps, "bit rate");
+  fixed(modem.packet_overhead == own.packet_overhead, "packet overhead");
+  fixed(modem.preamble == own.preamble && modem.preamble_pieces == own.preamble_pieces, "preamble");
+  fixed(modem.layout == own.layout, "layout of packets");
+}
+
 }  // namespace halocline::acoustics

@@ -67,4 +67,9 @@ std::optional<ModemProfile> modem_profile_from_name(std::string_view name);
 // `psk_rate`, one of kPskRates, is read by the Micromodem's PSK alone. kGeneric is Modem{}.
 Modem profile_modem(ModemProfile profile, int psk_rate = kDefaultPskRate);
 
+// Throws InvalidArgument, naming the field, where a modem of another profile than the generic one differs from
+// its profile in what a packet is made of: bit rate, overhead, preamble, layout. Its levels, band, guard time,
+// Doppler tolerance and error model are free.
+void validate_profile(const Modem& modem);
+
 }  // namespace halocline::acoustics

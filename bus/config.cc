@@ -25,6 +25,20 @@ double readable_degrees(double radians) {
 ConfigErrors::ConfigErrors(std::vector<std::string> lines)
     : InvalidArgument(joined(lines)), lines_(std::move(lines)) {}
 
+void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule_in_seconds) {
+  double value_s = value.seconds();
+  v.number(key, value_s, rule_in_seconds);
+  value = SimDuration::from_seconds(value_s);
+}
+
+void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt) {
+  try {
+    attempt();
+  } catch (const InvalidArgument& error) {
+    v.problem(key, error.what());
+  }
+}
+
 void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees) {
   // Only what the file gives is converted, so that a default survives to the last bit.
   double value_deg = readable_degrees(radians);

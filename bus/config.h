@@ -9,6 +9,7 @@
 // visit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -19,6 +20,7 @@
 
 #include "core/check.h"
 #include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus {
 
@@ -80,6 +82,21 @@ void choice(ConfigVisitor& v, std::string_view key, Enum& value, const std::vect
     if (names[i] == name) value = static_cast<Enum>(i);
   }
 }
+
+// The names of all values of an enumeration that has a to_name, for `choice`.
+template <class Enum, std::size_t count>
+std::vector<std::string> names_of(const std::array<Enum, count>& values) {
+  std::vector<std::string> names;
+  for (const Enum value : values) names.emplace_back(to_name(value));
+  return names;
+}
+
+// A duration, in seconds in the file (its key ends in _s).
+void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule_in_seconds);
+
+// What `attempt` refuses (InvalidArgument) becomes an error of the file, with the line of `key`, beside all
+// others.
+void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt);
 
 // An angle, in degrees in the file (its key ends in _deg), in radians in the struct.
 void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees);

@@ -78,7 +78,16 @@ Checker check_modem(const modem_config_t& m) {
       .within("cutoff_level_db", m.cutoff_level_db, -kHighestLevelDb, kHighestLevelDb)
       .within("bit_rate_bps", m.bit_rate_bps, 1e-3, 1e9)
       .within("packet_overhead_s", m.packet_overhead_s, 0, 3600)
-      .within("max_payload_bytes", m.max_payload_bytes, 0, kLongestPayload);
+      .within("max_payload_bytes", m.max_payload_bytes, 0, kLongestPayload)
+      .one_of("modem_profile", m.modem_profile, modem_config_t::PROFILE_GENERIC,
+              modem_config_t::PROFILE_MICROMODEM_PSK)
+      .within("psk_rate", m.psk_rate, 0, 6)
+      .within("preamble_s", m.preamble_s, 0, 3600)
+      .within("guard_time_s", m.guard_time_s, 0, 3600)
+      .within("doppler_tolerance", m.doppler_tolerance, 0, 1)
+      .one_of("error_model", m.error_model, modem_config_t::ERRORS_NONE,
+              modem_config_t::ERRORS_BPSK_HAMMING14)
+      .one_of("when_busy", m.when_busy, modem_config_t::REFUSE, modem_config_t::QUEUE);
 }
 
 Checker check_link(const link_t& m) {

@@ -1,9 +1,9 @@
 #include "channel_server/channel_server_config.h"
 
 #include <filesystem>
-#include <functional>
 
 #include "acoustics/profile_reader.h"
+#include "channel_server/modem_config.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -16,20 +16,6 @@ const std::vector<std::string> kProfileSources{"global-mean",  "global-mean-sali
 
 // LCM carries more, but a table a minute is no table and 50 Hz of a large fleet is a flood.
 constexpr double kLeastLinkRateHz = 1.0 / 60, kGreatestLinkRateHz = 50;
-
-template <class Model, std::size_t count>
-std::vector<std::string> names_of(const std::array<Model, count>& models) {
-  std::vector<std::string> names;
-  for (const Model model : models) names.emplace_back(to_name(model));
-  return names;
-}
-
-void visit_duration(bus::ConfigVisitor& v, std::string_view key, SimDuration& value,
-                    const bus::NumberRule& rule) {
-  double seconds = value.seconds();
-  v.number(key, seconds, rule);
-  value = SimDuration::from_seconds(seconds);
-}
 
 template <class Count>
 void visit_count(bus::ConfigVisitor& v, std::string_view key, Count& value, const bus::NumberRule& rule) {
@@ -51,24 +37,16 @@ acoustics::SoundSpeedProfile speed_table(const ProfileConfig& config) {
   return acoustics::SoundSpeedProfile::from_speeds(std::move(rows), config.assumed);
 }
 
-// What the pure part refuses becomes an error of the file, with its line, beside all others.
-void report_refusal(bus::ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt) {
-  try {
-    attempt();
-  } catch (const InvalidArgument& error) {
-    v.problem(key, error.what());
-  }
-}
-
 void check_tables(bus::ConfigVisitor& v, const ProfileConfig& p) {
   if (p.source == ProfileSource::kWaterTable) {
-    report_refusal(v, "water_rows", [&] { water_table(p, acoustics::SoundSpeedModel::kMackenzie1981, 0); });
+    bus::report_refusal(v, "water_rows",
+                        [&] { water_table(p, acoustics::SoundSpeedModel::kMackenzie1981, 0); });
   }
   if (p.source != ProfileSource::kSpeedTable) return;
   if (p.speeds_mps.size() != p.speed_depths_m.size()) {
     return v.problem("speeds_mps", "profile = \"speed-table\" needs as many speeds as speed_depths_m");
   }
-  report_refusal(v, "speeds_mps", [&] { speed_table(p); });
+  bus::report_refusal(v, "speeds_mps", [&] { speed_table(p); });
 }
 
 void visit_tables(bus::ConfigVisitor& v, ProfileConfig& p) {
@@ -104,32 +82,15 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
   bus::choice(v, "profile", e.profile.source, kProfileSources, "where the sound-speed profile comes from");
   visit_tables(v, e.profile);
   visit_file(v, e.profile);
-  v.text("sound_speed_model", e.sound_speed_model, names_of(acoustics::kSoundSpeedModels),
+  v.text("sound_speed_model", e.sound_speed_model, bus::names_of(acoustics::kSoundSpeedModels),
          "formula of sound speed");
-  v.text("absorption_model", e.absorption_model, names_of(acoustics::kAbsorptionModels),
+  v.text("absorption_model", e.absorption_model, bus::names_of(acoustics::kAbsorptionModels),
          "formula of absorption");
   v.number("wind_mps", e.noise.wind_mps, {0, 60, "m/s", "wind 10 m above the sea: noise"});
   v.number("shipping", e.noise.shipping, {0, 1, "", "shipping activity: noise"});
   v.number("spreading_exponent", e.spreading_exponent,
            {1, 2, "", "1 cylindrical, 1.5 practical, 2 spherical spreading"});
   v.number("acidity_ph", e.ph, {7, 9, "", "pH of the water: absorption"});
-}
-
-void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
-  acoustics::Modem& a = m.modem;
-  v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "strength"});
-  v.number("cutoff_level_db", a.least_receivable_level.value,
-           {-200, 250, "dB re 1 uPa", "least receivable level"});
-  v.number("center_frequency_hz", a.centre_frequency_hz, {10, 1e6, "Hz", "centre of the band"});
-  v.number("bandwidth_hz", a.bandwidth_hz, {1e-3, 2e6, "Hz", "width of the band, below twice its centre"});
-  v.number("directivity_index_db", a.directivity_index.value, {0, 40, "dB", "gain of reception over noise"});
-  v.number("bit_rate_bps", a.bit_rate_bps, {1e-3, 1e7, "bit/s", "of the payload"});
-  visit_duration(v, "packet_overhead_s", a.packet_overhead, {0, 60, "s", "preamble and header of a packet"});
-  visit_count(v, "max_payload_bytes", m.max_payload_bytes,
-              {0, 32768, "bytes", "largest payload of a packet"});
-  if (a.bandwidth_hz >= 2 * a.centre_frequency_hz) {
-    v.problem("bandwidth_hz", "the band reaches below 0 Hz; allowed is below twice center_frequency_hz");
-  }
 }
 
 void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicle,
@@ -148,20 +109,20 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   v.number("link_rate_hz", rate_hz,
            {kLeastLinkRateHz, kGreatestLinkRateHz, "Hz", "link tables of each vehicle"});
   r.link_period = SimDuration::from_seconds(1 / rate_hz);
-  visit_duration(v, "state_lag_s", r.position.state_lag,
-                 {0, 10, "s", "how old a state must be to be used; longer than a message takes on the bus"});
-  visit_duration(v, "state_timeout_s", r.position.state_timeout,
-                 {0.01, 3600, "s", "a vehicle without a younger state leaves the tables"});
-  visit_duration(v, "greatest_lateness_s", r.medium.greatest_lateness,
-                 {0, 600, "s", "how long after its start a transmission may be heard of"});
-  visit_duration(v, "greatest_earliness_s", r.medium.greatest_earliness,
-                 {0, 3600, "s", "how long before its start a transmission may be announced"});
+  bus::seconds(v, "state_lag_s", r.position.state_lag,
+               {0, 10, "s", "how old a state must be to be used; longer than a message takes on the bus"});
+  bus::seconds(v, "state_timeout_s", r.position.state_timeout,
+               {0.01, 3600, "s", "a vehicle without a younger state leaves the tables"});
+  bus::seconds(v, "greatest_lateness_s", r.medium.greatest_lateness,
+               {0, 600, "s", "how long after its start a transmission may be heard of"});
+  bus::seconds(v, "greatest_earliness_s", r.medium.greatest_earliness,
+               {0, 3600, "s", "how long before its start a transmission may be announced"});
   visit_count(v, "bottom_points", r.bottom_points,
               {1, 64, "", "points of the bottom asked about for each link"});
   v.number("echo_reuse_distance_m", r.echo_reuse_distance_m,
            {0, 1e5, "m", "how far the ends of a link may move before its echoes are asked anew"});
-  visit_duration(v, "echo_deadline_s", r.asking.answer_deadline,
-                 {0.001, 60, "s", "the bathymetry service is away when it has not answered by then"});
+  bus::seconds(v, "echo_deadline_s", r.asking.answer_deadline,
+               {0.001, 60, "s", "the bathymetry service is away when it has not answered by then"});
   visit_count(v, "echo_rays_per_message", r.asking.rays_per_batch, {128, 4096, "", "rays in one RAY_QUERY"});
   visit_count(v, "echo_messages_in_flight", r.asking.batches_in_flight,
               {1, 64, "", "RAY_QUERYs without an answer"});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "acoustics/modem_profile.h"
 #include "bus/message_checks.h"
 #include "core/check.h"
 
@@ -11,6 +12,17 @@ namespace {
 Vec3 to_vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
 
 std::vector<double> as_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+// The modem whose way of framing packets the message names.
+acoustics::Modem framed_modem(const modem_config_t& message) {
+  require(message.modem_profile >= 0 &&
+              static_cast<std::size_t>(message.modem_profile) < acoustics::kModemProfiles.size(),
+          "modem_profile is no value of its enumeration");
+  require(message.error_model >= 0 &&
+              static_cast<std::size_t>(message.error_model) < acoustics::kErrorModels.size(),
+          "error_model is no value of its enumeration");
+  return profile_modem(static_cast<acoustics::ModemProfile>(message.modem_profile), message.psk_rate);
+}
 
 AskedEnd to_asked_end(const link_end_t& message) {
   AskedEnd end{message.vehicle_name, to_vec3(message.position_ned_m)};
@@ -64,6 +76,7 @@ StampedState to_state(const vehicle_state_t& message) {
 
 VehicleModem to_modem(const modem_config_t& message) {
   VehicleModem modem;
+  modem.modem = framed_modem(message);
   modem.modem.source_level = {message.source_level_db};
   modem.modem.least_receivable_level = {message.cutoff_level_db};
   modem.modem.centre_frequency_hz = message.center_frequency_hz;
@@ -71,8 +84,14 @@ VehicleModem to_modem(const modem_config_t& message) {
   modem.modem.directivity_index = {message.directivity_index_db};
   modem.modem.bit_rate_bps = message.bit_rate_bps;
   modem.modem.packet_overhead = SimDuration::from_seconds(message.packet_overhead_s);
+  modem.modem.preamble = SimDuration::from_seconds(message.preamble_s);
+  modem.modem.guard_time = SimDuration::from_seconds(message.guard_time_s);
+  modem.modem.doppler_tolerance = message.doppler_tolerance;
+  modem.modem.error_model = static_cast<acoustics::ErrorModel>(message.error_model);
   modem.max_payload_bytes = message.max_payload_bytes;
+  modem.when_busy = static_cast<WhenBusy>(message.when_busy);
   validate(modem.modem);
+  validate_profile(modem.modem);
   return modem;
 }
 
@@ -87,6 +106,13 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   message.bit_rate_bps = modem.modem.bit_rate_bps;
   message.packet_overhead_s = modem.modem.packet_overhead.seconds();
   message.max_payload_bytes = modem.max_payload_bytes;
+  message.modem_profile = static_cast<std::int8_t>(modem.modem.profile);
+  message.psk_rate = modem.modem.psk_rate;
+  message.preamble_s = modem.modem.preamble.seconds();
+  message.guard_time_s = modem.modem.guard_time.seconds();
+  message.doppler_tolerance = modem.modem.doppler_tolerance;
+  message.error_model = static_cast<std::int8_t>(modem.modem.error_model);
+  message.when_busy = static_cast<std::int8_t>(modem.when_busy);
   return message;
 }
 

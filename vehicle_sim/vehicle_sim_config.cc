@@ -12,12 +12,6 @@ using bus::NumberRule;
 const std::string kFixed = "fixed", kExternal = "external";
 const std::vector<std::string> kModels{kRemus100PvsName, kFixed, kExternal};
 
-void visit_duration(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule) {
-  double seconds = value.seconds();
-  v.number(key, seconds, rule);
-  value = SimDuration::from_seconds(seconds);
-}
-
 // A rate in the file, a period in the struct.
 void visit_rate(ConfigVisitor& v, std::string_view key, SimDuration& period, const NumberRule& rule) {
   double rate_hz = 1 / period.seconds();
@@ -26,15 +20,15 @@ void visit_rate(ConfigVisitor& v, std::string_view key, SimDuration& period, con
 }
 
 void visit_section(ConfigVisitor& v, VehicleSimConfig& c) {
-  visit_duration(v, "step_s", c.step, {0.001, VehicleWorld::kLongestStep_s, "s", "step of the physics"});
+  bus::seconds(v, "step_s", c.step, {0.001, VehicleWorld::kLongestStep_s, "s", "step of the physics"});
   visit_rate(v, "state_rate_hz", c.state_period, {0.1, 100, "Hz", "STATE messages of each vehicle a second"});
   visit_rate(v, "sensor_rate_hz", c.sensor_period,
              {0.1, 50, "Hz", "SENSORS messages of each vehicle a second"});
-  visit_duration(v, "command_timeout_s", c.command_timeout,
-                 {0.05, 3600, "s", "age at which a command is void: propeller stops, fins amidships"});
+  bus::seconds(v, "command_timeout_s", c.command_timeout,
+               {0.05, 3600, "s", "age at which a command is void: propeller stops, fins amidships"});
   v.number("altimeter_range_m", c.altimeter_range_m, {0.1, 10'000, "m", "greatest altitude measured"});
-  visit_duration(v, "altimeter_patience_s", c.altimeter_patience,
-                 {0.01, 5, "s", "how long sensors wait for the bathymetry service"});
+  bus::seconds(v, "altimeter_patience_s", c.altimeter_patience,
+               {0.01, 5, "s", "how long sensors wait for the bathymetry service"});
   v.vector3("current_ned_mps", c.current_ned_mps, {-5, 5, "m/s", "steady current: north, east, down"});
   bus::choice(v, "current_treatment", c.current_treatment, {"upstream", "galilean"},
               "how the current acts: as published with the model, or exactly");

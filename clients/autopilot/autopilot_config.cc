@@ -5,12 +5,6 @@ namespace {
 
 using bus::ConfigVisitor;
 
-void visit_duration(ConfigVisitor& v, std::string_view key, SimDuration& value, const bus::NumberRule& rule) {
-  double seconds = value.seconds();
-  v.number(key, seconds, rule);
-  value = SimDuration::from_seconds(seconds);
-}
-
 void visit_gains(ConfigVisitor& v, Gains& g) {
   v.number("heading_p", g.heading_p, {0, 100, "", "rad of rudder per rad of heading"});
   v.number("heading_d_s", g.heading_d_s, {0, 100, "s", "rad of rudder per rad/s of yaw rate"});
@@ -60,10 +54,10 @@ void visit_vehicle(ConfigVisitor& v, PilotConfig& pilot) {
 
 void visit(ConfigVisitor& v, AutopilotConfig& config) {
   v.section("autopilot", "The pilots of all vehicles with a mission", [&](ConfigVisitor& section) {
-    visit_duration(section, "command_period_s", config.command_period,
-                   {0.001, 10, "s", "simulated time between commands"});
-    visit_duration(section, "state_timeout_s", config.state_timeout,
-                   {0.01, 3600, "s", "age of a vehicle's state beyond which it is not steered"});
+    bus::seconds(section, "command_period_s", config.command_period,
+                 {0.001, 10, "s", "simulated time between commands"});
+    bus::seconds(section, "state_timeout_s", config.state_timeout,
+                 {0.01, 3600, "s", "age of a vehicle's state beyond which it is not steered"});
     section.text("only_vehicle", config.only_vehicle, {}, "pilot only this one; empty: all with a mission");
   });
   v.list(

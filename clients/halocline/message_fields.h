@@ -105,6 +105,13 @@ void visit_fields(Visitor& v, const modem_config_t& m) {
   v("bit_rate_bps", m.bit_rate_bps);
   v("packet_overhead_s", m.packet_overhead_s);
   v("max_payload_bytes", m.max_payload_bytes);
+  v("modem_profile", m.modem_profile);
+  v("psk_rate", m.psk_rate);
+  v("preamble_s", m.preamble_s);
+  v("guard_time_s", m.guard_time_s);
+  v("doppler_tolerance", m.doppler_tolerance);
+  v("error_model", m.error_model);
+  v("when_busy", m.when_busy);
 }
 
 template <class Visitor>

@@ -71,7 +71,8 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
                                FIELD(sea_surface_z_m), FIELD(spreading_exponent));
   expect_finite<modem_config_t>(FIELD(source_level_db), FIELD(center_frequency_hz), FIELD(bandwidth_hz),
                                 FIELD(directivity_index_db), FIELD(cutoff_level_db), FIELD(bit_rate_bps),
-                                FIELD(packet_overhead_s));
+                                FIELD(packet_overhead_s), FIELD(preamble_s), FIELD(guard_time_s),
+                                FIELD(doppler_tolerance));
   expect_finite<modem_receipt_t>(FIELD(duration_s));
   expect_finite<modem_receive_t>(FIELD(travel_time_s), FIELD(received_level_db), FIELD(snr_db));
   expect_finite<packet_outcome_t>(FIELD(travel_time_s), FIELD(duration_s), FIELD(range_m),
@@ -101,6 +102,8 @@ TEST(MessageChecks, RefusesEnumerationsWithoutAMeaning) {
   for (const int bad : {-128, -1, 7, 127}) {
     const auto value = static_cast<std::int8_t>(bad);
     EXPECT_NE(problem_after<vehicle_sensors_t>([&](auto& m) { m.altitude_status = value; }), "");
+    EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.modem_profile = value; }), "");
+    EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.when_busy = value; }), "");
     EXPECT_NE(problem_after<modem_receipt_t>([&](auto& m) { m.receipt_result = value; }), "");
     EXPECT_NE(problem_after<packet_outcome_t>([&](auto& m) { m.packet_fate = value; }), "");
     EXPECT_NE(problem_after<link_t>([&](auto& m) { m.multipath = value; }), "");
@@ -109,6 +112,16 @@ TEST(MessageChecks, RefusesEnumerationsWithoutAMeaning) {
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.answers[0].getml_multipath = value; }), "");
     EXPECT_NE(problem_after<ray_reply_t>([&](auto& m) { m.reply_status = value; }), "");
     EXPECT_NE(problem_after<ray_reply_t>([&](auto& m) { m.ray_status[0] = value; }), "");
+  }
+}
+
+TEST(MessageChecks, AModemHasOneOfElevenErrorModels) {
+  for (const int bad : {-1, 11, 127}) {
+    EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.error_model = static_cast<std::int8_t>(bad); }),
+              "");
+  }
+  for (std::int8_t good = 0; good <= 10; ++good) {
+    EXPECT_EQ(problem_after<modem_config_t>([&](auto& m) { m.error_model = good; }), "");
   }
 }
 

@@ -137,6 +137,13 @@ modem_config_t valid_message(unsigned seed) {
   m.bit_rate_bps = n.real();
   m.packet_overhead_s = n.real();
   m.max_payload_bytes = n.whole();
+  m.modem_profile = modem_config_t::PROFILE_MICROMODEM_PSK;
+  m.psk_rate = 5;
+  m.preamble_s = n.real();
+  m.guard_time_s = n.real();
+  m.doppler_tolerance = 0.125;
+  m.error_model = modem_config_t::ERRORS_BPSK_HAMMING14;
+  m.when_busy = modem_config_t::QUEUE;
   return m;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem_profile.h"
 #include "bus/message_checks.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
@@ -24,6 +25,11 @@ VehicleModem odd_modem() {
   modem.modem.bit_rate_bps = 160;
   modem.modem.packet_overhead = for_s(0.275);
   modem.max_payload_bytes = 77;
+  modem.modem.preamble = for_s(0.25);
+  modem.modem.guard_time = for_s(0.0625);
+  modem.modem.doppler_tolerance = 0.002;
+  modem.modem.error_model = acoustics::ErrorModel::kDbpskRayleigh;
+  modem.when_busy = WhenBusy::kQueue;
   return modem;
 }
 
@@ -45,6 +51,41 @@ TEST(ChannelServerMessages, AModemSurvivesTheRoundTrip) {
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(to_modem(message), odd_modem());
   EXPECT_EQ(message.utime, 3'000'000);
+}
+
+TEST(ChannelServerMessages, EveryProfileSurvivesTheRoundTrip) {
+  for (const acoustics::ModemProfile profile : acoustics::kModemProfiles) {
+    for (const int rate : acoustics::kPskRates) {
+      VehicleModem modem{.modem = profile_modem(profile, rate)};
+      modem.modem.source_level = {190};  // one of the numbers that are free
+      const modem_config_t message = to_message(modem, at_s(3));
+      EXPECT_EQ(bus::problem_in(message), "");
+      EXPECT_EQ(to_modem(message), modem);
+    }
+  }
+}
+
+TEST(ChannelServerMessages, EveryErrorModelSurvivesTheRoundTrip) {
+  for (const acoustics::ErrorModel model : acoustics::kErrorModels) {
+    VehicleModem modem;
+    modem.modem.error_model = model;
+    const modem_config_t message = to_message(modem, at_s(3));
+    EXPECT_EQ(bus::problem_in(message), "");
+    EXPECT_EQ(to_modem(message).modem.error_model, model);
+  }
+}
+
+TEST(ChannelServerMessages, AProfilesOwnNumbersMayNotBeOthers) {
+  const VehicleModem janus{.modem = profile_modem(acoustics::ModemProfile::kJanus)};
+  modem_config_t message = to_message(janus, at_s(3));
+  message.bit_rate_bps = 300;
+  EXPECT_THROW(to_modem(message), InvalidArgument);
+  message = to_message(janus, at_s(3));
+  message.preamble_s = 0.1;
+  EXPECT_THROW(to_modem(message), InvalidArgument);
+  message = to_message({.modem = profile_modem(acoustics::ModemProfile::kMicromodemPsk)}, at_s(3));
+  message.psk_rate = 3;
+  EXPECT_THROW(to_modem(message), InvalidArgument);
 }
 
 TEST(ChannelServerMessages, AModemOutOfRangeIsRefused) {
