@@ -32,4 +32,8 @@ double doppler_factor(const Arrival& path, const MovingEnds& ends);
 double doppler_factor(double source_mps, double source_sound_speed_mps, double receiver_mps,
                       double receiver_sound_speed_mps);
 
+// The same less 1, the relative shift, without loss of digits where it is small.
+double doppler_shift(double source_mps, double source_sound_speed_mps, double receiver_mps,
+                     double receiver_sound_speed_mps);
+
 }  // namespace halocline::acoustics

@@ -164,7 +164,7 @@ int list_quantities(const Quantity* only, std::ostream& out) {
 const std::vector<Quantity>& all_quantities() {
   static const std::vector<Quantity> all = [] {
     std::vector<Quantity> list = water_quantities();
-    for (const auto& part : {link_quantities(), delay_quantities()})
+    for (const auto& part : {link_quantities(), delay_quantities(), packet_quantities()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();

@@ -53,5 +53,6 @@ const std::vector<Quantity>& all_quantities();
 std::vector<Quantity> water_quantities();
 std::vector<Quantity> link_quantities();
 std::vector<Quantity> delay_quantities();
+std::vector<Quantity> packet_quantities();
 
 }  // namespace halocline::clients

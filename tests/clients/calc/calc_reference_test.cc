@@ -87,7 +87,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"fig4_delay_vs_depth_1km.csv", {.quantity = "figure-4"}},
         Case{"fig6_fig7_100m_depth.csv", {.quantity = "link"}},
         // Ten printed digits; a minimum found by value is known to half as many digits as the value.
-        Case{"stojanovic2006_k1p5_s0p5_w0_snr20.csv", {.quantity = "optimum-band"}, 1e-9, 1e-7}),
+        Case{"stojanovic2006_k1p5_s0p5_w0_snr20.csv", {.quantity = "optimum-band"}, 1e-9, 1e-7},
+        Case{"ber_per_uncoded.csv", {.quantity = "bit-error-rate"}},
+        Case{"per_janus_like_conv_union_bound.csv", {.quantity = "coded-error-rate"}},
+        Case{"conv_code_753_561_spectrum.csv", {.quantity = "code-spectrum"}},
+        Case{"janus_frame_durations.csv", {.quantity = "packet-duration"}},
+        Case{"doppler_colinear.csv", {.quantity = "doppler"}}),
     [](const ::testing::TestParamInfo<Case>& test) {
       std::string name = test.param.file.substr(0, test.param.file.find('.'));
       return name;
