@@ -10,12 +10,6 @@ namespace {
 
 constexpr double kLongestRunS = 3.2e7;  // a year
 
-void visit_duration(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule) {
-  double seconds = value.seconds();
-  v.number(key, seconds, rule);
-  value = SimDuration::from_seconds(seconds);
-}
-
 void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.shared_with_others();
   v.text("name", vehicle.name, {}, "channel suffix; " + std::string(kNameRule));
@@ -53,7 +47,7 @@ void visit(ConfigVisitor& v, Scenario& s) {
     section.text("name", s.name, {}, "short name");
     section.text("description", s.description, {}, "one line for a person");
     integer_as(section, "seed", s.seed, {0, 9e15, "", "seed of all random draws"});
-    visit_duration(section, "duration_s", s.duration, {0.001, kLongestRunS, "s", "simulated time of a run"});
+    seconds(section, "duration_s", s.duration, {0.001, kLongestRunS, "s", "simulated time of a run"});
     section.number("origin_latitude_deg", s.origin_latitude_deg,
                    {-90, 90, "deg", "latitude of the world's origin"});
     section.number("origin_longitude_deg", s.origin_longitude_deg,
@@ -63,8 +57,8 @@ void visit(ConfigVisitor& v, Scenario& s) {
   });
   v.section("time", "How simulation time advances", [&](ConfigVisitor& section) {
     section.number("rate", s.rate, {1e-3, 1e4, "", "simulated seconds per wall second in real time"});
-    visit_duration(section, "clock_period_s", s.clock_period,
-                   {1e-3, 60, "s", "simulated time between CLOCK messages"});
+    seconds(section, "clock_period_s", s.clock_period,
+            {1e-3, 60, "s", "simulated time between CLOCK messages"});
   });
   v.list(
       "vehicle", "A vehicle", s.vehicles.size(), [&](std::size_t n) { s.vehicles.resize(n); },
