@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 
 #include "core/check.h"
 
@@ -91,14 +92,20 @@ bool were_one_fold(const Arrival& a, const Arrival& b) {
          std::abs(a.launch_angle_rad - b.launch_angle_rad) < kFoldWidth;
 }
 
-double unexplained_power(const std::vector<Arrival>& lost) {
-  double power = 0;
-  for (const Arrival& path : lost) {
-    const bool folded = std::any_of(lost.begin(), lost.end(),
-                                    [&path](const Arrival& other) { return were_one_fold(path, other); });
-    if (!folded) power += path.amplitude * path.amplitude;
-  }
-  return power;
+// Moves those of the lost that ended otherwise to the front and counts them.
+std::size_t unexplained(std::vector<Arrival>& lost) {
+  const std::vector<Arrival> all = lost;
+  const auto folded = std::partition(lost.begin(), lost.end(), [&all](const Arrival& path) {
+    return std::none_of(all.begin(), all.end(),
+                        [&path](const Arrival& other) { return were_one_fold(path, other); });
+  });
+  return static_cast<std::size_t>(folded - lost.begin());
+}
+
+double power_of(const std::vector<Arrival>& paths) {
+  return std::accumulate(paths.begin(), paths.end(), 0.0, [](double power, const Arrival& path) {
+    return power + path.amplitude * path.amplitude;
+  });
 }
 
 }  // namespace
@@ -124,17 +131,21 @@ bool Arrivals::has_direct_path() const {
 }
 
 FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
-                         const FollowOne& follow_one) {
-  constexpr double kMostLostPower = 0.01;  // of all
+                         const FollowOne& follow_one, const LookAround& look_around) {
+  constexpr double kMostLostPower = 0.01;    // of all
+  constexpr std::size_t kMostLookedFor = 6;  // more, and a search of all is as quick
   FollowedRays now;
   now.paths.reserve(before.size());
   std::vector<Arrival> lost;
-  double power = 0;
   for (const Arrival& path : before) {
-    power += path.amplitude * path.amplitude;
     if (!follow_one(path, now.paths)) lost.push_back(path);
   }
-  now.complete = unexplained_power(lost) <= kMostLostPower * power;
+  lost.resize(unexplained(lost));
+  now.complete = lost.empty() || power_of(lost) <= kMostLostPower * power_of(before);
+  if (!now.complete && look_around && lost.size() <= kMostLookedFor) {
+    for (const Arrival& path : lost) look_around(path, now.paths);
+    now.complete = true;
+  }
   finish(now.paths, options);
   return now;
 }

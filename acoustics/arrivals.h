@@ -84,14 +84,17 @@ struct RayLink {
 // Paths of a link whose ends moved, found by following those it had before.
 struct FollowedRays {
   std::vector<Arrival> paths;
-  // False: more than 1 % of the power was lost otherwise than by the two rays of a fold meeting and ending.
+  // False: more than 1 % of the power was lost otherwise than by the two rays of a fold meeting and ending, and
+  // nobody looked where it went.
   bool complete = false;
 };
 
 // Follows each of `before` by `follow_one`, which appends the path as it is now and says whether it could.
 using FollowOne = std::function<bool(const Arrival& before, std::vector<Arrival>& paths)>;
+// Appends the paths that are now about where a lost one was and not among `paths`; may be empty.
+using LookAround = std::function<void(const Arrival& lost, std::vector<Arrival>& paths)>;
 FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
-                         const FollowOne& follow_one);
+                         const FollowOne& follow_one, const LookAround& look_around = nullptr);
 
 // Whether a path that was followed is the one it was before: as many bounces and caustics, launched to the
 // same side, and not one that another path has come to already (all but the last of `paths`).

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "acoustics/arc_math.h"
 #include "core/check.h"
 #include "core/units.h"
 
@@ -175,7 +176,7 @@ Reflection bottom_reflection_at_sine(const FluidBottom& bottom, double sine, dou
   // arg V = arg(numerator conj(denominator)).
   const double re = v.numerator_re * v.denominator_re + v.numerator_im * v.denominator_im;
   const double im = v.numerator_im * v.denominator_re - v.numerator_re * v.denominator_im;
-  return {v.magnitude(), -std::atan2(im, re)};
+  return {v.magnitude(), -angle_of(im, re)};
 }
 
 double bottom_magnitude_at_sine(const FluidBottom& bottom, double sine, double water_speed_mps) {

@@ -62,8 +62,9 @@ RayLink ray_link(const Vec3& source_ned_m, const Vec3& receiver_ned_m, double se
 
 // The same link after its ends moved a little (up to some metres): the paths of `before` are followed to
 // where they are now by Newton's method, which costs a fraction of a search. One that cannot be followed (it
-// ended at a fold or an edge) is dropped; where such paths carried 1 % of the power, all are searched for
-// again. Paths that came into being are not found: search afresh once the ends have moved by some metres.
+// ended at a fold or an edge) is dropped; where such paths carried 1 % of the power, the arcs solver looks
+// about where they were, and the others search for all again. Paths that came into being elsewhere are not
+// found: search afresh once the ends have moved by some metres.
 Arrivals follow(const RaySea& sea, const RayLink& link, const Arrivals& before);
 
 }  // namespace halocline::acoustics

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "acoustics/arc_math.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
@@ -110,7 +111,7 @@ bool ImageSum::add(const Image& image) {
     // unless the steepest of all comes back up.
     return power(std::max(one.magnitude, steepest_factor_), bottom) >= options.min_boundary_factor;
   }
-  const double angle = std::atan2(image.drop_m, range_);
+  const double angle = angle_of(image.drop_m, range_);
   const double top = surface > 0 ? surface_magnitude(sea_.surface, angle, options.frequency_hz) : 1;
   factor *= power(top, surface);
   if (factor < options.min_boundary_factor || factor / length < options.min_amplitude) return true;

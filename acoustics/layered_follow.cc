@@ -14,7 +14,6 @@ struct Pace {
   int most_steps;
 };
 constexpr Pace kPaces[] = {{1, 10}, {0.3, 40}};
-constexpr double kRangeTolerance = 1e-4;  // m before the last step, as in the search
 
 // Family and cycles of a path: how often it ran U and D follows from its bounces and turns, and where those
 // are equal from the way it left.
@@ -26,25 +25,29 @@ LayeredRay ray_of(const LayeredLink& link, const PathIdentity& id) {
 }
 
 // Newton's method in the angle at the barrier, which changes as the ray passes knots. False when it does not
-// settle.
-bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, Pace pace, LayeredRay& ray) {
-  bool last = false;
+// settle; else `sums` are those of the ray.
+bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, Pace pace, LayeredRay& ray,
+            SpanSums& sums) {
+  double off_before = kNotYet;
   for (int i = 0; i < pace.most_steps; ++i) {
     if (!spans.seek(xi)) xi = (1 - 1e-12) / spans.barrier_mps();
     if (!spans.seek(xi)) return false;
     ray.cosine = xi * spans.barrier_mps();
     ray.sine = std::sqrt((1 - ray.cosine) * (1 + ray.cosine));
-    if (last) return true;
-    const SpanSums sums = spans.sums(ray.sine, ray.cosine);
+    sums = spans.sums(ray.sine, ray.cosine);
     const RangeTerms t = range_terms(sums, ray.family);
     const double off = link.range_m - xi * (t.bq + ray.cycles * t.xq);
+    if (is_settled(off, off_before)) return true;
+    off_before = off;
     // dr/dtheta = dr/dxi dxi/dtheta, dxi/dtheta = -sin / c*.
     const double slope = -(t.bm + ray.cycles * t.xm) * ray.sine / spans.barrier_mps();
     if (slope == 0) return false;
-    last = std::abs(off) < kRangeTolerance;
-    const double theta = std::atan2(ray.sine, ray.cosine),
-                 next = theta + (last ? 1 : pace.share) * off / slope;
-    xi = std::cos(next > 0 ? next : theta / 2) / spans.barrier_mps();
+    const double step = pace.share * off / slope, sine_step = std::sin(step), cosine_step = std::cos(step);
+    const bool beyond = !(std::abs(step) < 1) || ray.sine * cosine_step + ray.cosine * sine_step <= 0;
+    // Half the angle when the step would pass the horizontal.
+    const double cosine =
+        beyond ? std::sqrt((1 + ray.cosine) / 2) : ray.cosine * cosine_step - ray.sine * sine_step;
+    xi = cosine / spans.barrier_mps();
   }
   return false;
 }
@@ -53,11 +56,12 @@ bool settle(const LayeredLink& link, LayeredSpans& spans, double xi, Pace pace, 
 bool follow_path(const LayeredLink& link, LayeredSpans& spans, const Arrival& before,
                  std::vector<Arrival>& paths) {
   LayeredRay ray = ray_of(link, before.identity);
+  SpanSums sums;
   if (ray.cycles < 0) return false;
   for (const Pace pace : kPaces) {
-    if (!settle(link, spans, before.launch_slowness_spm, pace, ray)) continue;
+    if (!settle(link, spans, before.launch_slowness_spm, pace, ray, sums)) continue;
     const std::size_t count = paths.size();
-    append_arrival(link, spans, ray, spans.sums(ray.sine, ray.cosine), paths);
+    append_arrival(link, spans, ray, sums, paths);
     if (paths.size() == count) return false;
     if (is_followed(paths, before)) return true;
     paths.pop_back();

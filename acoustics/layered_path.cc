@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "acoustics/arc_math.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
@@ -33,7 +34,7 @@ int caustics_of(const Bounces& bounces, double range_slope) {
 
 // Signed angle, positive down, of a ray whose sine is `sine` >= 0.
 double angle(bool down, double sine, double speed, double xi) {
-  return (down ? 1 : -1) * std::atan2(sine, xi * speed);
+  return (down ? 1 : -1) * angle_of(sine, xi * speed);
 }
 
 void set_directions(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, double xi,

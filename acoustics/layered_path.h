@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "acoustics/arrivals.h"
 #include "acoustics/layered_rays.h"
@@ -52,6 +53,15 @@ struct LayeredRay {
   double sine, cosine;
   double least_slope = 0;  // of |dr/dxi|, near a fold; 0 elsewhere
 };
+
+// Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays err
+// by its square. Far away and near grazing, rounding may leave more: then what no longer shrinks is enough.
+inline constexpr double kNotYet = 1e300;
+inline bool is_settled(double off, double off_before) {
+  constexpr double kSettled = 1e-6, kNearlySettled = 1e-4;
+  return std::abs(off) < kSettled ||
+         (std::abs(off) < kNearlySettled && std::abs(off) > 0.5 * std::abs(off_before));
+}
 
 // Appends the arrival unless the options exclude it; `sums` are those of the ray.
 void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,

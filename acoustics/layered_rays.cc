@@ -18,7 +18,6 @@ constexpr double kLeastAngle = 1e-9;      // rad at the barrier: where tables be
 constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
 constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
 constexpr double kNearFold = 0.2;         // of f: a turn nearer to a whole number is sought out exactly
-constexpr double kRangeTolerance = 1e-4;  // m before the last step of Newton, which squares the error
 constexpr double kMarginOfFactor = 0.7;   // ln: cells are left out only when clearly below the least factor
 
 constexpr double kClearOfRays =
@@ -93,6 +92,11 @@ HermiteCubic cubic_of(const Node& a, const Node& b, std::size_t family) {
 double range_slope(const Node& node, std::size_t family, int cycles) {
   const RangeTerms terms = range_terms(node.sums, kFamilies[family]);
   return terms.bm + cycles * terms.xm;
+}
+
+double mean_curvature(const Node& a, const Node& b, std::size_t family, int cycles) {
+  return std::abs((range_slope(b, family, cycles) - range_slope(a, family, cycles)) /
+                  (b.sums.xi - a.sums.xi));
 }
 
 void Search::add_horizontal() {
@@ -242,41 +246,36 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, do
   const HermiteCubic cubic = cubic_of(a, b, family);
   for (int n = first; n <= last; ++n) {
     const double t = cubic.crossing(n);
-    const double bend =
-        std::abs((range_slope(b, family, n) - range_slope(a, family, n)) / (b.sums.xi - a.sums.xi));
+    const double bend = fold_theta == kNoFold ? 0 : mean_curvature(a, b, family, n);
     polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta), fold_theta, bend},
            family, n);
   }
 }
 
 void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
-  double low = bracket.from, high = bracket.to, theta = bracket.guess, sine = 0, cosine = 0;
+  double low = bracket.from, high = bracket.to, theta = bracket.guess, off_before = kNotYet;
+  LayeredRay ray{kFamilies[family], cycles, 0, 1};
+  SpanSums sums;
+  RangeTerms t{};
   for (int i = 0; i < 60; ++i) {
-    sine = std::sin(theta);
-    cosine = std::cos(theta);
-    const SpanSums sums = spans_.sums(sine, cosine);
-    const RangeTerms t = range_terms(sums, kFamilies[family]);
+    ray.sine = std::sin(theta);
+    ray.cosine = std::cos(theta);
+    sums = spans_.sums(ray.sine, ray.cosine);
+    t = range_terms(sums, ray.family);
     const double off = link_.range_m - sums.xi * (t.bq + cycles * t.xq);  // (f - n) X
+    if (is_settled(off, off_before)) break;
+    off_before = off;
     const double f = cycles + off / (sums.xi * t.xq);
-    const double slope = (t.bm + f * t.xm) * sine / (cosine * t.xq);
+    const double slope = (t.bm + f * t.xm) * ray.sine / (ray.cosine * t.xq);
     ((off > 0) == bracket.rising ? high : low) = theta;
     const double next = slope != 0 ? theta - (f - cycles) / slope : -1;
-    if (std::abs(off) <
-        kRangeTolerance) {  // the last step squares the error, or is none where rounding rules
-      if (next > low && next < high) theta = next;
-      break;
-    }
     theta = next > low && next < high ? next : 0.5 * (low + high);
     if (high - low < 1e-15 * high) break;
   }
-  LayeredRay ray{kFamilies[family], cycles, std::sin(theta), std::cos(theta)};
-  const SpanSums sums = spans_.sums(ray.sine, ray.cosine);
-  const RangeTerms terms = range_terms(sums, ray.family);
-  ray.least_slope = fold_slope(bracket, terms.bm + cycles * terms.xm, sums.xi);
-  const double xi = sums.xi;
+  ray.least_slope = fold_slope(bracket, t.bm + cycles * t.xm, sums.xi);
   const bool trapped = cycles > 0 && !spans_.meets_surface() && !spans_.meets_bottom();
   const double wavelength = 2 * pi * spans_.barrier_mps() / omega_;
-  if (trapped && spans_.height_of_swing_m(xi) < wavelength) return;
+  if (trapped && spans_.height_of_swing_m(sums.xi) < wavelength) return;
   append_arrival(link_, spans_, ray, sums, paths_);
 }
 

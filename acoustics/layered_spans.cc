@@ -11,6 +11,15 @@ namespace {
 constexpr double kThinnestSlab = 1e-9;       // m
 constexpr double kLeastSquaredSine = 1e-28;  // keeps a ray that just grazes finite
 
+// Sine of a ray's angle where the speed is c, from its squared sine at the barrier (see the header).
+struct SineAt {
+  double barrier, inverse_barrier_squared, squared_sine;
+  double operator()(double c) const {
+    const double exact = ((barrier - c) * (barrier + c) + squared_sine * c * c) * inverse_barrier_squared;
+    return std::sqrt(std::max(exact, kLeastSquaredSine));
+  }
+};
+
 constexpr std::size_t index_of(Stretch stretch) { return static_cast<std::size_t>(stretch); }
 
 }  // namespace
@@ -81,13 +90,8 @@ bool LayeredSpans::seek(double xi) {
   return true;
 }
 
-double LayeredSpans::squared_sine_at(double c, double squared_sine) const {
-  const double exact = ((barrier_ - c) * (barrier_ + c) + squared_sine * c * c) * inverse_barrier_squared_;
-  return std::max(exact, kLeastSquaredSine);
-}
-
 double LayeredSpans::sine_at(double speed_mps, double sine) const {
-  return std::sqrt(squared_sine_at(speed_mps, sine * sine));
+  return SineAt{barrier_, inverse_barrier_squared_, sine * sine}(speed_mps);
 }
 
 double LayeredSpans::height_of_swing_m(double xi) const {
@@ -105,9 +109,10 @@ double LayeredSpans::height_of_swing_m(double xi) const {
 void LayeredSpans::add_sums(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine,
                             Stretch stretch, SpanSums& sums, double& end_sine) const {
   if (slabs.empty()) return;
-  double s1 = std::sqrt(squared_sine_at(slabs.front().c1, squared_sine)), q = 0, m = 0;
+  const SineAt sine{barrier_, inverse_barrier_squared_, squared_sine};
+  double s1 = sine(slabs.front().c1), q = 0, m = 0;
   for (std::size_t i = 0; i < reach; ++i) {
-    const double s2 = std::sqrt(squared_sine_at(slabs[i].c2, squared_sine));
+    const double s2 = sine(slabs[i].c2);
     const double part = slabs[i].hc / ((s1 + s2) * s1 * s2);
     q += part * s1 * s2;
     m += part;
@@ -129,13 +134,8 @@ SpanSums LayeredSpans::sums(double sine, double cosine) const {
   const double squared_sine = sine * sine;
   double unused = 0;
   sums.xi = cosine / barrier_;
-  sums.sine_top = up_.empty() ? std::sqrt(squared_sine_at(
-                                    between_.empty() ? down_.front().c1 : between_.front().c1, squared_sine))
-                              : 0;
-  sums.sine_bottom =
-      down_.empty()
-          ? std::sqrt(squared_sine_at(between_.empty() ? up_.front().c1 : between_.back().c2, squared_sine))
-          : 0;
+  if (up_.empty()) sums.sine_top = sine_at(between_.empty() ? down_.front().c1 : between_.front().c1, sine);
+  if (down_.empty()) sums.sine_bottom = sine_at(between_.empty() ? up_.front().c1 : between_.back().c2, sine);
   add_sums(up_, up_reach_, squared_sine, Stretch::kUp, sums, sums.sine_top);
   add_sums(between_, between_.size(), squared_sine, Stretch::kBetween, sums, unused);
   add_sums(down_, down_reach_, squared_sine, Stretch::kDown, sums, sums.sine_bottom);
@@ -157,9 +157,10 @@ void LayeredSpans::add_slab(const Slab& slab, double s1, double s2, double xi, s
 void LayeredSpans::add_details(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine,
                                double xi, Stretch stretch, SpanDetails& details) const {
   if (slabs.empty()) return;
-  double s1 = std::sqrt(squared_sine_at(slabs.front().c1, squared_sine));
+  const SineAt sine{barrier_, inverse_barrier_squared_, squared_sine};
+  double s1 = sine(slabs.front().c1);
   for (std::size_t i = 0; i < reach; ++i) {
-    const double s2 = std::sqrt(squared_sine_at(slabs[i].c2, squared_sine));
+    const double s2 = sine(slabs[i].c2);
     add_slab(slabs[i], s1, s2, xi, index_of(stretch), details);
     s1 = s2;
   }

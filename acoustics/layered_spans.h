@@ -71,7 +71,6 @@ class LayeredSpans {
   };
   static void append(std::vector<Slab>& slabs, const RayWater& water, double from_m, double to_m);
   void pass_what_is_slower();
-  double squared_sine_at(double speed_mps, double squared_sine) const;
   void add_sums(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine, Stretch stretch,
                 SpanSums& sums, double& end_sine) const;
   void add_details(const std::vector<Slab>& slabs, std::size_t reach, double squared_sine, double xi,

@@ -1,4 +1,5 @@
 // Following of rays over a bottom profile from where they were: see acoustics/profile_rays.h.
+#include <algorithm>
 #include <cmath>
 
 #include "acoustics/profile_path.h"
@@ -57,15 +58,30 @@ bool follow_path(const ArcTracer& tracer, const Arrival& before, TracedRay& ray,
   return false;
 }
 
+// Searches about where a path was, and appends what is there and not known yet.
+void look_around(const ArcTracer& tracer, const Arrival& lost, std::vector<Arrival>& paths) {
+  constexpr double kAround = 0.02;   // rad: some metres at some hundred metres
+  constexpr double kSameRay = 1e-6;  // rad: nearer than that two rays would be one fold
+  const double theta = lost.launch_angle_rad;
+  for (const Arrival& found : profile_rays_between(tracer, theta - kAround, theta + kAround)) {
+    const bool known = std::any_of(paths.begin(), paths.end(), [&found](const Arrival& path) {
+      return std::abs(path.launch_angle_rad - found.launch_angle_rad) < kSameRay &&
+             path.surface_bounces == found.surface_bounces && path.bottom_bounces == found.bottom_bounces;
+    });
+    if (!known) paths.push_back(found);
+  }
+}
+
 }  // namespace
 
 FollowedRays follow_profile_rays(const ProfiledSea& sea, const RayLink& link,
                                  const std::vector<Arrival>& before) {
   const ArcTracer tracer(sea, link);
   TracedRay ray;
-  return follow_each(before, sea.options, [&](const Arrival& path, std::vector<Arrival>& paths) {
-    return follow_path(tracer, path, ray, paths);
-  });
+  return follow_each(
+      before, sea.options,
+      [&](const Arrival& path, std::vector<Arrival>& paths) { return follow_path(tracer, path, ray, paths); },
+      [&](const Arrival& lost, std::vector<Arrival>& paths) { look_around(tracer, lost, paths); });
 }
 
 }  // namespace halocline::acoustics

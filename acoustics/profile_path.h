@@ -28,4 +28,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
 // on their first leg.
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
 
+// Every ray launched between two angles, rad, in the order they are found and not finished.
+std::vector<Arrival> profile_rays_between(const ArcTracer& tracer, double from, double to);
+
 }  // namespace halocline::acoustics

@@ -26,10 +26,10 @@ constexpr int kMostTraces = 200'000;      // of one link: a guard against water 
 
 class Search {
  public:
-  Search(const ProfiledSea& sea, const RayLink& link)
-      : tracer_(sea, link), depth_(tracer_.bottom_at_receiver_m()) {}
+  explicit Search(const ArcTracer& tracer) : tracer_(tracer), depth_(tracer.bottom_at_receiver_m()) {}
 
-  std::vector<Arrival> run();
+  // Rays launched between the first and the last of `angles`, as they are found.
+  std::vector<Arrival> run(const std::vector<double>& angles);
 
  private:
   TracedRay traced(double theta);
@@ -45,7 +45,7 @@ class Search {
   bool seek_turn(const TracedRay& a, const TracedRay& b, TracedRay& turn);
   double off_nearest_image(double zeta) const;
 
-  ArcTracer tracer_;
+  const ArcTracer& tracer_;
   double depth_;
   int traces_ = 0;
   std::vector<Arrival> paths_;
@@ -85,14 +85,13 @@ TracedRay Search::traced(double theta) {
   return ray;
 }
 
-std::vector<Arrival> Search::run() {
-  TracedRay before = traced(-kSteepest);
-  for (const double theta : fan_angles(tracer_, kSteepest)) {
-    const TracedRay next = traced(theta);
+std::vector<Arrival> Search::run(const std::vector<double>& angles) {
+  TracedRay before = traced(angles.front());
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    TracedRay next = traced(angles[i]);
     scan(before, next, 0);
-    before = next;
+    before = std::move(next);
   }
-  finish(paths_, tracer_.sea().options);
   return std::move(paths_);
 }
 
@@ -219,7 +218,19 @@ void Search::polish(const TracedRay& a, const TracedRay& b, double target, const
 
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
   validate(sea.options);
-  return Search(sea, link).run();
+  const ArcTracer tracer(sea, link);
+  std::vector<Arrival> paths = profile_rays_between(tracer, -kSteepest, kSteepest);
+  finish(paths, sea.options);
+  return paths;
+}
+
+std::vector<Arrival> profile_rays_between(const ArcTracer& tracer, double from, double to) {
+  std::vector<double> angles = {std::max(from, -kSteepest)};
+  for (const double theta : fan_angles(tracer, kSteepest)) {
+    if (theta > from && theta < to) angles.push_back(theta);
+  }
+  angles.push_back(std::min(to, kSteepest));
+  return Search(tracer).run(angles);
 }
 
 }  // namespace halocline::acoustics

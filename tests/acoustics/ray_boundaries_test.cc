@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/arc_math.h"
 #include "acoustics/boundary_reflection.h"
 #include "core/check.h"
 #include "core/units.h"
@@ -22,6 +23,18 @@ FluidBottom bottom_of(const CsvRow& row) {
 
 Reflection reflection_of(const CsvRow& row) {
   return bottom_reflection(bottom_of(row), to_radians(row.number("grazing_deg")), 1500);
+}
+
+TEST(AngleOf, IsAtan2InEveryQuadrant) {
+  for (int i = -3600; i <= 3600; ++i) {
+    const double angle = i * std::numbers::pi / 3600, length = 1 + i % 7 * 0.1;
+    const double y = length * std::sin(angle), x = length * std::cos(angle);
+    // Two roundings of an angle up to pi.
+    EXPECT_NEAR(angle_of(y, x), std::atan2(y, x), tolerance(1e-15)) << i;
+  }
+  EXPECT_EQ(angle_of(0, 1), 0);
+  EXPECT_EQ(angle_of(0, 0), 0);
+  EXPECT_EQ(angle_of(1e-300, 1), 1e-300);
 }
 
 TEST(BottomReflection, MatchesRayleighForTheSedimentsOfTr9407) {
