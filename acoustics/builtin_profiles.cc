@@ -43,4 +43,16 @@ SoundSpeedProfile SoundSpeedProfile::harris_zorzi(SoundSpeedModel model) {
                     model, kMeanLatitude);
 }
 
+std::optional<SoundSpeedProfile> built_in_profile(std::string_view name, std::optional<SoundSpeedModel> model,
+                                                  WaterSample assumed) {
+  const SoundSpeedModel speed = model.value_or(SoundSpeedModel::kMackenzie1981);
+  if (name == "global-mean") return SoundSpeedProfile::global_mean(speed);
+  if (name == "global-mean-s35") return SoundSpeedProfile::global_mean_of_salinity_35(speed);
+  if (name == "harris-zorzi") {
+    return SoundSpeedProfile::harris_zorzi(model.value_or(SoundSpeedModel::kHarrisZorzi2007));
+  }
+  if (name == "munk") return SoundSpeedProfile::munk(assumed);
+  return std::nullopt;
+}
+
 }  // namespace halocline::acoustics

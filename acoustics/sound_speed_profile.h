@@ -17,7 +17,9 @@
 // business).
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "acoustics/sound_speed.h"
@@ -97,6 +99,11 @@ class SoundSpeedProfile {
   std::vector<double> boundaries_m_;
   std::vector<double> slowness_to_boundary_;  // integral of dz / c from 0 to each boundary, s
 };
+
+// A profile that ships, by name: "global-mean", "global-mean-s35", "harris-zorzi", "munk". Empty for any other name.
+// `model` overrides the formula that a profile prefers; `assumed` is the water of those that tell speed alone.
+std::optional<SoundSpeedProfile> built_in_profile(std::string_view name, std::optional<SoundSpeedModel> model,
+                                                  WaterSample assumed);
 
 // Munk 1974 (JASA 55, 220): c = 1500 [1 + 0.00737 (n - 1 + e^-n)], n = 2 (z - 1300) / 1300. Depth 0..5000 m.
 double munk_sound_speed_mps(double depth_m);

@@ -22,12 +22,8 @@ constexpr acoustics::WaterSample kAssumed{10,
 SoundSpeedProfile load_profile(const CalcOptions& options, std::optional<SoundSpeedModel> model) {
   const SoundSpeedModel speed = model.value_or(SoundSpeedModel::kMackenzie1981);
   const std::string& name = options.profile;
-  if (name.empty() || name == "global-mean") return SoundSpeedProfile::global_mean(speed);
-  if (name == "global-mean-s35") return SoundSpeedProfile::global_mean_of_salinity_35(speed);
-  if (name == "harris-zorzi") {
-    return SoundSpeedProfile::harris_zorzi(model.value_or(SoundSpeedModel::kHarrisZorzi2007));
-  }
-  if (name == "munk") return SoundSpeedProfile::munk(kAssumed);
+  if (auto built_in = acoustics::built_in_profile(name.empty() ? "global-mean" : name, model, kAssumed))
+    return *std::move(built_in);
   const double latitude = to_radians(require_in_range(options.latitude_deg, -90, 90, "latitude", "deg"));
   return acoustics::read_profile(name, {speed, latitude, kAssumed}, latitude,
                                  to_radians(options.longitude_deg));

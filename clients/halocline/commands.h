@@ -16,6 +16,7 @@ std::string footer(const std::string& examples);
 void add_run_command(CLI::App& app, int& exit_code);
 void add_link_command(CLI::App& app, int& exit_code);
 void add_calc_command(CLI::App& app, int& exit_code);
+void add_arrivals_command(CLI::App& app, int& exit_code);
 void add_log_command(CLI::App& app, int& exit_code);
 void add_replay_command(CLI::App& app, int& exit_code);
 void add_vehicle_command(CLI::App& app, int& exit_code);

@@ -1,0 +1,115 @@
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "clients/halocline/commands.h"
+#include "clients/rays/arrival_output.h"
+#include "clients/rays/sea_files.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+struct ArrivalsArguments {
+  SeaDescription sea;
+  std::string links, solver, format = "table", output;
+  double source_depth_m = 0, receiver_depth_m = 0, range_m = -1;
+};
+
+std::vector<acoustics::RayLink> links_of(const ArrivalsArguments& arguments) {
+  require(arguments.links.empty() != (arguments.range_m < 0), "give either --links or --range-m, not both");
+  if (arguments.links.empty())
+    return {{arguments.source_depth_m, arguments.receiver_depth_m, arguments.range_m}};
+  std::ifstream file(arguments.links);
+  require(file.is_open(), "cannot read " + arguments.links);
+  return read_links(file, arguments.links);
+}
+
+std::optional<acoustics::RaySolver> solver_of(const std::string& name) {
+  if (name.empty() || name == "auto") return std::nullopt;
+  for (const auto solver :
+       {acoustics::RaySolver::kImages, acoustics::RaySolver::kSnell, acoustics::RaySolver::kArcs}) {
+    if (name == to_name(solver)) return solver;
+  }
+  throw InvalidArgument("'" + name + "' is no solver; allowed: auto, images, snell, arcs");
+}
+
+OutputFormat format_of(const std::string& name) {
+  return name == "csv" ? OutputFormat::kCsv : name == "json" ? OutputFormat::kJson : OutputFormat::kTable;
+}
+
+int find_arrivals(const ArrivalsArguments& arguments) {
+  const acoustics::RaySea sea = make_sea(arguments.sea);
+  const auto solver = solver_of(arguments.solver);
+  std::vector<LinkArrivals> found;
+  for (const acoustics::RayLink& link : links_of(arguments))
+    found.push_back({link, arrivals(sea, link, solver)});
+  std::ostringstream text;  // so that nothing is written unless all went well
+  print_arrivals(text, found, format_of(arguments.format));
+  if (arguments.output.empty()) return std::cout << text.str() << std::flush, kDone;
+  std::ofstream out(arguments.output);
+  out << text.str();
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + arguments.output);
+  return kDone;
+}
+
+void add_water_options(CLI::App& command, SeaDescription& sea) {
+  command.add_option("--water", sea.water,
+                     "profile: CSV (depth_m, sound_speed_mps), netCDF or built-in name");
+  command.add_option("--sound-speed-mps", sea.sound_speed_mps, "the same at every depth, instead of --water");
+  command.add_option("--frequency-khz", sea.frequency_khz, "of absorption and reflection");
+  command.add_option("--absorption", sea.absorption, "formula by name (see calc absorption), or none");
+  command.add_option("--temperature-degc", sea.temperature_degc, "of the water that absorbs");
+  command.add_option("--salinity-psu", sea.salinity_psu, "likewise");
+  command.add_option("--ph", sea.ph, "likewise");
+}
+
+void add_boundary_options(CLI::App& command, SeaDescription& sea) {
+  command.add_option("--bottom", sea.bottom, "profile along the link: CSV (range_m, depth_m)");
+  command.add_option("--bottom-depth-m", sea.bottom_depth_m, "a flat bottom, instead of --bottom");
+  command.add_option("--sediment", sea.sediment, "by name, such as MediumSand, instead of the next three");
+  command.add_option("--bottom-density-ratio", sea.bottom_density_ratio, "to the water");
+  command.add_option("--bottom-sound-speed-mps", sea.bottom_sound_speed_mps, "of the sediment");
+  command.add_option("--bottom-attenuation-db", sea.bottom_attenuation_db, "per wavelength");
+  command.add_option("--crease-angle-deg", sea.crease_angle_deg,
+                     "facets that turn by less are samples of a smooth bottom; 0: every corner is sharp");
+  command.add_option("--surface", sea.surface, "loss model: flat, apl-bubbles, eckart, coates, jones");
+  command.add_option("--wind-mps", sea.wind_mps, "over the surface");
+}
+
+void add_ray_options(CLI::App& command, ArrivalsArguments& arguments) {
+  command.add_option("--max-launch-angle-deg", arguments.sea.max_launch_angle_deg, "of paths that bounce");
+  command.add_option("--max-bounces", arguments.sea.max_bounces, "surface and bottom together");
+  command.add_option("--least-boundary-factor", arguments.sea.least_boundary_factor,
+                     "paths whose bounces leave less of the pressure are dropped");
+  command.add_option("--least-amplitude-db", arguments.sea.least_amplitude_db, "paths below are dropped");
+  command.add_option("--solver", arguments.solver, "auto, images, snell or arcs");
+}
+
+}  // namespace
+
+void add_arrivals_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<ArrivalsArguments>();
+  CLI::App* command =
+      app.add_subcommand("arrivals", "Every path of sound of links through a sea given by tables");
+  command->option_defaults()->always_capture_default();
+  command->add_option("--links", arguments->links, "CSV: src_depth_m, rcv_depth_m, rcv_range_m");
+  command->add_option("--source-depth-m", arguments->source_depth_m, "of one link, instead of --links");
+  command->add_option("--receiver-depth-m", arguments->receiver_depth_m, "likewise");
+  command->add_option("--range-m", arguments->range_m, "likewise");
+  add_water_options(*command, arguments->sea);
+  add_boundary_options(*command, arguments->sea);
+  add_ray_options(*command, *arguments);
+  command->add_option("--format", arguments->format, "table, csv or json")
+      ->check(CLI::IsMember({"table", "csv", "json"}));
+  command->add_option("--out", arguments->output, "file; default: stdout");
+  command->footer(
+      footer("  halocline arrivals --sound-speed-mps 1500 --bottom-depth-m 100 --source-depth-m 30 "
+             "--receiver-depth-m 50 --range-m 2000\n"
+             "  halocline arrivals --water munk.csv --bottom ridge.csv --links links.csv --format csv"));
+  command->callback([arguments, &exit_code] { exit_code = find_arrivals(*arguments); });
+}
+
+}  // namespace halocline::clients

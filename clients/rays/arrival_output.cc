@@ -1,0 +1,120 @@
+#include "clients/rays/arrival_output.h"
+
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "acoustics/received_field.h"
+#include "core/csv_table.h"
+
+namespace halocline::clients {
+namespace {
+
+using Column = std::pair<const char*, double>;
+
+std::array<Column, 4> link_columns(const acoustics::RayLink& link, std::size_t index) {
+  return {Column{"src_depth_m", link.source_depth_m}, Column{"rcv_depth_m", link.receiver_depth_m},
+          Column{"rcv_range_m", link.range_m}, Column{"index", static_cast<double>(index)}};
+}
+
+std::array<Column, 12> path_columns(const acoustics::Arrival& path) {
+  return {Column{"delay_s", path.delay_s},
+          Column{"amplitude", path.amplitude},
+          Column{"phase_deg", to_degrees(path.phase_rad)},
+          Column{"launch_angle_deg", to_degrees(path.launch_angle_rad)},
+          Column{"arrival_angle_deg", to_degrees(path.arrival_angle_rad)},
+          Column{"n_surface", path.surface_bounces},
+          Column{"n_bottom", path.bottom_bounces},
+          Column{"n_caustic", path.caustics},
+          Column{"path_length_m", path.path_length_m},
+          Column{"absorption_db", path.absorption_db},
+          Column{"surface_loss_db", path.surface_loss_db},
+          Column{"bottom_loss_db", path.bottom_loss_db}};
+}
+
+template <class Columns, class Text>
+void append(std::string& line, const Columns& columns, const Text& text) {
+  for (const Column& column : columns) line += (line.empty() ? "" : ",") + text(column);
+}
+
+void print_csv(std::ostream& out, const std::vector<LinkArrivals>& links) {
+  const auto name = [](const Column& column) { return std::string(column.first); };
+  const auto number = [](const Column& column) { return format_number(column.second); };
+  std::string header;
+  append(header, link_columns({}, 0), name);
+  append(header, path_columns({}), name);
+  out << header << '\n';
+  for (const auto& [link, arrivals] : links) {
+    for (std::size_t i = 0; i < arrivals.paths.size(); ++i) {
+      std::string line;
+      append(line, link_columns(link, i), number);
+      append(line, path_columns(arrivals.paths[i]), number);
+      out << line << '\n';
+    }
+  }
+}
+
+nlohmann::ordered_json to_json(const LinkArrivals& found) {
+  nlohmann::ordered_json json{{"src_depth_m", found.link.source_depth_m},
+                              {"rcv_depth_m", found.link.receiver_depth_m},
+                              {"rcv_range_m", found.link.range_m},
+                              {"solver", to_name(found.arrivals.solver)},
+                              {"shadow", found.arrivals.shadow()}};
+  if (!found.arrivals.shadow()) {
+    const acoustics::ReceivedField field = acoustics::received_field(found.arrivals);
+    json["transmission_loss_db"] = -field.level.value;
+    json["first_delay_s"] = field.first_delay_s;
+    json["mean_delay_s"] = field.mean_delay_s;
+    json["delay_spread_s"] = field.delay_spread_s;
+  }
+  json["paths"] = nlohmann::ordered_json::array();
+  for (const acoustics::Arrival& path : found.arrivals.paths) {
+    nlohmann::ordered_json row;
+    for (const auto& [name, value] : path_columns(path)) row[name] = value;
+    json["paths"].push_back(row);
+  }
+  return json;
+}
+
+void print_table(std::ostream& out, const LinkArrivals& found) {
+  out << std::fixed << std::setprecision(2) << "from " << found.link.source_depth_m << " m to "
+      << found.link.receiver_depth_m << " m deep, " << found.link.range_m
+      << " m away: " << found.arrivals.paths.size() << " paths, by " << to_name(found.arrivals.solver)
+      << '\n';
+  if (found.arrivals.shadow()) {
+    out << "shadow: no ray gets there\n";
+    return;
+  }
+  out << "     delay s   level dB  absorbed dB  launch deg  arrival deg  phase deg  surface  bottom  "
+         "caustics\n";
+  for (const acoustics::Arrival& path : found.arrivals.paths) {
+    out << std::setprecision(6) << std::setw(12) << path.delay_s << std::setprecision(2) << std::setw(11)
+        << 20 * std::log10(path.amplitude) << std::setw(13) << path.absorption_db << std::setprecision(3)
+        << std::setw(12) << to_degrees(path.launch_angle_rad) << std::setw(13)
+        << to_degrees(path.arrival_angle_rad) << std::setprecision(1) << std::setw(11)
+        << to_degrees(path.phase_rad) << std::setw(9) << path.surface_bounces << std::setw(8)
+        << path.bottom_bounces << std::setw(10) << path.caustics << '\n';
+  }
+  const acoustics::ReceivedField field = acoustics::received_field(found.arrivals);
+  out << std::setprecision(2) << "transmission loss " << -field.level.value << " dB (incoherent)"
+      << std::setprecision(6) << ", delay spread " << field.delay_spread_s << " s\n";
+}
+
+}  // namespace
+
+void print_arrivals(std::ostream& out, const std::vector<LinkArrivals>& links, OutputFormat format) {
+  if (format == OutputFormat::kCsv) return print_csv(out, links);
+  if (format == OutputFormat::kTable) {
+    for (const LinkArrivals& found : links) print_table(out, found);
+    return;
+  }
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const LinkArrivals& found : links) json.push_back(to_json(found));
+  out << json.dump(2) << '\n';
+}
+
+}  // namespace halocline::clients
