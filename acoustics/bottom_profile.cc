@@ -114,9 +114,8 @@ bool BottomProfile::is_flat_until(double range_m) const {
 
 BottomProfile BottomProfile::reversed(double range_m) const {
   std::vector<ProfiledDepth> turned;
-  for (auto point = points_.rbegin(); point != points_.rend(); ++point) {
-    turned.push_back({range_m - point->range_m, point->depth_m});
-  }
+  for (const ProfiledDepth& point : points_) turned.push_back({range_m - point.range_m, point.depth_m});
+  std::reverse(turned.begin(), turned.end());
   return BottomProfile(std::move(turned), crease_);
 }
 
