@@ -124,6 +124,19 @@ double LinkModel::capacity(const Samples& samples, double range_m) const {
   return bits;
 }
 
+// The loss at f is that at the centre plus (alpha(f) - alpha(centre)) l.
+double LinkModel::capacity_of_path(const Samples& samples, Decibels loss, double path_length_m) const {
+  const double gain = to_power_ratio(Decibels{-loss.value}).value;
+  const double nepers_per_db_per_km = kNepersPerDecibel * path_length_m / kMetresPerKilometre;
+  const double at_centre = mean_absorption(samples, 0);
+  double bits = 0;
+  for (std::size_t f = 1; f < unit_ratio_.size(); ++f) {
+    const double more = std::exp(-nepers_per_db_per_km * (mean_absorption(samples, f) - at_centre));
+    bits += weight_hz_[f] * log2_of_1_plus(unit_ratio_[f] * gain * more);
+  }
+  return bits;
+}
+
 PathLoss LinkModel::path_loss(double from_depth_m, double to_depth_m, double path_length_m) const {
   const double alpha = mean_absorption(sample_path(from_depth_m, to_depth_m), 0);
   return {alpha, transmission_loss(path_length_m, environment_.spreading_exponent, alpha).total};
@@ -146,17 +159,32 @@ LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const
   link.delay_s = link.range_m * slowness;
   link.mean_sound_speed_mps = 1 / slowness;
   link.absorption_db_per_km = mean_absorption(samples, 0);
-  link.transmission_loss =
-      transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km).total;
+  set_levels(
+      link,
+      transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km).total);
+  link.capacity_bps = capacity(samples, link.range_m);
+  return link;
+}
+
+void LinkModel::set_levels(LinkBudget& link, Decibels loss) const {
+  link.transmission_loss = loss;
   link.received_level = transmitter_.source_level - link.transmission_loss;
   link.noise_level = noise_level_;
   link.noise_spectrum_level = centre_noise_;
   link.snr = link.received_level - noise_level_ + receiver_.directivity_index;
   const Decibels bandwidth = to_decibels(PowerRatio{transmitter_.bandwidth_hz});
   link.snr_narrowband = link.received_level - centre_noise_ - bandwidth + receiver_.directivity_index;
-  link.capacity_bps = capacity(samples, link.range_m);
   link.receivable =
       link.received_level >= receiver_.least_receivable_level && bands_overlap(transmitter_, receiver_);
+}
+
+LinkBudget LinkModel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,
+                                     double path_length_m) const {
+  LinkBudget link = budget(from_ned_m, to_ned_m);
+  const Samples samples = sample_path(depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m),
+                                      depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m));
+  set_levels(link, loss);
+  link.capacity_bps = capacity_of_path(samples, loss, path_length_m);
   return link;
 }
 

@@ -58,6 +58,12 @@ class LinkModel {
   // surface the water of the surface is used (whether such a link exists is for the caller to say).
   LinkBudget budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
 
+  // The same for a path that some other model found: its loss at the centre frequency as given, and elsewhere in
+  // the band as much more or less as water between the two depths absorbs more or less over `path_length_m`. Delay
+  // and absorption stay those of the straight path.
+  LinkBudget budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,
+                            double path_length_m) const;
+
   // One-way travel time alone, s.
   double delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
 
@@ -78,6 +84,8 @@ class LinkModel {
   Samples sample_path(double from_depth_m, double to_depth_m) const;
   double mean_absorption(const Samples& samples, std::size_t frequency) const;
   double capacity(const Samples& samples, double range_m) const;
+  double capacity_of_path(const Samples& samples, Decibels loss, double path_length_m) const;
+  void set_levels(LinkBudget& link, Decibels loss) const;
 
   Environment environment_;
   Modem transmitter_, receiver_;

@@ -1,9 +1,13 @@
 // Claims about the channel server's speed: docs/performance.md holds the table.
+#include <cmath>
+#include <memory>
+
 #include <benchmark/benchmark.h>
 
 #include "channel_server/echo_book.h"
 #include "channel_server/link_table.h"
 #include "channel_server/packet_medium.h"
+#include "channel_server/ray_propagation.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -37,12 +41,61 @@ void link_table(benchmark::State& state) {
     now = now + SimDuration::from_microseconds(1);
     const auto placed = place_all(fleet, now);
     benchmark::DoNotOptimize(link_tables(now, placed, propagation, [&](const auto& from, const auto& to) {
-      return book.at_last_tick(from, to, propagation);
+      return book.at_last_tick(now, from, to, propagation);
     }));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
 }
 BENCHMARK(link_table)->Arg(3)->Arg(20)->Arg(100);
+
+// A hill of 120 m in water of 200 m, as smooth as a cosine, 3 km across.
+double seamount_z_m(const Vec3& place) {
+  const double from_top_m = std::hypot(place.x() - 1500, place.y());
+  return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
+}
+
+void tell_bottoms(ProfileBook& book, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
+  for (const VehiclePair& pair : book.take_geometry(vehicles)) {
+    ProfileSurvey survey = book.survey_of(pair);
+    std::vector<RayAnswer> answers;
+    for (const TerrainRay& ray : survey.rays()) {
+      answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
+    }
+    survey.take(answers);
+    book.store(pair, survey);
+  }
+  book.open_tick(tick);
+}
+
+// The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
+// pair's paths are searched. Items are links (both ways of a pair share a search).
+void ray_link_table(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  const auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+  RayPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), bottoms, {});
+  const VehicleModem modem;
+  std::vector<PlacedVehicle> placed;
+  SimTime now = SimTime::from_seconds(100);
+  for (VehicleId id = 1; id <= vehicles; ++id) {
+    PlacedVehicle vehicle;
+    vehicle.id = id;
+    vehicle.placement.position_ned_m = {3000.0 * id / vehicles, 90.0 * (id % 5), 20.0 + 10 * (id % 6)};
+    vehicle.modem = &modem;
+    placed.push_back(vehicle);
+  }
+  for (auto _ : state) {
+    state.PauseTiming();
+    now = now + SimDuration::from_milliseconds(1000);
+    for (PlacedVehicle& vehicle : placed) vehicle.placement.position_ned_m.x() += 2e-3 * (vehicle.id % 3 + 1);
+    tell_bottoms(*bottoms, placed, now);
+    bottoms->forget_before(now - SimDuration::from_milliseconds(5000));
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(
+        link_tables(now, placed, propagation, [](const auto&, const auto&) { return Multipath::kUnknown; }));
+  }
+  state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
+}
+BENCHMARK(ray_link_table)->Arg(3)->Arg(20)->Unit(benchmark::kMillisecond);
 
 // A broadcast to a whole fleet from request to the last of its ends. Items are packets; each ends at
 // (vehicles - 1) receivers.
@@ -77,7 +130,8 @@ void judge_echoes(benchmark::State& state) {
   survey.take_depths(std::vector<RayAnswer>(9, {RayAnswer::Kind::kHit, 200}));
   survey.take_ways(std::vector<RayAnswer>(18, {RayAnswer::Kind::kMiss, 0}));
   const acoustics::Modem modem;
-  for (auto _ : state) benchmark::DoNotOptimize(multipath_of(survey, false, propagation, modem, modem));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(multipath_of(survey, false, SimTime(), propagation, modem, modem));
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(judge_echoes);

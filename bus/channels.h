@@ -39,6 +39,7 @@ inline constexpr Family kLinkReply{"LINK_REPLY."};
 // From any client.
 inline constexpr std::string_view kLinkQuery = "LINK_QUERY";
 inline constexpr std::string_view kRayQuery = "RAY_QUERY";
+inline constexpr std::string_view kSetEnvironment = "SET_ENVIRONMENT";
 // From the bathymetry service.
 inline constexpr Family kRayReply{"RAY_REPLY."};
 // From every node.

@@ -58,6 +58,8 @@ class ConfigVisitor {
                     const std::function<void(ConfigVisitor&, std::size_t)>& item) = 0;
   // True when the scenario gives this key; always true when writing.
   virtual bool given(std::string_view key) const = 0;
+  // True when configuration is written: values that hold are to be visited, whatever `given` says.
+  virtual bool writing() const = 0;
   // Reports that the key's value is impossible in a way that no rule says; for checks across keys.
   virtual void problem(std::string_view key, std::string_view what_is_allowed) = 0;
   // This table also holds keys that other programs read: unknown ones are not errors here.

@@ -45,6 +45,7 @@ class ConfigReader : public ConfigVisitor {
             const std::function<void(std::size_t)>& resize,
             const std::function<void(ConfigVisitor&, std::size_t)>& item) override;
   bool given(std::string_view key) const override { return table_.contains(key); }
+  bool writing() const override { return false; }
   void problem(std::string_view key, std::string_view what_is_allowed) override;
   void shared_with_others() override { document_.shared.insert(&table_); }
 

@@ -103,7 +103,13 @@ Checker check_link(const link_t& m) {
       .within("capacity_bps", m.capacity_bps, 0, 1e12)
       .one_of("multipath", m.multipath, link_t::MULTIPATH_UNLIKELY, link_t::MULTIPATH_UNKNOWN)
       .finite("transmitter_age_s", m.transmitter_age_s)
-      .finite("receiver_age_s", m.receiver_age_s);
+      .finite("receiver_age_s", m.receiver_age_s)
+      .one_of("path_state", m.path_state, link_t::PATH_OPEN, link_t::PATH_BLOCKED)
+      .one_of("propagation_used", m.propagation_used, link_t::USED_STRAIGHT,
+              link_t::USED_STRAIGHT_WITHOUT_BOTTOM)
+      .within("num_paths", m.num_paths, 0, 1e6)
+      .within("delay_spread_s", m.delay_spread_s, 0, 1e6)
+      .within("doppler_factor", m.doppler_factor, 0, 10);
 }
 
 }  // namespace
@@ -169,7 +175,32 @@ std::string problem_in(const environment_t& m) {
       .within("shipping_activity", m.shipping_activity, 0, 1)
       .within("acidity_ph", m.acidity_ph, 0, 14)
       .within("sea_surface_z_m", m.sea_surface_z_m, -1000, 1000)
-      .within("spreading_exponent", m.spreading_exponent, 0, 3);
+      .within("spreading_exponent", m.spreading_exponent, 0, 3)
+      .within("bottom_density_ratio", m.bottom_density_ratio, 0, 10)
+      .within("bottom_sound_speed_ratio", m.bottom_sound_speed_ratio, 0, 5)
+      .within("bottom_sound_speed_mps", m.bottom_sound_speed_mps, 0, 7000)
+      .within("bottom_loss_parameter", m.bottom_loss_parameter, 0, 1);
+  for (std::size_t i = 1; i < m.layer_depth_m.size(); ++i) {
+    checker.holds(m.layer_depth_m[i] > m.layer_depth_m[i - 1], "layer_depth_m", "does not ascend");
+  }
+  return checker.result();
+}
+
+std::string problem_in(const environment_change_t& m) {
+  const bool sets_profile = m.profile_set != environment_change_t::PROFILE_UNCHANGED;
+  Checker checker;
+  checker.utime(m.utime)
+      .holds(m.session != 0, "session", "is 0, which is the scenario's")
+      .one_of("profile_set", m.profile_set, environment_change_t::PROFILE_UNCHANGED,
+              environment_change_t::PROFILE_SPEED)
+      .within("wind_speed_mps", m.wind_speed_mps, 0, 100)
+      .within("shipping_activity", m.shipping_activity, 0, 1)
+      .within("sea_surface_z_m", m.sea_surface_z_m, -1000, 1000)
+      .within("num_layers", m.num_layers, sets_profile ? 1 : 0, kMostLayers)
+      .all_within("layer_depth_m", m.layer_depth_m, 0, 12000)
+      .all_finite("layer_sound_speed_mps", m.layer_sound_speed_mps)
+      .all_within("layer_temperature_degc", m.layer_temperature_degc, -10, 60)
+      .all_within("layer_salinity_psu", m.layer_salinity_psu, 0, 400);
   for (std::size_t i = 1; i < m.layer_depth_m.size(); ++i) {
     checker.holds(m.layer_depth_m[i] > m.layer_depth_m[i - 1], "layer_depth_m", "does not ascend");
   }

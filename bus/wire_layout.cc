@@ -92,7 +92,7 @@ class Walk {
 constexpr std::size_t kHead = 3 * 8;
 
 WireLayout modem_layout() { return {fixed(8 + 7 * 8 + 4 + 1 + 4 + 3 * 8 + 2)}; }
-WireLayout link_layout() { return {fixed(2 * 4 + 7 * 8 + 1 + 1 + 2 * 8)}; }
+WireLayout link_layout() { return {fixed(2 * 4 + 7 * 8 + 1 + 1 + 2 * 8 + 1 + 1 + 4 + 2 * 8)}; }
 
 WireLayout link_end_layout() {
   WireLayout layout{text(), fixed(3 * 8 + 1)};
@@ -128,8 +128,11 @@ HALOCLINE_LAYOUT(sim_clock_t, {fixed(kHead + 8 + 8 + 1)})
 HALOCLINE_LAYOUT(vehicle_state_t, {fixed(kHead + 4 + (3 + 4 + 3 + 3) * 8)})
 HALOCLINE_LAYOUT(vehicle_command_t, {fixed(kHead + 3 * 8)})
 HALOCLINE_LAYOUT(vehicle_sensors_t, {fixed(kHead + 8 + 1 + 5 * 8 + 3 * 8 + 3 * 8 + 2)})
-HALOCLINE_LAYOUT(environment_t, {fixed(kHead), count(), array_of_bytes(8), array_of_bytes(8),
-                                 array_of_bytes(8), array_of_bytes(8), fixed(5 * 8), text(), text(), text()})
+HALOCLINE_LAYOUT(environment_t,
+                 {fixed(kHead), count(), array_of_bytes(8), array_of_bytes(8), array_of_bytes(8),
+                  array_of_bytes(8), fixed(5 * 8), text(), text(), fixed(4 * 8), text(), text(), text()})
+HALOCLINE_LAYOUT(environment_change_t, {fixed(kHead + 4 + 3 * 8), count(), array_of_bytes(8),
+                                        array_of_bytes(8), array_of_bytes(8), array_of_bytes(8)})
 HALOCLINE_LAYOUT(modem_config_t, (modem_layout()))
 HALOCLINE_LAYOUT(modem_send_t, {fixed(kHead + 2 * 4), count(), array_of_bytes(1)})
 HALOCLINE_LAYOUT(modem_receipt_t, {fixed(kHead + 2 * 8 + 1 + 8 + 8)})

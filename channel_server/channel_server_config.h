@@ -1,9 +1,10 @@
-// What the channel server reads of a scenario file: [environment], [modem], [vehicle.modem] and
-// [channel_server].
+// What the channel server reads of a scenario file: [environment], [propagation], [[environment_change]], [modem],
+// [vehicle.modem] and [channel_server].
 //
 // The structs are SI; every key's unit and range is in the .cc, where it is visited, and in --example.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "bus/scenario.h"
 #include "channel_server/fleet.h"
 #include "channel_server/packet_medium.h"
+#include "channel_server/profile_survey.h"
+#include "channel_server/ray_propagation.h"
 #include "channel_server/terrain_asker.h"
 
 namespace halocline::channel_server {
@@ -50,6 +53,28 @@ struct EnvironmentConfig {
   double ph = 8.0;
 };
 
+enum class PropagationModel { kRays, kStraight };
+
+// The bottom by name or by numbers; what rays look for.
+struct PropagationConfig {
+  PropagationModel model = PropagationModel::kRays;
+  std::string sediment = "MediumSand";  // of acoustics/boundary_reflection.h; "custom": the three numbers
+  double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
+  std::string surface_loss_model = "apl-bubbles";
+  std::string solver = "auto";  // or images, snell, arcs
+  acoustics::RayOptions options;
+  double least_amplitude_db = -120;
+  double shadow_loss_db = 0;  // 0: none stated
+  bool coherent = false;
+};
+
+// One [[environment_change]]; what is not given stays as it was.
+struct ChangeConfig {
+  double at_s = 0;
+  std::optional<double> wind_mps, shipping, sea_surface_z_m;
+  std::optional<ProfileConfig> profile;
+};
+
 // How the server works; defaults as in the headers of its parts.
 struct ServerRules {
   SimDuration link_period = SimDuration::from_milliseconds(1000);  // between two LINKS of a vehicle
@@ -58,6 +83,8 @@ struct ServerRules {
   AskingRule asking;
   int bottom_points = 9;             // under each link, for its echoes
   double echo_reuse_distance_m = 5;  // how far the ends of a link may move before its echoes are asked anew
+  ProfileRule profile;
+  int threads = 1;  // that compute link tables
 };
 
 struct ChannelServerConfig {
@@ -67,6 +94,8 @@ struct ChannelServerConfig {
     VehicleModem modem;
   };
   EnvironmentConfig environment;
+  PropagationConfig propagation;
+  std::vector<ChangeConfig> changes;
   VehicleModem modem;
   std::vector<OfVehicle> vehicles;
   ServerRules rules;
@@ -78,6 +107,13 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
 // is impossible.
 acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario,
                                         const std::string& folder);
+
+// Rays as configured. Throws InvalidArgument when a part is out of range.
+RayModel make_rays(const ChannelServerConfig& config);
+
+// Tells the timeline of the scenario's changes. Throws InvalidArgument when one cannot be.
+void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                      const std::string& folder, EnvironmentTimeline& timeline);
 
 ConfiguredModems make_modems(const ChannelServerConfig& config);
 

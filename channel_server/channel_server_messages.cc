@@ -54,6 +54,21 @@ link_answer_t to_message(const LinkAnswer& answer) {
   return message;
 }
 
+acoustics::SoundSpeedProfile profile_in(const environment_change_t& m, const acoustics::Environment& before) {
+  require(!m.layer_depth_m.empty(), "a profile needs at least one layer");
+  std::vector<acoustics::WaterRow> water;
+  std::vector<acoustics::SpeedRow> speeds;
+  for (std::size_t i = 0; i < m.layer_depth_m.size(); ++i) {
+    water.push_back({m.layer_depth_m[i], m.layer_temperature_degc[i], m.layer_salinity_psu[i]});
+    speeds.push_back({m.layer_depth_m[i], m.layer_sound_speed_mps[i]});
+  }
+  using Profile = acoustics::SoundSpeedProfile;
+  if (m.profile_set == environment_change_t::PROFILE_SPEED) {
+    return Profile::from_speeds(std::move(speeds), {m.layer_temperature_degc[0], m.layer_salinity_psu[0]});
+  }
+  return Profile::from_water(std::move(water), before.profile.model(), before.latitude_rad);
+}
+
 constexpr double kFormulaStepM = 100, kFormulaDepthM = 5000;
 constexpr std::size_t kMostLayers = 2000;  // environment_t
 
@@ -188,6 +203,11 @@ link_t to_message(const LinkRow& row) {
   message.multipath = static_cast<std::int8_t>(row.multipath);
   message.transmitter_age_s = row.transmitter_age.seconds();
   message.receiver_age_s = row.receiver_age.seconds();
+  message.path_state = static_cast<std::int8_t>(row.state);
+  message.propagation_used = static_cast<std::int8_t>(row.used);
+  message.num_paths = row.path_count;
+  message.delay_spread_s = row.delay_spread_s;
+  message.doppler_factor = row.doppler_factor;
   return message;
 }
 
@@ -241,8 +261,8 @@ std::vector<RayAnswer> to_answers(const ray_reply_t& message) {
   return answers;
 }
 
-environment_t to_message(const acoustics::Environment& environment, SimTime from,
-                         const std::string& terrain_version) {
+environment_t to_message(const acoustics::Environment& environment, const WaterDescription& description,
+                         SimTime from, const std::string& terrain_version) {
   environment_t message{};
   message.utime = from.to_utime();
   for (const double depth_m : depths_to_tell(environment.profile)) {
@@ -260,8 +280,27 @@ environment_t to_message(const acoustics::Environment& environment, SimTime from
   message.spreading_exponent = environment.spreading_exponent;
   message.sound_speed_model = to_name(environment.profile.model());
   message.absorption_model = to_name(environment.absorption_model);
+  message.propagation_model = description.propagation;
+  if (description.surface) message.surface_model = to_name(*description.surface);
+  if (description.bottom) {
+    message.bottom_density_ratio = description.bottom->density_ratio;
+    message.bottom_sound_speed_ratio = description.bottom->sound_speed_ratio;
+    message.bottom_sound_speed_mps = description.bottom->sound_speed_mps;
+    message.bottom_loss_parameter = description.bottom->loss_parameter;
+  }
   message.terrain_version = terrain_version;
   return message;
+}
+
+EnvironmentChange to_change(const environment_change_t& message, const acoustics::Environment& before) {
+  EnvironmentChange change;
+  if (message.sets_wind != 0) change.wind_mps = message.wind_speed_mps;
+  if (message.sets_shipping != 0) change.shipping = message.shipping_activity;
+  if (message.sets_sea_surface != 0) change.sea_surface_z_m = message.sea_surface_z_m;
+  if (message.profile_set != environment_change_t::PROFILE_UNCHANGED) {
+    change.profile = profile_in(message, before);
+  }
+  return change;
 }
 
 }  // namespace halocline::channel_server

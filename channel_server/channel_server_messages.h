@@ -2,10 +2,13 @@
 // what the types force.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "acoustics/boundary_reflection.h"
 #include "bus/messages.h"
+#include "channel_server/environment_timeline.h"
 #include "channel_server/fleet.h"
 #include "channel_server/link_desk.h"
 #include "channel_server/link_table.h"
@@ -13,6 +16,13 @@
 #include "channel_server/terrain_asker.h"
 
 namespace halocline::channel_server {
+
+// What ENVIRONMENT tells beside the water.
+struct WaterDescription {
+  std::string propagation;                       // "straight", "rays"
+  std::optional<acoustics::FluidBottom> bottom;  // with rays
+  std::optional<acoustics::SurfaceModel> surface;
+};
 
 StampedState to_state(const vehicle_state_t& message);
 
@@ -40,7 +50,11 @@ std::vector<RayAnswer> to_answers(const ray_reply_t& message);
 
 // The profile at the depths of its rows (of more than 2000, every second, third, ...); of a formula, every
 // 100 m down to 5000 m.
-environment_t to_message(const acoustics::Environment& environment, SimTime from,
-                         const std::string& terrain_version);
+environment_t to_message(const acoustics::Environment& environment, const WaterDescription& description,
+                         SimTime from, const std::string& terrain_version);
+
+// What is set, on top of `before`, whose formula of sound speed stays. Throws InvalidArgument when the profile is
+// impossible.
+EnvironmentChange to_change(const environment_change_t& message, const acoustics::Environment& before);
 
 }  // namespace halocline::channel_server

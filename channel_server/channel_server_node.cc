@@ -14,6 +14,9 @@ namespace channels = bus::channels;
 
 // What is heard between two steps at most; a second of a thousand vehicles at 50 Hz.
 constexpr std::size_t kMostWaiting = 50'000;
+constexpr std::size_t kMostChangesWaiting = 100;
+// Sound that left before is not under way any more: it has gone 180 km.
+constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 // A state from further in the future than this says nothing of the present: a clock is wrong.
 constexpr SimDuration kFurthestAhead = SimDuration::from_milliseconds(10'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
@@ -40,18 +43,36 @@ std::string in_base_36(std::uint64_t number) {
 
 }  // namespace
 
-ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity,
-                                     std::unique_ptr<Propagation> propagation, const ConfiguredModems& modems,
-                                     const ServerRules& rules)
+WaterModel straight_model(const acoustics::Environment& environment) {
+  auto waters = std::make_shared<EnvironmentTimeline>(environment);
+  auto propagation = std::make_unique<StraightPropagation>(waters);
+  return {waters, std::make_shared<ProfileBook>(ProfileRule{}), std::move(propagation), {"straight", {}, {}}};
+}
+
+WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
+                     const ProfileRule& rule) {
+  auto waters = std::make_shared<EnvironmentTimeline>(environment);
+  auto bottoms = std::make_shared<ProfileBook>(rule);
+  auto propagation = std::make_unique<RayPropagation>(waters, bottoms, rays);
+  return {waters, bottoms, std::move(propagation), {"rays", rays.bottom, rays.surface}};
+}
+
+ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
+                                     const ConfiguredModems& modems, const ServerRules& rules)
     : Node(lcm, std::move(identity)),
       rules_(rules),
-      propagation_(std::move(propagation)),
+      waters_(std::move(water.waters)),
+      bottoms_(std::move(water.bottoms)),
+      propagation_(std::move(water.propagation)),
+      description_(std::move(water.description)),
+      pool_(std::make_unique<bus::WorkerPool>(rules.threads)),
       ray_client_(ray_client_name(bus().identity().session)),
       fleet_(rules.position, modems),
       medium_(fleet_, *propagation_, rules.medium),
       book_(rules.echo_reuse_distance_m),
       asker_(rules.asking),
-      desk_(fleet_, *propagation_, book_, asker_, {rules.bottom_points, rules.asking.answer_deadline}),
+      desk_(fleet_, *propagation_, book_, asker_,
+            {rules.bottom_points, rules.profile, rules.asking.answer_deadline}),
       next_tick_(kBeforeAll),
       next_environment_(kBeforeAll) {
   subscribe_all();
@@ -80,6 +101,12 @@ void ChannelServerNode::subscribe_all() {
     }
     queries_.push_back(m);
   });
+  bus().subscribe<environment_change_t>(channels::kSetEnvironment, [this](const environment_change_t& m) {
+    if (changes_.size() >= kMostChangesWaiting) {
+      return bus().refuse(channels::kSetEnvironment, "too many changes at once");
+    }
+    changes_.push_back(m);
+  });
   bus().subscribe<ray_reply_t>(channels::kRayReply.of(ray_client_),
                                [this](const ray_reply_t& m) { ray_replies_.push_back(m); });
 }
@@ -95,7 +122,7 @@ bus::Due ChannelServerNode::on_due() const {
   bus::Due due;
   due.sim = std::min({next_tick_, next_environment_, medium_.next_event()});
   for (const auto& [vehicle, send] : sends_) due.sim = std::min(due.sim, SimTime::from_utime(send.utime));
-  if (!queries_.empty()) due.sim = SimTime::at_once();
+  if (!queries_.empty() || !changes_.empty()) due.sim = SimTime::at_once();
   due.steady = ray_replies_.empty() ? std::min(asker_.due(), desk_.due()) : SimTime::at_once();
   return due;
 }
@@ -105,6 +132,7 @@ void ChannelServerNode::on_step(const bus::Now& now) {
   if (now.sim_known) {
     take_states(now.sim);
     take_modems();
+    take_environment_changes(now.sim);
     take_sends(now.sim);
     run_water_to(now.sim);
     forget_old(now.sim);
@@ -135,6 +163,7 @@ void ChannelServerNode::take_ray_replies() {
 void ChannelServerNode::forget_echoes() {
   if (terrain_version_.empty()) return;
   book_.clear();
+  bottoms_->clear();
   surveyed_pairs_.clear();
 }
 
@@ -144,7 +173,13 @@ void ChannelServerNode::take_finished_surveys() {
     const auto pair = surveyed_pairs_.extract(finished.id);
     if (pair.empty()) continue;
     book_.note_asked(pair.mapped());
-    if (finished.answered) book_.store(pair.mapped(), std::get<EchoSurvey>(std::move(finished.survey)));
+    bottoms_->note_asked(pair.mapped());
+    if (!finished.answered) continue;
+    if (auto* echoes = std::get_if<EchoSurvey>(&finished.survey)) {
+      book_.store(pair.mapped(), std::move(*echoes));
+    } else {
+      bottoms_->store(pair.mapped(), std::get<ProfileSurvey>(finished.survey));
+    }
   }
 }
 
@@ -187,17 +222,44 @@ void ChannelServerNode::take_sends(SimTime now) {
   }
 }
 
+// Whatever was published up to now stays true: a change announced for earlier holds from now on.
+void ChannelServerNode::take_environment_changes(SimTime now) {
+  for (const environment_change_t& message : std::exchange(changes_, {})) {
+    try {
+      const std::string problem =
+          waters_->hear(SimTime::from_utime(message.utime), now, {message.session, message.sequence},
+                        to_change(message, propagation_->environment(now)));
+      if (!problem.empty()) bus().refuse(channels::kSetEnvironment, problem);
+    } catch (const InvalidArgument& error) {
+      bus().refuse(channels::kSetEnvironment, error.what());
+    }
+    next_environment_ = std::min(next_environment_, waters_->next_change_after(now));
+    if (SimTime::from_utime(message.utime) <= now) next_environment_ = std::min(next_environment_, now);
+  }
+}
+
 void ChannelServerNode::run_water_to(SimTime now) {
-  if (now >= next_environment_) publish_environment(now);
+  if (next_environment_ == kBeforeAll) publish_environment(now);
   const SimDuration period = rules_.link_period;
   if (next_tick_ == kBeforeAll) next_tick_ = on_grid_from(now, period);
   const SimTime earliest = now - period * kMostTicksBehind;
   if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, period);
-  for (; next_tick_ <= now; next_tick_ = next_on_grid(next_tick_, period)) {
-    for (const MediumEvent& event : medium_.advance_to(next_tick_)) publish_event(event);
-    publish_links(next_tick_);
+  for (SimTime next = std::min(next_tick_, next_environment_); next <= now;
+       next = std::min(next_tick_, next_environment_)) {
+    run_instant(next);
   }
   for (const MediumEvent& event : medium_.advance_to(now)) publish_event(event);
+}
+
+// What holds from an instant on counts for what leaves at that very instant, so it is told before.
+void ChannelServerNode::run_instant(SimTime instant) {
+  const bool tick = instant == next_tick_;
+  if (tick) bottoms_->open_tick(instant);
+  if (instant == next_environment_) publish_environment(instant);
+  for (const MediumEvent& event : medium_.advance_to(instant)) publish_event(event);
+  if (!tick) return;
+  publish_links(instant);
+  next_tick_ = next_on_grid(instant, rules_.link_period);
 }
 
 void ChannelServerNode::publish_event(const MediumEvent& event) {
@@ -215,30 +277,42 @@ void ChannelServerNode::publish_end(const PacketEnd& end, SimTime at) {
   publish_numbered(std::string(channels::kOutcome), to_outcome(end, at));
 }
 
-void ChannelServerNode::publish_environment(SimTime now) {
+void ChannelServerNode::publish_environment(SimTime instant) {
+  book_.forget_verdicts();
   publish_numbered(std::string(channels::kEnvironment),
-                   to_message(propagation_->environment(now), now, terrain_version_));
-  next_environment_ = next_on_grid(now, kEnvironmentPeriod);
+                   to_message(propagation_->environment(instant), description_, instant, terrain_version_));
+  next_environment_ =
+      std::min(next_on_grid(instant, kEnvironmentPeriod), waters_->next_change_after(instant));
 }
 
 void ChannelServerNode::publish_links(SimTime tick) {
   const auto vehicles = place_all(fleet_, tick);
-  const auto tables = link_tables(tick, vehicles, *propagation_, [this](const auto& from, const auto& to) {
-    return book_.at_last_tick(from, to, *propagation_);
-  });
+  const auto judge = [&](const auto& from, const auto& to) {
+    return book_.at_last_tick(tick, from, to, *propagation_);
+  };
+  const auto for_each = [this](std::size_t count, const std::function<void(std::size_t)>& body) {
+    pool_->for_each(count, body);
+  };
+  const auto tables = link_tables(tick, vehicles, *propagation_, judge, for_each);
   for (const LinkTable& table : tables) {
     publish_numbered(channels::kLinks.of(fleet_.name_of(table.vehicle_id)), to_message(table, tick));
     links_published_ += static_cast<std::int64_t>(table.rows.size());
   }
-  begin_echo_tick(vehicles);
+  for (const TerrainAsker::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
+  propagation_->uses_bottom() ? ask_for_profiles(vehicles) : ask_for_echoes(vehicles);
   tell_who_came_and_left(vehicles);
 }
 
-void ChannelServerNode::begin_echo_tick(const std::vector<PlacedVehicle>& vehicles) {
-  for (const TerrainAsker::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
+void ChannelServerNode::ask_for_echoes(const std::vector<PlacedVehicle>& vehicles) {
   for (const VehiclePair& pair : book_.begin_tick(vehicles)) {
     const EchoSurvey survey(book_.place(pair.first), book_.place(pair.second), rules_.bottom_points);
     surveyed_pairs_.emplace(asker_.ask_routine(survey), pair);
+  }
+}
+
+void ChannelServerNode::ask_for_profiles(const std::vector<PlacedVehicle>& vehicles) {
+  for (const VehiclePair& pair : bottoms_->take_geometry(vehicles)) {
+    surveyed_pairs_.emplace(asker_.ask_routine(bottoms_->survey_of(pair)), pair);
   }
 }
 
@@ -259,6 +333,7 @@ void ChannelServerNode::tell_who_came_and_left(const std::vector<PlacedVehicle>&
 void ChannelServerNode::forget_old(SimTime now) {
   const SimTime horizon = now - rules_.medium.greatest_lateness - kKeptLonger;
   medium_.forget_before(horizon);
+  bottoms_->forget_before(horizon - kLongestFlight);
   fleet_.forget_before(horizon - rules_.position.state_timeout - rules_.position.state_lag);
 }
 
@@ -276,7 +351,8 @@ void ChannelServerNode::ask_terrain(const bus::Now& now) {
   if (asker_.is_away() == told_away_) return;
   told_away_ = asker_.is_away();
   if (told_away_) {
-    bus().log().warning("bathymetry-away", "multipath=unknown");
+    bus().log().warning("bathymetry-away", propagation_->uses_bottom() ? "paths=straight multipath=unknown"
+                                                                       : "multipath=unknown");
   } else {
     bus().log().info("bathymetry-back");
   }
@@ -302,6 +378,8 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   fleet_.clear();
   medium_.clear();
   book_.clear();
+  bottoms_->clear();
+  waters_->clear();
   asker_.clear();
   desk_.clear();
   surveyed_pairs_.clear();
@@ -311,6 +389,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   std::erase_if(states_, of_old_run);
   std::erase_if(modems_, of_old_run);
   std::erase_if(sends_, of_old_run);
+  std::erase_if(changes_, [&](const environment_change_t& change) { return change.utime > latest; });
   next_tick_ = next_environment_ = kBeforeAll;
 }
 
@@ -328,9 +407,12 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
                                                        const ChannelServerConfig& config,
                                                        const bus::Scenario& scenario,
                                                        const std::string& folder) {
-  auto propagation =
-      std::make_unique<StraightPropagation>(make_environment(config.environment, scenario, folder));
-  return std::make_unique<ChannelServerNode>(lcm, identity, std::move(propagation), make_modems(config),
+  const acoustics::Environment environment = make_environment(config.environment, scenario, folder);
+  WaterModel water = config.propagation.model == PropagationModel::kRays
+                         ? ray_model(environment, make_rays(config), config.rules.profile)
+                         : straight_model(environment);
+  schedule_changes(config, scenario, folder, *water.waters);
+  return std::make_unique<ChannelServerNode>(lcm, identity, std::move(water), make_modems(config),
                                              config.rules);
 }
 

@@ -1,7 +1,7 @@
 // The channel server on the bus: hears states, modems and transmissions; publishes the water, the link tables,
 // and what becomes of every packet; answers questions about links.
 //
-// Hears STATE.*, MODEM.*, SEND.*, LINK_QUERY, and RAY_REPLY of its own client name (which contains its session,
+// Hears STATE.*, MODEM.*, SEND.*, SET_ENVIRONMENT, LINK_QUERY, and RAY_REPLY of its own client name (which contains its session,
 // so that a recorded reply is not taken for its own). Publishes ENVIRONMENT, LINKS.<vehicle>, RECEIPT.<vehicle>,
 // RECEIVE.<vehicle>, OUTCOME, LINK_REPLY.<client>, RAY_QUERY.
 //
@@ -19,14 +19,31 @@
 #include <vector>
 
 #include "bus/node.h"
+#include "bus/worker_pool.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/channel_server_messages.h"
+#include "channel_server/environment_timeline.h"
 #include "channel_server/link_desk.h"
+#include "channel_server/profile_book.h"
+#include "channel_server/ray_propagation.h"
 
 namespace halocline::channel_server {
 
+// The water and how sound goes through it; the propagation knows waters and bottoms, which the node tells of
+// what it hears.
+struct WaterModel {
+  std::shared_ptr<EnvironmentTimeline> waters;
+  std::shared_ptr<ProfileBook> bottoms;
+  std::unique_ptr<Propagation> propagation;
+  WaterDescription description;  // for ENVIRONMENT
+};
+WaterModel straight_model(const acoustics::Environment& environment);
+WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
+                     const ProfileRule& rule);
+
 class ChannelServerNode : public bus::Node {
  public:
-  ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, std::unique_ptr<Propagation> propagation,
+  ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
                     const ConfiguredModems& modems, const ServerRules& rules);
 
   // Where the bathymetry service's replies to this life of the node go.
@@ -62,9 +79,13 @@ class ChannelServerNode : public bus::Node {
   void publish_event(const MediumEvent& event);
   void publish_receipt(const Receipt& receipt, SimTime at);
   void publish_end(const PacketEnd& end, SimTime at);
-  void publish_environment(SimTime now);
+  void take_environment_changes(SimTime now);
+  // The instants at which something is published by itself: tables, and the environment where it changes.
+  void run_instant(SimTime instant);
+  void publish_environment(SimTime instant);
   void publish_links(SimTime tick);
-  void begin_echo_tick(const std::vector<PlacedVehicle>& vehicles);
+  void ask_for_echoes(const std::vector<PlacedVehicle>& vehicles);
+  void ask_for_profiles(const std::vector<PlacedVehicle>& vehicles);
   void tell_who_came_and_left(const std::vector<PlacedVehicle>& vehicles);
   void forget_old(SimTime now);
   // Publishes `message` with this node's session and the channel's next sequence.
@@ -72,7 +93,11 @@ class ChannelServerNode : public bus::Node {
   void publish_numbered(const std::string& channel, Message message);
 
   ServerRules rules_;
+  std::shared_ptr<EnvironmentTimeline> waters_;
+  std::shared_ptr<ProfileBook> bottoms_;
   std::unique_ptr<Propagation> propagation_;
+  WaterDescription description_;
+  std::unique_ptr<bus::WorkerPool> pool_;
   std::string ray_client_;
   Fleet fleet_;
   PacketMedium medium_;
@@ -85,6 +110,7 @@ class ChannelServerNode : public bus::Node {
   Heard<modem_send_t> sends_;
   std::vector<link_query_t> queries_;
   std::vector<ray_reply_t> ray_replies_;
+  std::vector<environment_change_t> changes_;
 
   SimTime next_tick_, next_environment_;
   std::map<TerrainAsker::SurveyId, VehiclePair> surveyed_pairs_;
@@ -95,7 +121,7 @@ class ChannelServerNode : public bus::Node {
   bool told_away_ = false;
 };
 
-// The node of a scenario whose file lies in `folder`, with straight propagation. Throws InvalidArgument when
+// The node of a scenario whose file lies in `folder`. Throws InvalidArgument when
 // the water or a modem is impossible.
 std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
                                                        const ChannelServerConfig& config,

@@ -9,36 +9,36 @@ bool EchoBook::serves(const Entry& entry, const Vec3& low, const Vec3& high) con
          (entry.survey.to_ned_m() - high).norm() <= reuse_distance_m_;
 }
 
-Multipath EchoBook::at_last_tick(const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+Multipath EchoBook::at_last_tick(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                                  Propagation& propagation) {
   const auto from = places_.find(transmitter.id), to = places_.find(receiver.id);
   if (from == places_.end() || to == places_.end()) return Multipath::kUnknown;
-  return look_up(transmitter, receiver, from->second, to->second, propagation);
+  return look_up(at, transmitter, receiver, from->second, to->second, propagation);
 }
 
-Multipath EchoBook::at(const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+Multipath EchoBook::at(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                        Propagation& propagation) {
-  return look_up(transmitter, receiver, transmitter.placement.position_ned_m,
+  return look_up(at, transmitter, receiver, transmitter.placement.position_ned_m,
                  receiver.placement.position_ned_m, propagation);
 }
 
-Multipath EchoBook::look_up(const PlacedVehicle& transmitter, const PlacedVehicle& receiver, const Vec3& from,
-                            const Vec3& to, Propagation& propagation) {
+Multipath EchoBook::look_up(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+                            const Vec3& from, const Vec3& to, Propagation& propagation) {
   const auto entry = entries_.find(pair_of(transmitter.id, receiver.id));
   if (entry == entries_.end()) return Multipath::kUnknown;
   const bool rising = transmitter.id < receiver.id;
   if (!serves(entry->second, rising ? from : to, rising ? to : from)) return Multipath::kUnknown;
-  return judge(entry->second, transmitter, receiver, propagation);
+  return judge(entry->second, at, transmitter, receiver, propagation);
 }
 
 // Judging takes as long as a dozen links; modems change rarely, so each verdict is kept beside its survey.
-Multipath EchoBook::judge(Entry& entry, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
-                          Propagation& propagation) {
+Multipath EchoBook::judge(Entry& entry, SimTime at, const PlacedVehicle& transmitter,
+                          const PlacedVehicle& receiver, Propagation& propagation) {
   const bool reversed = transmitter.id > receiver.id;
   Verdict& verdict = entry.verdicts[reversed ? 1 : 0];
   const acoustics::Modem &from = transmitter.modem->modem, &to = receiver.modem->modem;
   if (!verdict.known || !(verdict.transmitter == from) || !(verdict.receiver == to)) {
-    verdict = {from, to, multipath_of(entry.survey, reversed, propagation, from, to), true};
+    verdict = {from, to, multipath_of(entry.survey, reversed, at, propagation, from, to), true};
   }
   return verdict.multipath;
 }
@@ -75,6 +75,10 @@ void EchoBook::store(const VehiclePair& pair, EchoSurvey survey) {
   entry->second.survey = std::move(survey);
   entry->second.surveyed = true;
   entry->second.verdicts[0] = entry->second.verdicts[1] = Verdict();
+}
+
+void EchoBook::forget_verdicts() {
+  for (auto& [pair, entry] : entries_) entry.verdicts[0] = entry.verdicts[1] = Verdict();
 }
 
 void EchoBook::clear() {

@@ -25,11 +25,12 @@ class EchoBook {
   // m, 0 and up; 0 asks anew for whatever moved at all.
   explicit EchoBook(double reuse_distance_m) : reuse_distance_m_(reuse_distance_m) {}
 
-  // For the row of the tick to come, from the geometry of the last begin_tick().
-  Multipath at_last_tick(const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+  // For the row of the tick to come, from the geometry of the last begin_tick(), in the water of `at`.
+  Multipath at_last_tick(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                          Propagation& propagation);
   // For two places given; unknown where no survey of the pair serves them.
-  Multipath at(const PlacedVehicle& transmitter, const PlacedVehicle& receiver, Propagation& propagation);
+  Multipath at(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+               Propagation& propagation);
 
   // The tables of a tick are made; its geometry is this. Returns the pairs that need a survey, those
   // asked for longest ago first.
@@ -42,6 +43,8 @@ class EchoBook {
   // The survey's `from` is the lower id.
   void store(const VehiclePair& pair, EchoSurvey survey);
 
+  // The water is another from now on: what is known of the bottom is judged anew.
+  void forget_verdicts();
   void clear();
   std::size_t surveys_kept() const { return entries_.size(); }
 
@@ -58,10 +61,10 @@ class EchoBook {
     Verdict verdicts[2];  // from the lower id, from the higher
   };
   bool serves(const Entry& entry, const Vec3& low, const Vec3& high) const;
-  Multipath judge(Entry& entry, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+  Multipath judge(Entry& entry, SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                   Propagation& propagation);
-  Multipath look_up(const PlacedVehicle& transmitter, const PlacedVehicle& receiver, const Vec3& from,
-                    const Vec3& to, Propagation& propagation);
+  Multipath look_up(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+                    const Vec3& from, const Vec3& to, Propagation& propagation);
 
   double reuse_distance_m_;
   std::int64_t tick_ = 0;

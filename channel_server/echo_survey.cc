@@ -79,7 +79,7 @@ void EchoSurvey::take_ways(std::span<const RayAnswer> answers) {
   stage_ = Stage::kDone;
 }
 
-Multipath multipath_of(const EchoSurvey& survey, bool reversed, Propagation& propagation,
+Multipath multipath_of(const EchoSurvey& survey, bool reversed, SimTime at, Propagation& propagation,
                        const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
   std::vector<acoustics::BottomPoint> points = survey.bottom();
   Vec3 from = survey.from_ned_m(), to = survey.to_ned_m();
@@ -87,7 +87,7 @@ Multipath multipath_of(const EchoSurvey& survey, bool reversed, Propagation& pro
     std::swap(from, to);
     for (auto& point : points) std::swap(point.blocked_from_transmitter, point.blocked_to_receiver);
   }
-  if (propagation.echo_is_receivable(transmitter, receiver, from, to, points)) return Multipath::kLikely;
+  if (propagation.echo_is_receivable(at, transmitter, receiver, from, to, points)) return Multipath::kLikely;
   return survey.complete() ? Multipath::kUnlikely : Multipath::kUnknown;
 }
 

@@ -69,8 +69,8 @@ class EchoSurvey {
   bool complete_ = false;
 };
 
-// The answer for one direction: `reversed` when the transmitter is the survey's `to`.
-Multipath multipath_of(const EchoSurvey& survey, bool reversed, Propagation& propagation,
+// The answer for one direction, in the water of `at`: `reversed` when the transmitter is the survey's `to`.
+Multipath multipath_of(const EchoSurvey& survey, bool reversed, SimTime at, Propagation& propagation,
                        const acoustics::Modem& transmitter, const acoustics::Modem& receiver);
 
 }  // namespace halocline::channel_server

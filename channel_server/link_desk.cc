@@ -114,36 +114,55 @@ void LinkDesk::answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& w
   }
   const Reception reception =
       propagation_.reception(waiting.reply.at, link_end(from.placed()), link_end(to.placed()));
-  answer.row = {from.id, to.id, reception.budget, Multipath::kUnknown, from.placement.age, to.placement.age};
-  if (from.id != 0 && to.id != 0 && from.id != to.id) {
-    answer.row.multipath = book_.at(from.placed(), to.placed(), propagation_);
+  answer.row.transmitter_id = from.id;
+  answer.row.receiver_id = to.id;
+  answer.row.transmitter_age = from.placement.age;
+  answer.row.receiver_age = to.placement.age;
+  answer.row.set(reception);
+  answer.row.multipath = multipath_of(reception, to.modem.modem.least_receivable_level);
+  const bool tables_know = from.id != 0 && to.id != 0 && from.id != to.id && !propagation_.uses_bottom();
+  if (tables_know) {
+    answer.row.multipath = book_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
   }
   waiting.reply.answers.push_back(answer);
-  if (answer.row.multipath == Multipath::kUnknown) ask_echo(from, to, waiting);
+  if (answer.row.multipath == Multipath::kUnknown) ask_terrain(from, to, waiting);
 }
 
-void LinkDesk::ask_echo(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
+void LinkDesk::ask_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
+  const Vec3 &here = from.placement.position_ned_m, &there = to.placement.position_ned_m;
+  const TerrainSurvey survey =
+      propagation_.uses_bottom()
+          ? TerrainSurvey(ProfileSurvey(cells_of(here, there, rule_.profile), rule_.profile))
+          : TerrainSurvey(EchoSurvey(here, there, rule_.bottom_points));
   const std::size_t index = waiting.reply.answers.size() - 1;
-  const auto id = asker_.ask_urgent(
-      EchoSurvey(from.placement.position_ned_m, to.placement.position_ned_m, rule_.bottom_points));
-  waiting.surveys.emplace(id, index);
-  waiting.modems.emplace(index, std::pair(from.modem.modem, to.modem.modem));
+  waiting.surveys.emplace(asker_.ask_urgent(survey), index);
+  waiting.ends.emplace(index, std::pair(from, to));
 }
 
 bool LinkDesk::finish(const TerrainAsker::Finished& finished) {
   for (Waiting& waiting : waiting_) {
     const auto survey = waiting.surveys.find(finished.id);
     if (survey == waiting.surveys.end()) continue;
-    const std::size_t index = survey->second;
-    if (finished.answered) {
-      const auto& [transmitter, receiver] = waiting.modems.at(index);
-      waiting.reply.answers[index].row.multipath = multipath_of(
-          std::get<EchoSurvey>(finished.survey), /*reversed=*/false, propagation_, transmitter, receiver);
-    }
+    if (finished.answered) take(finished.survey, survey->second, waiting);
     waiting.surveys.erase(survey);
     return true;
   }
   return false;
+}
+
+void LinkDesk::take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting) {
+  const auto& [from, to] = waiting.ends.at(index);
+  LinkRow& row = waiting.reply.answers[index].row;
+  if (const auto* echoes = std::get_if<EchoSurvey>(&survey)) {
+    row.multipath = multipath_of(*echoes, /*reversed=*/false, waiting.reply.at, propagation_,
+                                 from.modem.modem, to.modem.modem);
+    return;
+  }
+  const Reception reception =
+      propagation_.reception_over(waiting.reply.at, link_end(from.placed()), link_end(to.placed()),
+                                  std::get<ProfileSurvey>(survey).profile());
+  row.set(reception);
+  row.multipath = multipath_of(reception, to.modem.modem.least_receivable_level);
 }
 
 std::vector<LinkReply> LinkDesk::take_replies(SimTime steady) {

@@ -1,9 +1,10 @@
 // Answers questions about links: between vehicles by name, and between positions and modems that need not
 // exist.
 //
-// Every link is answered or refused on its own. A budget is computed at once; whether an echo is likely needs
-// the terrain, which is asked urgently: a reply waits for it no longer than `patience` of steady time, then
-// says unknown. For two vehicles whose echoes the link tables know already, nothing is asked.
+// Every link is answered or refused on its own. A straight budget is computed at once; whether an echo is likely,
+// and rays, need the terrain, which is asked urgently: a reply waits for it no longer than `patience` of steady
+// time, then says unknown (and tells the straight path). For two vehicles whose echoes or whose bottom the link
+// tables know already, nothing is asked.
 //
 // The position of a named vehicle is that of state_history.h at the simulation time of the question; while no
 // simulation time is known, no vehicle is. Not thread-safe.
@@ -58,6 +59,7 @@ class LinkDesk {
 
   struct Rule {
     int bottom_points = 9;  // of an echo survey
+    ProfileRule profile;
     SimDuration patience = SimDuration::from_milliseconds(250);
   };
 
@@ -75,12 +77,6 @@ class LinkDesk {
   void clear();
 
  private:
-  struct Waiting {
-    LinkReply reply;
-    SimTime deadline;
-    std::map<TerrainAsker::SurveyId, std::size_t> surveys;  // to the index of the answer
-    std::map<std::size_t, std::pair<acoustics::Modem, acoustics::Modem>> modems;  // of those answers
-  };
   struct ResolvedEnd {
     LinkAnswer::Status status = LinkAnswer::Status::kAnswered;
     std::string problem;
@@ -89,13 +85,20 @@ class LinkDesk {
     VehicleModem modem;
     PlacedVehicle placed() const { return {id, placement, &modem}; }  // lives as long as this end
   };
+  struct Waiting {
+    LinkReply reply;
+    SimTime deadline;
+    std::map<TerrainAsker::SurveyId, std::size_t> surveys;            // to the index of the answer
+    std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;  // of those answers
+  };
   std::string refusal_of(const LinkQuestion& question) const;
   bool is_waiting(const LinkQuestion& question) const;
   ResolvedEnd resolve(const AskedEnd& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const AskedEnd& end, std::optional<SimTime> sim) const;
   std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
-  void ask_echo(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  void ask_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  void take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting);
 
   const Fleet& fleet_;
   Propagation& propagation_;

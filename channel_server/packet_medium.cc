@@ -114,9 +114,9 @@ void PacketMedium::solve(Flight& flight, SimTime decided_at) const {
     const auto receiver = fleet_.prediction(flight.receiver_id, arrival, decided_at);
     if (!receiver) return;
     flight.arrival_ned_m = receiver->position_ned_m;
-    const double travel_time_s =
-        propagation_.delay_s(packet.request.start, {0, packet.departure_ned_m, Vec3::Zero(), &packet.modem},
-                             {0, flight.arrival_ned_m, Vec3::Zero(), &packet.modem});
+    const double travel_time_s = propagation_.delay_s(
+        packet.request.start, {packet.request.source_id, packet.departure_ned_m, Vec3::Zero(), &packet.modem},
+        {flight.receiver_id, flight.arrival_ned_m, Vec3::Zero(), &packet.modem});
     const double change_s = std::abs(travel_time_s - flight.travel_time_s);
     flight.travel_time_s = travel_time_s;
     if (change_s < kSettledS) return;
@@ -147,8 +147,9 @@ void PacketMedium::meet_first_bit(Flight& flight, SimTime arrival, SimTime decid
   flight.cutoff = receiver.least_receivable_level;
   flight.budget = propagation_
                       .reception(flight.packet->request.start,
-                                 {0, flight.packet->departure_ned_m, Vec3::Zero(), &flight.packet->modem},
-                                 {0, flight.arrival_ned_m, Vec3::Zero(), &receiver})
+                                 {flight.packet->request.source_id, flight.packet->departure_ned_m,
+                                  Vec3::Zero(), &flight.packet->modem},
+                                 {flight.receiver_id, flight.arrival_ned_m, Vec3::Zero(), &receiver})
                       .budget;
 }
 

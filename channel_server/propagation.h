@@ -13,11 +13,15 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "acoustics/link_budget.h"
 #include "acoustics/multipath.h"
+#include "channel_server/environment_timeline.h"
+#include "channel_server/profile_survey.h"
 #include "channel_server/vehicle_id.h"
+#include "core/for_each.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -51,6 +55,11 @@ struct SoundPath {
   int surface_bounces = 0, bottom_bounces = 0;
 };
 
+// A link, one way.
+struct EndPair {
+  LinkEnd from, to;
+};
+
 enum class PathState {
   kOpen,     // there is at least one path
   kShadow,   // the water bends every path away from the receiver
@@ -81,6 +90,9 @@ double delay_spread_s(const std::vector<SoundPath>& paths);
 // Sum of the powers; kSilence of none.
 Decibels total_level(const std::vector<SoundPath>& paths);
 
+// Sound speed where an end is, m/s; above the surface and below the deepest water, that of these.
+double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m);
+
 class Propagation {
  public:
   virtual ~Propagation() = default;
@@ -90,15 +102,25 @@ class Propagation {
   virtual double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
   // Throws InvalidArgument when a modem is out of range.
   virtual Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
+  // The same for many links that leave at one instant, shared out by `for_each`; as reception() one by one,
+  // whatever the sharing.
+  virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
+                                            const ForEach& for_each);
+  // Whether answers depend on the bottom along the link: then reception() uses what is known of it between
+  // vehicles, and reception_over() a bottom that is given, from the one end to the other.
+  virtual bool uses_bottom() const { return false; }
+  virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                   const std::shared_ptr<const SeabedProfile>& seabed);
   // Whether an echo off one of these points of the bottom reaches the receiver above its cut-off.
-  virtual bool echo_is_receivable(const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
-                                  const Vec3& from_ned_m, const Vec3& to_ned_m,
+  virtual bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
+                                  const acoustics::Modem& receiver, const Vec3& from_ned_m,
+                                  const Vec3& to_ned_m,
                                   const std::vector<acoustics::BottomPoint>& points) = 0;
   // The water at `at`; holds until the propagation is told of another.
   virtual const acoustics::Environment& environment(SimTime at) const = 0;
 };
 
-// The straight path of acoustics/link_budget.h; the same water at every instant.
+// The straight path of acoustics/link_budget.h, in the water of the instant.
 //
 // A LinkModel takes a millisecond to make and microseconds to ask, so one is kept for each pair of different
 // modems asked about; of more than `most_models`, the one that was asked longest ago makes room.
@@ -107,31 +129,33 @@ class StraightPropagation : public Propagation {
   static constexpr std::size_t kMostModels = 1024;
   // Throws InvalidArgument when the environment is out of range.
   explicit StraightPropagation(acoustics::Environment environment, std::size_t most_models = kMostModels);
+  explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
+                               std::size_t most_models = kMostModels);
 
   double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   // One path, straight; never in a shadow, never blocked. Doppler by acoustics/ray_doppler.h.
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
-  bool echo_is_receivable(const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
+  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
                           const std::vector<acoustics::BottomPoint>& points) override;
-  const acoustics::Environment& environment(SimTime) const override { return environment_; }
+  const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
+
+  std::shared_ptr<const acoustics::LinkModel> model_of(SimTime at, const acoustics::Modem& transmitter,
+                                                       const acoustics::Modem& receiver);
 
   std::size_t models_kept() const { return models_.size(); }
 
  private:
   using ModemKey = std::array<double, 7>;
-  using PairKey = std::array<ModemKey, 2>;
+  using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
   struct KeptModel {
-    std::unique_ptr<acoustics::LinkModel> model;
+    std::shared_ptr<const acoustics::LinkModel> model;
     std::int64_t asked_last = 0;
   };
   static ModemKey key_of(const acoustics::Modem& modem);
-  SoundPath straight_path(const acoustics::LinkBudget& budget, const LinkEnd& from, const LinkEnd& to) const;
-  double sound_speed_mps(const Vec3& position_ned_m) const;
-  const acoustics::LinkModel& model_of(const acoustics::Modem& transmitter, const acoustics::Modem& receiver);
   void make_room();
 
-  acoustics::Environment environment_;
+  std::shared_ptr<const EnvironmentTimeline> waters_;
   std::size_t most_models_;
   std::map<PairKey, KeptModel> models_;
   std::int64_t questions_ = 0;

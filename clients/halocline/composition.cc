@@ -22,16 +22,21 @@ void make_absolute(std::string& path, const std::string& folder) {
     path = std::filesystem::absolute(joined).lexically_normal();
 }
 
+void resolve(channel_server::ProfileConfig& profile, const ScenarioConfig& config) {
+  make_absolute(profile.file, config.folder);
+  make_absolute(profile.salinity_file, config.folder);
+  if (profile.position_given) return;
+  profile.latitude_rad = to_radians(config.scenario.origin_latitude_deg);
+  profile.longitude_rad = to_radians(config.scenario.origin_longitude_deg);
+}
+
 // What the scenario says by leaving it out, said.
 void resolve(ScenarioConfig& config) {
   make_absolute(config.terrain.raster.path, config.folder);
   for (auto& nested : config.terrain.nested) make_absolute(nested.raster.path, config.folder);
-  auto& profile = config.channel_server.environment.profile;
-  make_absolute(profile.file, config.folder);
-  make_absolute(profile.salinity_file, config.folder);
-  if (!profile.position_given) {
-    profile.latitude_rad = to_radians(config.scenario.origin_latitude_deg);
-    profile.longitude_rad = to_radians(config.scenario.origin_longitude_deg);
+  resolve(config.channel_server.environment.profile, config);
+  for (auto& change : config.channel_server.changes) {
+    if (change.profile) resolve(*change.profile, config);
   }
 }
 
@@ -68,6 +73,7 @@ std::string commented_toml() {
   config.scenario.vehicles[0].name = "auv-1";
   config.scenario.vehicles[0].id = 1;
   config.channel_server.vehicles.resize(1);
+  config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig()}};
   config.autopilot.vehicles.resize(1);
   config.traffic.vehicles.resize(1);
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);

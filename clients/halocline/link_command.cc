@@ -1,3 +1,4 @@
+#include <array>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -30,6 +31,16 @@ const char* name_of(channel_server::Multipath multipath) {
   return "unknown";
 }
 
+const char* name_of(channel_server::PathState state) {
+  constexpr std::array kNames{"open", "shadow", "blocked"};
+  return kNames.at(static_cast<std::size_t>(state));
+}
+
+const char* name_of(channel_server::PropagationUsed used) {
+  constexpr std::array kNames{"straight", "rays", "straight (bottom unknown)"};
+  return kNames.at(static_cast<std::size_t>(used));
+}
+
 void apply(const LinkOptions& options, acoustics::Modem& modem) {
   if (options.source_level_db) modem.source_level = {*options.source_level_db};
   if (options.cutoff_level_db) modem.least_receivable_level = {*options.cutoff_level_db};
@@ -43,7 +54,7 @@ nlohmann::ordered_json to_json(const LinkEnd& end) {
 }
 
 void print_json(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer) {
-  const acoustics::LinkBudget& b = answer.budget;
+  const acoustics::LinkBudget& b = answer.reception.budget;
   nlohmann::ordered_json json;
   json["from"] = to_json(from);
   json["to"] = to_json(to);
@@ -59,11 +70,15 @@ void print_json(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer
   json["capacity_bps"] = b.capacity_bps;
   json["receivable"] = b.receivable;
   json["multipath"] = name_of(answer.multipath);
+  json["path_state"] = name_of(answer.reception.state);
+  json["propagation"] = name_of(answer.reception.used);
+  json["num_paths"] = answer.reception.paths.size();
+  json["delay_spread_s"] = answer.reception.delay_spread_s;
   std::cout << json.dump(2) << "\n";
 }
 
 void print_table(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer) {
-  const acoustics::LinkBudget& b = answer.budget;
+  const acoustics::LinkBudget& b = answer.reception.budget;
   const auto line = [](const char* what, double value, int digits, const char* unit) {
     std::cout << std::left << std::setw(22) << what << std::right << std::fixed << std::setprecision(digits)
               << std::setw(14) << value << " " << unit << "\n";
@@ -87,7 +102,10 @@ void print_table(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answe
   line("SNR", b.snr.value, 3, "dB");
   line("capacity", b.capacity_bps, 1, "bit/s");
   std::cout << "receivable            " << (b.receivable ? "yes" : "no") << "\n"
-            << "bottom echo           " << name_of(answer.multipath) << "\n";
+            << "bottom echo           " << name_of(answer.multipath) << "\n"
+            << "paths                 " << answer.reception.paths.size() << ", "
+            << name_of(answer.reception.state) << ", " << name_of(answer.reception.used) << "\n";
+  line("delay spread", answer.reception.delay_spread_s, 6, "s");
 }
 
 int link(const LinkOptions& options) {

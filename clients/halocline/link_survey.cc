@@ -86,17 +86,36 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
   return survey;
 }
 
+channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                             const Vec3& to_ned_m, const channel_server::ProfileRule& rule) {
+  channel_server::ProfileSurvey survey(cells_of(from_ned_m, to_ned_m, rule), rule);
+  survey.take(ask(terrain, bathymetry::QueryMode::kDepth, survey.rays()));
+  return survey;
+}
+
 LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to) {
-  channel_server::StraightPropagation propagation(
+  const auto terrain = make_terrain(config).terrain;
+  const channel_server::LinkEnd here{0, from.position_ned_m, Vec3::Zero(), &from.modem.modem};
+  const channel_server::LinkEnd there{0, to.position_ned_m, Vec3::Zero(), &to.modem.modem};
+  const auto waters = std::make_shared<channel_server::EnvironmentTimeline>(
       make_environment(config.channel_server.environment, config.scenario, config.folder));
+  const channel_server::ServerRules& rules = config.channel_server.rules;
   LinkAnswer answer;
-  answer.budget = propagation
-                      .reception(SimTime(), {0, from.position_ned_m, Vec3::Zero(), &from.modem.modem},
-                                 {0, to.position_ned_m, Vec3::Zero(), &to.modem.modem})
-                      .budget;
-  const auto survey = survey_echoes(*make_terrain(config).terrain, from.position_ned_m, to.position_ned_m,
-                                    config.channel_server.rules.bottom_points);
-  answer.multipath = multipath_of(survey, /*reversed=*/false, propagation, from.modem.modem, to.modem.modem);
+  if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
+    channel_server::RayPropagation propagation(waters,
+                                               std::make_shared<channel_server::ProfileBook>(rules.profile),
+                                               make_rays(config.channel_server));
+    answer.reception = propagation.reception_over(
+        SimTime(), here, there,
+        survey_profile(*terrain, from.position_ned_m, to.position_ned_m, rules.profile).profile());
+    answer.multipath = multipath_of(answer.reception, to.modem.modem.least_receivable_level);
+    return answer;
+  }
+  channel_server::StraightPropagation propagation(waters);
+  answer.reception = propagation.reception(SimTime(), here, there);
+  const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
+  answer.multipath =
+      multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);
   return answer;
 }
 

@@ -1,4 +1,5 @@
-// One link of a scenario between two points, computed here and now: budget, and whether the bottom sends echoes.
+// One link of a scenario between two points, computed here and now: budget, paths, and whether the bottom sends
+// echoes.
 //
 // The same computation as a channel server's table: channel_server/link_table.h for the water, echo_survey.h over the
 // scenario's terrain.
@@ -19,7 +20,7 @@ struct LinkEnd {
 };
 
 struct LinkAnswer {
-  acoustics::LinkBudget budget;
+  channel_server::Reception reception;
   channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
 };
 
@@ -32,5 +33,9 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
 // Which echoes the bottom can send between two points of a terrain.
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                          const Vec3& to_ned_m, int bottom_points);
+
+// How the bottom runs between them.
+channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                             const Vec3& to_ned_m, const channel_server::ProfileRule& rule);
 
 }  // namespace halocline::clients

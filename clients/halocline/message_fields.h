@@ -8,6 +8,25 @@
 namespace halocline::clients {
 
 template <class Visitor>
+void visit_fields(Visitor& v, const environment_change_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("sets_wind", m.sets_wind);
+  v("sets_shipping", m.sets_shipping);
+  v("sets_sea_surface", m.sets_sea_surface);
+  v("profile_set", m.profile_set);
+  v("wind_speed_mps", m.wind_speed_mps);
+  v("shipping_activity", m.shipping_activity);
+  v("sea_surface_z_m", m.sea_surface_z_m);
+  v("num_layers", m.num_layers);
+  v("layer_depth_m", m.layer_depth_m);
+  v("layer_sound_speed_mps", m.layer_sound_speed_mps);
+  v("layer_temperature_degc", m.layer_temperature_degc);
+  v("layer_salinity_psu", m.layer_salinity_psu);
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, const environment_t& m) {
   v("utime", m.utime);
   v("session", m.session);
@@ -24,6 +43,12 @@ void visit_fields(Visitor& v, const environment_t& m) {
   v("spreading_exponent", m.spreading_exponent);
   v("sound_speed_model", m.sound_speed_model);
   v("absorption_model", m.absorption_model);
+  v("bottom_density_ratio", m.bottom_density_ratio);
+  v("bottom_sound_speed_ratio", m.bottom_sound_speed_ratio);
+  v("bottom_sound_speed_mps", m.bottom_sound_speed_mps);
+  v("bottom_loss_parameter", m.bottom_loss_parameter);
+  v("surface_model", m.surface_model);
+  v("propagation_model", m.propagation_model);
   v("terrain_version", m.terrain_version);
 }
 
@@ -82,6 +107,11 @@ void visit_fields(Visitor& v, const link_t& m) {
   v("multipath", m.multipath);
   v("transmitter_age_s", m.transmitter_age_s);
   v("receiver_age_s", m.receiver_age_s);
+  v("path_state", m.path_state);
+  v("propagation_used", m.propagation_used);
+  v("num_paths", m.num_paths);
+  v("delay_spread_s", m.delay_spread_s);
+  v("doppler_factor", m.doppler_factor);
 }
 
 template <class Visitor>

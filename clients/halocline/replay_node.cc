@@ -10,7 +10,7 @@ namespace {
 template <class Message>
 inline constexpr bool kIsPlayed =
     std::is_same_v<Message, vehicle_state_t> || std::is_same_v<Message, modem_send_t> ||
-    std::is_same_v<Message, modem_config_t>;
+    std::is_same_v<Message, modem_config_t> || std::is_same_v<Message, environment_change_t>;
 
 // Collects what a log holds, with both candidate times of each event.
 struct Collector {

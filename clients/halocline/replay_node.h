@@ -1,4 +1,4 @@
-// Plays the states, transmissions and modems of a recorded log, each at its simulation time.
+// Plays the states, transmissions, modems and changes of the environment of a recorded log, each at its simulation time.
 //
 // What the log holds of answers (LINKS, RECEIPT, OUTCOME, ...) is not played: it is for the server that listens to
 // give its own. Times: a log that a lockstep run wrote is stamped with simulation time, and its messages are played at
@@ -21,7 +21,7 @@ struct Recording {
   struct Event {
     SimTime at;
     std::string channel;
-    std::variant<vehicle_state_t, modem_send_t, modem_config_t> message;
+    std::variant<vehicle_state_t, modem_send_t, modem_config_t, environment_change_t> message;
   };
   std::vector<Event> events;  // by time; of one time, in the log's order
   SimTime end;                // of the run, as far as the log tells

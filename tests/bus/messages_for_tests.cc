@@ -120,7 +120,35 @@ environment_t valid_message(unsigned seed) {
   m.spreading_exponent = 1.5;
   m.sound_speed_model = "mackenzie";
   m.absorption_model = "francois-garrison";
+  m.bottom_density_ratio = 1.8;
+  m.bottom_sound_speed_ratio = 1.1;
+  m.bottom_sound_speed_mps = 0;
+  m.bottom_loss_parameter = 0.01;
+  m.surface_model = "apl-bubbles";
+  m.propagation_model = "rays";
   m.terrain_version = std::string(static_cast<std::size_t>(size_of_arrays(seed)), 'v');
+  return m;
+}
+
+template <>
+environment_change_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  environment_change_t m;
+  fill_head(m, n);
+  m.session = 5;
+  m.sets_wind = m.sets_shipping = m.sets_sea_surface = 1;
+  m.num_layers = size_of_arrays(seed);
+  m.profile_set =
+      m.num_layers > 0 ? environment_change_t::PROFILE_WATER : environment_change_t::PROFILE_UNCHANGED;
+  m.layer_salinity_psu = n.reals(m.num_layers);
+  for (int i = 0; i < m.num_layers; ++i) {
+    m.layer_depth_m.push_back(10.0 * i);
+    m.layer_sound_speed_mps.push_back(1500 - i);
+    m.layer_temperature_degc.push_back(20 - 0.5 * i);
+  }
+  m.wind_speed_mps = n.real();
+  m.shipping_activity = 0.5;
+  m.sea_surface_z_m = -1;
   return m;
 }
 
@@ -233,6 +261,11 @@ link_t valid_message(unsigned seed) {
   m.multipath = link_t::MULTIPATH_UNKNOWN;
   m.transmitter_age_s = n.real();
   m.receiver_age_s = n.real();
+  m.path_state = link_t::PATH_SHADOW;
+  m.propagation_used = link_t::USED_RAYS;
+  m.num_paths = 7;
+  m.delay_spread_s = n.real();
+  m.doppler_factor = 1.001;
   return m;
 }
 

@@ -205,5 +205,66 @@ TEST(ChannelServerConfig, EveryProfilePrintedReadsBackTheSame) {
   }
 }
 
+TEST(ChannelServerConfig, RaysOverSandAreTheDefault) {
+  const auto config = read("");
+  EXPECT_EQ(config.propagation.model, PropagationModel::kRays);
+  EXPECT_EQ(make_rays(config).bottom, *acoustics::sediment("MediumSand"));
+  EXPECT_FALSE(make_rays(config).solver);
+  EXPECT_FALSE(make_rays(config).shadow_loss);
+}
+
+TEST(ChannelServerConfig, ABottomIsGivenByNameOrByNumbers) {
+  EXPECT_EQ(make_rays(read("[propagation]\nsediment = \"Clay\"")).bottom, *acoustics::sediment("Clay"));
+  const auto custom = make_rays(
+      read("[propagation]\nsediment = \"custom\"\nbottom_density_ratio = 2.1\nbottom_sound_speed_mps = 1800\n"
+           "bottom_attenuation_db_per_wavelength = 0.5"));
+  EXPECT_EQ(custom.bottom, acoustics::fluid_bottom(2.1, 1800, 0.5));
+}
+
+TEST(ChannelServerConfig, WhatRaysLookForIsTaken) {
+  const auto rays = make_rays(
+      read("[propagation]\nsurface_loss_model = \"eckart\"\nsolver = \"arcs\"\nmax_bounces = 12\n"
+           "max_launch_angle_deg = 60\nleast_amplitude_db = -80\nshadow_loss_db = 110\ncoherent = true"));
+  EXPECT_EQ(rays.surface, acoustics::SurfaceModel::kEckart);
+  EXPECT_EQ(rays.solver, acoustics::RaySolver::kArcs);
+  EXPECT_EQ(rays.options.max_bounces, 12);
+  EXPECT_DOUBLE_EQ(rays.options.max_launch_angle_rad, to_radians(60));
+  EXPECT_DOUBLE_EQ(rays.options.min_amplitude, 1e-4);
+  EXPECT_EQ(rays.shadow_loss->value, 110);
+  EXPECT_TRUE(rays.coherent);
+}
+
+TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed) {
+  const std::string errors = errors_of("[propagation]\nsediment = \"Porridge\"");
+  EXPECT_THAT(errors, HasSubstr("test.toml:2"));
+  EXPECT_THAT(errors, HasSubstr("sediment"));
+  EXPECT_THAT(errors, HasSubstr("MediumSand"));
+}
+
+TEST(ChannelServerConfig, ChangesOfTheWaterHoldFromTheirInstantsAndSetWhatTheySay) {
+  const auto config = read(
+      "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\n"
+      "[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = \"isovelocity\"\nisovelocity_mps = 1450");
+  EnvironmentTimeline timeline(make_environment(config.environment, {}, ""));
+  schedule_changes(config, {}, "", timeline);
+  const auto at = [&](double time_s) { return timeline.at(SimTime::from_seconds(time_s)); };
+  EXPECT_EQ(at(9).noise.shipping, 0.5);
+  EXPECT_EQ(at(10).noise.shipping, 0.75);
+  EXPECT_EQ(at(10).noise.wind_mps, 3);
+  EXPECT_EQ(at(20).noise.wind_mps, 9);
+  EXPECT_EQ(at(20).profile.sound_speed_mps(70), 1450);
+}
+
+TEST(ChannelServerConfig, ChangesOfTheWaterAreWrittenAsTheyWereRead) {
+  ChannelServerConfig config = read("[[environment_change]]\nat_s = 10\nshipping = 0.75");
+  const std::string toml = bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, false);
+  const auto again = read(toml).changes;
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].at_s, 10);
+  EXPECT_EQ(again[0].shipping, 0.75);
+  EXPECT_FALSE(again[0].wind_mps);
+  EXPECT_FALSE(again[0].profile);
+}
+
 }  // namespace
 }  // namespace halocline::channel_server

@@ -229,7 +229,7 @@ TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {
 
 TEST(ChannelServerMessages, TheEnvironmentExplainsItself) {
   const acoustics::Environment water;
-  const environment_t message = to_message(water, at_s(60), "terrain-7");
+  const environment_t message = to_message(water, {"straight", {}, {}}, at_s(60), "terrain-7");
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.num_layers, 15);
   EXPECT_EQ(message.layer_temperature_degc.at(1), 15.09);
@@ -241,7 +241,7 @@ TEST(ChannelServerMessages, TheEnvironmentExplainsItself) {
 TEST(ChannelServerMessages, AProfileThatIsAFormulaIsTabulated) {
   acoustics::Environment water;
   water.profile = acoustics::SoundSpeedProfile::munk({10, 35});
-  const environment_t message = to_message(water, at_s(0), "");
+  const environment_t message = to_message(water, {"straight", {}, {}}, at_s(0), "");
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.num_layers, 51);
 }
@@ -251,7 +251,7 @@ TEST(ChannelServerMessages, ALongProfileIsThinnedToWhatAMessageHolds) {
   for (int i = 0; i < 5000; ++i) rows.push_back({1.0 * i, 1500});
   acoustics::Environment water;
   water.profile = acoustics::SoundSpeedProfile::from_speeds(rows, {10, 35});
-  EXPECT_EQ(bus::problem_in(to_message(water, at_s(0), "")), "");
+  EXPECT_EQ(bus::problem_in(to_message(water, {"straight", {}, {}}, at_s(0), "")), "");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class EchoBookTest : public ::testing::Test {
     return survey;
   }
   Multipath row(const PlacedVehicle& from, const PlacedVehicle& to) {
-    return book_.at_last_tick(from, to, propagation_);
+    return book_.at_last_tick(SimTime(), from, to, propagation_);
   }
 
   VehicleModem modem_ = testing::quick_modem();
@@ -85,8 +85,8 @@ TEST_F(EchoBookTest, AnotherModemIsJudgedAnew) {
 TEST_F(EchoBookTest, PlacesOfNowAreServedBySurveysNearThem) {
   book_.begin_tick({vehicle(1, 0), vehicle(2, 100)});
   book_.store({1, 2}, survey_of({1, 2}));
-  EXPECT_EQ(book_.at(vehicle(1, 3), vehicle(2, 100), propagation_), Multipath::kLikely);
-  EXPECT_EQ(book_.at(vehicle(1, 30), vehicle(2, 100), propagation_), Multipath::kUnknown);
+  EXPECT_EQ(book_.at(SimTime(), vehicle(1, 3), vehicle(2, 100), propagation_), Multipath::kLikely);
+  EXPECT_EQ(book_.at(SimTime(), vehicle(1, 30), vehicle(2, 100), propagation_), Multipath::kUnknown);
 }
 
 TEST_F(EchoBookTest, WithoutReuseOnlyWhoStandsStillIsServed) {

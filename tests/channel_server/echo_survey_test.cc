@@ -86,7 +86,7 @@ class MultipathOfTest : public ::testing::Test {
  protected:
   Multipath judge(const EchoSurvey& survey, double cutoff_db, bool reversed = false) {
     const auto modem = modem_with_cutoff(cutoff_db);
-    return multipath_of(survey, reversed, propagation_, modem, modem);
+    return multipath_of(survey, reversed, SimTime(), propagation_, modem, modem);
   }
   StraightPropagation propagation_{testing::even_water()};
 };

@@ -64,10 +64,11 @@ class NodeBench {
   static constexpr std::int64_t kSession = 4711;
 
   explicit NodeBench(ServerRules rules = {}, ConfiguredModems modems = {quick_modem(), {}},
-                     acoustics::Environment water = even_water())
+                     const acoustics::Environment& water = even_water())
+      : NodeBench(std::move(rules), std::move(modems), straight_model(water)) {}
+  NodeBench(ServerRules rules, ConfiguredModems modems, WaterModel water)
       : lcm_("memq://"),
-        node_(lcm_, {"channel-server", kSession}, std::make_unique<StraightPropagation>(std::move(water)),
-              modems, rules),
+        node_(lcm_, {"channel-server", kSession}, std::move(water), modems, rules),
         bus_(lcm_, {"test", 1}) {
     hear(channels::kLinks, links);
     hear(channels::kReceipt, receipts);
@@ -110,6 +111,17 @@ class NodeBench {
     bus_.publish(channels::kSend.of(name_of(source)), message);
     return message;
   }
+
+  environment_change_t change_of_wind(double time_s, double wind_mps, std::int64_t sequence = 0) {
+    environment_change_t message{};
+    message.utime = at_s(time_s).to_utime();
+    message.session = 7;
+    message.sequence = sequence;
+    message.sets_wind = 1;
+    message.wind_speed_mps = wind_mps;
+    return message;
+  }
+  void change(const environment_change_t& message) { bus_.publish(channels::kSetEnvironment, message); }
 
   // Steps at `time_s` until the node wants no more at that instant. `known` false: no simulation time yet.
   void step(double time_s, bool known = true) { step(at_s(time_s), at_s(time_s), known); }

@@ -81,6 +81,43 @@ TEST_F(EmbeddedRunTest, ReplayGivesTheAnswersOfTheRun) {
   EXPECT_TRUE(expected == bytes_of_families(again, answers));
 }
 
+TEST_F(EmbeddedRunTest, LinksGoAlongRaysOverTheTerrain) {
+  const auto tables = messages_in<link_table_t>(run(harbour(), "log"));
+  int by_rays = 0, rows = 0;
+  for (const auto& [channel, table] : tables) {
+    if (table.utime < 2'000'000) continue;  // the first table asks for the bottom
+    for (const link_t& row : table.peers) {
+      ++rows;
+      by_rays += row.propagation_used == link_t::USED_RAYS ? 1 : 0;
+    }
+  }
+  EXPECT_GT(rows, 400);
+  EXPECT_EQ(by_rays, rows);
+}
+
+TEST_F(EmbeddedRunTest, TwoThreadsWriteTheSameBytesAsOne) {
+  ScenarioConfig config = harbour();
+  const std::string one = bytes_of(run(config, "one"));
+  config.channel_server.rules.threads = 2;
+  EXPECT_TRUE(one == bytes_of(run(config, "two")));
+}
+
+TEST_F(EmbeddedRunTest, AScheduledChangeOfWaterIsReplayedToo) {
+  ScenarioConfig config = harbour();
+  config.channel_server.changes = {{10.4, 14, {}, -1.5, {}}};
+  const std::string original = run(config, "original");
+  std::vector<std::pair<std::int64_t, double>> winds;
+  for (const auto& [channel, water] : messages_in<environment_t>(original)) {
+    winds.emplace_back(water.utime, water.wind_speed_mps);
+  }
+  ASSERT_GE(winds.size(), 2u);
+  EXPECT_EQ(winds.front().second, 4);
+  EXPECT_EQ(winds.back(), std::pair(std::int64_t{10'400'000}, 14.0));
+  const std::string again = replay(config, original, "again");
+  const std::vector<std::string> answers{"LINKS", "OUTCOME", "RECEIPT", "RECEIVE", "ENVIRONMENT"};
+  EXPECT_TRUE(bytes_of_families(original, answers) == bytes_of_families(again, answers));
+}
+
 TEST_F(EmbeddedRunTest, ReplayOfAReplayStaysTheSame) {
   const std::string original = run(harbour(), "original");
   const std::string again = replay(harbour(), original, "again");

@@ -37,7 +37,7 @@ TEST(LinkSurvey, ImpossibleEndsAreRefused) {
 TEST(LinkSurvey, DelayIsThatOfThePapersFigure4) {
   const ScenarioConfig config = two_vehicles();
   const LinkAnswer answer = survey_link(config, link_end(config, "auv-1"), link_end(config, "500,0,0"));
-  EXPECT_NEAR(answer.budget.delay_s, 0.660724, tolerance(1e-6));
+  EXPECT_NEAR(answer.reception.budget.delay_s, 0.660724, tolerance(1e-6));
 }
 
 TEST(LinkSurvey, EchoIsLikelyOverAShallowBottomAndUnknownBeyondTheTerrain) {

@@ -1,0 +1,268 @@
+#include "channel_server/water_config.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "acoustics/profile_reader.h"
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+const std::vector<std::string> kProfileSources{"global-mean",  "global-mean-salinity-35",
+                                               "harris-zorzi", "munk",
+                                               "isovelocity",  "water-table",
+                                               "speed-table",  "file"};
+
+acoustics::SoundSpeedProfile water_table(const ProfileConfig& config, acoustics::SoundSpeedModel model,
+                                         double latitude_rad) {
+  std::vector<acoustics::WaterRow> rows;
+  for (const Vec3& row : config.water_rows) rows.push_back({row.x(), row.y(), row.z()});
+  return acoustics::SoundSpeedProfile::from_water(std::move(rows), model, latitude_rad);
+}
+
+acoustics::SoundSpeedProfile speed_table(const ProfileConfig& config) {
+  std::vector<acoustics::SpeedRow> rows;
+  for (std::size_t i = 0; i < config.speeds_mps.size(); ++i) {
+    rows.push_back({config.speed_depths_m.at(i), config.speeds_mps[i]});
+  }
+  return acoustics::SoundSpeedProfile::from_speeds(std::move(rows), config.assumed);
+}
+
+void check_tables(bus::ConfigVisitor& v, const ProfileConfig& p) {
+  if (p.source == ProfileSource::kWaterTable) {
+    bus::report_refusal(v, "water_rows",
+                        [&] { water_table(p, acoustics::SoundSpeedModel::kMackenzie1981, 0); });
+  }
+  if (p.source != ProfileSource::kSpeedTable) return;
+  if (p.speeds_mps.size() != p.speed_depths_m.size()) {
+    return v.problem("speeds_mps", "profile = \"speed-table\" needs as many speeds as speed_depths_m");
+  }
+  bus::report_refusal(v, "speeds_mps", [&] { speed_table(p); });
+}
+
+void visit_tables(bus::ConfigVisitor& v, ProfileConfig& p) {
+  v.points("water_rows", p.water_rows,
+           {-1e5, 1e5, "", "water-table: rows of [depth m, temperature degC, salinity psu], depth rising"});
+  v.numbers("speed_depths_m", p.speed_depths_m,
+            {0, acoustics::kDeepestWater, "m", "speed-table: depths, rising"});
+  v.numbers("speeds_mps", p.speeds_mps, {1000, 2000, "m/s", "speed-table: a speed for each depth"});
+  v.number("isovelocity_mps", p.isovelocity_mps, {1000, 2000, "m/s", "isovelocity: the speed everywhere"});
+  v.number("assumed_temperature_degc", p.assumed.temperature_degc,
+           {-5, 45, "degC", "water of profiles that hold speeds only"});
+  v.number("assumed_salinity_psu", p.assumed.salinity_psu,
+           {0, 50, "psu", "water of profiles that hold speeds only"});
+  check_tables(v, p);
+}
+
+void visit_file(bus::ConfigVisitor& v, ProfileConfig& p) {
+  v.text("profile_file", p.file, {}, "file: CSV, or netCDF with temperature (and salinity)");
+  v.text("profile_salinity_file", p.salinity_file, {},
+         "file: netCDF with salinity, where it is another file");
+  p.position_given = v.given("profile_latitude_deg") && v.given("profile_longitude_deg");
+  bus::degrees(v, "profile_latitude_deg", p.latitude_rad,
+               {-90, 90, "deg", "of the column in a gridded file; the scenario's origin unless given"});
+  bus::degrees(v, "profile_longitude_deg", p.longitude_rad,
+               {-180, 360, "deg", "of the column in a gridded file; the scenario's origin unless given"});
+  v.integer("profile_time_index", p.time_index, {0, 1e6, "", "which of a gridded file's times, from 0"});
+  if (p.source == ProfileSource::kFile && p.file.empty()) {
+    v.problem("profile_file", "profile = \"file\" needs the name of a file");
+  }
+}
+
+void visit_profile(bus::ConfigVisitor& v, ProfileConfig& p) {
+  bus::choice(v, "profile", p.source, kProfileSources, "where the sound-speed profile comes from");
+  visit_tables(v, p);
+  visit_file(v, p);
+}
+
+void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
+  visit_profile(v, e.profile);
+  v.text("sound_speed_model", e.sound_speed_model, bus::names_of(acoustics::kSoundSpeedModels),
+         "formula of sound speed");
+  v.text("absorption_model", e.absorption_model, bus::names_of(acoustics::kAbsorptionModels),
+         "formula of absorption");
+  v.number("wind_mps", e.noise.wind_mps, {0, 60, "m/s", "wind 10 m above the sea: noise"});
+  v.number("shipping", e.noise.shipping, {0, 1, "", "shipping activity: noise"});
+  v.number("spreading_exponent", e.spreading_exponent,
+           {1, 2, "", "1 cylindrical, 1.5 practical, 2 spherical spreading"});
+  v.number("acidity_ph", e.ph, {7, 9, "", "pH of the water: absorption"});
+}
+
+const std::vector<std::string> kPropagationModels{"rays", "straight"};
+constexpr std::string_view kCustom = "custom", kAnySolver = "auto";
+
+std::vector<std::string> sediments() {
+  std::vector<std::string> names{std::string(kCustom)};
+  for (const std::string_view name : acoustics::sediment_names()) names.emplace_back(name);
+  return names;
+}
+
+std::vector<std::string> surface_models() {
+  using Model = acoustics::SurfaceModel;
+  std::vector<std::string> names;
+  for (const Model model :
+       {Model::kFlat, Model::kAplBubbles, Model::kEckart, Model::kCoates, Model::kJones}) {
+    names.emplace_back(to_name(model));
+  }
+  return names;
+}
+
+void visit_boundaries(bus::ConfigVisitor& v, PropagationConfig& p) {
+  v.text("sediment", p.sediment, sediments(),
+         "rays: the bottom, by its name in APL-UW TR 9407, or by numbers");
+  v.number("bottom_density_ratio", p.bottom_density_ratio, {0.5, 10, "", "custom: density over the water's"});
+  v.number("bottom_sound_speed_mps", p.bottom_sound_speed_mps, {500, 7000, "m/s", "custom"});
+  v.number("bottom_attenuation_db_per_wavelength", p.bottom_attenuation_db, {0, 54, "dB", "custom"});
+  v.text("surface_loss_model", p.surface_loss_model, surface_models(),
+         "rays: what the wind takes from a bounce at the surface");
+}
+
+void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
+  bus::choice(v, "model", p.model, kPropagationModels,
+              "rays where the bottom is known, or one straight path (the paper's)");
+  visit_boundaries(v, p);
+  v.text("solver", p.solver, {std::string(kAnySolver), "images", "snell", "arcs"},
+         "rays: how paths are found, where that way can; auto: the simplest that is exact");
+  bus::integer_as(v, "max_bounces", p.options.max_bounces,
+                  {0, 10'000, "", "rays: surface and bottom together"});
+  bus::degrees(v, "max_launch_angle_deg", p.options.max_launch_angle_rad,
+               {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
+  v.number("least_amplitude_db", p.least_amplitude_db,
+           {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
+  v.number("shadow_loss_db", p.shadow_loss_db,
+           {0, 400, "dB", "rays: transmission loss told where no ray gets; 0: silence"});
+  v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
+}
+
+void visit_optional(bus::ConfigVisitor& v, std::string_view key, std::optional<double>& value,
+                    const bus::NumberRule& rule) {
+  if (v.writing() ? !value.has_value() : !v.given(key)) return;
+  double number = value.value_or(0);
+  v.number(key, number, rule);
+  value = number;
+}
+
+void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
+  v.number("at_s", c.at_s, {0, 1e9, "s", "simulation time from which it holds"});
+  visit_optional(v, "wind_mps", c.wind_mps, {0, 60, "m/s", "as in [environment]"});
+  visit_optional(v, "shipping", c.shipping, {0, 1, "", "as in [environment]"});
+  visit_optional(v, "sea_surface_z_m", c.sea_surface_z_m, {-100, 100, "m", "z of the surface"});
+  if (v.writing() ? !c.profile.has_value() : !v.given("profile")) return;
+  ProfileConfig profile = c.profile.value_or(ProfileConfig());
+  visit_profile(v, profile);
+  c.profile = profile;
+}
+
+std::string path_in(const std::string& folder, const std::string& file) {
+  return file.empty() ? file : (std::filesystem::path(folder) / file).string();
+}
+
+acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
+                                               acoustics::SoundSpeedModel model,
+                                               const bus::Scenario& scenario, const std::string& folder) {
+  const ProfileConfig& p = config.profile;
+  const double latitude = p.position_given ? p.latitude_rad : to_radians(scenario.origin_latitude_deg);
+  const double longitude = p.position_given ? p.longitude_rad : to_radians(scenario.origin_longitude_deg);
+  const std::string path = path_in(folder, p.file), ending = std::filesystem::path(path).extension().string();
+  if (ending == ".csv" || ending == ".txt") {
+    return acoustics::read_profile(path, {model, latitude, p.assumed}, latitude, longitude);
+  }
+  return acoustics::read_grid_profile(
+             {path, path_in(folder, p.salinity_file), latitude, longitude, static_cast<int>(p.time_index)},
+             model)
+      .profile;
+}
+
+acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario,
+                                          const std::string& folder) {
+  using Profile = acoustics::SoundSpeedProfile;
+  const auto model = acoustics::sound_speed_model_from_name(config.sound_speed_model);
+  require(model.has_value(), "no sound-speed model is called " + config.sound_speed_model);
+  const ProfileConfig& p = config.profile;
+  switch (p.source) {
+    case ProfileSource::kGlobalMean:
+      return Profile::global_mean(*model);
+    case ProfileSource::kGlobalMeanOfSalinity35:
+      return Profile::global_mean_of_salinity_35(*model);
+    case ProfileSource::kHarrisZorzi:
+      return Profile::harris_zorzi(*model);
+    case ProfileSource::kMunk:
+      return Profile::munk(p.assumed);
+    case ProfileSource::kIsovelocity:
+      return Profile::isovelocity(p.isovelocity_mps, p.assumed);
+    case ProfileSource::kWaterTable:
+      return water_table(p, *model, to_radians(scenario.origin_latitude_deg));
+    case ProfileSource::kSpeedTable:
+      return speed_table(p);
+    case ProfileSource::kFile:
+      break;
+  }
+  return profile_from_file(config, *model, scenario, folder);
+}
+
+}  // namespace
+
+void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
+  v.section("environment", "The water",
+            [&](bus::ConfigVisitor& s) { visit_environment(s, config.environment); });
+  v.section("propagation", "How sound goes through it",
+            [&](bus::ConfigVisitor& s) { visit_propagation(s, config.propagation); });
+  v.list(
+      "environment_change", "The water changes; what is not given stays", config.changes.size(),
+      [&](std::size_t n) { config.changes.resize(n); },
+      [&](bus::ConfigVisitor& item, std::size_t i) { visit_change(item, config.changes[i]); });
+}
+
+acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario,
+                                        const std::string& folder) {
+  const auto absorption = acoustics::absorption_model_from_name(config.absorption_model);
+  require(absorption.has_value(), "no absorption model is called " + config.absorption_model);
+  acoustics::Environment environment;
+  environment.profile = make_profile(config, scenario, folder);
+  environment.noise = config.noise;
+  environment.spreading_exponent = config.spreading_exponent;
+  environment.absorption_model = *absorption;
+  environment.ph = config.ph;
+  environment.latitude_rad = to_radians(scenario.origin_latitude_deg);
+  environment.sea_surface_z_m = scenario.sea_surface_z_m;
+  validate(environment);
+  return environment;
+}
+
+RayModel make_rays(const ChannelServerConfig& config) {
+  const PropagationConfig& p = config.propagation;
+  RayModel rays;
+  const auto named = acoustics::sediment(p.sediment);
+  require(named || p.sediment == kCustom, "no sediment is called " + p.sediment);
+  rays.bottom = named ? *named
+                      : acoustics::fluid_bottom(p.bottom_density_ratio, p.bottom_sound_speed_mps,
+                                                p.bottom_attenuation_db);
+  const auto surface = acoustics::surface_model_from_name(p.surface_loss_model);
+  require(surface.has_value(), "no model of the surface is called " + p.surface_loss_model);
+  rays.surface = *surface;
+  rays.options = p.options;
+  rays.options.min_amplitude = std::pow(10.0, p.least_amplitude_db / 20);
+  using Solver = acoustics::RaySolver;
+  for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs}) {
+    if (p.solver == to_name(solver)) rays.solver = solver;
+  }
+  if (p.shadow_loss_db > 0) rays.shadow_loss = Decibels{p.shadow_loss_db};
+  rays.coherent = p.coherent;
+  return rays;
+}
+
+void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                      const std::string& folder, EnvironmentTimeline& timeline) {
+  for (const ChangeConfig& c : config.changes) {
+    EnvironmentChange change{c.wind_mps, c.shipping, c.sea_surface_z_m, {}};
+    if (c.profile) {
+      EnvironmentConfig water = config.environment;
+      water.profile = *c.profile;
+      change.profile = make_profile(water, scenario, folder);
+    }
+    timeline.schedule(SimTime::from_seconds(c.at_s), change);
+  }
+}
+
+}  // namespace halocline::channel_server
