@@ -53,8 +53,6 @@ TEST_F(RayPropagationTest, LevelsAndDelaysOverAFlatBottomAreThoseOfTheImages) {
   const Reception reception = over_flat(model, from, to);
   const auto water = even_water();
   const double khz_squared = 25 * 25;
-  const auto alpha = absorbing_water(water, 0);
-  (void)alpha;
   double power = 0;
   std::size_t found = 0;
   for (int bottom = 0; bottom <= 2; ++bottom) {
