@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
   program.purpose = "Carries messages through the water and tells the quality of every link.";
   program.node_name = "channel-server";
   program.interface =
-      "hears:     STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, RAY_REPLY.<itself>,\n"
-      "           CLOCK (with --time-source conductor)\n"
+      "hears:     STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
+      "           RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
       "publishes: LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"
       "           LINK_REPLY.<client>, RAY_QUERY, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
