@@ -65,9 +65,10 @@ struct Arrivals {
 // What to look for. The defaults keep what can matter to a modem.
 struct RayOptions {
   double frequency_hz = 25'000;  // for absorption and reflection, 10..1e6
-  // Paths that bounce are followed when launched within this of the horizontal, (0, pi/2]. Those that do not
-  // bounce are found at every angle.
+  // Paths are kept when launched within this of the horizontal, (0, pi/2].
   double max_launch_angle_rad = to_radians(80);
+  // Also the path that meets neither surface nor bottom however steep it is: a vehicle right above another.
+  bool keep_steep_direct = false;
   int max_bounces = 400;               // surface and bottom together, 0..10 000
   double min_boundary_factor = 0.005;  // paths whose bounces leave less of the pressure are dropped, [0, 1)
   double min_amplitude = 0;            // paths of less amplitude are dropped, >= 0; 1e-6 is -120 dB

@@ -30,6 +30,16 @@ std::vector<Arrival> search(const RaySea& sea, const RayLink& link, RaySolver so
   return {};
 }
 
+// The solvers find paths that do not bounce at every angle.
+std::vector<Arrival> within_launch_limit(std::vector<Arrival> paths, const RayOptions& options) {
+  if (!options.keep_steep_direct) {
+    std::erase_if(paths, [limit = options.max_launch_angle_rad](const Arrival& path) {
+      return std::abs(path.launch_angle_rad) > limit;
+    });
+  }
+  return paths;
+}
+
 }  // namespace
 
 RayWater ray_water(const Environment& environment, double frequency_hz) {
@@ -58,7 +68,7 @@ Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolve
   require(!solver || *solver == RaySolver::kArcs || sea.bottom_profile.is_flat_until(link.range_m),
           "the ray solvers 'images' and 'snell' need a flat bottom");
   const RaySolver chosen = solver.value_or(choose_solver(sea, link));
-  return {chosen, search(sea, link, chosen)};
+  return {chosen, within_launch_limit(search(sea, link, chosen), sea.options)};
 }
 
 RayLink ray_link(const Vec3& source_ned_m, const Vec3& receiver_ned_m, double sea_surface_z_m) {
@@ -79,7 +89,7 @@ Arrivals follow(const RaySea& sea, const RayLink& link, const Arrivals& before) 
                          ? follow_layered_rays(flat_sea(sea, link), link, before.paths)
                          : follow_profile_rays(profiled_sea(sea), link, before.paths);
   if (!now.complete) return arrivals(sea, link, before.solver);
-  return {before.solver, std::move(now.paths)};
+  return {before.solver, within_launch_limit(std::move(now.paths), sea.options)};
 }
 
 }  // namespace halocline::acoustics

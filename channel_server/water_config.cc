@@ -242,6 +242,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   require(surface.has_value(), "no model of the surface is called " + p.surface_loss_model);
   rays.surface = *surface;
   rays.options = p.options;
+  rays.options.keep_steep_direct = true;
   rays.options.min_amplitude = std::pow(10.0, p.least_amplitude_db / 20);
   using Solver = acoustics::RaySolver;
   for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs}) {

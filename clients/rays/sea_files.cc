@@ -115,6 +115,7 @@ acoustics::RayOptions options_of(const SeaDescription& sea) {
   acoustics::RayOptions options;
   options.frequency_hz = sea.frequency_khz * 1e3;
   options.max_launch_angle_rad = to_radians(sea.max_launch_angle_deg);
+  options.keep_steep_direct = sea.keep_steep_direct;
   options.max_bounces = sea.max_bounces;
   options.min_boundary_factor = sea.least_boundary_factor;
   if (sea.least_amplitude_db) options.min_amplitude = std::pow(10.0, *sea.least_amplitude_db / 20);

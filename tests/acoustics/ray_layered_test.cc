@@ -169,6 +169,7 @@ TEST(LayeredRays, AbsorptionIsTheIntegralAlongTheArc) {
   // alpha = 2 dB/km + 0.1 dB/km per m of depth, down a straight vertical path of 80 m: mean at the middle.
   RaySea sea = sea_of(kThermocline, BottomProfile::flat(100), [](double z) { return 2 + 0.1 * z; });
   sea.options.max_launch_angle_rad = 1.57;
+  sea.options.keep_steep_direct = true;
   const Arrivals found = arrivals(sea, {10, 90, 1e-3}, RaySolver::kSnell);
   ASSERT_FALSE(found.shadow());
   EXPECT_NEAR(found.paths.front().absorption_db, 80e-3 * (2 + 0.1 * 50), tolerance(1e-9));
@@ -177,13 +178,26 @@ TEST(LayeredRays, AbsorptionIsTheIntegralAlongTheArc) {
 // ---------------------------------------------------------------------------------------------- where it
 // gets hard
 
-TEST(LayeredRays, VerticalLinkHasItsDirectPathAtEveryRange) {
-  const RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
+TEST(LayeredRays, VerticalLinkHasItsDirectPathAtEveryRangeWhereSteepOnesAreKept) {
+  RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
+  sea.options.keep_steep_direct = true;
   for (const double range : {0.0, 1e-6, 0.01, 1.0, 10.0}) {
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
       if (solver == RaySolver::kArcs && range < 1) continue;  // steeper than 89.9 degrees
       const Arrivals found = arrivals(sea, {5, 110, range}, solver);
       EXPECT_TRUE(found.has_direct_path()) << range << " by " << to_name(solver);
+    }
+  }
+}
+
+TEST(LayeredRays, NoPathIsSteeperThanTheLimitUnlessSteepOnesAreKept) {
+  for (const auto& knots : {kSummer, std::vector<SpeedRow>{{0, 1500}}}) {
+    const RaySea sea = sea_of(knots, BottomProfile::flat(120));
+    for (const RaySolver solver : {RaySolver::kImages, RaySolver::kSnell, RaySolver::kArcs}) {
+      if (solver == RaySolver::kImages && knots.size() > 1) continue;
+      const Arrivals found = arrivals(sea, {5, 110, 10}, solver);  // the direct path leaves at 84.6 degrees
+      EXPECT_FALSE(found.has_direct_path()) << to_name(solver);
+      for (const Arrival& path : found.paths) EXPECT_LE(std::abs(path.launch_angle_rad), to_radians(80));
     }
   }
 }
