@@ -1,11 +1,12 @@
-// Vehicle steps per second: the right-hand side, a Runge-Kutta step, and a step in the ODE world, free and
-// grounded.
+// Vehicle steps per second: the right-hand side, a Runge-Kutta step, a step in the ODE world, free and grounded, and a
+// fleet's step in each kind of moving water.
 #include <memory>
 
 #include <benchmark/benchmark.h>
 
 #include "vehicle_sim/equations_of_motion.h"
-#include "vehicle_sim/remus100_pvs.h"
+#include "vehicle_sim/fleet.h"
+#include "vehicle_sim/model_library.h"
 #include "vehicle_sim/vehicle_world.h"
 
 namespace halocline::vehicle_sim {
@@ -21,8 +22,8 @@ class Flat : public Seabed {
   }
 };
 
-std::shared_ptr<const Model> model_with(double buoyancy_ratio) {
-  ModelParameters p = remus100_pvs_parameters(CurrentTreatment::kGalilean);
+std::shared_ptr<const Model> model_with(double buoyancy_ratio, const char* name = "torpedo") {
+  ModelParameters p = built_in_model(name).value();
   p.buoyancy_n *= buoyancy_ratio;
   return std::make_shared<const Model>(p);
 }
@@ -34,8 +35,8 @@ VehicleState under_way(double north, double depth) {
   return s;
 }
 
-void right_hand_side(benchmark::State& state) {
-  const auto model = model_with(1);
+void right_hand_side(benchmark::State& state, const char* name) {
+  const auto model = model_with(1, name);
   VehicleState s = under_way(0, 50);
   s.actuators = kCommand;
   const Water water{.current_ned_mps = {0.3, 0.1, 0}, .sea_surface_z_m = 0};
@@ -45,21 +46,25 @@ void right_hand_side(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(right_hand_side);
+BENCHMARK_CAPTURE(right_hand_side, torpedo, "torpedo");
+BENCHMARK_CAPTURE(right_hand_side, hover, "hover");
+BENCHMARK_CAPTURE(right_hand_side, remus100_pvs, "remus100-pvs");
 
-void runge_kutta_step(benchmark::State& state) {
-  const auto model = model_with(1);
+void runge_kutta_step(benchmark::State& state, const char* name) {
+  const auto model = model_with(1, name);
   VehicleState s = under_way(0, 50);
   for (auto _ : state) s = rk4_step(*model, s, kCommand, {}, kStep);
   benchmark::DoNotOptimize(s);
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(runge_kutta_step);
+BENCHMARK_CAPTURE(runge_kutta_step, torpedo, "torpedo");
+BENCHMARK_CAPTURE(runge_kutta_step, hover, "hover");
+BENCHMARK_CAPTURE(runge_kutta_step, remus100_pvs, "remus100-pvs");
 
 void step_all(benchmark::State& state, std::shared_ptr<const Seabed> seabed, double buoyancy_ratio,
-              double depth, const ActuatorValues& command) {
+              double depth, const ActuatorValues& command, const char* name = "torpedo") {
   VehicleWorld world(std::move(seabed));
-  const auto model = model_with(buoyancy_ratio);
+  const auto model = model_with(buoyancy_ratio, name);
   const auto vehicles = static_cast<std::size_t>(state.range(0));
   for (std::size_t i = 0; i < vehicles; ++i) {
     world.add(model, under_way(static_cast<double>(i) * 10, depth));
@@ -74,6 +79,11 @@ void step_all(benchmark::State& state, std::shared_ptr<const Seabed> seabed, dou
 void world_step_free(benchmark::State& state) { step_all(state, nullptr, 1, 20, kCommand); }
 BENCHMARK(world_step_free)->Arg(1)->Arg(100)->Arg(1000)->Arg(10000);
 
+void world_step_free_remus100_pvs(benchmark::State& state) {
+  step_all(state, nullptr, 1, 20, kCommand, "remus100-pvs");
+}
+BENCHMARK(world_step_free_remus100_pvs)->Arg(1000);
+
 void world_step_over_ground(benchmark::State& state) {
   step_all(state, std::make_shared<Flat>(), 1, 20, {0.1, 0, 20});
 }
@@ -83,6 +93,51 @@ void world_step_on_ground(benchmark::State& state) {
   step_all(state, std::make_shared<Flat>(), 0.95, 99.8, {});
 }
 BENCHMARK(world_step_on_ground)->Arg(1)->Arg(1000);
+
+// Steps of a whole fleet, with what its water costs.
+void fleet_step(benchmark::State& state, const FleetSettings& settings) {
+  const auto model = model_with(1);
+  std::vector<FleetMember> members;
+  for (int i = 0; i < state.range(0); ++i) members.push_back({"v", model, under_way(i * 10, 20)});
+  Fleet fleet(settings, std::move(members), nullptr, SimTime());
+  for (auto _ : state) fleet.advance(fleet.time() + settings.step);
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+
+FleetSettings in_uniform() {
+  FleetSettings s;
+  s.current.uniform_ned_mps = {0.3, 0.1, 0};
+  return s;
+}
+FleetSettings in_depth_table() {
+  FleetSettings s;
+  for (int i = 0; i < 20; ++i) s.current.by_depth.push_back({10.0 * i, 0.5 - 0.02 * i, 0.1});
+  return s;
+}
+FleetSettings in_tide() {
+  FleetSettings s;
+  s.current.tide.amplitude_mps = 0.4;
+  return s;
+}
+FleetSettings in_gauss_markov() {
+  FleetSettings s;
+  s.current.random = {0.1, 600};
+  return s;
+}
+FleetSettings in_waves(SeaKind kind) {
+  FleetSettings s;
+  s.waves.kind = kind;
+  return s;
+}
+#define HALOCLINE_FLEET(name, settings) BENCHMARK_CAPTURE(fleet_step, name, settings)->Arg(1)->Arg(1000)
+HALOCLINE_FLEET(still, FleetSettings());
+HALOCLINE_FLEET(uniform, in_uniform());
+HALOCLINE_FLEET(depth_table, in_depth_table());
+HALOCLINE_FLEET(tide, in_tide());
+HALOCLINE_FLEET(gauss_markov, in_gauss_markov());
+HALOCLINE_FLEET(regular_waves, in_waves(SeaKind::kRegular));
+HALOCLINE_FLEET(jonswap_of_30, in_waves(SeaKind::kJonswap));
+#undef HALOCLINE_FLEET
 
 }  // namespace
 }  // namespace halocline::vehicle_sim

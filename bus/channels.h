@@ -40,6 +40,7 @@ inline constexpr Family kLinkReply{"LINK_REPLY."};
 inline constexpr std::string_view kLinkQuery = "LINK_QUERY";
 inline constexpr std::string_view kRayQuery = "RAY_QUERY";
 inline constexpr std::string_view kSetEnvironment = "SET_ENVIRONMENT";
+inline constexpr std::string_view kSetCurrent = "SET_CURRENT";
 // From the bathymetry service.
 inline constexpr Family kRayReply{"RAY_REPLY."};
 // From every node.

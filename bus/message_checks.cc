@@ -1,7 +1,9 @@
 #include "bus/message_checks.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <span>
 #include <sstream>
@@ -142,6 +144,29 @@ std::string problem_in(const vehicle_command_t& m) {
       .within("propeller_rpm", m.propeller_rpm, -1e5, 1e5)
       .within("rudder_rad", m.rudder_rad, -kPi, kPi)
       .within("stern_plane_rad", m.stern_plane_rad, -kPi, kPi)
+      .all_within("thruster_rpm", m.thruster_rpm, -1e5, 1e5)
+      .result();
+}
+
+std::string problem_in(const current_change_t& m) {
+  constexpr double kFastestCurrentMps = 10;
+  constexpr std::int32_t kMostDepths = 1000;
+  return Checker()
+      .utime(m.utime)
+      .all_within("uniform_ned_mps", m.uniform_ned_mps, -kFastestCurrentMps, kFastestCurrentMps)
+      .within("num_depths", m.num_depths, 0, kMostDepths)
+      .all_within("depth_m", m.depth_m, 0, kFarthestM)
+      .holds(
+          std::adjacent_find(m.depth_m.begin(), m.depth_m.end(), std::greater_equal<>()) == m.depth_m.end(),
+          "depth_m", "does not rise")
+      .all_within("north_mps", m.north_mps, -kFastestCurrentMps, kFastestCurrentMps)
+      .all_within("east_mps", m.east_mps, -kFastestCurrentMps, kFastestCurrentMps)
+      .within("tide_amplitude_mps", m.tide_amplitude_mps, 0, kFastestCurrentMps)
+      .within("tide_period_s", m.tide_period_s, 1, 1e9)
+      .within("tide_phase_rad", m.tide_phase_rad, -2 * kPi, 2 * kPi)
+      .within("tide_toward_rad", m.tide_toward_rad, -2 * kPi, 2 * kPi)
+      .within("random_deviation_mps", m.random_deviation_mps, 0, kFastestCurrentMps)
+      .within("random_time_s", m.random_time_s, 0.1, 1e6)
       .result();
 }
 
@@ -160,6 +185,7 @@ std::string problem_in(const vehicle_sensors_t& m) {
       .finite("shaft_rpm", m.shaft_rpm)
       .finite("rudder_angle_rad", m.rudder_angle_rad)
       .finite("stern_angle_rad", m.stern_angle_rad)
+      .all_finite("thruster_rpm", m.thruster_rpm)
       .result();
 }
 

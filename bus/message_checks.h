@@ -16,6 +16,7 @@ std::string problem_in(const sim_clock_t& message);
 std::string problem_in(const vehicle_state_t& message);
 std::string problem_in(const vehicle_command_t& message);
 std::string problem_in(const vehicle_sensors_t& message);
+std::string problem_in(const current_change_t& message);
 std::string problem_in(const environment_t& message);
 std::string problem_in(const environment_change_t& message);
 std::string problem_in(const modem_config_t& message);

@@ -1,6 +1,7 @@
 // All types of the bus, as lcm-gen made them.
 #pragma once
 
+#include <halocline/current_change_t.hpp>
 #include <halocline/environment_change_t.hpp>
 #include <halocline/environment_t.hpp>
 #include <halocline/link_answer_t.hpp>

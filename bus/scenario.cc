@@ -17,7 +17,8 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   integer_as(v, "id", vehicle.id, {1, 2147483647, "", "unique number of the vehicle"});
   if (vehicle.id < 1) v.problem("id", "allowed is a whole number from 1");
   v.text("model", vehicle.model, {},
-         "remus100-pvs, fixed (does not move) or external (moved by another process)");
+         "torpedo, hover, remus100-pvs, a model file .toml, fixed (does not move) or external (moved by "
+         "another process)");
   v.vector3("start_ned_m", vehicle.start_ned_m, {-1e6, 1e6, "m", "position at the start: north, east, down"});
   degrees(v, "heading_deg", vehicle.heading_rad,
           {-360, 360, "deg", "heading at the start, clockwise from north"});

@@ -23,9 +23,9 @@ namespace halocline::bus {
 struct VehicleEntry {
   std::string name;     // channel suffix, is_valid_name; unique
   std::int32_t id = 0;  // 1 and up; unique
-  // What moves it: a model of the vehicle simulator ("remus100-pvs"), "fixed" (the vehicle simulator
-  // publishes a pose that never changes), or "external" (a process that is not ours).
-  std::string model = "remus100-pvs";
+  // What moves it: a model of the vehicle simulator by name or as a file (docs/vehicles.md), "fixed" (the vehicle
+  // simulator publishes a pose that never changes), or "external" (a process that is not ours).
+  std::string model = "torpedo";
   Vec3 start_ned_m = Vec3::Zero();  // world NED, metres
   double heading_rad = 0;           // at the start, clockwise from north
   double speed_mps = 0;             // at the start, forward through the water

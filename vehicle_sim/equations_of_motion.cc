@@ -19,15 +19,19 @@ Vec3 current_turned_by_yaw(const Mat3& body_to_world, const Vec3& current_ned) {
 }
 
 RelativeFlow relative_flow(const Model& model, const Vec6& nu, const Mat3& body_to_world,
-                           const Vec3& current_ned) {
+                           const Water& water) {
   RelativeFlow flow{nu};
-  if (!current_ned.isZero(0)) {
+  if (!water.current_ned_mps.isZero(0) || !water.current_rate_ned_mps2.isZero(0)) {
     const bool by_yaw = model.parameters().current_treatment == CurrentTreatment::kUpstream;
-    const Vec3 current = by_yaw ? current_turned_by_yaw(body_to_world, current_ned)
-                                : Vec3(body_to_world.transpose() * current_ned);
+    const auto to_body = [&](const Vec3& v) {
+      return by_yaw ? current_turned_by_yaw(body_to_world, v) : Vec3(body_to_world.transpose() * v);
+    };
+    const Vec3 current = to_body(water.current_ned_mps);
     const Vec3 turn = by_yaw ? Vec3(0, 0, nu[5]) : Vec3(nu.tail<3>());
     flow.nu_r.head<3>() -= current;
     flow.current_rate.head<3>() = current.cross(turn);  // -omega x v_c
+    if (!water.current_rate_ned_mps2.isZero(0))
+      flow.current_rate.head<3>() += to_body(water.current_rate_ned_mps2);
   }
   flow.speed_mps = flow.nu_r.head<3>().norm();
   return flow;
@@ -82,7 +86,7 @@ Vec6 total_coriolis_force(const Model& model, const Vec6& nu_r) {
 Vec6 acceleration(const Model& model, const VehicleState& state, const Mat3& body_to_world,
                   const Water& water) {
   const ModelParameters& p = model.parameters();
-  const RelativeFlow flow = relative_flow(model, state.velocity_body, body_to_world, water.current_ned_mps);
+  const RelativeFlow flow = relative_flow(model, state.velocity_body, body_to_world, water);
   const Submergence under = submergence(p, state, water.sea_surface_z_m);
   const Vec6 force = total_coriolis_force(model, flow.nu_r) +
                      under.hull * (hull_force(p, flow) + thrusters_force(p, state, flow)) +
@@ -112,6 +116,13 @@ VehicleState advanced(const VehicleState& s, const StateRate& rate, double dt) {
   return next;
 }
 
+// The water some time into the step.
+Water after(const Water& water, double seconds) {
+  Water later = water;
+  later.current_ned_mps += seconds * water.current_rate_ned_mps2;
+  return later;
+}
+
 // a + weight b
 StateRate plus(const StateRate& a, const StateRate& b, double weight) {
   return {a.position + weight * b.position, a.orientation + weight * b.orientation,
@@ -121,8 +132,7 @@ StateRate plus(const StateRate& a, const StateRate& b, double weight) {
 }  // namespace
 
 RelativeFlow relative_flow(const Model& model, const VehicleState& state, const Water& water) {
-  return relative_flow(model, state.velocity_body, state.orientation.toRotationMatrix(),
-                       water.current_ned_mps);
+  return relative_flow(model, state.velocity_body, state.orientation.toRotationMatrix(), water);
 }
 
 Vec6 acceleration(const Model& model, const VehicleState& state, const Water& water) {
@@ -142,10 +152,11 @@ StateRate rate_of_change(const Model& model, const VehicleState& state, const Ac
 VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
                       const Water& water, double step_s) {
   const ActuatorValues held = limited(model.parameters(), command);
+  const Water halfway = after(water, step_s / 2), at_end = after(water, step_s);
   const StateRate k1 = rate_of_change(model, state, held, water);
-  const StateRate k2 = rate_of_change(model, advanced(state, k1, step_s / 2), held, water);
-  const StateRate k3 = rate_of_change(model, advanced(state, k2, step_s / 2), held, water);
-  const StateRate k4 = rate_of_change(model, advanced(state, k3, step_s), held, water);
+  const StateRate k2 = rate_of_change(model, advanced(state, k1, step_s / 2), held, halfway);
+  const StateRate k3 = rate_of_change(model, advanced(state, k2, step_s / 2), held, halfway);
+  const StateRate k4 = rate_of_change(model, advanced(state, k3, step_s), held, at_end);
   const StateRate sum = plus(plus(plus(k1, k2, 2), k3, 2), k4, 1);
   VehicleState next = advanced(state, sum, step_s / 6);
   next.orientation.normalize();

@@ -1,5 +1,6 @@
 #include "vehicle_sim/fleet.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/check.h"
@@ -12,7 +13,9 @@ Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
     : settings_(settings),
       members_(std::move(members)),
       world_(std::move(seabed), settings.seabed_friction),
-      time_(start) {
+      time_(start),
+      current_(settings.current, settings.seed),
+      waves_(settings.waves, settings.seed) {
   require_in_range(settings.step.seconds(), 1e-3, VehicleWorld::kLongestStep_s, "physics step", "s");
   for (const FleetMember& member : members_) {
     commands_.emplace_back(settings.command_timeout);
@@ -20,7 +23,53 @@ Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
     world_index_.push_back(world_.size());
     if (!member.model) continue;
     world_.add(member.model, member.start);
-    world_.set_water(world_index_.back(), settings.water);
+  }
+  move_water();  // where the vehicles start
+}
+
+bool Fleet::change_current(SimTime from, const CurrentSettings& current) {
+  constexpr std::size_t kMostWaiting = 1000;
+  CurrentChange change{from, OceanCurrent(current, settings_.seed)};
+  if (current_changes_.size() >= kMostWaiting) return false;
+  const auto later = [](const CurrentChange& a, const CurrentChange& b) { return a.from < b.from; };
+  current_changes_.insert(std::upper_bound(current_changes_.begin(), current_changes_.end(), change, later),
+                          std::move(change));
+  if (take_due_current()) move_water();
+  return true;
+}
+
+bool Fleet::take_due_current() {
+  std::size_t due = 0;
+  while (due < current_changes_.size() && current_changes_[due].from <= time_) ++due;
+  if (due == 0) return false;
+  current_ = current_changes_[due - 1].current;
+  current_changes_.erase(current_changes_.begin(),
+                         current_changes_.begin() + static_cast<std::ptrdiff_t>(due));
+  return true;
+}
+
+bool Fleet::water_varies() const {
+  return current_.depends_on_depth() || current_.depends_on_time() || !waves_.calm();
+}
+
+Water Fleet::water_at(const Vec3& position_ned_m) const {
+  Water water{.current_ned_mps = current_everywhere_.velocity_mps,
+              .sea_surface_z_m = settings_.sea_surface_z_m,
+              .current_rate_ned_mps2 = current_everywhere_.acceleration_mps2};
+  const double depth = depth_below_surface_m(position_ned_m, settings_.sea_surface_z_m);
+  if (current_.depends_on_depth()) water.current_ned_mps += current_.at_depth(depth);
+  if (!waves_.calm()) {
+    const WaterMotion wave = waves_.at(position_ned_m, depth, time_);
+    water.current_ned_mps += wave.velocity_mps;
+    water.current_rate_ned_mps2 += wave.acceleration_mps2;
+  }
+  return water;
+}
+
+void Fleet::move_water() {
+  current_everywhere_ = current_.everywhere(time_, settings_.step);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (moves(i)) world_.set_water(world_index_[i], water_at(world_.state(world_index_[i]).position_ned_m));
   }
 }
 
@@ -37,6 +86,7 @@ void Fleet::advance(SimTime until) {
     }
     world_.step(settings_.step.seconds());
     time_ = time_ + settings_.step;
+    if (take_due_current() || water_varies()) move_water();
   }
 }
 
@@ -46,13 +96,16 @@ VehicleState Fleet::state_at(std::size_t index, SimTime when) const {
   const SimDuration ahead = when - time_;
   ensure(ahead >= SimDuration() && ahead < settings_.step, "a state was asked for out of its time");
   if (ahead == SimDuration() || is_lost(index)) return state;
-  return rk4_step(*members_[index].model, state, obeyed_[index], settings_.water, ahead.seconds());
+  return rk4_step(*members_[index].model, state, obeyed_[index], water_at(state.position_ned_m),
+                  ahead.seconds());
 }
 
 SensorReading Fleet::reading_at(std::size_t index, SimTime when) const {
   const VehicleState state = state_at(index, when);
-  if (!moves(index)) return measure_fixed(state, settings_.water);
-  SensorReading reading = measure(*members_[index].model, state, settings_.water);
+  Water water = water_at(state.position_ned_m);
+  water.current_ned_mps += (when - time_).seconds() * water.current_rate_ned_mps2;
+  if (!moves(index)) return measure_fixed(state, water);
+  SensorReading reading = measure(*members_[index].model, state, water);
   reading.safe_state = commands_[index].is_safe_state();
   reading.on_seabed = on_seabed(index);
   return reading;

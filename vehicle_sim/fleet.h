@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vehicle_sim/command_schedule.h"
+#include "vehicle_sim/currents.h"
 #include "vehicle_sim/sensors.h"
 #include "vehicle_sim/vehicle_world.h"
 
@@ -26,7 +27,10 @@ struct FleetMember {
 struct FleetSettings {
   SimDuration step = SimDuration::from_milliseconds(10);               // 1 to 20 ms
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // above 0
-  Water water{.sea_surface_z_m = 0};
+  double sea_surface_z_m = 0;
+  CurrentSettings current;
+  WaveSettings waves;
+  std::uint64_t seed = 1;  // of random currents and waves
   double seabed_friction = VehicleWorld::kDefaultFriction;
 };
 
@@ -44,6 +48,11 @@ class Fleet {
   // step at or after its time.
   CommandVerdict command(std::size_t index, const TimedCommand& command);
 
+  // Takes note of another current; it holds from the first physics step at or after `from`, of two for one instant the
+  // one noted later. Throws InvalidArgument where it is impossible; false, and no change, when
+  // too many wait.
+  bool change_current(SimTime from, const CurrentSettings& current);
+
   // Takes all whole steps that end at or before `until`.
   void advance(SimTime until);
 
@@ -56,7 +65,18 @@ class Fleet {
   bool on_seabed(std::size_t index) const;  // touched the ground in the last step
 
  private:
+  struct CurrentChange {
+    SimTime from;
+    OceanCurrent current;
+  };
+
   bool moves(std::size_t index) const { return members_[index].model != nullptr; }
+  bool take_due_current();  // true when one was due
+  bool water_varies() const;
+  // The water at a vehicle for the step from time() on.
+  Water water_at(const Vec3& position_ned_m) const;
+  // Tells every vehicle what its water does from time() on.
+  void move_water();
 
   FleetSettings settings_;
   std::vector<FleetMember> members_;
@@ -65,6 +85,10 @@ class Fleet {
   std::vector<ActuatorValues> obeyed_;
   VehicleWorld world_;
   SimTime time_;
+  OceanCurrent current_;
+  WaterMotion current_everywhere_;              // for the step from time_ on
+  std::vector<CurrentChange> current_changes_;  // ascending in time
+  WaveField waves_;
 };
 
 }  // namespace halocline::vehicle_sim

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   program.purpose = "Moves the scenario's vehicles and publishes their states and sensors.";
   program.node_name = "vehicle-sim";
   program.interface =
-      "hears:     COMMAND.<vehicle>, RAY_REPLY.<client>, CLOCK\n"
+      "hears:     COMMAND.<vehicle>, SET_CURRENT, RAY_REPLY.<client>, CLOCK\n"
       "publishes: STATE.<vehicle>, SENSORS.<vehicle>, RAY_QUERY, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) {
     visit(v, recipe);
@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   program.make_node = [&](const NodeProgram::Context& context) {
     const auto prepared = prepare_terrain(recipe, {context.scenario.origin_latitude_deg,
                                                    context.scenario.origin_longitude_deg, context.folder});
+    config.model_folder = context.folder;
     return std::make_unique<VehicleSimNode>(context.lcm, context.identity, context.scenario, config,
                                             std::make_shared<TerrainSeabed>(prepared.terrain));
   };

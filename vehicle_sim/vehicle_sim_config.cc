@@ -1,7 +1,12 @@
 #include "vehicle_sim/vehicle_sim_config.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include "core/check.h"
-#include "vehicle_sim/remus100_pvs.h"
+#include "vehicle_sim/model_config.h"
+#include "vehicle_sim/model_library.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -10,13 +15,55 @@ using bus::ConfigVisitor;
 using bus::NumberRule;
 
 const std::string kFixed = "fixed", kExternal = "external";
-const std::vector<std::string> kModels{kRemus100PvsName, kFixed, kExternal};
+const double kFastestCurrent = 10;  // m/s
 
 // A rate in the file, a period in the struct.
 void visit_rate(ConfigVisitor& v, std::string_view key, SimDuration& period, const NumberRule& rule) {
   double rate_hz = 1 / period.seconds();
   v.number(key, rate_hz, rule);
   period = SimDuration::from_seconds(1 / rate_hz);
+}
+
+void visit_depth_rows(ConfigVisitor& v, std::vector<DepthCurrent>& rows) {
+  std::vector<Vec3> points;
+  for (const DepthCurrent& row : rows) points.emplace_back(row.depth_m, row.north_mps, row.east_mps);
+  v.points("depth_rows", points,
+           {-1e5, 1e5, "",
+            "rows of [depth m, north m/s, east m/s], depth rising; linear between, constant beyond"});
+  rows.clear();
+  for (const Vec3& p : points) {
+    const bool rises = rows.empty() || rows.back().depth_m < p.x();
+    const bool slow = std::max(std::abs(p.y()), std::abs(p.z())) <= kFastestCurrent;
+    if (!rises || !slow || p.x() < 0)
+      return v.problem("depth_rows", "allowed are depths from 0 that rise, and speeds of -10 to 10 m/s");
+    rows.push_back({p.x(), p.y(), p.z()});
+  }
+}
+
+void visit_current(ConfigVisitor& v, CurrentSettings& c) {
+  visit_depth_rows(v, c.by_depth);
+  v.number("tide_amplitude_mps", c.tide.amplitude_mps,
+           {0, kFastestCurrent, "m/s", "of a tide to and fro; 0: none"});
+  v.number("tide_period_s", c.tide.period_s,
+           {1, 1e9, "s", "of the tide; 44714 s is the principal lunar one"});
+  bus::degrees(v, "tide_phase_deg", c.tide.phase_rad, {-360, 360, "deg", "at time 0; 0: full speed"});
+  bus::degrees(v, "tide_toward_deg", c.tide.toward_rad,
+               {-360, 360, "deg", "where the tide runs to, clockwise from north"});
+  v.number("random_deviation_mps", c.random.deviation_mps,
+           {0, kFastestCurrent, "m/s",
+            "standard deviation of a Gauss-Markov current, north and east each; 0: none"});
+  v.number("random_time_s", c.random.time_s, {0.1, 1e6, "s", "its correlation time"});
+}
+
+void visit_waves(ConfigVisitor& v, WaveSettings& w) {
+  bus::choice(v, "sea", w.kind, {"calm", "regular", "pierson-moskowitz", "jonswap"}, "kind of sea");
+  v.number("height_m", w.height_m,
+           {0, 40, "m", "crest to trough of regular waves, significant height of a sea"});
+  v.number("period_s", w.period_s, {1, 30, "s", "of regular waves, of the peak of a sea"});
+  bus::degrees(v, "toward_deg", w.toward_rad,
+               {-360, 360, "deg", "where the waves run to, clockwise from north"});
+  v.number("peakedness", w.peakedness, {1, 10, "", "of jonswap"});
+  bus::integer_as(v, "components", w.components, {1, 1000, "", "sines that a sea is made of"});
 }
 
 void visit_section(ConfigVisitor& v, VehicleSimConfig& c) {
@@ -29,22 +76,33 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c) {
   v.number("altimeter_range_m", c.altimeter_range_m, {0.1, 10'000, "m", "greatest altitude measured"});
   bus::seconds(v, "altimeter_patience_s", c.altimeter_patience,
                {0.01, 5, "s", "how long sensors wait for the bathymetry service"});
-  v.vector3("current_ned_mps", c.current_ned_mps, {-5, 5, "m/s", "steady current: north, east, down"});
-  bus::choice(v, "current_treatment", c.current_treatment, {"upstream", "galilean"},
-              "how the current acts: as published with the model, or exactly");
+  v.vector3("current_ned_mps", c.current.uniform_ned_mps,
+            {-kFastestCurrent, kFastestCurrent, "m/s", "steady current everywhere: north, east, down"});
+  bus::choice(
+      v, "current_treatment", c.current_treatment, {"model", "upstream", "galilean"},
+      "how a current acts: as each model says, or for all as published with remus100-pvs, or exactly");
   v.number("buoyancy_over_weight", c.buoyancy_over_weight,
            {0.5, 2, "", "of every vehicle; above 1 they rise"});
   v.number("seabed_friction", c.seabed_friction, {0, 10, "", "Coulomb's coefficient of hull on seabed"});
+  v.section("current", "Parts of the current that are added to current_ned_mps",
+            [&](ConfigVisitor& section) { visit_current(section, c.current); });
+  v.section("waves", "Orbital motion of the water under waves",
+            [&](ConfigVisitor& section) { visit_waves(section, c.waves); });
 }
 
 // The key itself belongs to the scenario, which also writes it; here it is only looked at.
 void check_models(ConfigVisitor& v) {
   std::vector<std::string> models;
+  std::string known = kFixed + ", " + kExternal;
+  for (const std::string& name : built_in_models()) known = name + ", " + known;
   v.list(
-      "vehicle", "", 0, [&](std::size_t n) { models.resize(n, kRemus100PvsName); },
+      "vehicle", "", 0, [&](std::size_t n) { models.resize(n, built_in_models().front()); },
       [&](ConfigVisitor& item, std::size_t i) {
         item.shared_with_others();
-        item.text("model", models[i], kModels, "what moves it");
+        item.text("model", models[i], {}, "what moves it");
+        const bool is_ours = models[i] == kFixed || models[i] == kExternal || names_a_model_file(models[i]);
+        if (!is_ours && !built_in_model(models[i]))
+          item.problem("model", "allowed are " + known + ", or a model file ending in .toml");
       });
 }
 
@@ -58,6 +116,16 @@ VehicleState start_of(const bus::VehicleEntry& entry, const Vec3& current_ned) {
   return start;
 }
 
+std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSimConfig& config) {
+  ModelParameters parameters = load_model(name, config.model_folder);
+  parameters.buoyancy_n *= config.buoyancy_over_weight;
+  if (config.current_treatment == TreatmentChoice::kUpstream)
+    parameters.current_treatment = CurrentTreatment::kUpstream;
+  if (config.current_treatment == TreatmentChoice::kGalilean)
+    parameters.current_treatment = CurrentTreatment::kGalilean;
+  return std::make_shared<const Model>(parameters);
+}
+
 }  // namespace
 
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
@@ -67,16 +135,18 @@ void visit(ConfigVisitor& v, VehicleSimConfig& config) {
 }
 
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config) {
-  ModelParameters parameters = remus100_pvs_parameters(config.current_treatment);
-  parameters.buoyancy_n *= config.buoyancy_over_weight;
-  const auto remus = std::make_shared<const Model>(parameters);
+  std::map<std::string, std::shared_ptr<const Model>> models;  // vehicles of one kind share it
+  OceanCurrent current(config.current, scenario.seed);
   std::vector<FleetMember> members;
   for (const bus::VehicleEntry& entry : scenario.vehicles) {
     if (entry.model == kExternal) continue;
     const bool is_fixed = entry.model == kFixed;
-    require(is_fixed || entry.model == kRemus100PvsName,
-            "vehicle " + entry.name + ": unknown model " + entry.model);
-    members.push_back({entry.name, is_fixed ? nullptr : remus, start_of(entry, config.current_ned_mps)});
+    if (!is_fixed && !models.contains(entry.model)) models[entry.model] = model_for(entry.model, config);
+    const double depth = depth_below_surface_m(entry.start_ned_m, scenario.sea_surface_z_m);
+    const Vec3 current_there =
+        current.everywhere(SimTime(), config.step).velocity_mps + current.at_depth(depth);
+    members.push_back(
+        {entry.name, is_fixed ? nullptr : models.at(entry.model), start_of(entry, current_there)});
   }
   return members;
 }
@@ -85,7 +155,10 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   FleetSettings settings;
   settings.step = config.step;
   settings.command_timeout = config.command_timeout;
-  settings.water = {config.current_ned_mps, scenario.sea_surface_z_m};
+  settings.sea_surface_z_m = scenario.sea_surface_z_m;
+  settings.current = config.current;
+  settings.waves = config.waves;
+  settings.seed = scenario.seed;
   settings.seabed_friction = config.seabed_friction;
   return settings;
 }

@@ -5,12 +5,16 @@
 //   current_ned_mps = [0.1, 0.0, 0.0]
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bus/scenario.h"
 #include "vehicle_sim/fleet.h"
 
 namespace halocline::vehicle_sim {
+
+// The model's own treatment of the current, or one for all.
+enum class TreatmentChoice { kModel, kUpstream, kGalilean };
 
 struct VehicleSimConfig {
   SimDuration step = SimDuration::from_milliseconds(10);               // of the physics
@@ -19,17 +23,20 @@ struct VehicleSimConfig {
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // age at which a command is void
   double altimeter_range_m = 100;
   SimDuration altimeter_patience = SimDuration::from_milliseconds(250);  // wait for the bathymetry service
-  Vec3 current_ned_mps = Vec3::Zero();
-  CurrentTreatment current_treatment = CurrentTreatment::kGalilean;
+  CurrentSettings current;
+  WaveSettings waves;
+  TreatmentChoice current_treatment = TreatmentChoice::kModel;
   double buoyancy_over_weight = 1;
   double seabed_friction = VehicleWorld::kDefaultFriction;
+  std::string model_folder = ".";  // where the paths of model files start; not in the file
 };
 
-// Section [vehicle_sim]; also reports each [[vehicle]] whose model nobody moves.
+// Sections [vehicle_sim], [vehicle_sim.current] and [vehicle_sim.waves]; also reports each [[vehicle]] whose model is none.
 void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
 
 // The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle starts
-// level, with its speed through the water. Throws InvalidArgument where the model is unknown.
+// level, with its speed through the water (waves left aside). Throws InvalidArgument where the model is unknown,
+// bus::ConfigErrors where its file is wrong.
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
 FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig& config);

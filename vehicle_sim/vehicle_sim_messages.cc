@@ -1,6 +1,8 @@
 #include "vehicle_sim/vehicle_sim_messages.h"
 
 #include <algorithm>
+#include <array>
+#include <type_traits>
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -9,6 +11,18 @@ constexpr double kSecondsPerMinute = 60;
 
 void write(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
 Vec3 read(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
+
+using ThrusterSpeeds = std::array<double, kMostThrusters>;
+static_assert(std::extent_v<decltype(vehicle_command_t::thruster_rpm)> == kMostThrusters);
+
+void write_rpm(const ThrusterSpeeds& from_hz, double (&to)[kMostThrusters]) {
+  std::transform(from_hz.begin(), from_hz.end(), to, [](double hz) { return hz * kSecondsPerMinute; });
+}
+ThrusterSpeeds read_rpm(const double (&from)[kMostThrusters]) {
+  ThrusterSpeeds hz;
+  std::transform(from, from + kMostThrusters, hz.begin(), [](double rpm) { return rpm / kSecondsPerMinute; });
+  return hz;
+}
 
 // The same meanings in the same order: see the constants of vehicle_sensors_t.
 std::int8_t to_wire(AltitudeStatus status) { return static_cast<std::int8_t>(status); }
@@ -44,12 +58,13 @@ vehicle_command_t to_command_message(const TimedCommand& command) {
   m.propeller_rpm = command.actuators.propeller_hz * kSecondsPerMinute;
   m.rudder_rad = command.actuators.rudder_rad;
   m.stern_plane_rad = command.actuators.stern_planes_rad;
+  write_rpm(command.actuators.thruster_hz, m.thruster_rpm);
   return m;
 }
 
 TimedCommand from_message(const vehicle_command_t& m) {
   return {SimTime::from_utime(m.utime),
-          {m.rudder_rad, m.stern_plane_rad, m.propeller_rpm / kSecondsPerMinute}};
+          {m.rudder_rad, m.stern_plane_rad, m.propeller_rpm / kSecondsPerMinute, read_rpm(m.thruster_rpm)}};
 }
 
 vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
@@ -66,6 +81,7 @@ vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
   m.shaft_rpm = r.actuators.propeller_hz * kSecondsPerMinute;
   m.rudder_angle_rad = r.actuators.rudder_rad;
   m.stern_angle_rad = r.actuators.stern_planes_rad;
+  write_rpm(r.actuators.thruster_hz, m.thruster_rpm);
   m.safe_state = r.safe_state ? 1 : 0;
   m.on_seabed = r.on_seabed ? 1 : 0;
   return m;
@@ -79,10 +95,40 @@ SensorReading from_message(const vehicle_sensors_t& m) {
   r.water_speed_mps = m.water_speed_mps;
   r.attitude = {m.roll_rad, m.pitch_rad, m.heading_rad};
   r.angular_velocity_body_radps = read(m.angular_rate_body_radps);
-  r.actuators = {m.rudder_angle_rad, m.stern_angle_rad, m.shaft_rpm / kSecondsPerMinute};
+  r.actuators = {m.rudder_angle_rad, m.stern_angle_rad, m.shaft_rpm / kSecondsPerMinute,
+                 read_rpm(m.thruster_rpm)};
   r.safe_state = m.safe_state != 0;
   r.on_seabed = m.on_seabed != 0;
   return r;
+}
+
+CurrentSettings from_message(const current_change_t& m) {
+  CurrentSettings c;
+  c.uniform_ned_mps = read(m.uniform_ned_mps);
+  for (std::size_t i = 0; i < m.depth_m.size(); ++i)
+    c.by_depth.push_back({m.depth_m[i], m.north_mps[i], m.east_mps[i]});
+  c.tide = {m.tide_amplitude_mps, m.tide_period_s, m.tide_phase_rad, m.tide_toward_rad};
+  c.random = {m.random_deviation_mps, m.random_time_s};
+  return c;
+}
+
+current_change_t to_current_message(SimTime from, const CurrentSettings& c) {
+  current_change_t m{};
+  m.utime = from.to_utime();
+  write(c.uniform_ned_mps, m.uniform_ned_mps);
+  m.num_depths = static_cast<std::int32_t>(c.by_depth.size());
+  for (const DepthCurrent& row : c.by_depth) {
+    m.depth_m.push_back(row.depth_m);
+    m.north_mps.push_back(row.north_mps);
+    m.east_mps.push_back(row.east_mps);
+  }
+  m.tide_amplitude_mps = c.tide.amplitude_mps;
+  m.tide_period_s = c.tide.period_s;
+  m.tide_phase_rad = c.tide.phase_rad;
+  m.tide_toward_rad = c.tide.toward_rad;
+  m.random_deviation_mps = c.random.deviation_mps;
+  m.random_time_s = c.random.time_s;
+  return m;
 }
 
 ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t request_id,

@@ -9,6 +9,7 @@
 #include "bus/messages.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/command_schedule.h"
+#include "vehicle_sim/currents.h"
 #include "vehicle_sim/sensors.h"
 
 namespace halocline::vehicle_sim {
@@ -21,6 +22,9 @@ TimedCommand from_message(const vehicle_command_t& message);
 
 vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& reading);
 SensorReading from_message(const vehicle_sensors_t& message);
+
+current_change_t to_current_message(SimTime from, const CurrentSettings& current);
+CurrentSettings from_message(const current_change_t& message);
 
 // One altimeter's beam.
 struct AltimeterBeam {

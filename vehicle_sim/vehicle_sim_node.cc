@@ -45,6 +45,8 @@ VehicleSimNode::VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const 
     bus().subscribe<vehicle_command_t>(bus::channels::kCommand.of(members_[i].name),
                                        [this, i](const vehicle_command_t& m) { on_command(i, m); });
   }
+  bus().subscribe<current_change_t>(bus::channels::kSetCurrent,
+                                    [this](const current_change_t& m) { on_current(m); });
   bus().subscribe<ray_reply_t>(bus::channels::kRayReply.of(ray_client_),
                                [this](const ray_reply_t& reply) { on_ray_reply(reply); });
 }
@@ -146,6 +148,12 @@ void VehicleSimNode::on_command(std::size_t vehicle, const vehicle_command_t& me
       bus().refuse(bus::channels::kCommand.of(members_[vehicle].name),
                    "too many commands wait for their time");
   }
+}
+
+void VehicleSimNode::on_current(const current_change_t& message) {
+  if (!fleet_) return;
+  if (!fleet_->change_current(SimTime::from_utime(message.utime), from_message(message)))
+    bus().refuse(std::string(bus::channels::kSetCurrent), "too many currents wait for their time");
 }
 
 void VehicleSimNode::on_ray_reply(const ray_reply_t& reply) {

@@ -1,6 +1,6 @@
 // Moves the vehicles of a scenario and speaks for them on the bus.
 //
-// Hears COMMAND.<vehicle> and RAY_REPLY.<its own client name>; publishes STATE.<vehicle> and SENSORS.<vehicle> at
+// Hears COMMAND.<vehicle>, SET_CURRENT and RAY_REPLY.<its own client name>; publishes STATE.<vehicle> and SENSORS.<vehicle> at
 // multiples of their periods since time 0, stamped with that instant, and RAY_QUERY for the altitudes. A SENSORS
 // waits for its altitude until the service answers or the node's patience (steady time) ends; then altitude is
 // unavailable. A node that is started into a running simulation puts its vehicles where they start, at that time.
@@ -33,6 +33,7 @@ class VehicleSimNode : public bus::Node {
 
  private:
   void on_command(std::size_t vehicle, const vehicle_command_t& message);
+  void on_current(const current_change_t& message);
   void on_ray_reply(const ray_reply_t& reply);
   void begin(SimTime now);
   void publish_states(SimTime when);

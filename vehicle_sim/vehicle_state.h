@@ -40,11 +40,12 @@ struct VehicleState {
   auto angular_velocity_body_radps() const { return velocity_body.tail<3>(); }
 };
 
-// The water round a vehicle.
+// The water round a vehicle over a step.
 struct Water {
-  Vec3 current_ned_mps = Vec3::Zero();  // where the vehicle is, uniform over the hull, finite
+  Vec3 current_ned_mps = Vec3::Zero();  // at the start of the step, uniform over the hull, finite
   // z of the sea surface in the world frame, metres; minus infinity is water without a surface.
   double sea_surface_z_m = -std::numeric_limits<double>::infinity();
+  Vec3 current_rate_ned_mps2 = Vec3::Zero();  // acceleration of the water during the step, finite
 };
 
 // False when any number of the state is NaN or infinite.

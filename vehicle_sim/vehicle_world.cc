@@ -135,7 +135,8 @@ void VehicleWorld::set_command(std::size_t index, const ActuatorValues& command)
 }
 
 void VehicleWorld::set_water(std::size_t index, const Water& water) {
-  require(water.current_ned_mps.allFinite(), "the current is not finite");
+  require(water.current_ned_mps.allFinite() && water.current_rate_ned_mps2.allFinite(),
+          "the current is not finite");
   require(!std::isnan(water.sea_surface_z_m), "the sea surface is not a number");
   vehicles_.at(index).water = water;
 }

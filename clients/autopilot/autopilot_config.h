@@ -7,16 +7,22 @@
 #include "bus/config.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/guidance.h"
+#include "clients/autopilot/hover_laws.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
+
+// What the vehicle is steered with.
+enum class Steering { kFins, kThrusters };
 
 // What one vehicle's pilot is to do. Without waypoints the vehicle is not piloted.
 struct PilotConfig {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   Mission mission;
-  Gains gains;
+  Steering steering = Steering::kFins;
+  Gains gains;             // of fins
+  HoverGains hover_gains;  // of thrusters
 };
 
 struct AutopilotConfig {

@@ -1,5 +1,7 @@
 #include "clients/autopilot/autopilot_messages.h"
 
+#include <algorithm>
+
 namespace halocline::clients {
 
 Vec3 position_of(const vehicle_state_t& state) {
@@ -17,6 +19,18 @@ Measured to_measured(const vehicle_state_t& state) {
           .pitch_rate_radps = state.angular_velocity_body_radps[1],
           .yaw_rate_radps = state.angular_velocity_body_radps[2],
           .speed_mps = (orientation.conjugate() * velocity).x()};
+}
+
+HoverMeasured to_hover_measured(const vehicle_state_t& state) {
+  const Measured m = to_measured(state);
+  const Vec3 velocity(state.velocity_ned_mps[0], state.velocity_ned_mps[1], state.velocity_ned_mps[2]);
+  return {position_of(state), velocity, m.heading_rad, m.pitch_rad, m.pitch_rate_radps, m.yaw_rate_radps};
+}
+
+vehicle_command_t to_message(const std::array<double, 4>& thruster_rpm) {
+  vehicle_command_t message{};
+  std::copy(thruster_rpm.begin(), thruster_rpm.end(), message.thruster_rpm);
+  return message;
 }
 
 vehicle_command_t to_message(const ActuatorCommand& command) {

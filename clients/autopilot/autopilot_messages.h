@@ -3,6 +3,7 @@
 
 #include "bus/messages.h"
 #include "clients/autopilot/control_laws.h"
+#include "clients/autopilot/hover_laws.h"
 
 namespace halocline::clients {
 
@@ -12,7 +13,10 @@ Vec3 position_of(const vehicle_state_t& state);
 // that through the water.
 Measured to_measured(const vehicle_state_t& state);
 
+HoverMeasured to_hover_measured(const vehicle_state_t& state);
+
 // Time and numbering are the caller's.
 vehicle_command_t to_message(const ActuatorCommand& command);
+vehicle_command_t to_message(const std::array<double, 4>& thruster_rpm);
 
 }  // namespace halocline::clients

@@ -68,11 +68,23 @@ void AutopilotNode::steer(Pilot& pilot, SimTime instant) {
     use_sensors(*pilot.sensors, mission, measured, points);
   }
   vehicle_command_t message =
-      to_message(command(pilot.config.gains, points, measured, period_.seconds(), pilot.integrals));
+      pilot.config.steering == Steering::kThrusters
+          ? steer_with_thrusters(pilot, points)
+          : to_message(command(pilot.config.gains, points, measured, period_.seconds(), pilot.integrals));
   message.utime = instant.to_utime();
   message.session = bus().identity().session;
   message.sequence = pilot.sequence++;
   bus().publish(bus::channels::kCommand.of(pilot.config.vehicle), message);
+}
+
+// Straight to the waypoint ahead, or to stay at the last one.
+vehicle_command_t AutopilotNode::steer_with_thrusters(Pilot& pilot, const SetPoints& points) const {
+  if (!points.propel) return {};
+  const Mission& mission = pilot.config.mission;
+  StationPoint point{mission.waypoints.at(pilot.progress->target), mission.speed_mps};
+  point.position_ned_m.z() = points.z_ned_m;
+  return to_message(hover_command(pilot.config.hover_gains, point, to_hover_measured(*pilot.state),
+                                  period_.seconds(), pilot.hover_integrals));
 }
 
 void AutopilotNode::report_progress(const Pilot& pilot, const Progress& before) {
@@ -89,6 +101,7 @@ void AutopilotNode::on_restart(const bus::Now&) {
     pilot->sensors.reset();
     pilot->progress.reset();
     pilot->integrals = {};
+    pilot->hover_integrals = {};
   }
 }
 

@@ -35,12 +35,14 @@ class AutopilotNode : public bus::Node {
     std::optional<vehicle_sensors_t> sensors;
     std::optional<Progress> progress;
     Integrals integrals;
+    HoverIntegrals hover_integrals;
     std::int64_t sequence = 0;
   };
 
   void add_pilot(const PilotConfig& config);
   bool is_fresh(std::int64_t utime, SimTime now) const;
   void steer(Pilot& pilot, SimTime instant);
+  vehicle_command_t steer_with_thrusters(Pilot& pilot, const SetPoints& points) const;
   void report_progress(const Pilot& pilot, const Progress& before);
 
   SimDuration period_, state_timeout_;

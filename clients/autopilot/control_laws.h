@@ -6,7 +6,7 @@
 //                                                           depth: PI on the outside, PD of pitch within
 //   rpm     = feed_forward u_d + p_speed (u_d - u) + integral               speed: PI with feed-forward
 // Signs as in vehicle_command_t: positive rudder turns to starboard, positive stern planes push the nose
-// down. An integral stands still while its output is at a limit. The default gains suit `remus100-pvs` at 0.8
+// down. An integral stands still while its output is at a limit. The default gains suit `torpedo` and `remus100-pvs` at 0.8
 // to 2.5 m/s: heading and pitch settle within about 5 s, the depth loop has 0.1 rad/s at 2 m/s. Left out:
 // fins' loss of effect at low speed (gains are not scheduled), roll (the hull rights itself).
 #pragma once
@@ -22,7 +22,7 @@ struct Gains {
   double depth_i_rad_per_m_s = 0;   // and per metre and second of its integral; for one that is not trimmed
   double pitch_p = 1.5;             // rad of stern plane per rad of pitch
   double pitch_d_s = 0.6;           // rad of stern plane per rad/s of pitch rate
-  double speed_feed_forward_rpm_s_per_m = 597.3;  // 1000 rpm drive remus100-pvs at 1.6741 m/s
+  double speed_feed_forward_rpm_s_per_m = 597.3;  // 1000 rpm drive both at 1.6741 m/s
   double speed_p_rpm_s_per_m = 300;               // rpm per m/s of speed error
   double speed_i_rpm_per_m = 30;                  // and per metre of its integral
   double max_pitch_rad = 0.3490658503988659;      // of the pitch asked for: 20 degrees

@@ -22,6 +22,7 @@ bool with_type_of(std::string_view channel, Function&& f) {
   if (is(c::kOutcome)) return f.template operator()<packet_outcome_t>(), true;
   if (is(c::kLinkQuery)) return f.template operator()<link_query_t>(), true;
   if (is(c::kRayQuery)) return f.template operator()<ray_query_t>(), true;
+  if (is(c::kSetCurrent)) return f.template operator()<current_change_t>(), true;
   if (in(c::kState)) return f.template operator()<vehicle_state_t>(), true;
   if (in(c::kSensors)) return f.template operator()<vehicle_sensors_t>(), true;
   if (in(c::kCommand)) return f.template operator()<vehicle_command_t>(), true;

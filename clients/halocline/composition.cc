@@ -33,6 +33,7 @@ void resolve(channel_server::ProfileConfig& profile, const ScenarioConfig& confi
 // What the scenario says by leaving it out, said.
 void resolve(ScenarioConfig& config) {
   make_absolute(config.terrain.raster.path, config.folder);
+  for (auto& vehicle : config.scenario.vehicles) make_absolute(vehicle.model, config.folder);
   for (auto& nested : config.terrain.nested) make_absolute(nested.raster.path, config.folder);
   resolve(config.channel_server.environment.profile, config);
   for (auto& change : config.channel_server.changes) {
@@ -56,7 +57,9 @@ ScenarioConfig load_scenario(const std::string& path, const std::vector<std::str
   auto file = bus::ConfigFile::load(path, overrides);
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
-  config.folder = file.folder();
+  config.folder = config.vehicle_sim.model_folder = file.folder();
+  vehicle_sim::members_of(config.scenario,
+                          config.vehicle_sim);  // throws with what is wrong in a model's file
   for (const VehicleTraffic& traffic : config.traffic.vehicles) destination_id(config.traffic, traffic);
   return config;
 }

@@ -8,6 +8,24 @@
 namespace halocline::clients {
 
 template <class Visitor>
+void visit_fields(Visitor& v, const current_change_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("uniform_ned_mps", m.uniform_ned_mps);
+  v("num_depths", m.num_depths);
+  v("depth_m", m.depth_m);
+  v("north_mps", m.north_mps);
+  v("east_mps", m.east_mps);
+  v("tide_amplitude_mps", m.tide_amplitude_mps);
+  v("tide_period_s", m.tide_period_s);
+  v("tide_phase_rad", m.tide_phase_rad);
+  v("tide_toward_rad", m.tide_toward_rad);
+  v("random_deviation_mps", m.random_deviation_mps);
+  v("random_time_s", m.random_time_s);
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, const environment_change_t& m) {
   v("utime", m.utime);
   v("session", m.session);
@@ -273,6 +291,7 @@ void visit_fields(Visitor& v, const vehicle_command_t& m) {
   v("propeller_rpm", m.propeller_rpm);
   v("rudder_rad", m.rudder_rad);
   v("stern_plane_rad", m.stern_plane_rad);
+  v("thruster_rpm", m.thruster_rpm);
 }
 
 template <class Visitor>
@@ -291,6 +310,7 @@ void visit_fields(Visitor& v, const vehicle_sensors_t& m) {
   v("shaft_rpm", m.shaft_rpm);
   v("rudder_angle_rad", m.rudder_angle_rad);
   v("stern_angle_rad", m.stern_angle_rad);
+  v("thruster_rpm", m.thruster_rpm);
   v("safe_state", m.safe_state);
   v("on_seabed", m.on_seabed);
 }

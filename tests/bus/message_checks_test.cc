@@ -60,11 +60,16 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
   expect_finite<vehicle_state_t>(FIELD(position_ned_m[0]), FIELD(position_ned_m[2]),
                                  FIELD(orientation_wxyz[0]), FIELD(orientation_wxyz[3]),
                                  FIELD(velocity_ned_mps[1]), FIELD(angular_velocity_body_radps[2]));
-  expect_finite<vehicle_command_t>(FIELD(propeller_rpm), FIELD(rudder_rad), FIELD(stern_plane_rad));
+  expect_finite<vehicle_command_t>(FIELD(propeller_rpm), FIELD(rudder_rad), FIELD(stern_plane_rad),
+                                   FIELD(thruster_rpm[3]));
+  expect_finite<current_change_t>(FIELD(uniform_ned_mps[2]), FIELD(depth_m[1]), FIELD(north_mps[0]),
+                                  FIELD(east_mps[0]), FIELD(tide_amplitude_mps), FIELD(tide_period_s),
+                                  FIELD(tide_phase_rad), FIELD(tide_toward_rad), FIELD(random_deviation_mps),
+                                  FIELD(random_time_s));
   expect_finite<vehicle_sensors_t>(FIELD(depth_m), FIELD(altitude_m), FIELD(water_speed_mps),
                                    FIELD(heading_rad), FIELD(pitch_rad), FIELD(roll_rad),
                                    FIELD(angular_rate_body_radps[0]), FIELD(shaft_rpm),
-                                   FIELD(rudder_angle_rad), FIELD(stern_angle_rad));
+                                   FIELD(rudder_angle_rad), FIELD(stern_angle_rad), FIELD(thruster_rpm[0]));
   expect_finite<environment_t>(FIELD(layer_depth_m[1]), FIELD(layer_sound_speed_mps[0]),
                                FIELD(layer_temperature_degc[0]), FIELD(layer_salinity_psu[0]),
                                FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(acidity_ph),
@@ -123,6 +128,13 @@ TEST(MessageChecks, AModemHasOneOfElevenErrorModels) {
   for (std::int8_t good = 0; good <= 10; ++good) {
     EXPECT_EQ(problem_after<modem_config_t>([&](auto& m) { m.error_model = good; }), "");
   }
+}
+
+TEST(MessageChecks, ACurrentsDepthsRise) {
+  EXPECT_THAT(problem_after<current_change_t>([](auto& m) { m.depth_m[2] = m.depth_m[1]; }),
+              HasSubstr("depth_m"));
+  EXPECT_THAT(problem_after<current_change_t>([](auto& m) { m.tide_period_s = 0; }),
+              HasSubstr("tide_period_s"));
 }
 
 TEST(MessageChecks, AVehicleHasAnIdFromOneAndAPacketMayGoToAll) {

@@ -77,6 +77,7 @@ vehicle_command_t valid_message(unsigned seed) {
   m.propeller_rpm = n.real();
   m.rudder_rad = 0.25;
   m.stern_plane_rad = -0.25;
+  for (double& rpm : m.thruster_rpm) rpm = n.real();
   return m;
 }
 
@@ -96,8 +97,30 @@ vehicle_sensors_t valid_message(unsigned seed) {
   m.shaft_rpm = n.real();
   m.rudder_angle_rad = 0.125;
   m.stern_angle_rad = -0.125;
+  for (double& rpm : m.thruster_rpm) rpm = n.real();
   m.safe_state = 0;
   m.on_seabed = 1;
+  return m;
+}
+
+template <>
+current_change_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  current_change_t m;
+  fill_head(m, n);
+  for (double& v : m.uniform_ned_mps) v = 0.05 * n.real();
+  m.num_depths = size_of_arrays(seed);
+  for (int i = 0; i < m.num_depths; ++i) {
+    m.depth_m.push_back(10.0 * i);
+    m.north_mps.push_back(0.05 * n.real());
+    m.east_mps.push_back(-0.05 * n.real());
+  }
+  m.tide_amplitude_mps = 0.05 * n.real();
+  m.tide_period_s = n.real();
+  m.tide_phase_rad = 0.5;
+  m.tide_toward_rad = -0.5;
+  m.random_deviation_mps = 0.05 * n.real();
+  m.random_time_s = n.real();
   return m;
 }
 

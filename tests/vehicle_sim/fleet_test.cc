@@ -95,12 +95,99 @@ TEST(Fleet, AFixedMemberStaysWhereItIs) {
 
 TEST(Fleet, TheCurrentCarriesAVehicleThatDrifts) {
   FleetSettings settings;
-  settings.water.current_ned_mps = {0.5, 0, 0};
+  settings.current.uniform_ned_mps = {0.5, 0, 0};
   VehicleState drifting = deep();
   drifting.velocity_body[0] = 0.5;
   Fleet fleet(settings, {{"one", remus(), drifting}}, nullptr, SimTime());
   fleet.advance(at_ms(10'000));
   EXPECT_NEAR(fleet.state_at(0, at_ms(10'000)).position_ned_m.x(), 5, tolerance(1e-9));
+}
+
+// Where the current is the same everywhere, the path is that in still water plus the integral of the current: between
+// two steps it changes evenly, so the integral is the trapezoids'. Rounding over 60 s of path.
+TEST(Fleet, ACurrentThatChangesWithTimeOnlyCarriesThePathAlong) {
+  FleetSettings settings;
+  settings.current.tide = {.amplitude_mps = 0.8, .period_s = 50, .phase_rad = 0.3, .toward_rad = 1};
+  settings.current.random = {.deviation_mps = 0.3, .time_s = 20};
+  OceanCurrent current(settings.current, settings.seed);
+  const auto velocity = [&](int ms) { return current.everywhere(at_ms(ms), settings.step).velocity_mps; };
+  VehicleState carried_start = deep();
+  carried_start.velocity_body.head<3>() = velocity(0);
+  Fleet carried(settings, {{"one", remus(), carried_start}}, nullptr, SimTime()), still = fleet_of_one();
+  Vec3 drift = Vec3::Zero();
+  for (int ms = 0; ms < 60'000; ms += 10) drift += 0.005 * (velocity(ms) + velocity(ms + 10));
+  for (Fleet* fleet : {&carried, &still}) {
+    for (int ms = 0; ms < 60'000; ms += 1000) {
+      fleet->command(0, {at_ms(ms), kAhead});
+      fleet->advance(at_ms(ms + 1000));
+    }
+  }
+  const Vec3 path =
+      carried.state_at(0, at_ms(60'000)).position_ned_m - still.state_at(0, at_ms(60'000)).position_ned_m;
+  EXPECT_LT((path - drift).norm(), tolerance(1e-9));
+}
+
+TEST(Fleet, TheCurrentAtAVehiclesDepthActsOnIt) {
+  FleetSettings settings;
+  settings.current.by_depth = {{0, 1, 0}, {100, 0, 0}};
+  VehicleState drifting = deep(25);
+  drifting.velocity_body[0] = 0.75;
+  Fleet fleet(settings, {{"one", remus(), drifting}}, nullptr, SimTime());
+  fleet.advance(at_ms(10'000));
+  EXPECT_NEAR(fleet.state_at(0, at_ms(10'000)).position_ned_m.x(), 7.5, tolerance(1e-9));
+}
+
+TEST(Fleet, AChangedCurrentHoldsFromItsTimeOn) {
+  CurrentSettings east;
+  east.uniform_ned_mps = {0, 0.5, 0};
+  Fleet fleet = fleet_of_one(), other = fleet_of_one();
+  EXPECT_TRUE(fleet.change_current(at_ms(5000), east));
+  fleet.advance(at_ms(5000));
+  EXPECT_EQ(fleet.state_at(0, at_ms(5000)).position_ned_m.y(), 0);
+  fleet.advance(at_ms(60'000));
+  EXPECT_GT(fleet.state_at(0, at_ms(60'000)).position_ned_m.y(), 1);
+  other.advance(at_ms(5000));
+  EXPECT_TRUE(other.change_current(at_ms(4321), east));  // late: at once
+  other.advance(at_ms(60'000));
+  EXPECT_EQ(other.state_at(0, at_ms(60'000)).position_ned_m, fleet.state_at(0, at_ms(60'000)).position_ned_m);
+}
+
+TEST(Fleet, AnImpossibleCurrentIsRefused) {
+  CurrentSettings fast;
+  fast.uniform_ned_mps = {99, 0, 0};
+  Fleet fleet = fleet_of_one();
+  EXPECT_THROW(fleet.change_current(at_ms(0), fast), InvalidArgument);
+}
+
+TEST(Fleet, WavesMoveAShallowVehicleAndLeaveADeepOneAlone) {
+  FleetSettings settings;
+  settings.waves = {.kind = SeaKind::kRegular, .height_m = 1, .period_s = 6};
+  Fleet fleet(settings, {{"shallow", remus(), deep(3)}, {"deep", remus(), deep(60)}}, nullptr, SimTime());
+  double shallow = 0, below = 0;
+  for (int ms = 0; ms < 30'000; ms += 100) {
+    fleet.advance(at_ms(ms));
+    shallow = std::max(shallow, std::abs(fleet.state_at(0, at_ms(ms)).velocity_body[0]));
+    below = std::max(below, std::abs(fleet.state_at(1, at_ms(ms)).velocity_body[0]));
+  }
+  EXPECT_GT(shallow, 0.1);
+  EXPECT_LT(below, 0.01);
+}
+
+// Within waves the velocity of the water is evenly extrapolated over a step: finer steps, the same path.
+TEST(Fleet, HalvingTheStepInWavesAndShearChangesLittle) {
+  const auto after = [](int step_ms) {
+    FleetSettings settings;
+    settings.step = SimDuration::from_milliseconds(step_ms);
+    settings.waves = {.kind = SeaKind::kJonswap, .height_m = 1, .period_s = 6};
+    settings.current.by_depth = {{0, 0.5, 0}, {20, 0, 0.5}};
+    Fleet fleet(settings, {{"one", remus(), deep(5)}}, nullptr, SimTime());
+    fleet.advance(at_ms(30'000));
+    return fleet.state_at(0, at_ms(30'000)).position_ned_m;
+  };
+  const Vec3 exact = after(1);
+  const double coarse = (after(20) - exact).norm(), fine = (after(10) - exact).norm();
+  EXPECT_LT(fine, 5e-3);
+  EXPECT_LT(fine, 0.6 * coarse);  // of the first order at least
 }
 
 TEST(Fleet, ABuoyantVehicleInTheSafeStateComesUp) {

@@ -53,12 +53,27 @@ sensor_rate_hz = 4
 command_timeout_s = 3
 current_ned_mps = [0.1, 0.2, 0.0]
 current_treatment = "upstream"
+[vehicle_sim.current]
+depth_rows = [[0, 0.5, 0], [50, 0, 0.1]]
+tide_amplitude_mps = 0.4
+tide_toward_deg = 90
+random_deviation_mps = 0.1
+[vehicle_sim.waves]
+sea = "jonswap"
+height_m = 1.5
 )");
   EXPECT_EQ(r.config.step, SimDuration::from_milliseconds(5));
   EXPECT_EQ(r.config.state_period, SimDuration::from_milliseconds(50));
   EXPECT_EQ(r.config.sensor_period, SimDuration::from_milliseconds(250));
-  EXPECT_EQ(r.config.current_ned_mps, Vec3(0.1, 0.2, 0));
-  EXPECT_EQ(r.config.current_treatment, CurrentTreatment::kUpstream);
+  EXPECT_EQ(r.config.current.uniform_ned_mps, Vec3(0.1, 0.2, 0));
+  EXPECT_EQ(r.config.current_treatment, TreatmentChoice::kUpstream);
+  ASSERT_EQ(r.config.current.by_depth.size(), 2u);
+  EXPECT_EQ(r.config.current.by_depth[1].east_mps, 0.1);
+  EXPECT_EQ(r.config.current.tide.amplitude_mps, 0.4);
+  EXPECT_EQ(r.config.current.tide.toward_rad, to_radians(90));
+  EXPECT_EQ(r.config.current.random.deviation_mps, 0.1);
+  EXPECT_EQ(r.config.waves.kind, SeaKind::kJonswap);
+  EXPECT_EQ(r.config.waves.height_m, 1.5);
 }
 
 TEST(VehicleSimConfig, EverythingWrongIsSaidAtOnce) {
@@ -75,6 +90,34 @@ model = "remus600"
   EXPECT_THAT(errors, HasSubstr("state_rate_hz"));
   EXPECT_THAT(errors, HasSubstr("curent_ned_mps"));
   EXPECT_THAT(errors, HasSubstr("remus100-pvs"));
+}
+
+TEST(VehicleSimConfig, DepthRowsMustRise) {
+  EXPECT_THAT(errors_of("[vehicle_sim.current]\ndepth_rows = [[5, 0, 0], [5, 1, 0]]\n"),
+              HasSubstr("test.toml:2"));
+  EXPECT_THAT(errors_of("[vehicle_sim.current]\ndepth_rows = [[5, 20, 0]]\n"), HasSubstr("depth_rows"));
+}
+
+TEST(VehicleSimConfig, AVehicleMayBeABuiltInModelOrAFile) {
+  Read r = read(R"([[vehicle]]
+name = "a"
+id = 1
+[[vehicle]]
+name = "b"
+id = 2
+model = "hover"
+[[vehicle]]
+name = "c"
+id = 3
+model = "vehicles/remus100-pvs.toml"
+)");
+  r.config.model_folder = HALOCLINE_SOURCE_DIR;
+  const auto members = members_of(r.scenario, r.config);
+  EXPECT_EQ(members[0].model->name(), "torpedo");
+  EXPECT_EQ(members[1].model->name(), "hover");
+  EXPECT_EQ(members[2].model->name(), "remus100-pvs");
+  r.config.model_folder = "/nowhere";
+  EXPECT_THROW(members_of(r.scenario, r.config), bus::ConfigErrors);
 }
 
 TEST(VehicleSimConfig, OnlyOurVehiclesBecomeMembers) {

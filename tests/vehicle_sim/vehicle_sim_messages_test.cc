@@ -30,13 +30,32 @@ TEST(VehicleSimMessages, AStateSurvivesTheRoundTrip) {
 }
 
 TEST(VehicleSimMessages, ACommandSurvivesTheRoundTrip) {
-  const TimedCommand command{kWhen, {0.1, -0.2, 25}};
+  const TimedCommand command{kWhen, {0.1, -0.2, 25, {10, -20, 30, -40}}};
   const vehicle_command_t message = to_command_message(command);
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.propeller_rpm, 1500);
   const TimedCommand back = from_message(message);
   EXPECT_EQ(back.from, kWhen);
   EXPECT_EQ(back.actuators, command.actuators);
+}
+
+TEST(VehicleSimMessages, ACurrentSurvivesTheRoundTrip) {
+  CurrentSettings current;
+  current.uniform_ned_mps = {0.1, 0.2, -0.05};
+  current.by_depth = {{0, 0.5, 0}, {50, 0, 0.1}};
+  current.tide = {0.3, 600, 1, 2};
+  current.random = {0.1, 30};
+  const current_change_t message = to_current_message(kWhen, current);
+  EXPECT_EQ(SimTime::from_utime(message.utime), kWhen);
+  EXPECT_EQ(bus::problem_in(message), "");
+  const CurrentSettings back = from_message(message);
+  EXPECT_EQ(back.uniform_ned_mps, current.uniform_ned_mps);
+  ASSERT_EQ(back.by_depth.size(), 2u);
+  EXPECT_EQ(back.by_depth[1].depth_m, 50);
+  EXPECT_EQ(back.by_depth[1].east_mps, 0.1);
+  EXPECT_EQ(back.tide.period_s, 600);
+  EXPECT_EQ(back.tide.toward_rad, 2);
+  EXPECT_EQ(back.random.time_s, 30);
 }
 
 TEST(VehicleSimMessages, SensorsSurviveTheRoundTrip) {

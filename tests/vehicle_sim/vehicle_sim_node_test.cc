@@ -180,6 +180,18 @@ TEST_F(VehicleSimNodeTest, AnImpossibleCommandIsRefused) {
   EXPECT_EQ(states_["sub"].back().velocity_ned_mps[0], 0);
 }
 
+TEST_F(VehicleSimNodeTest, ACurrentHeardOnTheBusMovesTheVehicles) {
+  make_node();
+  run_until(at_ms(500));
+  CurrentSettings east;
+  east.uniform_ned_mps = {0, 0.5, 0};
+  ear_.publish(bus::channels::kSetCurrent, to_current_message(at_ms(1000), east));
+  drain();
+  run_until(at_ms(30'000));
+  EXPECT_EQ(states_["sub"][10].velocity_ned_mps[1], 0);
+  EXPECT_GT(states_["sub"].back().velocity_ned_mps[1], 0.1);
+}
+
 TEST_F(VehicleSimNodeTest, SensorsHoldTheAltitudeOfTheirOwnInstant) {
   make_node();
   run_until(at_ms(1000));

@@ -39,6 +39,7 @@ void expect_same(const std::string& type) {
 }
 
 TEST(MessageFields, AreThoseOfTheTypes) {
+  expect_same<current_change_t>("current_change_t");
   expect_same<environment_t>("environment_t");
   expect_same<link_answer_t>("link_answer_t");
   expect_same<link_end_t>("link_end_t");

@@ -1,0 +1,73 @@
+#include "clients/autopilot/hover_laws.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clients/autopilot/guidance.h"
+
+namespace halocline::clients {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double rpm_for(const HoverGains& g, double thrust_n) {
+  const double full = thrust_n < 0 ? g.astern_ratio * g.full_thrust_n : g.full_thrust_n;
+  const double rpm = g.full_rpm * std::sqrt(std::min(std::abs(thrust_n) / full, 1.0));
+  return std::copysign(rpm, thrust_n);
+}
+
+// The force wanted in the horizontal plane. The integral moves only near the point, and no further than the thrusters.
+Vec2 horizontal_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
+                      HoverIntegrals& integrals) {
+  const Vec2 away = (point.position_ned_m - m.position_ned_m).head<2>();
+  const double farthest = point.speed_mps * g.position_d_n_s_per_m / g.position_p_n_per_m;
+  const double distance = away.norm();
+  const Vec2 error = distance > farthest ? Vec2(away * (farthest / distance)) : away;
+  Vec2 integral(integrals.north_n, integrals.east_n);
+  if (distance < 2 * farthest) integral += g.position_i_n_per_m_s * dt_s * error;
+  if (integral.norm() > g.full_thrust_n) integral *= g.full_thrust_n / integral.norm();
+  integrals.north_n = integral.x();
+  integrals.east_n = integral.y();
+  return g.position_p_n_per_m * error - g.position_d_n_s_per_m * m.velocity_ned_mps.head<2>() + integral;
+}
+
+double down_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
+                  HoverIntegrals& integrals) {
+  const double farthest = 0.5 * point.speed_mps * g.depth_d_n_s_per_m / g.depth_p_n_per_m;
+  const double error = std::clamp(point.position_ned_m.z() - m.position_ned_m.z(), -farthest, farthest);
+  integrals.down_n =
+      std::clamp(integrals.down_n + g.depth_i_n_per_m_s * dt_s * error, -g.full_thrust_n, g.full_thrust_n);
+  return g.depth_p_n_per_m * error - g.depth_d_n_s_per_m * m.velocity_ned_mps.z() + integrals.down_n;
+}
+
+double wanted_heading(const HoverGains& g, const Vec2& force, double heading_rad, HoverIntegrals& integrals) {
+  if (!integrals.has_heading) integrals.heading_rad = heading_rad;
+  integrals.has_heading = true;
+  if (force.norm() > g.least_force_n) integrals.heading_rad = std::atan2(force.y(), force.x());
+  return integrals.heading_rad;
+}
+
+}  // namespace
+
+std::array<double, 4> hover_command(const HoverGains& g, const StationPoint& point, const HoverMeasured& m,
+                                    double dt_s, HoverIntegrals& integrals) {
+  const Vec2 force = horizontal_force(g, point, m, dt_s, integrals);
+  const double turn = wrapped(wanted_heading(g, force, m.heading_rad, integrals) - m.heading_rad);
+  const double surge = force.x() * std::cos(m.heading_rad) + force.y() * std::sin(m.heading_rad);
+  const double yaw = g.heading_p_nm * turn - g.heading_d_nm_s * m.yaw_rate_radps;
+  const double heave = down_force(g, point, m, dt_s, integrals);
+  const double pitch = -g.pitch_p_nm * m.pitch_rad - g.pitch_d_nm_s * m.pitch_rate_radps;
+  // Turning comes before pushing: what yaw and pitch leave of the thrust is surge's and heave's.
+  const double most = g.full_thrust_n * g.astern_ratio;
+  const double differ = std::clamp(yaw / (2 * g.beside_axis_m), -most, most);
+  const double tilt =
+      std::clamp(pitch / (2 * g.from_middle_m), -most, most);  // a push down at the bow pitches down
+  const double ahead =
+      std::clamp(surge / 2, -(g.full_thrust_n - std::abs(differ)), g.full_thrust_n - std::abs(differ));
+  const double down =
+      std::clamp(heave / 2, -(g.full_thrust_n - std::abs(tilt)), g.full_thrust_n - std::abs(tilt));
+  return {rpm_for(g, ahead + differ), rpm_for(g, ahead - differ), rpm_for(g, down - tilt),
+          rpm_for(g, down + tilt)};
+}
+
+}  // namespace halocline::clients

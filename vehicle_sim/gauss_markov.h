@@ -1,0 +1,55 @@
+// A Gauss-Markov (Ornstein-Uhlenbeck) process as a function of time: stationary, variance sigma^2, correlation
+// exp(-|t| / T).
+//
+// The value at an instant is one fixed number, whatever the step and whoever asks: the process is built from its ends
+// inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants hold that value), it is drawn at the
+// middle of each interval given both ends, which for a Gauss-Markov process is exact: with h half the interval and
+// c = exp(-h / T), mean (a + b) c / (1 + c^2), variance sigma^2 (1 - c^2) / (1 + c^2) (Rasmussen and Williams 2006,
+// appendix B). Each draw is addressed by the millisecond it stands for (core/random.h). On whole milliseconds the process
+// is exact in distribution; between them it is interpolated linearly, so its derivative exists. Pure; a Cursor keeps what
+// was drawn last so that neighbouring instants cost two draws instead of 37; results do not depend on it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/random.h"
+#include "core/sim_time.h"
+
+namespace halocline::vehicle_sim {
+
+class GaussMarkovProcess {
+ public:
+  // `deviation` (any unit) 0 or above; `correlation_time_s` 0.1 to 1e6. `address.which` is not used.
+  GaussMarkovProcess(double deviation, double correlation_time_s, const DrawAddress& address);
+
+  class Cursor;
+
+  // The value at `time` (before 0: that at 0).
+  double at(SimTime time) const;
+  // The same from and into working memory of one caller.
+  double at(SimTime time, Cursor& cursor) const;
+
+ private:
+  struct Middle {
+    double weight, deviation;  // of the mean of both ends, of the draw
+  };
+  double draw(std::int64_t millisecond) const;
+  double at_millisecond(std::int64_t k, Cursor& cursor) const;
+
+  double deviation_;
+  double last_correlation_;  // between both ends
+  DrawAddress address_;
+  std::vector<Middle> middles_;  // by the depth of the halving, widest first
+};
+
+class GaussMarkovProcess::Cursor {
+  friend class GaussMarkovProcess;
+  struct Interval {
+    std::int64_t from, to;
+    double at_from, at_to;
+  };
+  std::vector<Interval> path_;  // each within the one before it
+};
+
+}  // namespace halocline::vehicle_sim
