@@ -112,7 +112,13 @@ void packet(benchmark::State& state) {
     hear_fleet(fleet, vehicles, now);
     fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
     medium.forget_before(now - SimDuration::from_milliseconds(10'000));
-    SendRequest request{"v1", 1, 0, 1, sequence++, now, std::vector<std::uint8_t>(16)};
+    SendRequest request;
+    request.vehicle = "v1";
+    request.source_id = 1;
+    request.session = 1;
+    request.packet_sequence = sequence++;
+    request.start = now;
+    request.payload.resize(16);
     state.ResumeTiming();
     medium.transmit(request, now);
     benchmark::DoNotOptimize(medium.advance_to(now + SimDuration::from_milliseconds(10'000)));
@@ -122,6 +128,41 @@ void packet(benchmark::State& state) {
       static_cast<double>(state.iterations()) * (vehicles - 1), benchmark::Counter::kIsRate);
 }
 BENCHMARK(packet)->Arg(3)->Arg(20)->Arg(100);
+
+// Everybody talks at once: each of a fleet broadcasts twice within two seconds, so that at every receiver all
+// packets overlap. Items are packets; each ends at (vehicles - 1) receivers.
+void packets_that_overlap(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  Fleet fleet({}, {});
+  StraightPropagation propagation(acoustics::Environment{});
+  PacketMedium medium(fleet, propagation, {});
+  SimTime now = SimTime::from_seconds(100);
+  std::int64_t sequence = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    now = now + SimDuration::from_milliseconds(20'000);
+    hear_fleet(fleet, vehicles, now + SimDuration::from_milliseconds(4'000));
+    fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
+    medium.forget_before(now - SimDuration::from_milliseconds(11'000));
+    state.ResumeTiming();
+    for (int packet = 0; packet < 2 * vehicles; ++packet) {
+      const VehicleId id = 1 + packet % vehicles;
+      SendRequest request;
+      request.vehicle = "v" + std::to_string(id);
+      request.source_id = id;
+      request.session = 1;
+      request.packet_sequence = sequence++;
+      request.start = now + SimDuration::from_milliseconds(2000 * packet / (2 * vehicles));
+      request.payload.resize(8);
+      medium.transmit(request, now);
+    }
+    benchmark::DoNotOptimize(medium.advance_to(now + SimDuration::from_milliseconds(15'000)));
+  }
+  state.SetItemsProcessed(state.iterations() * 2 * vehicles);
+  state.counters["outcomes_per_second"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * 2 * vehicles * (vehicles - 1), benchmark::Counter::kIsRate);
+}
+BENCHMARK(packets_that_overlap)->Arg(3)->Arg(20);
 
 // What a link table costs more when every pair's echoes are judged anew (a modem changed, or a survey came).
 void judge_echoes(benchmark::State& state) {

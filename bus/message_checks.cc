@@ -20,8 +20,9 @@ constexpr double kHighestLevelDb = 400, kHighestFrequencyHz = 1e7;
 constexpr double kQuaternionTolerance = 1e-3;  // publishers in single precision stay well within
 // 100 years of microseconds either way, so that sums of times cannot overflow.
 constexpr std::int64_t kLatestUtime = 3'155'760'000'000'000;
+constexpr double kGreatestDopplerFactor = 10;  // no two ends meet at nine tenths of the speed of sound
 constexpr double kPi = std::numbers::pi;
-constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000;
+constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16;
 
 // Collects the first problem found.
 class Checker {
@@ -240,6 +241,9 @@ std::string problem_in(const modem_send_t& m) {
       .utime(m.utime)
       .id("source_id", m.source_id)
       .id_or_all("destination_id", m.destination_id)
+      .one_of("packet_kind", m.packet_kind, modem_send_t::DATA, modem_send_t::PING)
+      .holds(m.packet_kind != modem_send_t::PING || m.destination_id != kBroadcastId, "destination_id",
+             "is 0 for all; a PING goes to one vehicle")
       .within("payload_size", m.payload_size, 0, kLongestPayload)
       .result();
 }
@@ -248,7 +252,7 @@ std::string problem_in(const modem_receipt_t& m) {
   return Checker()
       .utime(m.utime)
       .one_of("receipt_result", m.receipt_result, modem_receipt_t::ACCEPTED,
-              modem_receipt_t::REFUSED_TOO_EARLY)
+              modem_receipt_t::REFUSED_QUEUE_FULL)
       .utime(m.start_utime, "start_utime")
       .within("duration_s", m.duration_s, 0, 1e7)
       .result();
@@ -260,28 +264,55 @@ std::string problem_in(const modem_receive_t& m) {
       .id("source_id", m.source_id)
       .id_or_all("destination_id", m.destination_id)
       .id("receiver_id", m.receiver_id)
+      .one_of("packet_kind", m.packet_kind, modem_receive_t::DATA, modem_receive_t::PING_REPLY)
       .utime(m.departure_utime, "departure_utime")
       .within("travel_time_s", m.travel_time_s, 0, 1e6)
+      .within("two_way_travel_time_s", m.two_way_travel_time_s, 0, 2e6)
       .finite("received_level_db", m.received_level_db)
       .finite("snr_db", m.snr_db)
+      .within("doppler_factor", m.doppler_factor, 0, kGreatestDopplerFactor)
+      .finite("sinr_db", m.sinr_db)
       .within("payload_size", m.payload_size, 0, kLongestPayload)
       .result();
 }
 
-std::string problem_in(const packet_outcome_t& m) {
+std::string problem_in(const packet_name_t& m) {
   return Checker()
-      .utime(m.utime)
+      .id("source_id", m.source_id)
+      .one_of("packet_kind", m.packet_kind, modem_receive_t::DATA, modem_receive_t::PING_REPLY)
+      .result();
+}
+
+std::string problem_in(const packet_outcome_t& m) {
+  Checker checker;
+  checker.utime(m.utime)
       .id("source_id", m.source_id)
       .id_or_all("destination_id", m.destination_id)
       .id("receiver_id", m.receiver_id)
-      .one_of("packet_fate", m.packet_fate, packet_outcome_t::RECEIVED, packet_outcome_t::RECEIVER_GONE)
+      .one_of("packet_kind", m.packet_kind, modem_receive_t::DATA, modem_receive_t::PING_REPLY)
+      .one_of("packet_fate", m.packet_fate, packet_outcome_t::RECEIVED, packet_outcome_t::NOT_ACQUIRED)
       .utime(m.departure_utime, "departure_utime")
       .within("travel_time_s", m.travel_time_s, 0, 1e6)
       .within("duration_s", m.duration_s, 0, 1e7)
       .within("range_m", m.range_m, 0, 4 * kFarthestM)
       .all_finite("levels", std::array{m.transmission_loss_db, m.received_level_db, m.noise_level_db,
-                                       m.snr_db, m.cutoff_level_db})
-      .result();
+                                       m.snr_db, m.cutoff_level_db, m.interference_level_db, m.sinr_db})
+      .one_of("propagation_used", m.propagation_used, packet_outcome_t::STRAIGHT,
+              packet_outcome_t::STRAIGHT_WITHOUT_BOTTOM)
+      .within("num_paths", m.num_paths, 0, 1e6)
+      .within("delay_spread_s", m.delay_spread_s, 0, 1e6)
+      .within("doppler_factor", m.doppler_factor, 0, kGreatestDopplerFactor)
+      .all_within(
+          "probabilities and draws",
+          std::array{m.acquisition_probability, m.success_probability, m.acquisition_draw, m.success_draw}, 0,
+          1)
+      .within("arrival_azimuth_rad", m.arrival_azimuth_rad, -2 * kPi, 2 * kPi)
+      .within("arrival_elevation_rad", m.arrival_elevation_rad, -kPi, kPi)
+      .within("num_colliders", m.num_colliders, 0, kMostColliders);
+  for (const packet_name_t& name : m.colliders) {
+    checker.holds(problem_in(name).empty(), "colliders", problem_in(name));
+  }
+  return checker.result();
 }
 
 std::string problem_in(const link_t& m) { return check_link(m).result(); }

@@ -15,6 +15,7 @@
 #include <halocline/modem_receive_t.hpp>
 #include <halocline/modem_send_t.hpp>
 #include <halocline/node_status_t.hpp>
+#include <halocline/packet_name_t.hpp>
 #include <halocline/packet_outcome_t.hpp>
 #include <halocline/ray_query_t.hpp>
 #include <halocline/ray_reply_t.hpp>

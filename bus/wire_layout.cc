@@ -93,6 +93,7 @@ constexpr std::size_t kHead = 3 * 8;
 
 WireLayout modem_layout() { return {fixed(8 + 7 * 8 + 4 + 1 + 4 + 3 * 8 + 2)}; }
 WireLayout link_layout() { return {fixed(2 * 4 + 7 * 8 + 1 + 1 + 2 * 8 + 1 + 1 + 4 + 2 * 8)}; }
+WireLayout packet_name_layout() { return {fixed(4 + 1 + 2 * 8)}; }
 
 WireLayout link_end_layout() {
   WireLayout layout{text(), fixed(3 * 8 + 1)};
@@ -136,10 +137,12 @@ HALOCLINE_LAYOUT(environment_t,
 HALOCLINE_LAYOUT(environment_change_t, {fixed(kHead + 4 + 3 * 8), count(), array_of_bytes(8),
                                         array_of_bytes(8), array_of_bytes(8), array_of_bytes(8)})
 HALOCLINE_LAYOUT(modem_config_t, (modem_layout()))
-HALOCLINE_LAYOUT(modem_send_t, {fixed(kHead + 2 * 4), count(), array_of_bytes(1)})
+HALOCLINE_LAYOUT(modem_send_t, {fixed(kHead + 2 * 4 + 2), count(), array_of_bytes(1)})
 HALOCLINE_LAYOUT(modem_receipt_t, {fixed(kHead + 2 * 8 + 1 + 8 + 8)})
-HALOCLINE_LAYOUT(modem_receive_t, {fixed(kHead + 2 * 8 + 3 * 4 + 8 + 3 * 8), count(), array_of_bytes(1)})
-HALOCLINE_LAYOUT(packet_outcome_t, {fixed(kHead + 2 * 8 + 3 * 4 + 1 + 8 + 8 * 8)})
+HALOCLINE_LAYOUT(modem_receive_t, {fixed(kHead + 2 * 8 + 3 * 4 + 2 + 8 + 6 * 8), count(), array_of_bytes(1)})
+HALOCLINE_LAYOUT(packet_name_t, (packet_name_layout()))
+HALOCLINE_LAYOUT(packet_outcome_t, {fixed(kHead + 2 * 8 + 3 * 4 + 2 + 8 + 8 * 8 + 1 + 4 + 10 * 8), count(),
+                                    array_of(packet_name_layout())})
 HALOCLINE_LAYOUT(link_t, (link_layout()))
 HALOCLINE_LAYOUT(link_table_t, {fixed(kHead + 4), count(), array_of(link_layout())})
 HALOCLINE_LAYOUT(link_end_t, (link_end_layout()))

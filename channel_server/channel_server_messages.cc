@@ -69,6 +69,46 @@ acoustics::SoundSpeedProfile profile_in(const environment_change_t& m, const aco
   return Profile::from_water(std::move(water), before.profile.model(), before.latitude_rad);
 }
 
+// What OUTCOME and RECEIVE tell alike.
+template <class Message>
+Message of_packet_end(const PacketEnd& end, SimTime at) {
+  const SendRequest& request = end.packet->request;
+  Message message{};
+  message.utime = at.to_utime();
+  message.send_session = request.session;
+  message.packet_sequence = request.packet_sequence;
+  message.source_id = request.source_id;
+  message.destination_id = request.destination_id;
+  message.receiver_id = end.receiver_id;
+  message.packet_kind = static_cast<std::int8_t>(request.kind);
+  message.departure_utime = end.packet->departure.to_utime();
+  message.travel_time_s = end.travel_time_s;
+  message.received_level_db = end.budget.received_level.value;
+  message.snr_db = end.budget.snr.value;
+  message.doppler_factor = end.doppler_factor;
+  message.sinr_db = end.judgement.sinr.value;
+  return message;
+}
+
+packet_name_t to_message(const PacketName& name) {
+  packet_name_t message{};
+  message.source_id = name.source_id;
+  message.packet_kind = static_cast<std::int8_t>(name.kind);
+  message.send_session = name.session;
+  message.packet_sequence = name.packet_sequence;
+  return message;
+}
+
+void tell_judgement(const Judgement& judgement, packet_outcome_t& message) {
+  message.interference_level_db = judgement.interference.value;
+  message.acquisition_probability = judgement.acquisition_probability;
+  message.success_probability = judgement.success_probability;
+  message.acquisition_draw = judgement.acquisition_draw;
+  message.success_draw = judgement.success_draw;
+  message.num_colliders = static_cast<std::int32_t>(judgement.colliders.size());
+  for (const PacketName& name : judgement.colliders) message.colliders.push_back(to_message(name));
+}
+
 constexpr double kFormulaStepM = 100, kFormulaDepthM = 5000;
 constexpr std::size_t kMostLayers = 2000;  // environment_t
 
@@ -132,9 +172,17 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
 }
 
 SendRequest to_request(std::string_view vehicle, const modem_send_t& message) {
-  return {std::string(vehicle), message.source_id,       message.destination_id,
-          message.session,      message.packet_sequence, SimTime::from_utime(message.utime),
-          message.payload};
+  SendRequest request;
+  request.vehicle = vehicle;
+  request.source_id = message.source_id;
+  request.destination_id = message.destination_id;
+  request.session = message.session;
+  request.packet_sequence = message.packet_sequence;
+  request.start = SimTime::from_utime(message.utime);
+  request.payload = message.payload;
+  request.kind = static_cast<PacketKind>(message.packet_kind);
+  request.stamped = message.stamped != 0;
+  return request;
 }
 
 modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at) {
@@ -149,40 +197,28 @@ modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at) {
 }
 
 packet_outcome_t to_outcome(const PacketEnd& end, SimTime at) {
-  const SendRequest& request = end.packet->request;
-  packet_outcome_t message{};
-  message.utime = at.to_utime();
-  message.send_session = request.session;
-  message.packet_sequence = request.packet_sequence;
-  message.source_id = request.source_id;
-  message.destination_id = request.destination_id;
-  message.receiver_id = end.receiver_id;
+  auto message = of_packet_end<packet_outcome_t>(end, at);
   message.packet_fate = static_cast<std::int8_t>(end.fate);
-  message.departure_utime = request.start.to_utime();
-  message.travel_time_s = end.travel_time_s;
-  message.duration_s = end.packet->duration.seconds();
+  message.duration_s = end.packet->timing.duration.seconds();
   message.range_m = end.budget.range_m;
   message.transmission_loss_db = end.budget.transmission_loss.value;
-  message.received_level_db = end.budget.received_level.value;
   message.noise_level_db = end.budget.noise_level.value;
-  message.snr_db = end.budget.snr.value;
   message.cutoff_level_db = end.cutoff.value;
+  message.propagation_used = static_cast<std::int8_t>(end.propagation);
+  message.num_paths = static_cast<std::int32_t>(end.path_count);
+  message.delay_spread_s = end.delay_spread_s;
+  message.arrival_azimuth_rad = end.arrival_azimuth_rad;
+  message.arrival_elevation_rad = end.arrival_elevation_rad;
+  tell_judgement(end.judgement, message);
   return message;
 }
 
 modem_receive_t to_receive(const PacketEnd& end, SimTime at) {
   const SendRequest& request = end.packet->request;
-  modem_receive_t message{};
-  message.utime = at.to_utime();
-  message.send_session = request.session;
-  message.packet_sequence = request.packet_sequence;
-  message.source_id = request.source_id;
-  message.destination_id = request.destination_id;
-  message.receiver_id = end.receiver_id;
-  message.departure_utime = request.start.to_utime();
-  message.travel_time_s = end.travel_time_s;
-  message.received_level_db = end.budget.received_level.value;
-  message.snr_db = end.budget.snr.value;
+  auto message = of_packet_end<modem_receive_t>(end, at);
+  message.stamped = request.stamped ? 1 : 0;
+  if (!request.stamped) message.departure_utime = 0, message.travel_time_s = 0;
+  message.two_way_travel_time_s = end.two_way_travel_time_s;
   message.payload_size = static_cast<std::int32_t>(request.payload.size());
   message.payload = request.payload;
   return message;

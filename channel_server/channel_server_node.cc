@@ -412,8 +412,9 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
                          ? ray_model(environment, make_rays(config), config.rules.profile)
                          : straight_model(environment);
   schedule_changes(config, scenario, folder, *water.waters);
-  return std::make_unique<ChannelServerNode>(lcm, identity, std::move(water), make_modems(config),
-                                             config.rules);
+  ServerRules rules = config.rules;
+  rules.medium.seed = scenario.seed;
+  return std::make_unique<ChannelServerNode>(lcm, identity, std::move(water), make_modems(config), rules);
 }
 
 }  // namespace halocline::channel_server

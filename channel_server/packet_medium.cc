@@ -9,14 +9,47 @@
 namespace halocline::channel_server {
 namespace {
 
-// A fixed point of the arrival is exact enough when a round moves it by less than this; at v/c = 0.07 (100
-// m/s, the fastest a state may tell) that takes 9 rounds.
-constexpr double kSettledS = 1e-10;
-constexpr int kMostRounds = 50;
 // An arrival solved at an instant no further before it than this stands: the receiver moves by micrometres.
 constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
 // Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
-constexpr int kMostSolutions = 64;
+constexpr int kMostAims = 64;
+
+// Where the sound comes from, seen by the receiver.
+void tell_direction(const Flight& flight, PacketEnd& end) {
+  const Vec3 back = flight.packet->departure_ned_m - flight.place.position_ned_m;
+  end.arrival_azimuth_rad = std::atan2(back.y(), back.x());
+  const auto& paths = flight.reception.paths;
+  // Sound that travels downwards comes from above.
+  end.arrival_elevation_rad = paths.empty() ? std::atan2(-back.z(), std::hypot(back.x(), back.y()))
+                                            : paths[first_significant(paths)].arrival_angle_rad;
+}
+
+bool is_for(const SendRequest& request, VehicleId receiver) {
+  return request.destination_id == receiver || request.destination_id == kBroadcastId;
+}
+
+// Of a ping's answer: what its sender measures, less what both ends know of packets and turnaround.
+double two_way_travel_time_s(const Flight& answer) {
+  const Packet& ping = *answer.packet->answers;
+  const SimDuration waited =
+      answer.packet->departure - ping.departure - ping.timing.duration - kPingTurnaround;
+  return waited.seconds() + answer.travel_time_s;
+}
+
+// What can be said of a packet before its preamble has ended; kReceived: nothing stands against it.
+PacketFate hopeless_fate(const Flight& flight) {
+  const Reception& reception = flight.reception;
+  if (flight.gone) return PacketFate::kReceiverGone;
+  if (!bands_overlap(flight.packet->modem, flight.modem)) return PacketFate::kOutOfBand;
+  if (reception.state == PathState::kBlocked) return PacketFate::kBlocked;
+  if (reception.state == PathState::kShadow || reception.paths.empty()) return PacketFate::kShadow;
+  if (reception.budget.received_level < flight.modem.least_receivable_level) return PacketFate::kBelowCutoff;
+  return PacketFate::kReceived;
+}
+
+bool is_shifted_too_far(const Flight& flight) {
+  return std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
+}
 
 }  // namespace
 
@@ -33,13 +66,20 @@ std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTim
   }
   Receipt refusal{request.vehicle, request.session, request.packet_sequence, SendResult::kStale, {}, {}};
   if (request.start >= now - rule_.greatest_lateness && request.start <= now + rule_.greatest_earliness) {
-    departures_.insert_or_assign(
-        DepartureKey{request.start, request.vehicle, request.session, request.packet_sequence}, request);
+    add_departure(request.start, {request, nullptr, nullptr});
     return std::nullopt;
   }
   if (request.start > now) refusal.result = SendResult::kTooEarly;
   register_.decide(request, refusal);
   return refusal;
+}
+
+void PacketMedium::add_departure(SimTime at, Departure departure) {
+  const SendRequest& request = departure.request;
+  departures_.insert_or_assign(
+      DepartureKey{at, request.vehicle, request.kind, request.packet_sequence, request.destination_id,
+                   departure.queued == nullptr, request.session},
+      std::move(departure));
 }
 
 SimTime PacketMedium::next_event() const {
@@ -53,7 +93,7 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   std::vector<MediumEvent> events;
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
     if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
-      depart(departures_.extract(departures_.begin()).mapped(), events);
+      depart(std::move(departures_.extract(departures_.begin()).mapped()), events);
     } else {
       on_flight_event(std::move(flights_.extract(flights_.begin()).mapped()), next, events);
     }
@@ -62,127 +102,203 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   return events;
 }
 
-void PacketMedium::depart(const SendRequest& request, std::vector<MediumEvent>& events) {
+void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events) {
+  if (departure.queued) return launch(at_its_departure(*departure.queued));
+  const SendRequest& request = departure.request;
   const VehicleModem& modem = fleet_.modem(request.vehicle, request.start);
   // A payload beyond the largest is refused, so its duration is of no consequence.
-  const std::size_t payload_bytes = std::min(request.payload.size(), largest_payload_bytes(modem));
-  const SimDuration duration = packet_timing(modem.modem, payload_bytes).duration;
-  Receipt receipt{
-      request.vehicle, request.session, request.packet_sequence, judge(request, duration), {}, {}};
-  if (receipt.result == SendResult::kAccepted) {
-    receipt.start = request.start;
-    receipt.duration = duration;
-    register_.occupy(request.vehicle, request.start, duration);
-    const auto from = fleet_.placement(request.source_id, request.start, request.start);
-    launch(std::make_shared<const Packet>(Packet{request, duration, modem.modem, from->position_ned_m}));
+  const auto timing =
+      packet_timing(modem.modem, std::min(request.payload.size(), largest_payload_bytes(modem)));
+  const Decision decision = decide(request, timing.duration);
+  const bool accepted = decision.result == SendResult::kAccepted || decision.result == SendResult::kQueued;
+  if (accepted) {
+    register_.occupy(request.vehicle, decision.start, timing.duration);
+    const auto place = fleet_.placement(request.source_id, request.start, request.start);
+    const auto packet = std::make_shared<const Packet>(Packet{request, decision.start, timing, modem.modem,
+                                                              place->position_ned_m, place->velocity_ned_mps,
+                                                              departure.answers});
+    if (decision.result == SendResult::kAccepted) {
+      launch(packet);
+    } else {
+      add_departure(decision.start, {request, nullptr, packet});
+    }
   }
+  if (departure.answers) return;  // a modem gives itself no receipt
+  Receipt receipt{request.vehicle, request.session, request.packet_sequence, decision.result, {}, {}};
+  if (accepted) receipt.start = decision.start, receipt.duration = timing.duration;
   register_.decide(request, receipt);
   events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
 }
 
-SendResult PacketMedium::judge(const SendRequest& request, SimDuration duration) const {
+PacketMedium::Decision PacketMedium::decide(const SendRequest& request, SimDuration duration) const {
   const auto id = fleet_.id_of(request.vehicle);
-  if (!id || !fleet_.placement(*id, request.start, request.start)) return SendResult::kUnknownVehicle;
-  if (*id != request.source_id) return SendResult::kWrongSource;
-  const std::size_t largest = largest_payload_bytes(fleet_.modem(request.vehicle, request.start));
-  if (request.payload.size() > largest) return SendResult::kTooLarge;
-  if (register_.is_busy(request.vehicle, request.start, duration)) return SendResult::kBusy;
-  return SendResult::kAccepted;
+  const SimTime start = request.start;
+  if (!id || !fleet_.placement(*id, start, start)) return {SendResult::kUnknownVehicle, start};
+  if (*id != request.source_id) return {SendResult::kWrongSource, start};
+  const VehicleModem& modem = fleet_.modem(request.vehicle, start);
+  if (request.payload.size() > largest_payload_bytes(modem)) return {SendResult::kTooLarge, start};
+  if (!register_.is_busy(request.vehicle, start, duration)) return {SendResult::kAccepted, start};
+  if (modem.when_busy == WhenBusy::kRefuse || request.kind == PacketKind::kPingReply) {
+    return {SendResult::kBusy, start};
+  }
+  if (register_.waiting_at(request.vehicle, start) >= kMostQueued) return {SendResult::kQueueFull, start};
+  return {SendResult::kQueued, register_.free_from(request.vehicle, start)};
 }
 
-void PacketMedium::launch(std::shared_ptr<const Packet> packet) {
-  const SimTime start = packet->request.start;
-  for (const VehicleId receiver : fleet_.present(start)) {
+// Where the sender is by then, or was when the packet was accepted should it be forgotten since.
+PacketPointer PacketMedium::at_its_departure(const Packet& queued) const {
+  Packet packet = queued;
+  if (const auto place = fleet_.prediction(packet.request.source_id, packet.departure, packet.departure)) {
+    packet.departure_ned_m = place->position_ned_m;
+    packet.velocity_ned_mps = place->velocity_ned_mps;
+  }
+  return std::make_shared<const Packet>(std::move(packet));
+}
+
+void PacketMedium::launch(const PacketPointer& packet) {
+  const SimTime departure = packet->departure;
+  hearing_of(packet->request.source_id).transmit({packet, departure, departure + packet->timing.duration});
+  for (const VehicleId receiver : fleet_.present(departure)) {
     if (receiver == packet->request.source_id) continue;
-    Flight flight;
-    flight.packet = packet;
-    flight.receiver_id = receiver;
-    flight.receiver = fleet_.name_of(receiver);
-    solve(flight, start);
-    const SimTime arrival = start + SimDuration::from_seconds(flight.travel_time_s);
-    schedule(arrival, std::move(flight));
+    auto flight = std::make_unique<Flight>();
+    flight->packet = packet;
+    flight->receiver_id = receiver;
+    flight->receiver = fleet_.name_of(receiver);
+    aim(*flight, departure, fleet_, propagation_);
+    const SimTime first_sound = flight->first_sound();
+    schedule(first_sound, std::move(flight));
   }
 }
 
-// t = s + delay(sender at s, receiver at t), from the last solution on. A receiver that is forgotten keeps the
-// last one.
-void PacketMedium::solve(Flight& flight, SimTime decided_at) const {
-  const Packet& packet = *flight.packet;
-  ++flight.times_solved;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const SimTime arrival = packet.request.start + SimDuration::from_seconds(flight.travel_time_s);
-    const auto receiver = fleet_.prediction(flight.receiver_id, arrival, decided_at);
-    if (!receiver) return;
-    flight.arrival_ned_m = receiver->position_ned_m;
-    const double travel_time_s = propagation_.delay_s(
-        packet.request.start, {packet.request.source_id, packet.departure_ned_m, Vec3::Zero(), &packet.modem},
-        {flight.receiver_id, flight.arrival_ned_m, Vec3::Zero(), &packet.modem});
-    const double change_s = std::abs(travel_time_s - flight.travel_time_s);
-    flight.travel_time_s = travel_time_s;
-    if (change_s < kSettledS) return;
+void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events) {
+  switch (flight->stage) {
+    case Flight::Stage::kComing:
+      return come(std::move(flight), at);
+    case Flight::Stage::kPreamble:
+      return end_preamble(std::move(flight), at);
+    case Flight::Stage::kBits:
+      events.push_back({at, at < advanced_to_, end(*flight, at)});
   }
 }
 
-void PacketMedium::on_flight_event(Flight flight, SimTime at, std::vector<MediumEvent>& events) {
-  if (flight.first_bit_arrived) {
-    events.push_back({at, at < advanced_to_, end_of(flight, at)});
-    return;
+void PacketMedium::come(FlightPointer flight, SimTime at) {
+  aim(*flight, at, fleet_, propagation_);
+  const SimTime first_sound = flight->first_sound();
+  if (first_sound > at + kSolvedInTime && flight->times_aimed < kMostAims) {
+    return schedule(first_sound, std::move(flight));
   }
-  solve(flight, at);
-  const SimTime arrival = flight.packet->request.start + SimDuration::from_seconds(flight.travel_time_s);
-  if (arrival > at + kSolvedInTime && flight.times_solved < kMostSolutions) {
-    schedule(arrival, std::move(flight));
-    return;
+  const SimTime arrival = flight->arrival();
+  auto& budget = flight->reception.budget;
+  budget.noise_level = noise_.level(flight->packet->modem.band(), propagation_.environment(arrival).noise);
+  const Decibels noise = budget.noise_level - flight->modem.directivity_index;
+  budget.snr = budget.received_level - noise;
+  flight->gone = !fleet_.placement(flight->receiver_id, arrival, at);
+  flight->signal = received_signal(*flight, to_power_ratio(noise).value);
+  hearing_of(flight->receiver_id).open(heard_packet(*flight));
+  flight->stage = Flight::Stage::kPreamble;
+  const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
+  schedule(preamble_end, std::move(flight));
+}
+
+void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
+  Hearing& hearing = hearing_of(flight->receiver_id);
+  const ReceivedSignal& signal = flight->signal;
+  const bool hopeless = hopeless_fate(*flight) != PacketFate::kReceived || is_shifted_too_far(*flight) ||
+                        !hearing.transmitted_during(signal.begin, signal.preamble_end).empty();
+  if (!hopeless) flight->locked_onto = hearing.locked_onto(signal.preamble_end);
+  if (!hopeless && !flight->locked_onto) {
+    const auto others = hearing.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
+    const PacketDraws draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
+    flight->noticed = notices(signal, others, draws, flight->judgement);
   }
-  meet_first_bit(flight, arrival, at);
-  // A packet without a duration ends when its arrival is decided, should that be a little later.
-  const SimTime last_bit = std::max(arrival + flight.packet->duration, at);
+  if (flight->noticed) hearing.lock({flight->packet, signal.begin, signal.end}, signal.preamble_end);
+  flight->stage = Flight::Stage::kBits;
+  const SimTime last_bit = std::max(signal.end, at);
   schedule(last_bit, std::move(flight));
 }
 
-void PacketMedium::meet_first_bit(Flight& flight, SimTime arrival, SimTime decided_at) {
-  const acoustics::Modem& receiver = fleet_.modem(flight.receiver, arrival).modem;
-  flight.first_bit_arrived = true;
-  flight.gone = !fleet_.placement(flight.receiver_id, arrival, decided_at);
-  flight.cutoff = receiver.least_receivable_level;
-  flight.budget = propagation_
-                      .reception(flight.packet->request.start,
-                                 {flight.packet->request.source_id, flight.packet->departure_ned_m,
-                                  Vec3::Zero(), &flight.packet->modem},
-                                 {flight.receiver_id, flight.arrival_ned_m, Vec3::Zero(), &receiver})
-                      .budget;
+PacketFate PacketMedium::fate_of(Flight& flight, SimTime at) {
+  const ReceivedSignal& signal = flight.signal;
+  Judgement& judgement = flight.judgement;
+  const PacketDraws draws = draws_of(rule_.seed, *flight.packet, flight.receiver_id);
+  judgement.acquisition_draw = draws.acquisition;
+  judgement.success_draw = draws.success;
+  flight.gone = flight.gone || !fleet_.placement(flight.receiver_id, at, at);
+  const PacketFate hopeless = hopeless_fate(flight);
+  if (hopeless != PacketFate::kReceived) return hopeless;
+  const Hearing& hearing = hearing_of(flight.receiver_id);
+  for (const PacketPointer& own : hearing.transmitted_during(signal.begin, signal.end)) {
+    if (judgement.colliders.size() < kMostColliders) judgement.colliders.push_back(own->name());
+  }
+  if (!judgement.colliders.empty()) return PacketFate::kHalfDuplex;
+  if (is_shifted_too_far(flight)) return PacketFate::kDoppler;
+  if (flight.locked_onto) {
+    judgement.colliders.push_back(flight.locked_onto->name());
+    return PacketFate::kCollided;
+  }
+  const auto others = hearing.interferers_of(*flight.packet, signal.begin, signal.end);
+  return judge(signal, others, draws, flight.noticed, judgement);
 }
 
-PacketEnd PacketMedium::end_of(const Flight& flight, SimTime at) const {
-  const bool gone = flight.gone || !fleet_.placement(flight.receiver_id, at, at);
-  const VehicleId destination = flight.packet->request.destination_id;
+PacketEnd PacketMedium::end(Flight& flight, SimTime at) {
   PacketEnd end;
+  end.fate = fate_of(flight, at);
   end.packet = flight.packet;
   end.receiver_id = flight.receiver_id;
   end.receiver = flight.receiver;
-  end.fate = gone                       ? PacketFate::kReceiverGone
-             : flight.budget.receivable ? PacketFate::kReceived
-                                        : PacketFate::kBelowCutoff;
-  end.deliver =
-      end.fate == PacketFate::kReceived && (destination == flight.receiver_id || destination == kBroadcastId);
+  end.deliver = end.fate == PacketFate::kReceived && is_for(flight.packet->request, flight.receiver_id);
   end.travel_time_s = flight.travel_time_s;
-  end.budget = flight.budget;
-  end.cutoff = flight.cutoff;
+  if (flight.packet->answers) end.two_way_travel_time_s = two_way_travel_time_s(flight);
+  end.budget = flight.reception.budget;
+  end.cutoff = flight.modem.least_receivable_level;
+  end.propagation = flight.reception.used;
+  end.path_count = flight.reception.paths.size();
+  end.delay_spread_s = flight.reception.delay_spread_s;
+  end.doppler_factor = flight.doppler_factor();
+  tell_direction(flight, end);
+  end.judgement = flight.judgement;
+  if (end.deliver && flight.packet->request.kind == PacketKind::kPing) answer_ping(flight, at);
+  hearing_of(flight.receiver_id).close(flight.first_sound(), at);
   return end;
 }
 
-void PacketMedium::schedule(SimTime at, Flight flight) {
-  const SendRequest& request = flight.packet->request;
-  const FlightKey key{
-      at, flight.receiver_id, request.source_id, request.session, request.packet_sequence, request.start};
-  const bool fresh = flights_.emplace(key, std::move(flight)).second;
+void PacketMedium::answer_ping(const Flight& flight, SimTime at) {
+  const Packet& ping = *flight.packet;
+  SendRequest answer;
+  answer.vehicle = flight.receiver;
+  answer.source_id = flight.receiver_id;
+  answer.destination_id = ping.request.source_id;
+  answer.session = ping.request.session;
+  answer.packet_sequence = ping.request.packet_sequence;
+  answer.start = std::max(flight.arrival() + ping.timing.duration + kPingTurnaround, at);
+  answer.kind = PacketKind::kPingReply;
+  answer.stamped = false;
+  add_departure(answer.start, {answer, flight.packet, nullptr});
+}
+
+void PacketMedium::schedule(SimTime at, FlightPointer flight) {
+  FlightKey key{at, flight->stage, flight->receiver_id, flight->packet->name()};
+  const bool fresh = flights_.emplace(std::move(key), std::move(flight)).second;
   ensure(fresh, "two flights of one packet to one receiver");
+}
+
+Hearing& PacketMedium::hearing_of(VehicleId id) {
+  return hearings_.try_emplace(id, rule_.greatest_lateness).first->second;
+}
+
+void PacketMedium::forget_before(SimTime time) {
+  register_.forget_before(time);
+  for (auto hearing = hearings_.begin(); hearing != hearings_.end();) {
+    hearing->second.forget(time + rule_.greatest_lateness);
+    hearing = hearing->second.silent() ? hearings_.erase(hearing) : std::next(hearing);
+  }
 }
 
 void PacketMedium::clear() {
   register_ = SendRegister();
   departures_.clear();
   flights_.clear();
+  hearings_.clear();
   advanced_to_ = SimTime::at_once();
 }
 

@@ -1,32 +1,44 @@
-// The water between modems as a discrete-event simulation: packets start, travel, arrive and end at their
-// exact instants.
+// The water between modems as a discrete-event simulation: packets start, travel, arrive, disturb each other
+// and end at their exact instants.
 //
-// Model. A packet asked for at time s is decided at s: refused, or accepted; it then lasts
-// overhead + 8 bytes / bit rate. Every vehicle present at s except the sender is a possible receiver, and
-// each gets exactly one PacketEnd. Its first bit arrives at the t that solves
-//     t = s + delay(sender at s, receiver at t),
-// found by fixed point (a contraction: the error falls by v/c, 1e-3 for a submarine, each round). The receiver's
-// way until t is not known at s: t is predicted, and solved again at the predicted instant with the states known
-// by then, until it lies within a microsecond of the instant at which it was solved. The fate is decided at the
-// last bit, t + duration: the receiver's states then show whether it is still there; levels are those of the
-// geometry (sender at s, receiver at t).
+// Model. A packet asked for at time s is decided at s: refused, accepted, or queued by a modem that queues (16
+// wait at most; each starts when those before it have ended). Every vehicle present at its departure except the
+// sender is a possible receiver, and each gets exactly one PacketEnd.
+//   flight.h        when and how it comes in
+//   hearing.h       what else sounds at the receiver meanwhile
+//   packet_judge.h  whether it is noticed at the end of its preamble, and right at its last bit
+// packet.h lists the possible fates and in which order the first that holds is found. A packet lasts
+// duration / doppler factor at a receiver. A modem that has noticed a packet follows it to its end, even if
+// weak or for another; what comes meanwhile it does not notice. A transmission of its own ends that, and every
+// reception it overlaps. A ping that its addressee received is answered kPingTurnaround later, unless that
+// modem is busy then: a packet like any other.
 //
-// Repeatability. Decisions depend on the contents of states and requests, and on instants of simulation time,
-// not on the order they were given in. Events come sorted by time, then receipts before packet ends, then
-// receiver, sender, session, packet sequence. A request heard after its start is processed as of its start; what
-// was due meanwhile comes out at once, with its exact instant, marked late.
+// Repeatability. Decisions depend on the contents of states and requests, on the seed, and on instants of
+// simulation time, not on the order they were given in. Events come sorted by time, then receipts before packet
+// ends, then receiver, sender, packet sequence. A request heard after its start is processed as of its start,
+// among all that sounded then; what was due meanwhile comes out at once, with its exact instant, marked late.
+// What was decided before it was heard stays: packets it would have disturbed, and a receiver it would have
+// found unlocked.
 //
-// Left out: overlap and interference of packets, half duplex, bit errors, Doppler.
+// Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time at
+// most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
+//
+// Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet,
+// fading.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "channel_server/fleet.h"
+#include "channel_server/flight.h"
+#include "channel_server/hearing.h"
+#include "channel_server/noise_book.h"
 #include "channel_server/packet.h"
 #include "channel_server/propagation.h"
 #include "channel_server/send_register.h"
@@ -36,10 +48,13 @@ namespace halocline::channel_server {
 struct MediumRule {
   SimDuration greatest_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
   SimDuration greatest_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
+  std::uint64_t seed = 1;                                                   // of all draws
 };
 
 class PacketMedium {
  public:
+  static constexpr std::size_t kMostQueued = 16;  // at one modem
+
   // Fleet and propagation must outlive the medium; the fleet is told of states by its owner, before advance_to.
   PacketMedium(const Fleet& fleet, Propagation& propagation, MediumRule rule);
 
@@ -54,7 +69,7 @@ class PacketMedium {
 
   // Forgets receipts and occupations from before `time`; the owner gives an instant at least
   // greatest_lateness ago.
-  void forget_before(SimTime time) { register_.forget_before(time); }
+  void forget_before(SimTime time);
   // Another run: the water falls silent.
   void clear();
 
@@ -62,38 +77,45 @@ class PacketMedium {
   const MediumRule& rule() const { return rule_; }
 
  private:
-  // One packet on its way to one receiver.
-  struct Flight {
-    std::shared_ptr<const Packet> packet;
-    VehicleId receiver_id = 0;
-    std::string receiver;
-    int times_solved = 0;
-    bool first_bit_arrived = false;
-    bool gone = false;  // when the first bit arrived
-    double travel_time_s = 0;
-    Vec3 arrival_ned_m = Vec3::Zero();  // where the first bit meets the receiver
-    acoustics::LinkBudget budget;
-    Decibels cutoff;
+  // A request that waits for its start; with a packet, one that was queued and waits for its departure.
+  struct Departure {
+    SendRequest request;
+    std::shared_ptr<const Packet> answers;  // of a ping's answer
+    std::shared_ptr<const Packet> queued;
   };
   // Events at one instant happen in the order of the rest of the key.
-  using DepartureKey = std::tuple<SimTime, std::string, std::int64_t, std::int64_t>;
-  using FlightKey = std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t, SimTime>;
+  using DepartureKey =
+      std::tuple<SimTime, std::string, PacketKind, std::int64_t, VehicleId, bool, std::int64_t>;
+  using FlightKey = std::tuple<SimTime, Flight::Stage, VehicleId, PacketName>;
+  struct Decision {
+    SendResult result;
+    SimTime start;
+  };
 
-  void depart(const SendRequest& request, std::vector<MediumEvent>& events);
-  SendResult judge(const SendRequest& request, SimDuration duration) const;
-  void launch(std::shared_ptr<const Packet> packet);
-  void solve(Flight& flight, SimTime decided_at) const;
-  void on_flight_event(Flight flight, SimTime at, std::vector<MediumEvent>& events);
-  void meet_first_bit(Flight& flight, SimTime arrival, SimTime decided_at);
-  PacketEnd end_of(const Flight& flight, SimTime at) const;
-  void schedule(SimTime at, Flight flight);
+  void add_departure(SimTime at, Departure departure);
+  void depart(Departure departure, std::vector<MediumEvent>& events);
+  Decision decide(const SendRequest& request, SimDuration duration) const;
+  void launch(const PacketPointer& packet);
+  PacketPointer at_its_departure(const Packet& queued) const;
+
+  using FlightPointer = std::unique_ptr<Flight>;
+  void on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
+  void come(FlightPointer flight, SimTime at);
+  void end_preamble(FlightPointer flight, SimTime at);
+  PacketEnd end(Flight& flight, SimTime at);
+  PacketFate fate_of(Flight& flight, SimTime at);
+  void answer_ping(const Flight& flight, SimTime at);
+  void schedule(SimTime at, FlightPointer flight);
+  Hearing& hearing_of(VehicleId id);
 
   const Fleet& fleet_;
   Propagation& propagation_;
   MediumRule rule_;
   SendRegister register_;
-  std::map<DepartureKey, SendRequest> departures_;
-  std::map<FlightKey, Flight> flights_;
+  NoiseBook noise_;
+  std::map<DepartureKey, Departure> departures_;
+  std::map<FlightKey, FlightPointer> flights_;
+  std::map<VehicleId, Hearing> hearings_;
   SimTime advanced_to_ = SimTime::at_once();
 };
 

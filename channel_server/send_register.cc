@@ -4,13 +4,13 @@
 
 namespace halocline::channel_server {
 
-PacketName name_of(const SendRequest& request) {
+RequestName name_of(const SendRequest& request) {
   return {request.vehicle, request.session, request.packet_sequence,
           request.session == 0 ? request.start : SimTime()};
 }
 
 bool SendRegister::enter(const SendRequest& request) {
-  const PacketName name = name_of(request);
+  const RequestName name = name_of(request);
   if (!entries_.emplace(name, Entry{request.start, false, {}}).second) return false;
   by_start_.emplace(request.start, name);
   if (entries_.size() > kMostPackets) forget_earliest();
@@ -35,6 +35,21 @@ bool SendRegister::is_busy(const std::string& vehicle, SimTime start, SimDuratio
   return std::any_of(known->second.begin(), known->second.end(), [&](const Occupation& o) {
     return start == o.start || (start < o.end && o.start < start + duration);
   });
+}
+
+SimTime SendRegister::free_from(const std::string& vehicle, SimTime start) const {
+  const auto known = occupations_.find(vehicle);
+  if (known == occupations_.end()) return start;
+  SimTime free = start;
+  for (const Occupation& o : known->second) free = std::max(free, o.end);
+  return free;
+}
+
+std::size_t SendRegister::waiting_at(const std::string& vehicle, SimTime instant) const {
+  const auto known = occupations_.find(vehicle);
+  if (known == occupations_.end()) return 0;
+  return static_cast<std::size_t>(std::count_if(known->second.begin(), known->second.end(),
+                                                [&](const Occupation& o) { return o.start > instant; }));
 }
 
 void SendRegister::occupy(const std::string& vehicle, SimTime start, SimDuration duration) {

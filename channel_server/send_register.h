@@ -1,8 +1,11 @@
 // Remembers what became of each transmission asked for, so that a repetition is answered, not transmitted
 // again; and when each modem is occupied.
 //
-// A packet's name is (vehicle, session, packet_sequence); of a sender that keeps no session (0) also the
-// start, because its numbers may begin anew. Memory is bounded: a packet is forgotten once its start is too
+// A modem that queues sends one after the other, in the order of their starts: the next one when all accepted
+// before have ended.
+//
+// A request's name is (vehicle, session, packet_sequence); of a sender that keeps no session (0) also the
+// start, because its numbers may begin anew. Memory is bounded: a request is forgotten once its start is too
 // old to be accepted anyway, so nothing is ever transmitted twice.
 #pragma once
 
@@ -17,15 +20,15 @@
 
 namespace halocline::channel_server {
 
-struct PacketName {
+struct RequestName {
   std::string vehicle;
   std::int64_t session = 0;
   std::int64_t packet_sequence = 0;
   SimTime start;  // 0 for senders that keep a session
 
-  auto operator<=>(const PacketName&) const = default;
+  auto operator<=>(const RequestName&) const = default;
 };
-PacketName name_of(const SendRequest& request);
+RequestName name_of(const SendRequest& request);
 
 class SendRegister {
  public:
@@ -40,6 +43,10 @@ class SendRegister {
 
   // True when the modem is occupied at any time of [start, start + duration).
   bool is_busy(const std::string& vehicle, SimTime start, SimDuration duration) const;
+  // When a modem that queues is free for a transmission asked for at `start`: never before it.
+  SimTime free_from(const std::string& vehicle, SimTime start) const;
+  // Transmissions accepted that have not started at `instant`.
+  std::size_t waiting_at(const std::string& vehicle, SimTime instant) const;
   void occupy(const std::string& vehicle, SimTime start, SimDuration duration);
 
   void forget_before(SimTime time);
@@ -56,8 +63,8 @@ class SendRegister {
   };
   void forget_earliest();
 
-  std::map<PacketName, Entry> entries_;
-  std::set<std::pair<SimTime, PacketName>> by_start_;
+  std::map<RequestName, Entry> entries_;
+  std::set<std::pair<SimTime, RequestName>> by_start_;
   std::map<std::string, std::vector<Occupation>> occupations_;
 };
 

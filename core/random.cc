@@ -41,6 +41,15 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
+// Each part is ciphered under the one before: a chain of which every link is a bijection.
+std::uint64_t identity_of(std::initializer_list<std::uint64_t> parts) {
+  std::uint64_t identity = parts.size();
+  for (const std::uint64_t part : parts) {
+    identity = bits_at({.seed = identity, .purpose = purpose_of("identity"), .which = part});
+  }
+  return identity;
+}
+
 std::uint64_t bits_at(const DrawAddress& address) {
   const auto block = block_at(address);
   return std::uint64_t{block[0]} << 32 | block[1];

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string_view>
 
 namespace halocline {
@@ -34,6 +35,10 @@ struct DrawAddress {
   std::uint32_t who = 0;
   std::uint64_t which = 0;
 };
+
+// One number for a thing that several numbers identify together, in this order; to be `which`. Two things
+// share one with the chance of 2^-64.
+std::uint64_t identity_of(std::initializer_list<std::uint64_t> parts);
 
 // 64 random bits.
 std::uint64_t bits_at(const DrawAddress& address);

@@ -113,6 +113,7 @@ class Vehicle {
     packet.packet_sequence = packets_++;
     packet.source_id = settings_.id;
     packet.destination_id = settings_.to;
+    packet.stamped = 1;
     packet.payload_size = static_cast<std::int32_t>(text.size());
     packet.payload.assign(text.begin(), text.end());
     lcm_.publish("SEND." + settings_.name, &packet);
@@ -122,15 +123,18 @@ class Vehicle {
   void on_packet(const lcm::ReceiveBuffer*, const std::string&, const halocline::modem_receive_t* packet) {
     std::string text;
     for (const unsigned char c : packet->payload) text += c >= 32 && c < 127 ? static_cast<char>(c) : '.';
-    std::printf("%.3f s: packet %lld from vehicle %d after %.3f s, %.1f dB: %s\n",
+    char travel[48] = "";
+    if (packet->stamped != 0) std::snprintf(travel, sizeof travel, " after %.3f s", packet->travel_time_s);
+    std::printf("%.3f s: packet %lld from vehicle %d%s, %.1f dB: %s\n",
                 static_cast<double>(packet->utime) * 1e-6, static_cast<long long>(packet->packet_sequence),
-                packet->source_id, packet->travel_time_s, packet->received_level_db, text.c_str());
+                packet->source_id, travel, packet->received_level_db, text.c_str());
     std::fflush(stdout);
   }
   // LCM takes no const handler. NOLINTNEXTLINE(readability-make-member-function-const)
   void on_receipt(const lcm::ReceiveBuffer*, const std::string&, const halocline::modem_receipt_t* receipt) {
     if (receipt->send_session != session_) return;
-    const bool accepted = receipt->receipt_result == halocline::modem_receipt_t::ACCEPTED;
+    const bool accepted = receipt->receipt_result == halocline::modem_receipt_t::ACCEPTED ||
+                          receipt->receipt_result == halocline::modem_receipt_t::QUEUED;
     std::printf(
         "%.3f s: my packet %lld was %s\n", static_cast<double>(receipt->utime) * 1e-6,
         static_cast<long long>(receipt->packet_sequence),

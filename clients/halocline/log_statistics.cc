@@ -14,10 +14,12 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::array<const char*, LogStatistics::kReceiptResults> kReceiptNames{
-    "accepted",          "refused: busy",  "refused: too large", "refused: unknown vehicle",
-    "refused: wrong id", "refused: stale", "refused: too early"};
-constexpr std::array<const char*, LogStatistics::kFates> kFateNames{"received", "below cut-off",
-                                                                    "receiver gone"};
+    "accepted",           "refused: busy",  "refused: too large", "refused: unknown vehicle",
+    "refused: wrong id",  "refused: stale", "refused: too early", "queued",
+    "refused: queue full"};
+constexpr std::array<const char*, LogStatistics::kFates> kFateNames{
+    "received", "below cut-off", "receiver gone", "in a shadow", "blocked by terrain", "out of band",
+    "collided", "half duplex",   "doppler",       "bit errors",  "not acquired"};
 
 std::map<std::string, std::int64_t> by_family(const LogStatistics& s) {
   std::map<std::string, std::int64_t> families;
@@ -62,7 +64,7 @@ void LogStatistics::count_message(const LoggedEvent& event, const Message& messa
     ++packets_sent;
   } else if constexpr (std::is_same_v<Message, modem_receive_t>) {
     ++packets_delivered;
-    travel_times_s.push_back(message.travel_time_s);
+    if (message.stamped != 0) travel_times_s.push_back(message.travel_time_s);
   } else if constexpr (std::is_same_v<Message, packet_outcome_t>) {
     ++outcomes.at(static_cast<std::size_t>(message.packet_fate));
   }

@@ -15,8 +15,8 @@
 namespace halocline::clients {
 
 struct LogStatistics {
-  static constexpr std::size_t kReceiptResults = 7;  // modem_receipt_t.ACCEPTED to REFUSED_TOO_EARLY
-  static constexpr std::size_t kFates = 3;           // packet_outcome_t.RECEIVED to RECEIVER_GONE
+  static constexpr std::size_t kReceiptResults = 9;  // modem_receipt_t.ACCEPTED to REFUSED_QUEUE_FULL
+  static constexpr std::size_t kFates = 11;          // packet_outcome_t.RECEIVED to NOT_ACQUIRED
 
   std::int64_t events = 0;
   std::int64_t bytes = 0;        // of payloads
@@ -29,7 +29,7 @@ struct LogStatistics {
   std::int64_t packets_delivered = 0;  // RECEIVEs
   std::array<std::int64_t, kReceiptResults> receipts{};
   std::array<std::int64_t, kFates> outcomes{};
-  std::vector<double> travel_times_s;  // of the delivered, as they came
+  std::vector<double> travel_times_s;  // of the delivered that carry their departure, as they came
 
   void count(const LoggedEvent& event);
 

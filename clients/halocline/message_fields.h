@@ -184,10 +184,15 @@ void visit_fields(Visitor& v, const modem_receive_t& m) {
   v("source_id", m.source_id);
   v("destination_id", m.destination_id);
   v("receiver_id", m.receiver_id);
+  v("packet_kind", m.packet_kind);
+  v("stamped", m.stamped);
   v("departure_utime", m.departure_utime);
   v("travel_time_s", m.travel_time_s);
+  v("two_way_travel_time_s", m.two_way_travel_time_s);
   v("received_level_db", m.received_level_db);
   v("snr_db", m.snr_db);
+  v("doppler_factor", m.doppler_factor);
+  v("sinr_db", m.sinr_db);
   v("payload_size", m.payload_size);
   v("payload", m.payload);
 }
@@ -199,6 +204,8 @@ void visit_fields(Visitor& v, const modem_send_t& m) {
   v("packet_sequence", m.packet_sequence);
   v("source_id", m.source_id);
   v("destination_id", m.destination_id);
+  v("packet_kind", m.packet_kind);
+  v("stamped", m.stamped);
   v("payload_size", m.payload_size);
   v("payload", m.payload);
 }
@@ -220,6 +227,14 @@ void visit_fields(Visitor& v, const node_status_t& m) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, const packet_name_t& m) {
+  v("source_id", m.source_id);
+  v("packet_kind", m.packet_kind);
+  v("send_session", m.send_session);
+  v("packet_sequence", m.packet_sequence);
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, const packet_outcome_t& m) {
   v("utime", m.utime);
   v("session", m.session);
@@ -229,6 +244,7 @@ void visit_fields(Visitor& v, const packet_outcome_t& m) {
   v("source_id", m.source_id);
   v("destination_id", m.destination_id);
   v("receiver_id", m.receiver_id);
+  v("packet_kind", m.packet_kind);
   v("packet_fate", m.packet_fate);
   v("departure_utime", m.departure_utime);
   v("travel_time_s", m.travel_time_s);
@@ -239,6 +255,20 @@ void visit_fields(Visitor& v, const packet_outcome_t& m) {
   v("noise_level_db", m.noise_level_db);
   v("snr_db", m.snr_db);
   v("cutoff_level_db", m.cutoff_level_db);
+  v("propagation_used", m.propagation_used);
+  v("num_paths", m.num_paths);
+  v("delay_spread_s", m.delay_spread_s);
+  v("doppler_factor", m.doppler_factor);
+  v("interference_level_db", m.interference_level_db);
+  v("sinr_db", m.sinr_db);
+  v("acquisition_probability", m.acquisition_probability);
+  v("success_probability", m.success_probability);
+  v("acquisition_draw", m.acquisition_draw);
+  v("success_draw", m.success_draw);
+  v("arrival_azimuth_rad", m.arrival_azimuth_rad);
+  v("arrival_elevation_rad", m.arrival_elevation_rad);
+  v("num_colliders", m.num_colliders);
+  v("colliders", m.colliders);
 }
 
 template <class Visitor>

@@ -30,14 +30,22 @@ std::optional<SimTime> BlockingModem::sim_now(SimDuration timeout) {
 }
 
 std::int64_t BlockingModem::send_at(SimTime start, std::int32_t destination,
-                                    std::span<const std::uint8_t> payload) {
-  return client_.send(bus::steady_now(), start, destination, payload);
+                                    std::span<const std::uint8_t> payload, SendOptions options) {
+  return client_.send(bus::steady_now(), start, destination, payload, options);
 }
 
 std::optional<std::int64_t> BlockingModem::send(std::int32_t destination,
-                                                std::span<const std::uint8_t> payload) {
+                                                std::span<const std::uint8_t> payload, SendOptions options) {
   const auto now = sim_now(kLongestWaitForClock);
-  return now ? std::optional(send_at(*now, destination, payload)) : std::nullopt;
+  return now ? std::optional(send_at(*now, destination, payload, options)) : std::nullopt;
+}
+
+std::optional<double> BlockingModem::ping(std::int32_t destination, SimDuration timeout) {
+  const auto sequence = send(destination, {}, {.kind = modem_send_t::PING});
+  if (!sequence) return std::nullopt;
+  std::optional<double> two_way_s;
+  wait(timeout, [&] { return (two_way_s = client_.take_ping_reply(*sequence)).has_value(); });
+  return two_way_s;
 }
 
 std::optional<modem_receipt_t> BlockingModem::wait_receipt(std::int64_t packet_sequence,

@@ -23,15 +23,20 @@ ModemClient::ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy polic
 }
 
 std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t destination,
-                               std::span<const std::uint8_t> payload) {
+                               std::span<const std::uint8_t> payload, SendOptions options) {
+  require(options.kind == modem_send_t::DATA || options.kind == modem_send_t::PING,
+          "a packet is DATA or a PING");
+  require(options.kind != modem_send_t::PING || destination != kBroadcastId, "a PING goes to one vehicle");
   require(destination >= kBroadcastId, "a destination is a vehicle's id, or 0 for all");
   require(payload.size() <= kLongestPayload, "a payload holds at most 32768 bytes");
-  modem_send_t message;
+  modem_send_t message{};
   message.utime = start.to_utime();
   message.session = address_.session;
   message.packet_sequence = next_sequence_++;
   message.source_id = address_.vehicle_id;
   message.destination_id = destination;
+  message.packet_kind = options.kind;
+  message.stamped = options.stamped ? 1 : 0;
   message.payload_size = static_cast<std::int32_t>(payload.size());
   message.payload.assign(payload.begin(), payload.end());
   // Kept before it is published: on memq the receipt may be dispatched before publish() returns to the node.
@@ -51,6 +56,17 @@ std::optional<modem_receive_t> ModemClient::take_received() {
   modem_receive_t packet = std::move(waiting_.front());
   waiting_.pop_front();
   return packet;
+}
+
+std::optional<double> ModemClient::take_ping_reply(std::int64_t packet_sequence) {
+  const auto reply = std::find_if(waiting_.begin(), waiting_.end(), [&](const modem_receive_t& packet) {
+    return packet.packet_kind == modem_receive_t::PING_REPLY && packet.send_session == address_.session &&
+           packet.packet_sequence == packet_sequence;
+  });
+  if (reply == waiting_.end()) return std::nullopt;
+  const double two_way_s = reply->two_way_travel_time_s;
+  waiting_.erase(reply);
+  return two_way_s;
 }
 
 void ModemClient::resend(SimTime steady) {
@@ -80,14 +96,16 @@ SimTime ModemClient::next_resend() const {
 void ModemClient::take_receipt(const modem_receipt_t& receipt) {
   // Not pending: a packet of an earlier life, or the answer to a repetition.
   if (receipt.send_session != address_.session || pending_.erase(receipt.packet_sequence) == 0) return;
-  ++(receipt.receipt_result == modem_receipt_t::ACCEPTED ? counters_.accepted : counters_.refused);
+  const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
+                        receipt.receipt_result == modem_receipt_t::QUEUED;
+  ++(accepted ? counters_.accepted : counters_.refused);
   receipts_[receipt.packet_sequence] = receipt;
   if (receipts_.size() > kMostReceipts) receipts_.erase(receipts_.begin());
   if (receipt_handler_) receipt_handler_(receipt);
 }
 
 void ModemClient::take_packet(const modem_receive_t& packet) {
-  if (!is_new({packet.send_session, packet.source_id, packet.packet_sequence})) {
+  if (!is_new({packet.send_session, packet.source_id, packet.packet_kind, packet.packet_sequence})) {
     ++counters_.duplicates;
     return;
   }

@@ -40,6 +40,12 @@ struct ModemAddress {
   std::int64_t session = 0;
 };
 
+// How a packet is sent.
+struct SendOptions {
+  std::int8_t kind = modem_send_t::DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY
+  bool stamped = true;  // carries the instant of its departure: its receiver knows the delay
+};
+
 // When to repeat a SEND that was not answered; steady time.
 struct ResendPolicy {
   SimDuration interval = SimDuration::from_milliseconds(200);   // above 0
@@ -49,7 +55,7 @@ struct ResendPolicy {
 struct ModemCounters {
   std::int64_t sent = 0;        // packets handed over by send()
   std::int64_t resent = 0;      // repetitions of a SEND
-  std::int64_t accepted = 0;    // receipts
+  std::int64_t accepted = 0;    // receipts, those of queued packets among them
   std::int64_t refused = 0;     // receipts
   std::int64_t unanswered = 0;  // given up
   std::int64_t received = 0;    // packets that arrived, each once
@@ -77,9 +83,14 @@ class ModemClient {
 
   // Publishes a SEND that starts at `start` (simulation time) and returns its packet_sequence.
   // `destination`: a vehicle's id, or kBroadcastId. `payload`: 0 to 32768 bytes; a modem's own limit shows in
-  // the receipt. Throws InvalidArgument otherwise.
+  // the receipt. Throws InvalidArgument otherwise, and for a PING to all.
   std::int64_t send(SimTime steady, SimTime start, std::int32_t destination,
-                    std::span<const std::uint8_t> payload);
+                    std::span<const std::uint8_t> payload, SendOptions options = {});
+  // A PING without payload. What comes back, if it does, is a RECEIVE of kind PING_REPLY with this
+  // packet_sequence, which tells the travel time out and back.
+  std::int64_t ping(SimTime steady, SimTime start, std::int32_t destination) {
+    return send(steady, start, destination, {}, {.kind = modem_send_t::PING});
+  }
 
   // The answer to a packet; empty while none has come.
   std::optional<modem_receipt_t> receipt_of(std::int64_t packet_sequence) const;
@@ -87,6 +98,9 @@ class ModemClient {
   bool is_pending(std::int64_t packet_sequence) const { return pending_.contains(packet_sequence); }
   // The longest-waiting packet that arrived; empty when there is none.
   std::optional<modem_receive_t> take_received();
+
+  // The two-way travel time of the waiting answer to this ping, s, which is taken; empty while none waits.
+  std::optional<double> take_ping_reply(std::int64_t packet_sequence);
 
   // Repeats what has waited for its receipt for the policy's interval.
   void resend(SimTime steady);
@@ -101,7 +115,8 @@ class ModemClient {
     modem_send_t message;
     SimTime next_try, last_try;  // steady
   };
-  using PacketName = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // session, source, sequence
+  // Session, source, kind, sequence: a PING_REPLY has session and sequence of its ping.
+  using PacketName = std::tuple<std::int64_t, std::int32_t, std::int8_t, std::int64_t>;
 
   void take_receipt(const modem_receipt_t& receipt);
   void take_packet(const modem_receive_t& packet);

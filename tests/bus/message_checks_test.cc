@@ -79,10 +79,14 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
                                 FIELD(packet_overhead_s), FIELD(preamble_s), FIELD(guard_time_s),
                                 FIELD(doppler_tolerance));
   expect_finite<modem_receipt_t>(FIELD(duration_s));
-  expect_finite<modem_receive_t>(FIELD(travel_time_s), FIELD(received_level_db), FIELD(snr_db));
-  expect_finite<packet_outcome_t>(FIELD(travel_time_s), FIELD(duration_s), FIELD(range_m),
-                                  FIELD(transmission_loss_db), FIELD(received_level_db),
-                                  FIELD(noise_level_db), FIELD(snr_db), FIELD(cutoff_level_db));
+  expect_finite<modem_receive_t>(FIELD(travel_time_s), FIELD(two_way_travel_time_s), FIELD(received_level_db),
+                                 FIELD(snr_db), FIELD(doppler_factor), FIELD(sinr_db));
+  expect_finite<packet_outcome_t>(
+      FIELD(travel_time_s), FIELD(duration_s), FIELD(range_m), FIELD(transmission_loss_db),
+      FIELD(received_level_db), FIELD(noise_level_db), FIELD(snr_db), FIELD(cutoff_level_db),
+      FIELD(delay_spread_s), FIELD(doppler_factor), FIELD(interference_level_db), FIELD(sinr_db),
+      FIELD(acquisition_probability), FIELD(success_probability), FIELD(acquisition_draw),
+      FIELD(success_draw), FIELD(arrival_azimuth_rad), FIELD(arrival_elevation_rad));
   expect_finite<link_t>(FIELD(range_m), FIELD(delay_s), FIELD(transmission_loss_db), FIELD(received_level_db),
                         FIELD(noise_level_db), FIELD(snr_db), FIELD(capacity_bps), FIELD(transmitter_age_s),
                         FIELD(receiver_age_s));
@@ -104,13 +108,18 @@ std::string problem_after(Change change) {
 }
 
 TEST(MessageChecks, RefusesEnumerationsWithoutAMeaning) {
-  for (const int bad : {-128, -1, 7, 127}) {
+  for (const int bad : {-128, -1, 11, 127}) {
     const auto value = static_cast<std::int8_t>(bad);
     EXPECT_NE(problem_after<vehicle_sensors_t>([&](auto& m) { m.altitude_status = value; }), "");
     EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.modem_profile = value; }), "");
     EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.when_busy = value; }), "");
     EXPECT_NE(problem_after<modem_receipt_t>([&](auto& m) { m.receipt_result = value; }), "");
     EXPECT_NE(problem_after<packet_outcome_t>([&](auto& m) { m.packet_fate = value; }), "");
+    EXPECT_NE(problem_after<packet_outcome_t>([&](auto& m) { m.packet_kind = value; }), "");
+    EXPECT_NE(problem_after<packet_outcome_t>([&](auto& m) { m.propagation_used = value; }), "");
+    EXPECT_NE(problem_after<packet_outcome_t>([&](auto& m) { m.colliders[0].packet_kind = value; }), "");
+    EXPECT_NE(problem_after<modem_send_t>([&](auto& m) { m.packet_kind = value; }), "");
+    EXPECT_NE(problem_after<modem_receive_t>([&](auto& m) { m.packet_kind = value; }), "");
     EXPECT_NE(problem_after<link_t>([&](auto& m) { m.multipath = value; }), "");
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.reply_status = value; }), "");
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.answers[0].answer_status = value; }), "");
@@ -142,7 +151,19 @@ TEST(MessageChecks, AVehicleHasAnIdFromOneAndAPacketMayGoToAll) {
   EXPECT_NE(problem_after<vehicle_state_t>([](auto& m) { m.vehicle_id = -5; }), "");
   EXPECT_NE(problem_after<modem_send_t>([](auto& m) { m.source_id = 0; }), "");
   EXPECT_NE(problem_after<modem_send_t>([](auto& m) { m.destination_id = -1; }), "");
-  EXPECT_EQ(problem_after<modem_send_t>([](auto& m) { m.destination_id = 0; }), "");
+  EXPECT_EQ(problem_after<modem_send_t>([](auto& m) {
+              m.destination_id = 0;
+              m.packet_kind = modem_send_t::DATA;
+            }),
+            "");
+}
+
+TEST(MessageChecks, APingGoesToOneVehicle) {
+  EXPECT_NE(problem_after<modem_send_t>([](auto& m) {
+              m.destination_id = 0;
+              m.packet_kind = modem_send_t::PING;
+            }),
+            "");
 }
 
 TEST(MessageChecks, RefusesAClientNameThatNoChannelMayHave) {

@@ -27,11 +27,20 @@ class Numbers {
   unsigned next_;
 };
 
+// Of whatever has them: the head of a message, then who sent which packet to whom.
 template <class Message>
-void fill_head(Message& m, Numbers& n) {
+Message with_head(Numbers& n) {
+  Message m{};
   m.utime = n.whole();
-  m.session = n.whole();
-  m.sequence = n.whole();
+  if constexpr (requires { m.session; }) m.session = n.whole();
+  if constexpr (requires { m.sequence; }) m.sequence = n.whole();
+  if constexpr (requires { m.request_id; }) m.request_id = n.whole();
+  if constexpr (requires { m.send_session; }) m.send_session = n.whole();
+  if constexpr (requires { m.packet_sequence; }) m.packet_sequence = n.whole();
+  if constexpr (requires { m.source_id; }) m.source_id = n.whole();
+  if constexpr (requires { m.destination_id; }) m.destination_id = n.whole();
+  if constexpr (requires { m.receiver_id; }) m.receiver_id = n.whole();
+  return m;
 }
 
 int size_of_arrays(unsigned seed) { return static_cast<int>(seed * 5u % 23u); }
@@ -47,8 +56,7 @@ std::vector<std::uint8_t> payload_of(int size) {
 template <>
 sim_clock_t valid_message(unsigned seed) {
   Numbers n(seed);
-  sim_clock_t m;
-  fill_head(m, n);
+  auto m = with_head<sim_clock_t>(n);
   m.clock_rate = n.real();
   m.clock_step_us = n.whole();
   m.lockstep = 1;
@@ -58,8 +66,7 @@ sim_clock_t valid_message(unsigned seed) {
 template <>
 vehicle_state_t valid_message(unsigned seed) {
   Numbers n(seed);
-  vehicle_state_t m;
-  fill_head(m, n);
+  auto m = with_head<vehicle_state_t>(n);
   m.vehicle_id = n.whole();
   for (double& x : m.position_ned_m) x = n.real();
   const double quaternion[4] = {0.5, -0.5, 0.5, -0.5};
@@ -72,8 +79,7 @@ vehicle_state_t valid_message(unsigned seed) {
 template <>
 vehicle_command_t valid_message(unsigned seed) {
   Numbers n(seed);
-  vehicle_command_t m;
-  fill_head(m, n);
+  auto m = with_head<vehicle_command_t>(n);
   m.propeller_rpm = n.real();
   m.rudder_rad = 0.25;
   m.stern_plane_rad = -0.25;
@@ -84,8 +90,7 @@ vehicle_command_t valid_message(unsigned seed) {
 template <>
 vehicle_sensors_t valid_message(unsigned seed) {
   Numbers n(seed);
-  vehicle_sensors_t m;
-  fill_head(m, n);
+  auto m = with_head<vehicle_sensors_t>(n);
   m.depth_m = n.real();
   m.altitude_status = vehicle_sensors_t::ALTITUDE_MEASURED;
   m.altitude_m = n.real();
@@ -106,8 +111,7 @@ vehicle_sensors_t valid_message(unsigned seed) {
 template <>
 current_change_t valid_message(unsigned seed) {
   Numbers n(seed);
-  current_change_t m;
-  fill_head(m, n);
+  auto m = with_head<current_change_t>(n);
   for (double& v : m.uniform_ned_mps) v = 0.05 * n.real();
   m.num_depths = size_of_arrays(seed);
   for (int i = 0; i < m.num_depths; ++i) {
@@ -127,8 +131,7 @@ current_change_t valid_message(unsigned seed) {
 template <>
 environment_t valid_message(unsigned seed) {
   Numbers n(seed);
-  environment_t m;
-  fill_head(m, n);
+  auto m = with_head<environment_t>(n);
   m.num_layers = std::max(1, size_of_arrays(seed));
   m.layer_salinity_psu = n.reals(m.num_layers);
   for (int i = 0; i < m.num_layers; ++i) {
@@ -156,8 +159,7 @@ environment_t valid_message(unsigned seed) {
 template <>
 environment_change_t valid_message(unsigned seed) {
   Numbers n(seed);
-  environment_change_t m;
-  fill_head(m, n);
+  auto m = with_head<environment_change_t>(n);
   m.session = 5;
   m.sets_wind = m.sets_shipping = m.sets_sea_surface = 1;
   m.num_layers = size_of_arrays(seed);
@@ -178,8 +180,7 @@ environment_change_t valid_message(unsigned seed) {
 template <>
 modem_config_t valid_message(unsigned seed) {
   Numbers n(seed);
-  modem_config_t m;
-  m.utime = n.whole();
+  auto m = with_head<modem_config_t>(n);
   m.source_level_db = 185;
   m.center_frequency_hz = 25'000;
   m.bandwidth_hz = 5'000;
@@ -201,12 +202,9 @@ modem_config_t valid_message(unsigned seed) {
 template <>
 modem_send_t valid_message(unsigned seed) {
   Numbers n(seed);
-  modem_send_t m;
-  m.utime = n.whole();
-  m.session = n.whole();
-  m.packet_sequence = n.whole();
-  m.source_id = n.whole();
-  m.destination_id = 0;
+  auto m = with_head<modem_send_t>(n);
+  m.packet_kind = modem_send_t::PING;
+  m.stamped = 1;
   m.payload_size = size_of_arrays(seed);
   m.payload = payload_of(m.payload_size);
   return m;
@@ -215,11 +213,8 @@ modem_send_t valid_message(unsigned seed) {
 template <>
 modem_receipt_t valid_message(unsigned seed) {
   Numbers n(seed);
-  modem_receipt_t m;
-  fill_head(m, n);
-  m.send_session = n.whole();
-  m.packet_sequence = n.whole();
-  m.receipt_result = modem_receipt_t::REFUSED_TOO_EARLY;
+  auto m = with_head<modem_receipt_t>(n);
+  m.receipt_result = modem_receipt_t::REFUSED_QUEUE_FULL;
   m.start_utime = n.whole();
   m.duration_s = n.real();
   return m;
@@ -228,33 +223,38 @@ modem_receipt_t valid_message(unsigned seed) {
 template <>
 modem_receive_t valid_message(unsigned seed) {
   Numbers n(seed);
-  modem_receive_t m;
-  fill_head(m, n);
-  m.send_session = n.whole();
-  m.packet_sequence = n.whole();
-  m.source_id = n.whole();
-  m.destination_id = n.whole();
-  m.receiver_id = n.whole();
+  auto m = with_head<modem_receive_t>(n);
+  m.packet_kind = modem_receive_t::PING_REPLY;
+  m.stamped = 1;
   m.departure_utime = n.whole();
   m.travel_time_s = n.real();
+  m.two_way_travel_time_s = n.real();
   m.received_level_db = n.real();
   m.snr_db = n.real();
+  m.doppler_factor = 1.0625;
+  m.sinr_db = n.real();
   m.payload_size = size_of_arrays(seed);
   m.payload = payload_of(m.payload_size);
   return m;
 }
 
 template <>
-packet_outcome_t valid_message(unsigned seed) {
+packet_name_t valid_message(unsigned seed) {
   Numbers n(seed);
-  packet_outcome_t m;
-  fill_head(m, n);
+  packet_name_t m;
+  m.source_id = n.whole();
+  m.packet_kind = modem_receive_t::PING;
   m.send_session = n.whole();
   m.packet_sequence = n.whole();
-  m.source_id = n.whole();
-  m.destination_id = n.whole();
-  m.receiver_id = n.whole();
-  m.packet_fate = packet_outcome_t::BELOW_CUTOFF;
+  return m;
+}
+
+template <>
+packet_outcome_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<packet_outcome_t>(n);
+  m.packet_kind = modem_receive_t::PING_REPLY;
+  m.packet_fate = packet_outcome_t::NOT_ACQUIRED;
   m.departure_utime = n.whole();
   m.travel_time_s = n.real();
   m.duration_s = n.real();
@@ -264,6 +264,22 @@ packet_outcome_t valid_message(unsigned seed) {
   m.noise_level_db = n.real();
   m.snr_db = n.real();
   m.cutoff_level_db = n.real();
+  m.propagation_used = packet_outcome_t::STRAIGHT_WITHOUT_BOTTOM;
+  m.num_paths = n.whole();
+  m.delay_spread_s = n.real();
+  m.doppler_factor = 0.9375;
+  m.interference_level_db = n.real();
+  m.sinr_db = n.real();
+  m.acquisition_probability = 0.5;
+  m.success_probability = 0.25;
+  m.acquisition_draw = 0.75;
+  m.success_draw = 0.125;
+  m.arrival_azimuth_rad = -3;
+  m.arrival_elevation_rad = 0.5;
+  m.num_colliders = std::min(16, size_of_arrays(seed));
+  for (int i = 0; i < m.num_colliders; ++i) {
+    m.colliders.push_back(valid_message<packet_name_t>(seed + static_cast<unsigned>(i)));
+  }
   return m;
 }
 
@@ -295,8 +311,7 @@ link_t valid_message(unsigned seed) {
 template <>
 link_table_t valid_message(unsigned seed) {
   Numbers n(seed);
-  link_table_t m;
-  fill_head(m, n);
+  auto m = with_head<link_table_t>(n);
   m.vehicle_id = n.whole();
   m.num_peers = size_of_arrays(seed);
   for (int i = 0; i < m.num_peers; ++i)
@@ -318,10 +333,8 @@ link_end_t valid_message(unsigned seed) {
 template <>
 link_query_t valid_message(unsigned seed) {
   Numbers n(seed);
-  link_query_t m;
-  m.utime = n.whole();
+  auto m = with_head<link_query_t>(n);
   m.client_name = "client-1";
-  m.request_id = n.whole();
   m.num_links = size_of_arrays(seed);
   for (int i = 0; i < m.num_links; ++i) {
     m.transmitters.push_back(valid_message<link_end_t>(seed + static_cast<unsigned>(i)));
@@ -347,10 +360,7 @@ link_answer_t valid_message(unsigned seed) {
 template <>
 link_reply_t valid_message(unsigned seed) {
   Numbers n(seed);
-  link_reply_t m;
-  m.utime = n.whole();
-  m.session = n.whole();
-  m.request_id = n.whole();
+  auto m = with_head<link_reply_t>(n);
   m.reply_status = link_reply_t::OK;
   m.refusal = std::string(seed % 3u, 'r');
   m.num_answers = size_of_arrays(seed);
@@ -363,10 +373,8 @@ link_reply_t valid_message(unsigned seed) {
 template <>
 ray_query_t valid_message(unsigned seed) {
   Numbers n(seed);
-  ray_query_t m;
-  m.utime = n.whole();
+  auto m = with_head<ray_query_t>(n);
   m.client_name = "client_2";
-  m.request_id = n.whole();
   m.expected_terrain = std::string(seed % 4u, 't');
   m.query_mode = ray_query_t::DEPTH;
   m.sample_spacing_m = n.real();
@@ -381,10 +389,7 @@ ray_query_t valid_message(unsigned seed) {
 template <>
 ray_reply_t valid_message(unsigned seed) {
   Numbers n(seed);
-  ray_reply_t m;
-  m.utime = n.whole();
-  m.session = n.whole();
-  m.request_id = n.whole();
+  auto m = with_head<ray_reply_t>(n);
   m.terrain_version = "etopo5-1234";
   m.reply_status = ray_reply_t::OK;
   m.refusal = std::string(seed % 3u, 'r');
@@ -401,8 +406,7 @@ ray_reply_t valid_message(unsigned seed) {
 template <>
 node_status_t valid_message(unsigned seed) {
   Numbers n(seed);
-  node_status_t m;
-  fill_head(m, n);
+  auto m = with_head<node_status_t>(n);
   m.node_name = "node-a";
   m.node_version = std::string(seed % 6u, '1');
   m.messages_received = n.whole();

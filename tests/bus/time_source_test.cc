@@ -143,7 +143,7 @@ TEST(MessageTime, IsTheGreatestUtimeHeard) {
 TEST(MessageTime, HearsStatesAndSends) {
   lcm::LCM lcm("memq://");
   MessageTime time(lcm, "node");
-  modem_send_t send;
+  modem_send_t send{};
   send.utime = 3'000'000;
   send.session = send.packet_sequence = 1;
   send.source_id = 1;

@@ -37,12 +37,21 @@ PacketEnd some_end() {
   PacketEnd end;
   SendRequest request = testing::request_of(3, 10, 44, 5);
   request.destination_id = 4;
-  end.packet = std::make_shared<const Packet>(Packet{request, for_s(0.05), odd_modem().modem, {1, 2, 3}});
+  request.stamped = true;
+  end.packet = std::make_shared<const Packet>(
+      Packet{request, at_s(10.5), {for_s(0.05), for_s(0.01), 40}, odd_modem().modem, {1, 2, 3}, {}, {}});
   end.receiver_id = 4;
   end.receiver = "v4";
   end.travel_time_s = 1.25;
   end.cutoff = {70};
   end.budget = acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5});
+  end.propagation = PropagationUsed::kRays;
+  end.path_count = 4;
+  end.delay_spread_s = 0.375;
+  end.doppler_factor = 1.0625;
+  end.arrival_azimuth_rad = -3;
+  end.arrival_elevation_rad = 0.125;
+  end.judgement = {{81}, {12.5}, 0.75, 0.5, 0.625, 0.25, {{9, 77, PacketKind::kPing, 2, at_s(3), 1234}}};
   return end;
 }
 
@@ -112,6 +121,7 @@ TEST(ChannelServerMessages, ASendKeepsWhatNamesThePacket) {
   message.packet_sequence = 6;
   message.source_id = 1;
   message.destination_id = 2;
+  message.packet_kind = modem_send_t::PING;
   message.payload = {9, 8, 7};
   const SendRequest request = to_request("auv1", message);
   EXPECT_EQ(request.vehicle, "auv1");
@@ -120,6 +130,8 @@ TEST(ChannelServerMessages, ASendKeepsWhatNamesThePacket) {
   EXPECT_EQ(request.source_id, 1);
   EXPECT_EQ(request.destination_id, 2);
   EXPECT_EQ(request.start, at_s(2));
+  EXPECT_EQ(request.kind, PacketKind::kPing);
+  EXPECT_FALSE(request.stamped);
   EXPECT_EQ(request.payload, message.payload);
 }
 
@@ -134,6 +146,25 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(PacketFate::kReceived), packet_outcome_t::RECEIVED);
   EXPECT_EQ(static_cast<int>(PacketFate::kBelowCutoff), packet_outcome_t::BELOW_CUTOFF);
   EXPECT_EQ(static_cast<int>(PacketFate::kReceiverGone), packet_outcome_t::RECEIVER_GONE);
+  EXPECT_EQ(static_cast<int>(PacketFate::kShadow), packet_outcome_t::SHADOW);
+  EXPECT_EQ(static_cast<int>(PacketFate::kBlocked), packet_outcome_t::BLOCKED);
+  EXPECT_EQ(static_cast<int>(PacketFate::kOutOfBand), packet_outcome_t::OUT_OF_BAND);
+  EXPECT_EQ(static_cast<int>(PacketFate::kCollided), packet_outcome_t::COLLIDED);
+  EXPECT_EQ(static_cast<int>(PacketFate::kHalfDuplex), packet_outcome_t::HALF_DUPLEX);
+  EXPECT_EQ(static_cast<int>(PacketFate::kDoppler), packet_outcome_t::DOPPLER);
+  EXPECT_EQ(static_cast<int>(PacketFate::kBitErrors), packet_outcome_t::BIT_ERRORS);
+  EXPECT_EQ(static_cast<int>(PacketFate::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
+  EXPECT_EQ(static_cast<int>(PropagationUsed::kStraight), packet_outcome_t::STRAIGHT);
+  EXPECT_EQ(static_cast<int>(PropagationUsed::kRays), packet_outcome_t::RAYS);
+  EXPECT_EQ(static_cast<int>(PropagationUsed::kStraightWithoutBottom),
+            packet_outcome_t::STRAIGHT_WITHOUT_BOTTOM);
+  EXPECT_EQ(static_cast<int>(SendResult::kQueued), modem_receipt_t::QUEUED);
+  EXPECT_EQ(static_cast<int>(SendResult::kQueueFull), modem_receipt_t::REFUSED_QUEUE_FULL);
+  EXPECT_EQ(static_cast<int>(PacketKind::kData), modem_send_t::DATA);
+  EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_send_t::PING);
+  EXPECT_EQ(static_cast<int>(PacketKind::kData), modem_receive_t::DATA);
+  EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_receive_t::PING);
+  EXPECT_EQ(static_cast<int>(PacketKind::kPingReply), modem_receive_t::PING_REPLY);
   EXPECT_EQ(static_cast<int>(Multipath::kUnlikely), link_t::MULTIPATH_UNLIKELY);
   EXPECT_EQ(static_cast<int>(Multipath::kLikely), link_t::MULTIPATH_LIKELY);
   EXPECT_EQ(static_cast<int>(Multipath::kUnknown), link_t::MULTIPATH_UNKNOWN);
@@ -151,7 +182,7 @@ TEST(ChannelServerMessages, APacketsEndTellsWhatDecidedIt) {
   const packet_outcome_t outcome = to_outcome(some_end(), at_s(11.3));
   EXPECT_EQ(bus::problem_in(outcome), "");
   EXPECT_EQ(outcome.utime, 11'300'000);
-  EXPECT_EQ(outcome.departure_utime, 10'000'000);
+  EXPECT_EQ(outcome.departure_utime, 10'500'000);
   EXPECT_EQ(outcome.source_id, 3);
   EXPECT_EQ(outcome.receiver_id, 4);
   EXPECT_EQ(outcome.travel_time_s, 1.25);
@@ -159,6 +190,36 @@ TEST(ChannelServerMessages, APacketsEndTellsWhatDecidedIt) {
   EXPECT_EQ(outcome.range_m, 900);
   EXPECT_EQ(outcome.cutoff_level_db, 70);
   EXPECT_EQ(outcome.received_level_db, some_end().budget.received_level.value);
+  EXPECT_EQ(outcome.propagation_used, packet_outcome_t::RAYS);
+  EXPECT_EQ(outcome.num_paths, 4);
+  EXPECT_EQ(outcome.delay_spread_s, 0.375);
+  EXPECT_EQ(outcome.doppler_factor, 1.0625);
+  EXPECT_EQ(outcome.arrival_azimuth_rad, -3);
+  EXPECT_EQ(outcome.arrival_elevation_rad, 0.125);
+  EXPECT_EQ(outcome.interference_level_db, 81);
+  EXPECT_EQ(outcome.sinr_db, 12.5);
+  EXPECT_EQ(outcome.acquisition_probability, 0.75);
+  EXPECT_EQ(outcome.success_probability, 0.5);
+  EXPECT_EQ(outcome.acquisition_draw, 0.625);
+  EXPECT_EQ(outcome.success_draw, 0.25);
+  ASSERT_EQ(outcome.num_colliders, 1);
+  EXPECT_EQ(outcome.colliders[0].source_id, 9);
+  EXPECT_EQ(outcome.colliders[0].packet_sequence, 77);
+  EXPECT_EQ(outcome.colliders[0].packet_kind, modem_receive_t::PING);
+  EXPECT_EQ(outcome.colliders[0].send_session, 1234);
+}
+
+TEST(ChannelServerMessages, AReceiverCannotKnowWhenAPacketWithoutAStampLeft) {
+  PacketEnd end = some_end();
+  EXPECT_EQ(to_receive(end, at_s(11.3)).departure_utime, 10'500'000);
+  EXPECT_EQ(to_receive(end, at_s(11.3)).travel_time_s, 1.25);
+  Packet silent = *end.packet;
+  silent.request.stamped = false;
+  end.packet = std::make_shared<const Packet>(silent);
+  EXPECT_EQ(to_receive(end, at_s(11.3)).stamped, 0);
+  EXPECT_EQ(to_receive(end, at_s(11.3)).departure_utime, 0);
+  EXPECT_EQ(to_receive(end, at_s(11.3)).travel_time_s, 0);
+  EXPECT_EQ(to_outcome(end, at_s(11.3)).travel_time_s, 1.25);  // the ledger knows
 }
 
 TEST(ChannelServerMessages, AReceivedPacketCarriesItsPayload) {

@@ -124,6 +124,30 @@ TEST_F(ChannelServerNodeTest, APacketIsAnsweredDeliveredAndAccountedForAtItsExac
   EXPECT_EQ(bench.outcomes[0].send_session, 7);
 }
 
+TEST_F(ChannelServerNodeTest, APingIsHeardAndAnsweredWithTheTimeOutAndBack) {
+  NodeBench bench;
+  two_at_rest(bench);
+  modem_send_t ping{};
+  ping.utime = 10'000'000;
+  ping.session = 7;
+  ping.packet_sequence = 77;
+  ping.source_id = 1;
+  ping.destination_id = 2;
+  ping.packet_kind = modem_send_t::PING;
+  bench.bus().publish(testing::channels::kSend.of("v1"), ping);
+  bench.run_to(20);
+  ASSERT_EQ(bench.receives.size(), 2u);
+  EXPECT_EQ(bench.receives[0].channel, "RECEIVE.v2");
+  EXPECT_EQ(bench.receives[0].message.packet_kind, modem_receive_t::PING);
+  EXPECT_EQ(bench.receives[0].message.travel_time_s, 0);  // not stamped
+  EXPECT_EQ(bench.receives[1].channel, "RECEIVE.v1");
+  EXPECT_EQ(bench.receives[1].message.packet_kind, modem_receive_t::PING_REPLY);
+  EXPECT_EQ(bench.receives[1].message.packet_sequence, 77);
+  EXPECT_NEAR(bench.receives[1].message.two_way_travel_time_s, 4, tolerance(3e-9));
+  EXPECT_EQ(bench.receipts.size(), 1u);
+  EXPECT_EQ(bench.outcomes.size(), 2u);
+}
+
 TEST_F(ChannelServerNodeTest, APacketForAnotherIsAccountedForAndNotDelivered) {
   NodeBench bench;
   two_at_rest(bench);

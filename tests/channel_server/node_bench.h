@@ -106,6 +106,7 @@ class NodeBench {
     message.packet_sequence = sequence;
     message.source_id = source;
     message.destination_id = destination;
+    message.stamped = 1;
     message.payload_size = bytes;
     message.payload.assign(static_cast<std::size_t>(bytes), 0x42);
     bus_.publish(channels::kSend.of(name_of(source)), message);

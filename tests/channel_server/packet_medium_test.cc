@@ -121,7 +121,8 @@ TEST_F(PacketMediumTest, AReceiverThatCameCloserIsMetAtItsTrueInstant) {
   const auto end = ends_in(events).at(0);
   // Solved at the predicted first bit, 13 ms after the true one: then the true one counts.
   EXPECT_NEAR(end.travel_time_s, 3000 / (kSpeedMps + 10), tolerance(kNanosecondsS));
-  EXPECT_EQ(events.back().at, at_s(10 + end.travel_time_s + 0.05));
+  EXPECT_EQ(events.back().at, at_s(10 + end.travel_time_s) + for_s(0.05 / end.doppler_factor));
+  EXPECT_NEAR(end.doppler_factor, (kSpeedMps + 10) / kSpeedMps, tolerance(1e-12));
 }
 
 TEST_F(PacketMediumTest, EachOtherVehicleGetsExactlyOneEnd) {

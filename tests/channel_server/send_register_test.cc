@@ -34,6 +34,18 @@ TEST(SendRegister, ASenderWithASessionMayNotReuseANumber) {
   EXPECT_FALSE(sends.enter(request_of(1, 11, 0)));
 }
 
+TEST(SendRegister, AModemThatQueuesIsFreeWhenAllBeforeHaveEnded) {
+  SendRegister sends;
+  EXPECT_EQ(sends.free_from("v1", at_s(10)), at_s(10));
+  sends.occupy("v1", at_s(10), for_s(1));
+  sends.occupy("v1", at_s(11), for_s(2));
+  EXPECT_EQ(sends.free_from("v1", at_s(10.5)), at_s(13));
+  EXPECT_EQ(sends.free_from("v1", at_s(14)), at_s(14));
+  EXPECT_EQ(sends.free_from("v2", at_s(10.5)), at_s(10.5));
+  EXPECT_EQ(sends.waiting_at("v1", at_s(10.5)), 1u);
+  EXPECT_EQ(sends.waiting_at("v1", at_s(11)), 0u);
+}
+
 TEST(SendRegister, AReceiptIsKeptOnceDecided) {
   SendRegister sends;
   const SendRequest request = request_of(1, 10, 5);

@@ -29,6 +29,20 @@ TEST(Random, EveryPartOfTheAddressChangesTheDraw) {
   EXPECT_EQ(bits_at(base), bits_at(base));
 }
 
+TEST(Random, AnIdentityDependsOnEveryPartAndTheirOrder) {
+  std::set<std::uint64_t> identities;
+  for (const auto& parts : {std::initializer_list<std::uint64_t>{1, 2, 3},
+                            {1, 2, 4},
+                            {1, 3, 2},
+                            {2, 2, 3},
+                            {1, 2},
+                            {1, 2, 3, 0},
+                            {0, 1, 2, 3}}) {
+    EXPECT_TRUE(identities.insert(identity_of(parts)).second);
+  }
+  EXPECT_EQ(identity_of({1, 2, 3}), identity_of({1, 2, 3}));
+}
+
 TEST(Random, UniformHasTheMomentsOfItsDistribution) {
   constexpr int kDraws = 200'000;
   double sum = 0, sum_of_squares = 0;

@@ -51,7 +51,7 @@ TEST_F(EmbeddedFiguresTest, Figure4DelaysAreThoseOfTheReference) {
 
 // The numbers of model.md section 8, printed to six digits.
 TEST_F(EmbeddedFiguresTest, Figure4PacketsTravelAsLongAsThePaperSays) {
-  const ScenarioConfig config = load("figure4", {"scenario.duration_s=5"});
+  const ScenarioConfig config = load("figure4", {});
   std::map<std::string, double> travel;
   for (const auto& [channel, packet] : messages_in<modem_receive_t>(run(config, "figure4"))) {
     travel[channel] = packet.travel_time_s;

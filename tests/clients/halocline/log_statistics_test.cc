@@ -24,6 +24,7 @@ modem_receive_t packet(double travel_time_s) {
   modem_receive_t message{};
   message.source_id = 2;
   message.receiver_id = 1;
+  message.stamped = 1;
   message.travel_time_s = travel_time_s;
   return message;
 }

@@ -52,6 +52,7 @@ TEST(MessageFields, AreThoseOfTheTypes) {
   expect_same<modem_receive_t>("modem_receive_t");
   expect_same<modem_send_t>("modem_send_t");
   expect_same<node_status_t>("node_status_t");
+  expect_same<packet_name_t>("packet_name_t");
   expect_same<packet_outcome_t>("packet_outcome_t");
   expect_same<ray_query_t>("ray_query_t");
   expect_same<ray_reply_t>("ray_reply_t");

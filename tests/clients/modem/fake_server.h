@@ -51,6 +51,20 @@ class FakeServer {
     bus_.publish(bus::channels::kReceive.of(vehicle_), packet);
   }
 
+  // The answer of `replier` to the ping of that name.
+  void reply_to_ping(const modem_send_t& ping, std::int32_t replier, double two_way_s) {
+    modem_receive_t packet{};
+    packet.session = 99;
+    packet.sequence = sequence_++;
+    packet.send_session = ping.session;
+    packet.packet_sequence = ping.packet_sequence;
+    packet.source_id = replier;
+    packet.destination_id = packet.receiver_id = ping.source_id;
+    packet.packet_kind = modem_receive_t::PING_REPLY;
+    packet.two_way_travel_time_s = two_way_s;
+    bus_.publish(bus::channels::kReceive.of(vehicle_), packet);
+  }
+
   bool answers = false;  // whether each SEND is accepted as it is heard
   std::vector<modem_send_t> sends;
 

@@ -51,6 +51,42 @@ TEST_F(ModemClientTest, SendCarriesWhatWasAskedFor) {
   EXPECT_THAT(heard.payload, ElementsAre(9, 8));
 }
 
+TEST_F(ModemClientTest, APacketCarriesItsDepartureUnlessToldNotTo) {
+  send(0);
+  modem_.send(at_ms(0), at_ms(0), 7, {}, {.stamped = false});
+  drain();
+  EXPECT_EQ(server_.sends.at(0).stamped, 1);
+  EXPECT_EQ(server_.sends.at(0).packet_kind, modem_send_t::DATA);
+  EXPECT_EQ(server_.sends.at(1).stamped, 0);
+}
+
+TEST_F(ModemClientTest, APingsAnswerTellsTheTimeOutAndBack) {
+  const std::int64_t ping = modem_.ping(at_ms(0), at_ms(0), 7);
+  drain();
+  EXPECT_EQ(server_.sends.at(0).packet_kind, modem_send_t::PING);
+  EXPECT_FALSE(modem_.take_ping_reply(ping));
+  server_.deliver(1, 9, 0);
+  server_.reply_to_ping(server_.sends.at(0), 7, 1.5);
+  drain();
+  EXPECT_FALSE(modem_.take_ping_reply(ping + 1));
+  EXPECT_EQ(modem_.take_ping_reply(ping), 1.5);
+  EXPECT_FALSE(modem_.take_ping_reply(ping));
+  EXPECT_TRUE(modem_.take_received());  // the other packet still waits
+}
+
+TEST_F(ModemClientTest, APingToAllIsRefused) {
+  EXPECT_THROW(modem_.ping(at_ms(0), at_ms(0), kBroadcastId), InvalidArgument);
+}
+
+TEST_F(ModemClientTest, AQueuedPacketIsAccepted) {
+  send(0);
+  drain();
+  server_.answer(server_.sends.at(0), modem_receipt_t::QUEUED);
+  drain();
+  EXPECT_EQ(modem_.counters().accepted, 1);
+  EXPECT_EQ(modem_.counters().refused, 0);
+}
+
 TEST_F(ModemClientTest, PacketsAreNumberedInTurn) {
   EXPECT_EQ(send(0), 0);
   EXPECT_EQ(send(0), 1);

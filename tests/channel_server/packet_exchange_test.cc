@@ -1,0 +1,215 @@
+// Modems that queue, and modems that answer pings.
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "tests/channel_server/scripted_water.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using halocline::testing::tolerance;
+using testing::at_s;
+using testing::even_water;
+using testing::for_s;
+using testing::kSpeedMps;
+using testing::path;
+using testing::quick_modem;
+using testing::receipts_in;
+using testing::request_of;
+
+class QueueTest : public testing::ScriptedWater {
+ protected:
+  QueueTest() {
+    VehicleModem patient = big_modem();
+    patient.when_busy = WhenBusy::kQueue;
+    fleet.hear_modem("v1", at_s(0), patient);
+    water.set(1, 2, {path(1, 120)});
+  }
+  Receipt receipt_of(std::int64_t sequence) {
+    for (const Receipt& receipt : receipts_in(events)) {
+      if (receipt.packet_sequence == sequence) return receipt;
+    }
+    throw std::runtime_error("no receipt of packet " + std::to_string(sequence));
+  }
+};
+
+TEST_F(QueueTest, ABusyModemSendsOneAfterTheOther) {
+  send(1, 10, 0, 100);   // until 11
+  send(1, 10.5, 1, 50);  // from 11 to 11.5
+  send(1, 10.6, 2, 30);  // from 11.5 to 11.8
+  run();
+  EXPECT_EQ(receipt_of(0).result, SendResult::kAccepted);
+  EXPECT_EQ(receipt_of(1).result, SendResult::kQueued);
+  EXPECT_EQ(receipt_of(1).start, at_s(11));
+  EXPECT_EQ(receipt_of(1).duration, for_s(0.5));
+  EXPECT_EQ(receipt_of(2).start, at_s(11.5));
+  for (int sequence = 0; sequence < 3; ++sequence) {
+    EXPECT_EQ(end_of(1, sequence, 2).fate, PacketFate::kReceived);
+  }
+  EXPECT_EQ(end_of(1, 2, 2).packet->departure, at_s(11.5));
+}
+
+TEST_F(QueueTest, TheReceiptComesAtOnceAndStaysTheSame) {
+  send(1, 10, 0, 100);
+  send(1, 10.5, 1, 50);
+  run(10.5);
+  EXPECT_EQ(receipt_of(1).result, SendResult::kQueued);
+  const auto again = medium.transmit(request_of(1, 10.5, 1, 50), at_s(10.6));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->result, SendResult::kQueued);
+  EXPECT_EQ(again->start, at_s(11));
+  run();
+  EXPECT_EQ(testing::ends_in(events).size(), 2u * 3);
+}
+
+TEST_F(QueueTest, AFreeModemSendsAtTheStartAskedFor) {
+  send(1, 10, 0, 100);
+  send(1, 11.2, 1, 50);
+  run();
+  EXPECT_EQ(receipt_of(1).result, SendResult::kAccepted);
+  EXPECT_EQ(receipt_of(1).start, at_s(11.2));
+}
+
+TEST_F(QueueTest, SixteenWaitAndTheNextIsRefused) {
+  for (int sequence = 0; sequence < 20; ++sequence) send(1, 10 + 0.01 * sequence, sequence, 100);
+  run(10.5);
+  std::map<SendResult, int> results;
+  for (const Receipt& receipt : receipts_in(events)) ++results[receipt.result];
+  EXPECT_EQ(results[SendResult::kAccepted], 1);
+  EXPECT_EQ(results[SendResult::kQueued], 16);
+  EXPECT_EQ(results[SendResult::kQueueFull], 3);
+  send(1, 11.5, 30, 100);  // the second is on the air: there is room again
+  run();
+  EXPECT_EQ(receipt_of(30).result, SendResult::kQueued);
+  EXPECT_EQ(receipt_of(30).start, at_s(27));
+}
+
+TEST_F(QueueTest, AQueuedPacketLeavesFromWhereTheVehicleIsByThen) {
+  testing::move_steadily(fleet, 7, {0, 0, 50}, {10, 0, 0}, 0, 60);
+  VehicleModem patient = big_modem();
+  patient.when_busy = WhenBusy::kQueue;
+  fleet.hear_modem("v7", at_s(0), patient);
+  send(7, 10, 0, 500);
+  send(7, 11, 1, 100);  // from 15 on
+  run();
+  EXPECT_NEAR(end_of(7, 1, 2).packet->departure_ned_m.x(), 150, tolerance(1e-9));
+}
+
+class PingTest : public ::testing::Test {
+ protected:
+  PingTest() {
+    for (VehicleId id = 1; id <= 3; ++id) {
+      testing::move_steadily(fleet_, id, place_of(id), Vec3::Zero(), 0, 60);
+    }
+  }
+  static Vec3 place_of(VehicleId id) { return {800.0 * id, 300.0 * id * id, 40.0 * id}; }
+  void ping(VehicleId from, VehicleId to, double start_s, std::int64_t sequence) {
+    SendRequest request = request_of(from, start_s, sequence, 0);
+    request.kind = PacketKind::kPing;
+    request.destination_id = to;
+    medium_.transmit(request, SimTime());
+  }
+  void send(VehicleId from, double start_s, std::int64_t sequence, std::size_t bytes) {
+    medium_.transmit(request_of(from, start_s, sequence, bytes), SimTime());
+  }
+  std::vector<PacketEnd> run() {
+    events_ = medium_.advance_to(at_s(40));
+    return testing::ends_in(events_);
+  }
+  static VehicleModem modem() {
+    VehicleModem modem = quick_modem();
+    modem.modem.packet_overhead = for_s(0.2);
+    return modem;
+  }
+
+  Fleet fleet_{{for_s(0.05), for_s(5)}, {modem(), {}}};
+  StraightPropagation propagation_{even_water()};
+  PacketMedium medium_{fleet_, propagation_, {for_s(10), for_s(60)}};
+  std::vector<MediumEvent> events_;
+};
+
+std::vector<PacketEnd> replies_in(const std::vector<PacketEnd>& ends) {
+  std::vector<PacketEnd> replies;
+  for (const PacketEnd& end : ends) {
+    if (end.packet->request.kind == PacketKind::kPingReply) replies.push_back(end);
+  }
+  return replies;
+}
+
+TEST_F(PingTest, BetweenStillVehiclesTheTwoWayTimeIsTwiceTheRangeOverTheSpeed) {
+  ping(1, 2, 10, 5);
+  const auto replies = replies_in(run());
+  ASSERT_EQ(replies.size(), 2u);  // at 1, and overheard at 3
+  const double range_m = (place_of(2) - place_of(1)).norm();
+  for (const PacketEnd& reply : replies) {
+    EXPECT_EQ(reply.deliver, reply.receiver_id == 1);
+    EXPECT_EQ(reply.packet->request.source_id, 2);
+    EXPECT_EQ(reply.packet->request.packet_sequence, 5);
+    EXPECT_EQ(reply.packet->request.session, 7);
+    if (!reply.deliver) continue;
+    // Three roundings to a nanosecond.
+    EXPECT_NEAR(reply.two_way_travel_time_s, 2 * range_m / kSpeedMps, tolerance(3e-9));
+  }
+}
+
+TEST_F(PingTest, TheAnswerLeavesATurnaroundAfterThePing) {
+  ping(1, 2, 10, 5);
+  const auto replies = replies_in(run());
+  ASSERT_FALSE(replies.empty());
+  const double one_way_s = (place_of(2) - place_of(1)).norm() / kSpeedMps;
+  EXPECT_NEAR(replies[0].packet->departure.seconds(), 10 + one_way_s + 0.2 + kPingTurnaround.seconds(),
+              tolerance(2e-9));
+}
+
+TEST_F(PingTest, ABusyModemDoesNotAnswer) {
+  const double received_s = 10 + (place_of(2) - place_of(1)).norm() / kSpeedMps + 0.2;
+  ping(1, 2, 10, 5);
+  send(2, received_s + 0.01, 0, 30);  // 0.5 s: on the air when the answer is due
+  const auto ends = run();
+  EXPECT_TRUE(replies_in(ends).empty());
+  EXPECT_EQ(receipts_in(events_).size(), 2u);
+}
+
+TEST_F(PingTest, AnAnswerKeepsItsModemBusyAndGivesNoReceipt) {
+  const double answers_s = 10 + (place_of(2) - place_of(1)).norm() / kSpeedMps + 0.2 + 0.1;
+  ping(1, 2, 10, 5);
+  send(2, answers_s + 0.05, 0, 1);
+  EXPECT_EQ(replies_in(run()).size(), 2u);
+  ASSERT_EQ(receipts_in(events_).size(), 2u);
+  EXPECT_EQ(receipts_in(events_)[1].result, SendResult::kBusy);
+}
+
+TEST_F(PingTest, OnlyTheOneAskedAnswersAndOnlyAPing) {
+  ping(1, 3, 10, 5);
+  send(1, 20, 6, 5);
+  for (const PacketEnd& reply : replies_in(run())) EXPECT_EQ(reply.packet->request.source_id, 3);
+}
+
+TEST_F(PingTest, APingThatWasLostIsNotAnswered) {
+  VehicleModem deaf = modem();
+  deaf.modem.least_receivable_level = {200};
+  fleet_.hear_modem("v2", at_s(0), deaf);
+  ping(1, 2, 10, 5);
+  EXPECT_TRUE(replies_in(run()).empty());
+}
+
+// Both keep no session and count alike; the answers are two packets all the same.
+TEST_F(PingTest, AnswersToTwoSendersWithoutSessionsAreToldApart) {
+  for (const VehicleId from : {1, 3}) {
+    SendRequest request = request_of(from, from == 1 ? 10 : 20, 5, 0);
+    request.session = 0;
+    request.kind = PacketKind::kPing;
+    request.destination_id = 2;
+    medium_.transmit(request, SimTime());
+  }
+  std::set<PacketName> names;
+  for (const PacketEnd& reply : replies_in(run())) names.insert(reply.packet->name());
+  EXPECT_EQ(names.size(), 2u);
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

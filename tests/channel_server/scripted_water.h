@@ -1,0 +1,117 @@
+// A propagation whose paths are written down link by link, and a bench of still vehicles around a medium: what
+// decides a packet's fate can then be set one by one.
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "channel_server/packet_medium.h"
+#include "tests/channel_server/channel_fixtures.h"
+
+namespace halocline::channel_server::testing {
+
+inline SoundPath path(double delay_s, double level_db, double doppler_factor = 1) {
+  SoundPath sound;
+  sound.delay_s = delay_s;
+  sound.level = {level_db};
+  sound.doppler_factor = doppler_factor;
+  return sound;
+}
+
+class ScriptedPropagation : public Propagation {
+ public:
+  // Paths by delay; without any, silence for the reason given.
+  void set(VehicleId from, VehicleId to, std::vector<SoundPath> paths, PathState state = PathState::kOpen) {
+    links_[{from, to}] = {std::move(paths), state};
+  }
+  double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return reception(at, from, to).budget.delay_s;
+  }
+  // A link that is not written down is in a shadow, one second away.
+  Reception reception(SimTime, const LinkEnd& from, const LinkEnd& to) override {
+    ++questions;
+    Reception reception;
+    reception.state = PathState::kShadow;
+    reception.used = PropagationUsed::kRays;
+    if (const auto link = links_.find({from.id, to.id}); link != links_.end()) {
+      std::tie(reception.paths, reception.state) = link->second;
+    }
+    auto& budget = reception.budget;
+    budget.delay_s =
+        reception.paths.empty() ? 1 : reception.paths[first_significant(reception.paths)].delay_s;
+    budget.received_level = total_level(reception.paths);
+    budget.range_m = (to.position_ned_m - from.position_ned_m).norm();
+    reception.delay_spread_s = channel_server::delay_spread_s(reception.paths);
+    return reception;
+  }
+  bool echo_is_receivable(SimTime, const acoustics::Modem&, const acoustics::Modem&, const Vec3&, const Vec3&,
+                          const std::vector<acoustics::BottomPoint>&) override {
+    return false;
+  }
+  const acoustics::Environment& environment(SimTime) const override { return water_; }
+
+  int questions = 0;
+
+ private:
+  acoustics::Environment water_ = even_water();
+  std::map<std::pair<VehicleId, VehicleId>, std::pair<std::vector<SoundPath>, PathState>> links_;
+};
+
+// Four still vehicles, 1 to 4, present for two minutes from second 0 on.
+class ScriptedWater : public ::testing::Test {
+ protected:
+  ScriptedWater() {
+    for (VehicleId id = 1; id <= 4; ++id)
+      move_steadily(fleet, id, {1000.0 * id, 0, 50}, Vec3::Zero(), 0, 120);
+  }
+  void send(const SendRequest& request) { medium.transmit(request, SimTime()); }
+  // `bytes` take 10 ms each with the quick modem.
+  void send(VehicleId source, double start_s, std::int64_t sequence, std::size_t bytes) {
+    send(request_of(source, start_s, sequence, bytes));
+  }
+  void run(double until_s = 110) {
+    for (MediumEvent& event : medium.advance_to(at_s(until_s))) events.push_back(std::move(event));
+  }
+  // Of the packet that `source` called `sequence`, at `receiver`.
+  const PacketEnd& end_of(VehicleId source, std::int64_t sequence, VehicleId receiver,
+                          PacketKind kind = PacketKind::kData) {
+    for (const MediumEvent& event : events) {
+      const auto* end = std::get_if<PacketEnd>(&event.what);
+      if (end && end->packet->request.source_id == source && end->receiver_id == receiver &&
+          end->packet->request.packet_sequence == sequence && end->packet->request.kind == kind) {
+        return *end;
+      }
+    }
+    throw std::runtime_error("no end of packet " + std::to_string(sequence));
+  }
+  SendResult result_of(std::int64_t sequence) {
+    for (const Receipt& receipt : receipts_in(events)) {
+      if (receipt.packet_sequence == sequence) return receipt.result;
+    }
+    throw std::runtime_error("no receipt of packet " + std::to_string(sequence));
+  }
+  static VehicleModem big_modem() {
+    VehicleModem modem = quick_modem();
+    modem.max_payload_bytes = 32'768;
+    return modem;
+  }
+  // uPa^2 over the band of the quick modem.
+  static double noise_power() {
+    const auto band = acoustics::Modem{}.band();
+    return acoustics::noise_power_over_band(band.low_hz, band.high_hz, even_water().noise).value;
+  }
+  static double power_of(double level_db) { return to_power_ratio(Decibels{level_db}).value; }
+
+  Fleet fleet{{for_s(0.05), for_s(5)}, {big_modem(), {}}};
+  ScriptedPropagation water;
+  PacketMedium medium{fleet, water, {for_s(10), for_s(200)}};
+  std::vector<MediumEvent> events;
+};
+
+}  // namespace halocline::channel_server::testing
