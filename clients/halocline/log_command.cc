@@ -13,14 +13,6 @@ struct LogArguments {
   bool json = false;
 };
 
-void tell_damage(const LogReader& log) {
-  if (log.truncated()) std::cerr << "halocline: the log ends within an event; all before it was read\n";
-  if (log.bytes_skipped() > 0) {
-    std::cerr << "halocline: " << log.bytes_skipped()
-              << " bytes of the log are no sound event and were skipped\n";
-  }
-}
-
 int info(const LogArguments& arguments) {
   LogReader log(arguments.log);
   const LogStatistics statistics = statistics_of(log);
@@ -29,7 +21,7 @@ int info(const LogArguments& arguments) {
   } else {
     print(std::cout, statistics);
   }
-  tell_damage(log);
+  tell_damage(std::cerr, log);
   return kDone;
 }
 
@@ -41,7 +33,7 @@ int export_all(const LogArguments& arguments) {
     std::cout << "left out: " << result.foreign << " events on channels that are none of ours\n";
   if (result.undecodable > 0)
     std::cout << "left out: " << result.undecodable << " events that do not decode\n";
-  tell_damage(log);
+  tell_damage(std::cerr, log);
   return kDone;
 }
 

@@ -1,6 +1,7 @@
 #include "clients/halocline/log_reader.h"
 
 #include <filesystem>
+#include <ostream>
 
 #include "core/check.h"
 
@@ -76,6 +77,13 @@ void LogReader::resume_after(long place) {
   bytes_skipped_ += static_cast<std::int64_t>(kSyncBytes);
   std::clearerr(file_.get());
   std::fseek(file_.get(), place, SEEK_SET);
+}
+
+void tell_damage(std::ostream& out, const LogReader& log) {
+  if (log.truncated()) out << "halocline: the log ends within an event; all before it was read\n";
+  if (log.bytes_skipped() > 0) {
+    out << "halocline: " << log.bytes_skipped() << " bytes of the log are no sound event and were skipped\n";
+  }
 }
 
 }  // namespace halocline::clients

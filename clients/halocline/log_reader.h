@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,5 +47,8 @@ class LogReader {
   std::int64_t bytes_skipped_ = 0;
   bool truncated_ = false;
 };
+
+// Writes a line about each kind of damage that was met so far; none when the log was sound.
+void tell_damage(std::ostream& out, const LogReader& log);
 
 }  // namespace halocline::clients

@@ -14,9 +14,10 @@ int main(int argc, char** argv) {
       hc::footer("  halocline run scenarios/seamount.toml\n  halocline link scenarios/seamount.toml --from "
                  "auv-1 --to auv-2\n  halocline SUBCOMMAND --help"));
   int exit_code = hc::kDone;
-  for (const auto add : {hc::add_run_command, hc::add_link_command, hc::add_arrivals_command,
-                         hc::add_calc_command, hc::add_log_command, hc::add_replay_command,
-                         hc::add_vehicle_command, hc::add_config_command, hc::add_completion_command}) {
+  for (const auto add :
+       {hc::add_run_command, hc::add_link_command, hc::add_arrivals_command, hc::add_calc_command,
+        hc::add_ledger_command, hc::add_log_command, hc::add_replay_command, hc::add_vehicle_command,
+        hc::add_config_command, hc::add_completion_command}) {
     add(app, exit_code);
   }
   try {

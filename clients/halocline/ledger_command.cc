@@ -1,0 +1,52 @@
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "clients/halocline/commands.h"
+#include "clients/halocline/ledger.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+struct LedgerArguments {
+  std::string log, format = "table";
+  double window_s = 60;
+};
+
+int sum_up(const LedgerArguments& arguments) {
+  LogReader log(arguments.log);
+  const Ledger ledger = ledger_of(log, std::llround(arguments.window_s * 1e6));
+  if (arguments.format == "json")
+    std::cout << to_json(ledger) << "\n";
+  else if (arguments.format == "csv")
+    print_csv(std::cout, ledger);
+  else if (arguments.format == "outcomes")
+    print_outcomes_csv(std::cout, ledger);
+  else
+    print(std::cout, ledger);
+  tell_damage(std::cerr, log);
+  return kDone;
+}
+
+}  // namespace
+
+void add_ledger_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<LedgerArguments>();
+  CLI::App* command =
+      app.add_subcommand("ledger", "Sum up what became of the packets of a log, by cause, pair and time");
+  command->add_option("log", arguments->log, "LCM log")->required();
+  command
+      ->add_option(
+          "--format", arguments->format,
+          "table; json; csv: a row a pair and cause; outcomes: CSV, a row an outcome with its numbers")
+      ->check(CLI::IsMember({"table", "json", "csv", "outcomes"}));
+  command->add_option("--window-s", arguments->window_s, "length of the windows of time, seconds")
+      ->check(CLI::Range(1e-3, 1e9));
+  command->footer(
+      footer("  halocline ledger runs/harbour/harbour.lcm\n"
+             "  halocline ledger runs/harbour/harbour.lcm --format outcomes > outcomes.csv"));
+  command->callback([arguments, &exit_code] { exit_code = sum_up(*arguments); });
+}
+
+}  // namespace halocline::clients
