@@ -1,0 +1,48 @@
+// Series of numbers drawn into a PNG or SVG file, by gnuplot.
+//
+//   Plot plot{.title = "Arrivals", .charts = {{.x = "delay, s", .y = "level, dB"}}};
+//   plot.charts[0].series.push_back({.title = "paths", .style = Series::kStems, .x = delays, .y = levels});
+//   write_plot(plot, "arrivals.svg");
+//
+// Charts stand one below the other. Stems rise from the chart's lower edge (levels in dB have no zero to rise from),
+// bars from 0; bars of several series stand side by side. Texts are taken as they are: no markup. gnuplot is
+// started without a shell and reads its commands from a file of ours without a name; texts enter them as
+// single-quoted strings, in which gnuplot expands nothing.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace halocline::clients {
+
+struct Series {
+  enum Style { kStems, kBars, kLines, kPoints };
+  std::string title;  // empty: none in the key
+  Style style = kLines;
+  std::vector<double> x = {}, y = {};  // as many of each, finite
+};
+
+struct Chart {
+  std::string x, y;  // titles of the axes
+  std::vector<Series> series = {};
+  std::vector<std::string> categories = {};  // names at x = 0, 1, 2, ...; empty: numbers
+  std::string when_empty = "no data";        // said where no series has a point
+};
+
+struct Plot {
+  std::string title;
+  std::vector<Chart> charts;  // at least one
+  int width_px = 900, chart_height_px = 400;
+};
+
+// Throws InvalidArgument unless the name ends in .png or .svg and is printable.
+void require_plot_file(const std::string& file);
+
+// What gnuplot is told. Throws InvalidArgument when a series has more of one coordinate than of the other or a
+// number that is not finite, when there is no chart, or for a file as above.
+std::string gnuplot_script(const Plot& plot, const std::string& file);
+
+// Throws InvalidArgument as above; std::runtime_error when gnuplot is not installed or fails, with what it said.
+void write_plot(const Plot& plot, const std::string& file);
+
+}  // namespace halocline::clients
