@@ -65,6 +65,13 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
   return answer(task, *found(task));
 }
 
+acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                                  const std::shared_ptr<const SeabedProfile>& seabed) {
+  acoustics::Arrivals all = found(task_of(at, from, to, seabed, /*reversed=*/false))->arrivals;
+  std::erase_if(all.paths, [](const acoustics::Arrival& path) { return !(weighted_pressure(path, {}) > 0); });
+  return all;
+}
+
 // What is kept is looked at and added to in turn; searches and answers are shared out.
 std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                   const ForEach& for_each) {

@@ -5,6 +5,7 @@
 
 #include "clients/halocline/commands.h"
 #include "clients/rays/arrival_output.h"
+#include "clients/rays/arrival_plot.h"
 #include "clients/rays/sea_files.h"
 #include "core/check.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 struct ArrivalsArguments {
   SeaDescription sea;
-  std::string links, solver, format = "table", output;
+  std::string links, solver, format = "table", output, plot;
   double source_depth_m = 0, receiver_depth_m = 0, range_m = -1;
 };
 
@@ -40,11 +41,13 @@ OutputFormat format_of(const std::string& name) {
 }
 
 int find_arrivals(const ArrivalsArguments& arguments) {
+  if (!arguments.plot.empty()) require_plot_file(arguments.plot);
   const acoustics::RaySea sea = make_sea(arguments.sea);
   const auto solver = solver_of(arguments.solver);
   std::vector<LinkArrivals> found;
   for (const acoustics::RayLink& link : links_of(arguments))
     found.push_back({link, arrivals(sea, link, solver)});
+  if (!arguments.plot.empty()) write_plot(arrival_plot(found, "Arrivals"), arguments.plot);
   std::ostringstream text;  // so that nothing is written unless all went well
   print_arrivals(text, found, format_of(arguments.format));
   if (arguments.output.empty()) return std::cout << text.str() << std::flush, kDone;
@@ -106,6 +109,8 @@ void add_arrivals_command(CLI::App& app, int& exit_code) {
   command->add_option("--format", arguments->format, "table, csv or json")
       ->check(CLI::IsMember({"table", "csv", "json"}));
   command->add_option("--out", arguments->output, "file; default: stdout");
+  command->add_option("--plot", arguments->plot,
+                      "also draw level and angle against delay: FILE.png or FILE.svg");
   command->footer(
       footer("  halocline arrivals --sound-speed-mps 1500 --bottom-depth-m 100 --source-depth-m 30 "
              "--receiver-depth-m 50 --range-m 2000\n"

@@ -33,21 +33,32 @@ void append_cases(const CLI::App& command, const std::string& path, std::string&
   }
 }
 
+// Every command with its own commands, as bash patterns.
+void append_paths(const CLI::App& command, const std::string& path, std::string& patterns) {
+  for (const CLI::App* sub : command.get_subcommands(nullptr)) {
+    const std::string name = path.empty() ? sub->get_name() : path + " " + sub->get_name();
+    patterns += (patterns.empty() ? "'" : "|'") + name + "'";
+    append_paths(*sub, name, patterns);
+  }
+}
+
 }  // namespace
 
 std::string footer(const std::string& examples) { return "Example:\n" + examples + "\n\n" + kExitCodes; }
 
 std::string bash_completion(const CLI::App& app) {
-  std::string cases;
+  std::string cases, paths;
   append_cases(app, "", cases);
+  append_paths(app, "", paths);
   return "# bash completion of halocline: eval \"$(halocline completion bash)\"\n"
          "_halocline() {\n"
          "  local path='' words='' word i\n"
          "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
          "    word=${COMP_WORDS[i]}\n"
          "    case \"${path:+$path }$word\" in\n"
-         "      run|link|calc|log|replay|config|completion|'log info'|'log export') path=\"${path:+$path "
-         "}$word\" ;;\n"
+         "      " +
+         paths +
+         ") path=\"${path:+$path }$word\" ;;\n"
          "    esac\n"
          "  done\n"
          "  case \"$path\" in\n" +

@@ -3,11 +3,14 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "clients/halocline/commands.h"
 #include "clients/halocline/link_survey.h"
+#include "clients/rays/arrival_plot.h"
+#include "core/check.h"
 
 namespace halocline::clients {
 namespace {
@@ -16,7 +19,9 @@ struct LinkOptions {
   std::string scenario, from, to;
   std::vector<std::string> overrides;
   std::optional<double> source_level_db, cutoff_level_db, center_frequency_hz, bandwidth_hz;
-  bool json = false;
+  std::string from_velocity, to_velocity, format = "table", plot;
+  double impulse_rate_hz = 0;
+  bool json = false, arrivals = false;
 };
 
 const char* name_of(channel_server::Multipath multipath) {
@@ -108,13 +113,43 @@ void print_table(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answe
   line("delay spread", answer.reception.delay_spread_s, 6, "s");
 }
 
+void check(const LinkOptions& options) {
+  require(
+      options.arrivals || (options.plot.empty() && options.impulse_rate_hz == 0 && options.format != "csv"),
+      "--plot, --impulse-response-rate-hz and --format csv go with --arrivals");
+  require(options.impulse_rate_hz == 0 || (!options.json && options.format == "table"),
+          "--impulse-response-rate-hz writes CSV of its own: not with --json or --format");
+  if (!options.plot.empty()) require_plot_file(options.plot);
+}
+
+void print_paths(const LinkOptions& options, const LinkEnd& from, const LinkArrivals& found) {
+  if (!options.plot.empty())
+    write_plot(arrival_plot({found}, options.from + " to " + options.to), options.plot);
+  if (options.impulse_rate_hz > 0) {
+    print_impulse_response(std::cout, found.arrivals, from.modem.modem.centre_frequency_hz,
+                           options.impulse_rate_hz);
+    if (found.arrivals.shadow()) std::cerr << why_silent(found) << "\n";
+    return;
+  }
+  const bool json = options.json || options.format == "json";
+  print_arrivals(std::cout, {found},
+                 json                      ? OutputFormat::kJson
+                 : options.format == "csv" ? OutputFormat::kCsv
+                                           : OutputFormat::kTable);
+}
+
 int link(const LinkOptions& options) {
+  check(options);
   const ScenarioConfig config = load_scenario(options.scenario, options.overrides);
   LinkEnd from = link_end(config, options.from), to = link_end(config, options.to);
   apply(options, from.modem.modem);
   apply(options, to.modem.modem);
+  if (!options.from_velocity.empty())
+    from.velocity_ned_mps = parse_vector(options.from_velocity, "--from-velocity");
+  if (!options.to_velocity.empty()) to.velocity_ned_mps = parse_vector(options.to_velocity, "--to-velocity");
   const LinkAnswer answer = survey_link(config, from, to);
-  options.json ? print_json(from, to, answer) : print_table(from, to, answer);
+  if (options.arrivals) return print_paths(options, from, answer.arrivals), kDone;
+  options.json || options.format == "json" ? print_json(from, to, answer) : print_table(from, to, answer);
   return kDone;
 }
 
@@ -134,8 +169,21 @@ void add_link_command(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_flag("--json", options->json, "as JSON");
-  command->footer(footer("  halocline link scenarios/figure6.toml --from 0,0,100 --to 180,0,100 --json"));
+  command->add_flag("--json", options->json, "as JSON: short for --format json");
+  command->add_flag("--arrivals", options->arrivals, "every path of sound instead of the budget");
+  command->add_option("--format", options->format, "table, csv (with --arrivals) or json")
+      ->check(CLI::IsMember({"table", "csv", "json"}));
+  command->add_option("--from-velocity", options->from_velocity, "north,east,down in m/s, for Doppler");
+  command->add_option("--to-velocity", options->to_velocity, "likewise");
+  command
+      ->add_option("--impulse-response-rate-hz", options->impulse_rate_hz,
+                   "with --arrivals: CSV of the taps, sampled at this rate, instead")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--plot", options->plot,
+                      "with --arrivals: also draw level and angle against delay, FILE.png or FILE.svg");
+  command->footer(
+      footer("  halocline link scenarios/seamount.toml --from auv-1 --to auv-2 --arrivals --plot a.svg\n"
+             "  halocline link scenarios/figure6.toml --from 0,0,100 --to 180,0,100 --json"));
   command->callback([options, &exit_code] { exit_code = link(*options); });
 }
 

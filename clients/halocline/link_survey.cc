@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <sstream>
 
 #include "bathymetry/ray_service.h"
@@ -59,11 +60,47 @@ bool parse_position(const std::string& text, Vec3& position) {
   return count == 3;
 }
 
+// The one straight path as an arrival: what the transmission loss holds besides absorption is spreading.
+acoustics::Arrivals straight_arrival(const channel_server::Reception& reception) {
+  const acoustics::LinkBudget& budget = reception.budget;
+  acoustics::Arrival path;
+  path.delay_s = budget.delay_s;
+  path.path_length_m = budget.range_m;
+  path.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
+  path.amplitude = std::pow(10, (path.absorption_db - budget.transmission_loss.value) / 20);
+  path.launch_angle_rad = reception.paths.front().launch_angle_rad;
+  path.arrival_angle_rad = reception.paths.front().arrival_angle_rad;
+  return {.paths = {path}};
+}
+
+// What is told of the paths of an answer, whichever propagation found them.
+LinkArrivals told(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to,
+                  const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
+  const Vec3 way = to.position_ned_m - from.position_ned_m;
+  const double surface_z_m = config.scenario.sea_surface_z_m;
+  LinkArrivals all{
+      .link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
+               depth_below_surface_m(to.position_ned_m, surface_z_m), std::hypot(way.x(), way.y())},
+      .arrivals = std::move(arrivals)};
+  all.modems_known = true;
+  all.blocked = reception.state == channel_server::PathState::kBlocked;
+  if (reception.used != channel_server::PropagationUsed::kRays) all.found_by = "straight";
+  for (const channel_server::SoundPath& path : reception.paths)
+    all.received.push_back({path.level.value, path.doppler_factor});
+  return all;
+}
+
 }  // namespace
+
+Vec3 parse_vector(const std::string& text, const std::string& what) {
+  Vec3 vector;
+  require(parse_position(text, vector), what + " is '" + text + "'; allowed is north,east,down");
+  return vector;
+}
 
 LinkEnd link_end(const ScenarioConfig& config, const std::string& text) {
   const auto modems = make_modems(config.channel_server);
-  LinkEnd end{text, {}, modems.standard};
+  LinkEnd end{.name = text, .modem = modems.standard};
   if (const bus::VehicleEntry* vehicle = config.scenario.find(text)) {
     end.position_ned_m = vehicle->start_ned_m;
     end.modem = modems.of(text);
@@ -95,8 +132,8 @@ channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain,
 
 LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to) {
   const auto terrain = make_terrain(config).terrain;
-  const channel_server::LinkEnd here{0, from.position_ned_m, Vec3::Zero(), &from.modem.modem};
-  const channel_server::LinkEnd there{0, to.position_ned_m, Vec3::Zero(), &to.modem.modem};
+  const channel_server::LinkEnd here{0, from.position_ned_m, from.velocity_ned_mps, &from.modem.modem};
+  const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &to.modem.modem};
   const auto waters = std::make_shared<channel_server::EnvironmentTimeline>(
       make_environment(config.channel_server.environment, config.scenario, config.folder));
   const channel_server::ServerRules& rules = config.channel_server.rules;
@@ -105,14 +142,19 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
     channel_server::RayPropagation propagation(waters,
                                                std::make_shared<channel_server::ProfileBook>(rules.profile),
                                                make_rays(config.channel_server));
-    answer.reception = propagation.reception_over(
-        SimTime(), here, there,
-        survey_profile(*terrain, from.position_ned_m, to.position_ned_m, rules.profile).profile());
+    const auto seabed =
+        survey_profile(*terrain, from.position_ned_m, to.position_ned_m, rules.profile).profile();
+    answer.reception = propagation.reception_over(SimTime(), here, there, seabed);
+    const bool rays = answer.reception.used == channel_server::PropagationUsed::kRays;
+    answer.arrivals = told(config, from, to, answer.reception,
+                           rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
+                                : straight_arrival(answer.reception));
     answer.multipath = multipath_of(answer.reception, to.modem.modem.least_receivable_level);
     return answer;
   }
   channel_server::StraightPropagation propagation(waters);
   answer.reception = propagation.reception(SimTime(), here, there);
+  answer.arrivals = told(config, from, to, answer.reception, straight_arrival(answer.reception));
   const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
   answer.multipath =
       multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);

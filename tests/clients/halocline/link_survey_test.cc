@@ -1,5 +1,7 @@
 #include "clients/halocline/link_survey.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/check.h"
@@ -39,6 +41,50 @@ TEST(LinkSurvey, DelayOfTheStraightPathIsThatOfThePapersFigure4) {
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
   const LinkAnswer answer = survey_link(config, link_end(config, "auv-1"), link_end(config, "500,0,0"));
   EXPECT_NEAR(answer.reception.budget.delay_s, 0.660724, tolerance(1e-6));
+}
+
+// The paths are those that the budget sums up.
+TEST(LinkSurvey, PowersOfThePathsAddUpToTheReceivedLevel) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.model = model;
+    const LinkAnswer answer =
+        survey_link(config, link_end(config, "-500,0,40"), link_end(config, "500,0,60"));
+    ASSERT_EQ(answer.arrivals.received.size(), answer.arrivals.arrivals.paths.size());
+    EXPECT_EQ(answer.arrivals.received.size() > 1, model == channel_server::PropagationModel::kRays);
+    double power = 0;
+    for (const ReceivedPath& path : answer.arrivals.received) power += std::pow(10, path.level_db / 10);
+    EXPECT_NEAR(10 * std::log10(power), answer.reception.budget.received_level.value, 1e-9);
+  }
+}
+
+// Spreading, bounces and absorption of the arrival, from the modem's source level, are the level of its path.
+TEST(LinkSurvey, LevelOfAPathIsItsPressureAtTheSourceLevel) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.channel_server.propagation.model = model;
+    const LinkEnd from = link_end(config, "-500,0,40");
+    const LinkAnswer answer = survey_link(config, from, link_end(config, "500,0,60"));
+    for (std::size_t i = 0; i < answer.arrivals.received.size(); ++i) {
+      const double pressure = answer.arrivals.arrivals.paths[i].received_pressure();
+      EXPECT_NEAR(answer.arrivals.received[i].level_db,
+                  from.modem.modem.source_level.value + 20 * std::log10(pressure), 1e-9);
+    }
+  }
+}
+
+// A receiver that comes closer at 2 m/s along a straight horizontal way hears 1 + v / c.
+TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
+  ScenarioConfig config = two_vehicles();
+  config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
+  LinkEnd to = link_end(config, "500,0,50");
+  to.velocity_ned_mps = parse_vector("-2,0,0", "--to-velocity");
+  const LinkAnswer answer = survey_link(config, link_end(config, "-500,0,50"), to);
+  const double speed_mps = answer.reception.budget.mean_sound_speed_mps;
+  EXPECT_NEAR(answer.arrivals.received.at(0).doppler_factor, 1 + 2 / speed_mps, 1e-9);
 }
 
 TEST(LinkSurvey, EchoIsLikelyOverAShallowBottomAndUnknownBeyondTheTerrain) {
