@@ -26,6 +26,8 @@ inline constexpr Family kState{"STATE."};
 inline constexpr Family kSensors{"SENSORS."};
 // From a vehicle's pilot.
 inline constexpr Family kCommand{"COMMAND."};
+// From the localiser.
+inline constexpr Family kEstimate{"ESTIMATE."};
 // From a vehicle.
 inline constexpr Family kModem{"MODEM."};
 inline constexpr Family kSend{"SEND."};

@@ -315,6 +315,19 @@ std::string problem_in(const packet_outcome_t& m) {
   return checker.result();
 }
 
+std::string problem_in(const position_estimate_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .id("vehicle_id", m.vehicle_id)
+      .one_of("estimate_status", m.estimate_status, position_estimate_t::NONE, position_estimate_t::UNIQUE)
+      .all_within("position_ned_m", m.position_ned_m, -kFarthestM, kFarthestM)
+      .all_finite("covariance_ned_m2", m.covariance_ned_m2)
+      .all_within("current_ned_mps", m.current_ned_mps, -kFastestMps, kFastestMps)
+      .within("likelihood", m.likelihood, 0, 1)
+      .all_within("error_ned_m", m.error_ned_m, -2 * kFarthestM, 2 * kFarthestM)
+      .result();
+}
+
 std::string problem_in(const link_t& m) { return check_link(m).result(); }
 
 std::string problem_in(const link_table_t& m) {

@@ -6,7 +6,7 @@
 //   [terrain]                          bathymetry/bathymetry_config.h
 //   [environment] [modem] [channel_server], [vehicle.modem]    channel_server/channel_server_config.h
 //   [vehicle_sim]                      vehicle_sim/vehicle_sim_config.h
-//   [vehicle.mission] [vehicle.traffic]    clients/
+//   [vehicle.mission] [vehicle.traffic] [vehicle.localiser]    clients/
 #pragma once
 
 #include <cstdint>

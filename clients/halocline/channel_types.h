@@ -30,6 +30,7 @@ bool with_type_of(std::string_view channel, Function&& f) {
   if (in(c::kSend)) return f.template operator()<modem_send_t>(), true;
   if (in(c::kReceipt)) return f.template operator()<modem_receipt_t>(), true;
   if (in(c::kReceive)) return f.template operator()<modem_receive_t>(), true;
+  if (in(c::kEstimate)) return f.template operator()<position_estimate_t>(), true;
   if (in(c::kLinks)) return f.template operator()<link_table_t>(), true;
   if (in(c::kLinkReply)) return f.template operator()<link_reply_t>(), true;
   if (in(c::kRayReply)) return f.template operator()<ray_reply_t>(), true;

@@ -6,6 +6,7 @@
 #include "bathymetry/bathymetry_node.h"
 #include "channel_server/channel_server_node.h"
 #include "clients/autopilot/autopilot_node.h"
+#include "clients/localiser/localiser_node.h"
 #include "clients/traffic/traffic_node.h"
 #include "conductor/conductor_node.h"
 #include "vehicle_sim/terrain_seabed.h"
@@ -50,6 +51,7 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
   vehicle_sim::visit(v, config.vehicle_sim);
   visit(v, config.autopilot);
   visit(v, config.traffic);
+  visit(v, config.localiser);
 }
 
 ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides) {
@@ -61,6 +63,7 @@ ScenarioConfig load_scenario(const std::string& path, const std::vector<std::str
   vehicle_sim::members_of(config.scenario,
                           config.vehicle_sim);  // throws with what is wrong in a model's file
   for (const VehicleTraffic& traffic : config.traffic.vehicles) destination_id(config.traffic, traffic);
+  for (const VehicleLocaliser& vehicle : config.localiser.vehicles) beacons_of(config.localiser, vehicle);
   return config;
 }
 
@@ -79,6 +82,7 @@ std::string commented_toml() {
   config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig()}};
   config.autopilot.vehicles.resize(1);
   config.traffic.vehicles.resize(1);
+  config.localiser.vehicles.resize(1);
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);
 }
 
@@ -106,6 +110,7 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
                                      std::make_shared<vehicle_sim::TerrainSeabed>(terrain_.terrain));
     add<AutopilotNode>("autopilot", config.autopilot);
     add<TrafficNode>("traffic", config.traffic);
+    add<LocaliserNode>("localiser", config.localiser);
   }
   const bus::NodeIdentity identity{"channel-server", bus::session_of(seed_, "channel-server")};
   owned_.push_back(channel_server::make_channel_server(lcm_, identity, config.channel_server, config.scenario,

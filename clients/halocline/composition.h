@@ -15,6 +15,7 @@
 #include "bus/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "clients/autopilot/autopilot_config.h"
+#include "clients/localiser/localiser_config.h"
 #include "clients/traffic/traffic_config.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
@@ -28,6 +29,7 @@ struct ScenarioConfig {
   channel_server::ChannelServerConfig channel_server;
   AutopilotConfig autopilot;
   TrafficConfig traffic;
+  LocaliserConfig localiser;
   std::string folder = ".";  // where relative paths of the file start
 };
 

@@ -272,6 +272,23 @@ void visit_fields(Visitor& v, const packet_outcome_t& m) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, const position_estimate_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("vehicle_id", m.vehicle_id);
+  v("estimate_status", m.estimate_status);
+  v("position_ned_m", m.position_ned_m);
+  v("covariance_ned_m2", m.covariance_ned_m2);
+  v("current_ned_mps", m.current_ned_mps);
+  v("likelihood", m.likelihood);
+  v("ranges_used", m.ranges_used);
+  v("ranges_refused", m.ranges_refused);
+  v("truth_known", m.truth_known);
+  v("error_ned_m", m.error_ned_m);
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, const ray_query_t& m) {
   v("utime", m.utime);
   v("client_name", m.client_name);

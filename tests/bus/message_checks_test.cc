@@ -87,6 +87,7 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
       FIELD(delay_spread_s), FIELD(doppler_factor), FIELD(interference_level_db), FIELD(sinr_db),
       FIELD(acquisition_probability), FIELD(success_probability), FIELD(acquisition_draw),
       FIELD(success_draw), FIELD(arrival_azimuth_rad), FIELD(arrival_elevation_rad));
+  expect_finite<position_estimate_t>(FIELD(likelihood));
   expect_finite<link_t>(FIELD(range_m), FIELD(delay_s), FIELD(transmission_loss_db), FIELD(received_level_db),
                         FIELD(noise_level_db), FIELD(snr_db), FIELD(capacity_bps), FIELD(transmitter_age_s),
                         FIELD(receiver_age_s));
@@ -120,6 +121,7 @@ TEST(MessageChecks, RefusesEnumerationsWithoutAMeaning) {
     EXPECT_NE(problem_after<packet_outcome_t>([&](auto& m) { m.colliders[0].packet_kind = value; }), "");
     EXPECT_NE(problem_after<modem_send_t>([&](auto& m) { m.packet_kind = value; }), "");
     EXPECT_NE(problem_after<modem_receive_t>([&](auto& m) { m.packet_kind = value; }), "");
+    EXPECT_NE(problem_after<position_estimate_t>([&](auto& m) { m.estimate_status = value; }), "");
     EXPECT_NE(problem_after<link_t>([&](auto& m) { m.multipath = value; }), "");
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.reply_status = value; }), "");
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.answers[0].answer_status = value; }), "");

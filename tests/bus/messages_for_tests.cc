@@ -284,6 +284,23 @@ packet_outcome_t valid_message(unsigned seed) {
 }
 
 template <>
+position_estimate_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<position_estimate_t>(n);
+  m.vehicle_id = n.whole();
+  m.estimate_status = position_estimate_t::AMBIGUOUS;
+  for (double& x : m.position_ned_m) x = n.real();
+  for (double& x : m.covariance_ned_m2) x = n.real();
+  for (double& x : m.current_ned_mps) x = n.real();
+  m.likelihood = 0.75;
+  m.ranges_used = n.whole();
+  m.ranges_refused = n.whole();
+  m.truth_known = 1;
+  for (double& x : m.error_ned_m) x = n.real();
+  return m;
+}
+
+template <>
 link_t valid_message(unsigned seed) {
   Numbers n(seed);
   link_t m;

@@ -35,6 +35,7 @@ const std::vector<Service>& services() {
       {"halocline-vehicle-sim", {"STATE.alpha", "STATE.bravo", "SENSORS.alpha", "SENSORS.bravo"}},
       {"halocline-channel-server", {"LINKS.alpha", "LINKS.bravo", "RECEIPT.alpha"}},
       {"halocline-autopilot", {"COMMAND.alpha", "COMMAND.bravo"}},
+      {"halocline-localiser", {"ESTIMATE.alpha"}},
       {"halocline-traffic", {"SEND.alpha", "SEND.bravo"}}};
   return all;
 }

@@ -121,7 +121,8 @@ std::string objection_of_client(std::string_view file, std::string_view path) {
   if (file.find("foreign") != std::string_view::npos) {
     return is_ours(path) ? "the foreign vehicle shows that message types are enough" : "";
   }
-  const bool library = starts_with_any(file, {"clients/modem/", "clients/autopilot/", "clients/traffic/"});
+  const bool library = starts_with_any(
+      file, {"clients/modem/", "clients/autopilot/", "clients/traffic/", "clients/localiser/"});
   if (library && is_ours(path) && is_node_file(path) && folder_of(path) != "clients") {
     return "only the halocline command includes other processes' nodes";
   }

@@ -1,0 +1,40 @@
+#include "clients/localiser/localiser_messages.h"
+
+namespace halocline::clients {
+
+OwnMotion to_motion(const vehicle_sensors_t& sensors) {
+  return {.at = SimTime::from_utime(sensors.utime),
+          .water_speed_mps = sensors.water_speed_mps,
+          .heading_rad = sensors.heading_rad,
+          .pitch_rad = sensors.pitch_rad,
+          .depth_m = sensors.depth_m};
+}
+
+acoustics::SoundSpeedProfile to_profile(const environment_t& environment) {
+  std::vector<acoustics::SpeedRow> rows;
+  for (std::size_t i = 0; i < environment.layer_depth_m.size(); ++i)
+    rows.push_back({environment.layer_depth_m[i], environment.layer_sound_speed_mps[i]});
+  // What absorbs does not matter to travel times.
+  return acoustics::SoundSpeedProfile::from_speeds(
+      rows, {environment.layer_temperature_degc.front(), environment.layer_salinity_psu.front()});
+}
+
+Vec3 true_position(const vehicle_state_t& state, SimTime at) {
+  const double seconds = (at - SimTime::from_utime(state.utime)).seconds();
+  return Vec3(state.position_ned_m) + seconds * Vec3(state.velocity_ned_mps);
+}
+
+void set_estimate(position_estimate_t& message, const PositionEstimate& estimate, double z_ned_m,
+                  double depth_sigma_m) {
+  message.estimate_status =
+      estimate.hypotheses > 1 ? position_estimate_t::AMBIGUOUS : position_estimate_t::UNIQUE;
+  Eigen::Map<Vec3>(message.position_ned_m) << estimate.position_ne_m, z_ned_m;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance.topLeftCorner<2, 2>() = estimate.position_covariance_m2;
+  covariance(2, 2) = depth_sigma_m * depth_sigma_m;
+  Eigen::Map<Eigen::Matrix3d>(message.covariance_ned_m2) = covariance;  // symmetric: rows are columns
+  Eigen::Map<Vec3>(message.current_ned_mps) << estimate.current_ne_mps, 0;
+  message.likelihood = estimate.weight;
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,78 @@
+// Finds the places of vehicles by acoustic ranges to beacons, and publishes them as ESTIMATE.<vehicle>.
+//
+// Of a vehicle it hears what the vehicle itself could know: its SENSORS (depth, heading, pitch, speed through the
+// water) and what its modem hears. It sends pings in its name, to one beacon after the other, and takes ranges from
+// the travel times of the answers; with `use_stamps` also from stamped packets of beacons. A travel time becomes
+// a length by the mean sound speed between the two depths, of the profile that ENVIRONMENT tells: a straight way;
+// where the water bends sound, the range is off: by Fermat's principle
+// the bent way is quicker, by (g r)^2 / (24 c^2) of the time for a gradient g (5 cm in 1 km at 0.05 1/s, 4 m at 0.45 1/s).
+// Before the first ENVIRONMENT (the channel server repeats it once a minute) no range is used. STATE serves for one
+// thing: to say by how much the estimate errs.
+//
+// Estimates are published on the time grid, and know what was stamped 0.1 s before or earlier: longer than a message
+// takes, so that a run in many processes gives what one in lockstep does. An answer is counted from the
+// instants that the water gave it, so its lateness costs nothing.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "acoustics/sound_speed_profile.h"
+#include "bus/node.h"
+#include "clients/localiser/localiser_config.h"
+#include "clients/modem/modem_client.h"
+
+namespace halocline::clients {
+
+class LocaliserNode : public bus::Node {
+ public:
+  // Localises the vehicles of `config` that have beacons. Throws InvalidArgument for a beacon that the scenario does
+  // not have, or a vehicle that has two names for one.
+  LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const LocaliserConfig& config);
+
+ protected:
+  bus::Due on_due() const override;
+  void on_step(const bus::Now& now) override;
+  void on_restart(const bus::Now& now) override;
+  std::string status_text() const override;
+
+ private:
+  struct Water {
+    acoustics::SoundSpeedProfile profile;
+    double sea_surface_z_m;
+  };
+  struct Vehicle {
+    Vehicle(bus::Bus& bus, const ModemAddress& address, const VehicleLocaliser& settings,
+            std::vector<Beacon> known_beacons);
+
+    VehicleLocaliser config;
+    std::vector<Beacon> beacons;
+    ModemClient modem;
+    PositionEstimator estimator;
+    std::deque<vehicle_sensors_t> sensors;  // heard, not used yet; likewise the next two
+    std::deque<vehicle_state_t> states;
+    std::deque<modem_receive_t> packets;
+    std::optional<vehicle_state_t> truth;
+    position_estimate_t last{};  // published
+    std::int64_t pings = 0, used = 0, refused = 0;
+    SimTime next_ping;
+  };
+
+  void add_vehicle(const LocaliserConfig& config, const VehicleLocaliser& settings);
+  void take_environment(const environment_t& message);
+  void ping(Vehicle& vehicle, const bus::Now& now);
+  void estimate(Vehicle& vehicle, SimTime at);
+  void take_packet(Vehicle& vehicle, const modem_receive_t& packet);
+  std::optional<RangeMeasurement> range_of(const Vehicle& vehicle, const modem_receive_t& packet) const;
+  position_estimate_t message_of(const Vehicle& vehicle, SimTime at) const;
+  void report(const Vehicle& vehicle, const position_estimate_t& message);
+
+  SimDuration period_;
+  SimTime next_estimate_;
+  std::optional<Water> water_;
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // handlers hold their addresses
+};
+
+}  // namespace halocline::clients

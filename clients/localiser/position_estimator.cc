@@ -1,0 +1,219 @@
+#include "clients/localiser/position_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+// An outlier comes by an echo, up to some hundreds of metres late, once in a hundred ranges.
+constexpr double kOutlierShare = 0.01, kOutlierDensityPerM = 1.0 / 500;
+// Ranges whose directions differ by less than 6 degrees fix no position to start from.
+constexpr double kLeastSine = 0.1;
+constexpr double kUnknownM = 1000;  // standard deviation that two ranges then narrow down
+constexpr int kIterations = 4;      // of an update; each squares the error of the linearisation
+constexpr std::size_t kMostWaiting = 16;
+
+double gaussian(double normalised_square, double variance) {
+  return std::exp(-0.5 * normalised_square) / std::sqrt(2 * std::numbers::pi * variance);
+}
+
+}  // namespace
+
+PositionEstimator::PositionEstimator(EstimatorRules rules, std::optional<StatedStart> start)
+    : rules_(rules), start_(start) {
+  for (const double value : {rules.drift_m_per_sqrt_s, rules.current_sigma_mps, rules.gate})
+    require(std::isfinite(value) && value > 0, "a rule of the position estimator must be a number above 0");
+  for (const double value :
+       {rules.current_walk_mps_per_sqrt_s, rules.slip_m_per_sqrt_rad, rules.depth_sigma_m})
+    require(std::isfinite(value) && value >= 0, "a rule of the position estimator must be a number from 0");
+  require(!start || start->sigma_m > 0, "a stated start needs a standard deviation above 0");
+}
+
+void PositionEstimator::move(const OwnMotion& motion) {
+  const bool first = track_.empty();
+  track_.take(motion);
+  if (first && start_) {
+    Hypothesis stated{State::Zero(), Covariance::Zero(), 1.0};
+    stated.mean.head<2>() = start_->position_ne_m;
+    const double position = start_->sigma_m * start_->sigma_m;
+    const double current = rules_.current_sigma_mps * rules_.current_sigma_mps;
+    stated.covariance.diagonal() << position, position, current, current;
+    hypotheses_.push_back(stated);
+  }
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis = carried_on(hypothesis, track_.last());
+  now_ = std::max(now_, track_.last());
+}
+
+PositionEstimator::Hypothesis PositionEstimator::carried_on(const Hypothesis& from, SimTime at) const {
+  if (at <= now_ || !track_.knows(now_)) return from;
+  const double seconds = (at - now_).seconds();
+  Covariance step = Covariance::Identity();
+  step.topRightCorner<2, 2>() = seconds * Eigen::Matrix2d::Identity();
+  Hypothesis to = from;
+  to.mean = step * from.mean;
+  to.mean.head<2>() += track_.gone_ne_m(at) - track_.gone_ne_m(now_);
+  const double turned_rad = track_.turned_rad(at) - track_.turned_rad(now_);
+  const double drift = rules_.drift_m_per_sqrt_s * rules_.drift_m_per_sqrt_s * seconds +
+                       rules_.slip_m_per_sqrt_rad * rules_.slip_m_per_sqrt_rad * turned_rad;
+  const double walk = rules_.current_walk_mps_per_sqrt_s * rules_.current_walk_mps_per_sqrt_s * seconds;
+  to.covariance = step * from.covariance * step.transpose();
+  to.covariance.diagonal() += State(drift, drift, walk, walk);
+  return to;
+}
+
+PositionEstimator::Expected PositionEstimator::expected(const State& state,
+                                                        const RangeMeasurement& range) const {
+  Expected sum{0, State::Zero(), 0};
+  for (const SimTime at : range.at) {
+    const double back_s = (now_ - at).seconds();
+    const Vec2 place =
+        state.head<2>() - (track_.gone_ne_m(now_) - track_.gone_ne_m(at)) - back_s * state.tail<2>();
+    const Vec3 from_beacon = Vec3(place.x(), place.y(), track_.depth_m(at)) - range.beacon_m;
+    const double length = std::max(from_beacon.norm(), 1e-6);
+    const Vec2 direction = from_beacon.head<2>() / length;
+    sum.length_m += length;
+    sum.gradient.head<2>() += direction;
+    sum.gradient.tail<2>() -= back_s * direction;
+    sum.per_depth += from_beacon.z() / length;
+  }
+  return sum;
+}
+
+// Gauss-Newton for the state that is most likely by what was expected and by the range.
+void PositionEstimator::update(Hypothesis& hypothesis, const RangeMeasurement& range) const {
+  const Hypothesis before = hypothesis;
+  State gain = State::Zero();
+  Expected there{};
+  for (int i = 0; i < kIterations; ++i) {
+    there = expected(hypothesis.mean, range);
+    const double depth = there.per_depth * rules_.depth_sigma_m;
+    const double variance = there.gradient.dot(before.covariance * there.gradient) +
+                            range.sigma_m * range.sigma_m + depth * depth;
+    gain = before.covariance * there.gradient / variance;
+    const double off = range.length_m - there.length_m - there.gradient.dot(before.mean - hypothesis.mean);
+    hypothesis.mean = before.mean + gain * off;
+    hypothesis.covariance = before.covariance - variance * gain * gain.transpose();
+  }
+  hypothesis.covariance = (0.5 * (hypothesis.covariance + hypothesis.covariance.transpose())).eval();
+}
+
+// Whether the range moved the hypothesis.
+bool PositionEstimator::weigh(Hypothesis& hypothesis, const RangeMeasurement& range) const {
+  const Expected there = expected(hypothesis.mean, range);
+  const double depth = there.per_depth * rules_.depth_sigma_m;
+  const double variance = there.gradient.dot(hypothesis.covariance * there.gradient) +
+                          range.sigma_m * range.sigma_m + depth * depth;
+  const double off = range.length_m - there.length_m;
+  const double normalised = off * off / variance;
+  const bool fits = normalised <= rules_.gate * rules_.gate;
+  hypothesis.weight *=
+      kOutlierShare * kOutlierDensityPerM + (fits ? (1 - kOutlierShare) * gaussian(normalised, variance) : 0);
+  if (fits) update(hypothesis, range);
+  return fits;
+}
+
+RangeVerdict PositionEstimator::take(const RangeMeasurement& range) {
+  require(!range.at.empty() && range.sigma_m > 0,
+          "a range needs an instant and a standard deviation above 0");
+  if (!std::all_of(range.at.begin(), range.at.end(), [&](SimTime at) { return track_.knows(at); }))
+    return RangeVerdict::kTooOld;
+  const SimTime latest = *std::max_element(range.at.begin(), range.at.end());
+  if (latest > now_) {
+    for (Hypothesis& hypothesis : hypotheses_) hypothesis = carried_on(hypothesis, latest);
+    now_ = latest;
+  }
+  if (hypotheses_.empty()) {
+    start_from_ranges(range);
+    return hypotheses_.empty() ? RangeVerdict::kWaiting : RangeVerdict::kUsed;
+  }
+  bool used = false;
+  for (Hypothesis& hypothesis : hypotheses_) used = weigh(hypothesis, range) || used;
+  drop_unlikely();
+  misfits_in_a_row_ = used ? 0 : misfits_in_a_row_ + 1;
+  if (misfits_in_a_row_ >= kMostMisfits) {
+    hypotheses_.clear();
+    misfits_in_a_row_ = 0;
+  }
+  return used ? RangeVerdict::kUsed : RangeVerdict::kOutlier;
+}
+
+void PositionEstimator::drop_unlikely() {
+  std::stable_sort(hypotheses_.begin(), hypotheses_.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.weight > b.weight; });
+  const Hypothesis best = hypotheses_.front();
+  const Eigen::Matrix2d information = best.covariance.topLeftCorner<2, 2>().inverse();
+  // One that has come within a standard deviation of the best is the same place.
+  const auto goes = [&](const Hypothesis& other) {
+    const Vec2 apart = (other.mean - best.mean).head<2>();
+    return other.weight < kForgotten * best.weight || apart.dot(information * apart) < 1;
+  };
+  hypotheses_.erase(std::remove_if(hypotheses_.begin() + 1, hypotheses_.end(), goes), hypotheses_.end());
+  double sum = 0;
+  for (const Hypothesis& hypothesis : hypotheses_) sum += hypothesis.weight;
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.weight /= sum;
+}
+
+void PositionEstimator::start_from_ranges(const RangeMeasurement& latest) {
+  const auto forgotten = [&](const RangeMeasurement& range) { return !track_.knows(range.at.front()); };
+  waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), forgotten), waiting_.end());
+  for (auto other = waiting_.rbegin(); other != waiting_.rend() && hypotheses_.empty(); ++other) {
+    if (other->beacon_m.head<2>() != latest.beacon_m.head<2>()) add_crossings(*other, latest);
+  }
+  waiting_.push_back(latest);
+  if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
+  if (!hypotheses_.empty()) waiting_.clear();
+}
+
+// Both crossings of the circles that the ranges draw about the beacons, these carried along as the vehicle went.
+void PositionEstimator::add_crossings(const RangeMeasurement& one, const RangeMeasurement& other) {
+  struct Circle {
+    Vec2 centre = Vec2::Zero();
+    double radius = 0;
+  };
+  const auto circle_of = [&](const RangeMeasurement& range) {
+    const auto ways = static_cast<double>(range.at.size());
+    Circle circle{range.beacon_m.head<2>(), 0};
+    double below = 0;
+    for (const SimTime at : range.at) {
+      circle.centre += (track_.gone_ne_m(now_) - track_.gone_ne_m(at)) / ways;
+      below += (track_.depth_m(at) - range.beacon_m.z()) / ways;
+    }
+    const double slant = range.length_m / ways;
+    circle.radius = std::sqrt(std::max(slant * slant - below * below, 0.0));
+    return circle;
+  };
+  const Circle a = circle_of(one), b = circle_of(other);
+  const Vec2 line = b.centre - a.centre;
+  const double apart = line.norm();
+  if (apart <= 0 || a.radius <= 0 || b.radius <= 0) return;
+  const double along = (a.radius * a.radius - b.radius * b.radius + apart * apart) / (2 * apart);
+  const double across_square = a.radius * a.radius - along * along;
+  // sin of the angle between the two directions = twice the triangle's area / (r_a r_b)
+  if (across_square <= 0 || std::sqrt(across_square) * apart < kLeastSine * a.radius * b.radius) return;
+  const Vec2 unit = line / apart;
+  for (const double side : {-1.0, 1.0}) {
+    Hypothesis start{State::Zero(), Covariance::Zero(), 0.5};
+    start.mean.head<2>() =
+        a.centre + along * unit + side * std::sqrt(across_square) * Vec2(-unit.y(), unit.x());
+    const double current = rules_.current_sigma_mps * rules_.current_sigma_mps;
+    start.covariance.diagonal() << kUnknownM * kUnknownM, kUnknownM * kUnknownM, current, current;
+    update(start, one);
+    update(start, other);
+    hypotheses_.push_back(start);
+  }
+}
+
+std::optional<PositionEstimate> PositionEstimator::estimate(SimTime at) const {
+  if (hypotheses_.empty()) return std::nullopt;
+  const Hypothesis best = carried_on(hypotheses_.front(), at);
+  return PositionEstimate{best.mean.head<2>(), best.mean.tail<2>(), best.covariance.topLeftCorner<2, 2>(),
+                          best.weight, static_cast<int>(hypotheses_.size())};
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,118 @@
+// Where a vehicle is, from ranges to beacons at known places and from its own speed, heading and depth.
+//
+// Model: an extended Kalman filter (Bar-Shalom, Li and Kirubarajan 2001, ch. 10; updates iterated as in 10.5.2)
+// over horizontal position and current, [north, east, current north, current east]. Between ranges the vehicle goes by
+// dead reckoning plus the current; both wander as random walks. Depth below the sea surface is measured and no
+// part of the state. A
+// range is the length of one way (a stamped packet) or the sum of two (a ping and its answer), each from where the
+// vehicle was at that way's own instant, which may lie seconds back:
+//   sum over ways of |p(t) - beacon|,  p(t) = p(now) - (gone through the water since t) - current (now - t)
+//
+// Two beacons leave a mirror image of the vehicle beyond the line through them. Without a stated start the filter
+// starts from two ranges to two beacons, with one hypothesis on either side; each goes by the same dead
+// reckoning, and each range weighs them by how well it fits, until one has kForgotten of the other's weight. A
+// course along that very line tells nothing; with it, the start has to be stated.
+//
+// A range farther from what a hypothesis expects than `gate` standard deviations is an outlier to it: it does not
+// move it, and costs weight. After kMostMisfits such ranges in a row to all hypotheses the filter starts anew.
+//
+// Holds where errors of range and dead reckoning are white and ranges are long against the position's error; errors
+// common to all ranges (of sound speed, of a beacon's place) are not in the covariance. Pure and not thread-safe.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "clients/localiser/dead_reckoning.h"
+#include "core/frames.h"
+
+namespace halocline::clients {
+
+struct EstimatorRules {
+  double drift_m_per_sqrt_s = 0.05;             // of dead reckoning: random walk of the position
+  double slip_m_per_sqrt_rad = 2;               // likewise in turns, by the angle turned
+  double current_sigma_mps = 0.2;               // of each component, before anything is known
+  double current_walk_mps_per_sqrt_s = 0.0005;  // how it changes
+  double depth_sigma_m = 0.1;
+  double gate = 4;  // standard deviations; of sound ranges 1 in 16 000 lies beyond 4
+};
+
+// A start that is known beforehand.
+struct StatedStart {
+  Vec2 position_ne_m = Vec2::Zero();
+  double sigma_m = 10;  // of each component, above 0
+};
+
+struct RangeMeasurement {
+  Vec3 beacon_m = Vec3::Zero();  // north, east, depth below the sea surface
+  std::vector<SimTime> at;       // when the vehicle was at the end of each way: one or two instants
+  double length_m = 0;           // of the ways together
+  double sigma_m = 1;            // likewise, above 0
+};
+
+enum class RangeVerdict {
+  kUsed,     // by at least one hypothesis
+  kOutlier,  // by none
+  kWaiting,  // there is no estimate yet to judge it by
+  kTooOld,   // of before the dead reckoning remembers, or before its first measurement
+};
+
+struct PositionEstimate {
+  Vec2 position_ne_m = Vec2::Zero();
+  Vec2 current_ne_mps = Vec2::Zero();
+  Eigen::Matrix2d position_covariance_m2 = Eigen::Matrix2d::Zero();
+  double weight = 1;  // of this hypothesis among all, 0.5..1
+  int hypotheses = 1;
+};
+
+class PositionEstimator {
+ public:
+  static constexpr double kForgotten = 1e-3;
+  static constexpr int kMostMisfits = 8;
+
+  // Throws InvalidArgument when a rule or the start is no number above 0.
+  explicit PositionEstimator(EstimatorRules rules, std::optional<StatedStart> start = {});
+
+  // What the vehicle measures of itself, in the order of time.
+  void move(const OwnMotion& motion);
+  // A range, as soon as it is known.
+  RangeVerdict take(const RangeMeasurement& range);
+  // The best hypothesis as of `at`, which is not before the last motion; empty before there is one.
+  std::optional<PositionEstimate> estimate(SimTime at) const;
+
+  const DeadReckoning& dead_reckoning() const { return track_; }
+
+ private:
+  using State = Eigen::Vector4d;
+  using Covariance = Eigen::Matrix4d;
+  struct Hypothesis {
+    State mean;
+    Covariance covariance;
+    double weight;
+  };
+  struct Expected {
+    double length_m;
+    State gradient;    // of the length
+    double per_depth;  // likewise, for the depth
+  };
+
+  Hypothesis carried_on(const Hypothesis& from, SimTime at) const;
+  Expected expected(const State& state, const RangeMeasurement& range) const;
+  bool weigh(Hypothesis& hypothesis, const RangeMeasurement& range) const;
+  void update(Hypothesis& hypothesis, const RangeMeasurement& range) const;
+  void drop_unlikely();
+  void start_from_ranges(const RangeMeasurement& latest);
+  void add_crossings(const RangeMeasurement& one, const RangeMeasurement& other);
+
+  EstimatorRules rules_;
+  std::optional<StatedStart> start_;
+  DeadReckoning track_;
+  SimTime now_;                            // of the hypotheses
+  std::vector<Hypothesis> hypotheses_;     // the weightiest first
+  std::vector<RangeMeasurement> waiting_;  // for a start
+  int misfits_in_a_row_ = 0;
+};
+
+}  // namespace halocline::clients
