@@ -24,7 +24,22 @@ Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
     if (!member.model) continue;
     world_.add(member.model, member.start);
   }
+  for (const FleetTether& tether : settings.tethers) tie(tether);
   move_water();  // where the vehicles start
+}
+
+// An end on a member that is fixed is a fixed point.
+void Fleet::tie(const FleetTether& t) {
+  require(t.member < members_.size() && moves(t.member), "a tether starts from a vehicle that moves");
+  require(!t.to_member || *t.to_member < members_.size(), "a tether's other end needs a vehicle");
+  Tether tether{world_index_[t.member], t.attached_at_m, {}, t.to_attached_at_m, t.length_m};
+  if (t.to_member && moves(*t.to_member)) {
+    tether.to_vehicle = world_index_[*t.to_member];
+  } else if (t.to_member) {
+    const VehicleState& post = members_[*t.to_member].start;
+    tether.to_attached_at_m = post.position_ned_m + post.orientation * t.to_attached_at_m;
+  }
+  world_.add(tether);
 }
 
 bool Fleet::change_current(SimTime from, const CurrentSettings& current) {

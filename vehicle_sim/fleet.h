@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,15 @@ struct FleetMember {
   VehicleState start;                  // velocity over ground; zero for a fixed one
 };
 
+// A rope from a member that moves to another member, or to a fixed point.
+struct FleetTether {
+  std::size_t member = 0;
+  Vec3 attached_at_m = Vec3::Zero();     // from CO, body frame
+  std::optional<std::size_t> to_member;  // empty: a fixed point
+  Vec3 to_attached_at_m = Vec3::Zero();  // body frame of the other member; of a fixed point, the world frame
+  double length_m = 1;                   // above 0
+};
+
 struct FleetSettings {
   SimDuration step = SimDuration::from_milliseconds(10);               // 1 to 20 ms
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // above 0
@@ -32,6 +42,7 @@ struct FleetSettings {
   WaveSettings waves;
   std::uint64_t seed = 1;  // of random currents and waves
   double seabed_friction = VehicleWorld::kDefaultFriction;
+  std::vector<FleetTether> tethers;
 };
 
 class Fleet {
@@ -61,6 +72,9 @@ class Fleet {
   // Its sensors then; altitude is left unavailable.
   SensorReading reading_at(std::size_t index, SimTime when) const;
 
+  double tether_distance_m(std::size_t tether) const { return world_.tether_distance_m(tether); }
+  double tether_pull_n(std::size_t tether) const { return world_.tether_pull_n(tether); }  // in the last step
+
   bool is_lost(std::size_t index) const;    // VehicleWorld::is_lost
   bool on_seabed(std::size_t index) const;  // touched the ground in the last step
 
@@ -71,6 +85,7 @@ class Fleet {
   };
 
   bool moves(std::size_t index) const { return members_[index].model != nullptr; }
+  void tie(const FleetTether& tether);
   bool take_due_current();  // true when one was due
   bool water_varies() const;
   // The water at a vehicle for the step from time() on.

@@ -90,6 +90,42 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c) {
             [&](ConfigVisitor& section) { visit_waves(section, c.waves); });
 }
 
+void visit_tethers(ConfigVisitor& v, std::vector<TetherEntry>& tethers) {
+  const NumberRule place{-1e6, 1e6, "m", "where it is tied: forward, starboard, down of the hull's middle"};
+  const NumberRule other{-1e6, 1e6, "m", "the same of to_vehicle; of a fixed point, north, east, down"};
+  v.list(
+      "tether", "A rope between two vehicles, or a vehicle and a fixed point", tethers.size(),
+      [&](std::size_t n) { tethers.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) {
+        TetherEntry& t = tethers[i];
+        item.text("vehicle", t.vehicle, {}, "name of one that moves");
+        item.vector3("attached_at_m", t.attached_at_m, place);
+        item.text("to_vehicle", t.to_vehicle, {}, "name of another; empty: a fixed point");
+        item.vector3("to_attached_at_m", t.to_attached_at_m, other);
+        item.number("length_m", t.length_m, {0.01, 1e5, "m", "its ends are held within this; it pulls only"});
+      });
+}
+
+// The member of that name; throws where there is none.
+std::size_t member_named(const std::vector<FleetMember>& members, const std::string& name) {
+  const auto found =
+      std::find_if(members.begin(), members.end(), [&](const FleetMember& m) { return m.name == name; });
+  require(found != members.end(), "tether: \"" + name + "\" is no vehicle that the vehicle simulator moves");
+  return static_cast<std::size_t>(found - members.begin());
+}
+
+FleetTether tether_of(const TetherEntry& entry, const std::vector<FleetMember>& members) {
+  FleetTether t{.member = member_named(members, entry.vehicle),
+                .attached_at_m = entry.attached_at_m,
+                .to_member = {},
+                .to_attached_at_m = entry.to_attached_at_m,
+                .length_m = entry.length_m};
+  if (!entry.to_vehicle.empty()) t.to_member = member_named(members, entry.to_vehicle);
+  require(t.to_member != t.member, "tether: it must not lead from a vehicle to itself");
+  require(members[t.member].model != nullptr, "tether: its vehicle must be one that moves");
+  return t;
+}
+
 // The key itself belongs to the scenario, which also writes it; here it is only looked at.
 void check_models(ConfigVisitor& v) {
   std::vector<std::string> models;
@@ -131,6 +167,7 @@ std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSim
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
   v.section("vehicle_sim", "The vehicle simulator",
             [&](ConfigVisitor& section) { visit_section(section, config); });
+  visit_tethers(v, config.tethers);
   check_models(v);
 }
 
@@ -160,6 +197,10 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   settings.waves = config.waves;
   settings.seed = scenario.seed;
   settings.seabed_friction = config.seabed_friction;
+  if (!config.tethers.empty()) {
+    const std::vector<FleetMember> members = members_of(scenario, config);
+    for (const TetherEntry& entry : config.tethers) settings.tethers.push_back(tether_of(entry, members));
+  }
   return settings;
 }
 

@@ -3,6 +3,11 @@
 //   [vehicle_sim]
 //   state_rate_hz = 10
 //   current_ned_mps = [0.1, 0.0, 0.0]
+//
+//   [[tether]]
+//   vehicle = "tug"
+//   to_vehicle = "float"
+//   length_m = 20
 #pragma once
 
 #include <string>
@@ -16,6 +21,15 @@ namespace halocline::vehicle_sim {
 // The model's own treatment of the current, or one for all.
 enum class TreatmentChoice { kModel, kUpstream, kGalilean };
 
+// A rope of the scenario, its ends by name.
+struct TetherEntry {
+  std::string vehicle;                   // one that we move
+  Vec3 attached_at_m = Vec3::Zero();     // from the hull's middle: forward, starboard, down
+  std::string to_vehicle;                // another, also a fixed one; empty: a fixed point
+  Vec3 to_attached_at_m = Vec3::Zero();  // of the other hull; of a fixed point, in the world frame
+  double length_m = 10;
+};
+
 struct VehicleSimConfig {
   SimDuration step = SimDuration::from_milliseconds(10);               // of the physics
   SimDuration state_period = SimDuration::from_milliseconds(100);      // between STATEs
@@ -28,10 +42,11 @@ struct VehicleSimConfig {
   TreatmentChoice current_treatment = TreatmentChoice::kModel;
   double buoyancy_over_weight = 1;
   double seabed_friction = VehicleWorld::kDefaultFriction;
+  std::vector<TetherEntry> tethers;
   std::string model_folder = ".";  // where the paths of model files start; not in the file
 };
 
-// Sections [vehicle_sim], [vehicle_sim.current] and [vehicle_sim.waves]; also reports each [[vehicle]] whose model is none.
+// Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves] and [[tether]]; also reports each [[vehicle]] whose model is none.
 void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
 
 // The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle starts
@@ -39,6 +54,7 @@ void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
 // bus::ConfigErrors where its file is wrong.
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
+// Throws InvalidArgument where a tether names no vehicle of ours.
 FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
 }  // namespace halocline::vehicle_sim

@@ -79,6 +79,7 @@ std::string commented_toml() {
   config.scenario.vehicles[0].name = "auv-1";
   config.scenario.vehicles[0].id = 1;
   config.channel_server.vehicles.resize(1);
+  config.vehicle_sim.tethers.resize(1);
   config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig()}};
   config.autopilot.vehicles.resize(1);
   config.traffic.vehicles.resize(1);

@@ -219,6 +219,16 @@ TEST(Fleet, BeyondTheTerrainThereIsNoGround) {
   EXPECT_THROW(TerrainSeabed(nullptr), InvalidArgument);
 }
 
+TEST(Fleet, ATetherToAFixedMemberMoorsAVehicle) {
+  FleetSettings settings;
+  settings.tethers.push_back({0, Vec3::Zero(), 1, {0, 0, -1}, 5});
+  Fleet fleet(settings, {{"one", remus(1.02), deep(50)}, {"anchor", nullptr, deep(52)}}, nullptr, SimTime());
+  fleet.advance(at_ms(60'000));
+  EXPECT_NEAR(fleet.state_at(0, at_ms(60'000)).position_ned_m.z(), 51 - 5, tolerance(0.01));
+  EXPECT_NEAR(fleet.tether_pull_n(0), 0.02 * remus()->weight_n(),
+              tolerance(0.01) * 0.02 * remus()->weight_n());
+}
+
 TEST(Fleet, AnImpossibleStepIsRefused) {
   FleetSettings settings;
   settings.step = SimDuration::from_milliseconds(50);

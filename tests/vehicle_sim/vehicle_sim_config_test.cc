@@ -1,8 +1,11 @@
 #include "vehicle_sim/vehicle_sim_config.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/check.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 
@@ -148,6 +151,58 @@ model = "external"
             tolerance(1e-12));  // 2 m/s east through water that goes north
   EXPECT_EQ(members[1].model, nullptr);
   EXPECT_EQ(members[1].start.velocity_body.norm(), 0);
+}
+
+const char* const kTug = R"([[vehicle]]
+name = "tug"
+id = 1
+[[vehicle]]
+name = "post"
+id = 2
+model = "fixed"
+start_ned_m = [5.0, 0.0, 20.0]
+[[tether]]
+length_m = 20
+)";
+
+TEST(VehicleSimConfig, ATetherTiesVehiclesByName) {
+  const Read r =
+      read(std::string(kTug) + "vehicle = \"tug\"\nto_vehicle = \"post\"\nattached_at_m = [-0.8, 0, 0]\n");
+  const FleetSettings settings = settings_of(r.scenario, r.config);
+  ASSERT_EQ(settings.tethers.size(), 1u);
+  EXPECT_EQ(settings.tethers[0].member, 0u);
+  EXPECT_EQ(settings.tethers[0].to_member, 1u);
+  EXPECT_EQ(settings.tethers[0].attached_at_m, Vec3(-0.8, 0, 0));
+  EXPECT_EQ(settings.tethers[0].length_m, 20);
+}
+
+TEST(VehicleSimConfig, ATetherToNobodyIsRefused) {
+  for (const char* wrong :
+       {"vehicle = \"nobody\"", "vehicle = \"post\"", "vehicle = \"tug\"\nto_vehicle = \"nobody\"",
+        "vehicle = \"tug\"\nto_vehicle = \"tug\""}) {
+    const Read r = read(kTug + std::string(wrong) + "\n");
+    EXPECT_THROW(settings_of(r.scenario, r.config), InvalidArgument) << wrong;
+  }
+}
+
+// The scenario that is shipped, without pilots: the tug goes straight on.
+TEST(VehicleSimConfig, InTheScenarioTowTheBodyFollowsOnItsRope) {
+  Read r;
+  ConfigFile file = ConfigFile::load(HALOCLINE_TEST_DATA "/../../scenarios/tow.toml");
+  file.read([&](ConfigVisitor& v) { visit(v, r.scenario); });
+  file.read([&](ConfigVisitor& v) { visit(v, r.config); });
+  file.check(/*whole_file=*/false);
+  Fleet fleet(settings_of(r.scenario, r.config), members_of(r.scenario, r.config), nullptr, SimTime());
+  double longest = 0;
+  for (int tenth = 0; tenth < 600; ++tenth) {
+    const SimTime now = SimTime::from_utime(tenth * 100'000);
+    fleet.command(0, {now, {0, 0, 20}});
+    fleet.advance(now);
+    longest = std::max(longest, fleet.tether_distance_m(0));
+  }
+  EXPECT_LT(longest, 20 + tolerance(0.01));
+  EXPECT_GT(longest, 20 - tolerance(0.01));
+  EXPECT_GT(fleet.tether_pull_n(0), 1);
 }
 
 TEST(VehicleSimConfig, TheEffectiveConfigurationReadsBackAsItself) {
