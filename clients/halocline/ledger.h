@@ -18,6 +18,7 @@
 #include "bus/messages.h"
 #include "clients/halocline/log_reader.h"
 #include "clients/halocline/log_statistics.h"
+#include "clients/plot/plot.h"
 
 namespace halocline::clients {
 
@@ -70,5 +71,8 @@ std::string to_json(const Ledger& ledger);
 void print_csv(std::ostream& out, const Ledger& ledger);
 // One row an outcome, with the numbers that decided it.
 void print_outcomes_csv(std::ostream& out, const Ledger& ledger);
+
+// Two charts: bars of the causes that occurred; lines of each of these causes over the windows of time.
+Plot ledger_plot(const Ledger& ledger, const std::string& title);
 
 }  // namespace halocline::clients

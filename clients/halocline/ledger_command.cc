@@ -10,11 +10,12 @@ namespace halocline::clients {
 namespace {
 
 struct LedgerArguments {
-  std::string log, format = "table";
+  std::string log, format = "table", plot;
   double window_s = 60;
 };
 
 int sum_up(const LedgerArguments& arguments) {
+  if (!arguments.plot.empty()) require_plot_file(arguments.plot);
   LogReader log(arguments.log);
   const Ledger ledger = ledger_of(log, std::llround(arguments.window_s * 1e6));
   if (arguments.format == "json")
@@ -26,6 +27,7 @@ int sum_up(const LedgerArguments& arguments) {
   else
     print(std::cout, ledger);
   tell_damage(std::cerr, log);
+  if (!arguments.plot.empty()) write_plot(ledger_plot(ledger, arguments.log), arguments.plot);
   return kDone;
 }
 
@@ -43,6 +45,7 @@ void add_ledger_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"table", "json", "csv", "outcomes"}));
   command->add_option("--window-s", arguments->window_s, "length of the windows of time, seconds")
       ->check(CLI::Range(1e-3, 1e9));
+  command->add_option("--plot", arguments->plot, "also draw causes and their course: FILE.png or FILE.svg");
   command->footer(
       footer("  halocline ledger runs/harbour/harbour.lcm\n"
              "  halocline ledger runs/harbour/harbour.lcm --format outcomes > outcomes.csv"));

@@ -142,4 +142,23 @@ void print_outcomes_csv(std::ostream& out, const Ledger& ledger) {
   }
 }
 
+Plot ledger_plot(const Ledger& ledger, const std::string& title) {
+  Chart causes{.x = "cause", .y = "outcomes"};
+  Chart over_time{.x = "departure, s", .y = "outcomes in a window"};
+  Series bars{.title = "", .style = Series::kBars};
+  for (const std::size_t fate : causes_of(ledger)) {
+    bars.x.push_back(static_cast<double>(causes.categories.size()));
+    bars.y.push_back(static_cast<double>(ledger.total()[fate]));
+    causes.categories.emplace_back(fate_name(fate));
+    Series line{.title = fate_name(fate), .style = Series::kLines};
+    for (const auto& [start, counts] : ledger.by_window()) {
+      line.x.push_back(static_cast<double>(start) * 1e-6);
+      line.y.push_back(static_cast<double>(counts[fate]));
+    }
+    over_time.series.push_back(std::move(line));
+  }
+  causes.series.push_back(std::move(bars));
+  return {.title = title, .charts = {std::move(causes), std::move(over_time)}};
+}
+
 }  // namespace halocline::clients

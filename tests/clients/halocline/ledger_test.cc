@@ -123,6 +123,19 @@ TEST_F(LedgerOfALog, ThePrintedTableNamesEveryCauseThatOccurred) {
                                ::testing::HasSubstr("half duplex"), ::testing::HasSubstr("1 -> 3")));
 }
 
+TEST_F(LedgerOfALog, ThePlotHoldsABarACauseAndItsCourseOverTheWindows) {
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
+  add(outcome(1, 3, 1, kMinute, packet_outcome_t::COLLIDED));
+  const Plot plot = ledger_plot(ledger(), "a run");
+  ASSERT_EQ(plot.charts.size(), 2u);
+  EXPECT_THAT(plot.charts[0].categories, ::testing::ElementsAre("received", "collided"));
+  EXPECT_THAT(plot.charts[0].series.at(0).y, ::testing::ElementsAre(1, 2));
+  ASSERT_EQ(plot.charts[1].series.size(), 2u);
+  EXPECT_THAT(plot.charts[1].series[1].x, ::testing::ElementsAre(0, 60));
+  EXPECT_THAT(plot.charts[1].series[1].y, ::testing::ElementsAre(1, 1));
+}
+
 TEST_F(LedgerOfALog, AnEmptyLogHasNoOutcomes) {
   std::ostringstream text;
   print(text, ledger());
