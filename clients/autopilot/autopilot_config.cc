@@ -45,10 +45,74 @@ void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("full_rpm", g.full_rpm, {1, 1e5, "rpm", "greatest speed of a thruster"});
 }
 
+void visit_where(ConfigVisitor& v, Behaviour& b) {
+  v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
+  v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
+  v.number("greatest_depth_m", b.greatest_depth_m,
+           {0, 12000, "m", "z never passed on the way to an altitude"});
+  degrees(v, "heading_deg", b.heading_rad, {-360, 360, "deg", "of heading, and of a survey's first track"});
+  v.number("center_north_m", b.center_north_m, {-1e6, 1e6, "m", "middle of a loiter or a survey"});
+  v.number("center_east_m", b.center_east_m, {-1e6, 1e6, "m", "middle of a loiter or a survey"});
+  v.number("radius_m", b.radius_m,
+           {1, 1e5, "m", "of a loiter, and of a follower's circle without its leader"});
+  bus::choice(v, "sense", b.sense, {"clockwise", "counterclockwise"}, "of a loiter, seen from above");
+  v.number("length_m", b.length_m, {1, 1e5, "m", "of a survey's box, along its tracks"});
+  v.number("width_m", b.width_m, {0, 1e5, "m", "of a survey's box, across its tracks"});
+  v.number("track_spacing_m", b.track_spacing_m, {0.1, 1e4, "m", "of a survey"});
+  v.number("turn_m", b.turn_m, {0, 1e4, "m", "how far outside of the box a survey's tracks end"});
+}
+
+void visit_formation(ConfigVisitor& v, Formation& f) {
+  v.text("leader", f.leader, {}, "name of a vehicle with a [vehicle.mission.broadcast]");
+  v.number("along_m", f.along_m, {-1e4, 1e4, "m", "ahead of the leader; below 0: astern"});
+  v.number("across_m", f.across_m, {-1e4, 1e4, "m", "to the leader's starboard"});
+  v.number("below_m", f.below_m, {-1e4, 1e4, "m", "below the leader"});
+  v.number("fresh_for_s", f.fresh_for_s, {1, 60, "s", "age of a report beyond which the leader is lost"});
+  v.number("keep_course_s", f.keep_course_s, {0, 1e5, "s", "how long the last course is then kept"});
+  v.number("safe_depth_m", f.safe_depth_m, {-100, 12000, "m", "z of the circle (radius_m) after that"});
+  v.number("safe_speed_mps", f.safe_speed_mps, {0.01, 50, "m/s", "speed on that circle"});
+  v.number("greatest_speed_mps", f.greatest_speed_mps, {0.01, 50, "m/s", "to catch up with"});
+}
+
+void visit_behaviour(ConfigVisitor& v, Behaviour& b) {
+  bus::choice(v, "kind", b.kind, {"waypoints", "heading", "loiter", "survey", "follow"}, "what is done");
+  v.points("waypoints", b.waypoints, {-1e6, 1e6, "m", "of waypoints: north, east, down of each"});
+  v.number("duration_s", b.duration_s, {0, 1e7, "s", "of heading, loiter and follow; 0: for ever"});
+  v.number("speed_mps", b.speed_mps, {0, 50, "m/s", "through the water; 0: the mission's"});
+  visit_where(v, b);
+  v.section("formation", "kind = follow: the place beside a leader, kept by what it says over sound",
+            [&](ConfigVisitor& formation) { visit_formation(formation, b.formation); });
+  if (!v.writing() && b.kind == BehaviourKind::kWaypoints && b.waypoints.empty())
+    v.problem("waypoints", "at least one point [north, east, down], with kind = waypoints");
+}
+
+void visit_behaviours(ConfigVisitor& v, PilotConfig& pilot) {
+  v.list(
+      "behaviour", "What is done one after another, instead of the mission's waypoints",
+      pilot.behaviours.size(), [&](std::size_t n) { pilot.behaviours.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) { visit_behaviour(item, pilot.behaviours[i]); });
+  if (!v.writing() && !pilot.behaviours.empty() && !pilot.mission.waypoints.empty())
+    v.problem("waypoints", "none beside [[vehicle.mission.behaviour]]; give them to a behaviour");
+}
+
+void visit_navigator(ConfigVisitor& v, NavigatorRules& rules) {
+  v.number("log_drift_mps", rules.log_drift_mps, {0, 10, "m/s", "by the speed through the water: currents"});
+  v.number("ground_drift", rules.ground_drift, {0, 1, "", "metres a metre by the speed over ground"});
+  v.number("start_deviation_m", rules.start_deviation_m, {0, 1e4, "m", "of the place at the start"});
+}
+
+void visit_broadcast(ConfigVisitor& v, Broadcast& broadcast) {
+  double period_s = broadcast.period.seconds(), start_s = broadcast.start.seconds();
+  v.number("period_s", period_s, {0, 3600, "s", "between reports of 17 bytes; 0: none"});
+  v.number("start_s", start_s, {0, 1e7, "s", "simulation time of the first"});
+  broadcast = {SimDuration::from_seconds(period_s), SimTime::from_seconds(start_s)};
+}
+
 void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
   Mission& m = pilot.mission;
   v.points("waypoints", m.waypoints,
-           {-1e6, 1e6, "m", "north, east, down of each waypoint; none: the vehicle is not piloted"});
+           {-1e6, 1e6, "m",
+            "north, east, down of each waypoint; without these and behaviours the vehicle is not piloted"});
   v.number("speed_mps", m.speed_mps, {0.01, 50, "m/s", "speed through the water"});
   bus::choice(
       v, "at_end", m.at_end, {"loop", "hold", "stop"},
@@ -59,24 +123,52 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
   v.number("lookahead_m", m.lookahead_m, {0.1, 1e4, "m", "how far ahead on the leg the vehicle aims"});
   v.number("min_altitude_m", m.min_altitude_m,
            {0, 1000, "m", "least height above the seabed, where the altimeter sees it"});
+  v.number("ground_ahead_m", pilot.ground_ahead_m, {0, 1000, "m", "how far ahead the ground is looked at"});
   bus::choice(v, "steering", pilot.steering, {"fins", "thrusters"},
               "what steers it: propeller and fins, or four thrusters as hover has them");
+  bus::choice(v, "navigate_by", pilot.navigate_by, {"state", "sensors"},
+              "how it knows where it is: the truth, or dead reckoning by its own sensors");
+  v.section("navigator", "Uncertainty of dead reckoning, with navigate_by = sensors",
+            [&](ConfigVisitor& navigator) { visit_navigator(navigator, pilot.navigator); });
+  v.section("broadcast", "Its place, told over sound to those who follow it",
+            [&](ConfigVisitor& broadcast) { visit_broadcast(broadcast, pilot.broadcast); });
   v.section("gains", "Gains with fins; the defaults suit torpedo and remus100-pvs",
             [&](ConfigVisitor& gains) { visit_gains(gains, pilot.gains); });
   v.section("hover_gains", "Gains with thrusters; the defaults suit hover",
             [&](ConfigVisitor& gains) { visit_hover_gains(gains, pilot.hover_gains); });
+  visit_behaviours(v, pilot);
 }
 
 void visit_vehicle(ConfigVisitor& v, PilotConfig& pilot) {
   v.shared_with_others();
   v.text("name", pilot.vehicle, {}, "");
   bus::integer_as(v, "id", pilot.vehicle_id, {1, 2147483647, "", ""});
+  v.vector3("start_ned_m", pilot.start_ned_m, {-1e6, 1e6, "m", ""});
   if (!v.given("mission")) return;
   v.section("mission", "What the autopilot does with this vehicle",
             [&](ConfigVisitor& mission) { visit_mission(mission, pilot); });
 }
 
+void check_leaders(ConfigVisitor& v, const AutopilotConfig& config) {
+  for (const PilotConfig& follower : config.vehicles) {
+    for (const Behaviour& behaviour : follower.behaviours) {
+      const std::string& name = behaviour.formation.leader;
+      if (behaviour.kind != BehaviourKind::kFollow || find_leader(config, name)) continue;
+      v.problem("vehicle", "for the formation of " + follower.vehicle +
+                               " a leader that broadcasts (broadcast.period_s above 0); given is '" + name +
+                               "'");
+    }
+  }
+}
+
 }  // namespace
+
+const PilotConfig* find_leader(const AutopilotConfig& config, const std::string& name) {
+  for (const PilotConfig& vehicle : config.vehicles) {
+    if (vehicle.vehicle == name && vehicle.broadcast.period > SimDuration()) return &vehicle;
+  }
+  return nullptr;
+}
 
 void visit(ConfigVisitor& v, AutopilotConfig& config) {
   v.section("autopilot", "The pilots of all vehicles with a mission", [&](ConfigVisitor& section) {
@@ -89,6 +181,7 @@ void visit(ConfigVisitor& v, AutopilotConfig& config) {
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
+  if (!v.writing()) check_leaders(v, config);
 }
 
 }  // namespace halocline::clients

@@ -8,6 +8,8 @@
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
+#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/plan.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -15,14 +17,31 @@ namespace halocline::clients {
 // What the vehicle is steered with.
 enum class Steering { kFins, kThrusters };
 
-// What one vehicle's pilot is to do. Without waypoints the vehicle is not piloted.
+// Where a pilot knows its vehicle's place from.
+enum class NavigateBy { kState, kSensors };
+
+// Its place, told to all over sound.
+struct Broadcast {
+  SimDuration period;  // 0: none
+  SimTime start;
+};
+
+// What one vehicle's pilot is to do. Without waypoints and behaviours the vehicle is not piloted.
 struct PilotConfig {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
   Mission mission;
+  std::vector<Behaviour> behaviours;  // instead of the mission's waypoints
+  double ground_ahead_m = 4;          // how far ahead of the vehicle the ground is looked at
+  NavigateBy navigate_by = NavigateBy::kState;
+  NavigatorRules navigator;         // with sensors
+  Vec3 start_ned_m = Vec3::Zero();  // where it is put into the water
+  Broadcast broadcast;
   Steering steering = Steering::kFins;
   Gains gains;             // of fins
   HoverGains hover_gains;  // of thrusters
+
+  bool is_piloted() const { return !mission.waypoints.empty() || !behaviours.empty(); }
 };
 
 struct AutopilotConfig {
@@ -33,5 +52,8 @@ struct AutopilotConfig {
 };
 
 void visit(bus::ConfigVisitor& v, AutopilotConfig& config);
+
+// The vehicle of this name if it broadcasts its place; else null.
+const PilotConfig* find_leader(const AutopilotConfig& config, const std::string& name);
 
 }  // namespace halocline::clients

@@ -1,30 +1,62 @@
 #include "clients/autopilot/autopilot_messages.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 
-Vec3 position_of(const vehicle_state_t& state) {
-  return {state.position_ned_m[0], state.position_ned_m[1], state.position_ned_m[2]};
-}
-
-Measured to_measured(const vehicle_state_t& state) {
+Situation to_situation(const vehicle_state_t& state) {
   const double* q = state.orientation_wxyz;
   const Quaternion orientation = Quaternion(q[0], q[1], q[2], q[3]).normalized();
-  const EulerAngles euler = to_euler(orientation);
-  const Vec3 velocity(state.velocity_ned_mps[0], state.velocity_ned_mps[1], state.velocity_ned_mps[2]);
-  return {.z_ned_m = state.position_ned_m[2],
-          .heading_rad = euler.yaw,
-          .pitch_rad = euler.pitch,
-          .pitch_rate_radps = state.angular_velocity_body_radps[1],
-          .yaw_rate_radps = state.angular_velocity_body_radps[2],
-          .speed_mps = (orientation.conjugate() * velocity).x()};
+  Situation situation;
+  situation.time_s = SimTime::from_utime(state.utime).seconds();
+  situation.position_ned_m = {state.position_ned_m[0], state.position_ned_m[1], state.position_ned_m[2]};
+  situation.velocity_ned_mps = {state.velocity_ned_mps[0], state.velocity_ned_mps[1],
+                                state.velocity_ned_mps[2]};
+  situation.attitude = to_euler(orientation);
+  situation.pitch_rate_radps = state.angular_velocity_body_radps[1];
+  situation.yaw_rate_radps = state.angular_velocity_body_radps[2];
+  situation.water_speed_mps = (orientation.conjugate() * situation.velocity_ned_mps).x();
+  return situation;
 }
 
-HoverMeasured to_hover_measured(const vehicle_state_t& state) {
-  const Measured m = to_measured(state);
-  const Vec3 velocity(state.velocity_ned_mps[0], state.velocity_ned_mps[1], state.velocity_ned_mps[2]);
-  return {position_of(state), velocity, m.heading_rad, m.pitch_rad, m.pitch_rate_radps, m.yaw_rate_radps};
+Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& navigator, double time_s) {
+  Situation situation;
+  situation.time_s = time_s;
+  situation.position_ned_m = navigator.position_ned_m(time_s);
+  situation.velocity_ned_mps = navigator.velocity_ned_mps();
+  situation.attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad};
+  situation.pitch_rate_radps = sensors.angular_rate_body_radps[1];
+  situation.yaw_rate_radps = sensors.angular_rate_body_radps[2];
+  situation.water_speed_mps = sensors.water_speed_mps;
+  return situation;
+}
+
+NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors) {
+  return {.time_s = SimTime::from_utime(sensors.utime).seconds(),
+          .attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad},
+          .depth_m = sensors.depth_m,
+          .water_speed_mps = sensors.water_speed_mps};
+}
+
+LeaderReport to_report(const Situation& situation) {
+  const Vec3& velocity = situation.velocity_ned_mps;
+  const double speed = velocity.head<2>().norm();
+  // At rest the way it would go is where its bow points.
+  const double course = speed > 0.05 ? std::atan2(velocity.y(), velocity.x()) : situation.attitude.yaw;
+  return {situation.position_ned_m, course, speed, situation.time_s};
+}
+
+AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situation) {
+  const double time_s = SimTime::from_utime(sensors.utime).seconds();
+  return {
+      .time_s = time_s,
+      .position_ned_m = situation.position_ned_m + (time_s - situation.time_s) * situation.velocity_ned_mps,
+      .attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad},
+      .has_echo = sensors.altitude_status == vehicle_sensors_t::ALTITUDE_MEASURED,
+      .altitude_m = sensors.altitude_m};
 }
 
 vehicle_command_t to_message(const std::array<double, 4>& thruster_rpm) {

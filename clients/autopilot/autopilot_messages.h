@@ -4,16 +4,24 @@
 #include "bus/messages.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/hover_laws.h"
+#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/vehicle_pilot.h"
 
 namespace halocline::clients {
 
-Vec3 position_of(const vehicle_state_t& state);
+// From the state. The speed is the forward component over ground: SENSORS tells that through the water.
+Situation to_situation(const vehicle_state_t& state);
 
-// Attitude and rates from the state. The speed is the forward component over ground: SENSORS tells
-// that through the water.
-Measured to_measured(const vehicle_state_t& state);
+// From the vehicle's own sensors alone; the place by dead reckoning, at `time_s`.
+Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& navigator, double time_s);
 
-HoverMeasured to_hover_measured(const vehicle_state_t& state);
+NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors);
+
+// What a leader tells of itself.
+LeaderReport to_report(const Situation& situation);
+
+// Where a vehicle in this situation saw the ground.
+AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situation);
 
 // Time and numbering are the caller's.
 vehicle_command_t to_message(const ActuatorCommand& command);

@@ -11,107 +11,159 @@ namespace {
 // The latest instant of the grid at or before `time`.
 SimTime grid_instant(SimTime time, SimDuration period) { return next_on_grid(time, period) - period; }
 
-// Speed through the water and the height of the seabed, where the vehicle measures them.
-void use_sensors(const vehicle_sensors_t& sensors, const Mission& mission, Measured& measured,
-                 SetPoints& points) {
-  measured.speed_mps = sensors.water_speed_mps;
-  if (sensors.altitude_status != vehicle_sensors_t::ALTITUDE_MEASURED) return;
-  points.z_ned_m = above_seabed(mission, points.z_ned_m, measured.z_ned_m, sensors.altitude_m);
-}
-
 }  // namespace
 
 AutopilotNode::AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const AutopilotConfig& config)
     : Node(lcm, std::move(identity)), period_(config.command_period), state_timeout_(config.state_timeout) {
   for (const PilotConfig& vehicle : config.vehicles) {
     const bool wanted = config.only_vehicle.empty() || config.only_vehicle == vehicle.vehicle;
-    if (wanted && !vehicle.mission.waypoints.empty()) add_pilot(vehicle);
+    if (wanted && vehicle.is_piloted()) add_pilot(config, vehicle);
   }
   require(config.only_vehicle.empty() || !pilots_.empty(),
           "autopilot.only_vehicle is '" + config.only_vehicle + "', which is no vehicle with a mission");
 }
 
-void AutopilotNode::add_pilot(const PilotConfig& config) {
-  pilots_.push_back(std::make_unique<Pilot>());
-  Pilot* pilot = pilots_.back().get();
-  pilot->config = config;
-  bus().subscribe<vehicle_state_t>(bus::channels::kState.of(config.vehicle),
-                                   [pilot](const vehicle_state_t& state) { pilot->state = state; });
-  bus().subscribe<vehicle_sensors_t>(bus::channels::kSensors.of(config.vehicle),
-                                     [pilot](const vehicle_sensors_t& sensors) { pilot->sensors = sensors; });
+void AutopilotNode::add_pilot(const AutopilotConfig& all, const PilotConfig& config) {
+  const SeabedRules rules{config.mission.min_altitude_m, config.ground_ahead_m};
+  const VehiclePilot vehicle_pilot(make_plan(config.mission, config.behaviours), rules);
+  pilots_.push_back(std::make_unique<Pilot>(Pilot{config, {}, {}, false, vehicle_pilot}));
+  subscribe(*pilots_.back());
+  join_formation(all, *pilots_.back());
 }
 
-bus::Due AutopilotNode::on_due() const { return {.sim = pilots_.empty() ? SimTime::never() : next_command_}; }
+void AutopilotNode::subscribe(Pilot& pilot) {
+  const PilotConfig& config = pilot.config;
+  const bool by_sensors = config.navigate_by == NavigateBy::kSensors;
+  if (by_sensors) {
+    pilot.navigator.emplace(config.start_ned_m, config.navigator);
+  } else {
+    bus().subscribe<vehicle_state_t>(bus::channels::kState.of(config.vehicle),
+                                     [&pilot](const vehicle_state_t& state) { pilot.state = state; });
+  }
+  bus().subscribe<vehicle_sensors_t>(bus::channels::kSensors.of(config.vehicle),
+                                     [&pilot](const vehicle_sensors_t& sensors) {
+                                       pilot.sensors = sensors;
+                                       pilot.looked = false;
+                                       if (pilot.navigator)
+                                         pilot.navigator->add(to_navigation_sample(sensors));
+                                     });
+}
+
+void AutopilotNode::join_formation(const AutopilotConfig& all, Pilot& pilot) {
+  std::map<std::int32_t, std::string> leaders;
+  for (const Behaviour& behaviour : pilot.config.behaviours) {
+    if (behaviour.kind != BehaviourKind::kFollow) continue;
+    const PilotConfig* leader = find_leader(all, behaviour.formation.leader);
+    require(leader != nullptr,
+            "the leader '" + behaviour.formation.leader + "' is no vehicle that broadcasts");
+    leaders[leader->vehicle_id] = leader->vehicle;
+  }
+  if (leaders.empty() && pilot.config.broadcast.period <= SimDuration()) return;
+  const auto listener = [&pilot](const std::string& leader, const LeaderReport& report) {
+    pilot.pilot.hear(leader, report);
+  };
+  pilot.link = std::make_unique<FormationLink>(bus(), pilot.config, std::move(leaders), listener);
+}
+
+bus::Due AutopilotNode::on_due() const {
+  bus::Due due{.sim = pilots_.empty() ? SimTime::never() : next_command_};
+  for (const auto& pilot : pilots_) {
+    if (!pilot->link) continue;
+    const bus::Due link = pilot->link->due();
+    due.sim = std::min(due.sim, link.sim);
+    due.steady = std::min(due.steady, link.steady);
+  }
+  return due;
+}
 
 void AutopilotNode::on_step(const bus::Now& now) {
-  if (now.sim < next_command_) return;
-  const SimTime instant = grid_instant(now.sim, period_);
-  for (const auto& pilot : pilots_) {
-    if (pilot->state && is_fresh(pilot->state->utime, instant)) steer(*pilot, instant);
+  if (now.sim >= next_command_) {
+    command_all(grid_instant(now.sim, period_));
+    next_command_ = next_on_grid(now.sim, period_);
   }
-  next_command_ = next_on_grid(now.sim, period_);
+  for (const auto& pilot : pilots_) {
+    if (pilot->link) pilot->link->step(now, pilot->situation);
+  }
+}
+
+void AutopilotNode::command_all(SimTime instant) {
+  for (const auto& pilot : pilots_) {
+    pilot->situation = situation_of(*pilot, instant);
+    if (pilot->situation) steer(*pilot, *pilot->situation, instant);
+  }
 }
 
 bool AutopilotNode::is_fresh(std::int64_t utime, SimTime now) const {
   return now - SimTime::from_utime(utime) <= state_timeout_;
 }
 
-void AutopilotNode::steer(Pilot& pilot, SimTime instant) {
-  const Mission& mission = pilot.config.mission;
-  const Vec3 position = position_of(*pilot.state);
-  const Progress before = pilot.progress.value_or(begin(position));
-  pilot.progress = advance(mission, before, position);
-  report_progress(pilot, before);
-  SetPoints points = set_points(mission, *pilot.progress, position);
-  Measured measured = to_measured(*pilot.state);
-  if (pilot.sensors && is_fresh(pilot.sensors->utime, instant)) {
-    use_sensors(*pilot.sensors, mission, measured, points);
+std::optional<Situation> AutopilotNode::situation_of(Pilot& pilot, SimTime instant) const {
+  const bool has_sensors = pilot.sensors && is_fresh(pilot.sensors->utime, instant);
+  const bool has_state = pilot.state && is_fresh(pilot.state->utime, instant);
+  if (!(pilot.navigator ? has_sensors : has_state)) return std::nullopt;
+  const double time_s = instant.seconds();
+  Situation situation =
+      pilot.navigator ? to_situation(*pilot.sensors, *pilot.navigator, time_s) : to_situation(*pilot.state);
+  if (has_sensors) {
+    situation.water_speed_mps = pilot.sensors->water_speed_mps;
+    look_at_ground(pilot, situation);
   }
+  situation.time_s = time_s;
+  return situation;
+}
+
+// Once for each measurement.
+void AutopilotNode::look_at_ground(Pilot& pilot, const Situation& situation) {
+  const bool known = pilot.sensors->altitude_status != vehicle_sensors_t::ALTITUDE_UNAVAILABLE;
+  if (known && !pilot.looked) pilot.pilot.look_at_ground(to_look(*pilot.sensors, situation));
+  pilot.looked = true;
+}
+
+void AutopilotNode::steer(Pilot& pilot, const Situation& situation, SimTime instant) {
+  const auto before = pilot.pilot.progress();
+  const auto phase_before = pilot.pilot.follow_phase();
+  const SetPoints points = pilot.pilot.steer_for(situation);
+  report_progress(pilot, before);
+  if (const auto phase = pilot.pilot.follow_phase(); phase && phase != phase_before)
+    bus().log().info("formation", "vehicle=" + pilot.config.vehicle + " now=\"" + to_text(*phase) + "\"");
+  const double dt_s = period_.seconds();
   vehicle_command_t message =
       pilot.config.steering == Steering::kThrusters
-          ? steer_with_thrusters(pilot, points)
-          : to_message(command(pilot.config.gains, points, measured, period_.seconds(), pilot.integrals));
+          ? to_message(pilot.pilot.with_thrusters(pilot.config.hover_gains, points, situation, dt_s))
+          : to_message(pilot.pilot.with_fins(pilot.config.gains, points, situation, dt_s));
   message.utime = instant.to_utime();
   message.session = bus().identity().session;
   message.sequence = pilot.sequence++;
   bus().publish(bus::channels::kCommand.of(pilot.config.vehicle), message);
 }
 
-// Straight to the waypoint ahead, or to stay at the last one.
-vehicle_command_t AutopilotNode::steer_with_thrusters(Pilot& pilot, const SetPoints& points) const {
-  if (!points.propel) return {};
-  const Mission& mission = pilot.config.mission;
-  StationPoint point{mission.waypoints.at(pilot.progress->target), mission.speed_mps};
-  point.position_ned_m.z() = points.z_ned_m;
-  return to_message(hover_command(pilot.config.hover_gains, point, to_hover_measured(*pilot.state),
-                                  period_.seconds(), pilot.hover_integrals));
+void AutopilotNode::report_progress(const Pilot& pilot, const std::optional<PlanProgress>& before) {
+  if (!before) return;
+  const PlanProgress& now = *pilot.pilot.progress();
+  const bool reached = now.route.target != before->route.target || now.route.at_end != before->route.at_end;
+  if (now.index == before->index && now.ended == before->ended && !reached) return;
+  bus().log().info("mission-progress", "vehicle=" + pilot.config.vehicle +
+                                           " behaviour=" + std::to_string(before->index) +
+                                           " waypoint=" + std::to_string(before->route.target) + " now=\"" +
+                                           pilot.pilot.text() + "\"");
 }
 
-void AutopilotNode::report_progress(const Pilot& pilot, const Progress& before) {
-  if (pilot.progress->target == before.target && pilot.progress->at_end == before.at_end) return;
-  bus().log().info("waypoint-reached", "vehicle=" + pilot.config.vehicle +
-                                           " waypoint=" + std::to_string(before.target) +
-                                           (pilot.progress->at_end ? " mission=finished" : ""));
-}
-
-void AutopilotNode::on_restart(const bus::Now&) {
+void AutopilotNode::on_restart(const bus::Now& now) {
   next_command_ = SimTime();
   for (const auto& pilot : pilots_) {
     pilot->state.reset();
     pilot->sensors.reset();
-    pilot->progress.reset();
-    pilot->integrals = {};
-    pilot->hover_integrals = {};
+    pilot->situation.reset();
+    pilot->pilot.restart();
+    if (pilot->navigator) pilot->navigator.emplace(pilot->config.start_ned_m, pilot->config.navigator);
+    if (pilot->link) pilot->link->restart(now.sim);
   }
 }
 
 std::string AutopilotNode::status_text() const {
   std::string text = pilots_.empty() ? "no vehicle has a mission" : "";
   for (const auto& pilot : pilots_) {
-    text += (text.empty() ? "" : ", ") + pilot->config.vehicle + ": ";
-    text += !pilot->progress          ? "not heard yet"
-            : pilot->progress->at_end ? "mission finished"
-                                      : "to waypoint " + std::to_string(pilot->progress->target);
+    text += (text.empty() ? "" : ", ") + pilot->config.vehicle + ": " + pilot->pilot.text();
   }
   return text;
 }

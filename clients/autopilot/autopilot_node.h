@@ -1,8 +1,10 @@
-// Hears STATE and SENSORS of the vehicles that have a mission, and publishes their COMMAND on the time grid.
+// Hears STATE and SENSORS of the vehicles that have a mission, and publishes their COMMAND on the time grid; leaders of a
+// formation also SEND, followers hear RECEIVE.
 //
 // Position and attitude come from STATE (the vehicle knows where it is), speed through the water and altitude
-// from SENSORS where a vehicle publishes it. A vehicle whose state is older than the time-out gets no
-// commands, and so falls into its safe state.
+// from SENSORS where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h) and STATE
+// is not heard; z is then the depth below the sea surface. A vehicle whose state (or sensors) is older than the time-out
+// gets no commands, and so falls into its safe state.
 #pragma once
 
 #include <map>
@@ -13,12 +15,15 @@
 
 #include "bus/node.h"
 #include "clients/autopilot/autopilot_config.h"
+#include "clients/autopilot/formation_link.h"
+#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/vehicle_pilot.h"
 
 namespace halocline::clients {
 
 class AutopilotNode : public bus::Node {
  public:
-  // Pilots the vehicles of `config` that have waypoints. Throws InvalidArgument when config.only_vehicle is
+  // Pilots the vehicles of `config` that have waypoints or behaviours. Throws InvalidArgument when config.only_vehicle is
   // none of them.
   AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const AutopilotConfig& config);
 
@@ -33,17 +38,23 @@ class AutopilotNode : public bus::Node {
     PilotConfig config;
     std::optional<vehicle_state_t> state;
     std::optional<vehicle_sensors_t> sensors;
-    std::optional<Progress> progress;
-    Integrals integrals;
-    HoverIntegrals hover_integrals;
+    bool looked = false;  // its altitude was taken in
+    VehiclePilot pilot;
     std::int64_t sequence = 0;
+    std::optional<Navigator> navigator{};  // by sensors alone
+    std::optional<Situation> situation{};  // the latest
+    std::unique_ptr<FormationLink> link{};
   };
 
-  void add_pilot(const PilotConfig& config);
+  void add_pilot(const AutopilotConfig& all, const PilotConfig& config);
+  void subscribe(Pilot& pilot);
+  void join_formation(const AutopilotConfig& all, Pilot& pilot);
+  std::optional<Situation> situation_of(Pilot& pilot, SimTime instant) const;
+  void command_all(SimTime instant);
   bool is_fresh(std::int64_t utime, SimTime now) const;
-  void steer(Pilot& pilot, SimTime instant);
-  vehicle_command_t steer_with_thrusters(Pilot& pilot, const SetPoints& points) const;
-  void report_progress(const Pilot& pilot, const Progress& before);
+  void steer(Pilot& pilot, const Situation& situation, SimTime instant);
+  static void look_at_ground(Pilot& pilot, const Situation& situation);
+  void report_progress(const Pilot& pilot, const std::optional<PlanProgress>& before);
 
   SimDuration period_, state_timeout_;
   SimTime next_command_;

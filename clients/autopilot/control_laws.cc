@@ -22,9 +22,9 @@ double rudder(const Gains& g, const SetPoints& points, const Measured& m) {
 double stern_plane(const Gains& g, const SetPoints& points, const Measured& m, double dt_s,
                    Integrals& integrals) {
   const double too_deep_m = m.z_ned_m - points.z_ned_m;
-  const double pitch_d =
-      limited_pi(g.depth_p_rad_per_m * too_deep_m, g.depth_i_rad_per_m_s * too_deep_m * dt_s,
-                 -g.max_pitch_rad, g.max_pitch_rad, integrals.pitch_rad);
+  const double pitch_d = limited_pi(g.depth_p_rad_per_m * too_deep_m + points.climb_rad,
+                                    g.depth_i_rad_per_m_s * too_deep_m * dt_s, -g.max_pitch_rad,
+                                    g.max_pitch_rad, integrals.pitch_rad);
   return std::clamp(-g.pitch_p * (pitch_d - m.pitch_rad) + g.pitch_d_s * m.pitch_rate_radps, -g.max_fin_rad,
                     g.max_fin_rad);
 }

@@ -2,7 +2,7 @@
 //
 // Model, after Fossen 2021 (Handbook, 2nd ed., chapters 15 and 16):
 //   rudder  = p_heading (course - heading) - d_heading r                     heading: PD
-//   pitch_d = clip(p_depth (z - z_d) + integral), stern = -p_pitch (pitch_d - pitch) + d_pitch q
+//   pitch_d = clip(p_depth (z - z_d) + climb + integral), stern = -p_pitch (pitch_d - pitch) + d_pitch q
 //                                                           depth: PI on the outside, PD of pitch within
 //   rpm     = feed_forward u_d + p_speed (u_d - u) + integral               speed: PI with feed-forward
 // Signs as in vehicle_command_t: positive rudder turns to starboard, positive stern planes push the nose

@@ -1,6 +1,5 @@
 #include "clients/autopilot/guidance.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -34,13 +33,6 @@ double course_on_leg(const Mission& mission, const Progress& progress, const Vec
   return wrapped(azimuth(along) - std::atan2(cross_track_m, mission.lookahead_m));
 }
 
-double course_on_orbit(const Mission& mission, const Vec3& position) {
-  const Eigen::Vector2d from_center = horizontal(mission.waypoints.back(), position);
-  const double radius = mission.hold_radius_m;
-  return wrapped(azimuth(from_center) + kPi / 2 +
-                 std::atan(kOrbitGain * (from_center.norm() - radius) / radius));
-}
-
 }  // namespace
 
 double wrapped(double angle_rad) {
@@ -72,15 +64,19 @@ SetPoints set_points(const Mission& mission, const Progress& progress, const Vec
     points.propel = false;
     points.speed_mps = 0;
   } else if (progress.at_end) {
-    points.course_rad = course_on_orbit(mission, position_ned_m);
+    points.course_rad =
+        course_on_circle(mission.waypoints.back(), mission.hold_radius_m, true, position_ned_m);
   } else {
     points.course_rad = course_on_leg(mission, progress, position_ned_m);
   }
   return points;
 }
 
-double above_seabed(const Mission& mission, double z_ned_m, double position_z_m, double altitude_m) {
-  return std::min(z_ned_m, position_z_m + altitude_m - mission.min_altitude_m);
+double course_on_circle(const Vec3& center_ned_m, double radius_m, bool clockwise,
+                        const Vec3& position_ned_m) {
+  const Eigen::Vector2d from_center = horizontal(center_ned_m, position_ned_m);
+  const double inwards = kPi / 2 + std::atan(kOrbitGain * (from_center.norm() - radius_m) / radius_m);
+  return wrapped(azimuth(from_center) + (clockwise ? inwards : -inwards));
 }
 
 }  // namespace halocline::clients

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/frames.h"
@@ -42,6 +43,10 @@ struct SetPoints {
   double course_rad = 0;  // -pi to pi
   double z_ned_m = 0;
   double speed_mps = 0;
+  double climb_rad = 0;   // slope of the path asked for, up positive: pitch on top of what depth asks for
+  double altitude_m = 0;  // above 0: height above the ground to keep instead of z (seabed_ahead.h)
+  double greatest_z_ned_m = 0;          // with an altitude: never deeper
+  std::optional<Vec3> station_ned_m{};  // the point steered for, where there is one
 };
 
 // The start of a mission from where the vehicle is.
@@ -53,9 +58,9 @@ Progress advance(const Mission& mission, Progress progress, const Vec3& position
 // The set points at this position. `progress` is from advance() at the same position.
 SetPoints set_points(const Mission& mission, const Progress& progress, const Vec3& position_ned_m);
 
-// `z_ned_m`, or the deepest z that keeps `mission.min_altitude_m` above a seabed seen `altitude_m` below
-// `position_z_m`, whichever is shallower.
-double above_seabed(const Mission& mission, double z_ned_m, double position_z_m, double altitude_m);
+// The course of a circle about `center`, from wherever the vehicle is; `radius_m` above 0.
+double course_on_circle(const Vec3& center_ned_m, double radius_m, bool clockwise,
+                        const Vec3& position_ned_m);
 
 // The same direction within -pi (excluded) to pi.
 double wrapped(double angle_rad);

@@ -7,11 +7,11 @@ int main(int argc, char** argv) {
   halocline::clients::AutopilotConfig config;
   NodeProgram program;
   program.program = "halocline-autopilot";
-  program.purpose = "Steers the vehicles that have a [vehicle.mission] along their waypoints.";
+  program.purpose = "Steers the vehicles that have a [vehicle.mission] through their behaviours.";
   program.node_name = "autopilot";
   program.interface =
-      "hears:     CLOCK, STATE.<vehicle>, SENSORS.<vehicle>\n"
-      "publishes: COMMAND.<vehicle>, STATUS.<name>";
+      "hears:     CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
+      "publishes: COMMAND.<vehicle>, SEND.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {
     return std::make_unique<halocline::clients::AutopilotNode>(context.lcm, context.identity, config);

@@ -82,6 +82,7 @@ std::string commented_toml() {
   config.vehicle_sim.tethers.resize(1);
   config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig()}};
   config.autopilot.vehicles.resize(1);
+  config.autopilot.vehicles[0].behaviours.resize(1);
   config.traffic.vehicles.resize(1);
   config.localiser.vehicles.resize(1);
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);

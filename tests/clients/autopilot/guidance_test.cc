@@ -117,11 +117,14 @@ TEST(Guidance, OutsideTheOrbitTheCourseLeadsInAndInsideOut) {
   EXPECT_GT(std::cos(inside), 0);   // north, away from it
 }
 
-TEST(Guidance, AltitudeLimitsTheDepth) {
-  Mission mission;
-  mission.min_altitude_m = 3;
-  EXPECT_EQ(above_seabed(mission, 50, 20, 10), 27);  // seabed at 30 m
-  EXPECT_EQ(above_seabed(mission, 25, 20, 10), 25);
+TEST(Guidance, CounterclockwiseCircleIsTheMirrorOfTheClockwise) {
+  const Vec3 center(10, 20, 0);
+  for (const double east : {25.0, 50.0, 70.0}) {
+    const double there = course_on_circle(center, 30, true, {10, east, 0});
+    const double back = course_on_circle(center, 30, false, {10, east, 0});
+    EXPECT_NEAR(std::cos(there), -std::cos(back), kRounding);  // along the circle: the other way
+    EXPECT_NEAR(std::sin(there), std::sin(back), kRounding);   // towards it: the same
+  }
 }
 
 TEST(Guidance, AnglesAreWrappedToHalfATurn) {

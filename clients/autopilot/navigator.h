@@ -1,0 +1,60 @@
+// Where a vehicle is by its own sensors: dead reckoning between fixes.
+//
+// Model: position moves by the velocity over ground where a Doppler log tells it, else by the speed through the water along the
+// hull's axis (heading, pitch), as if the water stood still; velocity changes evenly between samples (trapezium). z
+// is the measured depth. Uncertainty: a standard deviation of each horizontal axis that grows with time, by
+// `log_drift_mps` while the speed is that through the water (the current that is not known) and by `ground_drift` times the
+// way while it is that over ground (the Doppler log's scale and the compass): both are lasting errors, so deviations
+// add up, not variances. A fix moves the position by P / (P + R) of the difference (Kalman's gain with one variance for
+// both axes) and leaves 1 / (1/P + 1/R). So in a current c the error grows as c t, and a good fix takes it away.
+// Left out: the current is not estimated, nor the compass's error; sideslip; fixes of the past.
+#pragma once
+
+#include <optional>
+
+#include "core/frames.h"
+
+namespace halocline::clients {
+
+struct NavigatorRules {
+  double log_drift_mps = 0.1;    // metres a second through unknown currents, 0 or above
+  double ground_drift = 0.01;    // metres a metre of way over ground, 0 or above
+  double start_deviation_m = 1;  // of the place it is put into the water, 0 or above
+};
+
+// What its sensors tell at an instant.
+struct NavigationSample {
+  double time_s = 0;
+  EulerAngles attitude;
+  double depth_m = 0;                              // becomes z
+  double water_speed_mps = 0;                      // forward through the water
+  std::optional<Vec3> ground_velocity_body_mps{};  // of a Doppler log
+};
+
+class Navigator {
+ public:
+  // `start_ned_m`: where the vehicle is put into the water.
+  Navigator(const Vec3& start_ned_m, NavigatorRules rules);
+
+  // Samples come in order of time; one that is not later than the last is ignored.
+  void add(const NavigationSample& sample);
+  // A position measured at the latest sample; `deviation_m` of each axis, above 0.
+  void fix(double north_m, double east_m, double deviation_m);
+
+  bool has_sample() const { return last_.has_value(); }
+  const NavigationSample& last() const { return *last_; }
+  // At `time_s`, not before the latest sample: carried on by its velocity.
+  Vec3 position_ned_m(double time_s) const;
+  Vec3 velocity_ned_mps() const { return velocity_ned_mps_; }
+  // Standard deviation of north and of east.
+  double deviation_m() const { return deviation_m_; }
+
+ private:
+  NavigatorRules rules_;
+  Vec3 position_ned_m_;
+  Vec3 velocity_ned_mps_ = Vec3::Zero();
+  double deviation_m_;
+  std::optional<NavigationSample> last_;
+};
+
+}  // namespace halocline::clients

@@ -1,0 +1,90 @@
+#include "clients/autopilot/vehicle_pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halocline::clients {
+namespace {
+
+constexpr double kCarrotM = 10;         // thrusters steer for a point this far along a course
+constexpr double kLeastSpeedMps = 0.3;  // of a follower through the water: below it fins do not steer
+
+}  // namespace
+
+VehiclePilot::VehiclePilot(Plan plan, SeabedRules seabed_rules)
+    : plan_(std::move(plan)), seabed_rules_(seabed_rules) {
+  restart();
+}
+
+void VehiclePilot::hear(const std::string& leader, const LeaderReport& report) {
+  for (auto& follower : followers_) {
+    if (follower && follower->formation().leader == leader) follower->hear(report);
+  }
+}
+
+SetPoints VehiclePilot::steer_for(const Situation& situation) {
+  const Vec3& position = situation.position_ned_m;
+  if (!progress_) progress_ = begin(position, situation.time_s);
+  progress_ = advance(plan_, *progress_, position, situation.time_s);
+  return above_ground(seabed_rules_, seabed_, situation.time_s, position.z(), planned(situation));
+}
+
+SetPoints VehiclePilot::planned(const Situation& situation) {
+  auto& follower = followers_[progress_->index];
+  if (!follower || progress_->ended) return set_points(plan_, *progress_, situation.position_ned_m);
+  SetPoints points = follower->steer_for(situation.time_s, situation.position_ned_m);
+  // What the current adds on the way, the propeller need not.
+  const Vec3 bow(std::cos(situation.attitude.yaw), std::sin(situation.attitude.yaw), 0);
+  points.speed_mps += situation.water_speed_mps - situation.velocity_ned_mps.dot(bow);
+  points.speed_mps = std::max(points.speed_mps, kLeastSpeedMps);
+  return points;
+}
+
+std::optional<FollowPhase> VehiclePilot::follow_phase() const {
+  if (!progress_ || progress_->ended || !followers_[progress_->index]) return std::nullopt;
+  return followers_[progress_->index]->phase();
+}
+
+ActuatorCommand VehiclePilot::with_fins(const Gains& gains, const SetPoints& points, const Situation& s,
+                                        double dt_s) {
+  const Measured measured{s.position_ned_m.z(), s.attitude.yaw,   s.attitude.pitch,
+                          s.pitch_rate_radps,   s.yaw_rate_radps, s.water_speed_mps};
+  return command(gains, points, measured, dt_s, integrals_);
+}
+
+std::array<double, 4> VehiclePilot::with_thrusters(const HoverGains& gains, const SetPoints& points,
+                                                   const Situation& s, double dt_s) {
+  if (!points.propel) return {};
+  const Vec3 ahead = kCarrotM * Vec3(std::cos(points.course_rad), std::sin(points.course_rad), 0);
+  StationPoint point{points.station_ned_m.value_or(s.position_ned_m + ahead), points.speed_mps};
+  point.position_ned_m.z() = points.z_ned_m;
+  const HoverMeasured measured{s.position_ned_m, s.velocity_ned_mps, s.attitude.yaw,
+                               s.attitude.pitch, s.pitch_rate_radps, s.yaw_rate_radps};
+  return hover_command(gains, point, measured, dt_s, hover_integrals_);
+}
+
+std::string VehiclePilot::text() const {
+  if (!progress_) return "not heard yet";
+  if (progress_->ended || progress_->route.at_end) return "mission finished";
+  if (const auto phase = follow_phase()) return to_text(*phase);
+  const BehaviourKind kind = plan_.behaviours[progress_->index].kind;
+  const std::string to_waypoint = "to waypoint " + std::to_string(progress_->route.target);
+  if (kind == BehaviourKind::kHeading) return "keeps a heading";
+  if (kind == BehaviourKind::kLoiter) return "circles";
+  return kind == BehaviourKind::kSurvey ? "surveys, " + to_waypoint : to_waypoint;
+}
+
+void VehiclePilot::restart() {
+  seabed_.clear();
+  followers_.clear();
+  for (const Behaviour& behaviour : plan_.behaviours) {
+    const bool follows = behaviour.kind == BehaviourKind::kFollow;
+    followers_.push_back(follows ? std::optional(Follower(behaviour.formation, behaviour.radius_m))
+                                 : std::nullopt);
+  }
+  progress_.reset();
+  integrals_ = {};
+  hover_integrals_ = {};
+}
+
+}  // namespace halocline::clients

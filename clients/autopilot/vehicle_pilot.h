@@ -1,0 +1,70 @@
+// One vehicle's pilot: from what it knows of itself to what it steers for, and on to its actuators.
+//
+// It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the ground that its altimeter showed it (seabed_ahead.h), and
+// steers with fins (control_laws.h) or with thrusters (hover_laws.h). Values in, values out: where a situation comes from
+// is the node's.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/autopilot/control_laws.h"
+#include "clients/autopilot/formation.h"
+#include "clients/autopilot/hover_laws.h"
+#include "clients/autopilot/plan.h"
+#include "clients/autopilot/seabed_ahead.h"
+
+namespace halocline::clients {
+
+// What a vehicle knows of itself at an instant; NED metres, m/s, radians.
+struct Situation {
+  double time_s = 0;
+  Vec3 position_ned_m = Vec3::Zero();
+  Vec3 velocity_ned_mps = Vec3::Zero();  // over ground
+  EulerAngles attitude;
+  double pitch_rate_radps = 0, yaw_rate_radps = 0;
+  double water_speed_mps = 0;  // forward through the water
+};
+
+class VehiclePilot {
+ public:
+  VehiclePilot(Plan plan, SeabedRules seabed_rules);
+
+  void look_at_ground(const AltimeterLook& look) { seabed_.add(look); }
+
+  // A report that was heard from the vehicle `leader`.
+  void hear(const std::string& leader, const LeaderReport& report);
+
+  // What to steer for in this situation. Situations come in order of time.
+  SetPoints steer_for(const Situation& situation);
+
+  ActuatorCommand with_fins(const Gains& gains, const SetPoints& points, const Situation& situation,
+                            double dt_s);
+  // Straight to the point steered for where there is one, else along the course.
+  std::array<double, 4> with_thrusters(const HoverGains& gains, const SetPoints& points,
+                                       const Situation& situation, double dt_s);
+
+  // Empty before the first situation.
+  const std::optional<PlanProgress>& progress() const { return progress_; }
+  // Of the behaviour at hand; empty when it does not follow.
+  std::optional<FollowPhase> follow_phase() const;
+  // What it does, in words.
+  std::string text() const;
+  // As if nothing had happened yet.
+  void restart();
+
+ private:
+  SetPoints planned(const Situation& situation);
+
+  Plan plan_;
+  SeabedRules seabed_rules_;
+  SeabedAhead seabed_;
+  std::vector<std::optional<Follower>> followers_;  // of each behaviour that follows
+  std::optional<PlanProgress> progress_;
+  Integrals integrals_;
+  HoverIntegrals hover_integrals_;
+};
+
+}  // namespace halocline::clients
