@@ -1,5 +1,7 @@
 #include "clients/autopilot/autopilot_node.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "core/check.h"
@@ -120,6 +122,109 @@ TEST_F(AutopilotNodeTest, AnotherRunStartsTheMissionAnew) {
   publish_state(0);
   step(100);
   EXPECT_EQ(commands_.size(), 2u);
+}
+
+// A leader at sensors and a follower, both at memq; what they command and send is kept.
+class FormationNodeTest : public ::testing::Test {
+ protected:
+  static AutopilotConfig formation() {
+    AutopilotConfig config = one_mission();
+    config.vehicles[0].vehicle_id = 1;
+    config.vehicles[0].navigate_by = NavigateBy::kSensors;
+    config.vehicles[0].start_ned_m = {30, 40, 0};
+    config.vehicles[0].broadcast.period = SimDuration::from_seconds(8);
+    config.vehicles[1].vehicle_id = 2;
+    config.vehicles[1].behaviours = {{.kind = BehaviourKind::kFollow}};
+    config.vehicles[1].behaviours[0].formation.leader = "auv-1";
+    return config;
+  }
+  FormationNodeTest() {
+    ear_.subscribe<modem_send_t>(bus::channels::kSend,
+                                 [this](std::string_view vehicle, const modem_send_t& packet) {
+                                   EXPECT_EQ(vehicle, "auv-1");
+                                   sent_.push_back(packet);
+                                 });
+    ear_.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-1"),
+                                      [this](const vehicle_command_t& m) { leader_.push_back(m); });
+    ear_.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-2"),
+                                      [this](const vehicle_command_t& m) { follower_.push_back(m); });
+  }
+  void drain() {
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+  }
+  // The leader's own sensors: north at 2 m/s, 20 m deep.
+  void publish_leader(std::int64_t ms) {
+    vehicle_sensors_t sensors{};
+    sensors.utime = ms * 1000;
+    sensors.depth_m = 20;
+    sensors.water_speed_mps = 2;
+    sensors.altitude_status = vehicle_sensors_t::ALTITUDE_NO_BOTTOM;
+    ear_.publish(bus::channels::kSensors.of("auv-1"), sensors);
+    drain();
+  }
+  void step(std::int64_t ms) {
+    node_.step({at_ms(ms), at_ms(ms)});
+    drain();
+  }
+
+  lcm::LCM lcm_{"memq://"};
+  AutopilotNode node_{lcm_, {"autopilot", 11}, formation()};
+  bus::Bus ear_{lcm_, {"ear", 1}};
+  std::vector<modem_send_t> sent_;
+  std::vector<vehicle_command_t> leader_, follower_;
+};
+
+TEST_F(FormationNodeTest, BySensorsNoStateIsNeeded) {
+  publish_leader(0);
+  step(0);
+  EXPECT_EQ(leader_.size(), 1u);
+}
+
+TEST_F(FormationNodeTest, LeaderTellsItsReckonedPlace) {
+  for (int i = 0; i <= 40; ++i) {
+    publish_leader(200 * i);
+    step(200 * i);
+  }
+  // Nobody answers, so the first is repeated beside the second.
+  const auto second =
+      std::find_if(sent_.begin(), sent_.end(), [](const auto& m) { return m.packet_sequence == 1; });
+  ASSERT_NE(second, sent_.end());
+  const modem_send_t& packet = *second;
+  EXPECT_EQ(packet.utime, 8'000'000);
+  EXPECT_EQ(packet.destination_id, 0);
+  const auto report = decode_report(packet.payload, 9);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->position_ned_m.x(), 30 + 16, 0.06);  // rounded to 0.1 m
+  EXPECT_NEAR(report->position_ned_m.y(), 40, 0.06);
+  EXPECT_NEAR(report->time_s, 8, 1e-9);
+}
+
+TEST_F(FormationNodeTest, FollowerHearsItsLeaderByReceiveAlone) {
+  vehicle_state_t state{};
+  state.vehicle_id = 2;
+  state.orientation_wxyz[0] = 1;
+  state.velocity_ned_mps[0] = 1.5;
+  ear_.publish(bus::channels::kState.of("auv-2"), state);
+  modem_receive_t packet{};
+  packet.utime = 100'000;
+  packet.source_id = 1;
+  packet.receiver_id = 2;
+  packet.payload = encode_report({{-30, 300, 20}, 0, 1.5, 0});  // its place lies east of the follower
+  packet.payload_size = static_cast<std::int32_t>(packet.payload.size());
+  ear_.publish(bus::channels::kReceive.of("auv-2"), packet);
+  drain();
+  step(100);
+  ASSERT_EQ(follower_.size(), 1u);
+  EXPECT_GT(follower_[0].rudder_rad, 0.1);
+}
+
+TEST(AutopilotNode, LeaderThatDoesNotBroadcastIsRefused) {
+  lcm::LCM lcm("memq://");
+  AutopilotConfig config = one_mission();
+  config.vehicles[1].behaviours = {{.kind = BehaviourKind::kFollow}};
+  config.vehicles[1].behaviours[0].formation.leader = "auv-1";
+  EXPECT_THROW(AutopilotNode(lcm, {"autopilot", 1}, config), InvalidArgument);
 }
 
 TEST(AutopilotNode, UnknownOnlyVehicleIsRefused) {
