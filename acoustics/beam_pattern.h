@@ -3,14 +3,18 @@
 // Model: a table of loss against elevation, linear in decibels between rows, constant beyond the ends; no
 // table is omnidirectional. Elevation is the angle from the horizontal, positive down (as launch angles are);
 // the pattern is the same all around the vertical. Left out: bearing, the tilt of the vehicle (the caller may
-// turn the angles).
+// turn the angles), the frequency.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/units.h"
 
 namespace halocline::acoustics {
+
+// A row a degree, from straight up to straight down.
+inline constexpr std::size_t kMostBeamRows = 181;
 
 struct BeamRow {
   double elevation_rad;  // -pi/2..pi/2, rising
@@ -21,7 +25,7 @@ struct BeamRow {
 class BeamPattern {
  public:
   BeamPattern() = default;  // omnidirectional
-  // At least one row. Throws InvalidArgument, naming the row, unless rows are in range and rise.
+  // 1..kMostBeamRows rows. Throws InvalidArgument, naming the row, unless rows are in range and rise.
   explicit BeamPattern(std::vector<BeamRow> rows);
 
   bool is_omnidirectional() const { return rows_.empty(); }
@@ -29,6 +33,7 @@ class BeamPattern {
   // On pressure: 10^(-loss/20).
   double factor(double elevation_rad) const;
   const std::vector<BeamRow>& rows() const { return rows_; }
+  bool operator==(const BeamPattern&) const = default;
 
  private:
   std::vector<BeamRow> rows_;

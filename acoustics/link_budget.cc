@@ -21,6 +21,11 @@ double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWa
 
 }  // namespace
 
+double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m) {
+  const Vec3 way = to_ned_m - from_ned_m;
+  return std::atan2(way.z(), std::hypot(way.x(), way.y()));
+}
+
 struct LinkModel::Sample {
   AbsorptionSpectrum spectrum;
   double share;
@@ -112,14 +117,15 @@ double LinkModel::mean_absorption(const Samples& samples, std::size_t frequency)
                                 absorption_to_boundary_[samples.first_boundary * frequencies + frequency]);
 }
 
-double LinkModel::capacity(const Samples& samples, double range_m) const {
+double LinkModel::capacity(const Samples& samples, double range_m, Decibels beams) const {
   const bool lossless = range_m < kReferenceRange;
-  const double spreading = lossless ? 1 : std::pow(range_m, -environment_.spreading_exponent);
+  const double spread = lossless ? 1 : std::pow(range_m, -environment_.spreading_exponent);
+  const double gain = spread * to_power_ratio(-beams).value;
   const double nepers_per_db_per_km = lossless ? 0 : kNepersPerDecibel * range_m / kMetresPerKilometre;
   double bits = 0;
   for (std::size_t f = 1; f < unit_ratio_.size(); ++f) {
     const double absorbed = std::exp(-nepers_per_db_per_km * mean_absorption(samples, f));
-    bits += weight_hz_[f] * log2_of_1_plus(unit_ratio_[f] * spreading * absorbed);
+    bits += weight_hz_[f] * log2_of_1_plus(unit_ratio_[f] * gain * absorbed);
   }
   return bits;
 }
@@ -159,10 +165,13 @@ LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const
   link.delay_s = link.range_m * slowness;
   link.mean_sound_speed_mps = 1 / slowness;
   link.absorption_db_per_km = mean_absorption(samples, 0);
-  set_levels(
-      link,
-      transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km).total);
-  link.capacity_bps = capacity(samples, link.range_m);
+  // The receiver looks back along the line.
+  const double down_rad = angle_down_rad(from_ned_m, to_ned_m);
+  const Decibels beams = transmitter_.beam.loss(down_rad) + receiver_.beam.loss(-down_rad);
+  set_levels(link, transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km)
+                           .total +
+                       beams);
+  link.capacity_bps = capacity(samples, link.range_m, beams);
   return link;
 }
 

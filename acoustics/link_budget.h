@@ -4,10 +4,12 @@
 // Model (docs/validation.md lists what each part is checked against):
 //   delay       integral of ds / c(z) along the path
 //   absorption  integral of alpha(z, f) ds: at the centre frequency for the levels, over the band for the
-//   capacity loss        TL = k 10 log l + that integral; 0 below 1 m level       RL = SL - TL noise       NL
-//   = 10 log of the integral of N(f) df over the transmitter's band ratio       SNR = SL - TL - NL + DI;
-//   `snr_narrowband` with NL = N(fc) + 10 log B, the paper's equation 7 capacity    integral of log2(1 + DI
-//   (P/B) / (A N)) df over the band; equation 8 where DI is 0 dB
+//               capacity
+//   loss        TL = k 10 log l + that integral (0 below 1 m) + what both beams take off in the line's direction
+//   level       RL = SL - TL
+//   noise       NL = 10 log of the integral of N(f) df over the transmitter's band
+//   ratio       SNR = SL - TL - NL + DI; `snr_narrowband` with NL = N(fc) + 10 log B, the paper's equation 7
+//   capacity    integral of log2(1 + DI (P/B) / (A N)) df over the band; equation 8 where DI is 0 dB
 // Signal and noise are taken in the transmitter's band; the receiver lends its directivity index and its
 // cut-off. Path integrals err by less than 1e-12, capacity by less than 1e-9 (relative).
 //
@@ -39,6 +41,9 @@ struct LinkBudget {
   double capacity_bps = 0;          // bit/s
   bool receivable = false;          // received level >= the receiver's cut-off, and the bands overlap
 };
+
+// Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal points.
+double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m);
 
 // Loss along a straight path at one frequency.
 struct PathLoss {
@@ -83,7 +88,7 @@ class LinkModel {
   void tabulate_absorption();
   Samples sample_path(double from_depth_m, double to_depth_m) const;
   double mean_absorption(const Samples& samples, std::size_t frequency) const;
-  double capacity(const Samples& samples, double range_m) const;
+  double capacity(const Samples& samples, double range_m, Decibels beams) const;
   double capacity_of_path(const Samples& samples, Decibels loss, double path_length_m) const;
   void set_levels(LinkBudget& link, Decibels loss) const;
 

@@ -3,7 +3,9 @@
 //
 // The generic profile takes the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),
 // cut-off (least receivable level), bandwidth and centre frequency. Those of real modems are in modem_profile.h.
-// A value; nothing here knows a bus or a clock. Left out: beam patterns (one directivity index for reception).
+// A value; nothing here knows a bus or a clock. The transducer's pattern in elevation weighs the paths of sound
+// at both ends; noise comes from all around and is weighed by the directivity index alone. Left out: patterns in
+// bearing.
 //
 //   const Modem modem = profile_modem(ModemProfile::kJanus);
 //   packet_timing(modem, 16).duration;                            // 2.8 s
@@ -13,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "acoustics/beam_pattern.h"
 #include "acoustics/capacity.h"
 #include "acoustics/error_model.h"
 #include "core/sim_time.h"
@@ -58,6 +61,7 @@ struct Modem {
   double doppler_tolerance = 0.1;
   ErrorModel error_model = ErrorModel::kBfsk;
   FrameLayout layout;
+  BeamPattern beam;  // for sending and hearing alike; source and cut-off level are those of its 0 dB
 
   ModemProfile profile = ModemProfile::kGeneric;  // where the numbers come from
   std::int32_t psk_rate = 0;                      // of the Micromodem's PSK, else 0

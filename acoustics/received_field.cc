@@ -63,8 +63,9 @@ double longest_echo_s(const std::vector<WeightedDelay>& delays) {
 
 double weighted_pressure(const Arrival& path, const Transducers& transducers) {
   // The receiver looks back along the ray: what travels down comes from above.
-  return path.received_pressure() * transducers.source.factor(path.launch_angle_rad) *
-         transducers.receiver.factor(-path.arrival_angle_rad);
+  // The beams' product first, so that the way back has the same pressure to the last bit.
+  return path.received_pressure() * (transducers.source.factor(path.launch_angle_rad) *
+                                     transducers.receiver.factor(-path.arrival_angle_rad));
 }
 
 ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options) {

@@ -47,4 +47,15 @@ void degrees(ConfigVisitor& v, std::string_view key, double& radians, const Numb
   if (value_deg != before) radians = to_radians(value_deg);
 }
 
+void degrees(ConfigVisitor& v, std::string_view key, std::vector<double>& radians,
+             const NumberRule& rule_in_degrees) {
+  std::vector<double> values_deg;
+  for (const double angle : radians) values_deg.push_back(readable_degrees(angle));
+  const std::vector<double> before = values_deg;
+  v.numbers(key, values_deg, rule_in_degrees);
+  if (values_deg == before) return;
+  radians.clear();
+  for (const double angle_deg : values_deg) radians.push_back(to_radians(angle_deg));
+}
+
 }  // namespace halocline::bus

@@ -103,6 +103,10 @@ void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<
 // An angle, in degrees in the file (its key ends in _deg), in radians in the struct.
 void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees);
 
+// Likewise an array of angles.
+void degrees(ConfigVisitor& v, std::string_view key, std::vector<double>& radians,
+             const NumberRule& rule_in_degrees);
+
 // Everything that is wrong with a configuration, one line each: "file:line: key: what; allowed is ...".
 class ConfigErrors : public InvalidArgument {
  public:

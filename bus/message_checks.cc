@@ -22,7 +22,8 @@ constexpr double kQuaternionTolerance = 1e-3;  // publishers in single precision
 constexpr std::int64_t kLatestUtime = 3'155'760'000'000'000;
 constexpr double kGreatestDopplerFactor = 10;  // no two ends meet at nine tenths of the speed of sound
 constexpr double kPi = std::numbers::pi;
-constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16;
+constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16,
+                       kMostBeamRows = 181;
 
 // Collects the first problem found.
 class Checker {
@@ -71,8 +72,8 @@ class Checker {
 };
 
 Checker check_modem(const modem_config_t& m) {
-  return Checker()
-      .utime(m.utime)
+  Checker checker;
+  checker.utime(m.utime)
       .within("source_level_db", m.source_level_db, 0, kHighestLevelDb)
       .within("center_frequency_hz", m.center_frequency_hz, 1, kHighestFrequencyHz)
       .within("bandwidth_hz", m.bandwidth_hz, 1e-3, kHighestFrequencyHz)
@@ -90,7 +91,15 @@ Checker check_modem(const modem_config_t& m) {
       .within("doppler_tolerance", m.doppler_tolerance, 0, 1)
       .one_of("error_model", m.error_model, modem_config_t::ERRORS_NONE,
               modem_config_t::ERRORS_BPSK_HAMMING14)
-      .one_of("when_busy", m.when_busy, modem_config_t::REFUSE, modem_config_t::QUEUE);
+      .one_of("when_busy", m.when_busy, modem_config_t::REFUSE, modem_config_t::QUEUE)
+      .within("num_beam_rows", m.num_beam_rows, 0, kMostBeamRows)
+      .all_within("beam_elevation_rad", m.beam_elevation_rad, -kPi / 2, kPi / 2)
+      .all_within("beam_loss_db", m.beam_loss_db, -60, 200);
+  for (std::size_t i = 1; i < m.beam_elevation_rad.size(); ++i) {
+    checker.holds(m.beam_elevation_rad[i] > m.beam_elevation_rad[i - 1], "beam_elevation_rad",
+                  "does not rise");
+  }
+  return checker;
 }
 
 Checker check_link(const link_t& m) {

@@ -91,7 +91,9 @@ class Walk {
 // utime, session and sequence, the head of most messages.
 constexpr std::size_t kHead = 3 * 8;
 
-WireLayout modem_layout() { return {fixed(8 + 7 * 8 + 4 + 1 + 4 + 3 * 8 + 2)}; }
+WireLayout modem_layout() {
+  return {fixed(8 + 7 * 8 + 4 + 1 + 4 + 3 * 8 + 2), count(), array_of_bytes(8), array_of_bytes(8)};
+}
 WireLayout link_layout() { return {fixed(2 * 4 + 7 * 8 + 1 + 1 + 2 * 8 + 1 + 1 + 4 + 2 * 8)}; }
 WireLayout packet_name_layout() { return {fixed(4 + 1 + 2 * 8)}; }
 

@@ -13,6 +13,14 @@ Vec3 to_vec3(const double (&values)[3]) { return {values[0], values[1], values[2
 
 std::vector<double> as_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+acoustics::BeamPattern beam_in(const modem_config_t& message) {
+  std::vector<acoustics::BeamRow> rows;
+  for (std::size_t i = 0; i < message.beam_elevation_rad.size(); ++i) {
+    rows.push_back({message.beam_elevation_rad[i], message.beam_loss_db[i]});
+  }
+  return rows.empty() ? acoustics::BeamPattern() : acoustics::BeamPattern(std::move(rows));
+}
+
 // The modem whose way of framing packets the message names.
 acoustics::Modem framed_modem(const modem_config_t& message) {
   require(message.modem_profile >= 0 &&
@@ -143,6 +151,7 @@ VehicleModem to_modem(const modem_config_t& message) {
   modem.modem.guard_time = SimDuration::from_seconds(message.guard_time_s);
   modem.modem.doppler_tolerance = message.doppler_tolerance;
   modem.modem.error_model = static_cast<acoustics::ErrorModel>(message.error_model);
+  modem.modem.beam = beam_in(message);
   modem.max_payload_bytes = message.max_payload_bytes;
   modem.when_busy = static_cast<WhenBusy>(message.when_busy);
   validate(modem.modem);
@@ -168,6 +177,11 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   message.doppler_tolerance = modem.modem.doppler_tolerance;
   message.error_model = static_cast<std::int8_t>(modem.modem.error_model);
   message.when_busy = static_cast<std::int8_t>(modem.when_busy);
+  message.num_beam_rows = static_cast<std::int32_t>(modem.modem.beam.rows().size());
+  for (const acoustics::BeamRow& row : modem.modem.beam.rows()) {
+    message.beam_elevation_rad.push_back(row.elevation_rad);
+    message.beam_loss_db.push_back(row.loss_db);
+  }
   return message;
 }
 

@@ -37,6 +37,29 @@ void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
               "how often bits are wrong");
 }
 
+void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
+  std::vector<double> elevations_rad, losses_db;
+  for (const acoustics::BeamRow& row : beam.rows()) {
+    elevations_rad.push_back(row.elevation_rad);
+    losses_db.push_back(row.loss_db);
+  }
+  bus::degrees(v, "beam_elevation_deg", elevations_rad,
+               {-90, 90, "deg", "of beam_loss_db, positive down, rising; none: omnidirectional"});
+  v.numbers("beam_loss_db", losses_db,
+            {-60, 200, "dB", "of the transducer re source and cut-off level, sending and hearing"});
+  if (!v.given("beam_elevation_deg") && !v.given("beam_loss_db")) return;
+  if (elevations_rad.size() != losses_db.size()) {
+    return v.problem("beam_loss_db", "as many numbers as beam_elevation_deg has");
+  }
+  bus::report_refusal(v, "beam_elevation_deg", [&] {
+    std::vector<acoustics::BeamRow> rows;
+    for (std::size_t i = 0; i < losses_db.size(); ++i) {
+      rows.push_back({elevations_rad[i], losses_db[i]});
+    }
+    beam = rows.empty() ? acoustics::BeamPattern() : acoustics::BeamPattern(std::move(rows));
+  });
+}
+
 }  // namespace
 
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
@@ -54,6 +77,7 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   bus::integer_as(v, "max_payload_bytes", m.max_payload_bytes,
                   {0, 32768, "bytes", "largest payload of a packet"});
   visit_reception(v, a);
+  visit_beam(v, a.beam);
   bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "asked to send while sending");
   bus::report_refusal(v, "profile", [&] { validate_profile(a); });
   if (a.preamble > a.packet_overhead)

@@ -8,15 +8,9 @@
 namespace halocline::channel_server {
 namespace {
 
-// Positive down, from one point to another; 0 between equal points.
-double angle_down(const Vec3& from, const Vec3& to) {
-  const Vec3 way = to - from;
-  return std::atan2(way.z(), std::hypot(way.x(), way.y()));
-}
-
 SoundPath straight_path(const acoustics::Environment& water, const acoustics::LinkBudget& budget,
                         const LinkEnd& from, const LinkEnd& to) {
-  const double angle = angle_down(from.position_ned_m, to.position_ned_m);
+  const double angle = acoustics::angle_down_rad(from.position_ned_m, to.position_ned_m);
   const Vec3 along = acoustics::ray_direction(from.position_ned_m, to.position_ned_m, angle);
   SoundPath path;
   path.delay_s = budget.delay_s;
@@ -104,10 +98,13 @@ bool StraightPropagation::echo_is_receivable(SimTime at, const acoustics::Modem&
 }
 
 StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem& modem) {
-  return {modem.source_level.value,       modem.least_receivable_level.value,
-          modem.centre_frequency_hz,      modem.bandwidth_hz,
-          modem.directivity_index.value,  modem.bit_rate_bps,
-          modem.packet_overhead.seconds()};
+  std::vector<double> beam;
+  for (const acoustics::BeamRow& row : modem.beam.rows()) {
+    beam.insert(beam.end(), {row.elevation_rad, row.loss_db});
+  }
+  return {{modem.source_level.value, modem.least_receivable_level.value, modem.centre_frequency_hz,
+           modem.bandwidth_hz, modem.directivity_index.value},
+          std::move(beam)};
 }
 
 std::shared_ptr<const acoustics::LinkModel> StraightPropagation::model_of(SimTime at,

@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "acoustics/link_budget.h"
@@ -120,7 +121,7 @@ class Propagation {
   virtual const acoustics::Environment& environment(SimTime at) const = 0;
 };
 
-// The straight path of acoustics/link_budget.h, in the water of the instant.
+// The straight path of acoustics/link_budget.h, in the water of the instant, weighed by both beams.
 //
 // A LinkModel takes a millisecond to make and microseconds to ask, so one is kept for each pair of different
 // modems asked about; of more than `most_models`, the one that was asked longest ago makes room.
@@ -146,7 +147,7 @@ class StraightPropagation : public Propagation {
   std::size_t models_kept() const { return models_.size(); }
 
  private:
-  using ModemKey = std::array<double, 7>;
+  using ModemKey = std::pair<std::array<double, 5>, std::vector<double>>;  // numbers of a budget; beam
   using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
   struct KeptModel {
     std::shared_ptr<const acoustics::LinkModel> model;

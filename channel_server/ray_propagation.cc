@@ -214,10 +214,11 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task, const Found
                                    to.velocity_ned_mps,
                                    sound_speed_at(*task.environment, from.position_ned_m),
                                    sound_speed_at(*task.environment, to.position_ned_m)};
+  const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::vector<SoundPath> paths;
   for (const acoustics::Arrival& arrival : found.arrivals.paths) {
     const acoustics::Arrival path = task.reversed ? backwards(arrival) : arrival;
-    const double pressure = weighted_pressure(path, {});
+    const double pressure = weighted_pressure(path, beams);
     if (!(pressure > 0)) continue;  // absorbed beyond what a double holds
     const Decibels level = from.modem->source_level + Decibels{20 * std::log10(pressure)};
     paths.push_back({path.delay_s, std::max(level, kSilence), doppler_factor(path, ends),
@@ -230,9 +231,13 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task, const Found
 Decibels RayPropagation::received_level(const Task& task, const Found& found,
                                         const std::vector<SoundPath>& paths) const {
   if (!model_.coherent) return total_level(paths);
-  const acoustics::Modem& transmitter = *task.ends.from.modem;
-  return std::max(transmitter.source_level + coherent_level(found.arrivals, transmitter.centre_frequency_hz),
-                  kSilence);
+  const auto& [from, to] = task.ends;
+  const LinkEnd &first = task.reversed ? to : from, &last = task.reversed ? from : to;
+  acoustics::FieldOptions field;
+  field.transducers = {first.modem->beam, last.modem->beam};
+  return std::max(
+      from.modem->source_level + coherent_level(found.arrivals, from.modem->centre_frequency_hz, field),
+      kSilence);
 }
 
 void RayPropagation::set_open(const Task& task, const Found& found, Reception& reception) const {

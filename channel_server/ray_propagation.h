@@ -1,7 +1,8 @@
 // Sound along rays, over the bottom that is known between the ends of a link.
 //
 // Model: acoustics/eigenray.h gives the paths; each has the level
-//   source level - spreading - bounces - absorption - beam patterns,
+//   source level - spreading - bounces - absorption - beams (the sender's at the launch angle; the receiver's looking
+//   back along the arriving ray, so at minus the arrival angle),
 // and the link the sum of their powers (or, if wished, of their phasors for the ends exactly where they are). In
 // the budget: delay, mean sound speed (range over delay) and absorption are those of the first significant path;
 // transmission loss = source level - received level; noise, signal-to-noise ratio and what is receivable follow;

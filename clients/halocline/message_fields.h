@@ -160,6 +160,9 @@ void visit_fields(Visitor& v, const modem_config_t& m) {
   v("doppler_tolerance", m.doppler_tolerance);
   v("error_model", m.error_model);
   v("when_busy", m.when_busy);
+  v("num_beam_rows", m.num_beam_rows);
+  v("beam_elevation_rad", m.beam_elevation_rad);
+  v("beam_loss_db", m.beam_loss_db);
 }
 
 template <class Visitor>

@@ -73,11 +73,17 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
   expect_finite<environment_t>(FIELD(layer_depth_m[1]), FIELD(layer_sound_speed_mps[0]),
                                FIELD(layer_temperature_degc[0]), FIELD(layer_salinity_psu[0]),
                                FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(acidity_ph),
-                               FIELD(sea_surface_z_m), FIELD(spreading_exponent));
+                               FIELD(sea_surface_z_m), FIELD(spreading_exponent), FIELD(bottom_density_ratio),
+                               FIELD(bottom_sound_speed_ratio), FIELD(bottom_sound_speed_mps),
+                               FIELD(bottom_loss_parameter));
+  expect_finite<environment_change_t>(FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(sea_surface_z_m),
+                                      FIELD(layer_depth_m[3]), FIELD(layer_sound_speed_mps[0]),
+                                      FIELD(layer_temperature_degc[1]), FIELD(layer_salinity_psu[2]));
   expect_finite<modem_config_t>(FIELD(source_level_db), FIELD(center_frequency_hz), FIELD(bandwidth_hz),
                                 FIELD(directivity_index_db), FIELD(cutoff_level_db), FIELD(bit_rate_bps),
                                 FIELD(packet_overhead_s), FIELD(preamble_s), FIELD(guard_time_s),
-                                FIELD(doppler_tolerance));
+                                FIELD(doppler_tolerance), FIELD(beam_elevation_rad[3]),
+                                FIELD(beam_loss_db[9]));
   expect_finite<modem_receipt_t>(FIELD(duration_s));
   expect_finite<modem_receive_t>(FIELD(travel_time_s), FIELD(two_way_travel_time_s), FIELD(received_level_db),
                                  FIELD(snr_db), FIELD(doppler_factor), FIELD(sinr_db));
@@ -90,7 +96,7 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
   expect_finite<position_estimate_t>(FIELD(likelihood));
   expect_finite<link_t>(FIELD(range_m), FIELD(delay_s), FIELD(transmission_loss_db), FIELD(received_level_db),
                         FIELD(noise_level_db), FIELD(snr_db), FIELD(capacity_bps), FIELD(transmitter_age_s),
-                        FIELD(receiver_age_s));
+                        FIELD(receiver_age_s), FIELD(delay_spread_s), FIELD(doppler_factor));
   expect_finite<link_table_t>(FIELD(peers[3].snr_db));
   expect_finite<link_reply_t>(FIELD(answers[1].link.range_m), FIELD(answers[1].getss_received_strength_db),
                               FIELD(answers[1].getpd_propagation_delay_s),
@@ -123,6 +129,9 @@ TEST(MessageChecks, RefusesEnumerationsWithoutAMeaning) {
     EXPECT_NE(problem_after<modem_receive_t>([&](auto& m) { m.packet_kind = value; }), "");
     EXPECT_NE(problem_after<position_estimate_t>([&](auto& m) { m.estimate_status = value; }), "");
     EXPECT_NE(problem_after<link_t>([&](auto& m) { m.multipath = value; }), "");
+    EXPECT_NE(problem_after<link_t>([&](auto& m) { m.path_state = value; }), "");
+    EXPECT_NE(problem_after<link_t>([&](auto& m) { m.propagation_used = value; }), "");
+    EXPECT_NE(problem_after<environment_change_t>([&](auto& m) { m.profile_set = value; }), "");
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.reply_status = value; }), "");
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.answers[0].answer_status = value; }), "");
     EXPECT_NE(problem_after<link_reply_t>([&](auto& m) { m.answers[0].getml_multipath = value; }), "");
@@ -207,6 +216,68 @@ TEST(MessageChecks, DepthsOfLayersAscend) {
               m.layer_depth_m.clear();
             }),
             "");
+}
+
+TEST(MessageChecks, LayersOfAChangeOfTheWaterAscendAndAreThereWhenAProfileIsSet) {
+  EXPECT_THAT(problem_after<environment_change_t>([](auto& m) { m.layer_depth_m[2] = m.layer_depth_m[1]; }),
+              HasSubstr("does not ascend"));
+  const auto with_no_layers = [](std::int8_t profile_set) {
+    return problem_after<environment_change_t>([&](auto& m) {
+      m.profile_set = profile_set;
+      m.num_layers = 0;
+      m.layer_depth_m.clear();
+    });
+  };
+  EXPECT_THAT(with_no_layers(environment_change_t::PROFILE_WATER), HasSubstr("num_layers"));
+  EXPECT_THAT(with_no_layers(environment_change_t::PROFILE_SPEED), HasSubstr("num_layers"));
+  EXPECT_EQ(with_no_layers(environment_change_t::PROFILE_UNCHANGED), "");
+}
+
+TEST(MessageChecks, AChangeOfTheWaterHasASessionBecauseNoneIsTheScenarios) {
+  EXPECT_THAT(problem_after<environment_change_t>([](auto& m) { m.session = 0; }), HasSubstr("session"));
+}
+
+TEST(MessageChecks, ABeamHasUpToARowADegreeAndRises) {
+  const auto with_rows = [](int count) {
+    return problem_after<modem_config_t>([&](auto& m) {
+      m.num_beam_rows = count;
+      m.beam_loss_db.assign(static_cast<std::size_t>(count), 3);
+      m.beam_elevation_rad.clear();
+      for (int i = 0; i < count; ++i) m.beam_elevation_rad.push_back(-1.5 + 0.01 * i);
+    });
+  };
+  EXPECT_EQ(with_rows(0), "");
+  EXPECT_EQ(with_rows(181), "");
+  EXPECT_THAT(with_rows(182), HasSubstr("num_beam_rows"));
+  EXPECT_THAT(problem_after<modem_config_t>([](auto& m) { m.beam_elevation_rad[3] = -1; }),
+              HasSubstr("does not rise"));
+  EXPECT_THAT(problem_after<modem_config_t>([](auto& m) { m.beam_elevation_rad[9] = 1.6; }),
+              HasSubstr("beam_elevation_rad"));
+  EXPECT_THAT(problem_after<modem_config_t>([](auto& m) { m.beam_loss_db[0] = -61; }),
+              HasSubstr("beam_loss_db"));
+}
+
+TEST(MessageChecks, NumbersOfAPacketsEndAreOnesThatCanBe) {
+  const auto refuses = [](auto change) { return !problem_after<packet_outcome_t>(change).empty(); };
+  EXPECT_TRUE(refuses([](auto& m) { m.acquisition_probability = 1.001; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.success_probability = -0.001; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.acquisition_draw = 2; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.success_draw = -1; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.num_paths = -1; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.delay_spread_s = -1e-9; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.doppler_factor = -1; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.colliders[0].source_id = 0; }));
+  EXPECT_TRUE(refuses([](auto& m) {
+    m.num_colliders = 17;
+    m.colliders.assign(17, m.colliders[0]);
+  }));
+}
+
+TEST(MessageChecks, NumbersOfALinkAreOnesThatCanBe) {
+  const auto refuses = [](auto change) { return !problem_after<link_t>(change).empty(); };
+  EXPECT_TRUE(refuses([](auto& m) { m.num_paths = -1; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.delay_spread_s = -1e-9; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.doppler_factor = -1; }));
 }
 
 TEST(MessageChecks, TheReasonNamesTheFieldAndWhatIsAllowed) {

@@ -196,6 +196,9 @@ modem_config_t valid_message(unsigned seed) {
   m.doppler_tolerance = 0.125;
   m.error_model = modem_config_t::ERRORS_BPSK_HAMMING14;
   m.when_busy = modem_config_t::QUEUE;
+  m.num_beam_rows = size_of_arrays(seed);
+  m.beam_loss_db = n.reals(m.num_beam_rows);
+  for (int i = 0; i < m.num_beam_rows; ++i) m.beam_elevation_rad.push_back(-1 + 0.0625 * i);
   return m;
 }
 

@@ -151,6 +151,43 @@ TEST(ChannelServerConfig, AProfileKeepsItsOwnPackets) {
   EXPECT_EQ(errors_of("[modem]\nprofile = \"janus\"\nbit_rate_bps = 80\n"), "");
 }
 
+TEST(ChannelServerConfig, ABeamIsATableInDegreesThatAVehicleInheritsOrReplaces) {
+  const auto config = read(
+      "[modem]\nbeam_elevation_deg = [-30, 0, 30]\nbeam_loss_db = [20, 0, 10]\n"
+      "[[vehicle]]\nname = \"a\"\nid = 1\n[vehicle.modem]\nsource_level_db = 170\n"
+      "[[vehicle]]\nname = \"b\"\nid = 2\n[vehicle.modem]\nbeam_loss_db = [3, 2, 1]\n"
+      "[[vehicle]]\nname = \"c\"\nid = 3\n[vehicle.modem]\nbeam_elevation_deg = []\nbeam_loss_db = []\n");
+  const double edge = to_radians(30);
+  const acoustics::BeamPattern scenarios({{-edge, 20}, {0, 0}, {edge, 10}});
+  EXPECT_EQ(config.modem.modem.beam, scenarios);
+  const auto modems = make_modems(config);
+  EXPECT_EQ(modems.of("a").modem.beam, scenarios);
+  EXPECT_EQ(modems.of("b").modem.beam, acoustics::BeamPattern({{-edge, 3}, {0, 2}, {edge, 1}}));
+  EXPECT_TRUE(modems.of("c").modem.beam.is_omnidirectional());
+}
+
+TEST(ChannelServerConfig, AnImpossibleBeamIsRefusedWithFileLineAndKey) {
+  const std::string uneven = errors_of("[modem]\nbeam_elevation_deg = [0, 30]\nbeam_loss_db = [1]\n");
+  EXPECT_THAT(uneven, HasSubstr("test.toml:3"));
+  EXPECT_THAT(uneven, HasSubstr("beam_loss_db"));
+  const std::string falls = errors_of("[modem]\n\nbeam_elevation_deg = [30, 0]\nbeam_loss_db = [1, 2]\n");
+  EXPECT_THAT(falls, HasSubstr("test.toml:3"));
+  EXPECT_THAT(falls, HasSubstr("beam_elevation_deg"));
+  EXPECT_THAT(falls, HasSubstr("does not rise"));
+  EXPECT_THAT(errors_of("[modem]\nbeam_elevation_deg = [95]\nbeam_loss_db = [1]\n"),
+              HasSubstr("beam_elevation_deg"));
+  EXPECT_THAT(errors_of("[modem]\nbeam_elevation_deg = [9]\nbeam_loss_db = [201]\n"),
+              HasSubstr("beam_loss_db"));
+  EXPECT_THAT(errors_of("[modem]\nbeam_loss_db = [1]\n"), HasSubstr("beam_loss_db"));
+}
+
+TEST(ChannelServerConfig, ABeamPrintedReadsBackTheSame) {
+  ChannelServerConfig config;
+  config.modem.modem.beam = acoustics::BeamPattern({{-0.123456789, 20}, {to_radians(12.3), 0.1}});
+  const std::string printed = bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, true);
+  EXPECT_EQ(read(printed).modem, config.modem);
+}
+
 TEST(ChannelServerConfig, RatesAndTimesAreTaken) {
   const auto rules =
       read("[channel_server]\nlink_rate_hz = 4\nstate_lag_s = 0.1\nstate_timeout_s = 3\nbottom_points = 5\n")

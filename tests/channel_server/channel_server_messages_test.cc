@@ -29,6 +29,7 @@ VehicleModem odd_modem() {
   modem.modem.guard_time = for_s(0.0625);
   modem.modem.doppler_tolerance = 0.002;
   modem.modem.error_model = acoustics::ErrorModel::kDbpskRayleigh;
+  modem.modem.beam = acoustics::BeamPattern({{-0.5, 20}, {0.25, -3}});
   modem.when_busy = WhenBusy::kQueue;
   return modem;
 }
