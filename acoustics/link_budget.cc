@@ -168,9 +168,10 @@ LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const
   // The receiver looks back along the line.
   const double down_rad = angle_down_rad(from_ned_m, to_ned_m);
   const Decibels beams = transmitter_.beam.loss(down_rad) + receiver_.beam.loss(-down_rad);
-  set_levels(link, transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km)
-                           .total +
-                       beams);
+  set_levels(
+      link,
+      transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km).total +
+          beams);
   link.capacity_bps = capacity(samples, link.range_m, beams);
   return link;
 }

@@ -22,8 +22,7 @@ constexpr double kQuaternionTolerance = 1e-3;  // publishers in single precision
 constexpr std::int64_t kLatestUtime = 3'155'760'000'000'000;
 constexpr double kGreatestDopplerFactor = 10;  // no two ends meet at nine tenths of the speed of sound
 constexpr double kPi = std::numbers::pi;
-constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16,
-                       kMostBeamRows = 181;
+constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16, kMostBeamRows = 181;
 
 // Collects the first problem found.
 class Checker {

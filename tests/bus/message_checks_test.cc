@@ -70,20 +70,18 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
                                    FIELD(heading_rad), FIELD(pitch_rad), FIELD(roll_rad),
                                    FIELD(angular_rate_body_radps[0]), FIELD(shaft_rpm),
                                    FIELD(rudder_angle_rad), FIELD(stern_angle_rad), FIELD(thruster_rpm[0]));
-  expect_finite<environment_t>(FIELD(layer_depth_m[1]), FIELD(layer_sound_speed_mps[0]),
-                               FIELD(layer_temperature_degc[0]), FIELD(layer_salinity_psu[0]),
-                               FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(acidity_ph),
-                               FIELD(sea_surface_z_m), FIELD(spreading_exponent), FIELD(bottom_density_ratio),
-                               FIELD(bottom_sound_speed_ratio), FIELD(bottom_sound_speed_mps),
-                               FIELD(bottom_loss_parameter));
+  expect_finite<environment_t>(
+      FIELD(layer_depth_m[1]), FIELD(layer_sound_speed_mps[0]), FIELD(layer_temperature_degc[0]),
+      FIELD(layer_salinity_psu[0]), FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(acidity_ph),
+      FIELD(sea_surface_z_m), FIELD(spreading_exponent), FIELD(bottom_density_ratio),
+      FIELD(bottom_sound_speed_ratio), FIELD(bottom_sound_speed_mps), FIELD(bottom_loss_parameter));
   expect_finite<environment_change_t>(FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(sea_surface_z_m),
                                       FIELD(layer_depth_m[3]), FIELD(layer_sound_speed_mps[0]),
                                       FIELD(layer_temperature_degc[1]), FIELD(layer_salinity_psu[2]));
-  expect_finite<modem_config_t>(FIELD(source_level_db), FIELD(center_frequency_hz), FIELD(bandwidth_hz),
-                                FIELD(directivity_index_db), FIELD(cutoff_level_db), FIELD(bit_rate_bps),
-                                FIELD(packet_overhead_s), FIELD(preamble_s), FIELD(guard_time_s),
-                                FIELD(doppler_tolerance), FIELD(beam_elevation_rad[3]),
-                                FIELD(beam_loss_db[9]));
+  expect_finite<modem_config_t>(
+      FIELD(source_level_db), FIELD(center_frequency_hz), FIELD(bandwidth_hz), FIELD(directivity_index_db),
+      FIELD(cutoff_level_db), FIELD(bit_rate_bps), FIELD(packet_overhead_s), FIELD(preamble_s),
+      FIELD(guard_time_s), FIELD(doppler_tolerance), FIELD(beam_elevation_rad[3]), FIELD(beam_loss_db[9]));
   expect_finite<modem_receipt_t>(FIELD(duration_s));
   expect_finite<modem_receive_t>(FIELD(travel_time_s), FIELD(two_way_travel_time_s), FIELD(received_level_db),
                                  FIELD(snr_db), FIELD(doppler_factor), FIELD(sinr_db));

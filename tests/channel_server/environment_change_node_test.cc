@@ -106,6 +106,24 @@ TEST_F(EnvironmentChangeNodeTest, APacketGoesThroughTheWaterOfItsDeparture) {
   EXPECT_NEAR(bench_.outcomes[1].travel_time_s, 500 / 1450.0, 1e-6);
 }
 
+// 0.333 s under way: the wind rises between departure and arrival.
+TEST_F(EnvironmentChangeNodeTest, WindThatRisesWhileAPacketIsUnderWayMovesItsNoise) {
+  two_at_rest();
+  bench_.run_to(2);
+  bench_.change(bench_.change_of_wind(5, 12));
+  for (const double departure_s : {4.5, 4.9, 5.5}) {  // arrives before, arrives after, all after
+    bench_.send(1, departure_s, static_cast<std::int64_t>(10 * departure_s));
+  }
+  bench_.run_to(8);
+  ASSERT_EQ(bench_.outcomes.size(), 3u);
+  const packet_outcome_t &calm = bench_.outcomes[0], &between = bench_.outcomes[1],
+                         &windy = bench_.outcomes[2];
+  EXPECT_EQ(calm.noise_level_db, row_at(4).noise_level_db);
+  EXPECT_EQ(between.noise_level_db, row_at(6).noise_level_db);
+  EXPECT_EQ(windy.noise_level_db, between.noise_level_db);
+  EXPECT_NEAR(between.snr_db - calm.snr_db, calm.noise_level_db - between.noise_level_db, 1e-9);
+}
+
 TEST_F(EnvironmentChangeNodeTest, AnImpossibleChangeIsRefusedAndNothingMoves) {
   two_at_rest();
   bench_.run_to(2);
@@ -177,6 +195,27 @@ TEST_F(RayNodeTest, AWhatIfQuestionWaitsForTheBottom) {
   ASSERT_EQ(rays_.replies.size(), 1u);
   EXPECT_EQ(rays_.replies[0].message.answers.at(0).link.propagation_used, link_t::USED_RAYS);
   EXPECT_EQ(rays_.replies[0].message.answers.at(0).getml_multipath, link_t::MULTIPATH_LIKELY);
+}
+
+// Wind takes from bounces at the surface, but of the sound that leaves after it has risen.
+TEST_F(RayNodeTest, WindThatRisesWhileAPacketIsUnderWayLeavesItsPathsAlone) {
+  FlatBottom bottom(rays_.lcm(), 100);
+  two_at_rest();
+  rays_.run_to(2);
+  rays_.change(rays_.change_of_wind(5, 12));
+  for (const double departure_s : {4.5, 4.9, 5.5}) {
+    rays_.send(1, departure_s, static_cast<std::int64_t>(10 * departure_s));
+  }
+  rays_.run_to(8);
+  ASSERT_EQ(rays_.outcomes.size(), 3u);
+  const packet_outcome_t &calm = rays_.outcomes[0], &between = rays_.outcomes[1], &windy = rays_.outcomes[2];
+  EXPECT_EQ(between.received_level_db, calm.received_level_db);
+  EXPECT_EQ(between.num_paths, calm.num_paths);
+  EXPECT_EQ(between.travel_time_s, calm.travel_time_s);
+  EXPECT_EQ(between.delay_spread_s, calm.delay_spread_s);
+  EXPECT_GT(between.noise_level_db, calm.noise_level_db + 10);
+  EXPECT_LT(windy.received_level_db, between.received_level_db);
+  EXPECT_LT(windy.num_paths, between.num_paths);
 }
 
 TEST_F(RayNodeTest, ATideMovesDepthsAndSoThePaths) {

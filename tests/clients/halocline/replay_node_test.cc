@@ -47,6 +47,22 @@ TEST(Recording, OfAWallClockLogGoesByTheMessagesTime) {
   EXPECT_EQ(recording.end, SimTime::from_utime(2'100'000));
 }
 
+TEST(Recording, ChangesOfTheWaterArePlayed) {
+  TemporaryLog file;
+  environment_change_t change{};
+  change.utime = 2'000'000;
+  change.session = 5;
+  change.sets_wind = 1;
+  change.wind_speed_mps = 12;
+  file.add(0, "CLOCK", clock_at(0));
+  file.add(500'000, "SET_ENVIRONMENT", change);  // announced early
+  const Recording recording = recording_of(file);
+  ASSERT_EQ(recording.events.size(), 1u);
+  EXPECT_EQ(recording.events[0].channel, "SET_ENVIRONMENT");
+  EXPECT_EQ(recording.events[0].at, SimTime::from_utime(500'000));
+  EXPECT_EQ(std::get<environment_change_t>(recording.events[0].message).wind_speed_mps, 12);
+}
+
 TEST(Recording, AnswersAreNotPlayed) {
   TemporaryLog file;
   file.add(0, "STATE.auv-1", state_at(0));
