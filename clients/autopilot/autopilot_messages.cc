@@ -41,6 +41,15 @@ NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors) {
           .water_speed_mps = sensors.water_speed_mps};
 }
 
+void take_in(const position_estimate_t& estimate, Navigator& navigator) {
+  if (estimate.estimate_status != position_estimate_t::UNIQUE || !navigator.has_sample()) return;
+  const double age_s = navigator.last().time_s - SimTime::from_utime(estimate.utime).seconds();
+  const Vec3 way = age_s * navigator.velocity_ned_mps();
+  const double variance_m2 = 0.5 * (estimate.covariance_ned_m2[0] + estimate.covariance_ned_m2[4]);
+  navigator.replace(estimate.position_ned_m[0] + way.x(), estimate.position_ned_m[1] + way.y(),
+                    std::sqrt(std::max(variance_m2, 0.0)));
+}
+
 LeaderReport to_report(const Situation& situation) {
   const Vec3& velocity = situation.velocity_ned_mps;
   const double speed = velocity.head<2>().norm();

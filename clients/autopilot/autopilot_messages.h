@@ -17,6 +17,10 @@ Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& naviga
 
 NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors);
 
+// A localiser's place replaces the reckoned one when it is the only one left; carried on to the latest sample. The
+// reckoning goes on from there, through water that it holds to be still.
+void take_in(const position_estimate_t& estimate, Navigator& navigator);
+
 // What a leader tells of itself.
 LeaderReport to_report(const Situation& situation);
 

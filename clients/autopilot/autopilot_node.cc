@@ -36,6 +36,9 @@ void AutopilotNode::subscribe(Pilot& pilot) {
   const bool by_sensors = config.navigate_by == NavigateBy::kSensors;
   if (by_sensors) {
     pilot.navigator.emplace(config.start_ned_m, config.navigator);
+    bus().subscribe<position_estimate_t>(
+        bus::channels::kEstimate.of(config.vehicle),
+        [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); });
   } else {
     bus().subscribe<vehicle_state_t>(bus::channels::kState.of(config.vehicle),
                                      [&pilot](const vehicle_state_t& state) { pilot.state = state; });

@@ -42,6 +42,12 @@ void Navigator::fix(double north_m, double east_m, double deviation_m) {
   deviation_m_ = std::sqrt(p * (1 - gain));
 }
 
+void Navigator::replace(double north_m, double east_m, double deviation_m) {
+  require(deviation_m >= 0, "the deviation of a place is 0 or above");
+  position_ned_m_.head<2>() = Eigen::Vector2d(north_m, east_m);
+  deviation_m_ = deviation_m;
+}
+
 Vec3 Navigator::position_ned_m(double time_s) const {
   return last_ ? Vec3(position_ned_m_ + (time_s - last_->time_s) * velocity_ned_mps_) : position_ned_m_;
 }

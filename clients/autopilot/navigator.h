@@ -41,6 +41,9 @@ class Navigator {
   // A position measured at the latest sample; `deviation_m` of each axis, above 0.
   void fix(double north_m, double east_m, double deviation_m);
 
+  // The place by another reckoning that holds all this one knows and more: it replaces this one's.
+  void replace(double north_m, double east_m, double deviation_m);
+
   bool has_sample() const { return last_.has_value(); }
   const NavigationSample& last() const { return *last_; }
   // At `time_s`, not before the latest sample: carried on by its velocity.

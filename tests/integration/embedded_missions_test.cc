@@ -182,5 +182,22 @@ TEST_F(EmbeddedMissionsTest, DeadReckoningIsOffByTheCurrentTimesTheTime) {
   EXPECT_NEAR(east_m, 0.2 * 300, tolerance(3));  // it holds itself to be on its leg
 }
 
+// A current of 0.1 m/s: the reckoning alone passes the third waypoint 84 m off.
+TEST_F(EmbeddedMissionsTest, LocaliserKeepsTheReckoningOnItsWayInACurrent) {
+  const ScenarioConfig config =
+      load("ranging", {"scenario.duration_s=950", "vehicle.2.mission.navigate_by=\"sensors\"",
+                       "vehicle_sim.current_ned_mps=[0.1, 0.0, 0.0]"});
+  std::vector<double> nearest_m(3, 1e9);
+  for (const auto& [channel, state] : messages_in<vehicle_state_t>(run(config, "ranging"))) {
+    if (channel != "STATE.auv-1") continue;
+    for (std::size_t i = 0; i < nearest_m.size(); ++i) {
+      const Vec3 away = position_of(state) - config.autopilot.vehicles.at(2).mission.waypoints.at(i);
+      nearest_m[i] = std::min(nearest_m[i], away.head<2>().norm());
+    }
+  }
+  EXPECT_THAT(nearest_m,
+              ::testing::Each(::testing::Lt(tolerance(7))));  // reached within 5 m, by its own lights
+}
+
 }  // namespace
 }  // namespace halocline::clients

@@ -200,6 +200,28 @@ TEST_F(FormationNodeTest, LeaderTellsItsReckonedPlace) {
   EXPECT_NEAR(report->time_s, 8, 1e-9);
 }
 
+TEST_F(FormationNodeTest, LocaliserReplacesTheReckonedPlace) {
+  publish_leader(0);
+  position_estimate_t estimate{};
+  estimate.vehicle_id = 1;
+  estimate.likelihood = 1;
+  for (const int axis : {0, 4, 8}) estimate.covariance_ned_m2[axis] = 1;
+  estimate.estimate_status = position_estimate_t::AMBIGUOUS;
+  estimate.position_ned_m[0] = 500;
+  ear_.publish(bus::channels::kEstimate.of("auv-1"), estimate);  // not sure: left out
+  estimate.estimate_status = position_estimate_t::UNIQUE;
+  estimate.position_ned_m[0] = 100;
+  estimate.position_ned_m[1] = -70;
+  ear_.publish(bus::channels::kEstimate.of("auv-1"), estimate);
+  drain();
+  step(0);
+  ASSERT_FALSE(sent_.empty());
+  const auto report = decode_report(sent_.front().payload, 1);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->position_ned_m.x(), 100, 0.06);
+  EXPECT_NEAR(report->position_ned_m.y(), -70, 0.06);
+}
+
 TEST_F(FormationNodeTest, FollowerHearsItsLeaderByReceiveAlone) {
   vehicle_state_t state{};
   state.vehicle_id = 2;

@@ -80,6 +80,13 @@ TEST(Navigator, FixAsGoodAsTheReckoningMeetsItHalfway) {
   EXPECT_NEAR(navigator.deviation_m(), 11 / std::sqrt(2.0), kRounding);
 }
 
+TEST(Navigator, ReplacedPlaceIsTakenAsItIs) {
+  Navigator navigator = after(1000, 0);
+  navigator.replace(500, 40, 3);
+  EXPECT_EQ(navigator.position_ned_m(1000), Vec3(500, 40, 30));
+  EXPECT_EQ(navigator.deviation_m(), 3);
+}
+
 TEST(Navigator, SampleOfThePastIsIgnored) {
   Navigator navigator = after(10, 0);
   const Vec3 before = navigator.position_ned_m(10);
