@@ -9,15 +9,16 @@
 //   14-15  instant that all of it holds at, ms modulo 65536 ms of simulation time, unsigned
 //   16     the sum of bytes 0 to 15 modulo 256, inverted
 //
-// The hearer completes the instant: the latest that fits and is not after the reception, so a report may be up to 65 s on its
-// way; clocks agree. Rounding: 5 cm, 0.003 degrees, 0.5 mm/s.
+// The hearer completes the instant: the latest that fits and is not after the reception, so a report may
+// be up to 65 s on its way; clocks agree. Rounding: 5 cm, 0.003 degrees, 0.5 mm/s.
 //
-// The leader's place is carried on along its course at its speed. A follower steers for its place beside it: course =
-// leader's course + atan(error across / lookahead), speed = leader's + gain (error along), within half the leader's and
-// the greatest speed, so it neither stops nor turns back for a place behind it. When the youngest report is older than
-// `fresh_for_s` the leader counts as lost: the follower keeps the last course, speed and depth for `keep_course_s`, then
-// circles at the safe depth and speed until a report comes. Before the first report it circles likewise.
-// Left out: others in the formation (they do not hear each other; give them places apart), the leader's turning rate.
+// The leader's place is carried on along its course at its speed. A follower steers for its place beside
+// it: course = leader's course + atan(error across / lookahead), speed = leader's + gain (error along),
+// within half the leader's and the greatest speed, so it neither stops nor turns back for a place behind
+// it. When the youngest report is older than `fresh_for_s` the leader counts as lost: the follower keeps
+// the last course, speed and depth for `keep_course_s`, then circles at the safe depth and speed until a
+// report comes. Before the first report it circles likewise. Left out: others in the formation (they do
+// not hear each other; give them places apart), the leader's turning rate.
 #pragma once
 
 #include <cstdint>

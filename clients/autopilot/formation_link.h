@@ -1,7 +1,8 @@
-// The acoustic side of a formation: a leader's reports out on a time grid, those of the leaders it follows in.
+// The acoustic side of a formation: a leader's reports out on a time grid, those of the leaders it follows
+// in.
 //
-// Reports start at start + k period; one whose instant passed while nothing ran is not sent late. The position in a report is
-// the latest situation's, stamped with its own time.
+// Reports start at start + k period; one whose instant passed while nothing ran is not sent late. The
+// position in a report is the latest situation's, stamped with its own time.
 #pragma once
 
 #include <map>

@@ -1,13 +1,14 @@
 // Where a vehicle is by its own sensors: dead reckoning between fixes.
 //
-// Model: position moves by the velocity over ground where a Doppler log tells it, else by the speed through the water along the
-// hull's axis (heading, pitch), as if the water stood still; velocity changes evenly between samples (trapezium). z
-// is the measured depth. Uncertainty: a standard deviation of each horizontal axis that grows with time, by
-// `log_drift_mps` while the speed is that through the water (the current that is not known) and by `ground_drift` times the
-// way while it is that over ground (the Doppler log's scale and the compass): both are lasting errors, so deviations
-// add up, not variances. A fix moves the position by P / (P + R) of the difference (Kalman's gain with one variance for
-// both axes) and leaves 1 / (1/P + 1/R). So in a current c the error grows as c t, and a good fix takes it away.
-// Left out: the current is not estimated, nor the compass's error; sideslip; fixes of the past.
+// Model: position moves by the velocity over ground where a Doppler log tells it, else by the speed
+// through the water along the hull's axis (heading, pitch), as if the water stood still; velocity changes
+// evenly between samples (trapezium). z is the measured depth. Uncertainty: a standard deviation of each
+// horizontal axis that grows with time, by `log_drift_mps` while the speed is that through the water (the
+// current that is not known) and by `ground_drift` times the way while it is that over ground (the Doppler
+// log's scale and the compass): both are lasting errors, so deviations add up, not variances. A fix moves
+// the position by P / (P + R) of the difference (Kalman's gain with one variance for both axes) and leaves
+// 1 / (1/P + 1/R). So in a current c the error grows as c t, and a good fix takes it away. Left out: the
+// current is not estimated, nor the compass's error; sideslip; fixes of the past.
 #pragma once
 
 #include <optional>

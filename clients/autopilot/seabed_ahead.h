@@ -1,14 +1,17 @@
-// The ground under and ahead of a vehicle, from what its altimeter saw on the way: how low it may go, and how to keep a height.
+// The ground under and ahead of a vehicle, from what its altimeter saw on the way: how low it may go, and
+// how to keep a height.
 //
-// Model: each echo is a point of the ground, z = z_vehicle + a cos(pitch) cos(roll), at a sin(pitch) ahead along the way. A
-// straight line through the points of the last kWindowM of way (least squares) tells the ground now and `ahead_m` on.
-// To keep a height, the shallower of the two sets the depth, and the line's slope the climb. Below the least height the
-// vehicle is pulled up as hard as its gains allow. An echo counts for kOldestS; without one the last depth is kept,
-// and where the altimeter says that there is no bottom within its reach a vehicle that is to keep a height goes down.
+// Model: each echo is a point of the ground, z = z_vehicle + a cos(pitch) cos(roll), at a sin(pitch) ahead
+// along the way. A straight line through the points of the last kWindowM of way (least squares) tells the
+// ground now and `ahead_m` on. To keep a height, the shallower of the two sets the depth, and the line's
+// slope the climb. Below the least height the vehicle is pulled up as hard as its gains allow. An echo
+// counts for kOldestS; without one the last depth is kept, and where the altimeter says that there is no
+// bottom within its reach a vehicle that is to keep a height goes down.
 //
-// Tolerance of a height kept: over ground whose slope changes by s over the window plus the way ahead, about s times that
-// length; measured in docs/autopilot.md. Left out: ground that rises more steeply than the greatest pitch, walls (the
-// altimeter looks down, there is no sonar forward), the altimeter's beam width.
+// Tolerance of a height kept: over ground whose slope changes by s over the window plus the way ahead,
+// about s times that length; measured in docs/autopilot.md. Left out: ground that rises more steeply than
+// the greatest pitch, walls (the altimeter looks down, there is no sonar forward), the altimeter's beam
+// width.
 #pragma once
 
 #include <deque>

@@ -1,8 +1,8 @@
 // One vehicle's pilot: from what it knows of itself to what it steers for, and on to its actuators.
 //
-// It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the ground that its altimeter showed it (seabed_ahead.h), and
-// steers with fins (control_laws.h) or with thrusters (hover_laws.h). Values in, values out: where a situation comes from
-// is the node's.
+// It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the
+// ground that its altimeter showed it (seabed_ahead.h), and steers with fins (control_laws.h) or with
+// thrusters (hover_laws.h). Values in, values out: where a situation comes from is the node's.
 #pragma once
 
 #include <array>
