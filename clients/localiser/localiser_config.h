@@ -13,17 +13,17 @@ namespace halocline::clients {
 
 // A beacon is a vehicle of the scenario that does not move: it is where it starts.
 struct VehicleLocaliser {
-  std::string vehicle;
+  std::string vehicle = {};
   std::int32_t vehicle_id = 0;
   Vec3 start_ned_m = Vec3::Zero();
-  std::string beacons;      // names, with spaces between; empty: this vehicle is not localised
-  SimDuration ping_period;  // between pings, to one beacon after the other; 0: none are sent
-  SimTime ping_start;
+  std::string beacons = {};      // names, with spaces between; empty: this vehicle is not localised
+  SimDuration ping_period = {};  // between pings, to one beacon after the other; 0: none are sent
+  SimTime ping_start = {};
   bool use_stamps = false;   // ranges by the stamped packets that beacons send, too
   double start_sigma_m = 0;  // how well the vehicle knows where it starts; 0: not at all
   double timing_sigma_s = 0.0005;
   double sound_speed_sigma = 0.001;  // of one, relative
-  EstimatorRules rules;
+  EstimatorRules rules = {};
 };
 
 struct LocaliserConfig {

@@ -23,14 +23,14 @@ struct Series {
 };
 
 struct Chart {
-  std::string x, y;  // titles of the axes
+  std::string x = {}, y = {};  // titles of the axes
   std::vector<Series> series = {};
   std::vector<std::string> categories = {};  // names at x = 0, 1, 2, ...; empty: numbers
   std::string when_empty = "no data";        // said where no series has a point
 };
 
 struct Plot {
-  std::string title;
+  std::string title = {};
   std::vector<Chart> charts;  // at least one
   int width_px = 900, chart_height_px = 400;
 };

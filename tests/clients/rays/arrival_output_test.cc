@@ -108,7 +108,9 @@ TEST(ArrivalOutput, ImpulseResponseHoldsThePowerOfAllPaths) {
   double power = 0, expected = 0, last_delay_s = -1;
   for (const auto& row : table.rows) {
     const double delay_s = *parse_number(row.cells[*table.column("delay_s")]);
-    if (last_delay_s >= 0) EXPECT_NEAR(delay_s - last_delay_s, 1e-6, 1e-12);
+    if (last_delay_s >= 0) {
+      EXPECT_NEAR(delay_s - last_delay_s, 1e-6, 1e-12);
+    }
     last_delay_s = delay_s;
     const double real = *parse_number(row.cells[1]), imaginary = *parse_number(row.cells[2]);
     power += real * real + imaginary * imaginary;
