@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 #include "acoustics/modem.h"
 #include "core/sim_time.h"
@@ -32,7 +33,7 @@ inline std::size_t largest_payload_bytes(const VehicleModem& modem) {
 
 class ModemSchedule {
  public:
-  explicit ModemSchedule(VehicleModem configured) : configured_(configured) {}
+  explicit ModemSchedule(VehicleModem configured) : configured_(std::move(configured)) {}
 
   // `modem` holds from `from` on, until an announcement of a later instant. A repetition of what holds
   // already changes nothing.

@@ -102,7 +102,7 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   return events;
 }
 
-void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events) {
+void PacketMedium::depart(const Departure& departure, std::vector<MediumEvent>& events) {
   if (departure.queued) return launch(at_its_departure(*departure.queued));
   const SendRequest& request = departure.request;
   const VehicleModem& modem = fleet_.modem(request.vehicle, request.start);

@@ -93,7 +93,7 @@ class PacketMedium {
   };
 
   void add_departure(SimTime at, Departure departure);
-  void depart(Departure departure, std::vector<MediumEvent>& events);
+  void depart(const Departure& departure, std::vector<MediumEvent>& events);
   Decision decide(const SendRequest& request, SimDuration duration) const;
   void launch(const PacketPointer& packet);
   PacketPointer at_its_departure(const Packet& queued) const;

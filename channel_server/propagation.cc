@@ -102,9 +102,10 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
   for (const acoustics::BeamRow& row : modem.beam.rows()) {
     beam.insert(beam.end(), {row.elevation_rad, row.loss_db});
   }
-  return {{modem.source_level.value, modem.least_receivable_level.value, modem.centre_frequency_hz,
-           modem.bandwidth_hz, modem.directivity_index.value},
-          std::move(beam)};
+  const std::array<double, 5> numbers{modem.source_level.value, modem.least_receivable_level.value,
+                                      modem.centre_frequency_hz, modem.bandwidth_hz,
+                                      modem.directivity_index.value};
+  return {numbers, std::move(beam)};
 }
 
 std::shared_ptr<const acoustics::LinkModel> StraightPropagation::model_of(SimTime at,

@@ -18,7 +18,7 @@ void sleep_until_heard(lcm::LCM& lcm, SimDuration longest) {
 }
 }  // namespace
 
-BlockingModem::BlockingModem(lcm::LCM& lcm, ModemAddress address, ResendPolicy policy)
+BlockingModem::BlockingModem(lcm::LCM& lcm, const ModemAddress& address, ResendPolicy policy)
     : lcm_(lcm),
       bus_(lcm, {address.vehicle, address.session}),
       time_(lcm, address.vehicle),

@@ -19,7 +19,7 @@ namespace halocline::clients {
 
 class BlockingModem {
  public:
-  BlockingModem(lcm::LCM& lcm, ModemAddress address, ResendPolicy policy = {});
+  BlockingModem(lcm::LCM& lcm, const ModemAddress& address, ResendPolicy policy = {});
 
   // The simulation time that the conductor's CLOCK tells; waits for the first CLOCK up to `timeout`. Empty
   // when none came.
