@@ -68,7 +68,9 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
 acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                                   const std::shared_ptr<const SeabedProfile>& seabed) {
   acoustics::Arrivals all = found(task_of(at, from, to, seabed, /*reversed=*/false))->arrivals;
-  std::erase_if(all.paths, [](const acoustics::Arrival& path) { return !(weighted_pressure(path, {}) > 0); });
+  const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
+  std::erase_if(all.paths,
+                [&](const acoustics::Arrival& path) { return !(weighted_pressure(path, beams) > 0); });
   return all;
 }
 

@@ -53,7 +53,8 @@ class RayPropagation : public Propagation {
   bool uses_bottom() const override { return true; }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
-  // The paths behind reception_over(), one for each of its own and in their order.
+  // The paths behind reception_over(), one for each of its own and in their order. Amplitudes are without the
+  // beams of the modems.
   acoustics::Arrivals arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                     const std::shared_ptr<const SeabedProfile>& seabed);
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,

@@ -126,7 +126,7 @@ void print_paths(const LinkOptions& options, const LinkEnd& from, const LinkArri
   if (!options.plot.empty())
     write_plot(arrival_plot({found}, options.from + " to " + options.to), options.plot);
   if (options.impulse_rate_hz > 0) {
-    print_impulse_response(std::cout, found.arrivals, from.modem.modem.centre_frequency_hz,
+    print_impulse_response(std::cout, found, from.modem.modem.centre_frequency_hz,
                            options.impulse_rate_hz);
     if (found.arrivals.shadow()) std::cerr << why_silent(found) << "\n";
     return;

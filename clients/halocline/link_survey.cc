@@ -60,16 +60,19 @@ bool parse_position(const std::string& text, Vec3& position) {
   return count == 3;
 }
 
-// The one straight path as an arrival: what the transmission loss holds besides absorption is spreading.
-acoustics::Arrivals straight_arrival(const channel_server::Reception& reception) {
+// The one straight path as an arrival: what the transmission loss holds besides absorption and beams is spreading.
+acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
+                                     const acoustics::Transducers& beams) {
   const acoustics::LinkBudget& budget = reception.budget;
   acoustics::Arrival path;
   path.delay_s = budget.delay_s;
   path.path_length_m = budget.range_m;
   path.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
-  path.amplitude = std::pow(10, (path.absorption_db - budget.transmission_loss.value) / 20);
   path.launch_angle_rad = reception.paths.front().launch_angle_rad;
   path.arrival_angle_rad = reception.paths.front().arrival_angle_rad;
+  const Decibels weighed =
+      beams.source.loss(path.launch_angle_rad) + beams.receiver.loss(-path.arrival_angle_rad);
+  path.amplitude = std::pow(10, (path.absorption_db + weighed.value - budget.transmission_loss.value) / 20);
   return {.paths = {path}};
 }
 
@@ -83,6 +86,7 @@ LinkArrivals told(const ScenarioConfig& config, const LinkEnd& from, const LinkE
                depth_below_surface_m(to.position_ned_m, surface_z_m), std::hypot(way.x(), way.y())},
       .arrivals = std::move(arrivals)};
   all.modems_known = true;
+  all.beams = {from.modem.modem.beam, to.modem.modem.beam};
   all.blocked = reception.state == channel_server::PathState::kBlocked;
   if (reception.used != channel_server::PropagationUsed::kRays) all.found_by = "straight";
   for (const channel_server::SoundPath& path : reception.paths)
@@ -137,6 +141,7 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
   const auto waters = std::make_shared<channel_server::EnvironmentTimeline>(
       make_environment(config.channel_server.environment, config.scenario, config.folder));
   const channel_server::ServerRules& rules = config.channel_server.rules;
+  const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
   LinkAnswer answer;
   if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
     channel_server::RayPropagation propagation(waters,
@@ -148,13 +153,13 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
     const bool rays = answer.reception.used == channel_server::PropagationUsed::kRays;
     answer.arrivals = told(config, from, to, answer.reception,
                            rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
-                                : straight_arrival(answer.reception));
+                                : straight_arrival(answer.reception, beams));
     answer.multipath = multipath_of(answer.reception, to.modem.modem.least_receivable_level);
     return answer;
   }
   channel_server::StraightPropagation propagation(waters);
   answer.reception = propagation.reception(SimTime(), here, there);
-  answer.arrivals = told(config, from, to, answer.reception, straight_arrival(answer.reception));
+  answer.arrivals = told(config, from, to, answer.reception, straight_arrival(answer.reception, beams));
   const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
   answer.multipath =
       multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);

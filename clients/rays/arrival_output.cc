@@ -77,7 +77,7 @@ nlohmann::ordered_json to_json(const LinkArrivals& found) {
                               {"shadow", found.arrivals.shadow()}};
   if (found.arrivals.shadow()) json["blocked"] = found.blocked;
   if (!found.arrivals.shadow()) {
-    const acoustics::ReceivedField field = acoustics::received_field(found.arrivals);
+    const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
     json["transmission_loss_db"] = -field.level.value;
     json["first_delay_s"] = field.first_delay_s;
     json["mean_delay_s"] = field.mean_delay_s;
@@ -124,7 +124,7 @@ void print_table(std::ostream& out, const LinkArrivals& found) {
     if (found.modems_known) print_received(out, found.received.at(i));
     out << '\n';
   }
-  const acoustics::ReceivedField field = acoustics::received_field(found.arrivals);
+  const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
   out << std::setprecision(2) << "transmission loss " << -field.level.value << " dB (incoherent)"
       << std::setprecision(6) << ", delay spread " << field.delay_spread_s << " s\n";
 }
@@ -140,8 +140,8 @@ std::string why_silent(const LinkArrivals& found) {
   return found.blocked ? "blocked: the bottom stands in every way" : "shadow: no ray gets there";
 }
 
-void print_impulse_response(std::ostream& out, const acoustics::Arrivals& arrivals, double carrier_hz,
-                            double rate_hz) {
+void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz) {
+  const acoustics::Arrivals& arrivals = found.arrivals;
   out << "delay_s,real,imaginary,magnitude_db\n";
   if (arrivals.shadow()) return;
   require_in_range(rate_hz, 1, 1e7, "the rate of the impulse response", "Hz");
@@ -149,7 +149,7 @@ void print_impulse_response(std::ostream& out, const acoustics::Arrivals& arriva
   const double count = std::round(arrivals.paths.back().delay_s * rate_hz) + 2 - first;
   require(count <= 1e7, "an impulse response has at most 1e7 samples: choose a lower rate");
   const auto taps = acoustics::impulse_response(arrivals, carrier_hz, rate_hz, first / rate_hz,
-                                                static_cast<std::size_t>(count));
+                                                static_cast<std::size_t>(count), found.beams);
   for (std::size_t i = 0; i < taps.size(); ++i) {
     out << format_number((first + static_cast<double>(i)) / rate_hz) << ',' << format_number(taps[i].real())
         << ',' << format_number(taps[i].imag()) << ',';

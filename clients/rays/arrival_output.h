@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "acoustics/arrivals.h"
+#include "acoustics/received_field.h"
 
 namespace halocline::clients {
 
@@ -20,7 +21,8 @@ struct ReceivedPath {
 struct LinkArrivals {
   acoustics::RayLink link;
   acoustics::Arrivals arrivals;
-  bool modems_known = false;  // then `received` holds one for each path
+  bool modems_known = false;          // then `received` holds one for each path
+  acoustics::Transducers beams = {};  // of the modems, which weigh summary and impulse response
   std::vector<ReceivedPath> received = {};
   bool blocked = false;       // where no ray gets there: the bottom cuts the straight line
   std::string found_by = {};  // empty: the solver's name
@@ -38,9 +40,9 @@ double path_level_db(const LinkArrivals& found, std::size_t index);
 std::string why_silent(const LinkArrivals& found);
 
 // CSV: delay_s, real, imaginary and magnitude_db of each sample of acoustics::impulse_response about the carrier, from
-// the sample before the first path to the one after the last; pressure re that at 1 m. In a shadow no row.
-void print_impulse_response(std::ostream& out, const acoustics::Arrivals& arrivals, double carrier_hz,
-                            double rate_hz);
+// the sample before the first path to the one after the last; pressure re that at 1 m, beams in it. In a shadow no
+// row.
+void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz);
 
 void print_arrivals(std::ostream& out, const std::vector<LinkArrivals>& links, OutputFormat format);
 

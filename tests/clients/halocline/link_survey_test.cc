@@ -76,6 +76,28 @@ TEST(LinkSurvey, LevelOfAPathIsItsPressureAtTheSourceLevel) {
   }
 }
 
+// A beam that looks down at one end and one that looks up at the other: the paths' pressures with the beams in them
+// make up the loss of the budget.
+TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.model = model;
+    LinkEnd from = link_end(config, "-500,0,40"), to = link_end(config, "500,0,60");
+    const auto loss_db = [&] {
+      return survey_link(config, from, to).reception.budget.transmission_loss.value;
+    };
+    const double bare_db = loss_db();
+    from.modem.modem.beam = acoustics::BeamPattern({{-0.01, 0}, {0.01, 20}});
+    to.modem.modem.beam = acoustics::BeamPattern({{-0.1, 30}, {0.1, 3}});
+    const LinkAnswer answer = survey_link(config, from, to);
+    const auto field = received_field(answer.arrivals.arrivals, {answer.arrivals.beams, {}});
+    EXPECT_NEAR(-field.level.value, answer.reception.budget.transmission_loss.value, tolerance(1e-9));
+    EXPECT_GT(loss_db(), bare_db + 1);
+  }
+}
+
 // A receiver that comes closer at 2 m/s along a straight horizontal way hears 1 + v / c.
 TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
   ScenarioConfig config = two_vehicles();

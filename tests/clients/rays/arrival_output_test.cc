@@ -102,7 +102,7 @@ TEST(ArrivalOutput, TellsABottomInTheWayFromAShadow) {
 TEST(ArrivalOutput, ImpulseResponseHoldsThePowerOfAllPaths) {
   const LinkArrivals found = pekeris().front();
   std::stringstream text;
-  print_impulse_response(text, found.arrivals, 25'000, 1e6);
+  print_impulse_response(text, found, 25'000, 1e6);
   std::vector<std::string> errors;
   const CsvTable table = read_csv(text, errors);
   double power = 0, expected = 0, last_delay_s = -1;
@@ -119,6 +119,29 @@ TEST(ArrivalOutput, ImpulseResponseHoldsThePowerOfAllPaths) {
   EXPECT_NEAR(power / expected, 1, 1e-9);
   EXPECT_LT(*parse_number(table.rows.front().cells[0]), found.arrivals.paths.front().delay_s);
   EXPECT_GT(last_delay_s, found.arrivals.paths.back().delay_s);
+}
+
+// 6 dB at either end, in every direction: a quarter of the pressure.
+TEST(ArrivalOutput, BeamsOfTheModemsWeighTheImpulseResponseAndTheSummary) {
+  LinkArrivals found = pekeris().front();
+  const auto tell = [&found](double& greatest, double& loss_db) {
+    std::stringstream taps, json;
+    print_impulse_response(taps, found, 25'000, 1e6);
+    std::vector<std::string> errors;
+    greatest = 0;
+    for (const auto& row : read_csv(taps, errors).rows) {
+      greatest = std::max(greatest, std::abs(*parse_number(row.cells[1])));
+    }
+    print_arrivals(json, {found}, OutputFormat::kJson);
+    loss_db = nlohmann::json::parse(json).at(0).at("transmission_loss_db");
+  };
+  double plain = 0, weighed = 0, plain_loss_db = 0, weighed_loss_db = 0;
+  tell(plain, plain_loss_db);
+  const acoustics::BeamPattern half({{0, 20 * std::log10(2)}});
+  found.beams = {half, half};
+  tell(weighed, weighed_loss_db);
+  EXPECT_NEAR(weighed / plain, 0.25, 1e-9);
+  EXPECT_NEAR(weighed_loss_db - plain_loss_db, 40 * std::log10(2), 1e-9);
 }
 
 TEST(ArrivalOutput, ImpulseResponseOfAShadowHasNoRow) {
