@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -33,16 +34,21 @@ class EmbeddedTest : public ::testing::Test {
   }
   std::string log_path(const std::string& name) const { return folder_ + "/" + name + ".lcm"; }
 
-  // Runs the scenario to its end and returns the log's path.
+  using MakeNode = std::function<std::unique_ptr<bus::Node>(lcm::LCM&)>;
+
+  // Runs the scenario to its end, with one node more where `make_guest` is given, and returns the log's path.
   std::string run(
       const ScenarioConfig& config, const std::string& name,
-      const std::function<bool()>& should_stop = [] { return false; }) {
+      const std::function<bool()>& should_stop = [] { return false; }, const MakeNode& make_guest = {}) {
     lcm::LCM lcm("memq://");
     Composition all(lcm, config, Composition::kRun);
+    const auto guest = make_guest ? make_guest(lcm) : nullptr;
+    std::vector<bus::Node*> nodes = all.nodes();
+    if (guest) nodes.push_back(guest.get());
     EmbeddedRun settings{.end = SimTime() + config.scenario.duration, .log_path = log_path(name)};
     settings.quiet = true;
     settings.should_stop = should_stop;
-    run_embedded(lcm, all.nodes(), settings);
+    run_embedded(lcm, nodes, settings);
     return settings.log_path;
   }
   std::string replay(const ScenarioConfig& config, const std::string& original, const std::string& name) {

@@ -119,6 +119,41 @@ TEST_F(EmbeddedRunTest, AScheduledChangeOfWaterIsReplayedToo) {
   EXPECT_TRUE(bytes_of_families(original, answers) == bytes_of_families(again, answers));
 }
 
+// A client that says at 9 s that the wind rises at 10.4 s.
+class Forecast : public bus::Node {
+ public:
+  using Node::Node;
+  bus::Due on_due() const override { return {.sim = said_ ? SimTime::never() : SimTime::from_seconds(9)}; }
+  void on_step(const bus::Now& now) override {
+    if (said_ || now.sim < SimTime::from_seconds(9)) return;
+    said_ = true;
+    environment_change_t change{};
+    change.utime = 10'400'000;
+    change.session = 77;
+    change.sets_wind = 1;
+    change.wind_speed_mps = 14;
+    bus().publish(bus::channels::kSetEnvironment, change);
+  }
+  std::string status_text() const override { return "the wind will rise"; }
+
+ private:
+  bool said_ = false;
+};
+
+TEST_F(EmbeddedRunTest, AChangeOfWaterHeardOnTheBusIsReplayed) {
+  const std::string original = run(
+      harbour(), "original", [] { return false; },
+      [](lcm::LCM& lcm) {
+        return std::make_unique<Forecast>(lcm, bus::NodeIdentity{"forecast", 77});
+      });
+  ASSERT_EQ(messages_in<environment_change_t>(original).size(), 1u);
+  ASSERT_EQ(messages_in<environment_t>(original).back().second.wind_speed_mps, 14);
+  const std::string again = replay(harbour(), original, "again");
+  EXPECT_EQ(messages_in<environment_t>(again).back().second.utime, 10'400'000);
+  const std::vector<std::string> answers{"LINKS", "OUTCOME", "RECEIPT", "RECEIVE", "ENVIRONMENT"};
+  EXPECT_TRUE(bytes_of_families(original, answers) == bytes_of_families(again, answers));
+}
+
 TEST_F(EmbeddedRunTest, ReplayOfAReplayStaysTheSame) {
   const std::string original = run(harbour(), "original");
   const std::string again = replay(harbour(), original, "again");
