@@ -26,10 +26,11 @@
 //     30 kHz; 25 kHz is that of the REMUS vehicles.
 // [3] WHOI, acomms.whoi.edu/micro-modem: PSK 5 kHz, FSK 4 kHz; a packet of 2.95 s takes 3.25 s on the air with
 //     its probe and the silence after it.
-// [4] Packet types named after the Micromodem Users' Guide (WHOI): rate 0 FSK 80 bit/s; rates 1 and 2 spread by 31
-//     and 15, rate 4 BCH (64, 10), rate 5 a code of rate 9/14. Frames as in Goby's driver of the Micromodem. Rates
-//     and codes are not confirmed from a text of the guide; they agree with each other (each fills 7.5 to 8.4 kbit/s
-//     on the air, two bits of 4 kHz) and with "about 5000" bit/s for rate 5 in [3].
+// [4] Second-hand: as public drivers of the Micromodem list the packet types of its command to send (CCCYC): 0 FSK at
+//     80 bit/s; 1 at 250, spread by 31; 2 at 500, spread by 15; 4 at 1300, a block code of rate 1/6; 5 at 5300, a
+//     block code of rate 9/14. Frames as in Goby's driver. None is confirmed from a text of WHOI's guide; the rates
+//     agree with each other (each fills 7.5 to 8.4 kbit/s on the air, two bits of 4 kHz) and with "about 5000" bit/s
+//     for rate 5 in [3]. That the code of rate 1/6 is BCH (64, 10) is our reading.
 // [5] Half a chip of 6.25 ms: reverberation beyond that spoils decoding (januswiki.com, on untying chip length
 //     and frequency). The FH-FSK's 80 bit/s at rate 1/2 are chips of 6.25 ms as well.
 // [6] 5 m/s at 1500 m/s, up to which the reference receiver corrects by default.
