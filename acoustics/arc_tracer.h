@@ -63,6 +63,7 @@ struct TracedRay {
 struct TracedDetails {
   double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
          surface_loss_db = 0;
+  double slowness_over_range = 0;  // sum of xi dr, s
 };
 
 class ArcTracer {
@@ -91,6 +92,7 @@ class ArcTracer {
   struct Step;
   State start(double theta, TracedRay& ray) const;
   Step next_step(const State& s) const;
+  double deepest_slope(const State& s, const Step& step) const;
   bool find_hit(const State& s, const Step& step, double until, Hit& hit) const;
   bool solve_facet(const State& s, std::size_t facet, double until, double& dr) const;
   void go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "acoustics/hermite_cubic.h"
 #include "acoustics/profile_path.h"
@@ -22,7 +23,10 @@ constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
 constexpr double kCubicTolerance = 0.02;  // of the water depth
 constexpr double kNearFold = 0.15;  // of the water depth: a turn nearer to an image is sought out exactly
 constexpr double kDepthTolerance = 1e-4;  // m before the last step of Newton
-constexpr int kMostTraces = 200'000;      // of one link: a guard against water of endless detail
+constexpr double kTurnTolerance = 1e-6;   // m: how far zeta is at most from where it turns
+constexpr double kFoldZone = 0.01;  // of the water depth: further from all images a turn need not be exact
+constexpr int kMostTurnSteps = 40;
+constexpr int kMostTraces = 200'000;  // of one link: a guard against water of endless detail
 
 class Search {
  public:
@@ -164,20 +168,32 @@ void Search::solve(const TracedRay& a, const TracedRay& b) {
   solve_monotone(from, b, before);
 }
 
-// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; false when there is no such place.
+// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; false when there is no such place. False
+// position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time, so both ends
+// close in; every third step halves where that does not.
 bool Search::seek_turn(const TracedRay& a, const TracedRay& b, TracedRay& turn) {
   const auto rises = [](const TracedRay& ray) { return ray.zeta_slope > 0; };
   const bool before = rises(a) != rises(turn);
   if (!before && rises(turn) == rises(b)) return false;
-  TracedRay low = before ? a : turn, high = before ? turn : b;
-  for (int i = 0; i < 40; ++i) {
-    const double share = low.zeta_slope / (low.zeta_slope - high.zeta_slope);
-    const double bounded = i % 3 == 2 ? 0.5 : std::clamp(share, 0.01, 0.99);
-    TracedRay middle = traced(low.theta + bounded * (high.theta - low.theta));
+  const TracedRay &first = before ? a : turn, &last = before ? turn : b;
+  double low = first.theta, high = last.theta, at_low = first.zeta_slope, at_high = last.zeta_slope;
+  const bool rises_at_low = rises(first);
+  double width = high - low;
+  for (int i = 1; i <= kMostTurnSteps; ++i) {
+    const bool slow = i % 3 == 0 && high - low > 0.25 * std::exchange(width, high - low);
+    const double share = slow ? 0.5 : std::clamp(at_low / (at_low - at_high), 1e-3, 1 - 1e-3);
+    TracedRay middle = traced(low + share * (high - low));
     if (!middle.arrived) break;
     turn = std::move(middle);
-    if (std::abs(turn.zeta_slope) * (high.theta - low.theta) < 1e-9) break;
-    (rises(turn) == rises(low) ? low : high) = turn;
+    const double slope = turn.zeta_slope;
+    const double left = std::abs(slope) * (high - low);
+    if (left < kTurnTolerance || off_nearest_image(turn.zeta) > 2 * left + kFoldZone * depth_) break;
+    const bool beside_low = rises(turn) == rises_at_low;
+    double &replaced = beside_low ? at_low : at_high, &kept = beside_low ? at_high : at_low;
+    const double scale = 1 - slope / replaced;
+    kept *= scale > 0 ? scale : 0.5;
+    replaced = slope;
+    (beside_low ? low : high) = turn.theta;
   }
   return true;
 }
