@@ -33,10 +33,13 @@ struct Arrival {
   double launch_angle_rad = 0;
   double arrival_angle_rad = 0;
   double launch_slowness_spm = 0;  // cos(launch angle) / sound speed at the source, s/m: Snell's invariant
-  double path_length_m = 0;        // along the arcs
-  double absorption_db = 0;        // along the arcs, at RayOptions::frequency_hz
-  double surface_loss_db = 0;      // of all surface bounces, part of the amplitude
-  double bottom_loss_db = 0;       // of all bottom bounces, part of the amplitude
+  // Mean over the range of cos(angle) / sound speed, s/m: by how much the delay grows with the range when the bottom
+  // stretches along. The launch slowness over a level bottom.
+  double range_slowness_spm = 0;
+  double path_length_m = 0;    // along the arcs
+  double absorption_db = 0;    // along the arcs, at RayOptions::frequency_hz
+  double surface_loss_db = 0;  // of all surface bounces, part of the amplitude
+  double bottom_loss_db = 0;   // of all bottom bounces, part of the amplitude
   int surface_bounces = 0, bottom_bounces = 0;
   int caustics = 0;  // touched on the way
   PathIdentity identity;

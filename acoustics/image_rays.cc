@@ -119,7 +119,7 @@ bool ImageSum::add(const Image& image) {
   path.amplitude = factor / length;
   if (top < 1) path.surface_loss_db = -20 * surface * std::log10(top);
   path.delay_s = length / speed_;
-  path.launch_slowness_spm = range_ / (length * speed_);
+  path.launch_slowness_spm = path.range_slowness_spm = range_ / (length * speed_);
   path.path_length_m = length;
   path.absorption_db = absorption_db(image, length);
   path.bottom_loss_db = bottom > 0 ? bottom * one.loss_db() : 0;

@@ -46,7 +46,7 @@ void set_directions(const LayeredLink& link, const LayeredSpans& spans, const La
       angle(leaves_down, spans.sine_at(link.source_speed_mps, ray.sine), link.source_speed_mps, xi);
   path.arrival_angle_rad =
       angle(comes_down, spans.sine_at(link.receiver_speed_mps, ray.sine), link.receiver_speed_mps, xi);
-  path.launch_slowness_spm = xi;
+  path.launch_slowness_spm = path.range_slowness_spm = xi;
   path.identity.launched_up = !leaves_down;
 }
 

@@ -110,7 +110,7 @@ void Search::add_horizontal() {
   Arrival path;
   path.delay_s = link_.range_m / link_.source_speed_mps;
   path.amplitude = 1 / link_.range_m;
-  path.launch_slowness_spm = 1 / link_.source_speed_mps;
+  path.launch_slowness_spm = path.range_slowness_spm = 1 / link_.source_speed_mps;
   path.path_length_m = link_.range_m;
   path.absorption_db = link_.range_m * water.absorption_db_per_m(z);
   paths_.push_back(path);

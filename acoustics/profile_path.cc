@@ -49,6 +49,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
   path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
   path.launch_angle_rad = theta;
   path.launch_slowness_spm = std::cos(theta) / tracer.source_speed_mps();
+  path.range_slowness_spm = details.slowness_over_range / tracer.range_m();
   path.arrival_angle_rad = std::asin(ray.sine);
   path.path_length_m = details.length_m;
   path.absorption_db = details.absorption_db;
