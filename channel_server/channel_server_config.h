@@ -62,9 +62,11 @@ struct PropagationConfig {
   double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
   std::string surface_loss_model = "apl-bubbles";
   std::string solver = "auto";  // or images, snell, arcs
-  acoustics::RayOptions options;
+  acoustics::RayOptions options{.max_bounces = 60};
   double least_amplitude_db = -120;
-  double shadow_loss_db = 0;  // 0: none stated
+  double greatest_bounce_loss_db = 30;  // of all bounces of a path together
+  double shadow_loss_db = 0;            // 0: none stated
+  double reuse_distance_m = 25;
   bool coherent = false;
 };
 
@@ -83,7 +85,7 @@ struct ServerRules {
   AskingRule asking;
   int bottom_points = 9;             // under each link, for its echoes
   double echo_reuse_distance_m = 5;  // how far the ends of a link may move before its echoes are asked anew
-  ProfileRule profile;
+  ProfileRule profile{.reuse_distance_m = 25, .spacing_m = 25};
   int threads = 1;  // that compute link tables
 };
 

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/ray_carry.h"
 #include "acoustics/ray_doppler.h"
 #include "acoustics/received_field.h"
+#include "channel_server/ray_cells.h"
+#include "core/check.h"
 
 namespace halocline::channel_server {
 namespace {
 
-constexpr std::size_t kMostKept = 4096;      // answers of late
+constexpr std::size_t kMostKept = 16'384;    // answers of late, 7 kB each
 constexpr std::size_t kMostRayWaters = 256;  // 20 kB each
 // The deepest that an end may be, m: there has to be bottom below it.
 constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;
@@ -41,20 +44,21 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
     : waters_(std::move(waters)), bottoms_(std::move(bottoms)), model_(model), straight_(waters_) {
   validate(model.bottom);
   validate(model.options);
+  require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
 }
 
 double RayPropagation::delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const auto seabed = seabed_between(at, from, to);
   if (!seabed) return straight_.delay_s(at, from, to);
-  const Task task = task_of(at, from, to, seabed, from.id > to.id);
-  const std::vector<SoundPath> paths = sound_paths(task, *found(task));
+  const Task task = shared_task_of(at, from, to, seabed);
+  const std::vector<SoundPath> paths = sound_paths(task, arrivals_at(task, *found(task)));
   return paths.empty() ? straight_.delay_s(at, from, to) : paths[first_significant(paths)].delay_s;
 }
 
 Reception RayPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const auto seabed = seabed_between(at, from, to);
   if (!seabed) return without_bottom(at, from, to);
-  const Task task = task_of(at, from, to, seabed, from.id > to.id);
+  const Task task = shared_task_of(at, from, to, seabed);
   return answer(task, *found(task));
 }
 
@@ -90,7 +94,7 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
       receptions[i] = without_bottom(at, from, to);
       continue;
     }
-    tasks.push_back(task_of(at, from, to, seabed, from.id > to.id));
+    tasks.push_back(shared_task_of(at, from, to, seabed));
     link_of.push_back(i);
     const Key key = key_of(tasks.back().question);
     if (!place_of.emplace(key, paths.size()).second) continue;
@@ -147,7 +151,21 @@ RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, co
           water_of(at, frequency_hz),
           straight_.model_of(at, *from.modem, *to.modem),
           {waters_->water_at(at), frequency_hz, seabed, link},
+          link,
           reversed};
+}
+
+RayPropagation::Task RayPropagation::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                                    const std::shared_ptr<const SeabedProfile>& seabed) {
+  Task task = task_of(at, from, to, seabed, from.id > to.id);
+  // The phase of a path turns within centimetres.
+  if (model_.reuse_distance_m <= 0 || model_.coherent) return task;
+  if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
+    shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
+    shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
+    task.question.link = *shared;
+  }
+  return task;
 }
 
 RayPropagation::FoundPaths RayPropagation::search(const Task& task) const {
@@ -174,11 +192,14 @@ RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
 }
 
 RayPropagation::FoundPaths RayPropagation::kept(const Key& key) {
-  for (const auto* answers : {&of_late_, &of_before_}) {
-    const auto known = answers->find(key);
-    if (known != answers->end()) return known->second;
-  }
-  return nullptr;
+  const auto of_late = of_late_.find(key);
+  if (of_late != of_late_.end()) return of_late->second;
+  const auto of_before = of_before_.find(key);
+  if (of_before == of_before_.end()) return nullptr;
+  const FoundPaths known = of_before->second;
+  of_before_.erase(of_before);
+  keep(key, known);  // it is asked about again: it stays
+  return known;
 }
 
 void RayPropagation::keep(const Key& key, const FoundPaths& found) {
@@ -197,10 +218,11 @@ Reception RayPropagation::without_bottom(SimTime at, const LinkEnd& from, const 
 Reception RayPropagation::answer(const Task& task, const Found& found) const {
   Reception reception;
   reception.used = PropagationUsed::kRays;
-  reception.paths = sound_paths(task, found);
+  const acoustics::Arrivals arrivals = arrivals_at(task, found);
+  reception.paths = sound_paths(task, arrivals);
   reception.delay_spread_s = delay_spread_s(reception.paths);
   if (!reception.paths.empty()) {
-    set_open(task, found, reception);
+    set_open(task, arrivals, reception);
   } else {
     reception.state = found.blocked ? PathState::kBlocked : PathState::kShadow;
     set_silent(task, reception);
@@ -208,7 +230,18 @@ Reception RayPropagation::answer(const Task& task, const Found& found) const {
   return reception;
 }
 
-std::vector<SoundPath> RayPropagation::sound_paths(const Task& task, const Found& found) const {
+acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const Found& found) const {
+  const acoustics::RayLink &searched = task.question.link, &link = task.link;
+  const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
+                      searched.receiver_depth_m == link.receiver_depth_m;
+  if (itself) return found.arrivals;
+  const acoustics::EndSpeeds speeds{task.water->speed_at(searched.source_depth_m),
+                                    task.water->speed_at(searched.receiver_depth_m)};
+  return {found.arrivals.solver, carried(found.arrivals.paths, searched, speeds, link)};
+}
+
+std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
+                                                   const acoustics::Arrivals& arrivals) const {
   const auto& [from, to] = task.ends;
   const acoustics::MovingEnds ends{from.position_ned_m,
                                    from.velocity_ned_mps,
@@ -218,7 +251,7 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task, const Found
                                    sound_speed_at(*task.environment, to.position_ned_m)};
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::vector<SoundPath> paths;
-  for (const acoustics::Arrival& arrival : found.arrivals.paths) {
+  for (const acoustics::Arrival& arrival : arrivals.paths) {
     const acoustics::Arrival path = task.reversed ? backwards(arrival) : arrival;
     const double pressure = weighted_pressure(path, beams);
     if (!(pressure > 0)) continue;  // absorbed beyond what a double holds
@@ -230,24 +263,24 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task, const Found
   return paths;
 }
 
-Decibels RayPropagation::received_level(const Task& task, const Found& found,
+Decibels RayPropagation::received_level(const Task& task, const acoustics::Arrivals& arrivals,
                                         const std::vector<SoundPath>& paths) const {
   if (!model_.coherent) return total_level(paths);
   const auto& [from, to] = task.ends;
   const LinkEnd &first = task.reversed ? to : from, &last = task.reversed ? from : to;
   acoustics::FieldOptions field;
   field.transducers = {first.modem->beam, last.modem->beam};
-  return std::max(
-      from.modem->source_level + coherent_level(found.arrivals, from.modem->centre_frequency_hz, field),
-      kSilence);
+  return std::max(from.modem->source_level + coherent_level(arrivals, from.modem->centre_frequency_hz, field),
+                  kSilence);
 }
 
-void RayPropagation::set_open(const Task& task, const Found& found, Reception& reception) const {
+void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arrivals,
+                              Reception& reception) const {
   const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
-  const Decibels level = received_level(task, found, reception.paths);
+  const Decibels level = received_level(task, arrivals, reception.paths);
   const SoundPath& first = reception.paths[first_significant(reception.paths)];
   // As many arrivals as paths unless one was absorbed altogether: found again by its delay.
-  const auto arrival = std::find_if(found.arrivals.paths.begin(), found.arrivals.paths.end(),
+  const auto arrival = std::find_if(arrivals.paths.begin(), arrivals.paths.end(),
                                     [&](const auto& one) { return one.delay_s == first.delay_s; });
   acoustics::LinkBudget& budget = reception.budget;
   budget = task.budget->budget_of_path(from, to, task.ends.from.modem->source_level - level,

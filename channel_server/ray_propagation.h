@@ -14,10 +14,13 @@
 // nothing is receivable.
 // Where the bottom is not known (no profile for the instant, or between positions): the straight path.
 //
-// Paths are searched afresh for each link, from the end where the bottom profile starts (the lower id) to the
-// other; the other direction is the same paths backwards, so the two are reciprocal to the last bit. Answers are
-// functions of environment, profile and ends alone; what was found is kept for the very same question. Ends above
-// the surface are taken at it. Left out: motion of the bottom's slope across the link (acoustics/eigenray.h).
+// Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
+// the same paths backwards, so the two are reciprocal to the last bit. With a distance of reuse, the search is
+// for the middle of the cell that the link lies in (ray_cells.h), and its paths are carried from there to the link
+// (acoustics/ray_carry.h); not for given bottoms and coherent levels, which a search of their own serves. Answers are
+// functions of environment, profile and ends alone: what was found is kept for the very same question, and found
+// again when it was forgotten. Ends above the surface are taken at it. Left out: motion of the bottom's slope across
+// the link (acoustics/eigenray.h).
 #pragma once
 
 #include <map>
@@ -38,6 +41,7 @@ struct RayModel {
   std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
   std::optional<Decibels> shadow_loss;         // transmission loss where no ray gets; empty: silence
   bool coherent = false;                       // received level: sum of phasors at the centre frequency
+  double reuse_distance_m = 0;  // of ray_cells.h, 0..1000; 0: every link is searched for itself
 };
 
 class RayPropagation : public Propagation {
@@ -86,7 +90,8 @@ class RayPropagation : public Propagation {
     std::shared_ptr<const acoustics::RayWater> water;
     std::shared_ptr<const acoustics::LinkModel> budget;
     Question question;
-    bool reversed = false;  // the transmitter is the profile's last end
+    acoustics::RayLink link;  // where the ends are; the question's own unless its paths are carried
+    bool reversed = false;    // the transmitter is the profile's last end
   };
 
   static Key key_of(const Question& question);
@@ -95,15 +100,21 @@ class RayPropagation : public Propagation {
   std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
   Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
                const std::shared_ptr<const SeabedProfile>& seabed, bool reversed);
+  // For two vehicles: the question may be that of a cell, shared by links near it.
+  Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                      const std::shared_ptr<const SeabedProfile>& seabed);
   FoundPaths search(const Task& task) const;
   FoundPaths found(const Task& task);
   FoundPaths kept(const Key& key);
   void keep(const Key& key, const FoundPaths& found);
   Reception without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to);
   Reception answer(const Task& task, const Found& found) const;
-  std::vector<SoundPath> sound_paths(const Task& task, const Found& found) const;
-  Decibels received_level(const Task& task, const Found& found, const std::vector<SoundPath>& paths) const;
-  void set_open(const Task& task, const Found& found, Reception& reception) const;
+  // What was found, at the ends of the task.
+  acoustics::Arrivals arrivals_at(const Task& task, const Found& found) const;
+  std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
+  Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
+                          const std::vector<SoundPath>& paths) const;
+  void set_open(const Task& task, const acoustics::Arrivals& arrivals, Reception& reception) const;
   void set_silent(const Task& task, Reception& reception) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;

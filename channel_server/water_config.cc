@@ -130,6 +130,10 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
                {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
   v.number("least_amplitude_db", p.least_amplitude_db,
            {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
+  v.number("greatest_bounce_loss_db", p.greatest_bounce_loss_db,
+           {1, 200, "dB", "rays: of all bounces of a path; paths that lose more are dropped"});
+  v.number("reuse_distance_m", p.reuse_distance_m,
+           {0, 1000, "m", "rays: length of the cells that share a search, a tenth high; 0: none"});
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss told where no ray gets; 0: silence"});
   v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
@@ -244,6 +248,8 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.options = p.options;
   rays.options.keep_steep_direct = true;
   rays.options.min_amplitude = std::pow(10.0, p.least_amplitude_db / 20);
+  rays.options.min_boundary_factor = std::pow(10.0, -p.greatest_bounce_loss_db / 20);
+  rays.reuse_distance_m = p.reuse_distance_m;
   using Solver = acoustics::RaySolver;
   for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs}) {
     if (p.solver == to_name(solver)) rays.solver = solver;
