@@ -1,5 +1,6 @@
 #include "bus/bus.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -45,7 +46,10 @@ struct Bus::Subscription {
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     if (bus->failure_) return;  // one failure ends the node; nothing more is handled on its way out
     try {
-      handler(channel, buffer->data, buffer->data_size);
+      std::string_view heard_on = channel;
+      bus->answered_ = heard_on.starts_with(channels::kRepair.prefix);
+      if (bus->answered_) heard_on.remove_prefix(channels::kRepair.prefix.size());
+      handler(heard_on, buffer->data, buffer->data_size);
     } catch (...) {
       bus->failure_ = std::current_exception();
     }
@@ -90,14 +94,59 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
 void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler) {
   auto subscription = std::make_unique<Subscription>(Subscription{this, std::move(handler)});
   subscription->lcm_subscription =
-      lcm_.subscribe(regular_expression, &Subscription::on_message, subscription.get());
+      lcm_.subscribe("(" + escaped(channels::kRepair.prefix) + ")?" + regular_expression,
+                     &Subscription::on_message, subscription.get());
   ensure(subscription->lcm_subscription != nullptr, "LCM refuses the channel " + regular_expression);
   subscription->lcm_subscription->setQueueCapacity(kQueueCapacity);
   subscriptions_.push_back(std::move(subscription));
 }
 
-void Bus::watch(std::string_view channel, std::int64_t session, std::int64_t sequence) {
-  counters_.gaps += sequences_.missing_before(channel, session, sequence);
+bool Bus::is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence) {
+  const auto arrival =
+      (repair_ ? repair_->watch() : flows_).on_message(steady_, channel, session, sequence, answered_);
+  counters_.gaps += arrival.newly_missing;
+  counters_.repaired += arrival.fills_gap ? 1 : 0;
+  if (!repair_ || !arrival.is_repeated) return false;
+  ++counters_.duplicates;
+  return true;
+}
+
+bool Bus::hears(std::string_view channel) const {
+  const auto is_in = [&](const std::string& prefix) { return channel.starts_with(prefix); };
+  return std::find(exact_channels_.begin(), exact_channels_.end(), channel) != exact_channels_.end() ||
+         std::any_of(prefixes_.begin(), prefixes_.end(), is_in);
+}
+
+void Bus::enable_repair() {
+  if (repair_) return;
+  repair_ = std::make_unique<FlowRepair>(identity_.name, identity_.session);
+  subscribe<repair_request_t>(channels::kRepairRequest,
+                              [this](const repair_request_t& request) { answer(request); });
+  subscribe<flow_heartbeat_t>(
+      channels::kHeartbeat, [this](std::string_view, const flow_heartbeat_t& heartbeat) {
+        counters_.gaps += repair_->on_heartbeat(steady_, heartbeat,
+                                                [this](std::string_view channel) { return hears(channel); });
+      });
+}
+
+void Bus::answer(const repair_request_t& request) {
+  for (const FlowHistory::Bytes* message : repair_->answers_to(request)) {
+    publish_bytes(channels::kRepair.of(request.missing_channel), message->data(), message->size());
+  }
+}
+
+void Bus::repair(SimTime sim, SimTime steady) {
+  steady_ = steady;
+  if (!repair_) return;
+  if (repair_->heartbeat_is_due(steady)) {
+    publish(channels::kHeartbeat.of(identity_.name), repair_->take_heartbeat(sim, steady));
+  }
+  for (const repair_request_t& request : repair_->take_requests(sim, steady)) {
+    publish(channels::kRepairRequest, request);
+  }
+  const std::int64_t lost = repair_->watch().lost();
+  if (lost > counters_.lost) log_.warning("messages-lost", "count=" + std::to_string(lost));
+  counters_.lost = lost;
 }
 
 std::string escaped(std::string_view channel) {

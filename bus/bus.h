@@ -2,7 +2,7 @@
 //
 // A message that does not decode, or holds what cannot be (message_checks.h), is counted, reported with its
 // channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session,
-// sequence) is counted. An exception that a handler throws never crosses LCM's C frames: it is kept, and
+// sequence) is counted and, with enable_repair(), repaired. An exception that a handler throws never crosses LCM's C frames: it is kept, and
 // thrown by rethrow_if_failed().
 //
 //   Bus bus(lcm, {"channel-server", session});
@@ -20,14 +20,16 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/channels.h"
 #include "bus/event_log.h"
+#include "bus/flow_repair.h"
 #include "bus/message_checks.h"
-#include "bus/sequence_watch.h"
 #include "bus/wire_layout.h"
 #include "core/names.h"
 
@@ -46,6 +48,8 @@ struct BusCounters {
   std::int64_t refused = 0;
   std::int64_t gaps = 0;
   std::int64_t repaired = 0;
+  std::int64_t lost = 0;
+  std::int64_t duplicates = 0;
   std::int64_t late = 0;
 };
 
@@ -74,6 +78,16 @@ class Bus {
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
 
+  // On a bus that loses datagrams: from now on this Bus keeps what it publishes, repairs what it misses, and ignores
+  // what comes twice (flow_repair.h). Whoever runs it calls set_steady() before LCM dispatches, and repair() at
+  // next_repair() or earlier.
+  void enable_repair();
+  void set_steady(SimTime steady) { steady_ = steady; }
+  void repair(SimTime sim, SimTime steady);
+  SimTime next_repair() const { return repair_ ? repair_->next_due() : SimTime::never(); }
+  // Another run has begun: whoever published in the old one may number anew.
+  void forget_flows() { (repair_ ? repair_->watch() : flows_).forget(); }
+
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
   const BusCounters& counters() const { return counters_; }
@@ -87,16 +101,24 @@ class Bus {
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
 
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
+  // `regular_expression` matches channels; what was lost on them and comes again on REPAIR.<channel> is
+  // handled as if heard there.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler);
   template <class Message>
   bool decode(std::string_view channel, const void* data, std::size_t size, Message& message);
-  void watch(std::string_view channel, std::int64_t session, std::int64_t sequence);
+  bool is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence);
+  bool hears(std::string_view channel) const;
+  void answer(const repair_request_t& request);
 
   lcm::LCM& lcm_;
   NodeIdentity identity_;
   BusCounters counters_;
   EventLog log_;
-  SequenceWatch sequences_;
+  FlowWatch flows_;  // without repair
+  std::unique_ptr<FlowRepair> repair_;
+  SimTime steady_;
+  bool answered_ = false;                               // what is being handled came on REPAIR.<channel>
+  std::vector<std::string> exact_channels_, prefixes_;  // subscribed
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
@@ -105,6 +127,31 @@ class Bus {
 // An LCM regular expression that matches `channel` and nothing else.
 std::string escaped(std::string_view channel);
 
+// The number of a message in its flow: of types that are numbered. Of a packet it is the packet's, because a SEND is
+// repeated on purpose.
+template <class Message>
+concept IsPacketToSend = requires(const Message& m) {
+  m.packet_sequence;
+  m.payload_size;
+  m.source_id;
+  m.session;
+}
+&&!requires(const Message& m) { m.sequence; };
+template <class Message>
+concept IsOfFlow =
+    !std::is_same_v<Message, flow_heartbeat_t> && (IsPacketToSend<Message> || requires(const Message& m) {
+      m.session;
+      m.sequence;
+    });
+template <class Message>
+std::int64_t number_in_flow(const Message& message) {
+  if constexpr (IsPacketToSend<Message>) {
+    return message.packet_sequence;
+  } else {
+    return message.sequence;
+  }
+}
+
 // ---- implementation of the templates
 
 template <class Message>
@@ -112,10 +159,14 @@ void Bus::publish(std::string_view channel, const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   publish_bytes(channel, bytes.data(), bytes.size());
+  if constexpr (IsOfFlow<Message>) {
+    if (repair_) repair_->on_published(channel, message.session, number_in_flow(message), std::move(bytes));
+  }
 }
 
 template <class Message>
 void Bus::subscribe(std::string_view channel, Handler<Message> handler) {
+  exact_channels_.emplace_back(channel);
   subscribe_raw(escaped(channel), [this, handler = std::move(handler)](std::string_view heard_on,
                                                                        const void* data, std::size_t size) {
     Message message;
@@ -126,6 +177,7 @@ void Bus::subscribe(std::string_view channel, Handler<Message> handler) {
 template <class Message>
 void Bus::subscribe(const Family& family, FamilyHandler<Message> handler) {
   const std::string_view prefix = family.prefix;
+  prefixes_.emplace_back(prefix);
   subscribe_raw(escaped(prefix) + ".*", [this, prefix, handler = std::move(handler)](
                                             std::string_view heard_on, const void* data, std::size_t size) {
     const std::string_view name = heard_on.substr(prefix.size());
@@ -145,20 +197,9 @@ bool Bus::decode(std::string_view channel, const void* data, std::size_t size, M
     return false;
   }
   ++counters_.received;
-  if constexpr (
-      requires {
-        message.packet_sequence;
-        message.payload_size;
-        message.source_id;
-        message.session;
-      } &&
-      !requires { message.sequence; }) {
-    watch(channel, message.session, message.packet_sequence);
-  } else if constexpr (requires {
-                         message.session;
-                         message.sequence;
-                       }) {
-    watch(channel, message.session, message.sequence);
+  if constexpr (IsOfFlow<Message>) {
+    const bool is_known = is_repeated(channel, message.session, number_in_flow(message));
+    if (is_known && !IsPacketToSend<Message>) return false;
   }
   return true;
 }

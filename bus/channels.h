@@ -47,6 +47,11 @@ inline constexpr std::string_view kSetCurrent = "SET_CURRENT";
 inline constexpr Family kRayReply{"RAY_REPLY."};
 // From every node.
 inline constexpr Family kStatus{"STATUS."};
+// Between nodes on a bus that loses datagrams (flow_repair.h): the name after the dot is a node's; REPAIR's is
+// the channel on which the message was lost.
+inline constexpr Family kHeartbeat{"HEARTBEAT."};
+inline constexpr std::string_view kRepairRequest = "REPAIR_REQUEST";
+inline constexpr Family kRepair{"REPAIR."};
 
 }  // namespace channels
 }  // namespace halocline::bus

@@ -23,6 +23,7 @@ constexpr std::int64_t kLatestUtime = 3'155'760'000'000'000;
 constexpr double kGreatestDopplerFactor = 10;  // no two ends meet at nine tenths of the speed of sound
 constexpr double kPi = std::numbers::pi;
 constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16, kMostBeamRows = 181;
+constexpr std::int32_t kMostFlows = 500, kMostMissing = 200;  // of a heartbeat; of a request to repair
 
 // Collects the first problem found.
 class Checker {
@@ -386,6 +387,22 @@ std::string problem_in(const ray_reply_t& m) {
 
 std::string problem_in(const node_status_t& m) {
   return Checker().utime(m.utime).name("node_name", m.node_name).result();
+}
+
+std::string problem_in(const flow_heartbeat_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .utime(m.age_us, "age_us")
+      .within("num_flows", m.num_flows, 0, kMostFlows)
+      .result();
+}
+
+std::string problem_in(const repair_request_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .name("client_name", m.client_name)
+      .within("num_missing", m.num_missing, 1, kMostMissing)
+      .result();
 }
 
 }  // namespace halocline::bus

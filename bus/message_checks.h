@@ -37,5 +37,7 @@ std::string problem_in(const link_reply_t& message);
 std::string problem_in(const ray_query_t& message);
 std::string problem_in(const ray_reply_t& message);
 std::string problem_in(const node_status_t& message);
+std::string problem_in(const flow_heartbeat_t& message);
+std::string problem_in(const repair_request_t& message);
 
 }  // namespace halocline::bus

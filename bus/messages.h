@@ -4,6 +4,7 @@
 #include <halocline/current_change_t.hpp>
 #include <halocline/environment_change_t.hpp>
 #include <halocline/environment_t.hpp>
+#include <halocline/flow_heartbeat_t.hpp>
 #include <halocline/link_answer_t.hpp>
 #include <halocline/link_end_t.hpp>
 #include <halocline/link_query_t.hpp>
@@ -20,6 +21,7 @@
 #include <halocline/position_estimate_t.hpp>
 #include <halocline/ray_query_t.hpp>
 #include <halocline/ray_reply_t.hpp>
+#include <halocline/repair_request_t.hpp>
 #include <halocline/sim_clock_t.hpp>
 #include <halocline/vehicle_command_t.hpp>
 #include <halocline/vehicle_sensors_t.hpp>

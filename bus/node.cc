@@ -11,7 +11,7 @@ constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
 
 Due Node::due() const {
   Due due = on_due();
-  due.steady = std::min(due.steady, next_status_);
+  due.steady = std::min({due.steady, next_status_, bus_.next_repair()});
   return due;
 }
 
@@ -24,11 +24,13 @@ void Node::step(const Now& now) {
     publish_status(now, status_text());
     next_status_ = next_on_grid(now.steady, kStatusPeriod);
   }
+  bus_.repair(now.sim, now.steady);
 }
 
 void Node::restart(const Now& now) {
   bus_.log().set_time(now.sim);
   bus_.log().info("restarted", "reason=\"simulation time jumped back\"");
+  bus_.forget_flows();
   on_restart(now);
 }
 
@@ -52,6 +54,8 @@ void Node::publish_status(const Now& now, const std::string& text) {
   status.messages_refused = counters.refused;
   status.gaps = counters.gaps;
   status.repaired = counters.repaired;
+  status.lost = counters.lost;
+  status.duplicates = counters.duplicates;
   status.late = counters.late;
   status.status_text = text;
   bus_.publish(channels::kStatus.of(name()), status);

@@ -39,6 +39,11 @@ class Node {
   const std::string& name() const { return bus_.identity().name; }
   const BusCounters& counters() const { return bus_.counters(); }
 
+  // For a node on a bus that loses datagrams, once, before its first step (Bus::enable_repair).
+  void enable_repair() { bus_.enable_repair(); }
+  // What is handled from now on was heard at this steady time.
+  void set_steady(SimTime steady) { bus_.set_steady(steady); }
+
   Due due() const;
   // Rethrows what a handler threw; computes and publishes all that is due; then STATUS when a second has
   // passed.

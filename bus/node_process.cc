@@ -86,6 +86,7 @@ int run_checked(int argc, char** argv, const NodeProgram& program) {
   const auto time = program.make_time_source ? program.make_time_source(context)
                                              : make_time_source(run->time_source, *lcm, run->identity.name);
   const auto node = program.make_node(context);
+  node->enable_repair();
   log.info("started", "url=" + url);
   run_node(*lcm, *node, *time, stop_requested);
   log.info("stopped");
@@ -124,6 +125,7 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   while (!should_stop()) {
     wait_for_bus(lcm, wake_time(node, time));
     time.set_steady(steady_now());
+    node.set_steady(steady_now());
     dispatch_waiting(lcm);
     update_time();
     if (time.restarted()) node.restart(now);

@@ -158,7 +158,10 @@ HALOCLINE_LAYOUT(ray_query_t, {fixed(8), text(), fixed(8), text(), fixed(1 + 8 +
 HALOCLINE_LAYOUT(ray_reply_t,
                  {fixed(3 * 8), text(), fixed(1), text(), count(), array_of_bytes(1), array_of_bytes(8),
                   count(), array_of_bytes(8), array_of_bytes(8), array_of_bytes(1)})
-HALOCLINE_LAYOUT(node_status_t, {fixed(kHead), text(), text(), fixed(6 * 8), text()})
+HALOCLINE_LAYOUT(node_status_t, {fixed(kHead), text(), text(), fixed(8 * 8), text()})
+HALOCLINE_LAYOUT(flow_heartbeat_t,
+                 {fixed(kHead + 8), count(), array_of({text()}), array_of_bytes(8), array_of_bytes(8)})
+HALOCLINE_LAYOUT(repair_request_t, {fixed(8), text(), text(), fixed(8), count(), array_of_bytes(8)})
 
 #undef HALOCLINE_LAYOUT
 

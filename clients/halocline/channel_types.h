@@ -34,6 +34,10 @@ bool with_type_of(std::string_view channel, Function&& f) {
   if (in(c::kLinks)) return f.template operator()<link_table_t>(), true;
   if (in(c::kLinkReply)) return f.template operator()<link_reply_t>(), true;
   if (in(c::kRayReply)) return f.template operator()<ray_reply_t>(), true;
+  if (in(c::kHeartbeat)) return f.template operator()<flow_heartbeat_t>(), true;
+  if (is(c::kRepairRequest)) return f.template operator()<repair_request_t>(), true;
+  if (channel.starts_with(c::kRepair.prefix))
+    return with_type_of(channel.substr(c::kRepair.prefix.size()), f);
   if (in(c::kStatus)) return f.template operator()<node_status_t>(), true;
   return false;
 }

@@ -225,8 +225,32 @@ void visit_fields(Visitor& v, const node_status_t& m) {
   v("messages_refused", m.messages_refused);
   v("gaps", m.gaps);
   v("repaired", m.repaired);
+  v("lost", m.lost);
+  v("duplicates", m.duplicates);
   v("late", m.late);
   v("status_text", m.status_text);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, const flow_heartbeat_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("age_us", m.age_us);
+  v("num_flows", m.num_flows);
+  v("flow_channel", m.flow_channel);
+  v("flow_session", m.flow_session);
+  v("flow_last_sequence", m.flow_last_sequence);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, const repair_request_t& m) {
+  v("utime", m.utime);
+  v("client_name", m.client_name);
+  v("missing_channel", m.missing_channel);
+  v("publisher_session", m.publisher_session);
+  v("num_missing", m.num_missing);
+  v("missing_sequence", m.missing_sequence);
 }
 
 template <class Visitor>

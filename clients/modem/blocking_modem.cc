@@ -22,7 +22,9 @@ BlockingModem::BlockingModem(lcm::LCM& lcm, const ModemAddress& address, ResendP
     : lcm_(lcm),
       bus_(lcm, {address.vehicle, address.session}),
       time_(lcm, address.vehicle),
-      client_(bus_, address, policy) {}
+      client_(bus_, address, policy) {
+  bus_.enable_repair();
+}
 
 std::optional<SimTime> BlockingModem::sim_now(SimDuration timeout) {
   wait(timeout, [this] { return time_.now(bus::steady_now()).has_value(); });
@@ -63,12 +65,16 @@ std::optional<modem_receive_t> BlockingModem::wait_receive(SimDuration timeout) 
 void BlockingModem::wait(SimDuration timeout, const std::function<bool()>& done) {
   const SimTime end = bus::steady_now() + timeout;
   while (!done()) {
-    const SimDuration left = end - bus::steady_now();
-    sleep_until_heard(lcm_, std::clamp(left, SimDuration(), kLongestSleep));
+    const SimTime now = bus::steady_now();
+    const SimDuration left = end - now;
+    const SimDuration until_repair = std::max(bus_.next_repair(), now) - now;
+    sleep_until_heard(lcm_, std::clamp(std::min(left, until_repair), SimDuration(), kLongestSleep));
     time_.set_steady(bus::steady_now());
+    bus_.set_steady(bus::steady_now());
     const bool heard = lcm_.handleTimeout(0) > 0;
     bus_.rethrow_if_failed();
     client_.resend(bus::steady_now());
+    bus_.repair(time_.now(bus::steady_now()).value_or(SimTime()), bus::steady_now());
     if (left <= SimDuration() && !heard) return;
   }
 }

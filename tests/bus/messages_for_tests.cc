@@ -434,8 +434,37 @@ node_status_t valid_message(unsigned seed) {
   m.messages_refused = n.whole();
   m.gaps = n.whole();
   m.repaired = n.whole();
+  m.lost = n.whole();
+  m.duplicates = n.whole();
   m.late = n.whole();
   m.status_text = std::string(static_cast<std::size_t>(size_of_arrays(seed)), 's');
+  return m;
+}
+
+template <>
+flow_heartbeat_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<flow_heartbeat_t>(n);
+  m.age_us = n.whole();
+  m.num_flows = size_of_arrays(seed);
+  const auto count = static_cast<std::size_t>(m.num_flows);
+  for (std::size_t i = 0; i < count; ++i) {
+    m.flow_channel.push_back("STATE.v" + std::to_string(i));
+    m.flow_session.push_back(n.whole());
+    m.flow_last_sequence.push_back(n.whole());
+  }
+  return m;
+}
+
+template <>
+repair_request_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<repair_request_t>(n);
+  m.client_name = "client-a";
+  m.missing_channel = "STATE." + std::string(seed % 4u, 'v');
+  m.publisher_session = n.whole();
+  m.num_missing = size_of_arrays(seed) + 1;
+  for (int i = 0; i < m.num_missing; ++i) m.missing_sequence.push_back(n.whole());
   return m;
 }
 

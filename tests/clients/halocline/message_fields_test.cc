@@ -41,6 +41,7 @@ void expect_same(const std::string& type) {
 TEST(MessageFields, AreThoseOfTheTypes) {
   expect_same<current_change_t>("current_change_t");
   expect_same<environment_t>("environment_t");
+  expect_same<flow_heartbeat_t>("flow_heartbeat_t");
   expect_same<link_answer_t>("link_answer_t");
   expect_same<link_end_t>("link_end_t");
   expect_same<link_query_t>("link_query_t");
@@ -57,6 +58,7 @@ TEST(MessageFields, AreThoseOfTheTypes) {
   expect_same<position_estimate_t>("position_estimate_t");
   expect_same<ray_query_t>("ray_query_t");
   expect_same<ray_reply_t>("ray_reply_t");
+  expect_same<repair_request_t>("repair_request_t");
   expect_same<sim_clock_t>("sim_clock_t");
   expect_same<vehicle_command_t>("vehicle_command_t");
   expect_same<vehicle_sensors_t>("vehicle_sensors_t");

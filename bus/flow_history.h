@@ -1,0 +1,52 @@
+// What a publisher said last, kept so that whoever missed it can ask again. Bounded: the oldest messages of
+// all flows make room.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace halocline::bus {
+
+class FlowHistory {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+
+  static constexpr std::size_t kMostFlows = 500;
+  // `most_bytes` of messages are kept, and the last message whatever its size.
+  explicit FlowHistory(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+  // A message of the flow (channel, session) was published. One with a number that is kept already changes nothing.
+  void keep(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message);
+  // The message, or null when it is not kept (any more).
+  const Bytes* find(std::string_view channel, std::int64_t session, std::int64_t sequence) const;
+
+  // The kMostFlows flows published on most recently, each with the greatest number so far.
+  struct Flow {
+    std::string channel;
+    std::int64_t session = 0, last = 0;
+  };
+  std::vector<Flow> flows() const;
+
+ private:
+  using FlowName = std::pair<std::string, std::int64_t>;  // channel, session
+  struct Kept {
+    std::int64_t last = 0;
+    std::uint64_t turn = 0;  // of the last message, among all
+    std::map<std::int64_t, Bytes> messages;
+  };
+  using Flows = std::map<FlowName, Kept, std::less<>>;
+  void forget_oldest_message();
+  void forget_oldest_flow();
+
+  std::size_t most_bytes_, bytes_ = 0;
+  std::uint64_t turn_ = 0;
+  Flows flows_;
+  std::deque<std::pair<FlowName, std::int64_t>> in_order_;
+};
+
+}  // namespace halocline::bus

@@ -1,0 +1,245 @@
+// Two Buses joined by a network that loses, doubles and delays what passes.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "bus/bus.h"
+#include "tests/bus/messages_for_tests.h"
+
+namespace halocline::bus {
+namespace {
+
+using testing::valid_message;
+
+// Two hosts, each a memq bus of its own; what is published on one arrives at both, as on a multicast network.
+class LossyNetwork {
+ public:
+  LossyNetwork(double loss, double doubled, unsigned seed) : loss_(loss), doubled_(doubled), random_(seed) {
+    for (Host& host : hosts_) {
+      host.network = this;
+      host.lcm.subscribe(".*", &Host::on_message, &host)->setQueueCapacity(0);
+    }
+  }
+  lcm::LCM& host(int i) { return hosts_[static_cast<std::size_t>(i)].lcm; }
+  double& loss() { return loss_; }
+
+  // Carries everything that is under way, each datagram 0 to 3 rounds late.
+  void carry() {
+    for (Host& host : hosts_) drain(host.lcm);
+    std::vector<Datagram> later;
+    for (Datagram& datagram : std::exchange(under_way_, {})) {
+      if (datagram.rounds-- > 0) {
+        later.push_back(std::move(datagram));
+        continue;
+      }
+      Host& host = hosts_[static_cast<std::size_t>(datagram.to)];
+      host.next_arrived = true;
+      host.lcm.publish(datagram.channel, datagram.bytes.data(), static_cast<unsigned>(datagram.bytes.size()));
+      drain(host.lcm);
+    }
+    under_way_.insert(under_way_.end(), later.begin(), later.end());
+  }
+
+ private:
+  struct Datagram {
+    int to;
+    int rounds;
+    std::string channel;
+    std::vector<std::uint8_t> bytes;
+  };
+  struct Host {
+    lcm::LCM lcm{"memq://"};
+    LossyNetwork* network = nullptr;
+    bool next_arrived = false;  // the next message came over the network, and does not go back
+    void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+      if (std::exchange(next_arrived, false)) return;
+      const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
+      network->send(this == network->hosts_.data() ? 1 : 0, channel, {bytes, bytes + buffer->data_size});
+    }
+  };
+  static void drain(lcm::LCM& lcm) {
+    while (lcm.handleTimeout(0) > 0) {
+    }
+  }
+  void send(int to, const std::string& channel, const std::vector<std::uint8_t>& bytes) {
+    std::uniform_real_distribution<double> share(0, 1);
+    std::uniform_int_distribution<int> rounds(0, 3);
+    const int copies = share(random_) < doubled_ ? 2 : 1;
+    for (int i = 0; i < copies; ++i) {
+      if (share(random_) >= loss_) under_way_.push_back({to, rounds(random_), channel, bytes});
+    }
+  }
+
+  double loss_, doubled_;
+  std::mt19937 random_;
+  std::array<Host, 2> hosts_;
+  std::vector<Datagram> under_way_;
+};
+
+// A publisher of STATE.a on one host, a hearer on the other; a millisecond of steady time a round.
+class FlowRepairTest : public ::testing::Test {
+ protected:
+  void start(double loss, double doubled = 0, unsigned seed = 1) {
+    set_log_level(LogLevel::kSilent);
+    publisher_.reset();
+    hearer_.reset();
+    network_.emplace(loss, doubled, seed);
+    publisher_.emplace(network_->host(0), NodeIdentity{"publisher", 77});
+    hearer_.emplace(network_->host(1), NodeIdentity{"hearer", 88});
+    hearer_->subscribe<vehicle_state_t>(
+        channels::kState, [this](std::string_view, const vehicle_state_t& m) { ++heard_[m.sequence]; });
+  }
+  void enable_repair() {
+    publisher_->enable_repair();
+    hearer_->enable_repair();
+  }
+  ~FlowRepairTest() override { set_log_level(LogLevel::kInfo); }
+
+  void publish() {
+    vehicle_state_t state = valid_message<vehicle_state_t>(1);
+    state.session = 77;
+    state.sequence = published_++;
+    publisher_->publish("STATE.a", state);
+  }
+  void pass(int milliseconds) {
+    for (int i = 0; i < milliseconds; ++i) {
+      steady_ = steady_ + SimDuration::from_milliseconds(1);
+      for (Bus* bus : {&*publisher_, &*hearer_}) {
+        bus->set_steady(steady_);
+        if (bus->next_repair() <= steady_) bus->repair(steady_, steady_);
+      }
+      network_->carry();
+    }
+  }
+  bool heard_each_once() const {
+    return heard_.size() == static_cast<std::size_t>(published_) &&
+           std::all_of(heard_.begin(), heard_.end(), [](const auto& entry) { return entry.second == 1; });
+  }
+
+  std::optional<LossyNetwork> network_;
+  std::optional<Bus> publisher_, hearer_;
+  std::map<std::int64_t, int> heard_;
+  std::int64_t published_ = 0;
+  SimTime steady_;
+};
+
+TEST_F(FlowRepairTest, EveryMessageIsHeardOnceWhateverTheNetworkLosesDoublesAndDelays) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    heard_.clear();
+    published_ = 0;
+    start(0.2, 0.1, seed);
+    enable_repair();
+    pass(10);
+    for (int i = 0; i < 300; ++i) {
+      publish();
+      pass(5);
+    }
+    pass(5000);
+    EXPECT_TRUE(heard_each_once()) << "seed " << seed << ": " << heard_.size() << " of " << published_;
+    EXPECT_EQ(hearer_->counters().gaps, hearer_->counters().repaired);
+    EXPECT_GT(hearer_->counters().repaired, 30);
+    EXPECT_EQ(hearer_->counters().lost, 0);
+  }
+}
+
+TEST_F(FlowRepairTest, WithoutItWhatIsLostStaysLost) {
+  start(0.2);
+  for (int i = 0; i < 300; ++i) {
+    publish();
+    pass(5);
+  }
+  EXPECT_LT(heard_.size(), 280u);
+  EXPECT_GT(hearer_->counters().gaps, 20);
+}
+
+TEST_F(FlowRepairTest, TheOnlyMessageOfAFlowIsRepairedByTheHeartbeat) {
+  start(0);
+  enable_repair();
+  pass(600);
+  network_->loss() = 1;
+  publish();
+  pass(10);
+  network_->loss() = 0;
+  EXPECT_TRUE(heard_.empty());
+  pass(300);
+  EXPECT_TRUE(heard_each_once());
+}
+
+TEST_F(FlowRepairTest, AHearerThatIsOlderThanThePublisherMissesNothingOfItsFirstMessages) {
+  start(0);
+  hearer_->enable_repair();
+  pass(1000);
+  publisher_->enable_repair();
+  network_->loss() = 1;
+  publish();
+  publish();
+  pass(100);
+  network_->loss() = 0;
+  pass(600);
+  EXPECT_TRUE(heard_each_once());
+}
+
+TEST_F(FlowRepairTest, AHearerThatCameLaterAsksForNothingOfBefore) {
+  start(0);
+  publisher_->enable_repair();
+  network_->loss() = 1;  // nobody is there
+  for (int i = 0; i < 5; ++i) publish();
+  pass(1000);
+  network_->loss() = 0;
+  hearer_->enable_repair();
+  pass(1000);
+  publish();
+  pass(1000);
+  EXPECT_EQ(heard_.size(), 1u);
+  EXPECT_EQ(heard_.count(5), 1u);
+  EXPECT_LE(hearer_->counters().gaps, 1);  // a heartbeat may overtake the message that it names
+}
+
+TEST_F(FlowRepairTest, AGapOfAPublisherWithoutHistoryIsCountedAsLost) {
+  start(0);
+  hearer_->enable_repair();
+  publish();
+  pass(10);
+  network_->loss() = 1;
+  for (int i = 0; i < 3; ++i) publish();
+  pass(10);
+  network_->loss() = 0;
+  publish();
+  pass(11'000);
+  EXPECT_EQ(hearer_->counters().gaps, 3);
+  EXPECT_EQ(hearer_->counters().repaired, 0);
+  EXPECT_EQ(hearer_->counters().lost, 3);
+}
+
+TEST_F(FlowRepairTest, ASendThatIsRepeatedOnPurposeIsHeardEachTime) {
+  start(0);
+  enable_repair();
+  int heard = 0;
+  hearer_->subscribe<modem_send_t>(channels::kSend, [&](std::string_view, const modem_send_t&) { ++heard; });
+  modem_send_t send = valid_message<modem_send_t>(1);
+  for (int i = 0; i < 3; ++i) {
+    publisher_->publish("SEND.a", send);
+    pass(10);
+  }
+  EXPECT_EQ(heard, 3);
+}
+
+TEST_F(FlowRepairTest, ARequestForWhatNobodyPublishedIsIgnored) {
+  start(0);
+  enable_repair();
+  publish();
+  repair_request_t request = valid_message<repair_request_t>(1);
+  request.missing_channel = "STATE.a";
+  request.publisher_session = 12345;
+  hearer_->publish(channels::kRepairRequest, request);
+  pass(20);
+  EXPECT_TRUE(heard_each_once());
+}
+
+}  // namespace
+}  // namespace halocline::bus

@@ -1,0 +1,211 @@
+#include "bus/flow_watch.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace halocline::bus {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+SimTime at_ms(std::int64_t ms) { return SimTime() + SimDuration::from_milliseconds(ms); }
+
+class FlowWatchTest : public ::testing::Test {
+ protected:
+  // How many messages are missing before this one, heard at 0.
+  std::int64_t missing_before(const char* channel, std::int64_t session, std::int64_t sequence) {
+    return watch_.on_message(SimTime(), channel, session, sequence).newly_missing;
+  }
+  void hear(std::initializer_list<std::int64_t> sequences) {
+    for (const std::int64_t sequence : sequences) watch_.on_message(SimTime(), "A", 1, sequence);
+  }
+  // The sequences asked for at this instant, of the only flow.
+  std::vector<std::int64_t> asked_at(SimTime steady) {
+    const auto requests = watch_.take_due(steady);
+    return requests.empty() ? std::vector<std::int64_t>() : requests.front().sequences;
+  }
+
+  FlowWatch watch_;
+};
+
+TEST_F(FlowWatchTest, TheFirstAndTheNextMissNothing) {
+  EXPECT_EQ(missing_before("A", 1, 40), 0);
+  EXPECT_EQ(missing_before("A", 1, 41), 0);
+  EXPECT_EQ(watch_.next_due(), SimTime::never());
+}
+
+TEST_F(FlowWatchTest, AGapIsCountedOnce) {
+  missing_before("A", 1, 0);
+  EXPECT_EQ(missing_before("A", 1, 5), 4);
+  EXPECT_EQ(missing_before("A", 1, 6), 0);
+}
+
+TEST_F(FlowWatchTest, RepetitionsAndLatecomersAreNoGaps) {
+  missing_before("A", 1, 5);
+  EXPECT_EQ(missing_before("A", 1, 5), 0);
+  EXPECT_EQ(missing_before("A", 1, 4), 0);
+  EXPECT_EQ(missing_before("A", 1, 6), 0);
+}
+
+TEST_F(FlowWatchTest, WhatLiesBetweenTheFirstHeardAndOneItHadOvertakenIsMissing) {
+  missing_before("A", 1, 5);
+  EXPECT_EQ(missing_before("A", 1, 2), 2);
+  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(3, 4));
+}
+
+TEST_F(FlowWatchTest, ANewSessionStartsAnew) {
+  missing_before("A", 1, 100);
+  EXPECT_EQ(missing_before("A", 2, 0), 0);
+  EXPECT_EQ(missing_before("A", 2, 2), 1);
+}
+
+TEST_F(FlowWatchTest, TwoPublishersOnOneChannelAreFollowedApart) {
+  missing_before("A", 1, 0);
+  missing_before("A", 2, 50);
+  EXPECT_EQ(missing_before("A", 1, 1), 0);
+  EXPECT_EQ(missing_before("A", 2, 52), 1);
+}
+
+TEST_F(FlowWatchTest, ChannelsAreFollowedApart) {
+  missing_before("A", 1, 0);
+  missing_before("B", 1, 10);
+  EXPECT_EQ(missing_before("A", 1, 1), 0);
+}
+
+TEST_F(FlowWatchTest, APublisherThatKeepsNoNumbersIsNotWatched) {
+  for (int i = 0; i < 3; ++i) {
+    const auto arrival = watch_.on_message(SimTime(), "A", 0, 0);
+    EXPECT_EQ(arrival.newly_missing, 0);
+    EXPECT_FALSE(arrival.is_repeated);
+  }
+}
+
+TEST_F(FlowWatchTest, RemembersTheSessionHeardLastAmongMany) {
+  missing_before("A", 1, 0);  // the smallest number of all, but heard again and again
+  for (int session = 100; session < 130; ++session) {
+    missing_before("A", 1, session - 99);
+    missing_before("A", session, 0);
+  }
+  EXPECT_EQ(missing_before("A", 1, 35), 4);
+}
+
+TEST_F(FlowWatchTest, HostileNumbersNeitherOverflowNorGrow) {
+  missing_before("A", 1, INT64_MIN);
+  EXPECT_GE(missing_before("A", 1, INT64_MAX), 0);
+  EXPECT_EQ(missing_before("A", 1, INT64_MIN), 0);
+  EXPECT_GT(watch_.lost(), 0);
+  EXPECT_LE(asked_at(at_ms(5)).size(), FlowWatch::kMostInARequest);
+}
+
+TEST_F(FlowWatchTest, WhatIsMissingIsAskedForAfterAMomentOfPatience) {
+  hear({0, 3});
+  EXPECT_EQ(watch_.next_due(), at_ms(5));
+  EXPECT_THAT(asked_at(at_ms(4)), IsEmpty());
+  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(1, 2));
+}
+
+TEST_F(FlowWatchTest, WhatWasOnlyOvertakenIsNeverAskedFor) {
+  hear({0, 2, 1});
+  EXPECT_THAT(asked_at(at_ms(5)), IsEmpty());
+}
+
+TEST_F(FlowWatchTest, RequestsAreRepeatedAtGrowingIntervals) {
+  hear({0, 2});
+  std::vector<std::int64_t> asked_ms;
+  for (std::int64_t ms = 0; ms < 3000; ++ms) {
+    if (!asked_at(at_ms(ms)).empty()) asked_ms.push_back(ms);
+  }
+  EXPECT_THAT(asked_ms, ElementsAre(5, 45, 125, 285, 605, 1245, 1885, 2525));
+}
+
+TEST_F(FlowWatchTest, AMessageThatFillsAGapSaysSoAndEndsTheRequests) {
+  hear({0, 2});
+  EXPECT_TRUE(watch_.on_message(at_ms(6), "A", 1, 1).fills_gap);
+  EXPECT_THAT(asked_at(at_ms(100)), IsEmpty());
+  EXPECT_FALSE(watch_.on_message(at_ms(7), "A", 1, 1).fills_gap);
+}
+
+TEST_F(FlowWatchTest, WhatNobodyAnswersIsLostAfterTenSeconds) {
+  hear({0, 4});
+  watch_.take_due(at_ms(9'999));
+  EXPECT_EQ(watch_.lost(), 0);
+  watch_.take_due(at_ms(10'000));
+  EXPECT_EQ(watch_.lost(), 3);
+  EXPECT_EQ(watch_.next_due(), SimTime::never());
+}
+
+TEST_F(FlowWatchTest, AMessageThatComesTwiceIsARepetition) {
+  hear({0, 1, 2});
+  EXPECT_TRUE(watch_.on_message(at_ms(1), "A", 1, 2).is_repeated);
+  EXPECT_TRUE(watch_.on_message(at_ms(1), "A", 1, 0).is_repeated);
+  EXPECT_FALSE(watch_.on_message(at_ms(1), "A", 1, 3).is_repeated);
+}
+
+TEST_F(FlowWatchTest, APublisherThatNumbersAnewAfterASilenceIsHeard) {
+  hear({0, 1, 2, 3});
+  EXPECT_FALSE(watch_.on_message(at_ms(2000), "A", 1, 0).is_repeated);
+}
+
+TEST_F(FlowWatchTest, ALostTailShowsInWhatThePublisherSaysWasLast) {
+  hear({0, 1});
+  EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, false), 2);
+  EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, false), 0);
+  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(2, 3));
+}
+
+TEST_F(FlowWatchTest, WhatCameBeforeTheHearerIsNotMissing) {
+  EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 7, false), 0);
+  EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 8, false), 1);
+  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(8));
+}
+
+TEST_F(FlowWatchTest, AnAnswerThatFillsNoGapOfOursIsRepeated) {
+  hear({0, 2});
+  EXPECT_FALSE(watch_.on_message(SimTime(), "A", 1, 1, true).is_repeated);
+  EXPECT_TRUE(watch_.on_message(SimTime(), "A", 1, 1, true).is_repeated);
+  EXPECT_TRUE(watch_.on_message(SimTime(), "B", 1, 1, true).is_repeated);
+}
+
+TEST_F(FlowWatchTest, AFlowThatBeganAfterItsPublisherWasMetIsOursFromItsStart) {
+  watch_.on_all_named(1);
+  EXPECT_EQ(missing_before("A", 1, 2), 2);
+  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(0, 1));
+}
+
+TEST_F(FlowWatchTest, AHearerOlderThanThePublisherLearnsWhatItMissedBeforeTheFirstItHeard) {
+  hear({3});
+  EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, true), 3);
+  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(0, 1, 2));
+}
+
+TEST_F(FlowWatchTest, AFlowHeardOfFromItsStartMissesAllOfIt) {
+  EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 2, true), 3);
+  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(0, 1, 2));
+}
+
+TEST_F(FlowWatchTest, EveryNumberIsInTheEndHeardOrLostWhateverTheOrder) {
+  // A sweep through all orders of a short flow, each with every subset of it delivered: gaps found, filled and
+  // lost always balance.
+  std::vector<std::int64_t> order{0, 1, 2, 3};
+  do {
+    for (unsigned delivered = 0; delivered < 16; ++delivered) {
+      FlowWatch watch;
+      std::int64_t missing = 0, filled = 0;
+      watch.on_message(SimTime(), "A", 1, -1);
+      for (const std::int64_t sequence : order) {
+        if ((delivered >> sequence & 1u) == 0) continue;
+        const auto arrival = watch.on_message(SimTime(), "A", 1, sequence);
+        missing += arrival.newly_missing;
+        filled += arrival.fills_gap ? 1 : 0;
+      }
+      missing += watch.on_last(SimTime(), "A", 1, 3, false);
+      watch.take_due(at_ms(20'000));
+      EXPECT_EQ(missing - filled, watch.lost());
+      EXPECT_EQ(watch.lost(), 4 - __builtin_popcount(delivered));
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+}  // namespace
+}  // namespace halocline::bus
