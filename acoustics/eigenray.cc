@@ -42,11 +42,14 @@ std::vector<Arrival> within_launch_limit(std::vector<Arrival> paths, const RayOp
 
 }  // namespace
 
-RayWater ray_water(const Environment& environment, double frequency_hz) {
+RayWater ray_water(const Environment& environment, double frequency_hz, double thinning_tolerance_mps) {
   const double khz = hz_to_khz(frequency_hz);
-  return RayWater::from_profile(environment.profile, [&](double depth_m) {
+  const auto absorption = [&](double depth_m) {
     return absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz);
-  });
+  };
+  RayWater water = RayWater::from_profile(environment.profile, absorption);
+  if (thinning_tolerance_mps <= 0) return water;
+  return RayWater(thinned(knots_of(water), thinning_tolerance_mps), absorption);
 }
 
 RaySea ray_sea(const Environment& environment, BottomProfile bottom_profile, const FluidBottom& bottom,

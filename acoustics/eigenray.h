@@ -41,8 +41,9 @@ struct RaySea {
 // it.
 RaySea ray_sea(const Environment& environment, BottomProfile bottom_profile, const FluidBottom& bottom,
                SurfaceModel surface, const RayOptions& options);
-// Its water alone, to be shared by links over different bottoms.
-RayWater ray_water(const Environment& environment, double frequency_hz);
+// Its water alone, to be shared by links over different bottoms. With a tolerance above 0, m/s, those of its knots
+// are left out that the straight line between others says to that.
+RayWater ray_water(const Environment& environment, double frequency_hz, double thinning_tolerance_mps = 0);
 
 // The simplest solver that is exact for this link.
 RaySolver choose_solver(const RaySea& sea, const RayLink& link);

@@ -106,6 +106,14 @@ bool RayWater::is_isovelocity_above(double bottom_depth_m) const {
   return true;
 }
 
+std::vector<SpeedRow> knots_of(const RayWater& water) {
+  std::vector<SpeedRow> knots;
+  for (std::size_t i = 0; i < water.depths_m().size(); ++i) {
+    knots.push_back({water.depths_m()[i], water.speeds_mps()[i]});
+  }
+  return knots;
+}
+
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps) {
   require_in_range(tolerance_mps, 0, 100, "tolerance of thinning", "m/s");
   if (knots.size() < 3) return knots;

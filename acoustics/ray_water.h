@@ -59,5 +59,7 @@ class RayWater {
 // The fewest of the given knots (first and last among them) that stay within `tolerance_mps` of all of them:
 // what 101 knots of a deep profile say takes 20 to say to 0.1 m/s. Throws when tolerance_mps < 0.
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps);
+// The knots of a water.
+std::vector<SpeedRow> knots_of(const RayWater& water);
 
 }  // namespace halocline::acoustics

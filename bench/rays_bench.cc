@@ -9,6 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "acoustics/eigenray.h"
+#include "acoustics/ray_carry.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -104,6 +105,21 @@ void warm(benchmark::State& state) {
   state.counters["paths"] = static_cast<double>(before.paths.size());
 }
 BENCHMARK(warm)->DenseRange(1, 7)->Unit(benchmark::kMicrosecond);
+
+// To first order, as the channel server does within a cell. Items are paths.
+void carry(benchmark::State& state) {
+  const Situation at = situation(2);
+  const std::vector<Arrival> before = arrivals(at.sea, at.link).paths;
+  const EndSpeeds speeds{at.sea.water.speed_at(at.link.source_depth_m),
+                         at.sea.water.speed_at(at.link.receiver_depth_m)};
+  RayLink moved = at.link;
+  for (auto _ : state) {
+    moved.range_m += 1e-3;
+    benchmark::DoNotOptimize(carried(before, at.link, speeds, moved));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(before.size()));
+}
+BENCHMARK(carry);
 
 }  // namespace
 }  // namespace halocline::acoustics

@@ -66,7 +66,7 @@ struct PropagationConfig {
   double least_amplitude_db = -120;
   double greatest_bounce_loss_db = 30;  // of all bounces of a path together
   double shadow_loss_db = 0;            // 0: none stated
-  double reuse_distance_m = 25;
+  double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
   bool coherent = false;
 };
 

@@ -44,6 +44,7 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
     : waters_(std::move(waters)), bottoms_(std::move(bottoms)), model_(model), straight_(waters_) {
   validate(model.bottom);
   validate(model.options);
+  require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
 }
 
@@ -131,7 +132,10 @@ std::shared_ptr<const SeabedProfile> RayPropagation::seabed_between(SimTime at, 
 
 std::shared_ptr<const acoustics::RayWater> RayPropagation::water_of(SimTime at, double frequency_hz) {
   auto& water = ray_waters_[{waters_->water_at(at), frequency_hz}];
-  if (!water) water = std::make_shared<const acoustics::RayWater>(ray_water(waters_->at(at), frequency_hz));
+  if (!water) {
+    water = std::make_shared<const acoustics::RayWater>(
+        ray_water(waters_->at(at), frequency_hz, model_.speed_tolerance_mps));
+  }
   const auto result = water;
   if (ray_waters_.size() > kMostRayWaters) ray_waters_.erase(ray_waters_.begin());  // of the oldest water
   return result;

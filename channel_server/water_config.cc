@@ -132,6 +132,8 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
            {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
   v.number("greatest_bounce_loss_db", p.greatest_bounce_loss_db,
            {1, 200, "dB", "rays: of all bounces of a path; paths that lose more are dropped"});
+  v.number("speed_tolerance_mps", p.speed_tolerance_mps,
+           {0, 1, "m/s", "rays: rows of the water that others say to that are left out"});
   v.number("reuse_distance_m", p.reuse_distance_m,
            {0, 1000, "m", "rays: length of the cells that share a search, a tenth high; 0: none"});
   v.number("shadow_loss_db", p.shadow_loss_db,
@@ -249,6 +251,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.options.keep_steep_direct = true;
   rays.options.min_amplitude = std::pow(10.0, p.least_amplitude_db / 20);
   rays.options.min_boundary_factor = std::pow(10.0, -p.greatest_bounce_loss_db / 20);
+  rays.speed_tolerance_mps = p.speed_tolerance_mps;
   rays.reuse_distance_m = p.reuse_distance_m;
   using Solver = acoustics::RaySolver;
   for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs}) {

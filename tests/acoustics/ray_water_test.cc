@@ -71,6 +71,15 @@ TEST(RayWater, OfAnEnvironmentHasItsAbsorption) {
               tolerance(1e-3));
 }
 
+TEST(RayWater, OfAnEnvironmentThinnedStaysWithinTheTolerance) {
+  const Environment environment;
+  const RayWater full = ray_water(environment, 25e3), thin = ray_water(environment, 25e3, 0.3);
+  EXPECT_LT(thin.layers(), full.layers());
+  for (const double depth : full.depths_m()) {
+    EXPECT_NEAR(thin.speed_at(depth), full.speed_at(depth), tolerance(0.3000001)) << depth;
+  }
+}
+
 TEST(ArcMath, SeriesAndFunctionsMeet) {
   for (const double x : {-0.09999, 0.05, 0.09999, 0.10001}) {
     EXPECT_NEAR(log1p_over(x), std::log1p(x) / x, tolerance(2e-14)) << x;
