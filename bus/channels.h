@@ -24,6 +24,10 @@ inline constexpr std::string_view kClock = "CLOCK";
 // From whoever moves a vehicle.
 inline constexpr Family kState{"STATE."};
 inline constexpr Family kSensors{"SENSORS."};
+inline constexpr Family kDvl{"DVL."};
+inline constexpr Family kGps{"GPS."};
+inline constexpr Family kSonar{"SONAR."};
+inline constexpr Family kUsbl{"USBL."};
 // From a vehicle's pilot.
 inline constexpr Family kCommand{"COMMAND."};
 // From the localiser.
@@ -43,6 +47,7 @@ inline constexpr std::string_view kLinkQuery = "LINK_QUERY";
 inline constexpr std::string_view kRayQuery = "RAY_QUERY";
 inline constexpr std::string_view kSetEnvironment = "SET_ENVIRONMENT";
 inline constexpr std::string_view kSetCurrent = "SET_CURRENT";
+inline constexpr Family kFault{"FAULT."};
 // From the bathymetry service.
 inline constexpr Family kRayReply{"RAY_REPLY."};
 // From every node.

@@ -1,75 +1,12 @@
 #include "bus/message_checks.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <span>
-#include <sstream>
-#include <string_view>
 
+#include "bus/message_checker.h"
 #include "core/names.h"
 
 namespace halocline::bus {
 namespace {
-
-// Nobody sails further from the scenario's origin, faster or deeper; what is beyond is a unit mixed up.
-constexpr double kFarthestM = 1e7, kFastestMps = 100, kFastestTurnRadps = 100;
-constexpr double kHighestLevelDb = 400, kHighestFrequencyHz = 1e7;
-constexpr double kQuaternionTolerance = 1e-3;  // publishers in single precision stay well within
-// 100 years of microseconds either way, so that sums of times cannot overflow.
-constexpr std::int64_t kLatestUtime = 3'155'760'000'000'000;
-constexpr double kGreatestDopplerFactor = 10;  // no two ends meet at nine tenths of the speed of sound
-constexpr double kPi = std::numbers::pi;
-constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16, kMostBeamRows = 181;
-constexpr std::int32_t kMostFlows = 500, kMostMissing = 200;  // of a heartbeat; of a request to repair
-
-// Collects the first problem found.
-class Checker {
- public:
-  Checker& utime(std::int64_t value, std::string_view field = "utime") {
-    return holds(value >= -kLatestUtime && value <= kLatestUtime, field, "is no time within 100 years");
-  }
-  Checker& within(std::string_view field, double value, double lowest, double highest) {
-    if (!problem_.empty() || (value >= lowest && value <= highest)) return *this;
-    std::ostringstream text;
-    text << field << " is " << value << "; allowed is " << lowest << " to " << highest;
-    problem_ = text.str();
-    return *this;
-  }
-  Checker& all_within(std::string_view field, std::span<const double> values, double lowest, double highest) {
-    for (const double value : values) within(field, value, lowest, highest);
-    return *this;
-  }
-  Checker& finite(std::string_view field, double value) {
-    return holds(std::isfinite(value), field, "is not a finite number");
-  }
-  Checker& all_finite(std::string_view field, std::span<const double> values) {
-    for (const double value : values) finite(field, value);
-    return *this;
-  }
-  Checker& name(std::string_view field, std::string_view value) {
-    return holds(is_valid_name(value), field, "is no name: " + std::string(kNameRule));
-  }
-  Checker& one_of(std::string_view field, int value, int first, int last) {
-    return holds(value >= first && value <= last, field, "is no value of its enumeration");
-  }
-  Checker& id(std::string_view field, std::int32_t value) {
-    return holds(value >= 1, field, "is no vehicle id (1 and up)");
-  }
-  Checker& id_or_all(std::string_view field, std::int32_t value) {
-    return holds(value >= 0, field, "is no vehicle id, nor 0 for all");
-  }
-  Checker& holds(bool condition, std::string_view field, std::string_view otherwise) {
-    if (problem_.empty() && !condition) problem_ = std::string(field) + " " + std::string(otherwise);
-    return *this;
-  }
-  std::string result() const { return problem_; }
-
- private:
-  std::string problem_;
-};
 
 Checker check_modem(const modem_config_t& m) {
   Checker checker;
@@ -131,71 +68,6 @@ std::string problem_in(const sim_clock_t& m) {
       .utime(m.utime)
       .within("clock_rate", m.clock_rate, 0, 1e6)
       .within("clock_step_us", static_cast<double>(m.clock_step_us), 1, 3.6e9)
-      .result();
-}
-
-std::string problem_in(const vehicle_state_t& m) {
-  double square = 0;
-  for (const double q : m.orientation_wxyz) square += q * q;
-  return Checker()
-      .utime(m.utime)
-      .id("vehicle_id", m.vehicle_id)
-      .all_within("position_ned_m", m.position_ned_m, -kFarthestM, kFarthestM)
-      .within("|orientation_wxyz|", std::sqrt(square), 1 - kQuaternionTolerance, 1 + kQuaternionTolerance)
-      .all_within("velocity_ned_mps", m.velocity_ned_mps, -kFastestMps, kFastestMps)
-      .all_within("angular_velocity_body_radps", m.angular_velocity_body_radps, -kFastestTurnRadps,
-                  kFastestTurnRadps)
-      .result();
-}
-
-std::string problem_in(const vehicle_command_t& m) {
-  return Checker()
-      .utime(m.utime)
-      .within("propeller_rpm", m.propeller_rpm, -1e5, 1e5)
-      .within("rudder_rad", m.rudder_rad, -kPi, kPi)
-      .within("stern_plane_rad", m.stern_plane_rad, -kPi, kPi)
-      .all_within("thruster_rpm", m.thruster_rpm, -1e5, 1e5)
-      .result();
-}
-
-std::string problem_in(const current_change_t& m) {
-  constexpr double kFastestCurrentMps = 10;
-  constexpr std::int32_t kMostDepths = 1000;
-  return Checker()
-      .utime(m.utime)
-      .all_within("uniform_ned_mps", m.uniform_ned_mps, -kFastestCurrentMps, kFastestCurrentMps)
-      .within("num_depths", m.num_depths, 0, kMostDepths)
-      .all_within("depth_m", m.depth_m, 0, kFarthestM)
-      .holds(
-          std::adjacent_find(m.depth_m.begin(), m.depth_m.end(), std::greater_equal<>()) == m.depth_m.end(),
-          "depth_m", "does not rise")
-      .all_within("north_mps", m.north_mps, -kFastestCurrentMps, kFastestCurrentMps)
-      .all_within("east_mps", m.east_mps, -kFastestCurrentMps, kFastestCurrentMps)
-      .within("tide_amplitude_mps", m.tide_amplitude_mps, 0, kFastestCurrentMps)
-      .within("tide_period_s", m.tide_period_s, 1, 1e9)
-      .within("tide_phase_rad", m.tide_phase_rad, -2 * kPi, 2 * kPi)
-      .within("tide_toward_rad", m.tide_toward_rad, -2 * kPi, 2 * kPi)
-      .within("random_deviation_mps", m.random_deviation_mps, 0, kFastestCurrentMps)
-      .within("random_time_s", m.random_time_s, 0.1, 1e6)
-      .result();
-}
-
-std::string problem_in(const vehicle_sensors_t& m) {
-  return Checker()
-      .utime(m.utime)
-      .within("depth_m", m.depth_m, -kFarthestM, kFarthestM)
-      .one_of("altitude_status", m.altitude_status, vehicle_sensors_t::ALTITUDE_MEASURED,
-              vehicle_sensors_t::ALTITUDE_UNAVAILABLE)
-      .within("altitude_m", m.altitude_m, 0, kFarthestM)
-      .within("water_speed_mps", m.water_speed_mps, -kFastestMps, kFastestMps)
-      .within("heading_rad", m.heading_rad, -2 * kPi, 2 * kPi)
-      .within("pitch_rad", m.pitch_rad, -kPi, kPi)
-      .within("roll_rad", m.roll_rad, -kPi, kPi)
-      .all_within("angular_rate_body_radps", m.angular_rate_body_radps, -kFastestTurnRadps, kFastestTurnRadps)
-      .finite("shaft_rpm", m.shaft_rpm)
-      .finite("rudder_angle_rad", m.rudder_angle_rad)
-      .finite("stern_angle_rad", m.stern_angle_rad)
-      .all_finite("thruster_rpm", m.thruster_rpm)
       .result();
 }
 

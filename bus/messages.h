@@ -24,5 +24,10 @@
 #include <halocline/repair_request_t.hpp>
 #include <halocline/sim_clock_t.hpp>
 #include <halocline/vehicle_command_t.hpp>
+#include <halocline/vehicle_dvl_t.hpp>
+#include <halocline/vehicle_fault_t.hpp>
+#include <halocline/vehicle_gps_t.hpp>
 #include <halocline/vehicle_sensors_t.hpp>
+#include <halocline/vehicle_sonar_t.hpp>
 #include <halocline/vehicle_state_t.hpp>
+#include <halocline/vehicle_usbl_t.hpp>

@@ -5,7 +5,7 @@
 //   [scenario] [time] [[vehicle]]      this file
 //   [terrain]                          bathymetry/bathymetry_config.h
 //   [environment] [modem] [channel_server], [vehicle.modem]    channel_server/channel_server_config.h
-//   [vehicle_sim] [[tether]]           vehicle_sim/vehicle_sim_config.h
+//   [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]    vehicle_sim/vehicle_sim_config.h
 //   [vehicle.mission] [vehicle.traffic] [vehicle.localiser]    clients/
 #pragma once
 

@@ -130,7 +130,13 @@ std::string misfit(const WireLayout& layout, const void* data, std::size_t size)
 HALOCLINE_LAYOUT(sim_clock_t, {fixed(kHead + 8 + 8 + 1)})
 HALOCLINE_LAYOUT(vehicle_state_t, {fixed(kHead + 4 + (3 + 4 + 3 + 3) * 8)})
 HALOCLINE_LAYOUT(vehicle_command_t, {fixed(kHead + (3 + 4) * 8)})
-HALOCLINE_LAYOUT(vehicle_sensors_t, {fixed(kHead + 8 + 1 + 5 * 8 + 3 * 8 + (3 + 4) * 8 + 2)})
+HALOCLINE_LAYOUT(vehicle_sensors_t, {fixed(kHead + 8 + 1 + 5 * 8 + 3 * 8 + (3 + 4) * 8 + 6)})
+HALOCLINE_LAYOUT(vehicle_dvl_t, {fixed(kHead + 4 * (1 + 2 * 8) + 1 + 4 * 8)})
+HALOCLINE_LAYOUT(vehicle_gps_t, {fixed(kHead + 3 * 8)})
+HALOCLINE_LAYOUT(vehicle_sonar_t,
+                 {fixed(kHead + 2 * 8), count(), array_of_bytes(8), array_of_bytes(1), array_of_bytes(8)})
+HALOCLINE_LAYOUT(vehicle_usbl_t, {fixed(kHead + 4 + 1 + 2 * 8 + 3 * 8 + 1 + 8)})
+HALOCLINE_LAYOUT(vehicle_fault_t, {fixed(kHead + 3 + 3 * 8 + 1)})
 HALOCLINE_LAYOUT(current_change_t, {fixed(kHead + 3 * 8), count(), array_of_bytes(8), array_of_bytes(8),
                                     array_of_bytes(8), fixed(6 * 8)})
 HALOCLINE_LAYOUT(environment_t,

@@ -9,13 +9,14 @@
 namespace halocline::vehicle_sim {
 
 Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
-             std::shared_ptr<const Seabed> seabed, SimTime start)
+             std::shared_ptr<const Seabed> seabed, SimTime start, ForEach for_each)
     : settings_(settings),
       members_(std::move(members)),
-      world_(std::move(seabed), settings.seabed_friction),
+      world_(std::move(seabed), settings.seabed_friction, std::move(for_each)),
       time_(start),
       current_(settings.current, settings.seed),
-      waves_(settings.waves, settings.seed) {
+      waves_(settings.waves, settings.seed),
+      faults_(members_.size()) {
   require_in_range(settings.step.seconds(), 1e-3, VehicleWorld::kLongestStep_s, "physics step", "s");
   for (const FleetMember& member : members_) {
     commands_.emplace_back(settings.command_timeout);
@@ -63,6 +64,47 @@ bool Fleet::take_due_current() {
   return true;
 }
 
+bool Fleet::break_down(std::size_t index, const Fault& fault) {
+  constexpr std::size_t kMostWaiting = 100'000;
+  if (waiting_faults_.size() >= kMostWaiting) return false;
+  const FaultOf entry{index, fault};
+  const auto later = [](const FaultOf& a, const FaultOf& b) { return a.fault.from < b.fault.from; };
+  waiting_faults_.insert(std::upper_bound(waiting_faults_.begin(), waiting_faults_.end(), entry, later),
+                         entry);
+  take_due_faults();
+  return true;
+}
+
+void Fleet::take_due_faults() {
+  std::size_t due = 0;
+  for (; due < waiting_faults_.size() && waiting_faults_[due].fault.from <= time_; ++due) {
+    const auto& [member, fault] = waiting_faults_[due];
+    const std::size_t index = world_index_[member];
+    faults_[member].take(fault, moves(member) ? world_.state(index).actuators : ActuatorValues{});
+    if (!moves(member)) continue;
+    const auto broken =
+        std::make_shared<const Model>(faults_[member].broken(members_[member].model->parameters()));
+    world_.set_model(index, faults_[member].changes_model() ? broken : members_[member].model);
+    const auto place = std::lower_bound(leaking_.begin(), leaking_.end(), member);
+    const bool is_known = place != leaking_.end() && *place == member;
+    if (fault.kind == FaultKind::kLeak && !is_known) leaking_.insert(place, member);
+  }
+  waiting_faults_.erase(waiting_faults_.begin(), waiting_faults_.begin() + static_cast<std::ptrdiff_t>(due));
+}
+
+// The step is made with the water that is inside half way through it.
+void Fleet::fill_leaks() {
+  for (const std::size_t member : leaking_) {
+    const ModelParameters& sound = members_[member].model->parameters();
+    VehicleFaults& faults = faults_[member];
+    if (!faults.is_filling(sound.water_density_kg_m3)) continue;
+    VehicleFaults halfway = faults;
+    halfway.leak(settings_.step.seconds() / 2, sound.water_density_kg_m3);
+    world_.set_model(world_index_[member], std::make_shared<const Model>(halfway.broken(sound)));
+    faults.leak(settings_.step.seconds(), sound.water_density_kg_m3);
+  }
+}
+
 bool Fleet::water_varies() const {
   return current_.depends_on_depth() || current_.depends_on_time() || !waves_.calm();
 }
@@ -96,11 +138,13 @@ void Fleet::advance(SimTime until) {
   while (time_ + settings_.step <= until) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       if (!moves(i)) continue;
-      obeyed_[i] = commands_[i].at(time_);
+      obeyed_[i] = faults_[i].obeyed(commands_[i].at(time_));
       world_.set_command(world_index_[i], obeyed_[i]);
     }
+    fill_leaks();
     world_.step(settings_.step.seconds());
     time_ = time_ + settings_.step;
+    take_due_faults();
     if (take_due_current() || water_varies()) move_water();
   }
 }
@@ -111,8 +155,7 @@ VehicleState Fleet::state_at(std::size_t index, SimTime when) const {
   const SimDuration ahead = when - time_;
   ensure(ahead >= SimDuration() && ahead < settings_.step, "a state was asked for out of its time");
   if (ahead == SimDuration() || is_lost(index)) return state;
-  return rk4_step(*members_[index].model, state, obeyed_[index], water_at(state.position_ned_m),
-                  ahead.seconds());
+  return rk4_step(model_of(index), state, obeyed_[index], water_at(state.position_ned_m), ahead.seconds());
 }
 
 SensorReading Fleet::reading_at(std::size_t index, SimTime when) const {
@@ -120,7 +163,7 @@ SensorReading Fleet::reading_at(std::size_t index, SimTime when) const {
   Water water = water_at(state.position_ned_m);
   water.current_ned_mps += (when - time_).seconds() * water.current_rate_ned_mps2;
   if (!moves(index)) return measure_fixed(state, water);
-  SensorReading reading = measure(*members_[index].model, state, water);
+  SensorReading reading = measure(model_of(index), state, water);
   reading.safe_state = commands_[index].is_safe_state();
   reading.on_seabed = on_seabed(index);
   return reading;

@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "core/for_each.h"
 #include "vehicle_sim/command_schedule.h"
 #include "vehicle_sim/currents.h"
+#include "vehicle_sim/faults.h"
 #include "vehicle_sim/sensors.h"
 #include "vehicle_sim/vehicle_world.h"
 
@@ -48,8 +50,9 @@ struct FleetSettings {
 class Fleet {
  public:
   // All members are where they start at `start`. `seabed` may be null: no ground.
+  // `for_each` shares a step among threads; the motion is the same bit by bit.
   Fleet(const FleetSettings& settings, std::vector<FleetMember> members, std::shared_ptr<const Seabed> seabed,
-        SimTime start);
+        SimTime start, ForEach for_each = one_after_the_other);
 
   std::size_t size() const { return members_.size(); }
   const FleetMember& member(std::size_t index) const { return members_[index]; }
@@ -64,16 +67,23 @@ class Fleet {
   // too many wait.
   bool change_current(SimTime from, const CurrentSettings& current);
 
+  // Takes note of something that breaks or is mended; of two for one instant the one noted later comes later. Fixed
+  // vehicles lose sensors alone. False, and nothing changes, when too many wait.
+  bool break_down(std::size_t index, const Fault& fault);
+  const VehicleFaults& faults(std::size_t index) const { return faults_[index]; }
+
   // Takes all whole steps that end at or before `until`.
   void advance(SimTime until);
 
   // Where a vehicle is at `when`, time() <= when < time() + step.
   VehicleState state_at(std::size_t index, SimTime when) const;
-  // Its sensors then; altitude is left unavailable.
+  // What its sensors would measure then without errors; altitude is left unavailable.
   SensorReading reading_at(std::size_t index, SimTime when) const;
 
   double tether_distance_m(std::size_t tether) const { return world_.tether_distance_m(tether); }
   double tether_pull_n(std::size_t tether) const { return world_.tether_pull_n(tether); }  // in the last step
+
+  double sea_surface_z_m() const { return settings_.sea_surface_z_m; }
 
   bool is_lost(std::size_t index) const;    // VehicleWorld::is_lost
   bool on_seabed(std::size_t index) const;  // touched the ground in the last step
@@ -84,9 +94,17 @@ class Fleet {
     OceanCurrent current;
   };
 
+  struct FaultOf {
+    std::size_t member;
+    Fault fault;
+  };
+
   bool moves(std::size_t index) const { return members_[index].model != nullptr; }
   void tie(const FleetTether& tether);
   bool take_due_current();  // true when one was due
+  void take_due_faults();
+  void fill_leaks();  // over the step from time() on
+  const Model& model_of(std::size_t index) const { return world_.model(world_index_[index]); }
   bool water_varies() const;
   // The water at a vehicle for the step from time() on.
   Water water_at(const Vec3& position_ned_m) const;
@@ -104,6 +122,9 @@ class Fleet {
   WaterMotion current_everywhere_;              // for the step from time_ on
   std::vector<CurrentChange> current_changes_;  // ascending in time
   WaveField waves_;
+  std::vector<VehicleFaults> faults_;
+  std::vector<FaultOf> waiting_faults_;  // ascending in time
+  std::vector<std::size_t> leaking_;     // members that leak or have leaked, ascending
 };
 
 }  // namespace halocline::vehicle_sim

@@ -16,8 +16,12 @@ int main(int argc, char** argv) {
   program.purpose = "Moves the scenario's vehicles and publishes their states and sensors.";
   program.node_name = "vehicle-sim";
   program.interface =
-      "hears:     COMMAND.<vehicle>, SET_CURRENT, RAY_REPLY.<client>, CLOCK\n"
-      "publishes: STATE.<vehicle>, SENSORS.<vehicle>, RAY_QUERY, STATUS.<name>";
+      "hears:     COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<client>, CLOCK; with a USBL "
+      "array OUTCOME,\n"
+      "           RECEIVE.<vehicle>\n"
+      "publishes: STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, SONAR.<vehicle>, "
+      "USBL.<vehicle>,\n"
+      "           RAY_QUERY, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) {
     visit(v, recipe);
     visit(v, config);

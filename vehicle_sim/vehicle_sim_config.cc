@@ -83,6 +83,7 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c) {
       "how a current acts: as each model says, or for all as published with remus100-pvs, or exactly");
   v.number("buoyancy_over_weight", c.buoyancy_over_weight,
            {0.5, 2, "", "of every vehicle; above 1 they rise"});
+  bus::integer_as(v, "threads", c.threads, {1, 64, "", "that move vehicles; results are the same"});
   v.number("seabed_friction", c.seabed_friction, {0, 10, "", "Coulomb's coefficient of hull on seabed"});
   v.section("current", "Parts of the current that are added to current_ned_mps",
             [&](ConfigVisitor& section) { visit_current(section, c.current); });
@@ -106,11 +107,32 @@ void visit_tethers(ConfigVisitor& v, std::vector<TetherEntry>& tethers) {
       });
 }
 
-// The member of that name; throws where there is none.
-std::size_t member_named(const std::vector<FleetMember>& members, const std::string& name) {
+void visit_vehicle_sensors(ConfigVisitor& v, VehicleSensors& vehicle, const SensorSettings& standard) {
+  v.shared_with_others();
+  v.text("name", vehicle.vehicle, {}, "channel suffix");
+  if (!v.writing()) vehicle.own = v.given("sensors");
+  if (!vehicle.own) return;
+  if (!v.writing()) vehicle.sensors = standard;
+  v.section("sensors", "Where they differ from [sensors]",
+            [&](ConfigVisitor& section) { visit(section, vehicle.sensors); });
+}
+
+void visit_sensors(ConfigVisitor& v, VehicleSimConfig& config) {
+  v.section("sensors", "The sensors of every vehicle without its own",
+            [&](ConfigVisitor& section) { visit(section, config.sensors); });
+  v.list(
+      "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) {
+        visit_vehicle_sensors(item, config.vehicles[i], config.sensors);
+      });
+}
+
+// The member of that name; throws where there is none. `what` names it.
+std::size_t member_named(const std::vector<FleetMember>& members, const std::string& name,
+                         const std::string& what = "tether") {
   const auto found =
       std::find_if(members.begin(), members.end(), [&](const FleetMember& m) { return m.name == name; });
-  require(found != members.end(), "tether: \"" + name + "\" is no vehicle that the vehicle simulator moves");
+  require(found != members.end(), what + ": \"" + name + "\" is no vehicle that the vehicle simulator moves");
   return static_cast<std::size_t>(found - members.begin());
 }
 
@@ -167,7 +189,9 @@ std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSim
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
   v.section("vehicle_sim", "The vehicle simulator",
             [&](ConfigVisitor& section) { visit_section(section, config); });
+  visit_sensors(v, config);
   visit_tethers(v, config.tethers);
+  visit_faults(v, config.faults);
   check_models(v);
 }
 
@@ -202,6 +226,35 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
     for (const TetherEntry& entry : config.tethers) settings.tethers.push_back(tether_of(entry, members));
   }
   return settings;
+}
+
+std::vector<SensorStation::Vehicle> stations_of(const bus::Scenario& scenario,
+                                                const std::vector<FleetMember>& members,
+                                                const VehicleSimConfig& config) {
+  std::vector<SensorStation::Vehicle> stations;
+  for (const FleetMember& member : members) {
+    const auto own =
+        std::find_if(config.vehicles.begin(), config.vehicles.end(),
+                     [&](const VehicleSensors& entry) { return entry.own && entry.vehicle == member.name; });
+    stations.push_back(
+        {scenario.find(member.name)->id, own == config.vehicles.end() ? config.sensors : own->sensors});
+  }
+  return stations;
+}
+
+std::vector<std::pair<std::size_t, Fault>> faults_of(const std::vector<FleetMember>& members,
+                                                     const VehicleSimConfig& config) {
+  std::vector<std::pair<std::size_t, Fault>> faults;
+  for (const FaultEntry& entry : config.faults) {
+    const std::size_t member = member_named(members, entry.vehicle, "fault");
+    faults.emplace_back(member, entry.fault);
+    if (entry.until <= entry.fault.from) continue;
+    Fault end = entry.fault;
+    end.from = entry.until;
+    end.mended = true;
+    faults.emplace_back(member, end);
+  }
+  return faults;
 }
 
 }  // namespace halocline::vehicle_sim

@@ -15,6 +15,8 @@
 
 #include "bus/scenario.h"
 #include "vehicle_sim/fleet.h"
+#include "vehicle_sim/sensor_config.h"
+#include "vehicle_sim/sensor_station.h"
 
 namespace halocline::vehicle_sim {
 
@@ -30,6 +32,13 @@ struct TetherEntry {
   double length_m = 10;
 };
 
+// The sensors of one vehicle of the scenario.
+struct VehicleSensors {
+  std::string vehicle;
+  bool own = false;  // has a [vehicle.sensors]
+  SensorSettings sensors;
+};
+
 struct VehicleSimConfig {
   SimDuration step = SimDuration::from_milliseconds(10);               // of the physics
   SimDuration state_period = SimDuration::from_milliseconds(100);      // between STATEs
@@ -42,11 +51,16 @@ struct VehicleSimConfig {
   TreatmentChoice current_treatment = TreatmentChoice::kModel;
   double buoyancy_over_weight = 1;
   double seabed_friction = VehicleWorld::kDefaultFriction;
+  int threads = 1;  // that move vehicles; the motion is the same for any number
   std::vector<TetherEntry> tethers;
+  SensorSettings sensors;                // of every vehicle without its own
+  std::vector<VehicleSensors> vehicles;  // of the scenario
+  std::vector<FaultEntry> faults;
   std::string model_folder = ".";  // where the paths of model files start; not in the file
 };
 
-// Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves] and [[tether]]; also reports each [[vehicle]] whose model is none.
+// Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves], [sensors], [vehicle.sensors], [[tether]] and [[fault]]; also
+// reports each [[vehicle]] whose model is none.
 void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
 
 // The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle starts
@@ -56,5 +70,15 @@ std::vector<FleetMember> members_of(const bus::Scenario& scenario, const Vehicle
 
 // Throws InvalidArgument where a tether names no vehicle of ours.
 FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
+
+// Their sensors, in the order of `members`.
+std::vector<SensorStation::Vehicle> stations_of(const bus::Scenario& scenario,
+                                                const std::vector<FleetMember>& members,
+                                                const VehicleSimConfig& config);
+
+// Faults of the scenario, each by the index of its member, and their ends. Throws InvalidArgument where one names no vehicle of
+// ours.
+std::vector<std::pair<std::size_t, Fault>> faults_of(const std::vector<FleetMember>& members,
+                                                     const VehicleSimConfig& config);
 
 }  // namespace halocline::vehicle_sim

@@ -24,7 +24,7 @@ ThrusterSpeeds read_rpm(const double (&from)[kMostThrusters]) {
   return hz;
 }
 
-// The same meanings in the same order: see the constants of vehicle_sensors_t.
+// The same meanings in the same order: see the constants of vehicle_sensors_t, vehicle_dvl_t, vehicle_sonar_t.
 std::int8_t to_wire(AltitudeStatus status) { return static_cast<std::int8_t>(status); }
 static_assert(static_cast<int>(AltitudeStatus::kMeasured) == 0 &&
               static_cast<int>(AltitudeStatus::kNoBottom) == 1 &&
@@ -71,12 +71,16 @@ vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
   vehicle_sensors_t m{};
   m.utime = when.to_utime();
   m.depth_m = r.depth_m;
-  m.altitude_status = to_wire(r.altitude_status);
-  m.altitude_m = r.altitude_m;
+  m.depth_fresh = r.depth_fresh ? 1 : 0;
+  m.altitude_status = to_wire(r.altitude.status);
+  m.altitude_m = r.altitude.range_m;
+  m.water_speed_fresh = r.water_speed_fresh ? 1 : 0;
   m.water_speed_mps = r.water_speed_mps;
+  m.attitude_fresh = r.attitude_fresh ? 1 : 0;
   m.heading_rad = r.attitude.yaw;
   m.pitch_rad = r.attitude.pitch;
   m.roll_rad = r.attitude.roll;
+  m.angular_rate_fresh = r.angular_rate_fresh ? 1 : 0;
   write(r.angular_velocity_body_radps, m.angular_rate_body_radps);
   m.shaft_rpm = r.actuators.propeller_hz * kSecondsPerMinute;
   m.rudder_angle_rad = r.actuators.rudder_rad;
@@ -90,8 +94,11 @@ vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
 SensorReading from_message(const vehicle_sensors_t& m) {
   SensorReading r;
   r.depth_m = m.depth_m;
-  r.altitude_status = static_cast<AltitudeStatus>(m.altitude_status);
-  r.altitude_m = m.altitude_m;
+  r.altitude = {static_cast<AltitudeStatus>(m.altitude_status), m.altitude_m};
+  r.depth_fresh = m.depth_fresh != 0;
+  r.water_speed_fresh = m.water_speed_fresh != 0;
+  r.attitude_fresh = m.attitude_fresh != 0;
+  r.angular_rate_fresh = m.angular_rate_fresh != 0;
   r.water_speed_mps = m.water_speed_mps;
   r.attitude = {m.roll_rad, m.pitch_rad, m.heading_rad};
   r.angular_velocity_body_radps = read(m.angular_rate_body_radps);
@@ -131,8 +138,102 @@ current_change_t to_current_message(SimTime from, const CurrentSettings& c) {
   return m;
 }
 
+vehicle_dvl_t to_dvl_message(SimTime when, const DvlReading& r, double deviation_mps) {
+  vehicle_dvl_t m{};
+  m.utime = when.to_utime();
+  for (std::size_t k = 0; k < r.beams.size(); ++k) {
+    m.beam_status[k] = to_wire(r.beams[k].status);
+    m.beam_range_m[k] = r.beams[k].range_m;
+    m.beam_speed_mps[k] = r.beam_speed_mps[k];
+  }
+  m.ground_velocity_valid = r.valid ? 1 : 0;
+  write(r.ground_velocity_body_mps, m.ground_velocity_body_mps);
+  m.velocity_deviation_mps = deviation_mps;
+  return m;
+}
+
+vehicle_gps_t to_gps_message(SimTime when, const GpsFix& fix, double deviation_m) {
+  vehicle_gps_t m{};
+  m.utime = when.to_utime();
+  m.fix_north_m = fix.north_east_m.x();
+  m.fix_east_m = fix.north_east_m.y();
+  m.fix_deviation_m = deviation_m;
+  return m;
+}
+
+vehicle_sonar_t to_sonar_message(SimTime when, const SonarSettings& sonar, const std::vector<Echo>& echoes) {
+  vehicle_sonar_t m{};
+  m.utime = when.to_utime();
+  m.fan_tilt_rad = sonar.tilt_rad;
+  m.greatest_range_m = sonar.range_m;
+  m.num_fan_rays = static_cast<std::int32_t>(echoes.size());
+  m.fan_azimuth_rad = sonar_azimuths_rad(sonar);
+  for (const Echo& echo : echoes) {
+    m.echo_status.push_back(to_wire(echo.status));
+    m.echo_range_m.push_back(echo.range_m);
+  }
+  return m;
+}
+
+vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad) {
+  vehicle_usbl_t m{};
+  m.utime = fix.when.to_utime();
+  m.peer_id = fix.packet.source_id;
+  m.packet_kind = fix.packet.kind;
+  m.send_session = fix.packet.session;
+  m.packet_sequence = fix.packet.sequence;
+  m.peer_bearing_rad = fix.direction.bearing_rad;
+  m.peer_elevation_rad = fix.direction.elevation_rad;
+  m.angle_deviation_rad = deviation_rad;
+  m.travel_time_known = fix.travel_time_s ? 1 : 0;
+  m.one_way_travel_time_s = fix.travel_time_s.value_or(0);
+  return m;
+}
+
+vehicle_fault_t to_fault_message(const Fault& fault) {
+  vehicle_fault_t m{};
+  m.utime = fault.from.to_utime();
+  m.fault_kind = static_cast<std::int8_t>(fault.kind);
+  m.fault_mended = fault.mended ? 1 : 0;
+  m.stuck_angle_given = fault.angle_rad ? 1 : 0;
+  m.stuck_angle_rad = fault.angle_rad.value_or(0);
+  m.leak_rate_kg_s = fault.leak_rate_kg_s;
+  m.leak_volume_m3 = fault.leak_volume_m3;
+  m.dead_sensor = static_cast<std::int8_t>(fault.sensor);
+  return m;
+}
+
+Fault from_message(const vehicle_fault_t& m) {
+  Fault fault{.from = SimTime::from_utime(m.utime),
+              .kind = static_cast<FaultKind>(m.fault_kind),
+              .mended = m.fault_mended != 0,
+              .angle_rad = {},
+              .leak_rate_kg_s = m.leak_rate_kg_s,
+              .leak_volume_m3 = m.leak_volume_m3,
+              .sensor = static_cast<SensorKind>(m.dead_sensor)};
+  if (m.stuck_angle_given) fault.angle_rad = m.stuck_angle_rad;
+  return fault;
+}
+
+PacketKey key_of(const packet_outcome_t& m) {
+  return {m.source_id, m.packet_kind, m.send_session, m.packet_sequence};
+}
+PacketKey key_of(const modem_receive_t& m) {
+  return {m.source_id, m.packet_kind, m.send_session, m.packet_sequence};
+}
+
+Arrival arrival_of(const packet_outcome_t& m) {
+  return {SimTime::from_utime(m.departure_utime) + SimDuration::from_seconds(m.travel_time_s),
+          m.arrival_azimuth_rad, m.arrival_elevation_rad};
+}
+
+std::optional<double> travel_time_of(const modem_receive_t& m) {
+  if (m.packet_kind == modem_receive_t::PING_REPLY) return m.two_way_travel_time_s / 2;
+  return m.stamped ? std::optional(m.travel_time_s) : std::nullopt;
+}
+
 ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t request_id,
-                         const std::vector<AltimeterBeam>& beams, double range_m) {
+                         const std::vector<EchoBeam>& beams) {
   ray_query_t m{};
   m.utime = when.to_utime();
   m.client_name = client;
@@ -140,28 +241,28 @@ ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t r
   m.query_mode = ray_query_t::CLOSEST_HIT;
   m.num_rays = static_cast<std::int32_t>(beams.size());
   const auto list = [](const Vec3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
-  for (const AltimeterBeam& beam : beams) {
+  for (const EchoBeam& beam : beams) {
     m.offset_m.push_back(list(beam.origin_ned_m));
     m.direction.push_back(list(beam.direction_ned));
-    m.greatest_range_m.push_back(range_m);
+    m.greatest_range_m.push_back(beam.range_m);
   }
   return m;
 }
 
-std::vector<Altitude> altitudes_from(const ray_reply_t& reply, std::size_t beams) {
-  std::vector<Altitude> altitudes(beams);
-  if (reply.reply_status != ray_reply_t::OK || reply.ray_status.size() != beams) return altitudes;
+std::vector<Echo> echoes_from(const ray_reply_t& reply, std::size_t beams) {
+  std::vector<Echo> echoes(beams);
+  if (reply.reply_status != ray_reply_t::OK || reply.ray_status.size() != beams) return echoes;
   for (std::size_t i = 0; i < beams; ++i) {
     const std::int8_t status = reply.ray_status[i];
     if (status == ray_reply_t::HIT) {
-      altitudes[i] = {AltitudeStatus::kMeasured, reply.result_m[i]};
+      echoes[i] = {AltitudeStatus::kMeasured, reply.result_m[i]};
     } else if (status == ray_reply_t::BELOW_BOTTOM) {
-      altitudes[i] = {AltitudeStatus::kMeasured, 0};  // the altimeter lies in the ground it stands on
+      echoes[i] = {AltitudeStatus::kMeasured, 0};  // the sensor lies in the ground it stands on
     } else if (status != ray_reply_t::BAD_INPUT) {
-      altitudes[i] = {AltitudeStatus::kNoBottom, 0};
+      echoes[i] = {AltitudeStatus::kNoBottom, 0};
     }
   }
-  return altitudes;
+  return echoes;
 }
 
 }  // namespace halocline::vehicle_sim

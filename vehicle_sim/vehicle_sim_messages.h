@@ -3,6 +3,7 @@
 // Session and sequence numbers are the publisher's: left at 0 here, set where a message is published.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@
 #include "core/sim_time.h"
 #include "vehicle_sim/command_schedule.h"
 #include "vehicle_sim/currents.h"
-#include "vehicle_sim/sensors.h"
+#include "vehicle_sim/sensor_station.h"
+#include "vehicle_sim/usbl_desk.h"
 
 namespace halocline::vehicle_sim {
 
@@ -26,22 +28,27 @@ SensorReading from_message(const vehicle_sensors_t& message);
 current_change_t to_current_message(SimTime from, const CurrentSettings& current);
 CurrentSettings from_message(const current_change_t& message);
 
-// One altimeter's beam.
-struct AltimeterBeam {
-  Vec3 origin_ned_m = Vec3::Zero();
-  Vec3 direction_ned = Vec3::UnitZ();  // unit
-};
+vehicle_dvl_t to_dvl_message(SimTime when, const DvlReading& reading, double deviation_mps);
+vehicle_gps_t to_gps_message(SimTime when, const GpsFix& fix, double deviation_m);
+// `echoes`: one for each of the sonar's rays.
+vehicle_sonar_t to_sonar_message(SimTime when, const SonarSettings& sonar, const std::vector<Echo>& echoes);
+vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad);
 
-struct Altitude {
-  AltitudeStatus status = AltitudeStatus::kUnavailable;
-  double altitude_m = 0;
-};
+vehicle_fault_t to_fault_message(const Fault& fault);
+Fault from_message(const vehicle_fault_t& message);
 
-// Asks for the first hit of each beam; 1 to 4096 beams, range above 0.
+// What an array hears of: OUTCOME of a packet received, and RECEIVE.
+PacketKey key_of(const packet_outcome_t& outcome);
+PacketKey key_of(const modem_receive_t& packet);
+Arrival arrival_of(const packet_outcome_t& outcome);
+// Of a packet that tells it on board: one way.
+std::optional<double> travel_time_of(const modem_receive_t& packet);
+
+// Asks for the first hit of each beam; 1 to 4096 beams, their ranges above 0.
 ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t request_id,
-                         const std::vector<AltimeterBeam>& beams, double range_m);
+                         const std::vector<EchoBeam>& beams);
 
-// One altitude a beam, in order; all unavailable when the service refused or the counts differ.
-std::vector<Altitude> altitudes_from(const ray_reply_t& reply, std::size_t beams);
+// One echo a beam, in order; all unavailable when the service refused or the counts differ.
+std::vector<Echo> echoes_from(const ray_reply_t& reply, std::size_t beams);
 
 }  // namespace halocline::vehicle_sim

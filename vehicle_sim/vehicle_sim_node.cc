@@ -35,37 +35,71 @@ VehicleSimNode::VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const 
       config_(config),
       settings_(settings_of(scenario, config)),
       members_(members_of(scenario, config)),
+      scenario_faults_(faults_of(members_, config)),
       seabed_(std::move(seabed)),
       ray_client_(client_name(bus().identity())),
-      state_sequence_(members_.size()),
-      sensors_sequence_(members_.size()),
+      pool_(config.threads),
+      station_(stations_of(scenario, members_, config), scenario.seed, config.sensor_period,
+               config.altimeter_range_m),
       reported_lost_(members_.size()) {
+  const std::vector<std::int64_t> first(members_.size());
+  sequences_ = {first, first, first, first, first, first};
   for (std::size_t i = 0; i < members_.size(); ++i) {
     ids_.push_back(scenario.find(members_[i].name)->id);
-    bus().subscribe<vehicle_command_t>(bus::channels::kCommand.of(members_[i].name),
-                                       [this, i](const vehicle_command_t& m) { on_command(i, m); });
+    subscribe_vehicle(i);
+    if (station_.settings(i).usbl.fitted)
+      arrays_.emplace(i, UsblDesk(station_.settings(i).usbl, {scenario.seed, ids_[i], SensorKind::kUsbl}));
   }
+  if (!arrays_.empty()) subscribe_arrays();
   bus().subscribe<current_change_t>(bus::channels::kSetCurrent,
                                     [this](const current_change_t& m) { on_current(m); });
   bus().subscribe<ray_reply_t>(bus::channels::kRayReply.of(ray_client_),
                                [this](const ray_reply_t& reply) { on_ray_reply(reply); });
 }
 
+void VehicleSimNode::subscribe_vehicle(std::size_t i) {
+  bus().subscribe<vehicle_command_t>(bus::channels::kCommand.of(members_[i].name),
+                                     [this, i](const vehicle_command_t& m) { on_command(i, m); });
+  bus().subscribe<vehicle_fault_t>(bus::channels::kFault.of(members_[i].name),
+                                   [this, i](const vehicle_fault_t& m) { on_fault(i, m); });
+}
+
+// An array hears what the medium did; what it makes of it is the vehicle's own measurement.
+void VehicleSimNode::subscribe_arrays() {
+  bus().subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& outcome) {
+    if (outcome.packet_fate != packet_outcome_t::RECEIVED) return;
+    for (auto& [vehicle, array] : arrays_) {
+      if (ids_[vehicle] == outcome.receiver_id) array.hear_arrival(key_of(outcome), arrival_of(outcome));
+    }
+  });
+  for (auto& [vehicle, array] : arrays_) {
+    bus().subscribe<modem_receive_t>(bus::channels::kReceive.of(members_[vehicle].name),
+                                     [&array = array](const modem_receive_t& packet) {
+                                       array.hear_packet(key_of(packet), travel_time_of(packet));
+                                     });
+  }
+}
+
 bus::Due VehicleSimNode::on_due() const {
   if (desk_.has_complete()) return {.sim = SimTime::at_once()};
-  return {.sim = std::min(next_state_, next_sensors_), .steady = desk_.next_deadline()};
+  return {.sim = std::min(next_state_, station_.next()), .steady = desk_.next_deadline()};
 }
 
 void VehicleSimNode::begin(SimTime now) {
   const SimTime start = last_on_grid(now, settings_.step);
-  fleet_.emplace(settings_, members_, seabed_, start);
+  fleet_.emplace(settings_, members_, seabed_, start,
+                 [this](std::size_t count, const std::function<void(std::size_t)>& body) {
+                   pool_.for_each(count, body);
+                 });
+  for (const auto& [vehicle, fault] : scenario_faults_) fleet_->break_down(vehicle, fault);
   next_state_ = first_on_grid(start, config_.state_period);
-  next_sensors_ = first_on_grid(start, config_.sensor_period);
+  station_.begin(start);
   std::fill(reported_lost_.begin(), reported_lost_.end(), false);
 }
 
 void VehicleSimNode::on_restart(const bus::Now&) {
   fleet_.reset();
+  for (auto& [vehicle, array] : arrays_) array.clear();
   desk_.clear();
 }
 
@@ -73,66 +107,92 @@ void VehicleSimNode::on_step(const bus::Now& now) {
   if (now.sim_known) {
     if (!fleet_) begin(now.sim);
     const bool was_halted = now.steady - last_step_ > kLongestHalt;
-    for (SimTime next = std::min(next_state_, next_sensors_); next <= now.sim;
-         next = std::min(next_state_, next_sensors_)) {
+    for (SimTime next = std::min(next_state_, station_.next()); next <= now.sim;
+         next = std::min(next_state_, station_.next())) {
       fleet_->advance(next);
       const bool too_late = was_halted && now.sim - next > kLongestArrear;
       if (too_late) ++bus().counters().late;
-      const bool state_due = next_state_ == next, sensors_due = next_sensors_ == next;
+      note_poses(next);
+      const bool state_due = next_state_ == next, sensors_due = station_.next() == next;
       if (state_due) next_state_ = next_on_grid(next, config_.state_period);
-      if (sensors_due) next_sensors_ = next_on_grid(next, config_.sensor_period);
       if (state_due && !too_late) publish_states(next);
-      if (sensors_due && !too_late) measure_all(next, now.steady);
+      if (sensors_due && too_late) station_.take(*fleet_, kMostBeams);
+      if (sensors_due && !too_late) measure_all(now.steady);
     }
+    publish_bearings();
     report_lost();
   }
   last_step_ = now.steady;
-  publish_sensors(now.steady);
+  publish_measured(now.steady);
+}
+
+template <class Message>
+void VehicleSimNode::publish_numbered(const bus::Family& family, std::size_t vehicle, Message message,
+                                      std::vector<std::int64_t>& sequence) {
+  message.session = bus().identity().session;
+  message.sequence = sequence[vehicle]++;
+  bus().publish(family.of(members_[vehicle].name), message);
 }
 
 void VehicleSimNode::publish_states(SimTime when) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (fleet_->is_lost(i)) continue;  // what does not move as it should has no state to tell
-    vehicle_state_t message = to_state_message(when, ids_[i], to_kinematic_state(fleet_->state_at(i, when)));
-    message.session = bus().identity().session;
-    message.sequence = state_sequence_[i]++;
-    bus().publish(bus::channels::kState.of(members_[i].name), message);
+    publish_numbered(bus::channels::kState, i,
+                     to_state_message(when, ids_[i], to_kinematic_state(fleet_->state_at(i, when))),
+                     sequences_.state);
   }
 }
 
-// Takes the readings and asks for the altitudes, in messages of as many beams as the service takes.
-void VehicleSimNode::measure_all(SimTime when, SimTime steady) {
-  SensorTick tick{when, {}, {}};
-  std::vector<AltimeterBeam> beams;
-  const auto ask = [&] {
-    if (beams.empty()) return;
+// Takes the readings and asks for their echoes, in messages of as many beams as the service takes.
+void VehicleSimNode::measure_all(SimTime steady) {
+  for (SensorTick& tick : station_.take(*fleet_, kMostBeams)) {
     const std::int64_t request = ray_request_++;
+    std::optional<ray_query_t> query;
+    if (!tick.beams.empty()) query = to_ray_query(tick.when, ray_client_, request, tick.beams);
     desk_.wait(request, std::move(tick), steady + config_.altimeter_patience);
-    bus().publish(bus::channels::kRayQuery,
-                  to_ray_query(when, ray_client_, request, beams, config_.altimeter_range_m));
-    tick = {when, {}, {}};
-    beams.clear();
-  };
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (fleet_->is_lost(i)) continue;
-    const VehicleState state = fleet_->state_at(i, when);
-    tick.vehicles.push_back(i);
-    tick.readings.push_back(fleet_->reading_at(i, when));
-    beams.push_back({state.position_ned_m, altimeter_direction(state)});
-    if (beams.size() == kMostBeams) ask();
+    if (query) bus().publish(bus::channels::kRayQuery, *query);
   }
-  ask();
 }
 
-void VehicleSimNode::publish_sensors(SimTime steady) {
-  while (const auto tick = desk_.take(steady)) {
-    for (std::size_t k = 0; k < tick->vehicles.size(); ++k) {
-      const std::size_t i = tick->vehicles[k];
-      vehicle_sensors_t message = to_sensors_message(tick->when, tick->readings[k]);
-      message.session = bus().identity().session;
-      message.sequence = sensors_sequence_[i]++;
-      bus().publish(bus::channels::kSensors.of(members_[i].name), message);
+void VehicleSimNode::note_poses(SimTime when) {
+  for (auto& [vehicle, array] : arrays_) {
+    if (!fleet_->is_lost(vehicle)) array.note_pose(when, fleet_->state_at(vehicle, when).orientation);
+  }
+}
+
+void VehicleSimNode::publish_bearings() {
+  for (auto& [vehicle, array] : arrays_) {
+    const bool is_dead = fleet_->faults(vehicle).dead_sensors()[static_cast<std::size_t>(SensorKind::kUsbl)];
+    for (const UsblFix& fix : array.take(is_dead)) {
+      publish_numbered(bus::channels::kUsbl, vehicle,
+                       to_usbl_message(fix, station_.settings(vehicle).usbl.errors.noise), sequences_.usbl);
     }
+  }
+}
+
+void VehicleSimNode::publish_measured(SimTime steady) {
+  while (const auto tick = desk_.take(steady)) {
+    for (const SensorJob& job : tick->jobs) publish(*tick, job);
+  }
+}
+
+void VehicleSimNode::publish(const SensorTick& tick, const SensorJob& job) {
+  const std::size_t i = job.vehicle;
+  const SensorSettings& s = station_.settings(i);
+  if (const auto* reading = std::get_if<SensorReading>(&job.sample)) {
+    publish_numbered(bus::channels::kSensors, i,
+                     to_sensors_message(tick.when, station_.finish(tick, job, *reading)), sequences_.sensors);
+  } else if (const auto* fix = std::get_if<GpsFix>(&job.sample)) {
+    publish_numbered(bus::channels::kGps, i, to_gps_message(tick.when, *fix, s.gps.errors.noise),
+                     sequences_.gps);
+  } else if (const auto* ping = std::get_if<DvlPing>(&job.sample)) {
+    publish_numbered(bus::channels::kDvl, i,
+                     to_dvl_message(tick.when, station_.finish(tick, job, *ping), s.dvl.errors.noise),
+                     sequences_.dvl);
+  } else if (const auto* fan = std::get_if<SonarPing>(&job.sample)) {
+    publish_numbered(bus::channels::kSonar, i,
+                     to_sonar_message(tick.when, s.sonar, station_.finish(tick, job, *fan)),
+                     sequences_.sonar);
   }
 }
 
@@ -150,6 +210,12 @@ void VehicleSimNode::on_command(std::size_t vehicle, const vehicle_command_t& me
   }
 }
 
+void VehicleSimNode::on_fault(std::size_t vehicle, const vehicle_fault_t& message) {
+  if (!fleet_) return;
+  if (!fleet_->break_down(vehicle, from_message(message)))
+    bus().refuse(bus::channels::kFault.of(members_[vehicle].name), "too many faults wait for their time");
+}
+
 void VehicleSimNode::on_current(const current_change_t& message) {
   if (!fleet_) return;
   if (!fleet_->change_current(SimTime::from_utime(message.utime), from_message(message)))
@@ -162,11 +228,7 @@ void VehicleSimNode::on_ray_reply(const ray_reply_t& reply) {
     ++bus().counters().late;
     return;
   }
-  const std::vector<Altitude> altitudes = altitudes_from(reply, tick->readings.size());
-  for (std::size_t k = 0; k < altitudes.size(); ++k) {
-    tick->readings[k].altitude_status = altitudes[k].status;
-    tick->readings[k].altitude_m = altitudes[k].altitude_m;
-  }
+  tick->echoes = echoes_from(reply, tick->beams.size());
 }
 
 void VehicleSimNode::report_lost() {
@@ -185,7 +247,7 @@ std::string VehicleSimNode::status_text() const {
     lost += fleet_->is_lost(i);
   }
   return std::to_string(members_.size()) + " vehicles, " + std::to_string(aground) + " on the seabed, " +
-         std::to_string(lost) + " lost; altitudes given up: " + std::to_string(desk_.given_up());
+         std::to_string(lost) + " lost; echoes given up: " + std::to_string(desk_.given_up());
 }
 
 }  // namespace halocline::vehicle_sim

@@ -1,9 +1,10 @@
 // Moves the vehicles of a scenario and speaks for them on the bus.
 //
-// Hears COMMAND.<vehicle>, SET_CURRENT and RAY_REPLY.<its own client name>; publishes STATE.<vehicle> and SENSORS.<vehicle> at
-// multiples of their periods since time 0, stamped with that instant, and RAY_QUERY for the altitudes. A SENSORS
-// waits for its altitude until the service answers or the node's patience (steady time) ends; then altitude is
-// unavailable. A node that is started into a running simulation puts its vehicles where they start, at that time.
+// Hears COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles with a USBL array
+// OUTCOME and RECEIVE.<vehicle>; publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS, SONAR.<vehicle> at multiples of their
+// periods since time 0, stamped with that instant, USBL.<vehicle> when a packet was received, and RAY_QUERY for what lies
+// below. A measurement waits for its echoes until the service answers or the node's patience (steady time) ends; then
+// they are unavailable. A node that is started into a running simulation puts its vehicles where they start, at that time.
 #pragma once
 
 #include <map>
@@ -13,8 +14,11 @@
 #include <vector>
 
 #include "bus/node.h"
-#include "vehicle_sim/altimeter_desk.h"
+#include "bus/worker_pool.h"
+#include "vehicle_sim/echo_desk.h"
 #include "vehicle_sim/fleet.h"
+#include "vehicle_sim/sensor_station.h"
+#include "vehicle_sim/usbl_desk.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
 namespace halocline::vehicle_sim {
@@ -33,27 +37,44 @@ class VehicleSimNode : public bus::Node {
 
  private:
   void on_command(std::size_t vehicle, const vehicle_command_t& message);
+  void on_fault(std::size_t vehicle, const vehicle_fault_t& message);
   void on_current(const current_change_t& message);
   void on_ray_reply(const ray_reply_t& reply);
   void begin(SimTime now);
+  void subscribe_vehicle(std::size_t vehicle);
+  void subscribe_arrays();
   void publish_states(SimTime when);
-  void measure_all(SimTime when, SimTime steady);
-  void publish_sensors(SimTime steady);
+  void measure_all(SimTime steady);
+  void note_poses(SimTime when);
+  void publish_bearings();
+  void publish_measured(SimTime steady);
+  void publish(const SensorTick& tick, const SensorJob& job);
+  // With session and the vehicle's next number on this family.
+  template <class Message>
+  void publish_numbered(const bus::Family& family, std::size_t vehicle, Message message,
+                        std::vector<std::int64_t>& sequence);
   void report_lost();
 
   VehicleSimConfig config_;
   FleetSettings settings_;
   std::vector<FleetMember> members_;
+  std::vector<std::pair<std::size_t, Fault>> scenario_faults_;
   std::vector<std::int32_t> ids_;
   std::shared_ptr<const Seabed> seabed_;
   std::string ray_client_;
 
+  bus::WorkerPool pool_;
   std::optional<Fleet> fleet_;  // empty until the simulation time is known
-  SimTime next_state_, next_sensors_;
+  SensorStation station_;
+  std::map<std::size_t, UsblDesk> arrays_;  // of the vehicles that have one
+  SimTime next_state_;
   SimTime last_step_;  // steady
-  AltimeterDesk desk_;
+  EchoDesk desk_;
   std::int64_t ray_request_ = 0;
-  std::vector<std::int64_t> state_sequence_, sensors_sequence_;
+  struct Sequences {
+    std::vector<std::int64_t> state, sensors, dvl, gps, sonar, usbl;  // of each vehicle, the next
+  };
+  Sequences sequences_;
   std::vector<bool> reported_lost_;
 };
 

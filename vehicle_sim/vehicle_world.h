@@ -4,7 +4,7 @@
 // Formulation: each step solves our own equations of motion (equations_of_motion.h) by Runge-Kutta; the force
 // that takes the ODE body to that velocity, M_ode (v_rk4 - v) / h, is applied at its centre of gravity
 // together with the contacts, and ODE steps (dWorldStep, which is exact and draws no random numbers). A free
-// vehicle takes the Runge-Kutta state whole, so free flight does not depend on ODE. In contact with the ground it takes
+// vehicle takes the Runge-Kutta state whole, so free flight does not depend on ODE, which sees only those in contact. In contact with the ground it takes
 // ODE's velocity, and its pose from the old pose and that velocity, x + h v: then a vehicle that rests, rests (with
 // x_rk4 + h (v - v_rk4) friction let it creep uphill by half a step's acceleration). M_ode is the dry mass
 // plus the heave added mass, the inertia likewise. Contacts are looked for at the pose the free velocity
@@ -30,6 +30,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/for_each.h"
 #include "vehicle_sim/neighbours.h"
 #include "vehicle_sim/seabed.h"
 #include "vehicle_sim/seabed_contact.h"
@@ -55,7 +56,9 @@ class VehicleWorld {
  public:
   // A `seabed` that is null is water without a bottom. `friction`: Coulomb's coefficient of hull on seabed, 0
   // or above (0.5: smooth plastic on sand, a middle value).
-  explicit VehicleWorld(std::shared_ptr<const Seabed> seabed, double friction = kDefaultFriction);
+  // `for_each` shares what each vehicle does by itself among threads; the result is the same bit by bit.
+  explicit VehicleWorld(std::shared_ptr<const Seabed> seabed, double friction = kDefaultFriction,
+                        ForEach for_each = one_after_the_other);
   ~VehicleWorld();
   VehicleWorld(const VehicleWorld&) = delete;
   VehicleWorld& operator=(const VehicleWorld&) = delete;
@@ -72,6 +75,9 @@ class VehicleWorld {
   // What a vehicle does and meets from the next step on; finite. The command is held to the model's limits.
   void set_command(std::size_t index, const ActuatorValues& command);
   void set_water(std::size_t index, const Water& water);
+
+  // Another model in the place of a vehicle's, from the next step on: a leak makes it heavier. The hull must be the same.
+  void set_model(std::size_t index, std::shared_ptr<const Model> model);
 
   // Advances all vehicles by `step_s`, above 0 and at most kLongestStep_s.
   void step(double step_s);
@@ -119,13 +125,19 @@ class VehicleWorld {
     bool touches = false;          // the ground, in the last step
     bool touches_vehicle = false;  // in the last step
     bool lost = false;
+    std::vector<HullContact> ground = {};  // where the hull would touch it in this step
+
+    bool takes_part() const { return linked || !ground.empty(); }  // in ODE's step
   };
   struct TiedTether {
     Tether tether;
     double pull_n = 0;
   };
 
-  void solve_free_motion(Vehicle& vehicle, double step_s);
+  void solve_free_motions(double step_s);
+  static void solve_free_motion(Vehicle& vehicle, double step_s);
+  void look_for_ground(Vehicle& vehicle, double step_s);
+  void solve_contacts(double step_s);
   void aim_body_at_free_solution(Vehicle& vehicle, double step_s);
   void attach_contacts(std::size_t index, double step_s);
   void find_links(double step_s);
@@ -142,12 +154,12 @@ class VehicleWorld {
 
   std::shared_ptr<const Seabed> seabed_;
   double friction_;
+  ForEach for_each_;
   std::unique_ptr<OdeWorld> ode_;
   std::vector<Vehicle> vehicles_;
   std::vector<TiedTether> tethers_;
   double longest_hull_m_ = 0;
   Neighbours neighbours_;
-  std::vector<HullContact> found_;       // working storage of attach_contacts
   std::vector<VehicleContact> meeting_;  // of find_meetings
   std::vector<Vec3> positions_;          // of find_meetings
   std::vector<Contact> contacts_;        // of this step, with the ground

@@ -1,5 +1,10 @@
 #include "clients/autopilot/autopilot_config.h"
 
+#include <algorithm>
+#include <sstream>
+
+#include "core/check.h"
+
 namespace halocline::clients {
 namespace {
 
@@ -95,10 +100,20 @@ void visit_behaviours(ConfigVisitor& v, PilotConfig& pilot) {
     v.problem("waypoints", "none beside [[vehicle.mission.behaviour]]; give them to a behaviour");
 }
 
-void visit_navigator(ConfigVisitor& v, NavigatorRules& rules) {
+void visit_navigator(ConfigVisitor& v, PilotConfig& pilot) {
+  NavigatorRules& rules = pilot.navigator;
+  AcousticFixRules& fix = pilot.acoustic_fix;
   v.number("log_drift_mps", rules.log_drift_mps, {0, 10, "m/s", "by the speed through the water: currents"});
   v.number("ground_drift", rules.ground_drift, {0, 1, "", "metres a metre by the speed over ground"});
   v.number("start_deviation_m", rules.start_deviation_m, {0, 1e4, "m", "of the place at the start"});
+  bus::seconds(v, "dvl_fresh_for_s", pilot.dvl_fresh_for,
+               {0, 60, "s", "how long a Doppler log's velocity is used; then the speed through the water"});
+  v.text("usbl_beacons", pilot.usbl_beacons, {},
+         "vehicles that do not move, with spaces between: by bearings of their stamped packets");
+  v.number("sound_speed_mps", fix.sound_speed_mps, {1300, 1700, "m/s", "mean, for ranges to beacons"});
+  bus::degrees(v, "heading_deviation_deg", fix.heading_deviation_rad,
+               {0, 90, "deg", "of the compass, for bearings of beacons"});
+  v.number("range_deviation", fix.range_deviation, {0, 1, "", "of a beacon's range, relative"});
 }
 
 void visit_broadcast(ConfigVisitor& v, Broadcast& broadcast) {
@@ -129,7 +144,7 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
   bus::choice(v, "navigate_by", pilot.navigate_by, {"state", "sensors"},
               "how it knows where it is: the truth, or dead reckoning by its own sensors");
   v.section("navigator", "Uncertainty of dead reckoning, with navigate_by = sensors",
-            [&](ConfigVisitor& navigator) { visit_navigator(navigator, pilot.navigator); });
+            [&](ConfigVisitor& navigator) { visit_navigator(navigator, pilot); });
   v.section("broadcast", "Its place, told over sound to those who follow it",
             [&](ConfigVisitor& broadcast) { visit_broadcast(broadcast, pilot.broadcast); });
   v.section("gains", "Gains with fins; the defaults suit torpedo and remus100-pvs",
@@ -162,6 +177,20 @@ void check_leaders(ConfigVisitor& v, const AutopilotConfig& config) {
 }
 
 }  // namespace
+
+std::map<std::int32_t, Vec3> beacons_of(const AutopilotConfig& config, const PilotConfig& pilot) {
+  std::map<std::int32_t, Vec3> beacons;
+  std::istringstream names(pilot.usbl_beacons);
+  for (std::string name; names >> name;) {
+    const auto found = std::find_if(config.vehicles.begin(), config.vehicles.end(),
+                                    [&](const PilotConfig& other) { return other.vehicle == name; });
+    require(found != config.vehicles.end() && name != pilot.vehicle,
+            "vehicle " + pilot.vehicle + ": mission.navigator.usbl_beacons names '" + name +
+                "'; allowed are other vehicles of the scenario, with spaces between");
+    beacons[found->vehicle_id] = found->start_ned_m;
+  }
+  return beacons;
+}
 
 const PilotConfig* find_leader(const AutopilotConfig& config, const std::string& name) {
   for (const PilotConfig& vehicle : config.vehicles) {

@@ -1,10 +1,12 @@
 // The sections [vehicle.mission] and [autopilot] of a scenario file.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "bus/config.h"
+#include "clients/autopilot/acoustic_fix.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
@@ -34,8 +36,11 @@ struct PilotConfig {
   std::vector<Behaviour> behaviours;  // instead of the mission's waypoints
   double ground_ahead_m = 4;          // how far ahead of the vehicle the ground is looked at
   NavigateBy navigate_by = NavigateBy::kState;
-  NavigatorRules navigator;         // with sensors
-  Vec3 start_ned_m = Vec3::Zero();  // where it is put into the water
+  NavigatorRules navigator;  // with sensors
+  std::string usbl_beacons;  // names, with spaces between: by whose sound it finds its place
+  AcousticFixRules acoustic_fix;
+  SimDuration dvl_fresh_for = SimDuration::from_milliseconds(1500);  // age of a ping that is still used
+  Vec3 start_ned_m = Vec3::Zero();                                   // where it is put into the water
   Broadcast broadcast;
   Steering steering = Steering::kFins;
   Gains gains;             // of fins
@@ -52,6 +57,9 @@ struct AutopilotConfig {
 };
 
 void visit(bus::ConfigVisitor& v, AutopilotConfig& config);
+
+// The places of a pilot's beacons by id: where they start. Throws InvalidArgument for a name that is no other vehicle.
+std::map<std::int32_t, Vec3> beacons_of(const AutopilotConfig& config, const PilotConfig& pilot);
 
 // The vehicle of this name if it broadcasts its place; else null.
 const PilotConfig* find_leader(const AutopilotConfig& config, const std::string& name);

@@ -34,11 +34,35 @@ Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& naviga
   return situation;
 }
 
-NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors) {
-  return {.time_s = SimTime::from_utime(sensors.utime).seconds(),
-          .attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad},
-          .depth_m = sensors.depth_m,
-          .water_speed_mps = sensors.water_speed_mps};
+NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors,
+                                      const std::optional<vehicle_dvl_t>& ping) {
+  NavigationSample sample{.time_s = SimTime::from_utime(sensors.utime).seconds(),
+                          .attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad},
+                          .depth_m = sensors.depth_m,
+                          .water_speed_mps = sensors.water_speed_mps};
+  if (ping) {
+    const double* v = ping->ground_velocity_body_mps;
+    sample.ground_velocity_body_mps = Vec3(v[0], v[1], v[2]);
+  }
+  return sample;
+}
+
+void take_in(const vehicle_gps_t& fix, Navigator& navigator) {
+  constexpr double kLeastDeviationM = 0.01;
+  navigator.fix(fix.fix_north_m, fix.fix_east_m, std::max(fix.fix_deviation_m, kLeastDeviationM),
+                SimTime::from_utime(fix.utime).seconds());
+}
+
+void take_in(const vehicle_usbl_t& bearing, const std::map<std::int32_t, Vec3>& beacons,
+             const AcousticFixRules& rules, Navigator& navigator) {
+  const double time_s = SimTime::from_utime(bearing.utime).seconds();
+  const auto beacon = beacons.find(bearing.peer_id);
+  const auto then = navigator.at(time_s);
+  if (beacon == beacons.end() || !then || !bearing.travel_time_known) return;
+  const HeardBeacon heard{bearing.peer_bearing_rad, bearing.peer_elevation_rad, bearing.angle_deviation_rad,
+                          bearing.one_way_travel_time_s};
+  const auto fix = place_by_beacon(rules, beacon->second, heard, then->attitude, then->position_ned_m.z());
+  if (fix) navigator.fix(fix->north_m, fix->east_m, fix->deviation_m, time_s);
 }
 
 void take_in(const position_estimate_t& estimate, Navigator& navigator) {

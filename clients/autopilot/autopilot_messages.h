@@ -1,7 +1,12 @@
 // Messages of the bus to the values of the control laws, and back.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
+
 #include "bus/messages.h"
+#include "clients/autopilot/acoustic_fix.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/navigator.h"
@@ -15,7 +20,15 @@ Situation to_situation(const vehicle_state_t& state);
 // From the vehicle's own sensors alone; the place by dead reckoning, at `time_s`.
 Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& navigator, double time_s);
 
-NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors);
+// With the velocity over ground of a Doppler log's ping, where one is given.
+NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors,
+                                      const std::optional<vehicle_dvl_t>& ping);
+
+// Fixes of what the navigator remembers; others are ignored.
+void take_in(const vehicle_gps_t& fix, Navigator& navigator);
+// `beacons`: places of those that are known, by id.
+void take_in(const vehicle_usbl_t& bearing, const std::map<std::int32_t, Vec3>& beacons,
+             const AcousticFixRules& rules, Navigator& navigator);
 
 // A localiser's place replaces the reckoned one when it is the only one left; carried on to the latest sample. The
 // reckoning goes on from there, through water that it holds to be still.

@@ -27,6 +27,7 @@ void AutopilotNode::add_pilot(const AutopilotConfig& all, const PilotConfig& con
   const SeabedRules rules{config.mission.min_altitude_m, config.ground_ahead_m};
   const VehiclePilot vehicle_pilot(make_plan(config.mission, config.behaviours), rules);
   pilots_.push_back(std::make_unique<Pilot>(Pilot{config, {}, {}, false, vehicle_pilot}));
+  pilots_.back()->beacons = beacons_of(all, config);
   subscribe(*pilots_.back());
   join_formation(all, *pilots_.back());
 }
@@ -36,20 +37,39 @@ void AutopilotNode::subscribe(Pilot& pilot) {
   const bool by_sensors = config.navigate_by == NavigateBy::kSensors;
   if (by_sensors) {
     pilot.navigator.emplace(config.start_ned_m, config.navigator);
-    bus().subscribe<position_estimate_t>(
-        bus::channels::kEstimate.of(config.vehicle),
-        [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); });
+    subscribe_fixes(pilot);
   } else {
     bus().subscribe<vehicle_state_t>(bus::channels::kState.of(config.vehicle),
                                      [&pilot](const vehicle_state_t& state) { pilot.state = state; });
   }
-  bus().subscribe<vehicle_sensors_t>(bus::channels::kSensors.of(config.vehicle),
-                                     [&pilot](const vehicle_sensors_t& sensors) {
-                                       pilot.sensors = sensors;
-                                       pilot.looked = false;
-                                       if (pilot.navigator)
-                                         pilot.navigator->add(to_navigation_sample(sensors));
-                                     });
+  bus().subscribe<vehicle_sensors_t>(
+      bus::channels::kSensors.of(config.vehicle), [&pilot](const vehicle_sensors_t& sensors) {
+        pilot.sensors = sensors;
+        pilot.looked = false;
+        if (pilot.navigator)
+          pilot.navigator->add(to_navigation_sample(sensors, pilot.fresh_ping(sensors.utime)));
+      });
+}
+
+void AutopilotNode::subscribe_fixes(Pilot& pilot) {
+  const std::string& name = pilot.config.vehicle;
+  bus().subscribe<position_estimate_t>(
+      bus::channels::kEstimate.of(name),
+      [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); });
+  bus().subscribe<vehicle_dvl_t>(bus::channels::kDvl.of(name), [&pilot](const vehicle_dvl_t& ping) {
+    if (ping.ground_velocity_valid) pilot.ping = ping;
+  });
+  bus().subscribe<vehicle_gps_t>(bus::channels::kGps.of(name),
+                                 [&pilot](const vehicle_gps_t& fix) { take_in(fix, *pilot.navigator); });
+  bus().subscribe<vehicle_usbl_t>(bus::channels::kUsbl.of(name), [&pilot](const vehicle_usbl_t& bearing) {
+    take_in(bearing, pilot.beacons, pilot.config.acoustic_fix, *pilot.navigator);
+  });
+}
+
+std::optional<vehicle_dvl_t> AutopilotNode::Pilot::fresh_ping(std::int64_t utime) const {
+  const bool is_fresh =
+      ping && SimTime::from_utime(utime) - SimTime::from_utime(ping->utime) <= config.dvl_fresh_for;
+  return is_fresh ? ping : std::nullopt;
 }
 
 void AutopilotNode::join_formation(const AutopilotConfig& all, Pilot& pilot) {
@@ -156,6 +176,7 @@ void AutopilotNode::on_restart(const bus::Now& now) {
   for (const auto& pilot : pilots_) {
     pilot->state.reset();
     pilot->sensors.reset();
+    pilot->ping.reset();
     pilot->situation.reset();
     pilot->pilot.restart();
     if (pilot->navigator) pilot->navigator.emplace(pilot->config.start_ned_m, pilot->config.navigator);

@@ -2,8 +2,8 @@
 // formation also SEND, followers hear RECEIVE.
 //
 // Position and attitude come from STATE (the vehicle knows where it is), speed through the water and altitude from SENSORS
-// where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h), and from ESTIMATE where a
-// localiser publishes it; STATE is not heard, and z is the depth below the sea surface. A vehicle whose state (or sensors)
+// where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h), from DVL, GPS and USBL where
+// the vehicle has them, and from ESTIMATE where a localiser publishes it; STATE is not heard, and z is the depth below the sea surface. A vehicle whose state (or sensors)
 // is older than the time-out gets no commands, and so falls into its safe state.
 #pragma once
 
@@ -44,10 +44,15 @@ class AutopilotNode : public bus::Node {
     std::optional<Navigator> navigator{};  // by sensors alone
     std::optional<Situation> situation{};  // the latest
     std::unique_ptr<FormationLink> link{};
+    std::optional<vehicle_dvl_t> ping{};  // the latest that holds a velocity
+    std::map<std::int32_t, Vec3> beacons{};
+
+    std::optional<vehicle_dvl_t> fresh_ping(std::int64_t utime) const;
   };
 
   void add_pilot(const AutopilotConfig& all, const PilotConfig& config);
   void subscribe(Pilot& pilot);
+  void subscribe_fixes(Pilot& pilot);
   void join_formation(const AutopilotConfig& all, Pilot& pilot);
   std::optional<Situation> situation_of(Pilot& pilot, SimTime instant) const;
   void command_all(SimTime instant);

@@ -10,7 +10,8 @@ int main(int argc, char** argv) {
   program.purpose = "Steers the vehicles that have a [vehicle.mission] through their behaviours.";
   program.node_name = "autopilot";
   program.interface =
-      "hears:     CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, ESTIMATE.<vehicle>,\n"
+      "hears:     CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, USBL.<vehicle>,\n"
+      "           ESTIMATE.<vehicle>,\n"
       "           RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
       "publishes: COMMAND.<vehicle>, SEND.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };

@@ -1,5 +1,9 @@
 #include "clients/autopilot/navigator.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "core/check.h"
 
 namespace halocline::clients {
@@ -31,20 +35,52 @@ void Navigator::add(const NavigationSample& sample) {
   position_ned_m_.z() = sample.depth_m;
   velocity_ned_mps_ = velocity;
   last_ = sample;
+  past_.push_back({sample.time_s, sample.attitude, position_ned_m_});
+  while (past_.front().time_s < sample.time_s - kMemory_s) past_.pop_front();
+}
+
+std::optional<Navigator::Past> Navigator::at(double time_s) const {
+  if (past_.empty() || time_s < past_.front().time_s) return std::nullopt;
+  const auto after = std::upper_bound(past_.begin(), past_.end(), time_s,
+                                      [](double t, const Past& past) { return t < past.time_s; });
+  const Past& before = *(after - 1);
+  if (after == past_.end()) return before;
+  const double share = (time_s - before.time_s) / (after->time_s - before.time_s);
+  const auto turned = [&](double from, double to) {
+    return from + share * std::remainder(to - from, 2 * std::numbers::pi);
+  };
+  return Past{time_s,
+              {turned(before.attitude.roll, after->attitude.roll),
+               turned(before.attitude.pitch, after->attitude.pitch),
+               turned(before.attitude.yaw, after->attitude.yaw)},
+              before.position_ned_m + share * (after->position_ned_m - before.position_ned_m)};
+}
+
+void Navigator::fix(double north_m, double east_m, double deviation_m, double time_s) {
+  const auto then = at(time_s);
+  if (!then) return;
+  const Eigen::Vector2d way = (position_ned_m_ - then->position_ned_m).head<2>();
+  fix(north_m + way.x(), east_m + way.y(), deviation_m);
 }
 
 void Navigator::fix(double north_m, double east_m, double deviation_m) {
   require(deviation_m > 0, "the deviation of a fix is above 0");
   const double p = deviation_m_ * deviation_m_, r = deviation_m * deviation_m;
   const double gain = p / (p + r);
-  const Eigen::Vector2d here = position_ned_m_.head<2>();
-  position_ned_m_.head<2>() = here + gain * (Eigen::Vector2d(north_m, east_m) - here);
+  move_to(position_ned_m_.head<2>() + gain * (Eigen::Vector2d(north_m, east_m) - position_ned_m_.head<2>()));
   deviation_m_ = std::sqrt(p * (1 - gain));
+}
+
+// What was reckoned before was off by the same.
+void Navigator::move_to(const Eigen::Vector2d& north_east_m) {
+  const Eigen::Vector2d correction = north_east_m - position_ned_m_.head<2>();
+  position_ned_m_.head<2>() = north_east_m;
+  for (Past& past : past_) past.position_ned_m.head<2>() += correction;
 }
 
 void Navigator::replace(double north_m, double east_m, double deviation_m) {
   require(deviation_m >= 0, "the deviation of a place is 0 or above");
-  position_ned_m_.head<2>() = Eigen::Vector2d(north_m, east_m);
+  move_to({north_m, east_m});
   deviation_m_ = deviation_m;
 }
 

@@ -7,10 +7,12 @@
 // current that is not known) and by `ground_drift` times the way while it is that over ground (the Doppler
 // log's scale and the compass): both are lasting errors, so deviations add up, not variances. A fix moves
 // the position by P / (P + R) of the difference (Kalman's gain with one variance for both axes) and leaves
-// 1 / (1/P + 1/R). So in a current c the error grows as c t, and a good fix takes it away. Left out: the
-// current is not estimated, nor the compass's error; sideslip; fixes of the past.
+// 1 / (1/P + 1/R). So in a current c the error grows as c t, and a good fix takes it away. A fix of up to kMemory s ago
+// is compared with the place reckoned then. Left out: the current is not estimated, nor the compass's error; sideslip
+// without a Doppler log.
 #pragma once
 
+#include <deque>
 #include <optional>
 
 #include "core/frames.h"
@@ -39,11 +41,23 @@ class Navigator {
 
   // Samples come in order of time; one that is not later than the last is ignored.
   void add(const NavigationSample& sample);
-  // A position measured at the latest sample; `deviation_m` of each axis, above 0.
+  // A position measured at the latest sample, or at `time_s`; `deviation_m` of each axis, above 0. One from before
+  // what is remembered is ignored.
   void fix(double north_m, double east_m, double deviation_m);
+  void fix(double north_m, double east_m, double deviation_m, double time_s);
 
   // The place by another reckoning that holds all this one knows and more: it replaces this one's.
   void replace(double north_m, double east_m, double deviation_m);
+
+  // What was measured and reckoned at `time_s`, linear between samples; of the latest sample from that on. Empty before what is
+  // remembered.
+  struct Past {
+    double time_s = 0;
+    EulerAngles attitude;
+    Vec3 position_ned_m = Vec3::Zero();
+  };
+  static constexpr double kMemory_s = 30;
+  std::optional<Past> at(double time_s) const;
 
   bool has_sample() const { return last_.has_value(); }
   const NavigationSample& last() const { return *last_; }
@@ -54,11 +68,14 @@ class Navigator {
   double deviation_m() const { return deviation_m_; }
 
  private:
+  void move_to(const Eigen::Vector2d& north_east_m);
+
   NavigatorRules rules_;
   Vec3 position_ned_m_;
   Vec3 velocity_ned_mps_ = Vec3::Zero();
   double deviation_m_;
   std::optional<NavigationSample> last_;
+  std::deque<Past> past_;  // ascending
 };
 
 }  // namespace halocline::clients

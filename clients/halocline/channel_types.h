@@ -25,6 +25,11 @@ bool with_type_of(std::string_view channel, Function&& f) {
   if (is(c::kSetCurrent)) return f.template operator()<current_change_t>(), true;
   if (in(c::kState)) return f.template operator()<vehicle_state_t>(), true;
   if (in(c::kSensors)) return f.template operator()<vehicle_sensors_t>(), true;
+  if (in(c::kDvl)) return f.template operator()<vehicle_dvl_t>(), true;
+  if (in(c::kGps)) return f.template operator()<vehicle_gps_t>(), true;
+  if (in(c::kSonar)) return f.template operator()<vehicle_sonar_t>(), true;
+  if (in(c::kUsbl)) return f.template operator()<vehicle_usbl_t>(), true;
+  if (in(c::kFault)) return f.template operator()<vehicle_fault_t>(), true;
   if (in(c::kCommand)) return f.template operator()<vehicle_command_t>(), true;
   if (in(c::kModem)) return f.template operator()<modem_config_t>(), true;
   if (in(c::kSend)) return f.template operator()<modem_send_t>(), true;

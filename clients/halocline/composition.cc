@@ -60,8 +60,9 @@ ScenarioConfig load_scenario(const std::string& path, const std::vector<std::str
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
   config.folder = config.vehicle_sim.model_folder = file.folder();
-  vehicle_sim::members_of(config.scenario,
-                          config.vehicle_sim);  // throws with what is wrong in a model's file
+  // These throw with what is wrong in a model's file, a fault or a name.
+  vehicle_sim::faults_of(vehicle_sim::members_of(config.scenario, config.vehicle_sim), config.vehicle_sim);
+  for (const PilotConfig& pilot : config.autopilot.vehicles) beacons_of(config.autopilot, pilot);
   for (const VehicleTraffic& traffic : config.traffic.vehicles) destination_id(config.traffic, traffic);
   for (const VehicleLocaliser& vehicle : config.localiser.vehicles) beacons_of(config.localiser, vehicle);
   return config;
@@ -80,6 +81,8 @@ std::string commented_toml() {
   config.scenario.vehicles[0].id = 1;
   config.channel_server.vehicles.resize(1);
   config.vehicle_sim.tethers.resize(1);
+  config.vehicle_sim.faults.resize(1);
+  config.vehicle_sim.faults[0].fault.angle_rad = 0;
   config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig()}};
   config.autopilot.vehicles.resize(1);
   config.autopilot.vehicles[0].behaviours.resize(1);

@@ -369,17 +369,58 @@ void visit_fields(Visitor& v, const vehicle_command_t& m) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, const vehicle_dvl_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("beam_status", m.beam_status);
+  v("beam_range_m", m.beam_range_m);
+  v("beam_speed_mps", m.beam_speed_mps);
+  v("ground_velocity_valid", m.ground_velocity_valid);
+  v("ground_velocity_body_mps", m.ground_velocity_body_mps);
+  v("velocity_deviation_mps", m.velocity_deviation_mps);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, const vehicle_fault_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("fault_kind", m.fault_kind);
+  v("fault_mended", m.fault_mended);
+  v("stuck_angle_given", m.stuck_angle_given);
+  v("stuck_angle_rad", m.stuck_angle_rad);
+  v("leak_rate_kg_s", m.leak_rate_kg_s);
+  v("leak_volume_m3", m.leak_volume_m3);
+  v("dead_sensor", m.dead_sensor);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, const vehicle_gps_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("fix_north_m", m.fix_north_m);
+  v("fix_east_m", m.fix_east_m);
+  v("fix_deviation_m", m.fix_deviation_m);
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, const vehicle_sensors_t& m) {
   v("utime", m.utime);
   v("session", m.session);
   v("sequence", m.sequence);
+  v("depth_fresh", m.depth_fresh);
   v("depth_m", m.depth_m);
   v("altitude_status", m.altitude_status);
   v("altitude_m", m.altitude_m);
+  v("water_speed_fresh", m.water_speed_fresh);
   v("water_speed_mps", m.water_speed_mps);
+  v("attitude_fresh", m.attitude_fresh);
   v("heading_rad", m.heading_rad);
   v("pitch_rad", m.pitch_rad);
   v("roll_rad", m.roll_rad);
+  v("angular_rate_fresh", m.angular_rate_fresh);
   v("angular_rate_body_radps", m.angular_rate_body_radps);
   v("shaft_rpm", m.shaft_rpm);
   v("rudder_angle_rad", m.rudder_angle_rad);
@@ -387,6 +428,19 @@ void visit_fields(Visitor& v, const vehicle_sensors_t& m) {
   v("thruster_rpm", m.thruster_rpm);
   v("safe_state", m.safe_state);
   v("on_seabed", m.on_seabed);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, const vehicle_sonar_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("fan_tilt_rad", m.fan_tilt_rad);
+  v("greatest_range_m", m.greatest_range_m);
+  v("num_fan_rays", m.num_fan_rays);
+  v("fan_azimuth_rad", m.fan_azimuth_rad);
+  v("echo_status", m.echo_status);
+  v("echo_range_m", m.echo_range_m);
 }
 
 template <class Visitor>
@@ -399,6 +453,22 @@ void visit_fields(Visitor& v, const vehicle_state_t& m) {
   v("orientation_wxyz", m.orientation_wxyz);
   v("velocity_ned_mps", m.velocity_ned_mps);
   v("angular_velocity_body_radps", m.angular_velocity_body_radps);
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, const vehicle_usbl_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("peer_id", m.peer_id);
+  v("packet_kind", m.packet_kind);
+  v("send_session", m.send_session);
+  v("packet_sequence", m.packet_sequence);
+  v("peer_bearing_rad", m.peer_bearing_rad);
+  v("peer_elevation_rad", m.peer_elevation_rad);
+  v("angle_deviation_rad", m.angle_deviation_rad);
+  v("travel_time_known", m.travel_time_known);
+  v("one_way_travel_time_s", m.one_way_travel_time_s);
 }
 
 }  // namespace halocline::clients

@@ -70,6 +70,14 @@ TEST(MessageChecks, RefusesNanAndInfinityInEveryNumber) {
                                    FIELD(heading_rad), FIELD(pitch_rad), FIELD(roll_rad),
                                    FIELD(angular_rate_body_radps[0]), FIELD(shaft_rpm),
                                    FIELD(rudder_angle_rad), FIELD(stern_angle_rad), FIELD(thruster_rpm[0]));
+  expect_finite<vehicle_dvl_t>(FIELD(beam_range_m[0]), FIELD(beam_speed_mps[3]),
+                               FIELD(ground_velocity_body_mps[1]), FIELD(velocity_deviation_mps));
+  expect_finite<vehicle_gps_t>(FIELD(fix_north_m), FIELD(fix_east_m), FIELD(fix_deviation_m));
+  expect_finite<vehicle_sonar_t>(FIELD(fan_tilt_rad), FIELD(greatest_range_m), FIELD(fan_azimuth_rad[0]),
+                                 FIELD(echo_range_m[2]));
+  expect_finite<vehicle_usbl_t>(FIELD(peer_bearing_rad), FIELD(peer_elevation_rad),
+                                FIELD(angle_deviation_rad), FIELD(one_way_travel_time_s));
+  expect_finite<vehicle_fault_t>(FIELD(stuck_angle_rad), FIELD(leak_rate_kg_s), FIELD(leak_volume_m3));
   expect_finite<environment_t>(
       FIELD(layer_depth_m[1]), FIELD(layer_sound_speed_mps[0]), FIELD(layer_temperature_degc[0]),
       FIELD(layer_salinity_psu[0]), FIELD(wind_speed_mps), FIELD(shipping_activity), FIELD(acidity_ph),
@@ -116,6 +124,11 @@ TEST(MessageChecks, RefusesEnumerationsWithoutAMeaning) {
   for (const int bad : {-128, -1, 11, 127}) {
     const auto value = static_cast<std::int8_t>(bad);
     EXPECT_NE(problem_after<vehicle_sensors_t>([&](auto& m) { m.altitude_status = value; }), "");
+    EXPECT_NE(problem_after<vehicle_dvl_t>([&](auto& m) { m.beam_status[2] = value; }), "");
+    EXPECT_NE(problem_after<vehicle_sonar_t>([&](auto& m) { m.echo_status[0] = value; }), "");
+    EXPECT_NE(problem_after<vehicle_usbl_t>([&](auto& m) { m.packet_kind = value; }), "");
+    EXPECT_NE(problem_after<vehicle_fault_t>([&](auto& m) { m.fault_kind = value; }), "");
+    EXPECT_NE(problem_after<vehicle_fault_t>([&](auto& m) { m.dead_sensor = value; }), "");
     EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.modem_profile = value; }), "");
     EXPECT_NE(problem_after<modem_config_t>([&](auto& m) { m.when_busy = value; }), "");
     EXPECT_NE(problem_after<modem_receipt_t>([&](auto& m) { m.receipt_result = value; }), "");

@@ -91,6 +91,7 @@ template <>
 vehicle_sensors_t valid_message(unsigned seed) {
   Numbers n(seed);
   auto m = with_head<vehicle_sensors_t>(n);
+  m.depth_fresh = m.attitude_fresh = 1;
   m.depth_m = n.real();
   m.altitude_status = vehicle_sensors_t::ALTITUDE_MEASURED;
   m.altitude_m = n.real();
@@ -105,6 +106,71 @@ vehicle_sensors_t valid_message(unsigned seed) {
   for (double& rpm : m.thruster_rpm) rpm = n.real();
   m.safe_state = 0;
   m.on_seabed = 1;
+  return m;
+}
+
+template <>
+vehicle_dvl_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<vehicle_dvl_t>(n);
+  m.beam_status[1] = vehicle_dvl_t::BEAM_NO_BOTTOM;
+  for (double& r : m.beam_range_m) r = n.real();
+  for (double& v : m.beam_speed_mps) v = n.real();
+  m.ground_velocity_valid = 1;
+  for (double& v : m.ground_velocity_body_mps) v = n.real();
+  m.velocity_deviation_mps = n.real();
+  return m;
+}
+
+template <>
+vehicle_gps_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<vehicle_gps_t>(n);
+  m.fix_north_m = n.real();
+  m.fix_east_m = n.real();
+  m.fix_deviation_m = n.real();
+  return m;
+}
+
+template <>
+vehicle_sonar_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<vehicle_sonar_t>(n);
+  m.fan_tilt_rad = 0.25;
+  m.greatest_range_m = n.real();
+  m.num_fan_rays = std::max(1, size_of_arrays(seed));
+  for (int i = 0; i < m.num_fan_rays; ++i) {
+    m.fan_azimuth_rad.push_back(0.01 * i);
+    m.echo_status.push_back(vehicle_sonar_t::ECHO);
+    m.echo_range_m.push_back(n.real());
+  }
+  return m;
+}
+
+template <>
+vehicle_usbl_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<vehicle_usbl_t>(n);
+  m.peer_id = n.whole();
+  m.packet_kind = modem_receive_t::PING_REPLY;
+  m.peer_bearing_rad = -0.5;
+  m.peer_elevation_rad = 0.25;
+  m.angle_deviation_rad = 0.125;
+  m.travel_time_known = 1;
+  m.one_way_travel_time_s = n.real();
+  return m;
+}
+
+template <>
+vehicle_fault_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<vehicle_fault_t>(n);
+  m.fault_kind = vehicle_fault_t::LEAK;
+  m.stuck_angle_given = 1;
+  m.stuck_angle_rad = -0.25;
+  m.leak_rate_kg_s = n.real();
+  m.leak_volume_m3 = n.real();
+  m.dead_sensor = vehicle_fault_t::DVL;
   return m;
 }
 

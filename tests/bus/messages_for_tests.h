@@ -12,7 +12,8 @@ namespace halocline::bus::testing {
 
 // Every type of the bus, to run a test over.
 using AllMessages =
-    std::tuple<sim_clock_t, vehicle_state_t, vehicle_command_t, vehicle_sensors_t, current_change_t,
+    std::tuple<sim_clock_t, vehicle_state_t, vehicle_command_t, vehicle_sensors_t, vehicle_dvl_t,
+               vehicle_gps_t, vehicle_sonar_t, vehicle_usbl_t, vehicle_fault_t, current_change_t,
                environment_t, environment_change_t, modem_config_t, modem_send_t, modem_receipt_t,
                modem_receive_t, packet_name_t, packet_outcome_t, position_estimate_t, link_t, link_table_t,
                link_end_t, link_query_t, link_answer_t, link_reply_t, ray_query_t, ray_reply_t, node_status_t,

@@ -43,7 +43,7 @@ TEST(Sensors, AttitudeRatesAndActuatorsAreTheStates) {
   EXPECT_NEAR(r.attitude.yaw, 1.5, tolerance(1e-12));
   EXPECT_EQ(r.angular_velocity_body_radps, Vec3(0.01, 0.02, 0.03));
   EXPECT_EQ(r.actuators, moving().actuators);
-  EXPECT_EQ(r.altitude_status, AltitudeStatus::kUnavailable);
+  EXPECT_EQ(r.altitude.status, AltitudeStatus::kUnavailable);
 }
 
 TEST(Sensors, TheAltimeterLooksAlongTheBodysDownAxis) {

@@ -205,9 +205,98 @@ TEST(VehicleSimConfig, InTheScenarioTowTheBodyFollowsOnItsRope) {
   EXPECT_GT(fleet.tether_pull_n(0), 1);
 }
 
+constexpr const char* kWithSensors = R"(
+[vehicle_sim]
+state_rate_hz = 8
+buoyancy_over_weight = 1.02
+threads = 2
+[sensors.depth]
+noise_m = 0.05
+[sensors.compass]
+noise_deg = 0.5
+bias_deg = -2
+[sensors.dvl]
+rate_hz = 4
+noise_mps = 0.004
+dropout_probability = 0.01
+beam_angle_deg = 20
+[[vehicle]]
+name = "a"
+id = 1
+[vehicle.sensors.compass]
+bias_deg = 1
+[vehicle.sensors.usbl]
+fitted = true
+noise_deg = 0.3
+[[vehicle]]
+name = "b"
+id = 2
+[[fault]]
+vehicle = "b"
+kind = "stuck-rudder"
+at_s = 10
+until_s = 20
+angle_deg = 5
+[[fault]]
+vehicle = "b"
+kind = "dead-sensor"
+sensor = "gyro"
+)";
+
+TEST(VehicleSimConfig, SensorsAreThoseOfAllUnlessAVehicleHasItsOwn) {
+  const Read r = read(kWithSensors);
+  const auto stations = stations_of(r.scenario, members_of(r.scenario, r.config), r.config);
+  ASSERT_EQ(stations.size(), 2u);
+  EXPECT_EQ(stations[1].id, 2);
+  const SensorSettings &own = stations[0].settings, &common = stations[1].settings;
+  EXPECT_NEAR(common.compass.errors.bias, to_radians(-2), tolerance(1e-12));
+  EXPECT_NEAR(own.compass.errors.bias, to_radians(1), tolerance(1e-12));
+  EXPECT_NEAR(own.compass.errors.noise, to_radians(0.5), tolerance(1e-12));  // where it does not differ
+  EXPECT_EQ(own.depth.errors.noise, 0.05);
+  EXPECT_EQ(own.dvl.period, SimDuration::from_milliseconds(250));
+  EXPECT_NEAR(own.dvl.beam_angle_rad, to_radians(20), tolerance(1e-12));
+  EXPECT_TRUE(own.usbl.fitted);
+  EXPECT_FALSE(common.usbl.fitted);
+  EXPECT_EQ(common.gps.period, SimDuration());  // none
+}
+
+TEST(VehicleSimConfig, AFaultHasItsTimesAndItsEnd) {
+  const Read r = read(kWithSensors);
+  const auto faults = faults_of(members_of(r.scenario, r.config), r.config);
+  ASSERT_EQ(faults.size(), 3u);
+  for (const auto& [member, fault] : faults) EXPECT_EQ(member, 1u);
+  EXPECT_EQ(faults[0].second.from, SimTime::from_seconds(10));
+  EXPECT_NEAR(faults[0].second.angle_rad.value(), to_radians(5), tolerance(1e-12));
+  EXPECT_TRUE(faults[1].second.mended);
+  EXPECT_EQ(faults[1].second.from, SimTime::from_seconds(20));
+  EXPECT_EQ(faults[2].second.sensor, SensorKind::kGyro);
+  EXPECT_EQ(faults[2].second.angle_rad, std::nullopt);
+}
+
+TEST(VehicleSimConfig, ImpossibleSensorsAndFaultsAreSaidWithLineAndRange) {
+  const std::string errors = errors_of(
+      "[sensors.dvl]\nrate_hz = -1\nbeam_angle_deg = 90\nnoise = 1\n[sensors.sonar]\nrays = 600\n"
+      "[sensors.gps]\ndropout_probability = 1.5\n[sensors.echo]\nrate_hz = 1\n[[fault]]\nvehicle = \"a\"\n"
+      "kind = \"fire\"\nat_s = 9\nuntil_s = 5\nsensor = \"nose\"\n");
+  EXPECT_THAT(errors, HasSubstr("test.toml:2: sensors.dvl.rate_hz is -1"));
+  EXPECT_THAT(errors, HasSubstr("test.toml:3: sensors.dvl.beam_angle_deg is 90"));
+  EXPECT_THAT(errors, HasSubstr("allowed is 1 to 80 deg"));
+  EXPECT_THAT(errors, HasSubstr("sensors.dvl.noise"));
+  EXPECT_THAT(errors, HasSubstr("sensors.sonar.rays is 600"));
+  EXPECT_THAT(errors, HasSubstr("sensors.gps.dropout_probability is 1.5"));
+  EXPECT_THAT(errors, HasSubstr("sensors.echo"));
+  EXPECT_THAT(errors, HasSubstr("stuck-rudder, stuck-stern-planes, lost-propeller, leak, dead-sensor"));
+  EXPECT_THAT(errors, HasSubstr("a time after at_s"));
+  EXPECT_THAT(errors, HasSubstr("depth, altimeter, log, compass, gyro, dvl, gps, sonar, usbl"));
+}
+
+TEST(VehicleSimConfig, AFaultOfNobodyIsRefused) {
+  const Read r = read("[[vehicle]]\nname = \"a\"\nid = 1\n[[fault]]\nvehicle = \"b\"\n");
+  EXPECT_THROW(faults_of(members_of(r.scenario, r.config), r.config), InvalidArgument);
+}
+
 TEST(VehicleSimConfig, TheEffectiveConfigurationReadsBackAsItself) {
-  Read r = read(
-      "[vehicle_sim]\nstate_rate_hz = 8\nbuoyancy_over_weight = 1.02\n[[vehicle]]\nname = \"a\"\nid = 1\n");
+  Read r = read(kWithSensors);
   const std::string text = bus::to_toml(
       [&](ConfigVisitor& v) {
         visit(v, r.scenario);
@@ -217,7 +306,16 @@ TEST(VehicleSimConfig, TheEffectiveConfigurationReadsBackAsItself) {
   const Read again = read(text);
   EXPECT_EQ(again.config.state_period, r.config.state_period);
   EXPECT_EQ(again.config.buoyancy_over_weight, 1.02);
-  EXPECT_EQ(again.scenario.vehicles.size(), 1u);
+  EXPECT_EQ(again.scenario.vehicles.size(), 2u);
+  EXPECT_EQ(again.config.threads, 2);
+  EXPECT_EQ(again.config.sensors, r.config.sensors);
+  ASSERT_EQ(again.config.vehicles.size(), 2u);
+  EXPECT_TRUE(again.config.vehicles[0].own);
+  EXPECT_FALSE(again.config.vehicles[1].own);
+  EXPECT_EQ(again.config.vehicles[0].sensors, r.config.vehicles[0].sensors);
+  ASSERT_EQ(again.config.faults.size(), 2u);
+  EXPECT_EQ(again.config.faults[0].fault.angle_rad, r.config.faults[0].fault.angle_rad);
+  EXPECT_EQ(again.config.faults[0].until, SimTime::from_seconds(20));
 }
 
 }  // namespace

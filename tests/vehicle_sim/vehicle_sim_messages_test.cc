@@ -61,8 +61,8 @@ TEST(VehicleSimMessages, ACurrentSurvivesTheRoundTrip) {
 TEST(VehicleSimMessages, SensorsSurviveTheRoundTrip) {
   SensorReading r;
   r.depth_m = 12;
-  r.altitude_status = AltitudeStatus::kNoBottom;
-  r.altitude_m = 0;
+  r.altitude = {AltitudeStatus::kNoBottom, 0};
+  r.depth_fresh = false;
   r.water_speed_mps = 1.5;
   r.attitude = {0.1, 0.2, -3};
   r.angular_velocity_body_radps = {0.1, 0.2, 0.3};
@@ -72,7 +72,9 @@ TEST(VehicleSimMessages, SensorsSurviveTheRoundTrip) {
   EXPECT_EQ(bus::problem_in(message), "");
   const SensorReading back = from_message(message);
   EXPECT_EQ(back.depth_m, r.depth_m);
-  EXPECT_EQ(back.altitude_status, r.altitude_status);
+  EXPECT_EQ(back.altitude.status, r.altitude.status);
+  EXPECT_FALSE(back.depth_fresh);
+  EXPECT_TRUE(back.water_speed_fresh && back.attitude_fresh && back.angular_rate_fresh);
   EXPECT_EQ(back.water_speed_mps, r.water_speed_mps);
   EXPECT_EQ(back.attitude.roll, r.attitude.roll);
   EXPECT_EQ(back.attitude.pitch, r.attitude.pitch);
@@ -92,14 +94,14 @@ TEST(VehicleSimMessages, AltitudeStatusesAreThoseOfTheWire) {
 
 TEST(VehicleSimMessages, ARayQueryAsksForTheFirstHitOfEachBeam) {
   const ray_query_t query =
-      to_ray_query(kWhen, "sim-1", 42, {{{1, 2, 3}, {0, 0, 1}}, {{4, 5, 6}, {0, 1, 0}}}, 80);
+      to_ray_query(kWhen, "sim-1", 42, {{{1, 2, 3}, {0, 0, 1}, 80}, {{4, 5, 6}, {0, 1, 0}, 50}});
   EXPECT_EQ(bus::problem_in(query), "");
   EXPECT_EQ(query.num_rays, 2);
   EXPECT_EQ(query.request_id, 42);
   EXPECT_EQ(query.query_mode, ray_query_t::CLOSEST_HIT);
   EXPECT_EQ(query.offset_m[1], (std::vector<double>{4, 5, 6}));
   EXPECT_EQ(query.direction[1], (std::vector<double>{0, 1, 0}));
-  EXPECT_EQ(query.greatest_range_m, (std::vector<double>{80, 80}));
+  EXPECT_EQ(query.greatest_range_m, (std::vector<double>{80, 50}));
 }
 
 ray_reply_t reply_of(std::vector<std::int8_t> statuses, std::vector<double> results) {
@@ -111,25 +113,68 @@ ray_reply_t reply_of(std::vector<std::int8_t> statuses, std::vector<double> resu
   return reply;
 }
 
-TEST(VehicleSimMessages, EachRaysStatusBecomesAnAltitudesStatus) {
+TEST(VehicleSimMessages, EachRaysStatusBecomesAnEchosStatus) {
   const auto a =
-      altitudes_from(reply_of({ray_reply_t::HIT, ray_reply_t::MISS, ray_reply_t::OUTSIDE,
-                               ray_reply_t::NO_DATA, ray_reply_t::BELOW_BOTTOM, ray_reply_t::BAD_INPUT},
-                              {12, 0, 0, 0, 0, 0}),
-                     6);
+      echoes_from(reply_of({ray_reply_t::HIT, ray_reply_t::MISS, ray_reply_t::OUTSIDE, ray_reply_t::NO_DATA,
+                            ray_reply_t::BELOW_BOTTOM, ray_reply_t::BAD_INPUT},
+                           {12, 0, 0, 0, 0, 0}),
+                  6);
   EXPECT_EQ(a[0].status, AltitudeStatus::kMeasured);
-  EXPECT_EQ(a[0].altitude_m, 12);
+  EXPECT_EQ(a[0].range_m, 12);
   for (const int beyond : {1, 2, 3}) EXPECT_EQ(a[beyond].status, AltitudeStatus::kNoBottom);
   EXPECT_EQ(a[4].status, AltitudeStatus::kMeasured);
-  EXPECT_EQ(a[4].altitude_m, 0);
+  EXPECT_EQ(a[4].range_m, 0);
   EXPECT_EQ(a[5].status, AltitudeStatus::kUnavailable);
 }
 
-TEST(VehicleSimMessages, ARefusedOrShortReplyGivesNoAltitudes) {
+TEST(VehicleSimMessages, ARefusedOrShortReplyGivesNoEchoes) {
   ray_reply_t refused = reply_of({}, {});
   refused.reply_status = ray_reply_t::REFUSED_TOO_MANY;
-  EXPECT_EQ(altitudes_from(refused, 2)[1].status, AltitudeStatus::kUnavailable);
-  EXPECT_EQ(altitudes_from(reply_of({ray_reply_t::HIT}, {1}), 2)[0].status, AltitudeStatus::kUnavailable);
+  EXPECT_EQ(echoes_from(refused, 2)[1].status, AltitudeStatus::kUnavailable);
+  EXPECT_EQ(echoes_from(reply_of({ray_reply_t::HIT}, {1}), 2)[0].status, AltitudeStatus::kUnavailable);
+}
+
+TEST(VehicleSimMessages, AFaultSurvivesTheRoundTrip) {
+  const Fault fault{.from = kWhen,
+                    .kind = FaultKind::kDeadSensor,
+                    .mended = true,
+                    .angle_rad = -0.1,
+                    .leak_rate_kg_s = 0.5,
+                    .leak_volume_m3 = 0.01,
+                    .sensor = SensorKind::kUsbl};
+  const vehicle_fault_t message = to_fault_message(fault);
+  EXPECT_EQ(bus::problem_in(message), "");
+  const Fault back = from_message(message);
+  EXPECT_EQ(back.from, fault.from);
+  EXPECT_EQ(back.kind, fault.kind);
+  EXPECT_TRUE(back.mended);
+  EXPECT_EQ(back.angle_rad, fault.angle_rad);
+  EXPECT_EQ(back.leak_rate_kg_s, 0.5);
+  EXPECT_EQ(back.leak_volume_m3, 0.01);
+  EXPECT_EQ(back.sensor, fault.sensor);
+}
+
+TEST(VehicleSimMessages, FaultsAndSensorsAreThoseOfTheWire) {
+  EXPECT_EQ(static_cast<int>(FaultKind::kStuckRudder), vehicle_fault_t::STUCK_RUDDER);
+  EXPECT_EQ(static_cast<int>(FaultKind::kLeak), vehicle_fault_t::LEAK);
+  EXPECT_EQ(static_cast<int>(FaultKind::kDeadSensor), vehicle_fault_t::DEAD_SENSOR);
+  EXPECT_EQ(static_cast<int>(SensorKind::kDepth), vehicle_fault_t::DEPTH);
+  EXPECT_EQ(static_cast<int>(SensorKind::kSpeedLog), vehicle_fault_t::WATER_SPEED_LOG);
+  EXPECT_EQ(static_cast<int>(SensorKind::kUsbl), vehicle_fault_t::USBL);
+  EXPECT_EQ(static_cast<int>(AltitudeStatus::kNoBottom), vehicle_dvl_t::BEAM_NO_BOTTOM);
+  EXPECT_EQ(static_cast<int>(AltitudeStatus::kNoBottom), vehicle_sonar_t::ECHO_NONE);
+}
+
+TEST(VehicleSimMessages, AnArrayTakesTheTravelTimeFromWhatTheVehicleCanKnow) {
+  modem_receive_t packet{};
+  packet.packet_kind = modem_receive_t::PING_REPLY;
+  packet.two_way_travel_time_s = 0.8;
+  EXPECT_EQ(travel_time_of(packet), 0.4);
+  packet.packet_kind = modem_receive_t::DATA;
+  EXPECT_EQ(travel_time_of(packet), std::nullopt);
+  packet.stamped = 1;
+  packet.travel_time_s = 0.3;
+  EXPECT_EQ(travel_time_of(packet), 0.3);
 }
 
 }  // namespace

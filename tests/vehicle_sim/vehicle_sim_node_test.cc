@@ -35,6 +35,15 @@ class VehicleSimNodeTest : public ::testing::Test {
                                       [this](std::string_view name, const vehicle_sensors_t& m) {
                                         sensors_[std::string(name)].push_back(m);
                                       });
+    ear_.subscribe<vehicle_dvl_t>(bus::channels::kDvl.of("sub"),
+                                  [this](const vehicle_dvl_t& m) { pings_.push_back(m); });
+    ear_.subscribe<vehicle_gps_t>(bus::channels::kGps, [this](std::string_view name, const vehicle_gps_t& m) {
+      fixes_[std::string(name)].push_back(m);
+    });
+    ear_.subscribe<vehicle_sonar_t>(bus::channels::kSonar.of("sub"),
+                                    [this](const vehicle_sonar_t& m) { fans_.push_back(m); });
+    ear_.subscribe<vehicle_usbl_t>(bus::channels::kUsbl.of("sub"),
+                                   [this](const vehicle_usbl_t& m) { bearings_.push_back(m); });
     ear_.subscribe<ray_query_t>(bus::channels::kRayQuery, [this](const ray_query_t& q) { on_query(q); });
   }
 
@@ -93,6 +102,10 @@ class VehicleSimNodeTest : public ::testing::Test {
   SimTime now_;
   std::map<std::string, std::vector<vehicle_state_t>> states_;
   std::map<std::string, std::vector<vehicle_sensors_t>> sensors_;
+  std::vector<vehicle_dvl_t> pings_;
+  std::map<std::string, std::vector<vehicle_gps_t>> fixes_;
+  std::vector<vehicle_sonar_t> fans_;
+  std::vector<vehicle_usbl_t> bearings_;
   bool service_answers_ = true;
   double bottom_z_ = 60;
   int queries_ = 0;
@@ -291,6 +304,162 @@ TEST_F(VehicleSimNodeTest, AfterALongHaltOldStatesAreCountedNotPublished) {
   EXPECT_EQ(states_["sub"].front().utime, 18'000'000);
   EXPECT_EQ(states_["sub"].back().utime, 20'000'000);
   EXPECT_GT(node_->counters().late, 100);
+}
+
+TEST_F(VehicleSimNodeTest, ADopplerLogPingsOnItsOwnGrid) {
+  config_.sensors.dvl.period = SimDuration::from_milliseconds(250);
+  make_node();
+  run_until(at_ms(0));
+  command(at_ms(0), {0, 0, 20});
+  run_until(at_ms(1000));
+  ASSERT_EQ(pings_.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(pings_[k].utime, static_cast<std::int64_t>(k) * 250'000);
+    EXPECT_EQ(pings_[k].sequence, static_cast<std::int64_t>(k));
+    EXPECT_EQ(pings_[k].session, 77);
+  }
+  const vehicle_dvl_t& ping = pings_[4];
+  EXPECT_TRUE(ping.ground_velocity_valid);
+  EXPECT_NEAR(pings_[0].beam_range_m[0], 40 / std::cos(0.5235987755982988), tolerance(1e-9));  // level
+  EXPECT_NEAR(ping.ground_velocity_body_mps[0], states_["sub"][10].velocity_ned_mps[0], tolerance(2e-3));
+}
+
+TEST_F(VehicleSimNodeTest, APingWithoutAnswerGoesOutUnavailable) {
+  config_.sensors.dvl.period = SimDuration::from_milliseconds(1000);
+  service_answers_ = false;
+  make_node();
+  run_until(at_ms(900));
+  ASSERT_EQ(pings_.size(), 1u);
+  EXPECT_EQ(pings_[0].beam_status[0], vehicle_dvl_t::BEAM_UNAVAILABLE);
+  EXPECT_FALSE(pings_[0].ground_velocity_valid);
+}
+
+TEST_F(VehicleSimNodeTest, OnlyWhoIsAtTheSurfaceHasAFix) {
+  config_.sensors.gps.period = SimDuration::from_milliseconds(500);
+  config_.sensors.gps.greatest_depth_m = 6;  // the buoy's antenna, say, on a mast
+  make_node();
+  run_until(at_ms(1000));
+  EXPECT_TRUE(fixes_["sub"].empty());
+  ASSERT_EQ(fixes_["buoy"].size(), 3u);
+  EXPECT_EQ(fixes_["buoy"][1].utime, 500'000);
+  EXPECT_EQ(fixes_["buoy"][1].fix_north_m, 50);
+}
+
+TEST_F(VehicleSimNodeTest, AForwardSonarSendsItsFan) {
+  config_.sensors.sonar.period = SimDuration::from_milliseconds(1000);
+  config_.sensors.sonar.rays = 3;
+  config_.sensors.sonar.tilt_rad = 1.5;
+  make_node();
+  run_until(at_ms(0));
+  ASSERT_EQ(fans_.size(), 1u);
+  EXPECT_EQ(fans_[0].num_fan_rays, 3);
+  EXPECT_EQ(fans_[0].echo_status[1], vehicle_sonar_t::ECHO);
+  EXPECT_NEAR(fans_[0].echo_range_m[1], 40 / std::sin(1.5), tolerance(1e-9));
+}
+
+TEST_F(VehicleSimNodeTest, ABearingComesOfOutcomeAndReceive) {
+  config_.sensors.usbl.fitted = true;
+  make_node();
+  run_until(at_ms(1000));
+  packet_outcome_t outcome{};
+  outcome.utime = 900'000;
+  outcome.source_id = 9;
+  outcome.receiver_id = outcome.destination_id = 3;
+  outcome.packet_sequence = 4;
+  outcome.departure_utime = 300'000;
+  outcome.travel_time_s = 0.25;
+  outcome.arrival_azimuth_rad = 0.5;
+  outcome.arrival_elevation_rad = 0.25;
+  modem_receive_t packet{};
+  packet.utime = 900'000;
+  packet.source_id = 9;
+  packet.receiver_id = packet.destination_id = 3;
+  packet.packet_sequence = 4;
+  packet.stamped = 1;
+  packet.travel_time_s = 0.25;
+  ear_.publish(std::string(bus::channels::kOutcome), outcome);
+  drain();
+  node_->step({now_, now_});
+  EXPECT_TRUE(bearings_.empty());  // nobody on board has heard of it
+  ear_.publish(bus::channels::kReceive.of("sub"), packet);
+  drain();
+  node_->step({now_, now_});
+  drain();
+  ASSERT_EQ(bearings_.size(), 1u);
+  EXPECT_EQ(bearings_[0].utime, 550'000);
+  EXPECT_EQ(bearings_[0].peer_id, 9);
+  EXPECT_EQ(bearings_[0].packet_sequence, 4);
+  EXPECT_NEAR(bearings_[0].peer_bearing_rad, 0.5, tolerance(1e-6));  // it rests, but for its trim
+  EXPECT_EQ(bearings_[0].one_way_travel_time_s, 0.25);
+}
+
+TEST_F(VehicleSimNodeTest, AFaultOnTheBusBreaksAndMends) {
+  make_node();
+  run_until(at_ms(0));
+  command(at_ms(0), {0.1, 0, 20});
+  const auto say = [&](Fault fault) {
+    ear_.publish(bus::channels::kFault.of("sub"), to_fault_message(fault));
+    drain();
+  };
+  say({.from = SimTime(), .kind = FaultKind::kStuckRudder, .angle_rad = -0.05});
+  say({.from = at_ms(500), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kDepth});
+  run_until(at_ms(1000));
+  EXPECT_NEAR(sensors_["sub"].back().rudder_angle_rad, -0.05, tolerance(1e-4));
+  EXPECT_TRUE(sensors_["sub"][2].depth_fresh);
+  EXPECT_FALSE(sensors_["sub"].back().depth_fresh);
+  say({.from = SimTime(), .kind = FaultKind::kStuckRudder, .mended = true});
+  command(at_ms(1000), {0.1, 0, 20});
+  run_until(at_ms(2000));
+  EXPECT_NEAR(sensors_["sub"].back().rudder_angle_rad, 0.1, tolerance(1e-4));
+}
+
+TEST_F(VehicleSimNodeTest, AFaultOfTheScenarioHoldsForItsTime) {
+  Fault dead{.from = at_ms(400), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kAltimeter};
+  config_.faults = {{"sub", dead, at_ms(800)}};
+  make_node();
+  run_until(at_ms(1000));
+  const std::vector<int> measured{0, 0, 2, 2, 0, 0};
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(sensors_["sub"][k].altitude_status, measured[k]) << k;
+}
+
+TEST_F(VehicleSimNodeTest, ThePublishedBytesAreTheSameForAnyNumberOfThreads) {
+  config_.buoyancy_over_weight = 0.97;
+  config_.sensors.dvl.period = SimDuration::from_milliseconds(250);
+  config_.sensors.dvl.errors = {.noise = 0.01, .bias = 0, .walk = 0.001, .dropout = 0.1};
+  config_.sensors.gyro.errors = {.noise = 0.01, .bias = 0, .walk = 0.001, .dropout = 0.1};
+  bus::Scenario crowd = scenario_of_two();
+  for (int i = 0; i < 150; ++i) {
+    crowd.vehicles.push_back({.name = "v" + std::to_string(i),
+                              .id = 100 + i,
+                              .start_ned_m = {0.5 * i, 0.3 * (i % 7), 20},
+                              .heading_rad = 0.5 * i,
+                              .speed_mps = 2});
+  }
+  config_.tethers = {{.vehicle = "v1", .to_vehicle = "v9", .length_m = 3}};
+  const auto bytes_with = [&](int threads) {
+    config_.threads = threads;
+    states_.clear();
+    pings_.clear();
+    sensors_.clear();
+    now_ = SimTime();
+    node_ = std::make_unique<VehicleSimNode>(lcm_, bus::NodeIdentity{"vehicle-sim", 77}, crowd, config_,
+                                             testing::ridge(21, 0.2));
+    run_until(at_ms(5000));
+    std::string bytes;
+    const auto add = [&](const auto& message) {
+      std::vector<char> encoded(static_cast<std::size_t>(message.getEncodedSize()));
+      message.encode(encoded.data(), 0, message.getEncodedSize());
+      bytes.append(encoded.begin(), encoded.end());
+    };
+    for (const auto& [name, states] : states_) std::for_each(states.begin(), states.end(), add);
+    for (const auto& [name, sensors] : sensors_) std::for_each(sensors.begin(), sensors.end(), add);
+    std::for_each(pings_.begin(), pings_.end(), add);
+    return bytes;
+  };
+  const std::string alone = bytes_with(1);
+  EXPECT_GT(alone.size(), 1'000'000u);
+  EXPECT_TRUE(bytes_with(2) == alone);
+  EXPECT_TRUE(bytes_with(4) == alone);
 }
 
 TEST_F(VehicleSimNodeTest, TwoRunsInLockstepPublishTheSame) {

@@ -222,6 +222,40 @@ TEST_F(FormationNodeTest, LocaliserReplacesTheReckonedPlace) {
   EXPECT_NEAR(report->position_ned_m.y(), -70, 0.06);
 }
 
+TEST_F(FormationNodeTest, ADopplerLogTellsTheWayOverGroundWhileItIsFresh) {
+  vehicle_dvl_t ping{};
+  ping.ground_velocity_valid = 1;
+  ping.ground_velocity_body_mps[0] = 2;
+  ping.ground_velocity_body_mps[1] = 0.5;  // a current towards starboard, east
+  for (int i = 0; i <= 40; ++i) {
+    ping.utime = 200'000 * i;
+    if (i <= 10) ear_.publish(bus::channels::kDvl.of("auv-1"), ping);
+    publish_leader(200 * i);
+    step(200 * i);
+  }
+  const auto second =
+      std::find_if(sent_.begin(), sent_.end(), [](const auto& m) { return m.packet_sequence == 1; });
+  ASSERT_NE(second, sent_.end());
+  const auto report = decode_report(second->payload, 9);
+  ASSERT_TRUE(report);
+  EXPECT_NEAR(report->position_ned_m.x(), 30 + 16, 0.06);
+  // 2 s of pings and 1.5 s for which the last is used; half a sample on the way back to the log.
+  EXPECT_NEAR(report->position_ned_m.y(), 40 + 0.5 * 3.5, 0.06 + 0.05);
+}
+
+TEST_F(FormationNodeTest, ASatelliteFixMovesTheReckonedPlace) {
+  publish_leader(0);
+  vehicle_gps_t fix{};
+  fix.fix_north_m = 130;
+  fix.fix_east_m = 40;
+  fix.fix_deviation_m = 1;  // as much as the start's
+  ear_.publish(bus::channels::kGps.of("auv-1"), fix);
+  drain();
+  step(0);
+  ASSERT_FALSE(sent_.empty());
+  EXPECT_NEAR(decode_report(sent_.front().payload, 1)->position_ned_m.x(), 80, 0.06);
+}
+
 TEST_F(FormationNodeTest, FollowerHearsItsLeaderByReceiveAlone) {
   vehicle_state_t state{};
   state.vehicle_id = 2;

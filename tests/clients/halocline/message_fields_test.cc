@@ -61,8 +61,13 @@ TEST(MessageFields, AreThoseOfTheTypes) {
   expect_same<repair_request_t>("repair_request_t");
   expect_same<sim_clock_t>("sim_clock_t");
   expect_same<vehicle_command_t>("vehicle_command_t");
+  expect_same<vehicle_dvl_t>("vehicle_dvl_t");
+  expect_same<vehicle_fault_t>("vehicle_fault_t");
+  expect_same<vehicle_gps_t>("vehicle_gps_t");
   expect_same<vehicle_sensors_t>("vehicle_sensors_t");
+  expect_same<vehicle_sonar_t>("vehicle_sonar_t");
   expect_same<vehicle_state_t>("vehicle_state_t");
+  expect_same<vehicle_usbl_t>("vehicle_usbl_t");
 }
 
 }  // namespace

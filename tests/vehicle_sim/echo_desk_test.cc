@@ -1,4 +1,4 @@
-#include "vehicle_sim/altimeter_desk.h"
+#include "vehicle_sim/echo_desk.h"
 
 #include <gtest/gtest.h>
 
@@ -7,24 +7,27 @@ namespace {
 
 SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
 
-TEST(AltimeterDesk, AnAnsweredTickLeavesAtOnce) {
-  AltimeterDesk desk;
-  desk.wait(7, {at_ms(100), {0}, {{}}}, at_ms(350));
+// With one beam.
+SensorTick a_tick(std::int64_t ms) { return {at_ms(ms), {SensorJob{}}, {EchoBeam{}}, {Echo{}}}; }
+
+TEST(EchoDesk, AnAnsweredTickLeavesAtOnce) {
+  EchoDesk desk;
+  desk.wait(7, a_tick(100), at_ms(350));
   EXPECT_FALSE(desk.take(at_ms(100)));
   EXPECT_EQ(desk.next_deadline(), at_ms(350));
   SensorTick* tick = desk.answer(7);
   ASSERT_NE(tick, nullptr);
-  tick->readings[0].altitude_m = 12;
+  tick->echoes[0].range_m = 12;
   EXPECT_TRUE(desk.has_complete());
   const auto taken = desk.take(at_ms(100));
   ASSERT_TRUE(taken);
-  EXPECT_EQ(taken->readings[0].altitude_m, 12);
+  EXPECT_EQ(taken->echoes[0].range_m, 12);
   EXPECT_EQ(desk.given_up(), 0);
 }
 
-TEST(AltimeterDesk, AnUnansweredTickLeavesAtItsDeadline) {
-  AltimeterDesk desk;
-  desk.wait(7, {at_ms(100), {}, {}}, at_ms(350));
+TEST(EchoDesk, AnUnansweredTickLeavesAtItsDeadline) {
+  EchoDesk desk;
+  desk.wait(7, a_tick(100), at_ms(350));
   EXPECT_FALSE(desk.take(at_ms(349)));
   EXPECT_TRUE(desk.take(at_ms(350)));
   EXPECT_EQ(desk.given_up(), 1);
@@ -32,10 +35,10 @@ TEST(AltimeterDesk, AnUnansweredTickLeavesAtItsDeadline) {
   EXPECT_EQ(desk.next_deadline(), SimTime::never());
 }
 
-TEST(AltimeterDesk, TicksLeaveInTheOrderOfTheirTime) {
-  AltimeterDesk desk;
-  desk.wait(1, {at_ms(100), {}, {}}, at_ms(350));
-  desk.wait(2, {at_ms(200), {}, {}}, at_ms(450));
+TEST(EchoDesk, TicksLeaveInTheOrderOfTheirTime) {
+  EchoDesk desk;
+  desk.wait(1, a_tick(100), at_ms(350));
+  desk.wait(2, a_tick(200), at_ms(450));
   desk.answer(2);
   EXPECT_FALSE(desk.take(at_ms(300)));  // the later waits behind the earlier
   desk.answer(1);
@@ -43,12 +46,20 @@ TEST(AltimeterDesk, TicksLeaveInTheOrderOfTheirTime) {
   EXPECT_EQ(desk.take(at_ms(300))->when, at_ms(200));
 }
 
-TEST(AltimeterDesk, AnAnswerCountsOnce) {
-  AltimeterDesk desk;
-  desk.wait(1, {at_ms(100), {}, {}}, at_ms(350));
+TEST(EchoDesk, AnAnswerCountsOnce) {
+  EchoDesk desk;
+  desk.wait(1, a_tick(100), at_ms(350));
   EXPECT_NE(desk.answer(1), nullptr);
   EXPECT_EQ(desk.answer(1), nullptr);
   EXPECT_EQ(desk.answer(9), nullptr);
+}
+
+TEST(EchoDesk, ATickThatAskedForNothingIsComplete) {
+  EchoDesk desk;
+  desk.wait(1, {at_ms(100), {SensorJob{}}, {}, {}}, at_ms(350));
+  EXPECT_TRUE(desk.has_complete());
+  EXPECT_TRUE(desk.take(at_ms(100)));
+  EXPECT_EQ(desk.given_up(), 0);
 }
 
 }  // namespace

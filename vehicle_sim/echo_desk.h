@@ -1,31 +1,24 @@
-// Sensor readings that wait for their altitudes: kept in order of time until answered or given up.
+// Measurements that wait for their echoes: kept in order of time until answered or given up.
 //
-// One entry a sensor tick, all vehicles in it. An entry is complete when its altitudes are known or its deadline has
-// passed; entries leave in the order in which they came, so SENSORS go out in order of time.
+// One entry a sensor tick, all vehicles in it. An entry is complete when its echoes are known (at once when it has asked for
+// none) or its deadline has passed; entries leave in the order in which they came, so messages go out in order of time.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <vector>
 
 #include "core/sim_time.h"
-#include "vehicle_sim/sensors.h"
+#include "vehicle_sim/sensor_station.h"
 
 namespace halocline::vehicle_sim {
 
-struct SensorTick {
-  SimTime when;                         // of the measurement
-  std::vector<std::size_t> vehicles;    // index of each reading's vehicle
-  std::vector<SensorReading> readings;  // altitude unavailable until answered
-};
-
-class AltimeterDesk {
+class EchoDesk {
  public:
-  // `deadline`: steady time at which the tick goes out without altitudes.
+  // `deadline`: steady time at which the tick goes out without echoes.
   void wait(std::int64_t request_id, SensorTick tick, SimTime deadline);
 
-  // The tick that waits for this answer, to write its altitudes into; null when none does (any more). It then counts
+  // The tick that waits for this answer, to write its echoes into; null when none does (any more). It then counts
   // as answered.
   SensorTick* answer(std::int64_t request_id);
 

@@ -1,15 +1,16 @@
-#include "vehicle_sim/altimeter_desk.h"
+#include "vehicle_sim/echo_desk.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace halocline::vehicle_sim {
 
-void AltimeterDesk::wait(std::int64_t request_id, SensorTick tick, SimTime deadline) {
-  waiting_.push_back({request_id, std::move(tick), deadline});
+void EchoDesk::wait(std::int64_t request_id, SensorTick tick, SimTime deadline) {
+  const bool asks_nothing = tick.beams.empty();
+  waiting_.push_back({request_id, std::move(tick), deadline, asks_nothing});
 }
 
-SensorTick* AltimeterDesk::answer(std::int64_t request_id) {
+SensorTick* EchoDesk::answer(std::int64_t request_id) {
   const auto entry = std::find_if(waiting_.begin(), waiting_.end(),
                                   [&](const Entry& e) { return e.request_id == request_id && !e.answered; });
   if (entry == waiting_.end()) return nullptr;
@@ -17,7 +18,7 @@ SensorTick* AltimeterDesk::answer(std::int64_t request_id) {
   return &entry->tick;
 }
 
-std::optional<SensorTick> AltimeterDesk::take(SimTime steady) {
+std::optional<SensorTick> EchoDesk::take(SimTime steady) {
   if (waiting_.empty()) return {};
   Entry& oldest = waiting_.front();
   if (!oldest.answered && steady < oldest.deadline) return {};

@@ -1,0 +1,57 @@
+#include "vehicle_sim/faults.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halocline::vehicle_sim {
+
+void VehicleFaults::take(const Fault& fault, const ActuatorValues& now) {
+  const auto stick = [&](std::optional<double>& stuck, double angle) {
+    stuck = fault.mended ? std::nullopt : std::optional(fault.angle_rad.value_or(angle));
+  };
+  switch (fault.kind) {
+    case FaultKind::kStuckRudder:
+      return stick(rudder_rad_, now.rudder_rad);
+    case FaultKind::kStuckSternPlanes:
+      return stick(stern_planes_rad_, now.stern_planes_rad);
+    case FaultKind::kLostPropeller:
+      lost_propeller_ = !fault.mended;
+      return;
+    case FaultKind::kLeak:
+      require(std::isfinite(fault.leak_rate_kg_s), "the rate of a leak is not finite");
+      require(fault.leak_volume_m3 >= 0, "the volume of a leak is 0 or above");
+      leak_rate_kg_s_ = fault.mended ? 0 : fault.leak_rate_kg_s;
+      leak_volume_m3_ = fault.leak_volume_m3;
+      return;
+    case FaultKind::kDeadSensor:
+      dead_.at(static_cast<std::size_t>(fault.sensor)) = !fault.mended;
+      return;
+  }
+}
+
+ActuatorValues VehicleFaults::obeyed(ActuatorValues command) const {
+  command.rudder_rad = rudder_rad_.value_or(command.rudder_rad);
+  command.stern_planes_rad = stern_planes_rad_.value_or(command.stern_planes_rad);
+  return command;
+}
+
+bool VehicleFaults::is_filling(double water_density_kg_m3) const {
+  return (leak_rate_kg_s_ > 0 && water_kg_ < leak_volume_m3_ * water_density_kg_m3) ||
+         (leak_rate_kg_s_ < 0 && water_kg_ > 0);
+}
+
+void VehicleFaults::leak(double seconds, double water_density_kg_m3) {
+  if (!is_filling(water_density_kg_m3)) return;
+  const double most = leak_rate_kg_s_ > 0 ? leak_volume_m3_ * water_density_kg_m3 : water_kg_;
+  water_kg_ = std::clamp(water_kg_ + leak_rate_kg_s_ * seconds, 0.0, most);
+}
+
+ModelParameters VehicleFaults::broken(ModelParameters sound) const {
+  sound.mass_kg += water_kg_;
+  if (lost_propeller_) sound.propeller.thrust_share = sound.propeller.torque_share = 0;
+  return sound;
+}
+
+}  // namespace halocline::vehicle_sim
