@@ -1,5 +1,5 @@
 // Vehicle steps per second: the right-hand side, a Runge-Kutta step, a step in the ODE world, free and grounded, and a
-// fleet's step in each kind of moving water.
+// fleet's step in each kind of moving water; what each sensor costs.
 #include <memory>
 
 #include <benchmark/benchmark.h>
@@ -7,6 +7,7 @@
 #include "vehicle_sim/equations_of_motion.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/model_library.h"
+#include "vehicle_sim/sensor_station.h"
 #include "vehicle_sim/vehicle_world.h"
 
 namespace halocline::vehicle_sim {
@@ -138,6 +139,60 @@ HALOCLINE_FLEET(gauss_markov, in_gauss_markov());
 HALOCLINE_FLEET(regular_waves, in_waves(SeaKind::kRegular));
 HALOCLINE_FLEET(jonswap_of_30, in_waves(SeaKind::kJonswap));
 #undef HALOCLINE_FLEET
+
+// One measurement of each of 1000 vehicles, its echoes answered for nothing.
+void measure(benchmark::State& state, const SensorSettings& settings) {
+  const auto model = model_with(1);
+  std::vector<FleetMember> members;
+  std::vector<SensorStation::Vehicle> carriers;
+  for (int i = 0; i < 1000; ++i) {
+    members.push_back({"v", model, under_way(i * 10, 20)});
+    carriers.push_back({i + 1, settings});
+  }
+  const FleetSettings fleet_settings;
+  SensorStation station(std::move(carriers), 1, fleet_settings.step, 100);
+  Fleet fleet(fleet_settings, std::move(members), nullptr, SimTime());
+  for (auto _ : state) {
+    state.PauseTiming();
+    fleet.advance(station.next());
+    state.ResumeTiming();
+    for (SensorTick& tick : station.take(fleet, 4096)) {
+      for (Echo& echo : tick.echoes) echo = {AltitudeStatus::kMeasured, 30};
+      for (const SensorJob& job : tick.jobs) {
+        if (const auto* noted = std::get_if<SensorReading>(&job.sample))
+          benchmark::DoNotOptimize(station.finish(tick, job, *noted));
+        if (const auto* ping = std::get_if<DvlPing>(&job.sample))
+          benchmark::DoNotOptimize(station.finish(tick, job, *ping));
+        if (const auto* fan = std::get_if<SonarPing>(&job.sample))
+          benchmark::DoNotOptimize(station.finish(tick, job, *fan));
+      }
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * 1000);
+}
+
+SensorSettings with_noise() {
+  SensorSettings s;
+  for (BasicSensor* sensor : {&s.depth, &s.altimeter, &s.log, &s.compass, &s.gyro})
+    sensor->errors.noise = 0.01;
+  return s;
+}
+SensorSettings with_dvl() {
+  SensorSettings s;
+  s.dvl.period = FleetSettings().step;
+  s.dvl.errors.noise = 0.01;
+  return s;
+}
+SensorSettings with_sonar() {
+  SensorSettings s;
+  s.sonar.period = FleetSettings().step;
+  s.sonar.errors.noise = 0.01;
+  return s;
+}
+BENCHMARK_CAPTURE(measure, sensors_without_errors, SensorSettings());
+BENCHMARK_CAPTURE(measure, sensors_with_noise, with_noise());
+BENCHMARK_CAPTURE(measure, and_doppler_log, with_dvl());
+BENCHMARK_CAPTURE(measure, and_sonar_of_32_rays, with_sonar());
 
 }  // namespace
 }  // namespace halocline::vehicle_sim

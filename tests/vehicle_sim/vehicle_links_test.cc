@@ -261,6 +261,7 @@ TEST_P(Towing, ATetherHoldsAndSlowsTheTugByWhatDragSays) {
   EXPECT_LT(expected, 0.95 * speed_where_forces_balance(*model, turns, 0));
   EXPECT_NEAR(world.state(0).velocity_body.head<3>().norm(), expected, tolerance(0.01) * expected);
   const double drag = -surge_force(*model, expected, 0);
+  RecordProperty("pull_error_percent", std::to_string(100 * std::abs(world.tether_pull_n(rope) / drag - 1)));
   EXPECT_NEAR(world.tether_pull_n(rope), drag, tolerance(0.03) * drag);
 }
 
