@@ -92,7 +92,7 @@ void SensorStation::measure(const Fleet& fleet, std::size_t i, bool all_due, std
     std::vector<EchoBeam> beams;
     if (suites_[i].altimeter_fires())
       beams.push_back({state.position_ned_m, altimeter_direction(state), altimeter_range_m_});
-    jobs.push_back({{i, reading}, std::move(beams)});
+    jobs.emplace_back(SensorJob{i, reading}, std::move(beams));
   }
   if (gps_due && works(SensorKind::kGps) && gps_sees_sky(s.gps, state, fleet.sea_surface_z_m())) {
     const SensorIdentity gps = identity(i, SensorKind::kGps);
