@@ -13,6 +13,9 @@ inline constexpr const char* kExitCodes =
 // The end of a subcommand's --help.
 std::string footer(const std::string& examples);
 
+// Options that `run` and `replay` share.
+void add_rotation_options(CLI::App& command, std::vector<std::string>& rotate, int& keep_parts);
+
 void add_run_command(CLI::App& app, int& exit_code);
 void add_link_command(CLI::App& app, int& exit_code);
 void add_calc_command(CLI::App& app, int& exit_code);
@@ -20,6 +23,7 @@ void add_arrivals_command(CLI::App& app, int& exit_code);
 void add_ledger_command(CLI::App& app, int& exit_code);
 void add_log_command(CLI::App& app, int& exit_code);
 void add_replay_command(CLI::App& app, int& exit_code);
+void add_compare_command(CLI::App& app, int& exit_code);
 void add_vehicle_command(CLI::App& app, int& exit_code);
 void add_config_command(CLI::App& app, int& exit_code);
 void add_completion_command(CLI::App& app, int& exit_code);

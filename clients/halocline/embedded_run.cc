@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "bus/lockstep_runner.h"
-#include "bus/log_recorder.h"
 #include "bus/node_process.h"
 #include "bus/transport.h"
 #include "clients/halocline/progress_line.h"
@@ -53,7 +52,8 @@ bool keep_pace(SimTime sim, SimTime started, double rate, const std::function<bo
 
 RunOutcome run_embedded(lcm::LCM& lcm, const std::vector<bus::Node*>& nodes, const EmbeddedRun& run) {
   bus::LockstepRunner runner(lcm, nodes);
-  bus::LogRecorder recorder(lcm, run.log_path, [&] { return runner.now(); });
+  bus::LogRecorder recorder(
+      lcm, run.log_path, [&] { return runner.now(); }, run.rotation);
   const auto mirror = run.mirror_url.empty() ? nullptr : std::make_unique<Mirror>(lcm, run.mirror_url);
   ProgressLine progress(stderr, run.end, run.quiet);
   const SimTime started = bus::steady_now();

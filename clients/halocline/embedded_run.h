@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "bus/log_recorder.h"
 #include "bus/node.h"
 
 namespace halocline::clients {
 
 struct EmbeddedRun {
-  SimTime end;                  // the run goes from 0 to here, both included
-  std::string log_path;         // replaced
+  SimTime end;           // the run goes from 0 to here, both included
+  std::string log_path;  // replaced
+  bus::LogRotation rotation = {};
   double rate = 0;              // simulated seconds per wall second; 0: as fast as it computes
   std::string mirror_url = {};  // where everything is shown as well (a udpm URL); empty: nowhere
   bool quiet = false;           // no progress line

@@ -12,15 +12,18 @@ Ledger::Ledger(std::int64_t window_us) : window_us_(window_us) {
   require(window_us > 0, "the window must be above 0");
 }
 
-void Ledger::count(const LoggedEvent& event) {
+void Ledger::count(const LoggedEvent& event, std::int64_t zero_us) {
   with_type_of(event.channel, [&]<class Message>() {
     if constexpr (std::is_same_v<Message, packet_outcome_t> || std::is_same_v<Message, vehicle_state_t>) {
       Message message;
       if (!decode_checked(event.data, message)) return;
-      if constexpr (std::is_same_v<Message, packet_outcome_t>)
+      if constexpr (std::is_same_v<Message, packet_outcome_t>) {
+        message.utime -= zero_us;
+        message.departure_utime -= zero_us;
         count(message);
-      else
+      } else {
         names_.emplace(message.vehicle_id, event.channel.substr(bus::channels::kState.prefix.size()));
+      }
     }
   });
 }

@@ -31,7 +31,8 @@ class Ledger {
   // Outcomes are summed over windows of `window_us` > 0 of simulation time, by the instant of departure.
   explicit Ledger(std::int64_t window_us);
 
-  void count(const LoggedEvent& event);
+  // `zero_us` is taken off the outcome's times.
+  void count(const LoggedEvent& event, std::int64_t zero_us = 0);
 
   const FateCounts& total() const { return total_; }
   const std::map<Pair, FateCounts>& by_pair() const { return by_pair_; }
@@ -41,6 +42,7 @@ class Ledger {
   std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
   // Of a vehicle id: its name, or the id as text.
   std::string name(std::int32_t vehicle_id) const;
+  const std::map<std::int32_t, std::string>& names() const { return names_; }  // of the vehicles with a state
 
  private:
   struct Key {

@@ -10,13 +10,14 @@ namespace halocline::clients {
 namespace {
 
 struct LedgerArguments {
-  std::string log, format = "table", plot;
+  std::vector<std::string> logs;
+  std::string format = "table", plot;
   double window_s = 60;
 };
 
 int sum_up(const LedgerArguments& arguments) {
   if (!arguments.plot.empty()) require_plot_file(arguments.plot);
-  LogReader log(arguments.log);
+  LogReader log(arguments.logs);
   const Ledger ledger = ledger_of(log, std::llround(arguments.window_s * 1e6));
   if (arguments.format == "json")
     std::cout << to_json(ledger) << "\n";
@@ -27,7 +28,7 @@ int sum_up(const LedgerArguments& arguments) {
   else
     print(std::cout, ledger);
   tell_damage(std::cerr, log);
-  if (!arguments.plot.empty()) write_plot(ledger_plot(ledger, arguments.log), arguments.plot);
+  if (!arguments.plot.empty()) write_plot(ledger_plot(ledger, arguments.logs.front()), arguments.plot);
   return kDone;
 }
 
@@ -37,7 +38,7 @@ void add_ledger_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<LedgerArguments>();
   CLI::App* command =
       app.add_subcommand("ledger", "Sum up what became of the packets of a log, by cause, pair and time");
-  command->add_option("log", arguments->log, "LCM log")->required();
+  command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
   command
       ->add_option(
           "--format", arguments->format,

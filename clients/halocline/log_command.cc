@@ -9,12 +9,13 @@ namespace halocline::clients {
 namespace {
 
 struct LogArguments {
-  std::string log, out, channel;
+  std::vector<std::string> logs;
+  std::string out, channel;
   bool json = false;
 };
 
 int info(const LogArguments& arguments) {
-  LogReader log(arguments.log);
+  LogReader log(arguments.logs);
   const LogStatistics statistics = statistics_of(log);
   if (arguments.json) {
     std::cout << to_json(statistics) << "\n";
@@ -26,7 +27,7 @@ int info(const LogArguments& arguments) {
 }
 
 int export_all(const LogArguments& arguments) {
-  LogReader log(arguments.log);
+  LogReader log(arguments.logs);
   const ExportResult result = export_csv(log, arguments.out, arguments.channel);
   for (const auto& [file, rows] : result.rows_by_file) std::cout << file << ": " << rows << " rows\n";
   if (result.foreign > 0)
@@ -45,12 +46,12 @@ void add_log_command(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   command->footer(footer("  halocline log info runs/seamount/seamount.lcm"));
   CLI::App* info_command = command->add_subcommand("info", "Say what a log holds");
-  info_command->add_option("log", arguments->log, "LCM log")->required();
+  info_command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
   info_command->add_flag("--json", arguments->json, "as JSON");
   info_command->footer(footer("  halocline log info runs/seamount/seamount.lcm --json"));
   info_command->callback([arguments, &exit_code] { exit_code = info(*arguments); });
   CLI::App* export_command = command->add_subcommand("export", "Write a CSV file for each channel family");
-  export_command->add_option("log", arguments->log, "LCM log")->required();
+  export_command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
   export_command->add_option("--out", arguments->out, "folder for the CSVs")->required();
   export_command->add_option("--channel", arguments->channel,
                              "only channels that match this regular expression");

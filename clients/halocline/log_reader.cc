@@ -1,89 +1,123 @@
 #include "clients/halocline/log_reader.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "bus/log_series.h"
 #include "core/check.h"
 
 namespace halocline::clients {
 namespace {
 
-constexpr std::uint32_t kSync = 0xEDA1DA01;
-constexpr std::size_t kSyncBytes = 4, kHeaderBytes = 24;
-// LCM's own limits: a channel name is shorter than 64 bytes; a message cannot exceed what udpm fragments.
-constexpr std::uint32_t kLongestChannel = 63, kLongestData = 1u << 28;
+namespace fs = std::filesystem;
 
-std::uint64_t big_endian(const std::uint8_t* bytes, int count) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < count; ++i) value = value << 8 | bytes[i];
-  return value;
+constexpr std::size_t kStretchesTold = 20;
+
+struct Mapping {
+  std::shared_ptr<const std::uint8_t> start;
+  LogBytes bytes;
+};
+
+// An empty file cannot be mapped; it holds nothing.
+Mapping map_file(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  struct stat status {};
+  const bool readable = file >= 0 && fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  const auto size = readable ? static_cast<std::size_t>(status.st_size) : 0;
+  void* start = size > 0 ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : nullptr;
+  if (file >= 0) close(file);
+  require(readable && start != MAP_FAILED, "cannot read the log " + path);
+  if (size == 0) return {};
+  madvise(start, size, MADV_SEQUENTIAL);
+  const auto* bytes = static_cast<const std::uint8_t*>(start);
+  return {{bytes, [start, size](const std::uint8_t*) { munmap(start, size); }}, {bytes, size}};
+}
+
+std::vector<std::string> all_files(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    for (std::string& file : series_of(path)) {
+      if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(std::move(file));
+    }
+  }
+  return files;
 }
 
 }  // namespace
 
-LogReader::LogReader(const std::string& path) : file_(std::fopen(path.c_str(), "rb")) {
-  require(file_ != nullptr && !std::filesystem::is_directory(path), "cannot read the log " + path);
-  size_ = static_cast<long>(std::filesystem::file_size(path));
+std::vector<std::string> series_of(const std::string& path) {
+  std::vector<std::string> files = bus::parts_of_log(path);
+  if (fs::exists(path) || files.empty()) files.insert(files.begin(), path);
+  return files;
+}
+
+LogReader::LogReader(const std::vector<std::string>& paths) : files_(all_files(paths)) {
+  for (const std::string& path : files_) {
+    require(looks_like_a_log(map_file(path).bytes), path + " is no LCM log: none of its bytes are an event");
+  }
+}
+
+bool LogReader::open_next_file() {
+  if (next_file_ == files_.size()) return false;
+  const Mapping mapping = map_file(files_[next_file_++]);
+  mapping_ = mapping.start;
+  log_ = mapping.bytes;
+  bytes_ += static_cast<std::int64_t>(log_.size());
+  at_ = 0;
+  return true;
 }
 
 bool LogReader::next(LoggedEvent& event) {
-  while (find_sync()) {
-    const long body = std::ftell(file_.get());
-    if (read_body(event)) return true;
-    resume_after(body);
-  }
-  return false;
-}
-
-// Moves behind the next sync word.
-bool LogReader::find_sync() {
-  std::uint32_t window = 0;
-  std::int64_t read = 0;
-  for (int c = std::fgetc(file_.get()); c != EOF; c = std::fgetc(file_.get())) {
-    window = window << 8 | static_cast<std::uint32_t>(c);
-    ++read;
-    if (read >= static_cast<std::int64_t>(kSyncBytes) && window == kSync) {
-      bytes_skipped_ += read - static_cast<std::int64_t>(kSyncBytes);
+  for (;;) {
+    const LogStep step = next_event(log_, at_);
+    note(step.damage);
+    if (!step.at_end) {
+      at_ = step.event.offset + step.event.size;
+      event.number = step.event.number;
+      event.stamp_us = step.event.stamp_us;
+      event.channel = step.event.channel;
+      event.data.assign(step.event.data.begin(), step.event.data.end());
+      event.file = next_file_ - 1;
+      event.offset = static_cast<std::int64_t>(step.event.offset);
       return true;
     }
+    at_ = log_.size();
+    if (!open_next_file()) return false;
   }
-  bytes_skipped_ += read;
-  return false;
 }
 
-bool LogReader::read_body(LoggedEvent& event) {
-  std::uint8_t header[kHeaderBytes];
-  if (!read_bytes(header, sizeof header)) return false;
-  event.number = static_cast<std::int64_t>(big_endian(header, 8));
-  event.stamp_us = static_cast<std::int64_t>(big_endian(header + 8, 8));
-  const auto channel_size = static_cast<std::uint32_t>(big_endian(header + 16, 4));
-  const auto data_size = static_cast<std::uint32_t>(big_endian(header + 20, 4));
-  if (channel_size == 0 || channel_size > kLongestChannel || data_size > kLongestData) return false;
-  event.channel.resize(channel_size);
-  if (!read_bytes(event.channel.data(), channel_size)) return false;
-  // A corrupt length must not allocate more than the file holds.
-  truncated_ = std::ftell(file_.get()) + static_cast<long>(data_size) > size_;
-  if (truncated_) return false;
-  event.data.resize(data_size);
-  return read_bytes(event.data.data(), data_size);
+void LogReader::note(const Damage& damage) {
+  if (damage.size == 0) return;
+  const auto bytes = static_cast<std::int64_t>(damage.size);
+  truncated_ = truncated_ || damage.cut_short;
+  if (!damage.cut_short) bytes_skipped_ += bytes;
+  if (bad_.size() < kMostStretchesKept)
+    bad_.push_back({next_file_ - 1, static_cast<std::int64_t>(damage.offset), bytes, damage.cut_short});
 }
 
-bool LogReader::read_bytes(void* into, std::size_t size) {
-  truncated_ = std::fread(into, 1, size, file_.get()) != size;
-  return !truncated_;
-}
-
-void LogReader::resume_after(long place) {
-  bytes_skipped_ += static_cast<std::int64_t>(kSyncBytes);
-  std::clearerr(file_.get());
-  std::fseek(file_.get(), place, SEEK_SET);
+std::string place_of(const LogReader& log, const LoggedEvent& event) {
+  return log.files().at(event.file) + ", byte " + std::to_string(event.offset);
 }
 
 void tell_damage(std::ostream& out, const LogReader& log) {
-  if (log.truncated()) out << "halocline: the log ends within an event; all before it was read\n";
-  if (log.bytes_skipped() > 0) {
-    out << "halocline: " << log.bytes_skipped() << " bytes of the log are no sound event and were skipped\n";
+  const auto& all = log.bad_stretches();
+  for (std::size_t i = 0; i < std::min(all.size(), kStretchesTold); ++i) {
+    const BadStretch& bad = all[i];
+    out << "halocline: " << log.files().at(bad.file) << ", byte " << bad.offset << ": ";
+    if (bad.cut_short)
+      out << "ends within an event, of which " << bad.bytes << " bytes are there; all before it was read\n";
+    else
+      out << bad.bytes << " bytes are no sound event and were skipped\n";
   }
+  if (all.size() > kStretchesTold)
+    out << "halocline: and " << all.size() - kStretchesTold << " more such stretches; " << log.bytes_skipped()
+        << " bytes in all were skipped\n";
 }
 
 }  // namespace halocline::clients

@@ -1,17 +1,19 @@
-// Reads an LCM log event by event, whatever state it is in: what is sound is read, the rest is counted.
+// Reads LCM logs event by event, whatever state they are in: what is sound is read, the rest is told with its place.
 //
-// Format (LCM's documentation of its event log): each event is, big-endian, the word 0xEDA1DA01, a 64-bit number, a
-// 64-bit time stamp in microseconds, the 32-bit lengths of channel and data, then channel and data. A log that ends
-// within an event (a recorder that was killed) yields all events before; after bytes that are no event the
-// reader goes on at the next word that starts a sound one.
+// What is an event and what is damage: log_scan.h. A log that a recorder rotated (bus/log_recorder.h) is a series of
+// files: run.lcm, run.0001.lcm, run.0002.lcm, ...; opening run.lcm reads all of it that is there, also when the
+// oldest were deleted. Any other logs may be read as one by giving several paths. Files are mapped one at a time, so
+// memory does not grow with the log; one that shrinks while it is read ends the program.
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "clients/halocline/log_scan.h"
 
 namespace halocline::clients {
 
@@ -20,35 +22,59 @@ struct LoggedEvent {
   std::int64_t stamp_us = 0;  // simulation time in our own logs, the wall clock in lcm-logger's
   std::string channel;
   std::vector<std::uint8_t> data;
+  std::size_t file = 0;     // which of LogReader::files()
+  std::int64_t offset = 0;  // of its first byte in that file
+};
+
+// Bytes of one file that belong to no event.
+struct BadStretch {
+  std::size_t file = 0;  // which of LogReader::files()
+  std::int64_t offset = 0, bytes = 0;
+  bool cut_short = false;  // the file ends within an event
 };
 
 class LogReader {
  public:
-  // Throws InvalidArgument when the file cannot be opened.
-  explicit LogReader(const std::string& path);
+  static constexpr std::size_t kMostStretchesKept = 10'000;
 
-  // False at the end of the log.
+  // Throws InvalidArgument for a file that cannot be read, and for one that is no LCM log.
+  explicit LogReader(const std::string& path) : LogReader(std::vector<std::string>{path}) {}
+  explicit LogReader(const std::vector<std::string>& paths);
+
+  // False at the end of the last file.
   bool next(LoggedEvent& event);
 
-  std::int64_t bytes_skipped() const { return bytes_skipped_; }  // that belonged to no event
-  bool truncated() const { return truncated_; }                  // the log ends within an event
+  const std::vector<std::string>& files() const { return files_; }
+  // What was met so far, in order; not more than kMostStretchesKept.
+  const std::vector<BadStretch>& bad_stretches() const { return bad_; }
+  std::int64_t bytes_skipped() const {
+    return bytes_skipped_;
+  }                                              // that belonged to no event; cut events' apart
+  bool truncated() const { return truncated_; }  // a file ends within an event
+  std::int64_t bytes() const { return bytes_; }  // of the files begun so far
 
  private:
-  struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  bool read_body(LoggedEvent& event);
-  bool find_sync();
-  bool read_bytes(void* into, std::size_t size);
-  void resume_after(long place);
+  bool open_next_file();
+  void note(const Damage& damage);
 
-  std::unique_ptr<std::FILE, Closer> file_;
-  long size_ = 0;  // of the file, bytes
-  std::int64_t bytes_skipped_ = 0;
+  std::vector<std::string> files_;
+  std::size_t next_file_ = 0;
+  std::shared_ptr<const std::uint8_t> mapping_;
+  LogBytes log_;
+  std::size_t at_ = 0;
+  std::vector<BadStretch> bad_;
+  std::int64_t bytes_skipped_ = 0, bytes_ = 0;
   bool truncated_ = false;
 };
 
-// Writes a line about each kind of damage that was met so far; none when the log was sound.
+// The files of the series that begins with `path`, in order; `path` alone where there is no other.
+std::vector<std::string> series_of(const std::string& path);
+
+// "FILE, byte OFFSET".
+std::string place_of(const LogReader& log, const LoggedEvent& event);
+
+// Writes a line about each bad stretch that was met so far (the first twenty, and how many more); none when the log
+// was sound.
 void tell_damage(std::ostream& out, const LogReader& log);
 
 }  // namespace halocline::clients

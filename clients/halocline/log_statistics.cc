@@ -70,7 +70,7 @@ void LogStatistics::count_message(const LoggedEvent& event, const Message& messa
   }
 }
 
-void LogStatistics::count(const LoggedEvent& event) {
+void LogStatistics::count(const LoggedEvent& event, const std::function<std::string()>& place) {
   if (events++ == 0) first_stamp_us = event.stamp_us;
   last_stamp_us = event.stamp_us;
   bytes += static_cast<std::int64_t>(event.data.size());
@@ -79,15 +79,20 @@ void LogStatistics::count(const LoggedEvent& event) {
     Message message;
     if (decode_checked(event.data, message)) return count_message(event, message);
     ++undecodable;
-    ++undecodable_by_channel[event.channel];
+    Undecodable& on_channel = undecodable_by_channel[event.channel];
+    if (on_channel.count++ == 0) on_channel.first_at = place();
   });
-  if (!ours) ++foreign;
+  if (ours) return;
+  ++foreign;
+  ++foreign_by_channel[event.channel];
 }
 
 LogStatistics statistics_of(LogReader& log) {
   LogStatistics statistics;
   LoggedEvent event;
-  while (log.next(event)) statistics.count(event);
+  while (log.next(event)) statistics.count(event, [&] { return place_of(log, event); });
+  statistics.files = log.files();
+  statistics.bad_stretches = log.bad_stretches();
   return statistics;
 }
 
@@ -107,9 +112,14 @@ void print(std::ostream& out, const LogStatistics& s) {
     out << "  delay     " << std::setprecision(6) << least << " s least, " << median << " s median, "
         << greatest << " s greatest\n";
   }
+  if (s.files.size() > 1)
+    out << "files       " << s.files.size() << ", the first " << s.files.front() << "\n";
   if (s.foreign > 0) out << "foreign     " << s.foreign << " events on channels that are none of ours\n";
-  for (const auto& [channel, count] : s.undecodable_by_channel) {
-    out << "undecodable " << count << " on " << channel << "\n";
+  for (const auto& [channel, count] : s.foreign_by_channel)
+    out << "  " << std::left << std::setw(14) << channel << std::right << std::setw(9) << count << "\n";
+  for (const auto& [channel, undecodable] : s.undecodable_by_channel) {
+    out << "undecodable " << undecodable.count << " on " << channel << ", the first at "
+        << undecodable.first_at << "\n";
   }
 }
 
@@ -129,7 +139,18 @@ std::string to_json(const LogStatistics& s) {
     json["delay_s"] = {{"least", least}, {"median", median}, {"greatest", greatest}};
   }
   json["foreign"] = s.foreign;
-  json["undecodable"] = s.undecodable_by_channel;
+  json["foreign_by_channel"] = s.foreign_by_channel;
+  json["undecodable"] = nlohmann::ordered_json::object();
+  for (const auto& [channel, undecodable] : s.undecodable_by_channel)
+    json["undecodable"][channel] = {{"count", undecodable.count}, {"first_at", undecodable.first_at}};
+  json["files"] = s.files;
+  json["bad_stretches"] = nlohmann::ordered_json::array();
+  for (const BadStretch& bad : s.bad_stretches) {
+    json["bad_stretches"].push_back({{"file", s.files.at(bad.file)},
+                                     {"offset", bad.offset},
+                                     {"bytes", bad.bytes},
+                                     {"cut_short", bad.cut_short}});
+  }
   return json.dump(2);
 }
 

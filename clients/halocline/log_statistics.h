@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <set>
@@ -24,14 +25,22 @@ struct LogStatistics {
   std::int64_t undecodable = 0;  // on our channels, but no sound message
   std::int64_t first_stamp_us = 0, last_stamp_us = 0;
   std::map<std::string, std::int64_t> by_channel;  // all channels
-  std::map<std::string, std::int64_t> undecodable_by_channel;
-  std::int64_t packets_sent = 0;       // that a receipt came for
-  std::int64_t packets_delivered = 0;  // RECEIVEs
+  std::map<std::string, std::int64_t> foreign_by_channel;
+  struct Undecodable {
+    std::int64_t count = 0;
+    std::string first_at;  // "FILE, byte OFFSET"
+  };
+  std::map<std::string, Undecodable> undecodable_by_channel;
+  std::vector<std::string> files;         // that the log consists of
+  std::vector<BadStretch> bad_stretches;  // bytes that are no event
+  std::int64_t packets_sent = 0;          // that a receipt came for
+  std::int64_t packets_delivered = 0;     // RECEIVEs
   std::array<std::int64_t, kReceiptResults> receipts{};
   std::array<std::int64_t, kFates> outcomes{};
   std::vector<double> travel_times_s;  // of the delivered that carry their departure, as they came
 
-  void count(const LoggedEvent& event);
+  // `place` as place_of gives it; asked for when the event does not decode.
+  void count(const LoggedEvent& event, const std::function<std::string()>& place);
 
  private:
   template <class Message>
@@ -40,7 +49,7 @@ struct LogStatistics {
   std::set<std::tuple<std::string, std::int64_t, std::int64_t>> answered_;
 };
 
-// Counts a whole log.
+// Counts a whole log, and what of it is damaged.
 LogStatistics statistics_of(LogReader& log);
 
 // Writes them for a person.

@@ -1,14 +1,16 @@
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "bus/event_log.h"
 #include "bus/node_process.h"
 #include "clients/halocline/commands.h"
+#include "clients/halocline/comparison.h"
 #include "clients/halocline/composition.h"
 #include "clients/halocline/embedded_run.h"
-#include "clients/halocline/log_statistics.h"
+#include "clients/halocline/log_rotation.h"
 #include "clients/halocline/replay_node.h"
 #include "clients/halocline/run_files.h"
 #include "core/check.h"
@@ -16,48 +18,113 @@
 namespace halocline::clients {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ReplayOptions {
-  std::string log, scenario, out;
-  std::vector<std::string> overrides;
-  bool quiet = false;
+  std::vector<std::string> logs, overrides, rotate;
+  std::string scenario, out, format = "table";
+  std::int64_t seed = -1;
+  int keep_parts = 0;
+  bool quiet = false, no_comparison = false;
 };
 
 std::string scenario_of(const ReplayOptions& options) {
   if (!options.scenario.empty()) return options.scenario;
-  const std::string beside = config_beside(options.log);
-  require(std::filesystem::exists(beside),
+  const std::string beside = config_beside(options.logs.front());
+  require(fs::exists(beside),
           "there is no " + beside + " that says what the log was made with; name one by --scenario");
   return beside;
 }
 
-int replay(const ReplayOptions& options) {
-  bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : "warning"));
-  LogReader log(options.log);
-  Recording recording = read_recording(log);
-  const SimTime end = recording.end;
-  require(!recording.events.empty(), options.log + " holds no states and no transmissions");
-  require(!std::filesystem::exists(options.out) || !std::filesystem::equivalent(options.out, options.log),
-          "--log is the log that is replayed; allowed is another file");
-  const ScenarioConfig config = load_scenario(scenario_of(options), options.overrides);
-  const RunFiles files = run_files("", config.scenario.name, options.out, "");
-  write_text(files.config, effective_toml(config));
+ScenarioConfig config_of(const ReplayOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.seed >= 0) overrides.push_back("scenario.seed=" + std::to_string(options.seed));
+  return load_scenario(scenario_of(options), overrides);
+}
+
+void require_another_file(const ReplayOptions& options, const LogReader& log) {
+  for (const std::string& file : log.files()) {
+    require(!fs::exists(options.out) || !fs::exists(file) || !fs::equivalent(options.out, file),
+            "--log is the log that is replayed; allowed is another file");
+  }
+}
+
+void show(const Comparison& comparison, const std::string& format) {
+  if (format == "json")
+    std::cout << to_json(comparison) << "\n";
+  else if (format == "csv")
+    print_csv(std::cout, comparison);
+  else
+    print(std::cout, comparison);
+}
+
+std::string beside_log(const std::string& log, const char* ending) {
+  return fs::path(log).replace_extension(ending).string();
+}
+
+void compare_with_original(const ReplayOptions& options, const std::string& made, SimDuration zero) {
+  LogReader original(options.logs), replayed(made);
+  const Comparison comparison(fates_of(original, zero.nanoseconds() / 1000), fates_of(replayed));
+  const std::string csv = beside_log(made, ".comparison.csv"), json = beside_log(made, ".comparison.json");
+  std::ofstream table(csv);
+  print_csv(table, comparison);
+  table.close();
+  if (!table) throw std::runtime_error("cannot write " + csv);
+  write_text(json, to_json(comparison) + "\n");
+  if (options.quiet) return;
+  show(comparison, options.format);
+  if (options.format == "table") std::cout << "\ncomparison  " << csv << ", " << json << "\n";
+}
+
+RunOutcome run_replay(const ReplayOptions& options, const ScenarioConfig& config, const RunFiles& files,
+                      Recording recording) {
+  EmbeddedRun run;
+  run.end = recording.end;
+  run.log_path = files.log;
+  run.rotation = rotation_of(options.rotate, options.keep_parts);
+  run.quiet = options.quiet;
+  run.should_stop = bus::stop_requested;
   lcm::LCM lcm("memq://");
   ReplayNode recorded(lcm, {"replay", bus::session_of(config.scenario.seed, "replay")}, std::move(recording));
   Composition nodes(lcm, config, Composition::kReplay, &recorded);
   bus::catch_stop_signals();
-  EmbeddedRun run;
-  run.end = end;
-  run.log_path = files.log;
-  run.quiet = options.quiet;
-  run.should_stop = bus::stop_requested;
-  const RunOutcome outcome = run_embedded(lcm, nodes.nodes(), run);
-  std::printf("replayed    %s: %.3f s in %.3f s\n", options.log.c_str(), outcome.reached.seconds(),
-              outcome.wall_s);
-  std::fflush(stdout);
-  LogReader made(files.log);
-  print(std::cout, statistics_of(made));
-  std::cout << "log         " << files.log << "\n";
+  return run_embedded(lcm, nodes.nodes(), run);
+}
+
+int replay(const ReplayOptions& options) {
+  bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : "warning"));
+  LogReader log(options.logs);
+  require_another_file(options, log);
+  const ScenarioConfig config = config_of(options);
+  Recording recording = read_recording(log, config.scenario);
+  tell_damage(std::cerr, log);
+  if (!options.quiet) tell_repairs(std::cerr, recording);
+  require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");
+  const RunFiles files = run_files("", config.scenario.name, options.out, "");
+  write_text(files.config, effective_toml(config));
+  const SimDuration zero = recording.zero;
+  const RunOutcome outcome = run_replay(options, config, files, std::move(recording));
+  if (options.format == "table" && !options.quiet) {
+    std::printf("replayed    %s: %.3f s in %.3f s\nlog         %s\n\n", options.logs.front().c_str(),
+                outcome.reached.seconds(), outcome.wall_s, files.log.c_str());
+    std::fflush(stdout);
+  }
+  if (!options.no_comparison) compare_with_original(options, files.log, zero);
   return kDone;
+}
+
+int compare(const ReplayOptions& options) {
+  LogReader before(options.logs.at(0)), after(options.logs.at(1));
+  const Fates was = fates_of(before), is = fates_of(after);
+  tell_damage(std::cerr, before);
+  tell_damage(std::cerr, after);
+  show(Comparison(was, is), options.format);
+  return kDone;
+}
+
+void add_format_option(CLI::App& command, std::string& format) {
+  command.add_option("--format", format, "of the comparison: table, json or csv")
+      ->check(CLI::IsMember({"table", "json", "csv"}));
 }
 
 }  // namespace
@@ -65,18 +132,37 @@ int replay(const ReplayOptions& options) {
 void add_replay_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand(
-      "replay", "Pass a log's states and transmissions through a channel server, into a new log");
-  command->add_option("recording", options->log, "LCM log of a run, ours or lcm-logger's")->required();
-  command->add_option("--log", options->out, "the new log")->required();
+      "replay", "Pass a log's states and transmissions through another sea, into a new log and a comparison");
+  command
+      ->add_option("recording", options->logs,
+                   "LCM log of a run, ours or lcm-logger's; or its parts in order")
+      ->required();
+  command->add_option("--log", options->out, "the new log; the comparison is written beside it")->required();
   command->add_option("--scenario", options->scenario,
                       "water, modems and terrain; default: the configuration recorded beside the log");
   command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_flag("--quiet", options->quiet, "no progress line, errors only");
+  command->add_option("--seed", options->seed, "seed of all random draws; default: the scenario's")
+      ->check(CLI::NonNegativeNumber);
+  add_rotation_options(*command, options->rotate, options->keep_parts);
+  add_format_option(*command, options->format);
+  command->add_flag("--no-comparison", options->no_comparison, "write no comparison");
+  command->add_flag("--quiet", options->quiet, "no progress line, no table, errors only");
   command->footer(
-      footer("  halocline replay runs/seamount/seamount.lcm --log quiet.lcm --set environment.wind_mps=0"));
+      footer("  halocline replay runs/seamount/seamount.lcm --log calm.lcm --set environment.wind_mps=0\n"
+             "  halocline replay at-sea.lcm --scenario scenarios/seamount.toml --log again.lcm"));
   command->callback([options, &exit_code] { exit_code = replay(*options); });
+}
+
+void add_compare_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Say which packets of one mission changed their fate between two logs, and why");
+  command->add_option("logs", options->logs, "the log before and the log after")->required()->expected(2);
+  add_format_option(*command, options->format);
+  command->footer(footer("  halocline compare runs/seamount/seamount.lcm calm.lcm"));
+  command->callback([options, &exit_code] { exit_code = compare(*options); });
 }
 
 }  // namespace halocline::clients

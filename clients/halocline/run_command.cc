@@ -11,6 +11,7 @@
 #include "clients/halocline/composition.h"
 #include "clients/halocline/csv_export.h"
 #include "clients/halocline/embedded_run.h"
+#include "clients/halocline/log_rotation.h"
 #include "clients/halocline/log_statistics.h"
 #include "clients/halocline/run_files.h"
 
@@ -19,9 +20,10 @@ namespace {
 
 struct RunOptions {
   std::string scenario, out, log, csv, mirror, log_level = "warning";
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, rotate;
   double duration_s = 0, rate = 0;
   std::int64_t seed = -1;
+  int keep_parts = 0;
   bool quiet = false, no_csv = false;
 };
 
@@ -60,6 +62,7 @@ int run(const RunOptions& options) {
   EmbeddedRun run;
   run.end = SimTime() + config.scenario.duration;
   run.log_path = files.log;
+  run.rotation = rotation_of(options.rotate, options.keep_parts);
   run.rate = options.rate;
   run.mirror_url = options.mirror;
   run.quiet = options.quiet;
@@ -74,6 +77,17 @@ int run(const RunOptions& options) {
 }
 
 }  // namespace
+
+void add_rotation_options(CLI::App& command, std::vector<std::string>& rotate, int& keep_parts) {
+  command
+      .add_option("--log-rotate", rotate,
+                  "begin another part of the log after this size (kB, MB, GB) or simulated time (s, min, h); "
+                  "repeatable, e.g. 256MB")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_option("--log-keep", keep_parts, "keep only the newest parts, this many; default: all")
+      ->check(CLI::PositiveNumber);
+}
 
 void add_run_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
@@ -90,6 +104,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_option("--out", options->out, "folder of the results; default: runs/<scenario>");
   command->add_option("--log", options->log, "LCM log; default: <out>/<scenario>.lcm");
+  add_rotation_options(*command, options->rotate, options->keep_parts);
   command->add_option("--csv", options->csv, "folder of the CSVs; default: <out>/csv");
   command->add_flag("--no-csv", options->no_csv, "write no CSVs");
   command->add_option("--mirror", options->mirror, "udpm URL on which the run is shown as well, for lcm-spy");

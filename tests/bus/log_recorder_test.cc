@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/lockstep_runner.h"
+#include "bus/log_series.h"
 #include "core/check.h"
 #include "tests/bus/test_nodes.h"
 
@@ -33,13 +34,25 @@ class LogRecorderTest : public ::testing::Test {
     bytes << std::ifstream(path, std::ios::binary).rdbuf();
     return bytes.str();
   }
-  void record_run(const std::string& path) {
+  // Stamp, channel and data of each.
+  static std::vector<std::tuple<std::int64_t, std::string, std::string>> events_of(const std::string& path) {
+    std::vector<std::tuple<std::int64_t, std::string, std::string>> events;
+    lcm::LogFile log(path, "r");
+    while (const lcm::LogEvent* event = log.readNextEvent()) {
+      const auto* data = static_cast<const char*>(event->data);
+      events.emplace_back(event->timestamp, event->channel, std::string(data, data + event->datalen));
+    }
+    return events;
+  }
+  static LogRotation by_size(std::int64_t bytes, int kept = 0) { return {bytes, SimDuration(), kept}; }
+  void record_run(const std::string& path, const LogRotation& rotation = {}) {
     lcm::LCM lcm("memq://");
     std::vector<std::string> journal;
     TickingNode a(lcm, "a", SimDuration::from_milliseconds(30), journal);
     TickingNode b(lcm, "b", SimDuration::from_milliseconds(70), journal);
     LockstepRunner runner(lcm, {&a, &b});
-    LogRecorder recorder(lcm, path, [&] { return runner.now(); });
+    LogRecorder recorder(
+        lcm, path, [&] { return runner.now(); }, rotation);
     runner.run_until(SimTime::from_seconds(5));
     runner.stop();
     recorder.close();
@@ -93,6 +106,44 @@ TEST_F(LogRecorderTest, AFullDiskIsAnError) {
   LogRecorder recorder(lcm, "/dev/full", [&] { return runner.now(); });
   runner.run_until(SimTime::from_seconds(3));
   EXPECT_THROW(recorder.close(), std::runtime_error);
+}
+
+TEST_F(LogRecorderTest, PartsPutTogetherAreTheLogInOnePiece) {
+  record_run(path("whole.lcm"));
+  record_run(path("cut.lcm"), by_size(5000));
+  const auto parts = parts_of_log(path("cut.lcm"));
+  ASSERT_GT(parts.size(), 3u);
+  auto events = events_of(path("cut.lcm"));
+  for (const std::string& part : parts) {
+    EXPECT_LE(bytes_of(part).size(), 5000u);
+    for (const auto& event : events_of(part)) events.push_back(event);
+  }
+  EXPECT_EQ(events, events_of(path("whole.lcm")));
+}
+
+TEST_F(LogRecorderTest, PartsBeginAtMultiplesOfTheirTime) {
+  record_run(path("cut.lcm"), {0, SimDuration::from_seconds(2), 0});
+  ASSERT_EQ(parts_of_log(path("cut.lcm")).size(), 2u);
+  lcm::LogFile second(part_of_log(path("cut.lcm"), 1), "r");
+  EXPECT_EQ(second.readNextEvent()->timestamp, 2'000'000);
+}
+
+TEST_F(LogRecorderTest, OnlyTheNewestPartsAreKept) {
+  record_run(path("cut.lcm"), by_size(5000, 2));
+  EXPECT_FALSE(std::filesystem::exists(path("cut.lcm")));
+  EXPECT_EQ(parts_of_log(path("cut.lcm")).size(), 2u);
+}
+
+TEST_F(LogRecorderTest, AShorterLogLeavesNoPartOfALongerOne) {
+  record_run(path("cut.lcm"), by_size(5000));
+  record_run(path("cut.lcm"), by_size(100'000));
+  EXPECT_TRUE(parts_of_log(path("cut.lcm")).empty());
+}
+
+TEST_F(LogRecorderTest, NamesThatOnlyLookLikePartsAreNone) {
+  for (const char* name : {"cut.0001.txt", "cut.001.lcm", "cut.00x1.lcm", "other.0001.lcm", "cut.0002.lcm"})
+    std::ofstream(path(name)) << "x";
+  EXPECT_EQ(parts_of_log(path("cut.lcm")), (std::vector<std::string>{path("cut.0002.lcm")}));
 }
 
 TEST_F(LogRecorderTest, NothingIsWrittenAfterTheClose) {

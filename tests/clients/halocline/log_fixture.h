@@ -19,9 +19,9 @@ namespace halocline::clients::testing {
 
 class TemporaryLog {
  public:
-  TemporaryLog()
+  explicit TemporaryLog(const std::string& suffix = "")
       : path_(::testing::TempDir() + "halocline-" + std::to_string(getpid()) + "-" +
-              ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".lcm"),
+              ::testing::UnitTest::GetInstance()->current_test_info()->name() + suffix + ".lcm"),
         file_(std::make_unique<lcm::LogFile>(path_, "w")) {}
   ~TemporaryLog() { std::remove(path_.c_str()); }
 

@@ -85,6 +85,16 @@ TEST(LogStatistics, WhatIsNotOursIsCountedApart) {
   EXPECT_EQ(statistics.last_stamp_us, 30);
 }
 
+TEST(LogStatistics, WhatDoesNotDecodeIsToldWithItsPlace) {
+  TemporaryLog file;
+  file.add_bytes(10, "LCM_SELF_TEST", {1});
+  file.add_bytes(20, "CLOCK", {1});
+  const LogStatistics statistics = of(file);
+  EXPECT_EQ(statistics.foreign_by_channel.at("LCM_SELF_TEST"), 1);
+  EXPECT_EQ(statistics.undecodable_by_channel.at("CLOCK").first_at, file.path() + ", byte 42");
+  EXPECT_THAT(to_json(statistics), HasSubstr("byte 42"));
+}
+
 TEST(LogStatistics, JsonHoldsTheSameNumbers) {
   TemporaryLog file;
   file.add(1, "RECEIVE.auv-1", packet(0.25));

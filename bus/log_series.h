@@ -1,0 +1,15 @@
+// Names of the files of a log that is rotated: run.lcm first, then run.0001.lcm, run.0002.lcm, ... beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace halocline::bus {
+
+// `part` 0 is `path` itself.
+std::string part_of_log(const std::string& path, int part);
+
+// All parts but the first that are there, by number. Gaps do not matter: the oldest may have been deleted.
+std::vector<std::string> parts_of_log(const std::string& path);
+
+}  // namespace halocline::bus
