@@ -8,6 +8,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(GDAL REQUIRED)
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
+pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
 
 # LCM 1.3.1 (Debian) has no CMake package, 1.5 (upstream) has one whose target differs: find the header,

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   for (const auto add :
        {hc::add_run_command, hc::add_link_command, hc::add_arrivals_command, hc::add_calc_command,
         hc::add_ledger_command, hc::add_log_command, hc::add_replay_command, hc::add_compare_command,
-        hc::add_vehicle_command, hc::add_config_command, hc::add_completion_command}) {
+        hc::add_sweep_command, hc::add_vehicle_command, hc::add_config_command, hc::add_completion_command}) {
     add(app, exit_code);
   }
   try {

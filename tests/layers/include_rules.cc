@@ -111,6 +111,7 @@ std::string objection_to_library(std::string_view file, std::string_view path) {
   if (path.starts_with("spdlog/") && folder != "bus") return "only bus/ logs through spdlog: use EventLog";
   if (path.starts_with("toml++/") && file != "bus/config_document.h")
     return "only bus/config_document.h does";
+  if (path == "netcdf.h" && file != "clients/sweep/sweep_netcdf.cc") return "only the sweep's writer does";
   if (path.starts_with("CLI/") && folder != "bus" && folder != "clients") return "only bus/ and clients/ do";
   if (starts_with_any(path, {"gtest/", "gmock/", "benchmark/"})) return "only tests and benchmarks do";
   if (starts_with_any(path, {"ode/", "gdal", "ogr", "cpl_"})) return "only the pure files that wrap it do";

@@ -1,0 +1,34 @@
+// Confidence intervals of shares and means.
+//
+// Shares: Wilson's score interval (Wilson 1927, "Probable inference, the law of succession, and statistical inference"),
+// for k of n independent trials; it stays within 0 to 1 and holds for few trials (Newcombe 1998, method 3).
+// Means: Student's t (1908), for independent values that are normal, or many. Quantiles by bisection on the
+// distribution functions (erfc; the incomplete beta function by its continued fraction, Abramowitz and Stegun 26.5.8),
+// to 1e-10.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace halocline::clients {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+// k of n trials, 0 <= k <= n; NaN both where n is 0. `level` in (0, 1), such as 0.95.
+Interval wilson_interval(std::int64_t k, std::int64_t n, double level);
+
+struct MeanEstimate {
+  double mean = 0;    // NaN without a value
+  Interval interval;  // NaN with fewer than two values
+};
+// NaNs among the values are left out: a run that has no such number.
+MeanEstimate mean_estimate(std::span<const double> values, double level);
+
+// The x that a standard normal variable stays below with probability p in (0, 1).
+double normal_quantile(double p);
+// Likewise Student's t with `degrees` of freedom, 1 and up.
+double student_quantile(double p, double degrees);
+
+}  // namespace halocline::clients

@@ -1,0 +1,144 @@
+// `halocline sweep` as a person starts it: every run done once, whatever stopped it before, on one machine or by a job array.
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/support/process.h"
+
+namespace halocline {
+namespace {
+
+namespace fs = std::filesystem;
+using halocline::testing::Process;
+using ::testing::HasSubstr;
+
+class SweepCommand : public ::testing::Test {
+ protected:
+  ~SweepCommand() override { fs::remove_all(folder_); }
+
+  std::vector<std::string> command(std::vector<std::string> more) const {
+    std::vector<std::string> all{HALOCLINE_BIN_DIR "/halocline", "sweep"};
+    all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), {"--out", folder_});
+    return all;
+  }
+  // Two winds with two seeds each.
+  static std::vector<std::string> four_runs(const std::string& duration_s = "4") {
+    return {HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml",
+            "--axis",
+            "environment.wind_mps=2,12",
+            "--seeds",
+            "1..2",
+            "--duration",
+            duration_s};
+  }
+  std::size_t results() const {
+    std::size_t count = 0;
+    std::error_code none;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_, none))
+      count += entry.path().filename() == "result.json" ? 1 : 0;
+    return count;
+  }
+  std::string text(const std::string& name) const {
+    std::ostringstream all;
+    all << std::ifstream(folder_ + "/" + name).rdbuf();
+    return all.str();
+  }
+
+  std::string folder_ = ::testing::TempDir() + "halocline-sweep-command-" + std::to_string(getpid()) + "-" +
+                        ::testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(SweepCommand, DoesEveryRunOnceAndMakesTheTables) {
+  Process first(command(four_runs()));
+  ASSERT_EQ(first.wait(std::chrono::seconds(100)), 0) << first.output();
+  EXPECT_EQ(results(), 4u);
+  EXPECT_TRUE(fs::exists(folder_ + "/sweep.nc"));
+  EXPECT_THAT(text("runs.csv"), HasSubstr("3,1,12,2,1,"));
+  const std::string points = text("points.csv");
+  Process again(command({}));  // its own plan, and nothing left to do
+  ASSERT_EQ(again.wait(std::chrono::seconds(20)), 0) << again.output();
+  EXPECT_THAT(again.output(), HasSubstr("4 runs, 0 to do here"));
+  EXPECT_EQ(text("points.csv"), points);
+}
+
+TEST_F(SweepCommand, MoreSeedsRunOnlyWhatIsNew) {
+  Process first(command(four_runs()));
+  ASSERT_EQ(first.wait(std::chrono::seconds(100)), 0) << first.output();
+  Process more(command({"--seeds", "1..3"}));
+  ASSERT_EQ(more.wait(std::chrono::seconds(60)), 0) << more.output();
+  EXPECT_THAT(more.output(), HasSubstr("6 runs, 2 to do here"));
+}
+
+TEST_F(SweepCommand, AnInterruptedSweepGoesOn) {
+  Process first(command(four_runs("100000")));  // longer than anyone waits
+  for (int i = 0; i < 500 && !fs::exists(folder_ + "/runs"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  first.signal(SIGTERM);
+  EXPECT_EQ(first.wait(std::chrono::seconds(60)), 1) << first.output();
+  EXPECT_EQ(results(), 0u);
+  Process rest(command({"--duration", "4"}));
+  EXPECT_EQ(rest.wait(std::chrono::seconds(100)), 0) << rest.output();
+  EXPECT_EQ(results(), 4u);
+}
+
+TEST_F(SweepCommand, AFailedRunIsToldAndStopsNoOther) {
+  auto words = four_runs();
+  // Unreadable as a log's folder: the run cannot write there.
+  Process list(command([&] {
+    auto all = words;
+    all.emplace_back("--list");
+    return all;
+  }()));
+  ASSERT_EQ(list.wait(), 0) << list.output();
+  std::istringstream lines(list.output());
+  std::string number, run_folder;
+  lines >> number >> run_folder;
+  fs::create_directories(run_folder + "/run.lcm");  // a folder where the log is to be
+  Process sweep(command(words));
+  EXPECT_EQ(sweep.wait(std::chrono::seconds(100)), 1);
+  EXPECT_THAT(sweep.output(), HasSubstr("run 0 ("));
+  EXPECT_THAT(sweep.output(), HasSubstr("1 of 4 runs have no result"));
+  EXPECT_EQ(results(), 3u);
+  EXPECT_THAT(text("runs.csv"), HasSubstr("0,0,2,1,0,"));
+}
+
+TEST_F(SweepCommand, AWrongValueIsToldBeforeAnythingRuns) {
+  auto words = four_runs();
+  words[2] = "environment.wind_mps=2,1200";
+  Process sweep(command(words));
+  EXPECT_EQ(sweep.wait(), 2);
+  EXPECT_THAT(sweep.output(), HasSubstr("wind_mps is 1200"));
+  EXPECT_FALSE(fs::exists(folder_ + "/runs"));
+}
+
+TEST_F(SweepCommand, TheTasksOfAJobArrayDoAllRunsAndGatherMakesTheSameTables) {
+  auto words = four_runs();
+  const std::string script = folder_ + "-array.sh";
+  words.insert(words.end(), {"--slurm", script, "--slurm-tasks", "3"});
+  Process write(command(words));
+  ASSERT_EQ(write.wait(), 0) << write.output();
+  Process syntax({"/bin/bash", "-n", script});
+  EXPECT_EQ(syntax.wait(), 0) << syntax.output();
+  for (const char* task : {"0", "1", "2"}) {  // as sbatch calls it
+    Process run({"/usr/bin/env", std::string("SLURM_ARRAY_TASK_ID=") + task, "SLURM_CPUS_PER_TASK=1",
+                 "/bin/bash", script});
+    EXPECT_EQ(run.wait(std::chrono::seconds(100)), 0) << text(std::string("slurm-") + task + ".txt");
+  }
+  EXPECT_EQ(results(), 4u);
+  Process gather(command({"--gather"}));
+  EXPECT_EQ(gather.wait(), 0) << gather.output();
+  EXPECT_THAT(text("runs.csv"), HasSubstr("3,1,12,2,1,"));
+  fs::remove(script);
+}
+
+}  // namespace
+}  // namespace halocline
