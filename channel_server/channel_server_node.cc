@@ -22,6 +22,8 @@ constexpr SimDuration kFurthestAhead = SimDuration::from_milliseconds(10'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
 constexpr std::int64_t kMostTicksBehind = 100;
+// Channels whose messages are numbered: three a vehicle, and one a client that asked.
+constexpr std::size_t kMostNumbered = 4096;
 // How much longer than their rules say states and receipts are kept, so that no instant still asked about lacks
 // them.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
@@ -333,6 +335,7 @@ void ChannelServerNode::tell_who_came_and_left(const std::vector<PlacedVehicle>&
 void ChannelServerNode::forget_old(SimTime now) {
   const SimTime horizon = now - rules_.medium.greatest_lateness - kKeptLonger;
   medium_.forget_before(horizon);
+  waters_->forget_before(horizon - kLongestFlight);
   bottoms_->forget_before(horizon - kLongestFlight);
   fleet_.forget_before(horizon - rules_.position.state_timeout - rules_.position.state_lag);
 }
@@ -369,6 +372,10 @@ void ChannelServerNode::publish_replies(SimTime steady) {
 template <class Message>
 void ChannelServerNode::publish_numbered(const std::string& channel, Message message) {
   message.session = bus().identity().session;
+  // Every client that ever asked had a channel of its own. One that asks again after so many others begins anew.
+  if (sequences_.size() >= kMostNumbered && !sequences_.contains(channel))
+    std::erase_if(sequences_,
+                  [](const auto& one) { return one.first.starts_with(channels::kLinkReply.prefix); });
   message.sequence = sequences_[channel]++;
   bus().publish(channel, message);
 }

@@ -68,6 +68,22 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
   return later == spans_.end() ? SimTime::never() : later->order.from;
 }
 
+void EnvironmentTimeline::forget_before(SimTime time) {
+  if (changes_kept() <= kHeardKept) return;
+  auto surplus = changes_kept() - kHeardKept;
+  std::vector<Span> kept;
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    const bool heard = i > 0 && spans_[i].order.origin.session != 0;
+    const bool superseded = i + 1 < spans_.size() && spans_[i + 1].order.from <= time;
+    if (surplus > 0 && heard && superseded) {
+      --surplus;
+    } else {
+      kept.push_back(std::move(spans_[i]));
+    }
+  }
+  spans_ = std::move(kept);
+}
+
 void EnvironmentTimeline::clear() {
   std::vector<Span> scheduled;
   for (const Span& span : spans_) {

@@ -29,6 +29,7 @@ struct EnvironmentChange {
 class EnvironmentTimeline {
  public:
   static constexpr std::size_t kMostChanges = 10'000;
+  static constexpr std::size_t kHeardKept = 1000;
 
   // Who announced a change, and as its how manieth: session 0 is the scenario.
   struct Origin {
@@ -52,6 +53,11 @@ class EnvironmentTimeline {
   WaterId water_at(SimTime instant) const { return span_at(instant).id; }
   // The first change after `instant`; never() when none is known.
   SimTime next_change_after(SimTime instant) const;
+
+  // Forgets changes that were heard and superseded before `time`, but for the latest kHeardKept, of which repetitions
+  // may still come. No instant before `time` is asked about any more.
+  void forget_before(SimTime time);
+  std::size_t changes_kept() const { return spans_.size() - 1; }
 
   // Another run: forgets what was heard, keeps the schedule.
   void clear();

@@ -70,7 +70,7 @@ class ModemClient {
 
   // What a client keeps at most: packets that nobody has taken, receipts to be asked for, packets remembered
   // in order to know a duplicate.
-  static constexpr std::size_t kMostWaiting = 10'000, kMostReceipts = 10'000, kMostRemembered = 10'000;
+  static constexpr std::size_t kMostWaiting = 1000, kMostReceipts = 1000, kMostRemembered = 1000;
 
   ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {});
   ModemClient(const ModemClient&) = delete;

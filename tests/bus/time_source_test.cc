@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "core/random.h"
 
 namespace halocline::bus {
 namespace {
@@ -177,6 +178,44 @@ TEST(TimeSourceKind, IsNamed) {
   EXPECT_EQ(time_source_from_name("messages"), TimeSourceKind::kMessages);
   EXPECT_THROW(time_source_from_name("sundial"), InvalidArgument);
 }
+
+struct Drift {
+  double rate;
+  double skew;  // of the follower's clock against the conductor's, share
+};
+class ConductorTimeDay : public ConductorTimeTest, public ::testing::WithParamInterface<Drift> {};
+
+// A simulated day of CLOCKs every 0.1 s of simulation time, heard up to 5 ms late, one in a hundred 80 ms late, every
+// tenth lost. Time lags by the least delay of the last second and may lead by what the clocks part in that second: it
+// stays between -6 ms and +2 x skew x 1 s of the conductor's in its first hour as in its last, whatever went before.
+TEST_P(ConductorTimeDay, StaysWithinItsBoundOfTheConductorForADay) {
+  constexpr double kDay_s = 86'400, kWindow_s = 1.1, kDelay_s = 6e-3, kRounding_s = 2e-6;
+  const auto [rate, skew] = GetParam();
+  double worst_late = 0, worst_early = 0, last = -1, true_s = 0;
+  std::uint64_t draw = 0;
+  const auto uniform = [&] {
+    return uniform_at({.seed = 1, .purpose = purpose_of("drift-test"), .who = 0, .which = draw++});
+  };
+  const double step_s = std::max(0.1, kDay_s / 400'000);
+  for (double sim = 0; sim < kDay_s; sim += step_s) {
+    const double conductor_s = sim / rate;
+    if (uniform() < 0.1) continue;
+    const double delay_s = uniform() < 0.01 ? 0.08 : 5e-3 * uniform();
+    true_s = std::max(true_s, conductor_s + delay_s);  // none overtakes another
+    const double heard_s = true_s * (1 + skew);
+    hear(heard_s, sim, rate);
+    const double error = now(heard_s) - true_s * rate;
+    if (conductor_s > kWindow_s)
+      worst_late = std::min(worst_late, error), worst_early = std::max(worst_early, error);
+    ASSERT_GE(now(heard_s), last);
+    last = now(heard_s);
+  }
+  EXPECT_GT(worst_late, -(0.08 + kDelay_s) * rate);
+  EXPECT_LT(worst_early, (2 * std::abs(skew) * kWindow_s + kRounding_s) * rate);
+}
+INSTANTIATE_TEST_SUITE_P(RatesAndSkews, ConductorTimeDay,
+                         ::testing::Values(Drift{1, 0}, Drift{1, 1e-4}, Drift{1, -1e-4}, Drift{10, 5e-5},
+                                           Drift{0.5, 0}));
 
 }  // namespace
 }  // namespace halocline::bus

@@ -110,5 +110,32 @@ TEST(EnvironmentTimeline, AnotherRunKeepsTheScheduleAlone) {
   EXPECT_EQ(wind_at(timeline, 10), 3);
 }
 
+TEST(EnvironmentTimeline, AnyNumberOfChangesIsTakenWhenTheOldAreForgotten) {
+  EnvironmentTimeline timeline(even_water());
+  timeline.schedule(at_s(5.5), wind(3));
+  for (int i = 0; i < 30'000; ++i) {
+    ASSERT_EQ(timeline.hear(at_s(i), at_s(i), {kSession, i}, wind(i % 20)), "");
+    timeline.forget_before(at_s(i - 130));
+    ASSERT_LE(timeline.changes_kept(), EnvironmentTimeline::kHeardKept + 200);
+  }
+  EXPECT_EQ(wind_at(timeline, 29'999), 19);
+  EXPECT_EQ(wind_at(timeline, 29'900.5), 0);
+  EXPECT_EQ(timeline.hear(at_s(29'500), at_s(30'000), {kSession, 29'500}, wind(9)), "");  // a repetition
+  EXPECT_EQ(wind_at(timeline, 30'001), 19);
+  timeline.clear();
+  EXPECT_EQ(wind_at(timeline, 6), 3);
+}
+
+TEST(EnvironmentTimeline, ForgettingChangesNoInstantThatIsStillAskedAbout) {
+  EnvironmentTimeline all(even_water()), forgetting(even_water());
+  for (int i = 0; i < 3000; ++i) {
+    for (EnvironmentTimeline* timeline : {&all, &forgetting})
+      ASSERT_EQ(timeline->hear(at_s(i), at_s(i), {kSession, i}, wind((i * 7) % 30)), "");
+    forgetting.forget_before(at_s(i - 50));
+    ASSERT_EQ(wind_at(forgetting, i - 49.5), wind_at(all, i - 49.5)) << i;
+    ASSERT_EQ(wind_at(forgetting, i), wind_at(all, i)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace halocline::channel_server

@@ -1,5 +1,7 @@
 #include "conductor/paced_time.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "core/check.h"
@@ -69,6 +71,21 @@ TEST_F(PacedTimeTest, OnceRunningItFollowsNobody) {
 TEST_F(PacedTimeTest, ARateIsAboveZero) {
   EXPECT_THROW(PacedTime(lcm_, 0), InvalidArgument);
   EXPECT_THROW(PacedTime(lcm_, -1), InvalidArgument);
+}
+
+// Simulation time is a multiple of the steady clock's, not a sum of steps: after a day it is off by no more than a
+// rounding of doubles, however often it was asked for.
+TEST_F(PacedTimeTest, DoesNotDriftInADay) {
+  for (const double rate : {1.0, 0.1, 3.7, 1000.0}) {
+    PacedTime time(lcm_, rate);
+    time.now(at(0));
+    const double start_s = PacedTime::kListening.seconds();
+    ASSERT_EQ(time.now(at(start_s)), at(0));
+    for (double steady = start_s; steady < 86'400; steady += 0.37) {
+      const double expected = (steady - start_s) * rate;
+      ASSERT_NEAR(time.now(at(steady))->seconds(), expected, 1e-6 * std::max(1.0, rate)) << "rate " << rate;
+    }
+  }
 }
 
 }  // namespace

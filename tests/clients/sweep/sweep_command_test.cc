@@ -140,5 +140,22 @@ TEST_F(SweepCommand, TheTasksOfAJobArrayDoAllRunsAndGatherMakesTheSameTables) {
   fs::remove(script);
 }
 
+// The real thing where it is installed (./scripts/setup cluster): a SLURM of one node in a namespace of its own.
+TEST_F(SweepCommand, SlurmRunsTheJobArray) {
+  if (!fs::exists("/usr/sbin/slurmctld") || getuid() != 0) GTEST_SKIP() << "needs slurm-wlm, and root";
+  auto words = four_runs();
+  const std::string script = folder_ + "-array.sh", scripts = HALOCLINE_SOURCE_DIR "/scripts/";
+  words.insert(words.end(), {"--slurm", script, "--slurm-tasks", "3"});
+  Process write(command(words));
+  ASSERT_EQ(write.wait(), 0) << write.output();
+  Process slurm({scripts + "isolated", scripts + "slurm_node", "/bin/bash", "-ec",
+                 "sbatch --test-only \"$0\"; sbatch --wait \"$0\"", script});
+  EXPECT_EQ(slurm.wait(std::chrono::seconds(200)), 0) << slurm.output();
+  EXPECT_THAT(slurm.output(), HasSubstr("Submitted batch job"));
+  EXPECT_EQ(results(), 4u);
+  EXPECT_TRUE(fs::exists(folder_ + "/slurm-2.txt"));
+  fs::remove(script);
+}
+
 }  // namespace
 }  // namespace halocline

@@ -1,0 +1,73 @@
+// Long missions need no more memory than short ones: hours of simulated time, as fast as they compute, with the bytes in
+// use compared between the first half and the second. Not a test of time.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include "bus/lockstep_runner.h"
+#include "bus/log_recorder.h"
+#include "bus/log_series.h"
+#include "tests/integration/embedded_fixture.h"
+
+namespace halocline::clients {
+namespace {
+
+class SoakTest : public testing::EmbeddedTest {
+ protected:
+  static double heap_bytes() {
+    const struct mallinfo2 info = mallinfo2();
+    return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+  }
+  // The most in use at any of the instants looked at, every 60 s, from one to the other.
+  double most_in_use(bus::LockstepRunner& runner, double from_s, double to_s) {
+    double most = 0;
+    for (double t = from_s; t <= to_s; t += 60) {
+      runner.run_until(SimTime::from_seconds(t));
+      most = std::max(most, heap_bytes());
+    }
+    return most;
+  }
+  struct Use {
+    double first_half = 0, second_half = 0;
+  };
+  // After `settled_s`, for which caches fill, two halves of equal length. The log rotates and is deleted behind it.
+  Use bytes_in_use(const ScenarioConfig& config, double settled_s, double half_s) {
+    lcm::LCM lcm("memq://");
+    Composition all(lcm, config, Composition::kRun);
+    bus::LockstepRunner runner(lcm, all.nodes());
+    bus::LogRecorder recorder(lcm, log_path("soak"), [&] { return runner.now(); },
+                              {2'000'000, SimDuration(), 2});
+    most_in_use(runner, 60, settled_s);
+    Use use;
+    use.first_half = most_in_use(runner, settled_s + 60, settled_s + half_s);
+    use.second_half = most_in_use(runner, settled_s + half_s + 60, settled_s + 2 * half_s);
+    EXPECT_GT(recorder.parts(), 10);
+    EXPECT_EQ(bus::parts_of_log(log_path("soak")).size(), 2u);
+    return use;
+  }
+};
+
+// What is kept of the latest thousand packets (modem clients) fills within the time to settle: everybody sends once a second.
+std::vector<std::string> busy(int vehicles) {
+  std::vector<std::string> overrides{"propagation.model=\"straight\""};
+  for (int i = 0; i < vehicles; ++i)
+    overrides.push_back("vehicle." + std::to_string(i) + ".traffic.period_s=1.0");
+  return overrides;
+}
+
+// Over 100 messages a simulated second: a byte kept of each would be 0.3 MB a half.
+constexpr double kMostGrowth_bytes = 100'000;
+
+TEST_F(SoakTest, HoursOfAHarbourNeedNoMoreMemoryInTheirSecondHalf) {
+  const Use use = bytes_in_use(load("harbour", busy(5)), 3600, 3600);
+  EXPECT_LT(use.second_half - use.first_half, kMostGrowth_bytes)
+      << use.first_half << " to " << use.second_half;
+}
+
+TEST_F(SoakTest, HoursOfRangesAndPositionsNeedNoMoreMemoryInTheirSecondHalf) {
+  const Use use = bytes_in_use(load("ranging", busy(0)), 7200, 7200);
+  EXPECT_LT(use.second_half - use.first_half, kMostGrowth_bytes)
+      << use.first_half << " to " << use.second_half;
+}
+
+}  // namespace
+}  // namespace halocline::clients
