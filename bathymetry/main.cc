@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   program.program = "halocline-bathymetry";
   program.purpose = "Answers batches of ray, depth and profile queries over the scenario's seabed.";
   program.node_name = "bathymetry";
+  program.stage = halocline::bus::Stage::kTerrain;
   program.interface =
       "hears:     RAY_QUERY, CLOCK\n"
       "publishes: RAY_REPLY.<client>, STATUS.<name>";

@@ -85,13 +85,15 @@ void Bus::refuse(std::string_view channel, std::string_view reason) {
 }
 
 void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t size) {
-  if (lcm_.publish(std::string(channel), data, static_cast<unsigned int>(size)) != 0) {
+  if (outbox_) {
+    outbox_(channel, data, size);
+  } else if (lcm_.publish(std::string(channel), data, static_cast<unsigned int>(size)) != 0) {
     throw std::runtime_error("LCM could not publish on " + std::string(channel));
   }
   ++counters_.sent;
 }
 
-void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler) {
+void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler, Hearing hearing) {
   auto subscription = std::make_unique<Subscription>(Subscription{this, std::move(handler)});
   subscription->lcm_subscription =
       lcm_.subscribe("(" + escaped(channels::kRepair.prefix) + ")?" + regular_expression,
@@ -99,6 +101,7 @@ void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handle
   ensure(subscription->lcm_subscription != nullptr, "LCM refuses the channel " + regular_expression);
   subscription->lcm_subscription->setQueueCapacity(kQueueCapacity);
   subscriptions_.push_back(std::move(subscription));
+  subscribed_.push_back({regular_expression, hearing});
 }
 
 bool Bus::is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence) {

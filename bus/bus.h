@@ -35,10 +35,25 @@
 
 namespace halocline::bus {
 
-// Who speaks: the node's name (is_valid_name) and a number that differs each time it is started.
+// The order in which participants step at one instant of lockstep (lockstep_schedule.h): who makes things known
+// before who acts on them.
+enum class Stage { kTime, kTerrain, kVehicles, kPilots, kTraffic, kClients, kChannel };
+
+// Who speaks: the node's name (is_valid_name), a number that differs each time it is started, and its stage.
 struct NodeIdentity {
   std::string name;
   std::int64_t session = 0;
+  Stage stage = Stage::kClients;
+};
+
+// What hearing a message may do to a node. kStores is a promise: its handler only stores, so that the node is due
+// when it was due before. Lockstep then need not ask the node at once, and others may go further by themselves.
+enum class Hearing { kMayWake, kStores };
+
+// A subscription: an LCM regular expression, and what hearing it may do.
+struct Subscribed {
+  std::string expression;
+  Hearing hearing = Hearing::kMayWake;
 };
 
 // What a node has counted since it started; published in STATUS.
@@ -71,9 +86,20 @@ class Bus {
   void publish(std::string_view channel, const Message& message);
 
   template <class Message>
-  void subscribe(std::string_view channel, Handler<Message> handler);
+  void subscribe(std::string_view channel, Handler<Message> handler, Hearing hearing = Hearing::kMayWake);
   template <class Message>
-  void subscribe(const Family& family, FamilyHandler<Message> handler);
+  void subscribe(const Family& family, FamilyHandler<Message> handler, Hearing hearing = Hearing::kMayWake);
+
+  // From now on what is published goes to `outbox` and nowhere else: who runs the node delivers it.
+  using Outbox = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
+  void set_outbox(Outbox outbox) { outbox_ = std::move(outbox); }
+  // All subscriptions, in the order they were made.
+  const std::vector<Subscribed>& subscribed() const { return subscribed_; }
+
+  // Messages as bytes, for who passes them on: nothing is decoded, nothing counted as received.
+  using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
+  void publish_bytes(std::string_view channel, const void* data, std::size_t size);
+  void subscribe_to_all(RawHandler handler) { subscribe_raw(".*", std::move(handler), Hearing::kMayWake); }
 
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
@@ -98,12 +124,9 @@ class Bus {
 
  private:
   struct Subscription;
-  using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
-
-  void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   // `regular_expression` matches channels; what was lost on them and comes again on REPAIR.<channel> is
   // handled as if heard there.
-  void subscribe_raw(const std::string& regular_expression, RawHandler handler);
+  void subscribe_raw(const std::string& regular_expression, RawHandler handler, Hearing hearing);
   template <class Message>
   bool decode(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence);
@@ -122,6 +145,8 @@ class Bus {
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  std::vector<Subscribed> subscribed_;
+  Outbox outbox_;
 };
 
 // An LCM regular expression that matches `channel` and nothing else.
@@ -165,26 +190,28 @@ void Bus::publish(std::string_view channel, const Message& message) {
 }
 
 template <class Message>
-void Bus::subscribe(std::string_view channel, Handler<Message> handler) {
+void Bus::subscribe(std::string_view channel, Handler<Message> handler, Hearing hearing) {
   exact_channels_.emplace_back(channel);
-  subscribe_raw(escaped(channel), [this, handler = std::move(handler)](std::string_view heard_on,
-                                                                       const void* data, std::size_t size) {
+  const auto decode_and_handle = [this, handler = std::move(handler)](std::string_view heard_on,
+                                                                      const void* data, std::size_t size) {
     Message message;
     if (decode(heard_on, data, size, message)) handler(message);
-  });
+  };
+  subscribe_raw(escaped(channel), decode_and_handle, hearing);
 }
 
 template <class Message>
-void Bus::subscribe(const Family& family, FamilyHandler<Message> handler) {
+void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Hearing hearing) {
   const std::string_view prefix = family.prefix;
   prefixes_.emplace_back(prefix);
-  subscribe_raw(escaped(prefix) + ".*", [this, prefix, handler = std::move(handler)](
-                                            std::string_view heard_on, const void* data, std::size_t size) {
+  const auto decode_and_handle = [this, prefix, handler = std::move(handler)](
+                                     std::string_view heard_on, const void* data, std::size_t size) {
     const std::string_view name = heard_on.substr(prefix.size());
     if (!is_valid_name(name)) return refuse(heard_on, "the channel's name is no valid name");
     Message message;
     if (decode(heard_on, data, size, message)) handler(name, message);
-  });
+  };
+  subscribe_raw(escaped(prefix) + ".*", decode_and_handle, hearing);
 }
 
 template <class Message>

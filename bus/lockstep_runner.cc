@@ -1,50 +1,39 @@
 #include "bus/lockstep_runner.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <tuple>
 
 namespace halocline::bus {
-namespace {
-
-// A chain of answers to answers at one instant is a handful; this many means that it never ends.
-constexpr int kMostRoundsPerInstant = 100'000;
-
-SimTime earliest(const Due& due) { return std::min(due.sim, due.steady); }
-
-}  // namespace
 
 LockstepRunner::LockstepRunner(lcm::LCM& lcm, std::vector<Node*> nodes)
-    : lcm_(lcm), nodes_(std::move(nodes)) {}
+    : lcm_(lcm), nodes_(std::move(nodes)) {
+  std::stable_sort(nodes_.begin(), nodes_.end(), [](const Node* a, const Node* b) {
+    return std::forward_as_tuple(a->stage(), a->name()) < std::forward_as_tuple(b->stage(), b->name());
+  });
+}
 
 void LockstepRunner::run_until(SimTime end) {
-  for (SimTime next = next_instant(); next <= end; next = next_instant()) {
+  for (SimTime next = schedule_.next_instant(seats()); next <= end; next = schedule_.next_instant(seats())) {
     if (before_instant_ && !before_instant_(next)) return;
     now_ = next;
+    schedule_.begin(next);
     step_all_due();
   }
   now_ = std::max(now_, end);
 }
 
-SimTime LockstepRunner::next_instant() const {
-  SimTime next = SimTime::never();
-  for (const Node* node : nodes_) next = std::min(next, earliest(node->due()));
-  return std::max(next, now_);
+std::vector<LockstepSeat> LockstepRunner::seats() const {
+  std::vector<LockstepSeat> seats;
+  for (const Node* node : nodes_) {
+    seats.push_back({static_cast<int>(node->stage()), std::max(node->lockstep_due(), now_)});
+  }
+  return seats;
 }
 
 void LockstepRunner::step_all_due() {
-  bool any_due = true;
-  for (int round = 0; any_due; ++round) {
-    if (round == kMostRoundsPerInstant) {
-      throw std::runtime_error(
-          "nodes keep each other busy without end at t=" + std::to_string(now_.seconds()) + " s");
-    }
-    any_due = false;
-    for (Node* node : nodes_) {
-      if (earliest(node->due()) > now_) continue;
-      any_due = true;
-      node->step({now_, now_});
-      drain();
-    }
+  for (auto round = schedule_.round(seats()); !round.empty(); round = schedule_.round(seats())) {
+    for (const std::size_t i : round) nodes_[i]->step({now_, now_});
+    drain();
   }
 }
 

@@ -1,8 +1,7 @@
 // Runs many nodes in one process on one lcm::LCM (memq), all at one simulation time, as fast as they compute.
 //
-// Discrete events: time goes to the earliest instant any node is due; there every node that is due steps, in
-// the order given, and the bus is drained after each, until none is due any more; then time goes on. Nothing
-// depends on a clock or a thread, so two runs publish the same messages in the same order.
+// Who steps when is the rule of lockstep_schedule.h. Nothing depends on a clock or a thread, so two runs publish
+// the same messages in the same order.
 #pragma once
 
 #include <functional>
@@ -11,14 +10,15 @@
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "bus/lockstep_schedule.h"
 #include "bus/node.h"
 
 namespace halocline::bus {
 
 class LockstepRunner {
  public:
-  // `nodes` step in this order: who moves vehicles first, then who pilots them, the channel server last.
-  // `lcm` and the nodes must outlive the runner.
+  // The nodes step by stage, and within a stage by name, whatever their order here. `lcm` and the nodes must
+  // outlive the runner.
   LockstepRunner(lcm::LCM& lcm, std::vector<Node*> nodes);
 
   // Called with each instant before its nodes step: pacing, progress, the stamp of a log. It may return false
@@ -34,14 +34,15 @@ class LockstepRunner {
   SimTime now() const { return now_; }
 
  private:
-  SimTime next_instant() const;
+  std::vector<LockstepSeat> seats() const;
   void step_all_due();
   void drain();
 
   lcm::LCM& lcm_;
   std::vector<Node*> nodes_;
   std::function<bool(SimTime)> before_instant_;
-  SimTime now_;
+  LockstepSchedule schedule_;
+  SimTime now_;  // what is logged is stamped with it: the schedule's, or the end that was reached
 };
 
 }  // namespace halocline::bus

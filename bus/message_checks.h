@@ -44,5 +44,13 @@ std::string problem_in(const ray_reply_t& message);
 std::string problem_in(const node_status_t& message);
 std::string problem_in(const flow_heartbeat_t& message);
 std::string problem_in(const repair_request_t& message);
+// Lockstep's own plane; what slices hold is checked when they are whole (lockstep_wire.h).
+std::string problem_in(const lockstep_message_t& message);
+std::string problem_in(const lockstep_turn_t& message);
+std::string problem_in(const lockstep_result_t& message);
+std::string problem_in(const lockstep_grant_t& message);
+std::string problem_in(const lockstep_answer_t& message);
+std::string problem_in(const lockstep_join_t& message);
+std::string problem_in(const lockstep_notice_t& message);
 
 }  // namespace halocline::bus

@@ -11,6 +11,13 @@
 #include <halocline/link_reply_t.hpp>
 #include <halocline/link_t.hpp>
 #include <halocline/link_table_t.hpp>
+#include <halocline/lockstep_answer_t.hpp>
+#include <halocline/lockstep_grant_t.hpp>
+#include <halocline/lockstep_join_t.hpp>
+#include <halocline/lockstep_message_t.hpp>
+#include <halocline/lockstep_notice_t.hpp>
+#include <halocline/lockstep_result_t.hpp>
+#include <halocline/lockstep_turn_t.hpp>
 #include <halocline/modem_config_t.hpp>
 #include <halocline/modem_receipt_t.hpp>
 #include <halocline/modem_receive_t.hpp>

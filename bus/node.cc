@@ -15,6 +15,11 @@ Due Node::due() const {
   return due;
 }
 
+SimTime Node::lockstep_due() const {
+  const Due both = due();
+  return std::min(both.sim, both.steady);
+}
+
 void Node::step(const Now& now) {
   bus_.log().set_time(now.sim);
   bus_.rethrow_if_failed();

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "bus/bus.h"
 #include "core/sim_time.h"
@@ -43,8 +44,14 @@ class Node {
   void enable_repair() { bus_.enable_repair(); }
   // What is handled from now on was heard at this steady time.
   void set_steady(SimTime steady) { bus_.set_steady(steady); }
+  Stage stage() const { return bus_.identity().stage; }
+  // What it hears, and where what it says goes, for who delivers in LCM's place (bus.h).
+  const std::vector<Subscribed>& subscribed() const { return bus_.subscribed(); }
+  void set_outbox(Bus::Outbox outbox) { bus_.set_outbox(std::move(outbox)); }
 
   Due due() const;
+  // When it is due in lockstep, where steady time is simulation time.
+  SimTime lockstep_due() const;
   // Rethrows what a handler threw; computes and publishes all that is due; then STATUS when a second has
   // passed.
   void step(const Now& now);

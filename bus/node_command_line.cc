@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "bus/transport.h"
 #include "bus/version.h"
 
 namespace halocline::bus {
@@ -14,7 +15,7 @@ namespace {
 struct Arguments {
   std::string scenario_path;
   std::vector<std::string> overrides;
-  std::string name, lcm_url, time_source, log_level = "info";
+  std::string name, lcm_url, sync_url, time_source, log_level = "info";
   bool example = false, interface = false, print_config = false;
 };
 
@@ -26,8 +27,16 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
       ->default_val(program.node_name);
   app.add_option("--lcm-url", arguments.lcm_url, "LCM URL; default: LCM_DEFAULT_URL, else this host only");
   if (!program.make_time_source) {
-    app.add_option("--time-source", arguments.time_source, "conductor, messages (what is heard) or wall")
+    app.add_option("--time-source", arguments.time_source,
+                   "conductor, messages (what is heard), wall, or lockstep (turns that a conductor grants)")
         ->default_val("conductor");
+  }
+  app.add_option("--sync-url", arguments.sync_url,
+                 "LCM URL of lockstep's own plane; it takes the next port, too")
+      ->default_val(std::string(kDefaultSyncUrl));
+  for (const ProgramOption& option : program.options) {
+    option.flag != nullptr ? app.add_flag(option.name, *option.flag, option.help)
+                           : app.add_option(option.name, *option.value, option.help);
   }
   app.add_option("--log-level", arguments.log_level, "debug, info, warning, error or silent")
       ->default_val("info");
@@ -85,6 +94,7 @@ std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const Node
   }
   run.identity = {arguments.name, session_of(entropy_of_this_life(), arguments.name)};
   run.lcm_url = arguments.lcm_url;
+  run.sync_url = arguments.sync_url;
   run.time_source =
       arguments.time_source.empty() ? program.time_source : time_source_from_name(arguments.time_source);
   run.log_level = log_level_from_name(arguments.log_level);

@@ -14,6 +14,7 @@ struct NodeRun {
   Scenario scenario;
   std::string folder;   // of the scenario file
   std::string lcm_url;  // empty: the default
+  std::string sync_url;
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   LogLevel log_level = LogLevel::kInfo;
 };

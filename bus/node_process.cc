@@ -9,6 +9,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "bus/lockstep_process.h"
 #include "bus/node_command_line.h"
 #include "bus/transport.h"
 
@@ -22,26 +23,6 @@ void on_stop_signal(int) { stop_signal_seen = 1; }
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
 // Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
 constexpr int kMostMessagesPerTurn = 2000;
-
-// Sleeps until the bus has something, `wake` (steady) has come, or a stop signal. The signals are let in only
-// while sleeping, so that none slips by between the check and the sleep.
-void wait_for_bus(lcm::LCM& lcm, SimTime wake) {
-  const SimDuration left = std::min(std::max(wake, steady_now()) - steady_now(), kLongestSleep);
-  const timespec timeout{0, static_cast<long>(std::max<std::int64_t>(left.nanoseconds(), 0))};
-  pollfd bus{lcm.getFileno(), POLLIN, 0};
-  sigset_t blocked, before;
-  sigemptyset(&blocked);
-  sigaddset(&blocked, SIGINT);
-  sigaddset(&blocked, SIGTERM);
-  sigprocmask(SIG_BLOCK, &blocked, &before);
-  if (!stop_requested()) ppoll(&bus, 1, &timeout, &before);
-  sigprocmask(SIG_SETMASK, &before, nullptr);
-}
-
-void dispatch_waiting(lcm::LCM& lcm) {
-  for (int i = 0; i < kMostMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
-  }
-}
 
 // What the bus has delivered when the end is wished for: until it is silent for a moment, since LCM's own
 // thread hands over what the socket holds one by one. A flood does not keep us for ever.
@@ -64,6 +45,7 @@ std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm,
     case TimeSourceKind::kMessages:
       return std::make_unique<MessageTime>(lcm, name);
     case TimeSourceKind::kWall:
+    case TimeSourceKind::kLockstep:
       break;
   }
   const auto unix_time = std::chrono::system_clock::now().time_since_epoch();
@@ -71,24 +53,39 @@ std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm,
                                     steady_now().to_utime());
 }
 
-int run_checked(int argc, char** argv, const NodeProgram& program) {
-  const auto run = parse_node_command_line(argc, argv, program);
-  if (!run) return 0;
-  set_log_level(run->log_level);
-  const std::string url = effective_url(run->lcm_url);
+// In lockstep a node is on a bus of its own, and its identity is the same in every run.
+void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
+  lcm::LCM memq("memq://");
+  const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),
+                              program.stage};
+  const auto node = program.make_node({memq, identity, run.scenario, run.folder, run.sync_url});
+  run_lockstep_participant(memq, *node, run.sync_url, digest_of(run.scenario), stop_requested);
+}
+
+void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& log) {
+  const std::string url = effective_url(run.lcm_url);
   const auto lcm = open_transport(url);
-  EventLog log(run->identity.name);
   if (const std::string warning = receive_buffer_warning(url); !warning.empty()) {
     log.warning("small-receive-buffer", warning);
   }
-  catch_stop_signals();
-  const NodeProgram::Context context{*lcm, run->identity, run->scenario, run->folder};
+  const NodeProgram::Context context{*lcm, run.identity, run.scenario, run.folder, run.sync_url};
+  if (program.run_otherwise && program.run_otherwise(context)) return;
   const auto time = program.make_time_source ? program.make_time_source(context)
-                                             : make_time_source(run->time_source, *lcm, run->identity.name);
+                                             : make_time_source(run.time_source, *lcm, run.identity.name);
   const auto node = program.make_node(context);
   node->enable_repair();
   log.info("started", "url=" + url);
   run_node(*lcm, *node, *time, stop_requested);
+}
+
+int run_checked(int argc, char** argv, const NodeProgram& program) {
+  const auto run = parse_node_command_line(argc, argv, program);
+  if (!run) return 0;
+  set_log_level(run->log_level);
+  catch_stop_signals();
+  EventLog log(run->identity.name);
+  run->time_source == TimeSourceKind::kLockstep ? run_in_lockstep(*run, program)
+                                                : run_on_transport(*run, program, log);
   log.info("stopped");
   return 0;
 }
@@ -103,6 +100,25 @@ void catch_stop_signals() {
 }
 
 bool stop_requested() { return stop_signal_seen != 0; }
+
+// The signals are let in only while sleeping, so that none slips by between the check and the sleep.
+void wait_for_bus(lcm::LCM& lcm, SimTime wake) {
+  const SimDuration left = std::min(std::max(wake, steady_now()) - steady_now(), kLongestSleep);
+  const timespec timeout{0, static_cast<long>(std::max<std::int64_t>(left.nanoseconds(), 0))};
+  pollfd bus{lcm.getFileno(), POLLIN, 0};
+  sigset_t blocked, before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGINT);
+  sigaddset(&blocked, SIGTERM);
+  sigprocmask(SIG_BLOCK, &blocked, &before);
+  if (!stop_requested()) ppoll(&bus, 1, &timeout, &before);
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+}
+
+void dispatch_waiting(lcm::LCM& lcm) {
+  for (int i = 0; i < kMostMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
+  }
+}
 
 SimTime steady_now() {
   static const auto start = std::chrono::steady_clock::now();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <lcm/lcm-cpp.hpp>
 
@@ -18,12 +19,22 @@
 
 namespace halocline::bus {
 
+// An option of one program's own: a flag, or a text.
+struct ProgramOption {
+  std::string name;  // "--log"
+  std::string help;
+  std::string* value = nullptr;
+  bool* flag = nullptr;
+};
+
 struct NodeProgram {
   std::string program;    // "halocline-channel-server"
   std::string purpose;    // one sentence
   std::string node_name;  // default for --name
   std::string interface;  // for --interface: the channels subscribed and published, one a line
   TimeSourceKind time_source = TimeSourceKind::kConductor;
+  Stage stage = Stage::kClients;  // its place in lockstep
+  std::vector<ProgramOption> options = {};
 
   // Describes the program's own sections of the scenario file: read from it, printed by --example and
   // --print-config.
@@ -34,10 +45,13 @@ struct NodeProgram {
     NodeIdentity identity;
     const Scenario& scenario;
     const std::string& folder;
+    const std::string& sync_url;
   };
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
   // Only for the program that makes the time itself; the others choose with --time-source.
   std::function<std::unique_ptr<TimeSource>(const Context&)> make_time_source = nullptr;
+  // Where the program has another way to run than run_node: returns true when it was asked for, and has run.
+  std::function<bool(const Context&)> run_otherwise = nullptr;
 };
 
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
@@ -49,6 +63,11 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
 // From now on SIGINT and SIGTERM set a flag instead of ending the process; returns whether either came.
 void catch_stop_signals();
 bool stop_requested();
+
+// Sleeps until the bus has something, `wake` (steady) has come, a stop signal, or a tenth of a second has passed.
+void wait_for_bus(lcm::LCM& lcm, SimTime wake);
+// Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work.
+void dispatch_waiting(lcm::LCM& lcm);
 
 // Nanoseconds since the process started; never goes back.
 SimTime steady_now();

@@ -90,7 +90,9 @@ TimeSourceKind time_source_from_name(std::string_view name) {
   if (name == "conductor") return TimeSourceKind::kConductor;
   if (name == "messages") return TimeSourceKind::kMessages;
   if (name == "wall") return TimeSourceKind::kWall;
-  throw InvalidArgument("time source is '" + std::string(name) + "'; allowed are conductor, messages, wall");
+  if (name == "lockstep") return TimeSourceKind::kLockstep;
+  throw InvalidArgument("time source is '" + std::string(name) +
+                        "'; allowed are conductor, messages, wall, lockstep");
 }
 
 }  // namespace halocline::bus

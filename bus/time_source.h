@@ -96,8 +96,9 @@ class WallTime : public TimeSource {
   SimTime start_;
 };
 
-enum class TimeSourceKind { kConductor, kMessages, kWall };
-// "conductor", "messages" or "wall"; throws InvalidArgument that lists them otherwise.
+// kLockstep is no TimeSource: the process takes turns that the conductor grants (lockstep_process.h).
+enum class TimeSourceKind { kConductor, kMessages, kWall, kLockstep };
+// "conductor", "messages", "wall" or "lockstep"; throws InvalidArgument that lists them otherwise.
 TimeSourceKind time_source_from_name(std::string_view name);
 
 }  // namespace halocline::bus

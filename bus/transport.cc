@@ -1,5 +1,6 @@
 #include "bus/transport.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <sys/socket.h>
@@ -28,6 +29,17 @@ std::string effective_url(const std::string& given) {
     url += "recv_buf_size=" + std::to_string(kReceiveBufferBytes);
   }
   return url;
+}
+
+std::string next_port(const std::string& url) {
+  const std::size_t colon = url.rfind(':');
+  const std::size_t end = std::min(url.find('?'), url.size());
+  const std::string port = colon < end ? url.substr(colon + 1, end - colon - 1) : "";
+  const bool number =
+      !port.empty() && port.size() < 6 && port.find_first_not_of("0123456789") == std::string::npos;
+  require(number && std::stoi(port) < 65535,
+          "LCM URL is '" + url + "'; lockstep needs udpm://GROUP:PORT?ttl=N");
+  return url.substr(0, colon + 1) + std::to_string(std::stoi(port) + 1) + url.substr(end);
 }
 
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url) {

@@ -14,6 +14,12 @@ namespace halocline::bus {
 // messages published back to back; docs/bus.md).
 inline constexpr std::string_view kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
+// Lockstep's own plane: grants on this port, answers on the next.
+inline constexpr std::string_view kDefaultSyncUrl = "udpm://239.255.76.67:7677?ttl=0&recv_buf_size=4194304";
+
+// The same URL with the next port; throws InvalidArgument for a URL without a port.
+std::string next_port(const std::string& url);
+
 // `given`, or else LCM_DEFAULT_URL, or else kDefaultUrl; for udpm, recv_buf_size is added where it is
 // missing.
 std::string effective_url(const std::string& given);

@@ -110,6 +110,8 @@ WireLayout link_answer_layout() {
   return layout;
 }
 
+WireLayout lockstep_message_layout() { return {fixed(8), text(), count(), array_of_bytes(1)}; }
+
 }  // namespace
 
 std::string misfit(const WireLayout& layout, const void* data, std::size_t size) {
@@ -168,6 +170,17 @@ HALOCLINE_LAYOUT(node_status_t, {fixed(kHead), text(), text(), fixed(8 * 8), tex
 HALOCLINE_LAYOUT(flow_heartbeat_t,
                  {fixed(kHead + 8), count(), array_of({text()}), array_of_bytes(8), array_of_bytes(8)})
 HALOCLINE_LAYOUT(repair_request_t, {fixed(8), text(), text(), fixed(8), count(), array_of_bytes(8)})
+
+HALOCLINE_LAYOUT(lockstep_message_t, (lockstep_message_layout()))
+HALOCLINE_LAYOUT(lockstep_turn_t, {fixed(2 * 8 + 4 + 1), count(), array_of({text()}), count(),
+                                   array_of(lockstep_message_layout())})
+HALOCLINE_LAYOUT(lockstep_result_t, {text(), fixed(4 + 3 * 8), count(), array_of(lockstep_message_layout())})
+HALOCLINE_LAYOUT(lockstep_grant_t, {fixed(8), count(), array_of_bytes(8), array_of_bytes(8),
+                                    fixed(4 + 1 + 2 * 4), count(), array_of_bytes(1)})
+HALOCLINE_LAYOUT(lockstep_answer_t, {fixed(3 * 8 + 1 + 2 * 4), count(), array_of_bytes(1)})
+HALOCLINE_LAYOUT(lockstep_join_t, {fixed(2 * 8), text(), text(), fixed(4 + 2 * 8 + 1), count(),
+                                   array_of({text()}), array_of_bytes(1)})
+HALOCLINE_LAYOUT(lockstep_notice_t, {fixed(2 * 8 + 1), text()})
 
 #undef HALOCLINE_LAYOUT
 

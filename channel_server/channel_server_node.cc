@@ -86,14 +86,18 @@ std::string ChannelServerNode::ray_client_name(std::int64_t session) {
 }
 
 void ChannelServerNode::subscribe_all() {
-  bus().subscribe<vehicle_state_t>(channels::kState,
-                                   [this](std::string_view vehicle, const vehicle_state_t& m) {
-                                     keep(states_, vehicle, m, channels::kState);
-                                   });
-  bus().subscribe<modem_config_t>(channels::kModem,
-                                  [this](std::string_view vehicle, const modem_config_t& m) {
-                                    keep(modems_, vehicle, m, channels::kModem);
-                                  });
+  bus().subscribe<vehicle_state_t>(
+      channels::kState,
+      [this](std::string_view vehicle, const vehicle_state_t& m) {
+        keep(states_, vehicle, m, channels::kState);
+      },
+      bus::Hearing::kStores);
+  bus().subscribe<modem_config_t>(
+      channels::kModem,
+      [this](std::string_view vehicle, const modem_config_t& m) {
+        keep(modems_, vehicle, m, channels::kModem);
+      },
+      bus::Hearing::kStores);
   bus().subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
     keep(sends_, vehicle, m, channels::kSend);
   });

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   program.program = "halocline-channel-server";
   program.purpose = "Carries messages through the water and tells the quality of every link.";
   program.node_name = "channel-server";
+  program.stage = halocline::bus::Stage::kChannel;
   program.interface =
       "hears:     STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
       "           RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"

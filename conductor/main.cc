@@ -1,17 +1,24 @@
 #include "bus/node_process.h"
 #include "conductor/conductor_node.h"
+#include "conductor/lockstep_options.h"
 #include "conductor/paced_time.h"
 
 using halocline::bus::NodeProgram;
 
 int main(int argc, char** argv) {
+  halocline::conductor::LockstepOptions lockstep;
   NodeProgram program;
   program.program = "halocline-conductor";
-  program.purpose = "Publishes simulation time, paced by the wall clock times the scenario's rate.";
+  program.purpose =
+      "Publishes simulation time, paced by the wall clock times the scenario's rate; or leads a lockstep.";
   program.node_name = "conductor";
   program.interface =
       "hears:     STATE.*, STATUS.* (while starting: to take up a running system's time)\n"
-      "publishes: CLOCK, STATUS.<name>";
+      "publishes: CLOCK, STATUS.<name>\n"
+      "with --lockstep, on --sync-url: hears LOCKSTEP_JOIN, LOCKSTEP_ANSWER; publishes "
+      "LOCKSTEP_GRANT[.<name>],\n"
+      "           LOCKSTEP_NOTICE; and shows all that is said on the ordinary bus";
+  program.options = lockstep.options();
   program.make_time_source = [](const NodeProgram::Context& context) {
     return std::make_unique<halocline::conductor::PacedTime>(context.lcm, context.scenario.rate);
   };
@@ -19,5 +26,6 @@ int main(int argc, char** argv) {
     return std::make_unique<halocline::conductor::ConductorNode>(
         context.lcm, context.identity, context.scenario.clock_period, context.scenario.rate);
   };
+  program.run_otherwise = [&](const NodeProgram::Context& context) { return lockstep.run_if_asked(context); };
   return halocline::bus::run_node_program(argc, argv, program);
 }

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   program.program = "halocline-vehicle-sim";
   program.purpose = "Moves the scenario's vehicles and publishes their states and sensors.";
   program.node_name = "vehicle-sim";
+  program.stage = halocline::bus::Stage::kVehicles;
   program.interface =
       "hears:     COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<client>, CLOCK; with a USBL "
       "array OUTCOME,\n"

@@ -51,15 +51,17 @@ VehicleSimNode::VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const 
       arrays_.emplace(i, UsblDesk(station_.settings(i).usbl, {scenario.seed, ids_[i], SensorKind::kUsbl}));
   }
   if (!arrays_.empty()) subscribe_arrays();
-  bus().subscribe<current_change_t>(bus::channels::kSetCurrent,
-                                    [this](const current_change_t& m) { on_current(m); });
+  bus().subscribe<current_change_t>(
+      bus::channels::kSetCurrent, [this](const current_change_t& m) { on_current(m); },
+      bus::Hearing::kStores);
   bus().subscribe<ray_reply_t>(bus::channels::kRayReply.of(ray_client_),
                                [this](const ray_reply_t& reply) { on_ray_reply(reply); });
 }
 
 void VehicleSimNode::subscribe_vehicle(std::size_t i) {
-  bus().subscribe<vehicle_command_t>(bus::channels::kCommand.of(members_[i].name),
-                                     [this, i](const vehicle_command_t& m) { on_command(i, m); });
+  bus().subscribe<vehicle_command_t>(
+      bus::channels::kCommand.of(members_[i].name),
+      [this, i](const vehicle_command_t& m) { on_command(i, m); }, bus::Hearing::kStores);
   bus().subscribe<vehicle_fault_t>(bus::channels::kFault.of(members_[i].name),
                                    [this, i](const vehicle_fault_t& m) { on_fault(i, m); });
 }

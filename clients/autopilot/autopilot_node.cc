@@ -39,31 +39,42 @@ void AutopilotNode::subscribe(Pilot& pilot) {
     pilot.navigator.emplace(config.start_ned_m, config.navigator);
     subscribe_fixes(pilot);
   } else {
-    bus().subscribe<vehicle_state_t>(bus::channels::kState.of(config.vehicle),
-                                     [&pilot](const vehicle_state_t& state) { pilot.state = state; });
+    bus().subscribe<vehicle_state_t>(
+        bus::channels::kState.of(config.vehicle),
+        [&pilot](const vehicle_state_t& state) { pilot.state = state; }, bus::Hearing::kStores);
   }
   bus().subscribe<vehicle_sensors_t>(
-      bus::channels::kSensors.of(config.vehicle), [&pilot](const vehicle_sensors_t& sensors) {
+      bus::channels::kSensors.of(config.vehicle),
+      [&pilot](const vehicle_sensors_t& sensors) {
         pilot.sensors = sensors;
         pilot.looked = false;
         if (pilot.navigator)
           pilot.navigator->add(to_navigation_sample(sensors, pilot.fresh_ping(sensors.utime)));
-      });
+      },
+      bus::Hearing::kStores);
 }
 
 void AutopilotNode::subscribe_fixes(Pilot& pilot) {
   const std::string& name = pilot.config.vehicle;
   bus().subscribe<position_estimate_t>(
       bus::channels::kEstimate.of(name),
-      [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); });
-  bus().subscribe<vehicle_dvl_t>(bus::channels::kDvl.of(name), [&pilot](const vehicle_dvl_t& ping) {
-    if (ping.ground_velocity_valid) pilot.ping = ping;
-  });
-  bus().subscribe<vehicle_gps_t>(bus::channels::kGps.of(name),
-                                 [&pilot](const vehicle_gps_t& fix) { take_in(fix, *pilot.navigator); });
-  bus().subscribe<vehicle_usbl_t>(bus::channels::kUsbl.of(name), [&pilot](const vehicle_usbl_t& bearing) {
-    take_in(bearing, pilot.beacons, pilot.config.acoustic_fix, *pilot.navigator);
-  });
+      [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); },
+      bus::Hearing::kStores);
+  bus().subscribe<vehicle_dvl_t>(
+      bus::channels::kDvl.of(name),
+      [&pilot](const vehicle_dvl_t& ping) {
+        if (ping.ground_velocity_valid) pilot.ping = ping;
+      },
+      bus::Hearing::kStores);
+  bus().subscribe<vehicle_gps_t>(
+      bus::channels::kGps.of(name), [&pilot](const vehicle_gps_t& fix) { take_in(fix, *pilot.navigator); },
+      bus::Hearing::kStores);
+  bus().subscribe<vehicle_usbl_t>(
+      bus::channels::kUsbl.of(name),
+      [&pilot](const vehicle_usbl_t& bearing) {
+        take_in(bearing, pilot.beacons, pilot.config.acoustic_fix, *pilot.navigator);
+      },
+      bus::Hearing::kStores);
 }
 
 std::optional<vehicle_dvl_t> AutopilotNode::Pilot::fresh_ping(std::int64_t utime) const {

@@ -97,8 +97,8 @@ bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config) {
 }
 
 template <class NodeType, class... Arguments>
-void Composition::add(const std::string& name, Arguments&&... arguments) {
-  const bus::NodeIdentity identity{name, bus::session_of(seed_, name)};
+void Composition::add(bus::Stage stage, const std::string& name, Arguments&&... arguments) {
+  const bus::NodeIdentity identity{name, bus::session_of(seed_, name), stage};
   owned_.push_back(std::make_unique<NodeType>(lcm_, identity, std::forward<Arguments>(arguments)...));
   order_.push_back(owned_.back().get());
 }
@@ -106,18 +106,20 @@ void Composition::add(const std::string& name, Arguments&&... arguments) {
 Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded)
     : lcm_(lcm), seed_(config.scenario.seed), terrain_(make_terrain(config)) {
   // Nothing paces lockstep: the clock announces rate 0.
-  add<conductor::ConductorNode>("conductor", config.scenario.clock_period, 0.0);
-  add<bathymetry::BathymetryNode>("bathymetry", terrain_.terrain, terrain_.summary);
+  add<conductor::ConductorNode>(bus::Stage::kTime, "conductor", config.scenario.clock_period, 0.0);
+  add<bathymetry::BathymetryNode>(bus::Stage::kTerrain, "bathymetry", terrain_.terrain, terrain_.summary);
   if (kind == kReplay) {
     order_.push_back(recorded);
   } else {
-    add<vehicle_sim::VehicleSimNode>("vehicle-sim", config.scenario, config.vehicle_sim,
+    add<vehicle_sim::VehicleSimNode>(bus::Stage::kVehicles, "vehicle-sim", config.scenario,
+                                     config.vehicle_sim,
                                      std::make_shared<vehicle_sim::TerrainSeabed>(terrain_.terrain));
-    add<AutopilotNode>("autopilot", config.autopilot);
-    add<TrafficNode>("traffic", config.traffic);
-    add<LocaliserNode>("localiser", config.localiser);
+    add<AutopilotNode>(bus::Stage::kPilots, "autopilot", config.autopilot);
+    add<TrafficNode>(bus::Stage::kTraffic, "traffic", config.traffic);
+    add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
   }
-  const bus::NodeIdentity identity{"channel-server", bus::session_of(seed_, "channel-server")};
+  const bus::NodeIdentity identity{"channel-server", bus::session_of(seed_, "channel-server"),
+                                   bus::Stage::kChannel};
   owned_.push_back(channel_server::make_channel_server(lcm_, identity, config.channel_server, config.scenario,
                                                        config.folder));
   order_.push_back(owned_.back().get());

@@ -65,7 +65,7 @@ class Composition {
 
  private:
   template <class NodeType, class... Arguments>
-  void add(const std::string& name, Arguments&&... arguments);
+  void add(bus::Stage stage, const std::string& name, Arguments&&... arguments);
 
   lcm::LCM& lcm_;
   std::uint64_t seed_;

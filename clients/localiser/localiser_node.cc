@@ -52,8 +52,9 @@ LocaliserNode::LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Lo
     if (!vehicle.beacons.empty()) add_vehicle(config, vehicle);
   }
   if (vehicles_.empty()) return;
-  bus().subscribe<environment_t>(bus::channels::kEnvironment,
-                                 [this](const environment_t& message) { take_environment(message); });
+  bus().subscribe<environment_t>(
+      bus::channels::kEnvironment, [this](const environment_t& message) { take_environment(message); },
+      bus::Hearing::kStores);
 }
 
 void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLocaliser& settings) {
@@ -65,10 +66,11 @@ void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLoca
   vehicle->modem.on_receive([vehicle](const modem_receive_t& packet) { vehicle->packets.push_back(packet); });
   bus().subscribe<vehicle_sensors_t>(
       bus::channels::kSensors.of(settings.vehicle),
-      [vehicle](const vehicle_sensors_t& sensors) { vehicle->sensors.push_back(sensors); });
+      [vehicle](const vehicle_sensors_t& sensors) { vehicle->sensors.push_back(sensors); },
+      bus::Hearing::kStores);
   bus().subscribe<vehicle_state_t>(
       bus::channels::kState.of(settings.vehicle),
-      [vehicle](const vehicle_state_t& state) { vehicle->states.push_back(state); });
+      [vehicle](const vehicle_state_t& state) { vehicle->states.push_back(state); }, bus::Hearing::kStores);
 }
 
 void LocaliserNode::take_environment(const environment_t& message) {

@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   program.program = "halocline-traffic";
   program.purpose = "Sends packets for the vehicles that have a [vehicle.traffic], and counts what arrives.";
   program.node_name = "traffic";
+  program.stage = halocline::bus::Stage::kTraffic;
   program.interface =
       "hears:     CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
       "publishes: SEND.<vehicle>, STATUS.<name>";

@@ -23,12 +23,12 @@ class LockstepTest : public ::testing::Test {
   std::vector<std::string> journal_;
 };
 
-TEST_F(LockstepTest, StepsEachNodeAtItsInstantsInTheOrderGiven) {
+TEST_F(LockstepTest, StepsEachNodeAtItsInstantsInTheOrderOfTheirNames) {
   TickingNode b(lcm_, "b", ms(200), journal_), a(lcm_, "a", ms(300), journal_);
   LockstepRunner runner(lcm_, {&b, &a});
   runner.run_until(at_ms(600));
   EXPECT_THAT(journal_,
-              ElementsAre("b@0", "a@0", "b@200000", "a@300000", "b@400000", "b@600000", "a@600000"));
+              ElementsAre("a@0", "b@0", "b@200000", "a@300000", "b@400000", "a@600000", "b@600000"));
   EXPECT_EQ(runner.now(), at_ms(600));
 }
 

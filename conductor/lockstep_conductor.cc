@@ -1,0 +1,309 @@
+#include "conductor/lockstep_conductor.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/check.h"
+
+namespace halocline::conductor {
+namespace {
+
+bus::Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+
+std::string at(SimTime sim) { return "t=" + std::to_string(sim.seconds()); }
+
+// Results as the journal holds them: a count, then each after its length.
+bus::Bytes encoded_results(const std::vector<lockstep_result_t>& results) {
+  bus::Bytes bytes;
+  for (const lockstep_result_t& result : results) {
+    const auto length = static_cast<std::uint32_t>(result.getEncodedSize());
+    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(length >> shift));
+    bus::append_encoded(result, bytes);
+  }
+  return bytes;
+}
+
+lockstep_result_t given_up(const std::string& name) {
+  lockstep_result_t result{};
+  result.participant_name = name;
+  result.num_steps = Sequencer::kGivenUp;
+  return result;
+}
+
+}  // namespace
+
+LockstepConductor::LockstepConductor(LockstepRules rules, std::int64_t run_id, Mouth mouth)
+    : rules_(std::move(rules)), run_id_(run_id), mouth_(std::move(mouth)), sequencer_(mouth_.said) {}
+
+void LockstepConductor::add_local(const lockstep_join_t& introduction, TakeTurn take) {
+  Link& link = links_[introduction.participant_name];
+  link.join = introduction;
+  link.join.joining_life = 1;  // it has no life of its own
+  link.take = std::move(take);
+  link.up_to_date = true;
+  link.wants_in = true;
+}
+
+void LockstepConductor::start() { record(EntryKind::kRun, bytes_of(std::to_string(run_id_))); }
+
+// ---- rounds
+
+void LockstepConductor::advance(SimTime steady) {
+  while (!over_ && (running_ || begin_running())) {
+    if (!sequencer_.in_round()) {
+      if (!begin_next_round()) return;
+      begin_exchange(steady);
+    }
+    if (!finish_round()) return;
+  }
+}
+
+bool LockstepConductor::begin_running() {
+  const auto is_here = [this](const std::string& name) {
+    const auto link = links_.find(name);
+    return sequencer_.knows(name) || (link != links_.end() && link->second.wants_in);
+  };
+  running_ = std::all_of(rules_.expected.begin(), rules_.expected.end(), is_here);
+  return running_;
+}
+
+bool LockstepConductor::begin_next_round() {
+  note_comings_and_goings();
+  if (stop_asked_ && !ending_) end_at(sequencer_.now());
+  const SimTime after_end = rules_.end + SimDuration::from_nanoseconds(1);
+  sequencer_.set_furthest(rules_.windows ? std::min(after_end, furthest_) : SimTime::at_once());
+  while (!sequencer_.begin_round()) {
+    if (ending_) return finish(), false;
+    if (!begin_next_instant()) return false;
+  }
+  return true;
+}
+
+bool LockstepConductor::begin_next_instant() {
+  const SimTime next = sequencer_.next_instant();
+  if (next > rules_.end) return end_at(rules_.end), true;
+  if (next > furthest_) return false;
+  for (lockstep_message_t& message : std::exchange(outside_, {})) {
+    record(EntryKind::kOutside, bus::encoded(message));
+    sequencer_.hear_from_outside(std::move(message));
+  }
+  sequencer_.begin_instant(next);
+  return true;
+}
+
+void LockstepConductor::note_comings_and_goings() {
+  for (auto& [name, link] : links_) {
+    if (link.wants_in && !ending_) {
+      record(EntryKind::kJoin, bus::encoded(link.join));
+      sequencer_.admit(link.join);
+      link.wants_in = false;
+      mouth_.report("joined", "participant=" + name + " " + at(sequencer_.now()));
+    }
+    if (std::exchange(link.wants_to_leave, false) && sequencer_.let_go(name)) {
+      record(EntryKind::kFarewell, bytes_of(name));
+      mouth_.report("leaves", "participant=" + name + " " + at(sequencer_.now()));
+    }
+  }
+}
+
+void LockstepConductor::end_at(SimTime instant) {
+  record(EntryKind::kEnd, bytes_of(std::to_string(instant.nanoseconds())));
+  sequencer_.end_run(instant);
+  ending_ = true;
+}
+
+void LockstepConductor::begin_exchange(SimTime steady) {
+  round_began_ = steady;
+  results_.clear();
+  std::vector<std::string> remote, local;
+  for (const std::string& name : sequencer_.round()) {
+    Link& link = links_[name];
+    link.answered = false;
+    if (link.take) {
+      local.push_back(name);
+    } else if (link.up_to_date && link.life != 0) {
+      // A life that came when its predecessor had answered lacks that turn.
+      link.up_to_date = link.taken >= sequencer_.turns_taken(name);
+      if (!link.up_to_date) {
+        tell_past(name, link, steady);
+        continue;
+      }
+      prepare_turn(name, link);
+      remote.push_back(name);
+    }
+  }
+  say_grants(remote, steady);
+  for (const std::string& name : local) {
+    results_.push_back(links_[name].take(sequencer_.turn_of(name)));
+    links_[name].answered = true;
+  }
+}
+
+bool LockstepConductor::finish_round() {
+  const auto round = sequencer_.round();
+  if (results_.size() < round.size()) return false;
+  record(EntryKind::kRound, encoded_results(results_));
+  sequencer_.complete(std::exchange(results_, {}));
+  for (const std::string& name : round) {
+    Link& link = links_[name];
+    if (sequencer_.takes_part(name) || link.life == 0) continue;
+    link.said_goodbye = true;
+    if (!ending_) notice(link.life, lockstep_notice_t::OVER);
+  }
+  return true;
+}
+
+void LockstepConductor::finish() {
+  record(EntryKind::kOver, {});
+  over_ = true;
+  for (const auto& [name, link] : links_) {
+    if (link.life != 0) notice(link.life, lockstep_notice_t::OVER);
+  }
+}
+
+// ---- answers
+
+void LockstepConductor::on_answer(const lockstep_answer_t& answer, SimTime steady) {
+  const auto known = name_of_life_.find(answer.answering_life);
+  if (known == name_of_life_.end() || answer.run_id != run_id_) return;
+  const std::string& name = known->second;
+  Link& link = links_[name];
+  link.last_heard = steady;
+  link.wants_to_leave = link.wants_to_leave || answer.wants_to_leave != 0;
+  const bool past = !link.up_to_date;
+  if (!past && !is_waited_for(name, link)) return;
+  if (answer.turn_number != first_turn_granted(name, link) + (past ? link.turns_in_body - 1 : 0)) return;
+  const auto body =
+      link.answer.add(answer.turn_number, answer.slice_number, answer.slice_count, answer.slice_bytes);
+  if (!body) return;
+  auto result = bus::decoded<lockstep_result_t>(*body);
+  if (!result || result->participant_name != name) return;
+  if (past) {
+    on_past_taken(name, link, *result, steady);
+  } else {
+    link.timer.answered(steady);
+    link.taken = answer.turn_number;
+    link.answered = true;
+    results_.push_back(std::move(*result));
+  }
+  advance(steady);
+}
+
+void LockstepConductor::on_outside(lockstep_message_t message) { outside_.push_back(std::move(message)); }
+
+bool LockstepConductor::is_waited_for(const std::string& name, const Link& link) const {
+  const auto& round = sequencer_.round();
+  return !link.answered && std::find(round.begin(), round.end(), name) != round.end();
+}
+
+std::vector<std::string> LockstepConductor::waiting_for() const {
+  std::vector<std::string> names;
+  if (!running_) {
+    for (const std::string& name : rules_.expected) {
+      const auto link = links_.find(name);
+      if (link == links_.end() || !(link->second.wants_in || sequencer_.knows(name))) names.push_back(name);
+    }
+    return names;
+  }
+  for (const std::string& name : sequencer_.round()) {
+    if (!links_.at(name).answered) names.push_back(name);
+  }
+  return names;
+}
+
+// ---- grants
+
+void LockstepConductor::prepare_turn(const std::string& name, Link& link) {
+  link.body = bus::encoded_turns(std::vector{sequencer_.turn_of(name)});
+  link.turns_in_body = 1;
+}
+
+std::int64_t LockstepConductor::first_turn_granted(const std::string& name, const Link& link) const {
+  return link.up_to_date ? sequencer_.turns_taken(name) + 1 : link.taken + 1;
+}
+
+// One grant for all whose turns are alike.
+void LockstepConductor::say_grants(const std::vector<std::string>& names, SimTime steady) {
+  std::vector<std::string> left = names;
+  while (!left.empty()) {
+    const Link& first = links_[left.front()];
+    const auto others = std::stable_partition(left.begin(), left.end(), [&](const std::string& name) {
+      const Link& link = links_[name];
+      return link.up_to_date == first.up_to_date && link.body == first.body;
+    });
+    say_grant({left.begin(), others});
+    left.erase(left.begin(), others);
+  }
+  for (const std::string& name : names) links_[name].timer.say(steady);
+}
+
+void LockstepConductor::say_grant(const std::vector<std::string>& names) {
+  const Link& any = links_[names.front()];
+  lockstep_grant_t grant{};
+  grant.run_id = run_id_;
+  for (const std::string& name : names) {
+    const Link& link = links_[name];
+    grant.addressed_lives.push_back(link.life);
+    grant.first_turns.push_back(first_turn_granted(name, link));
+  }
+  grant.num_addressed = static_cast<std::int32_t>(names.size());
+  grant.num_turns = any.turns_in_body;
+  grant.past = any.up_to_date ? 0 : 1;
+  grant.slice_count = bus::slice_count(any.body.size());
+  std::string channel(bus::channels::kLockstepGrant);
+  if (names.size() == 1) channel += "." + names.front();
+  for (grant.slice_number = 0; grant.slice_number < grant.slice_count; ++grant.slice_number) {
+    const auto slice = bus::slice_of(any.body, grant.slice_number);
+    grant.slice_bytes.assign(slice.begin(), slice.end());
+    grant.num_slice_bytes = static_cast<std::int32_t>(slice.size());
+    mouth_.grant(channel, grant);
+  }
+}
+
+// ---- time
+
+void LockstepConductor::on_timer(SimTime steady) {
+  repeat_unanswered(steady);
+  drop_silent(steady);
+  advance(steady);
+}
+
+void LockstepConductor::repeat_unanswered(SimTime steady) {
+  std::vector<std::string> unanswered;
+  for (const auto& [name, link] : links_) {
+    if (link.life != 0 && link.timer.again_at() <= steady) unanswered.push_back(name);
+  }
+  repetitions_ += static_cast<std::int64_t>(unanswered.size());
+  if (!unanswered.empty()) say_grants(unanswered, steady);
+}
+
+void LockstepConductor::drop_silent(SimTime steady) {
+  if (rules_.drop_after == SimDuration()) return;
+  for (const std::string& name : sequencer_.round()) {
+    Link& link = links_[name];
+    if (link.answered || steady - std::max(round_began_, link.last_heard) < rules_.drop_after) continue;
+    mouth_.report("dropped", "participant=" + name + " " + at(sequencer_.now()) +
+                                 " silent_s=" + std::to_string(rules_.drop_after.seconds()));
+    name_of_life_.erase(link.life);
+    link.life = 0;
+    link.up_to_date = false;
+    link.timer = {};
+    link.answered = true;
+    results_.push_back(given_up(name));
+  }
+}
+
+SimTime LockstepConductor::next_timer() const {
+  SimTime next = SimTime::never();
+  for (const auto& [name, link] : links_) {
+    if (link.life != 0) next = std::min(next, link.timer.again_at());
+  }
+  if (rules_.drop_after == SimDuration() || !running_) return next;
+  for (const std::string& name : sequencer_.round()) {
+    const Link& link = links_.at(name);
+    if (!link.answered) next = std::min(next, std::max(round_began_, link.last_heard) + rules_.drop_after);
+  }
+  return next;
+}
+
+}  // namespace halocline::conductor

@@ -1,0 +1,24 @@
+// The command line of `halocline-conductor --lockstep`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bus/node_process.h"
+
+namespace halocline::conductor {
+
+class LockstepOptions {
+ public:
+  // Refer to this, which must outlive the parsing.
+  std::vector<bus::ProgramOption> options();
+  // Leads a lockstep when --lockstep was given; false when it was not. Throws InvalidArgument for impossible values.
+  bool run_if_asked(const bus::NodeProgram::Context& context) const;
+
+ private:
+  bool lockstep_ = false, one_by_one_ = false, outside_ = false;
+  std::string expect_ = "bathymetry,vehicle-sim,autopilot,traffic,localiser,channel-server";
+  std::string log_, journal_, rate_ = "0", drop_after_ = "0";
+};
+
+}  // namespace halocline::conductor

@@ -1,0 +1,115 @@
+#include "tests/integration/lockstep_fleet.h"
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace halocline::testing {
+namespace {
+
+std::string contents_of(const std::filesystem::path& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+}  // namespace
+
+LockstepFleet::LockstepFleet(std::string scenario, std::vector<std::string> settings, Weather weather)
+    : scenario_(HALOCLINE_TEST_DATA "/scenarios/" + std::move(scenario) + ".toml"),
+      settings_(std::move(settings)),
+      weather_(weather),
+      folder_(::testing::TempDir() + "halocline-lockstep-" + std::to_string(getpid())) {
+  std::filesystem::create_directories(folder_);
+}
+
+LockstepFleet::~LockstepFleet() {
+  processes_.clear();
+  std::filesystem::remove_all(folder_);
+}
+
+const std::vector<std::string>& LockstepFleet::participants() {
+  static const std::vector<std::string> names{"bathymetry", "vehicle-sim", "autopilot",
+                                              "traffic",    "localiser",   "channel-server"};
+  return names;
+}
+
+std::vector<std::string> LockstepFleet::settings_as_options() const {
+  std::vector<std::string> options;
+  for (const std::string& setting : settings_) options.insert(options.end(), {"--set", setting});
+  return options;
+}
+
+std::vector<std::string> LockstepFleet::command(const std::string& program, bool through_weather) const {
+  std::vector<std::string> words;
+  if (through_weather && weather_.loss + weather_.doubling + weather_.reordering > 0) {
+    words = {"/usr/bin/env", "LD_PRELOAD=" HALOCLINE_LOSSY_UDP,
+             "HALOCLINE_UDP_LOSS=" + std::to_string(weather_.loss),
+             "HALOCLINE_UDP_DOUBLING=" + std::to_string(weather_.doubling),
+             "HALOCLINE_UDP_REORDERING=" + std::to_string(weather_.reordering)};
+  }
+  words.push_back(HALOCLINE_BIN_DIR "/" + program);
+  return words;
+}
+
+void LockstepFleet::start_conductor(const std::vector<std::string>& options) {
+  auto words = command("halocline-conductor", true);
+  words.insert(words.end(), {scenario_, "--lockstep", "--journal", (folder_ / "journal").string(), "--log",
+                             (folder_ / "separate.lcm").string()});
+  for (const std::string& option : settings_as_options()) words.push_back(option);
+  words.insert(words.end(), options.begin(), options.end());
+  conductor_options_ = options;
+  if (processes_.contains("conductor")) earlier_output_ += at("conductor").output();
+  processes_["conductor"] = std::make_unique<Process>(words);
+}
+
+void LockstepFleet::start(const std::string& participant) {
+  auto words = command("halocline-" + participant, true);
+  words.insert(words.end(), {scenario_, "--time-source", "lockstep"});
+  for (const std::string& option : settings_as_options()) words.push_back(option);
+  processes_[participant] = std::make_unique<Process>(words);
+}
+
+void LockstepFleet::start_all(const std::vector<std::string>& conductor_options) {
+  start_conductor(conductor_options);
+  for (const std::string& name : participants()) start(name);
+}
+
+void LockstepFleet::kill_and_restart(const std::string& name) {
+  at(name).signal(SIGKILL);
+  at(name).wait();
+  name == "conductor" ? start_conductor(conductor_options_) : start(name);
+}
+
+bool LockstepFleet::run_to_the_end(std::chrono::seconds limit) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (std::chrono::steady_clock::now() < end) {
+    for (const std::string& name : participants()) {
+      const int code = at(name).wait(std::chrono::milliseconds(0));
+      if (code > 0) start(name);
+    }
+    const int code = at("conductor").wait(std::chrono::milliseconds(5));
+    if (code >= 0) return code == 0;
+  }
+  return false;
+}
+
+std::string LockstepFleet::conductor_output() { return earlier_output_ + at("conductor").output(); }
+
+std::string LockstepFleet::log_bytes() const { return contents_of(folder_ / "separate.lcm"); }
+
+std::string LockstepFleet::log_of_one_process(const std::vector<std::string>& more_settings) {
+  auto words = command("halocline", false);
+  const std::string log = (folder_ / "one.lcm").string();
+  words.insert(words.end(), {"run", scenario_, "--quiet", "--no-csv", "--log", log});
+  for (const std::string& option : settings_as_options()) words.push_back(option);
+  for (const std::string& setting : more_settings) words.insert(words.end(), {"--set", setting});
+  EXPECT_EQ(Process(words).wait(std::chrono::seconds(100)), 0);
+  return contents_of(log);
+}
+
+}  // namespace halocline::testing
