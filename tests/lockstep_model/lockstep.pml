@@ -4,8 +4,8 @@
  * windows (a turn is a turn), slices (a datagram is a datagram) and who is due (all are, always).
  *
  * Datagrams are kept as a set. One that was said may be heard at any later time (delayed, overtaken), again and again
- * (doubled), or be lost (LOSSES of them; saying it again puts it back). Participants and the conductor die at any instant,
- * LIVES - 1 times each, and are started again: a participant with nothing, the conductor with its journal.
+ * (doubled), or be lost (LOSSES of them; saying it again puts it back). The first MORTALS participants and the conductor die at any
+ * instant, LIVES - 1 and CONDUCTOR_LIVES - 1 times each, and are started again: a participant with nothing, the conductor with its journal.
  *
  * Transitions that change nothing (a datagram heard that has no effect) are left out. Every other one adds a datagram,
  * a turn, a life or a round, or uses up a loss, so no state comes twice, every execution is finite, and spin's search for
@@ -27,6 +27,9 @@
 #ifndef LIVES
 #define LIVES 2
 #endif
+#ifndef MORTALS
+#define MORTALS PARTS
+#endif
 #ifndef CONDUCTOR_LIVES
 #define CONDUCTOR_LIVES 2
 #endif
@@ -41,6 +44,9 @@ byte grant[PARTS * (LIVES + 1)];
 byte answer[PARTS * (LIVES + 1)];
 byte join[PARTS * (LIVES + 1)];     /* bit t: "life l of p is here, and has taken t turns" */
 byte losses = 0;
+#ifdef MUTANT_NO_REPETITION
+byte said_once[PARTS * (LIVES + 1)];
+#endif
 
 /* Participants. */
 byte life[PARTS];                   /* 1, 2, ...: greater is later */
@@ -83,13 +89,12 @@ proctype conductor_about(byte p, l) {
        t = 0 }
   /* Says a grant, or says it again. */
 #ifdef MUTANT_NO_REPETITION
-  :: atomic { alive && !over && l == known[p] && next_turn[p] <= round && !(grant[AT(p, l)] & BIT(next_turn[p])) &&
-       !(grant[AT(p, l)] & BIT(7)) ->
-       grant[AT(p, l)] = grant[AT(p, l)] | BIT(next_turn[p]) | (next_turn[p] == STEPS -> BIT(7) : 0) }
+  :: atomic { alive && !over && l == known[p] && next_turn[p] <= round && !(said_once[AT(p, l)] & BIT(next_turn[p])) ->
+       said_once[AT(p, l)] = said_once[AT(p, l)] | BIT(next_turn[p]);
 #else
   :: atomic { alive && !over && l == known[p] && next_turn[p] <= round && !(grant[AT(p, l)] & BIT(next_turn[p])) ->
-       grant[AT(p, l)] = grant[AT(p, l)] | BIT(next_turn[p]) }
 #endif
+       grant[AT(p, l)] = grant[AT(p, l)] | BIT(next_turn[p]) }
   /* Hears an answer. */
 #ifdef MUTANT_ANSWER_OF_ANY_TURN
   :: atomic { alive && !over && l == known[p] && answer[AT(p, l)] != 0 && !(answered & BIT(p)) ->
@@ -149,8 +154,9 @@ proctype conductor() {
 proctype participant(byte p) {
   byte q;
   do
-  /* Says that it is here, or says it again. */
-  :: atomic { !over && !(join[AT(p, life[p])] & BIT(taken[p])) ->
+  /* Says that it is here, or says it again, while the conductor does not know it, or thinks it elsewhere. */
+  :: atomic { !over && alive && !(join[AT(p, life[p])] & BIT(taken[p])) &&
+       (known[p] != life[p] || next_turn[p] < taken[p]) ->
        join[AT(p, life[p])] = join[AT(p, life[p])] | BIT(taken[p]) }
   /* Hears the grant of its next turn, takes it, and answers. */
 #ifdef MUTANT_NO_TURN_NUMBER
@@ -166,6 +172,7 @@ proctype participant(byte p) {
        :: else -> break
        od;
        q = 0;
+       grant[AT(p, life[p])] = grant[AT(p, life[p])] & ~(BIT(taken[p]) - 1);   /* without effect from here on */
        most_taken[p] = (taken[p] > most_taken[p] -> taken[p] : most_taken[p]);
        answer[AT(p, life[p])] = answer[AT(p, life[p])] | BIT(taken[p]) }
   /* Hears the grant of its last turn again: gives the same answer again. */
@@ -173,7 +180,10 @@ proctype participant(byte p) {
        !(answer[AT(p, life[p])] & BIT(taken[p])) ->
        answer[AT(p, life[p])] = answer[AT(p, life[p])] | BIT(taken[p]) }
   /* Dies, and is started again with nothing. */
-  :: atomic { !over && life[p] < LIVES -> life[p]++; taken[p] = 0 }
+  :: atomic { !over && p < MORTALS && life[p] < LIVES ->
+       grant[AT(p, life[p])] = 0;                             /* nobody is there to hear it */
+       life[p]++;
+       taken[p] = 0 }
   :: over -> break
   od
 }
