@@ -19,10 +19,10 @@ class ChattyNode : public bus::Node {
       : Node(lcm, {name, 1, stage}), period_(period), neighbour_(std::move(neighbour)) {
     for (const std::string& other : others) {
       bus().subscribe<sim_clock_t>(
-          "SAY." + other, [this](const sim_clock_t& m) { fold(m.sequence); }, bus::Hearing::kStores);
+          "SAY." + other, [this](const sim_clock_t& m) { fold(m.clock_step_us); }, bus::Hearing::kStores);
     }
     bus().subscribe<sim_clock_t>("ASK." + name, [this](const sim_clock_t& m) {
-      fold(m.sequence);
+      fold(m.clock_step_us);
       ++asked_;
     });
   }
@@ -44,9 +44,8 @@ class ChattyNode : public bus::Node {
   void say(const std::string& channel, SimTime now) {
     sim_clock_t message{};
     message.utime = now.to_utime();
-    message.sequence = static_cast<std::int64_t>(heard_ & 0xffffffffffffu);
     message.clock_rate = 1;
-    message.clock_step_us = 1;
+    message.clock_step_us = 1 + static_cast<std::int64_t>(heard_ % 3'000'000'000u);
     bus().publish(channel, message);
     fold(message.utime + 1);
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace halocline::testing {
 struct Weather {
   double loss = 0, doubling = 0, reordering = 0;
 };
+inline std::ostream& operator<<(std::ostream& out, const Weather& weather) {
+  return out << weather.loss << " lost, " << weather.doubling << " doubled, " << weather.reordering
+             << " overtaken";
+}
 
 class LockstepFleet {
  public:

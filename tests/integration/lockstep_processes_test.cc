@@ -16,6 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using testing::LockstepFleet;
+using ::testing::Not;
 using testing::Weather;
 
 constexpr std::chrono::seconds kLimit{120};
@@ -60,6 +61,7 @@ TEST_P(InWeather, WriteTheLogOfOneProcess) {
   LockstepFleet fleet = fleet_of("5", GetParam());
   fleet.start_all();
   ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  EXPECT_THAT(fleet.conductor_output(), Not(HasSubstr("repetitions=0"))) << "the weather was no weather";
   expect_the_log_of_one_process(fleet);
 }
 
