@@ -45,7 +45,8 @@ void OutsideEar::on_message(std::string_view channel, const void* data, std::siz
   message.num_message_bytes = static_cast<std::int32_t>(size);
   message.message_bytes.assign(bytes, bytes + size);
   const auto echo = echoes_.find(digest_of(message));
-  if (echo == echoes_.end()) return heard_(std::move(message));
+  const bool from_lcm_itself = channel == "LCM_SELF_TEST";
+  if (echo == echoes_.end()) return from_lcm_itself ? void() : heard_(std::move(message));
   if (--echo->second <= 0) echoes_.erase(echo);
 }
 
