@@ -93,8 +93,8 @@ class LockstepConductor {
   void go_on_with(const std::string& name, Link& link, SimTime steady);
   void tell_past(const std::string& name, Link& link, SimTime steady);
   void on_past_taken(const std::string& name, Link& link, const lockstep_result_t& result, SimTime steady);
-  void put_out(std::int64_t life, const std::string& name, const std::string& reason);
-  void notice(std::int64_t life, std::int8_t kind, const std::string& reason = "");
+  void put_out(std::int64_t life, const std::string& name, const std::string& reason) const;
+  void notice(std::int64_t life, std::int8_t kind, const std::string& reason = "") const;
 
   // Rounds
   void advance(SimTime steady);
@@ -119,7 +119,7 @@ class LockstepConductor {
   void apply(const JournalEntry& entry);
   void apply_round(const bus::Bytes& bytes);
   void replay_local(const std::string& name, Link& link);
-  void record(EntryKind kind, bus::Bytes bytes) { mouth_.record({kind, std::move(bytes)}); }
+  void record(EntryKind kind, bus::Bytes bytes) const { mouth_.record({kind, std::move(bytes)}); }
 
   LockstepRules rules_;
   std::int64_t run_id_;

@@ -101,12 +101,12 @@ void LockstepConductor::on_past_taken(const std::string& name, Link& link, const
   go_on_with(name, link, steady);
 }
 
-void LockstepConductor::put_out(std::int64_t life, const std::string& name, const std::string& reason) {
+void LockstepConductor::put_out(std::int64_t life, const std::string& name, const std::string& reason) const {
   mouth_.report("put-out", "participant=" + name + " reason=\"" + reason + "\"");
   notice(life, lockstep_notice_t::PUT_OUT, reason);
 }
 
-void LockstepConductor::notice(std::int64_t life, std::int8_t kind, const std::string& reason) {
+void LockstepConductor::notice(std::int64_t life, std::int8_t kind, const std::string& reason) const {
   lockstep_notice_t notice;
   notice.run_id = run_id_;
   notice.noticed_life = life;
