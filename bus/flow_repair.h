@@ -12,6 +12,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bus/flow_history.h"
@@ -34,8 +35,8 @@ class FlowRepair {
 
   // ---- as a publisher
   void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence,
-                    const FlowHistory::Bytes& message) {
-    history_.keep(channel, session, sequence, message);
+                    FlowHistory::Bytes message) {
+    history_.keep(channel, session, sequence, std::move(message));
   }
   // The messages asked for that are still kept.
   std::vector<const FlowHistory::Bytes*> answers_to(const repair_request_t& request) const;
