@@ -42,6 +42,8 @@ inline constexpr Family kReceipt{"RECEIPT."};
 inline constexpr Family kReceive{"RECEIVE."};
 inline constexpr Family kLinks{"LINKS."};
 inline constexpr Family kLinkReply{"LINK_REPLY."};
+// From one of several channel servers to the others (shards).
+inline constexpr std::string_view kPingAnswer = "PING_ANSWER";
 // From any client.
 inline constexpr std::string_view kLinkQuery = "LINK_QUERY";
 inline constexpr std::string_view kRayQuery = "RAY_QUERY";

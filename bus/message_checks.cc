@@ -196,6 +196,18 @@ std::string problem_in(const packet_outcome_t& m) {
   return checker.result();
 }
 
+std::string problem_in(const ping_answer_t& m) {
+  return Checker()
+      .utime(m.utime)
+      .name("answering_vehicle", m.answering_vehicle)
+      .id("answering_id", m.answering_id)
+      .id("asking_id", m.asking_id)
+      .utime(m.answer_start_ns / 1000, "answer_start_ns")
+      .utime(m.ping_departure_ns / 1000, "ping_departure_ns")
+      .within("ping_duration_ns", static_cast<double>(m.ping_duration_ns), 0, 1e16)
+      .result();
+}
+
 std::string problem_in(const position_estimate_t& m) {
   return Checker()
       .utime(m.utime)

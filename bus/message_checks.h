@@ -30,6 +30,7 @@ std::string problem_in(const modem_receipt_t& message);
 std::string problem_in(const modem_receive_t& message);
 std::string problem_in(const packet_name_t& message);
 std::string problem_in(const packet_outcome_t& message);
+std::string problem_in(const ping_answer_t& message);
 std::string problem_in(const position_estimate_t& message);
 std::string problem_in(const link_t& message);
 std::string problem_in(const link_table_t& message);

@@ -25,6 +25,7 @@
 #include <halocline/node_status_t.hpp>
 #include <halocline/packet_name_t.hpp>
 #include <halocline/packet_outcome_t.hpp>
+#include <halocline/ping_answer_t.hpp>
 #include <halocline/position_estimate_t.hpp>
 #include <halocline/ray_query_t.hpp>
 #include <halocline/ray_reply_t.hpp>

@@ -23,8 +23,8 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.add_option("scenario", arguments.scenario_path, "scenario file (TOML); without one, defaults hold");
   app.add_option("--set", arguments.overrides,
                  "change a key of the scenario: section.key=value (repeatable)");
-  app.add_option("--name", arguments.name, "name of this node (channel STATUS.<name>)")
-      ->default_val(program.node_name);
+  app.add_option("--name", arguments.name,
+                 "name of this node (channel STATUS.<name>); default: " + program.node_name);
   app.add_option("--lcm-url", arguments.lcm_url, "LCM URL; default: LCM_DEFAULT_URL, else this host only");
   if (!program.make_time_source) {
     app.add_option("--time-source", arguments.time_source,
@@ -47,10 +47,20 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.footer("Example:\n  " + program.program + " scenarios/seamount.toml --log-level debug");
 }
 
+std::vector<std::string> overrides_of(const Arguments& arguments, const NodeProgram& program) {
+  std::vector<std::string> overrides = arguments.overrides;
+  for (const ProgramOption& option : program.options) {
+    if (!option.settings || option.value->empty()) continue;
+    const auto settings = option.settings(*option.value);
+    overrides.insert(overrides.end(), settings.begin(), settings.end());
+  }
+  return overrides;
+}
+
 void read_scenario(const Arguments& arguments, const NodeProgram& program, NodeRun& run) {
-  auto file = arguments.scenario_path.empty()
-                  ? ConfigFile::parse("", "command line", arguments.overrides)
-                  : ConfigFile::load(arguments.scenario_path, arguments.overrides);
+  const std::vector<std::string> overrides = overrides_of(arguments, program);
+  auto file = arguments.scenario_path.empty() ? ConfigFile::parse("", "command line", overrides)
+                                              : ConfigFile::load(arguments.scenario_path, overrides);
   file.read([&](ConfigVisitor& v) { visit(v, run.scenario); });
   if (program.visit_config) file.read(program.visit_config);
   file.check(/*whole_file=*/false);
@@ -92,7 +102,9 @@ std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const Node
   if (arguments.print_config) {
     return std::printf("%s", config_text(program, run.scenario, false).c_str()), std::nullopt;
   }
-  run.identity = {arguments.name, session_of(entropy_of_this_life(), arguments.name)};
+  std::string name = arguments.name;
+  if (name.empty()) name = program.default_name ? program.default_name() : program.node_name;
+  run.identity = {name, session_of(entropy_of_this_life(), name)};
   run.lcm_url = arguments.lcm_url;
   run.sync_url = arguments.sync_url;
   run.time_source =

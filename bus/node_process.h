@@ -25,6 +25,9 @@ struct ProgramOption {
   std::string help;
   std::string* value = nullptr;
   bool* flag = nullptr;
+  // Of a text that stands for keys of the scenario: its settings ("section.key=value"). Throws InvalidArgument that
+  // says what is allowed.
+  std::function<std::vector<std::string>(const std::string& value)> settings = nullptr;
 };
 
 struct NodeProgram {
@@ -35,6 +38,8 @@ struct NodeProgram {
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   Stage stage = Stage::kClients;  // its place in lockstep
   std::vector<ProgramOption> options = {};
+  // The name of the node when the command line gives none, asked once the configuration is read; default: node_name.
+  std::function<std::string()> default_name = nullptr;
 
   // Describes the program's own sections of the scenario file: read from it, printed by --example and
   // --print-config.

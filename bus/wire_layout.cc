@@ -153,6 +153,7 @@ HALOCLINE_LAYOUT(modem_receive_t, {fixed(kHead + 2 * 8 + 3 * 4 + 2 + 8 + 6 * 8),
 HALOCLINE_LAYOUT(packet_name_t, (packet_name_layout()))
 HALOCLINE_LAYOUT(packet_outcome_t, {fixed(kHead + 2 * 8 + 3 * 4 + 2 + 8 + 8 * 8 + 1 + 4 + 10 * 8), count(),
                                     array_of(packet_name_layout())})
+HALOCLINE_LAYOUT(ping_answer_t, {fixed(kHead), text(), fixed(2 * 4 + 5 * 8)})
 HALOCLINE_LAYOUT(position_estimate_t, {fixed(kHead + 4 + 1 + (3 + 9 + 3 + 1) * 8 + 2 * 8 + 1 + 3 * 8)})
 HALOCLINE_LAYOUT(link_t, (link_layout()))
 HALOCLINE_LAYOUT(link_table_t, {fixed(kHead + 4), count(), array_of(link_layout())})

@@ -48,6 +48,10 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   v.number("profile_spacing_m", r.profile.spacing_m,
            {1, 1000, "m", "rays: samples of the bottom lie no further apart (16 to 256 of a link)"});
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});
+  visit_count(v, "shards", r.medium.shard.count,
+              {1, kMostShards, "", "channel servers that share the vehicles (id mod shards = shard)"});
+  visit_count(v, "shard", r.medium.shard.index,
+              {0, kMostShards - 1.0, "", "which of them this one is; in one process all run"});
   bus::seconds(v, "echo_deadline_s", r.asking.answer_deadline,
                {0.001, 60, "s", "the bathymetry service is away when it has not answered by then"});
   visit_count(v, "echo_rays_per_message", r.asking.rays_per_batch, {128, 4096, "", "rays in one RAY_QUERY"});

@@ -78,6 +78,8 @@ struct ChangeConfig {
 };
 
 // How the server works; defaults as in the headers of its parts.
+inline constexpr int kMostShards = 64;
+
 struct ServerRules {
   SimDuration link_period = SimDuration::from_milliseconds(1000);  // between two LINKS of a vehicle
   PositionRule position;

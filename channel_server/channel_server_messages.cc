@@ -199,6 +199,35 @@ SendRequest to_request(std::string_view vehicle, const modem_send_t& message) {
   return request;
 }
 
+ping_answer_t to_message(const PingAnswer& answer, SimTime at) {
+  ping_answer_t message{};
+  message.utime = at.to_utime();
+  message.answering_vehicle = answer.request.vehicle;
+  message.answering_id = answer.request.source_id;
+  message.asking_id = answer.request.destination_id;
+  message.ping_session = answer.request.session;
+  message.ping_sequence = answer.request.packet_sequence;
+  message.answer_start_ns = answer.request.start.nanoseconds();
+  message.ping_departure_ns = answer.ping_departure.nanoseconds();
+  message.ping_duration_ns = answer.ping_duration.nanoseconds();
+  return message;
+}
+
+PingAnswer to_answer(const ping_answer_t& message) {
+  PingAnswer answer;
+  answer.request.vehicle = message.answering_vehicle;
+  answer.request.source_id = message.answering_id;
+  answer.request.destination_id = message.asking_id;
+  answer.request.session = message.ping_session;
+  answer.request.packet_sequence = message.ping_sequence;
+  answer.request.start = SimTime::from_nanoseconds(message.answer_start_ns);
+  answer.request.kind = PacketKind::kPingReply;
+  answer.request.stamped = false;
+  answer.ping_departure = SimTime::from_nanoseconds(message.ping_departure_ns);
+  answer.ping_duration = SimDuration::from_nanoseconds(message.ping_duration_ns);
+  return answer;
+}
+
 modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at) {
   modem_receipt_t message{};
   message.utime = answered_at.to_utime();

@@ -31,6 +31,8 @@ VehicleModem to_modem(const modem_config_t& message);
 modem_config_t to_message(const VehicleModem& modem, SimTime from);
 
 SendRequest to_request(std::string_view vehicle, const modem_send_t& message);
+ping_answer_t to_message(const PingAnswer& answer, SimTime at);
+PingAnswer to_answer(const ping_answer_t& message);
 
 // Session and sequence are the publisher's to fill in.
 modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);

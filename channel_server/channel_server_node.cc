@@ -102,6 +102,8 @@ void ChannelServerNode::subscribe_all() {
     keep(sends_, vehicle, m, channels::kSend);
   });
   bus().subscribe<link_query_t>(channels::kLinkQuery, [this](const link_query_t& m) {
+    const Shard& shard = rules_.medium.shard;
+    if ((m.request_id % shard.count + shard.count) % shard.count != shard.index) return;
     if (queries_.size() >= LinkDesk::kMostWaiting) {
       return bus().refuse(channels::kLinkQuery, "too many questions at once");
     }
@@ -113,6 +115,14 @@ void ChannelServerNode::subscribe_all() {
     }
     changes_.push_back(m);
   });
+  if (!rules_.medium.shard.is_alone()) {
+    bus().subscribe<ping_answer_t>(channels::kPingAnswer, [this](const ping_answer_t& m) {
+      if (ping_answers_.size() >= kMostWaiting) {
+        return bus().refuse(channels::kPingAnswer, "too many messages at once");
+      }
+      ping_answers_.push_back(m);
+    });
+  }
   bus().subscribe<ray_reply_t>(channels::kRayReply.of(ray_client_),
                                [this](const ray_reply_t& m) { ray_replies_.push_back(m); });
 }
@@ -128,6 +138,9 @@ bus::Due ChannelServerNode::on_due() const {
   bus::Due due;
   due.sim = std::min({next_tick_, next_environment_, medium_.next_event()});
   for (const auto& [vehicle, send] : sends_) due.sim = std::min(due.sim, SimTime::from_utime(send.utime));
+  for (const ping_answer_t& answer : ping_answers_) {
+    due.sim = std::min(due.sim, SimTime::from_nanoseconds(answer.answer_start_ns));
+  }
   if (!queries_.empty() || !changes_.empty()) due.sim = SimTime::at_once();
   due.steady = ray_replies_.empty() ? std::min(asker_.due(), desk_.due()) : SimTime::at_once();
   return due;
@@ -140,6 +153,7 @@ void ChannelServerNode::on_step(const bus::Now& now) {
     take_modems();
     take_environment_changes(now.sim);
     take_sends(now.sim);
+    take_ping_answers();
     run_water_to(now.sim);
     forget_old(now.sim);
   }
@@ -228,6 +242,11 @@ void ChannelServerNode::take_sends(SimTime now) {
   }
 }
 
+void ChannelServerNode::take_ping_answers() {
+  for (const ping_answer_t& message : std::exchange(ping_answers_, {}))
+    medium_.hear_answer(to_answer(message));
+}
+
 // Whatever was published up to now stays true: a change announced for earlier holds from now on.
 void ChannelServerNode::take_environment_changes(SimTime now) {
   for (const environment_change_t& message : std::exchange(changes_, {})) {
@@ -270,6 +289,9 @@ void ChannelServerNode::run_instant(SimTime instant) {
 
 void ChannelServerNode::publish_event(const MediumEvent& event) {
   if (const auto* receipt = std::get_if<Receipt>(&event.what)) return publish_receipt(*receipt, event.at);
+  if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
+    return publish_numbered(std::string(channels::kPingAnswer), to_message(*answer, event.at));
+  }
   if (event.late) ++bus().counters().late;
   publish_end(std::get<PacketEnd>(event.what), event.at);
 }
@@ -285,8 +307,10 @@ void ChannelServerNode::publish_end(const PacketEnd& end, SimTime at) {
 
 void ChannelServerNode::publish_environment(SimTime instant) {
   book_.forget_verdicts();
-  publish_numbered(std::string(channels::kEnvironment),
-                   to_message(propagation_->environment(instant), description_, instant, terrain_version_));
+  if (rules_.medium.shard.index == 0) {
+    publish_numbered(std::string(channels::kEnvironment),
+                     to_message(propagation_->environment(instant), description_, instant, terrain_version_));
+  }
   next_environment_ =
       std::min(next_on_grid(instant, kEnvironmentPeriod), waters_->next_change_after(instant));
 }
@@ -299,7 +323,7 @@ void ChannelServerNode::publish_links(SimTime tick) {
   const auto for_each = [this](std::size_t count, const std::function<void(std::size_t)>& body) {
     pool_->for_each(count, body);
   };
-  const auto tables = link_tables(tick, vehicles, *propagation_, judge, for_each);
+  const auto tables = link_tables(tick, vehicles, *propagation_, judge, for_each, rules_.medium.shard);
   for (const LinkTable& table : tables) {
     publish_numbered(channels::kLinks.of(fleet_.name_of(table.vehicle_id)), to_message(table, tick));
     links_published_ += static_cast<std::int64_t>(table.rows.size());
@@ -310,14 +334,14 @@ void ChannelServerNode::publish_links(SimTime tick) {
 }
 
 void ChannelServerNode::ask_for_echoes(const std::vector<PlacedVehicle>& vehicles) {
-  for (const VehiclePair& pair : book_.begin_tick(vehicles)) {
+  for (const VehiclePair& pair : book_.begin_tick(vehicles, rules_.medium.shard)) {
     const EchoSurvey survey(book_.place(pair.first), book_.place(pair.second), rules_.bottom_points);
     surveyed_pairs_.emplace(asker_.ask_routine(survey), pair);
   }
 }
 
 void ChannelServerNode::ask_for_profiles(const std::vector<PlacedVehicle>& vehicles) {
-  for (const VehiclePair& pair : bottoms_->take_geometry(vehicles)) {
+  for (const VehiclePair& pair : bottoms_->take_geometry(vehicles, rules_.medium.shard)) {
     surveyed_pairs_.emplace(asker_.ask_routine(bottoms_->survey_of(pair)), pair);
   }
 }
@@ -400,6 +424,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   std::erase_if(states_, of_old_run);
   std::erase_if(modems_, of_old_run);
   std::erase_if(sends_, of_old_run);
+  ping_answers_.clear();
   std::erase_if(changes_, [&](const environment_change_t& change) { return change.utime > latest; });
   next_tick_ = next_environment_ = kBeforeAll;
 }
@@ -418,6 +443,9 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
                                                        const ChannelServerConfig& config,
                                                        const bus::Scenario& scenario,
                                                        const std::string& folder) {
+  const Shard& shard = config.rules.medium.shard;
+  require(shard.index < shard.count, "channel_server.shard is " + std::to_string(shard.index) +
+                                         "; allowed is 0 to shards - 1, " + std::to_string(shard.count - 1));
   const acoustics::Environment environment = make_environment(config.environment, scenario, folder);
   WaterModel water = config.propagation.model == PropagationModel::kRays
                          ? ray_model(environment, make_rays(config), config.rules.profile)

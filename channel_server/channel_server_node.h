@@ -5,6 +5,9 @@
 // so that a recorded reply is not taken for its own). Publishes ENVIRONMENT, LINKS.<vehicle>, RECEIPT.<vehicle>,
 // RECEIVE.<vehicle>, OUTCOME, LINK_REPLY.<client>, RAY_QUERY.
 //
+// Of several servers of one water (rules.medium.shard) each hears all the others hear and publishes its share; the first
+// also ENVIRONMENT; LINK_QUERYs go by their request_id; PING_ANSWER tells the others of answers to pings.
+//
 // A step, in this order: answers of the bathymetry service; what was heard of vehicles; the events of the
 // water and the link tables, in the order of their instants, up to now; questions; what is to be asked of the
 // bathymetry service; replies.
@@ -71,6 +74,7 @@ class ChannelServerNode : public bus::Node {
   void take_states(SimTime now);
   void take_modems();
   void take_sends(SimTime now);
+  void take_ping_answers();
   void run_water_to(SimTime now);
   void take_questions(const bus::Now& now);
   void ask_terrain(const bus::Now& now);
@@ -111,6 +115,7 @@ class ChannelServerNode : public bus::Node {
   std::vector<link_query_t> queries_;
   std::vector<ray_reply_t> ray_replies_;
   std::vector<environment_change_t> changes_;
+  std::vector<ping_answer_t> ping_answers_;  // of other shards
 
   SimTime next_tick_, next_environment_;
   std::map<TerrainAsker::SurveyId, VehiclePair> surveyed_pairs_;

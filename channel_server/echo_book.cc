@@ -43,7 +43,7 @@ Multipath EchoBook::judge(Entry& entry, SimTime at, const PlacedVehicle& transmi
   return verdict.multipath;
 }
 
-std::vector<VehiclePair> EchoBook::begin_tick(const std::vector<PlacedVehicle>& vehicles) {
+std::vector<VehiclePair> EchoBook::begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard) {
   ++tick_;
   places_.clear();
   for (const auto& vehicle : vehicles) places_.emplace(vehicle.id, vehicle.placement.position_ned_m);
@@ -53,6 +53,7 @@ std::vector<VehiclePair> EchoBook::begin_tick(const std::vector<PlacedVehicle>& 
   std::vector<std::pair<std::int64_t, VehiclePair>> wanted;
   for (auto low = places_.begin(); low != places_.end(); ++low) {
     for (auto high = std::next(low); high != places_.end(); ++high) {
+      if (!shard.serves(low->first) && !shard.serves(high->first)) continue;
       const Entry& entry = entries_[{low->first, high->first}];
       if (serves(entry, low->second, high->second)) continue;
       wanted.push_back({entry.asked_at_tick, {low->first, high->first}});

@@ -34,7 +34,7 @@ class EchoBook {
 
   // The tables of a tick are made; its geometry is this. Returns the pairs that need a survey, those
   // asked for longest ago first.
-  std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles);
+  std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard = {});
   // Place of a vehicle at the last tick; the vehicle was among those of begin_tick.
   const Vec3& place(VehicleId id) const { return places_.at(id); }
 

@@ -37,9 +37,10 @@ std::vector<PlacedVehicle> place_all(const Fleet& fleet, SimTime instant) {
 
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    Propagation& propagation, const MultipathJudge& multipath,
-                                   const ForEach& for_each) {
+                                   const ForEach& for_each, Shard shard) {
   std::vector<EndPair> links;
   for (const PlacedVehicle& from : vehicles) {
+    if (!shard.serves(from.id)) continue;
     for (const PlacedVehicle& to : vehicles) {
       if (to.id != from.id) links.push_back({link_end(from), link_end(to)});
     }
@@ -48,6 +49,7 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
   auto reception = receptions.begin();
   std::vector<LinkTable> tables;
   for (const PlacedVehicle& from : vehicles) {
+    if (!shard.serves(from.id)) continue;
     LinkTable table{from.id, {}};
     for (const PlacedVehicle& to : vehicles) {
       if (to.id == from.id) continue;

@@ -7,6 +7,7 @@
 
 #include "channel_server/fleet.h"
 #include "channel_server/propagation.h"
+#include "channel_server/shard.h"
 
 namespace halocline::channel_server {
 
@@ -58,10 +59,11 @@ std::vector<PlacedVehicle> place_all(const Fleet& fleet, SimTime instant);
 using MultipathJudge =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
-// One table a vehicle, by id, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The
+// One table a vehicle that `shard` serves, by id, of links whose sound leaves at `instant`; a vehicle alone has an
+// empty one. The
 // judge is asked where paths are straight by choice: rays know themselves what the bottom sends.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    Propagation& propagation, const MultipathJudge& multipath,
-                                   const ForEach& for_each = one_after_the_other);
+                                   const ForEach& for_each = one_after_the_other, Shard shard = {});
 
 }  // namespace halocline::channel_server

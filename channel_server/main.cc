@@ -1,9 +1,29 @@
 #include "bus/node_process.h"
 #include "channel_server/channel_server_node.h"
+#include "core/check.h"
 
+using halocline::InvalidArgument;
 using halocline::bus::NodeProgram;
 using halocline::channel_server::ChannelServerConfig;
 using halocline::channel_server::make_channel_server;
+
+namespace {
+
+// "i/n" as keys of the scenario.
+std::vector<std::string> shard_settings(const std::string& value) {
+  const auto slash = value.find('/');
+  const auto is_number = [](const std::string& text) {
+    return !text.empty() && text.size() < 4 && text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const std::string index = value.substr(0, slash);
+  const std::string count = slash == std::string::npos ? "" : value.substr(slash + 1);
+  if (!is_number(index) || !is_number(count) || std::stoi(index) >= std::stoi(count)) {
+    throw InvalidArgument("--shard " + value + "; allowed is i/n with i from 0 to n - 1, as 0/2 and 1/2");
+  }
+  return {"channel_server.shard=" + index, "channel_server.shards=" + count};
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   ChannelServerConfig config;
@@ -14,10 +34,18 @@ int main(int argc, char** argv) {
   program.stage = halocline::bus::Stage::kChannel;
   program.interface =
       "hears:     STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
+      "           PING_ANSWER (of other shards),\n"
       "           RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
       "publishes: LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"
-      "           LINK_REPLY.<client>, RAY_QUERY, STATUS.<name>";
+      "           LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER (as a shard), STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
+  program.shorthands = {{"--shard", "I/N",
+                         "serve the vehicles whose id mod N is I, beside N - 1 other servers",
+                         shard_settings}};
+  program.default_name = [&] {
+    const auto& shard = config.rules.medium.shard;
+    return "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
+  };
   program.make_node = [&](const NodeProgram::Context& context) {
     return make_channel_server(context.lcm, context.identity, config, context.scenario, context.folder);
   };

@@ -39,6 +39,13 @@ struct SendRequest {
   bool stamped = true;  // the packet carries the instant of its departure by the sender's clock
 };
 
+// A modem answers a ping by itself.
+struct PingAnswer {
+  SendRequest request;  // of the answer; starts when it leaves
+  SimTime ping_departure;
+  SimDuration ping_duration;
+};
+
 // In the order of modem_receipt_t.
 enum class SendResult {
   kAccepted,
@@ -141,7 +148,7 @@ struct PacketEnd {
 struct MediumEvent {
   SimTime at;         // exactly when it happened
   bool late = false;  // the medium had been advanced beyond `at` before it could know of this
-  std::variant<Receipt, PacketEnd> what;
+  std::variant<Receipt, PacketEnd, PingAnswer> what;  // answers only where other shards must learn of them
 };
 
 }  // namespace halocline::channel_server

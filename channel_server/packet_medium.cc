@@ -62,7 +62,7 @@ PacketMedium::PacketMedium(const Fleet& fleet, Propagation& propagation, MediumR
 std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
   if (!register_.enter(request)) {
     const Receipt* given = register_.receipt_of(request);
-    return given ? std::optional(*given) : std::nullopt;
+    return given && rule_.shard.serves(request.source_id) ? std::optional(*given) : std::nullopt;
   }
   Receipt refusal{request.vehicle, request.session, request.packet_sequence, SendResult::kStale, {}, {}};
   if (request.start >= now - rule_.greatest_lateness && request.start <= now + rule_.greatest_earliness) {
@@ -71,7 +71,21 @@ std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTim
   }
   if (request.start > now) refusal.result = SendResult::kTooEarly;
   register_.decide(request, refusal);
-  return refusal;
+  return rule_.shard.serves(request.source_id) ? std::optional(refusal) : std::nullopt;
+}
+
+void PacketMedium::hear_answer(const PingAnswer& answer) {
+  const SendRequest& request = answer.request;
+  if (!answered_
+           .insert({request.start, request.source_id, request.destination_id, request.session,
+                    request.packet_sequence})
+           .second) {
+    return;
+  }
+  Packet ping;
+  ping.departure = answer.ping_departure;
+  ping.timing.duration = answer.ping_duration;
+  add_departure(request.start, {request, std::make_shared<const Packet>(std::move(ping)), nullptr});
 }
 
 void PacketMedium::add_departure(SimTime at, Departure departure) {
@@ -127,6 +141,7 @@ void PacketMedium::depart(const Departure& departure, std::vector<MediumEvent>& 
   Receipt receipt{request.vehicle, request.session, request.packet_sequence, decision.result, {}, {}};
   if (accepted) receipt.start = decision.start, receipt.duration = timing.duration;
   register_.decide(request, receipt);
+  if (!rule_.shard.serves(request.source_id)) return;
   events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
 }
 
@@ -157,9 +172,12 @@ PacketPointer PacketMedium::at_its_departure(const Packet& queued) const {
 
 void PacketMedium::launch(const PacketPointer& packet) {
   const SimTime departure = packet->departure;
-  hearing_of(packet->request.source_id).transmit({packet, departure, departure + packet->timing.duration});
+  const VehicleId source = packet->request.source_id;
+  if (rule_.shard.serves(source)) {
+    hearing_of(source).transmit({packet, departure, departure + packet->timing.duration});
+  }
   for (const VehicleId receiver : fleet_.present(departure)) {
-    if (receiver == packet->request.source_id) continue;
+    if (receiver == source || !rule_.shard.serves(receiver)) continue;
     auto flight = std::make_unique<Flight>();
     flight->packet = packet;
     flight->receiver_id = receiver;
@@ -177,7 +195,7 @@ void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector
     case Flight::Stage::kPreamble:
       return end_preamble(std::move(flight), at);
     case Flight::Stage::kBits:
-      events.push_back({at, at < advanced_to_, end(*flight, at)});
+      return end(*flight, at, events);
   }
 }
 
@@ -240,7 +258,19 @@ PacketFate PacketMedium::fate_of(Flight& flight, SimTime at) {
   return judge(signal, others, draws, flight.noticed, judgement);
 }
 
-PacketEnd PacketMedium::end(Flight& flight, SimTime at) {
+void PacketMedium::end(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
+  PacketEnd ending = ending_of(flight, at);
+  const bool is_answered = ending.deliver && flight.packet->request.kind == PacketKind::kPing;
+  events.push_back({at, at < advanced_to_, std::move(ending)});
+  if (is_answered) {
+    const PingAnswer answer = answer_of(flight, at);
+    hear_answer(answer);
+    if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
+  }
+  hearing_of(flight.receiver_id).close(flight.first_sound(), at);
+}
+
+PacketEnd PacketMedium::ending_of(Flight& flight, SimTime at) {
   PacketEnd end;
   end.fate = fate_of(flight, at);
   end.packet = flight.packet;
@@ -257,12 +287,10 @@ PacketEnd PacketMedium::end(Flight& flight, SimTime at) {
   end.doppler_factor = flight.doppler_factor();
   tell_direction(flight, end);
   end.judgement = flight.judgement;
-  if (end.deliver && flight.packet->request.kind == PacketKind::kPing) answer_ping(flight, at);
-  hearing_of(flight.receiver_id).close(flight.first_sound(), at);
   return end;
 }
 
-void PacketMedium::answer_ping(const Flight& flight, SimTime at) {
+PingAnswer PacketMedium::answer_of(const Flight& flight, SimTime at) const {
   const Packet& ping = *flight.packet;
   SendRequest answer;
   answer.vehicle = flight.receiver;
@@ -273,7 +301,7 @@ void PacketMedium::answer_ping(const Flight& flight, SimTime at) {
   answer.start = std::max(flight.arrival() + ping.timing.duration + kPingTurnaround, at);
   answer.kind = PacketKind::kPingReply;
   answer.stamped = false;
-  add_departure(answer.start, {answer, flight.packet, nullptr});
+  return {answer, ping.departure, ping.timing.duration};
 }
 
 void PacketMedium::schedule(SimTime at, FlightPointer flight) {
@@ -288,6 +316,7 @@ Hearing& PacketMedium::hearing_of(VehicleId id) {
 
 void PacketMedium::forget_before(SimTime time) {
   register_.forget_before(time);
+  answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));
   for (auto hearing = hearings_.begin(); hearing != hearings_.end();) {
     hearing->second.forget(time + rule_.greatest_lateness);
     hearing = hearing->second.silent() ? hearings_.erase(hearing) : std::next(hearing);
@@ -299,6 +328,7 @@ void PacketMedium::clear() {
   departures_.clear();
   flights_.clear();
   hearings_.clear();
+  answered_.clear();
   advanced_to_ = SimTime::at_once();
 }
 

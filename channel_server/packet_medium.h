@@ -23,6 +23,10 @@
 // Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time at
 // most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
 //
+// Shards. A medium that shares the water with others (rule.shard) is told of all states and requests, decides all
+// of them, and follows packets only to the receivers it serves. Only the answer to a ping depends on what another
+// shard's vehicle received; it leaves kPingTurnaround after that, and hear_answer() tells of it meanwhile.
+//
 // Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet,
 // fading.
 #pragma once
@@ -31,6 +35,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -42,6 +47,7 @@
 #include "channel_server/packet.h"
 #include "channel_server/propagation.h"
 #include "channel_server/send_register.h"
+#include "channel_server/shard.h"
 
 namespace halocline::channel_server {
 
@@ -49,6 +55,7 @@ struct MediumRule {
   SimDuration greatest_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
   SimDuration greatest_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
   std::uint64_t seed = 1;                                                   // of all draws
+  Shard shard;  // of several media of one water, each told of everything
 };
 
 class PacketMedium {
@@ -61,6 +68,9 @@ class PacketMedium {
   // A transmission asked for, heard at `now`. A receipt when it can be given without waiting for the start:
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
   std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
+
+  // A modem that another shard serves will answer a ping; a repetition changes nothing.
+  void hear_answer(const PingAnswer& answer);
 
   // When something next happens; SimTime::never() when the water is silent.
   SimTime next_event() const;
@@ -102,9 +112,10 @@ class PacketMedium {
   void on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
   void come(FlightPointer flight, SimTime at);
   void end_preamble(FlightPointer flight, SimTime at);
-  PacketEnd end(Flight& flight, SimTime at);
+  void end(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
+  PacketEnd ending_of(Flight& flight, SimTime at);
   PacketFate fate_of(Flight& flight, SimTime at);
-  void answer_ping(const Flight& flight, SimTime at);
+  PingAnswer answer_of(const Flight& flight, SimTime at) const;
   void schedule(SimTime at, FlightPointer flight);
   Hearing& hearing_of(VehicleId id);
 
@@ -116,6 +127,8 @@ class PacketMedium {
   std::map<DepartureKey, Departure> departures_;
   std::map<FlightKey, FlightPointer> flights_;
   std::map<VehicleId, Hearing> hearings_;
+  std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
+      answered_;  // see hear_answer
   SimTime advanced_to_ = SimTime::at_once();
 };
 

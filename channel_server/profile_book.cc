@@ -12,12 +12,13 @@ void ProfileBook::open_tick(SimTime tick) {
   }
 }
 
-std::vector<VehiclePair> ProfileBook::take_geometry(const std::vector<PlacedVehicle>& vehicles) {
+std::vector<VehiclePair> ProfileBook::take_geometry(const std::vector<PlacedVehicle>& vehicles, Shard shard) {
   ++tick_;
   for (auto& [pair, entry] : entries_) entry.present = false;
   std::vector<std::pair<std::int64_t, VehiclePair>> wanted;
   for (auto low = vehicles.begin(); low != vehicles.end(); ++low) {
     for (auto high = std::next(low); high != vehicles.end(); ++high) {
+      if (!shard.serves(low->id) && !shard.serves(high->id)) continue;
       Entry& entry = entries_[pair_of(low->id, high->id)];
       entry.present = true;
       entry.cells = cells_of(low->placement.position_ned_m, high->placement.position_ned_m, rule_);

@@ -28,7 +28,7 @@ class ProfileBook {
   void open_tick(SimTime tick);
   // The geometry of the tick just opened. Returns the pairs about whose cells the terrain has told
   // nothing, those asked for longest ago first.
-  std::vector<VehiclePair> take_geometry(const std::vector<PlacedVehicle>& vehicles);
+  std::vector<VehiclePair> take_geometry(const std::vector<PlacedVehicle>& vehicles, Shard shard = {});
 
   // To be asked for a pair of the last geometry; it runs from the lower id to the higher.
   ProfileSurvey survey_of(const VehiclePair& pair) const;

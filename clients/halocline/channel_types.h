@@ -20,6 +20,7 @@ bool with_type_of(std::string_view channel, Function&& f) {
   if (is(c::kEnvironment)) return f.template operator()<environment_t>(), true;
   if (is(c::kSetEnvironment)) return f.template operator()<environment_change_t>(), true;
   if (is(c::kOutcome)) return f.template operator()<packet_outcome_t>(), true;
+  if (is(c::kPingAnswer)) return f.template operator()<ping_answer_t>(), true;
   if (is(c::kLinkQuery)) return f.template operator()<link_query_t>(), true;
   if (is(c::kRayQuery)) return f.template operator()<ray_query_t>(), true;
   if (is(c::kSetCurrent)) return f.template operator()<current_change_t>(), true;

@@ -118,11 +118,19 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
     add<TrafficNode>(bus::Stage::kTraffic, "traffic", config.traffic);
     add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
   }
-  const bus::NodeIdentity identity{"channel-server", bus::session_of(seed_, "channel-server"),
-                                   bus::Stage::kChannel};
-  owned_.push_back(channel_server::make_channel_server(lcm_, identity, config.channel_server, config.scenario,
-                                                       config.folder));
-  order_.push_back(owned_.back().get());
+  add_channel_servers(config);
+}
+
+void Composition::add_channel_servers(const ScenarioConfig& config) {
+  channel_server::ChannelServerConfig server = config.channel_server;
+  channel_server::Shard& shard = server.rules.medium.shard;
+  for (shard.index = 0; shard.index < shard.count; ++shard.index) {
+    const std::string name = "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
+    const bus::NodeIdentity identity{name, bus::session_of(seed_, name)};
+    owned_.push_back(
+        channel_server::make_channel_server(lcm_, identity, server, config.scenario, config.folder));
+    order_.push_back(owned_.back().get());
+  }
 }
 
 }  // namespace halocline::clients

@@ -66,6 +66,7 @@ class Composition {
  private:
   template <class NodeType, class... Arguments>
   void add(bus::Stage stage, const std::string& name, Arguments&&... arguments);
+  void add_channel_servers(const ScenarioConfig& config);
 
   lcm::LCM& lcm_;
   std::uint64_t seed_;

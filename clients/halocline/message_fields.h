@@ -244,6 +244,21 @@ void visit_fields(Visitor& v, const flow_heartbeat_t& m) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, const ping_answer_t& m) {
+  v("utime", m.utime);
+  v("session", m.session);
+  v("sequence", m.sequence);
+  v("answering_vehicle", m.answering_vehicle);
+  v("answering_id", m.answering_id);
+  v("asking_id", m.asking_id);
+  v("ping_session", m.ping_session);
+  v("ping_sequence", m.ping_sequence);
+  v("answer_start_ns", m.answer_start_ns);
+  v("ping_departure_ns", m.ping_departure_ns);
+  v("ping_duration_ns", m.ping_duration_ns);
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, const repair_request_t& m) {
   v("utime", m.utime);
   v("client_name", m.client_name);

@@ -523,6 +523,21 @@ flow_heartbeat_t valid_message(unsigned seed) {
 }
 
 template <>
+ping_answer_t valid_message(unsigned seed) {
+  Numbers n(seed);
+  auto m = with_head<ping_answer_t>(n);
+  m.answering_vehicle = "v" + std::string(seed % 3u, 'w');
+  m.answering_id = n.whole();
+  m.asking_id = n.whole();
+  m.ping_session = n.whole();
+  m.ping_sequence = n.whole();
+  m.answer_start_ns = n.whole();
+  m.ping_departure_ns = n.whole();
+  m.ping_duration_ns = n.whole();
+  return m;
+}
+
+template <>
 repair_request_t valid_message(unsigned seed) {
   Numbers n(seed);
   auto m = with_head<repair_request_t>(n);

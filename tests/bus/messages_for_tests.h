@@ -17,8 +17,8 @@ using AllMessages =
                environment_t, environment_change_t, modem_config_t, modem_send_t, modem_receipt_t,
                modem_receive_t, packet_name_t, packet_outcome_t, position_estimate_t, link_t, link_table_t,
                link_end_t, link_query_t, link_answer_t, link_reply_t, ray_query_t, ray_reply_t, node_status_t,
-               flow_heartbeat_t, repair_request_t, lockstep_message_t, lockstep_turn_t, lockstep_result_t,
-               lockstep_grant_t, lockstep_answer_t, lockstep_join_t, lockstep_notice_t>;
+               flow_heartbeat_t, repair_request_t, ping_answer_t, lockstep_message_t, lockstep_turn_t,
+               lockstep_result_t, lockstep_grant_t, lockstep_answer_t, lockstep_join_t, lockstep_notice_t>;
 
 // A message that passes every check; the same for the same seed. Seed 0 has empty arrays where a type allows
 // them.

@@ -1,6 +1,7 @@
 // What a whole run promises: the same bytes each time, a log that replays to the same answers, a sound end.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,9 @@ namespace halocline::clients {
 namespace {
 
 class EmbeddedRunTest : public testing::EmbeddedTest {
+ public:
+  using testing::EmbeddedTest::messages_in;
+
  protected:
   ScenarioConfig harbour() { return load("harbour", {"scenario.duration_s=25"}); }
 };
@@ -23,6 +27,28 @@ std::string bytes_of_families(const std::string& path, const std::vector<std::st
     if (std::find(families.begin(), families.end(), family) == families.end()) continue;
     all += std::to_string(event.stamp_us) + event.channel + std::string(event.data.begin(), event.data.end());
   }
+  return all;
+}
+
+// The messages of a family as a set: channel and bytes without who said it as his how-manieth.
+template <class Message>
+void add_unnumbered(const std::string& path, std::multiset<std::string>& all) {
+  for (auto& [channel, message] : EmbeddedRunTest::messages_in<Message>(path)) {
+    message.session = message.sequence = 0;
+    std::string bytes(static_cast<std::size_t>(message.getEncodedSize()), '\0');
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    all.insert(channel + bytes);
+  }
+}
+
+// Everything that channel servers tell of the water.
+std::multiset<std::string> told(const std::string& path) {
+  std::multiset<std::string> all;
+  add_unnumbered<link_table_t>(path, all);
+  add_unnumbered<packet_outcome_t>(path, all);
+  add_unnumbered<modem_receipt_t>(path, all);
+  add_unnumbered<modem_receive_t>(path, all);
+  add_unnumbered<environment_t>(path, all);
   return all;
 }
 
@@ -101,6 +127,18 @@ TEST_F(EmbeddedRunTest, TwoThreadsWriteTheSameBytesAsOne) {
   const std::string one = bytes_of(run(config, "one"));
   config.channel_server.rules.threads = 2;
   EXPECT_TRUE(one == bytes_of(run(config, "two")));
+}
+
+TEST_F(EmbeddedRunTest, ShardsTogetherTellWhatOneServerTells) {
+  for (const char* scenario : {"harbour", "ranging"}) {  // the second pings
+    const auto one = told(run(load(scenario, {"scenario.duration_s=25"}), "one"));
+    EXPECT_GT(one.size(), 100u);
+    for (const char* shards : {"channel_server.shards=2", "channel_server.shards=3"}) {
+      const auto many = told(run(load(scenario, {"scenario.duration_s=25", shards}), "many"));
+      EXPECT_EQ(many.size(), one.size());
+      EXPECT_TRUE(many == one) << scenario << ' ' << shards;
+    }
+  }
 }
 
 TEST_F(EmbeddedRunTest, AScheduledChangeOfWaterIsReplayedToo) {

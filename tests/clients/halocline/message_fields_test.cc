@@ -55,6 +55,7 @@ TEST(MessageFields, AreThoseOfTheTypes) {
   expect_same<node_status_t>("node_status_t");
   expect_same<packet_name_t>("packet_name_t");
   expect_same<packet_outcome_t>("packet_outcome_t");
+  expect_same<ping_answer_t>("ping_answer_t");
   expect_same<position_estimate_t>("position_estimate_t");
   expect_same<ray_query_t>("ray_query_t");
   expect_same<ray_reply_t>("ray_reply_t");
