@@ -1,5 +1,5 @@
-// All programs as separate processes on a bus that loses a fifth of all datagrams: what the ledger names as
-// received is received. Runs inside a network namespace of its own (scripts/isolated).
+// All programs as separate processes on a bus that loses datagrams: what the ledger names as received is received,
+// on one host and on several. Runs inside a network namespace of its own (scripts/isolated).
 //
 // HALOCLINE_LOSSY_SECONDS sets how long they talk (default 20 s).
 #include <chrono>
@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -58,6 +60,8 @@ class Auditor {
   Auditor() : lcm_(bus::open_transport(bus::effective_url(""))), bus_(*lcm_, {"auditor", 4711}) {
     bus_.enable_repair();
     bus_.subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& outcome) {
+      ++outcomes[{outcome.source_id, outcome.send_session, outcome.packet_sequence, outcome.receiver_id}];
+      servers.insert(outcome.session);
       const bool for_receiver =
           outcome.destination_id == outcome.receiver_id || outcome.destination_id == kBroadcastId;
       if (outcome.packet_fate != packet_outcome_t::RECEIVED || !for_receiver) return;
@@ -78,6 +82,8 @@ class Auditor {
   const bus::BusCounters& counters() const { return bus_.counters(); }
 
   std::set<Reception> named;
+  std::map<Reception, int> outcomes;
+  std::set<std::int64_t> servers;  // sessions
   std::map<std::string, node_status_t> last_status;
 
  private:
@@ -85,54 +91,125 @@ class Auditor {
   bus::Bus bus_;
 };
 
+// A host of its own: a network namespace joined to this one's bridge by a cable.
+class Host {
+ public:
+  explicit Host(int number) : keeper_({"/usr/bin/unshare", "-n", "/bin/sleep", "1000"}) {
+    const std::string name = std::to_string(number), pid = std::to_string(keeper_.pid());
+    const std::string inside = "nsenter -n -t " + pid + " ";
+    // The keeper must have its namespace before the cable's end is put into it.
+    run("for i in $(seq 100); do [ \"$(readlink /proc/" + pid +
+        "/ns/net)\" != \"$(readlink /proc/self/ns/net)\" ] && "
+        "break; sleep 0.02; done");
+    run("ip link add cable" + name + " type veth peer name eth0 netns " + pid);
+    run("ip link set cable" + name + " master bridge0 up");
+    run(inside + "ip addr add 10.99.0." + std::to_string(number + 10) + "/24 dev eth0");
+    run(inside + "ip link set lo up");
+    run(inside + "ip link set eth0 up");
+    run(inside + "ip route add 224.0.0.0/4 dev eth0");
+    run(inside + HALOCLINE_SOURCE_DIR "/scripts/lose 5 eth0");
+  }
+  // A command as it runs on this host.
+  std::vector<std::string> command(const std::vector<std::string>& words) const {
+    std::vector<std::string> all{"/usr/bin/nsenter", "-n", "-t", std::to_string(keeper_.pid())};
+    all.insert(all.end(), words.begin(), words.end());
+    return all;
+  }
+  static void run(const std::string& command) {
+    if (std::system(("PATH=$PATH:/usr/sbin:/sbin; " + command).c_str()) != 0) {
+      throw std::runtime_error("failed: " + command);
+    }
+  }
+
+ private:
+  Process keeper_;
+};
+
 class LossyBus : public ::testing::Test {
  protected:
-  LossyBus() {
+  // After the network is as it is to be.
+  void listen() {
     for (int i = 0; i < kVehicles; ++i) clients_.push_back(std::make_unique<Client>(i));
+    auditor_.emplace();
   }
-  void start(const std::string& program) {
-    processes_[program] =
-        std::make_unique<Process>(std::vector<std::string>{HALOCLINE_BIN_DIR "/" + program, kScenario});
+  void start(const std::string& program) { start(program, {HALOCLINE_BIN_DIR "/" + program, kScenario}); }
+  void start(const std::string& name, const std::vector<std::string>& command) {
+    processes_[name] = std::make_unique<Process>(command);
   }
   void pass(double seconds) {
     const SimTime end = bus::steady_now() + SimDuration::from_seconds(seconds);
     while (bus::steady_now() < end) {
-      auditor_.listen();
+      auditor_->listen();
       for (const auto& client : clients_) client->take(received_);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
   }
+  // Lets all talk, then fall silent, and compares what the ledger names with what was received.
+  void talk_and_compare() {
+    pass(seconds_of_talk());
+    processes_.at("halocline-traffic")->signal(SIGTERM);
+    pass(6);  // the sound under way arrives, and what was lost last is repaired
+    EXPECT_GT(auditor_->named.size(), static_cast<std::size_t>(seconds_of_talk())) << "too few to tell";
+    std::size_t missing = 0;
+    for (const Reception& reception : auditor_->named) missing += received_.count(reception) == 0 ? 1 : 0;
+    EXPECT_EQ(missing, 0u) << "of " << auditor_->named.size();
+    EXPECT_GT(auditor_->counters().repaired, 0) << "nothing was lost: not much of a test";
+    EXPECT_EQ(auditor_->counters().lost, 0);
+    std::printf("received %zu, repaired by the auditor %lld\n", auditor_->named.size(),
+                static_cast<long long>(auditor_->counters().repaired));
+  }
 
   std::vector<std::unique_ptr<Client>> clients_;
-  Auditor auditor_;
+  std::optional<Auditor> auditor_;
   std::set<Reception> received_;
+  std::vector<std::unique_ptr<Host>> hosts_;
   std::map<std::string, std::unique_ptr<Process>> processes_;
 };
 
 TEST_F(LossyBus, NotOneReceptionThatTheLedgerNamesIsMissingAtAClient) {
-  ASSERT_EQ(std::system(HALOCLINE_SOURCE_DIR "/scripts/lose 20"), 0);
+  Host::run(HALOCLINE_SOURCE_DIR "/scripts/lose 20");
+  listen();
   for (const char* program : {"halocline-conductor", "halocline-bathymetry", "halocline-vehicle-sim",
                               "halocline-channel-server", "halocline-autopilot", "halocline-traffic"}) {
     start(program);
   }
-  pass(seconds_of_talk());
-  processes_.at("halocline-traffic")->signal(SIGTERM);
-  pass(6);  // the sound under way arrives, and what was lost last is repaired
-
-  EXPECT_GT(auditor_.named.size(), static_cast<std::size_t>(seconds_of_talk())) << "too few to tell";
-  std::size_t missing = 0;
-  for (const Reception& reception : auditor_.named) missing += received_.count(reception) == 0 ? 1 : 0;
-  EXPECT_EQ(missing, 0u) << "of " << auditor_.named.size();
-  EXPECT_GT(auditor_.counters().repaired, 0) << "nothing was lost: not much of a test";
-  EXPECT_EQ(auditor_.counters().lost, 0);
-  const node_status_t server = auditor_.last_status["channel-server"];
+  talk_and_compare();
+  const node_status_t server = auditor_->last_status["channel-server"];
   EXPECT_GT(server.repaired, 0);
   EXPECT_EQ(server.lost, 0);
-  RecordProperty("named", static_cast<int>(auditor_.named.size()));
-  RecordProperty("repaired_at_the_server", static_cast<int>(server.repaired));
-  std::printf("received %zu, repaired by the auditor %lld, by the channel server %lld\n",
-              auditor_.named.size(), static_cast<long long>(auditor_.counters().repaired),
-              static_cast<long long>(server.repaired));
+  Host::run(HALOCLINE_SOURCE_DIR "/scripts/lose 0");
+}
+
+// Vehicles on one host, the seabed on another with one channel server, a second server on a third; clients and
+// auditor on a fourth.
+TEST_F(LossyBus, ThreeHostsWithTwoShardsSayWhatBecameOfEveryPacketOnce) {
+  Host::run("ip link add bridge0 type bridge mcast_snooping 0");
+  Host::run("ip addr add 10.99.0.1/24 dev bridge0");
+  Host::run("ip link set bridge0 up");
+  Host::run("ip route replace 224.0.0.0/4 dev bridge0");
+  Host::run("sysctl -qw net.ipv4.conf.all.rp_filter=0 || true");
+  for (int i = 0; i < 3; ++i) hosts_.push_back(std::make_unique<Host>(i));
+  setenv("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=4194304", 1);
+  listen();
+  const auto start_on = [&](int host, const std::string& program, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{HALOCLINE_BIN_DIR "/" + program, kScenario};
+    words.insert(words.end(), more.begin(), more.end());
+    start(more.empty() ? program : program + more.back(),
+          hosts_[static_cast<std::size_t>(host)]->command(words));
+  };
+  for (const char* program :
+       {"halocline-conductor", "halocline-vehicle-sim", "halocline-autopilot", "halocline-traffic"}) {
+    start_on(0, program);
+  }
+  start_on(1, "halocline-bathymetry");
+  start_on(1, "halocline-channel-server", {"--shard", "0/2"});
+  start_on(2, "halocline-channel-server", {"--shard", "1/2"});
+  talk_and_compare();
+  EXPECT_EQ(auditor_->servers.size(), 2u);
+  for (const auto& [reception, times] : auditor_->outcomes) EXPECT_EQ(times, 1);
+  for (const char* server : {"channel-server-0", "channel-server-1"}) {
+    EXPECT_EQ(auditor_->last_status[server].lost, 0) << server;
+  }
 }
 
 }  // namespace
