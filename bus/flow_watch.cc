@@ -62,7 +62,7 @@ std::int64_t FlowWatch::miss(Publisher& publisher, SimTime steady, std::int64_t 
 
 FlowWatch::Arrival FlowWatch::on_message(SimTime steady, std::string_view channel, std::int64_t session,
                                          std::int64_t sequence, bool answered) {
-  if (session == 0 && sequence == 0) return {};
+  if ((session == 0 && sequence == 0) || has_no_room_for(channel)) return {};
   Publisher* publisher = find(channel, session);
   if (publisher != nullptr && publisher->missing.erase(sequence) > 0) {
     publisher->heard_at = steady;
@@ -90,6 +90,7 @@ FlowWatch::Arrival FlowWatch::on_message(SimTime steady, std::string_view channe
 std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::int64_t session,
                                 std::int64_t last, bool from_its_start) {
   if (last < 0 || last == std::numeric_limits<std::int64_t>::max()) return 0;  // no number of ours
+  if (has_no_room_for(channel)) return 0;
   Publisher* publisher = find(channel, session);
   if (publisher == nullptr) publisher = &add(channel, session, last + 1);
   std::int64_t newly_missing = 0;

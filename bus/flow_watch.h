@@ -32,6 +32,8 @@ class FlowWatch {
   // What a flow misses at most before the oldest count as lost.
   static constexpr std::size_t kMostMissing = 2000;
   static constexpr std::size_t kMostInARequest = 200;
+  // Channels beyond these are not watched: names made up without end must not grow our memory.
+  static constexpr std::size_t kMostChannels = 5000;
 
   // What a message that was heard is to its flow.
   struct Arrival {
@@ -80,6 +82,9 @@ class FlowWatch {
   };
   // A channel remembers few sessions: the one silent for longest makes room, so that a long run does not grow.
   static constexpr std::size_t kSessionsKept = 8;
+  bool has_no_room_for(std::string_view channel) const {
+    return heard_.size() >= kMostChannels && !heard_.contains(channel);
+  }
   using Publishers = std::vector<Publisher>;  // ends in the one heard last
 
   Publisher* find(std::string_view channel, std::int64_t session);

@@ -98,6 +98,15 @@ TEST_F(FlowWatchTest, HostileNumbersNeitherOverflowNorGrow) {
   EXPECT_LE(asked_at(at_ms(5)).size(), FlowWatch::kMostInARequest);
 }
 
+TEST_F(FlowWatchTest, ChannelsMadeUpWithoutEndAreNotWatchedBeyondABound) {
+  for (std::size_t i = 0; i < FlowWatch::kMostChannels + 10; ++i) {
+    const std::string channel = "C" + std::to_string(i);
+    watch_.on_message(SimTime(), channel, 1, 0);
+    const auto arrival = watch_.on_message(SimTime(), channel, 1, 2);
+    EXPECT_EQ(arrival.newly_missing, i < FlowWatch::kMostChannels ? 1 : 0);
+  }
+}
+
 TEST_F(FlowWatchTest, WhatIsMissingIsAskedForAfterAMomentOfPatience) {
   hear({0, 3});
   EXPECT_EQ(watch_.next_due(), at_ms(5));
