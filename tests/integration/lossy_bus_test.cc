@@ -187,7 +187,7 @@ TEST_F(LossyBus, ThreeHostsWithTwoShardsSayWhatBecameOfEveryPacketOnce) {
   Host::run("ip addr add 10.99.0.1/24 dev bridge0");
   Host::run("ip link set bridge0 up");
   Host::run("ip route replace 224.0.0.0/4 dev bridge0");
-  Host::run("sysctl -qw net.ipv4.conf.all.rp_filter=0 || true");
+  Host::run(HALOCLINE_SOURCE_DIR "/scripts/lose 5 bridge0");
   for (int i = 0; i < 3; ++i) hosts_.push_back(std::make_unique<Host>(i));
   setenv("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=4194304", 1);
   listen();
