@@ -126,7 +126,7 @@ void Composition::add_channel_servers(const ScenarioConfig& config) {
   channel_server::Shard& shard = server.rules.medium.shard;
   for (shard.index = 0; shard.index < shard.count; ++shard.index) {
     const std::string name = "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
-    const bus::NodeIdentity identity{name, bus::session_of(seed_, name)};
+    const bus::NodeIdentity identity{name, bus::session_of(seed_, name), bus::Stage::kChannel};
     owned_.push_back(
         channel_server::make_channel_server(lcm_, identity, server, config.scenario, config.folder));
     order_.push_back(owned_.back().get());
