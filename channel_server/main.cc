@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
       "publishes: LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"
       "           LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER (as a shard), STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
-  std::string shard;
+  std::string share;
   program.options = {{"--shard", "I/N: serve the vehicles whose id mod N is I, beside N - 1 other servers",
                       &shard, nullptr, shard_settings}};
   program.default_name = [&] {

@@ -55,7 +55,7 @@ struct MediumRule {
   SimDuration greatest_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
   SimDuration greatest_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
   std::uint64_t seed = 1;                                                   // of all draws
-  Shard shard;  // of several media of one water, each told of everything
+  Shard shard = {};  // of several media of one water, each told of everything
 };
 
 class PacketMedium {
