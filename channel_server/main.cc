@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   std::string share;
   program.options = {{"--shard", "I/N: serve the vehicles whose id mod N is I, beside N - 1 other servers",
-                      &shard, nullptr, shard_settings}};
+                      &share, nullptr, shard_settings}};
   program.default_name = [&] {
     const auto& shard = config.rules.medium.shard;
     return "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
