@@ -4,6 +4,7 @@
 #include "clients/halocline/commands.h"
 #include "clients/halocline/csv_export.h"
 #include "clients/halocline/log_statistics.h"
+#include "clients/halocline/simulation_output.h"
 
 namespace halocline::clients {
 namespace {
@@ -38,6 +39,13 @@ int export_all(const LogArguments& arguments) {
   return kDone;
 }
 
+int write_output(const LogArguments& arguments) {
+  LogReader log(arguments.logs);
+  std::cout << arguments.out << ": " << write_simulation_output(log, arguments.out) << " events\n";
+  tell_damage(std::cerr, log);
+  return kDone;
+}
+
 }  // namespace
 
 void add_log_command(CLI::App& app, int& exit_code) {
@@ -57,6 +65,12 @@ void add_log_command(CLI::App& app, int& exit_code) {
                              "only channels that match this regular expression");
   export_command->footer(footer("  halocline log export run.lcm --out csv --channel 'STATE\\..*|OUTCOME'"));
   export_command->callback([arguments, &exit_code] { exit_code = export_all(*arguments); });
+  CLI::App* output_command = command->add_subcommand(
+      "output", "Write the simulation output alone: the same bytes from one channel server and from shards");
+  output_command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
+  output_command->add_option("--out", arguments->out, "LCM log to be written")->required();
+  output_command->footer(footer("  halocline log output run.lcm --out output.lcm && sha256sum output.lcm"));
+  output_command->callback([arguments, &exit_code] { exit_code = write_output(*arguments); });
 }
 
 }  // namespace halocline::clients

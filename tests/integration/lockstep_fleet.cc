@@ -19,23 +19,23 @@ std::string contents_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-LockstepFleet::LockstepFleet(std::string scenario, std::vector<std::string> settings, Weather weather)
-    : scenario_(HALOCLINE_TEST_DATA "/scenarios/" + std::move(scenario) + ".toml"),
+LockstepFleet::LockstepFleet(std::string scenario, std::vector<std::string> settings, Weather weather,
+                             int shards)
+    : shards_(shards),
+      participants_({"bathymetry", "vehicle-sim", "autopilot", "traffic", "localiser"}),
+      scenario_(HALOCLINE_TEST_DATA "/scenarios/" + std::move(scenario) + ".toml"),
       settings_(std::move(settings)),
       weather_(weather),
       folder_(::testing::TempDir() + "halocline-lockstep-" + std::to_string(getpid())) {
+  for (int i = 0; i < shards; ++i) {
+    participants_.push_back(shards == 1 ? "channel-server" : "channel-server-" + std::to_string(i));
+  }
   std::filesystem::create_directories(folder_);
 }
 
 LockstepFleet::~LockstepFleet() {
   processes_.clear();
   std::filesystem::remove_all(folder_);
-}
-
-const std::vector<std::string>& LockstepFleet::participants() {
-  static const std::vector<std::string> names{"bathymetry", "vehicle-sim", "autopilot",
-                                              "traffic",    "localiser",   "channel-server"};
-  return names;
 }
 
 std::vector<std::string> LockstepFleet::settings_as_options() const {
@@ -61,6 +61,9 @@ void LockstepFleet::start_conductor(const std::vector<std::string>& options) {
   words.insert(words.end(), {scenario_, "--lockstep", "--journal", (folder_ / "journal").string(), "--log",
                              (folder_ / "separate.lcm").string()});
   for (const std::string& option : settings_as_options()) words.push_back(option);
+  std::string expected;
+  for (const std::string& name : participants_) expected += (expected.empty() ? "" : ",") + name;
+  words.insert(words.end(), {"--expect", expected});
   words.insert(words.end(), options.begin(), options.end());
   conductor_options_ = options;
   if (processes_.contains("conductor")) earlier_output_ += at("conductor").output();
@@ -68,8 +71,14 @@ void LockstepFleet::start_conductor(const std::vector<std::string>& options) {
 }
 
 void LockstepFleet::start(const std::string& participant) {
-  auto words = command("halocline-" + participant, true);
+  const std::string server = "channel-server";
+  const bool is_shard = participant.size() > server.size() && participant.starts_with(server);
+  auto words = command("halocline-" + (is_shard ? server : participant), true);
   words.insert(words.end(), {scenario_, "--time-source", "lockstep"});
+  if (is_shard) {
+    const std::string index = participant.substr(server.size() + 1);
+    words.insert(words.end(), {"--shard", index + "/" + std::to_string(shards_)});
+  }
   for (const std::string& option : settings_as_options()) words.push_back(option);
   processes_[participant] = std::make_unique<Process>(words);
 }
@@ -101,6 +110,21 @@ bool LockstepFleet::run_to_the_end(std::chrono::seconds limit) {
 std::string LockstepFleet::conductor_output() { return earlier_output_ + at("conductor").output(); }
 
 std::string LockstepFleet::log_bytes() const { return contents_of(folder_ / "separate.lcm"); }
+
+std::string LockstepFleet::output_bytes() const { return output_of(folder_ / "separate.lcm"); }
+
+std::string LockstepFleet::output_of_one_process(const std::vector<std::string>& more_settings) {
+  log_of_one_process(more_settings);
+  return output_of(folder_ / "one.lcm");
+}
+
+std::string LockstepFleet::output_of(const std::filesystem::path& log) const {
+  auto words = command("halocline", false);
+  const std::string output = log.string() + ".output";
+  words.insert(words.end(), {"log", "output", log.string(), "--out", output});
+  EXPECT_EQ(Process(words).wait(std::chrono::seconds(100)), 0);
+  return contents_of(output);
+}
 
 std::string LockstepFleet::log_of_one_process(const std::vector<std::string>& more_settings) {
   auto words = command("halocline", false);

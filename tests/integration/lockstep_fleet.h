@@ -23,11 +23,12 @@ inline std::ostream& operator<<(std::ostream& out, const Weather& weather) {
 
 class LockstepFleet {
  public:
-  // Runs the scenario of tests/data with these settings ("section.key=value").
-  LockstepFleet(std::string scenario, std::vector<std::string> settings, Weather weather = {});
+  // Runs the scenario of tests/data with these settings ("section.key=value"), with so many channel servers.
+  LockstepFleet(std::string scenario, std::vector<std::string> settings, Weather weather = {},
+                int shards = 1);
   ~LockstepFleet();
 
-  static const std::vector<std::string>& participants();
+  const std::vector<std::string>& participants() const { return participants_; }
   // The conductor with more options than those that name journal and log; and each participant.
   void start_conductor(const std::vector<std::string>& options = {});
   void start(const std::string& participant);
@@ -42,6 +43,9 @@ class LockstepFleet {
   // What the conductor's lives have written so far.
   std::string conductor_output();
   std::string log_bytes() const;
+  // The simulation output alone (`halocline log output`) of this run, and of the same in one process.
+  std::string output_bytes() const;
+  std::string output_of_one_process(const std::vector<std::string>& more_settings = {});
   // The log of the same scenario in one process (`halocline run`).
   std::string log_of_one_process(const std::vector<std::string>& more_settings = {});
 
@@ -49,6 +53,10 @@ class LockstepFleet {
   std::vector<std::string> command(const std::string& program, bool through_weather) const;
   std::vector<std::string> settings_as_options() const;
 
+  std::string output_of(const std::filesystem::path& log) const;
+
+  int shards_;
+  std::vector<std::string> participants_;
   std::string scenario_;
   std::vector<std::string> settings_;
   Weather weather_;

@@ -38,7 +38,7 @@ TEST(LockstepProcesses, WriteTheLogOfOneProcess) {
   fleet.start_all();
   ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
   expect_the_log_of_one_process(fleet);
-  for (const std::string& name : LockstepFleet::participants()) EXPECT_EQ(fleet.at(name).wait(5s), 0) << name;
+  for (const std::string& name : fleet.participants()) EXPECT_EQ(fleet.at(name).wait(5s), 0) << name;
 }
 
 TEST(LockstepProcesses, WriteItOneByOneAsWell) {
@@ -53,6 +53,42 @@ TEST(LockstepProcesses, WriteItWithTwoThreadsAsWell) {
   fleet.start_all();
   ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
   EXPECT_TRUE(fleet.log_bytes() == fleet.log_of_one_process({"channel_server.threads=1"}));
+}
+
+class SplitOverShards : public ::testing::TestWithParam<std::tuple<int, Weather>> {};
+
+TEST_P(SplitOverShards, WriteTheOutputOfOneServerAndTheLogOfOneProcess) {
+  const auto& [shards, weather] = GetParam();
+  LockstepFleet fleet("ten_vehicles", {"scenario.duration_s=15"}, weather, shards);
+  fleet.start_all();
+  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  const std::string one = fleet.output_of_one_process();
+  EXPECT_GT(one.size(), 200'000u);
+  EXPECT_TRUE(fleet.output_bytes() == one) << fleet.conductor_output();
+  EXPECT_TRUE(fleet.log_bytes() ==
+              fleet.log_of_one_process({"channel_server.shards=" + std::to_string(shards)}));
+}
+
+std::string name_of_split(const ::testing::TestParamInfo<std::tuple<int, Weather>>& info) {
+  const auto& [shards, weather] = info.param;
+  return std::to_string(shards) + "Shards" + (weather.loss > 0 ? "5PercentLost" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(LockstepProcesses, SplitOverShards,
+                         ::testing::Combine(::testing::Values(2, 3),
+                                            ::testing::Values(Weather{}, Weather{0.05, 0.05, 0.05})),
+                         name_of_split);
+
+TEST(LockstepProcesses, AShardMayDieAndReturn) {
+  LockstepFleet fleet("ten_vehicles", {"scenario.duration_s=120"}, {}, 2);
+  fleet.start_all();
+  for (const char* shard : {"channel-server-0", "channel-server-1", "channel-server-0"}) {
+    pause(400ms);
+    fleet.kill_and_restart(shard);
+  }
+  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  EXPECT_THAT(fleet.conductor_output(), HasSubstr("returned participant=channel-server-"));
+  EXPECT_TRUE(fleet.output_bytes() == fleet.output_of_one_process());
 }
 
 class InWeather : public ::testing::TestWithParam<Weather> {};
@@ -76,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(LockstepProcesses, InWeather,
 TEST(LockstepProcesses, AParticipantMayDieAndReturn) {
   LockstepFleet fleet = fleet_of("240");
   fleet.start_all();
-  for (const std::string& name : LockstepFleet::participants()) {
+  for (const std::string& name : fleet.participants()) {
     pause(250ms);
     fleet.kill_and_restart(name);
   }
@@ -161,7 +197,7 @@ TEST(LockstepProcesses, OneThatWasNotExpectedJoinsAtTheInstantSaid) {
   LockstepFleet fleet = fleet_of("40");
   fleet.start_conductor(
       {"--rate", "20", "--expect", "bathymetry,vehicle-sim,autopilot,localiser,channel-server"});
-  for (const std::string& name : LockstepFleet::participants()) {
+  for (const std::string& name : fleet.participants()) {
     if (name != "traffic") fleet.start(name);
   }
   pause(1200ms);
@@ -178,13 +214,13 @@ TEST(LockstepProcesses, AConductorThatIsToldToStopSaysGoodbyeToAll) {
   pause(1500ms);
   fleet.at("conductor").signal(SIGTERM);
   EXPECT_EQ(fleet.at("conductor").wait(8s), 0) << fleet.conductor_output();
-  for (const std::string& name : LockstepFleet::participants()) EXPECT_EQ(fleet.at(name).wait(5s), 0) << name;
+  for (const std::string& name : fleet.participants()) EXPECT_EQ(fleet.at(name).wait(5s), 0) << name;
 }
 
 TEST(LockstepProcesses, WhoIsMissingIsNamed) {
   LockstepFleet fleet = fleet_of("5");
   fleet.start_conductor();
-  for (const std::string& name : LockstepFleet::participants()) {
+  for (const std::string& name : fleet.participants()) {
     if (name != "traffic") fleet.start(name);
   }
   pause(6500ms);
