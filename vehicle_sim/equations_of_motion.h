@@ -13,6 +13,7 @@
 //   for (int i = 0; i < 1000; ++i) state = rk4_step(model, state, {.propeller_hz = 20}, Water{}, 0.01);
 #pragma once
 
+#include "vehicle_sim/body_axes.h"
 #include "vehicle_sim/vehicle_state.h"
 
 namespace halocline::vehicle_sim {
@@ -27,9 +28,9 @@ struct StateRate {
 
 // The flow at a vehicle.
 struct RelativeFlow {
-  Vec6 nu_r = Vec6::Zero();          // velocity relative to the water, body
-  Vec6 current_rate = Vec6::Zero();  // rate of the current as seen in the body frame, m/s^2
-  double speed_mps = 0;              // |v_r|
+  BodyVelocity nu_r;     // velocity relative to the water
+  Axes current_rate;     // rate of the current as seen in the body frame, m/s^2
+  double speed_mps = 0;  // |v_r|
 };
 
 RelativeFlow relative_flow(const Model& model, const VehicleState& state, const Water& water);

@@ -29,7 +29,7 @@ SensorReading measure_fixed(const VehicleState& state, const Water& water) {
 
 SensorReading measure(const Model& model, const VehicleState& state, const Water& water) {
   SensorReading reading = measure_fixed(state, water);
-  reading.water_speed_mps = relative_flow(model, state, water).nu_r[0];
+  reading.water_speed_mps = relative_flow(model, state, water).nu_r.u;
   return reading;
 }
 

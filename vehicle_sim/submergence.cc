@@ -25,7 +25,7 @@ double submerged_share_of_circle(double depth_in_radii) {
 Submergence submergence(const ModelParameters& model, const VehicleState& state, double sea_surface_z_m) {
   const HullShape& hull = model.hull;
   const double depth = depth_below_surface_m(state.position_ned_m, sea_surface_z_m);
-  if (depth > hull.length_m / 2 + hull.diameter_m) return {};
+  if (is_wholly_submerged(hull, depth)) return {};
   const double down_along_x = (state.orientation * Vec3::UnitX()).z();
   double weight_sum = 0, wet_sum = 0, wet_moment = 0;
   for (int i = 0; i < kSections; ++i) {

@@ -18,7 +18,12 @@ struct Submergence {
       0;  // how far the centre of buoyancy moves along the body's x axis; 0 when all or none is under
 };
 
-// Exactly {1, 1, 0} whenever the origin lies deeper than half a length plus a diameter.
+// True whenever the origin lies deeper than half a length plus a diameter.
+inline bool is_wholly_submerged(const HullShape& hull, double depth_m) {
+  return depth_m > hull.length_m / 2 + hull.diameter_m;
+}
+
+// Exactly {1, 1, 0} for a hull that is wholly submerged.
 Submergence submergence(const ModelParameters& model, const VehicleState& state, double sea_surface_z_m);
 
 // Share of a circle's area below the water level, its centre `depth` (positive under water) from the level,

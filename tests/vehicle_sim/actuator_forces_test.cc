@@ -20,7 +20,7 @@ const ModelParameters kRemus = remus100_pvs_parameters(CurrentTreatment::kUpstre
 Vec6 ahead(double speed) { return speed * Vec6::Unit(0); }
 
 TEST(ActuatorForces, PositiveRudderTurnsToStarboardAndSlowsDown) {
-  const Vec6 force = rudder_force(kRemus.rudder, kDensity, ahead(2), 0.1);
+  const Vec6 force = rudder_force(kRemus.rudder, kDensity, ahead(2), 0.1).vector();
   // 1/2 1026 4 0.0133 0.5 0.1 N to port at the stern, 0.8 m aft
   const double side = 0.5 * 1026 * 4 * 0.0133 * 0.5 * 0.1;
   EXPECT_NEAR(force[1], -side, tolerance(1e-12));
@@ -29,32 +29,32 @@ TEST(ActuatorForces, PositiveRudderTurnsToStarboardAndSlowsDown) {
 }
 
 TEST(ActuatorForces, PositiveSternPlanesPushTheBowDown) {
-  const Vec6 force = stern_planes_force(kRemus.stern_planes, kDensity, ahead(2), 0.1);
+  const Vec6 force = stern_planes_force(kRemus.stern_planes, kDensity, ahead(2), 0.1).vector();
   EXPECT_LT(force[2], 0);  // stern up
   EXPECT_LT(force[4], 0);  // bow down
   EXPECT_LT(force[0], 0);
 }
 
 TEST(ActuatorForces, FinsWithoutFlowOrDeflectionDoNothing) {
-  EXPECT_EQ(rudder_force(kRemus.rudder, kDensity, ahead(0), 0.2), Vec6::Zero());
-  EXPECT_EQ(stern_planes_force(kRemus.stern_planes, kDensity, ahead(2), 0).norm(), 0);
+  EXPECT_EQ(rudder_force(kRemus.rudder, kDensity, ahead(0), 0.2).vector(), Vec6::Zero());
+  EXPECT_EQ(stern_planes_force(kRemus.stern_planes, kDensity, ahead(2), 0).vector().norm(), 0);
 }
 
 TEST(ActuatorForces, ThrustFallsWithAdvanceAlongTheOpenWaterLine) {
   const Thruster& p = kRemus.propeller;
   const double n = 20, d4 = std::pow(p.diameter_m, 4);
-  EXPECT_NEAR(thruster_force(p, kDensity, Vec6::Zero(), 0, n)[0], 0.9 * kDensity * d4 * 0.4566 * n * n,
-              tolerance(1e-10));
+  EXPECT_NEAR(thruster_force(p, kDensity, BodyVelocity(), 0, n).vector()[0],
+              0.9 * kDensity * d4 * 0.4566 * n * n, tolerance(1e-10));
   const double speed_at_jmax = p.advance_max * n * p.diameter_m / p.advance_speed_ratio;
-  const Vec6 at_max = thruster_force(p, kDensity, Vec6::Zero(), speed_at_jmax, n);
+  const Vec6 at_max = thruster_force(p, kDensity, BodyVelocity(), speed_at_jmax, n).vector();
   EXPECT_NEAR(at_max[0], 0.9 * kDensity * d4 * 0.1798 * n * n, tolerance(1e-10));
   EXPECT_NEAR(at_max[3], 0.1 * kDensity * d4 * p.diameter_m * 0.0312 * n * n, tolerance(1e-10));
 }
 
 TEST(ActuatorForces, AsternTheInflowDoesNotMatter) {
-  EXPECT_EQ(thruster_force(kRemus.propeller, kDensity, Vec6::Zero(), 2, -10),
-            thruster_force(kRemus.propeller, kDensity, Vec6::Zero(), 0, -10));
-  EXPECT_LT(thruster_force(kRemus.propeller, kDensity, Vec6::Zero(), 0, -10)[0], 0);
+  EXPECT_EQ(thruster_force(kRemus.propeller, kDensity, BodyVelocity(), 2, -10).vector(),
+            thruster_force(kRemus.propeller, kDensity, BodyVelocity(), 0, -10).vector());
+  EXPECT_LT(thruster_force(kRemus.propeller, kDensity, BodyVelocity(), 0, -10).vector()[0], 0);
 }
 
 TEST(ActuatorForces, CommandsAreHeldToTheLimitsOnBothSides) {

@@ -70,8 +70,9 @@ TEST_P(EachModel, EnergyNeverGrowsWithoutActuatorsAndCurrent) {
 TEST_P(EachModel, CoriolisForcesDoNoWork) {
   for (std::uint32_t who = 0; who < 1000; ++who) {
     const Vec6 nu = random_state(who).velocity_body;
-    EXPECT_NEAR(nu.dot(coriolis_force(model_.mass(), nu)), 0, tolerance(1e-11));
-    EXPECT_NEAR(nu.dot(roll_only_coriolis_force(model_.parameters().added_mass, nu)), 0, tolerance(1e-11));
+    EXPECT_NEAR(nu.dot(coriolis_force(model_.mass(), nu).vector()), 0, tolerance(1e-11));
+    EXPECT_NEAR(nu.dot(roll_only_coriolis_force(model_.parameters().added_mass, nu).vector()), 0,
+                tolerance(1e-11));
   }
 }
 
@@ -211,7 +212,9 @@ TEST(Remus100Pvs, LiftJumpsInReverseFlowAsPublished) {
   above[0] = below[0] = -2;
   above[2] = 1e-9;
   below[2] = -1e-9;
-  EXPECT_GT((lift_drag_force(law, 1026, above, 2) - lift_drag_force(law, 1026, below, 2)).norm(), 100);
+  EXPECT_GT(
+      (lift_drag_force(law, 1026, above, 2).vector() - lift_drag_force(law, 1026, below, 2).vector()).norm(),
+      100);
 }
 
 TEST(BodyLift, IsTheSameForBothDirectionsOfTheFlow) {
@@ -220,7 +223,7 @@ TEST(BodyLift, IsTheSameForBothDirectionsOfTheFlow) {
   ahead.head<3>() << 1.5, 0.4, -0.3;
   Vec6 astern = ahead;
   astern[0] = -1.5;
-  const Vec6 a = body_lift_force(b, 1026, ahead), r = body_lift_force(b, 1026, astern);
+  const Vec6 a = body_lift_force(b, 1026, ahead).vector(), r = body_lift_force(b, 1026, astern).vector();
   EXPECT_EQ(a[0], -r[0]);
   EXPECT_EQ(a[1], r[1]);
   EXPECT_EQ(a[5], -r[5]);  // it acts behind the middle either way
@@ -231,8 +234,8 @@ TEST(FinsInLocalFlow, TakeEnergyAtEveryAngleAndDeflection) {
   for (std::uint32_t who = 0; who < 1000; ++who) {
     const Vec6 nu = random_state(who).velocity_body;
     // A fin held at an angle is part of the hull: the water does no positive work on it.
-    EXPECT_LE(nu.dot(rudder_force(fins, 1026, nu, uniform(who, 20, -0.3, 0.3))), 1e-12);
-    EXPECT_LE(nu.dot(stern_planes_force(fins, 1026, nu, uniform(who, 21, -0.3, 0.3))), 1e-12);
+    EXPECT_LE(nu.dot(rudder_force(fins, 1026, nu, uniform(who, 20, -0.3, 0.3)).vector()), 1e-12);
+    EXPECT_LE(nu.dot(stern_planes_force(fins, 1026, nu, uniform(who, 21, -0.3, 0.3)).vector()), 1e-12);
   }
 }
 
@@ -242,7 +245,8 @@ TEST(FinsInLocalFlow, StraightAheadMatchTheLinearLawAtSmallDeflection) {
   linear.law = FinLaw::kDeflection;
   const Vec6 ahead = 2 * Vec6::Unit(0);
   for (const double delta : {0.01, 0.02}) {
-    const Vec6 a = rudder_force(fins, 1026, ahead, delta), b = rudder_force(linear, 1026, ahead, delta);
+    const Vec6 a = rudder_force(fins, 1026, ahead, delta).vector(),
+               b = rudder_force(linear, 1026, ahead, delta).vector();
     EXPECT_NEAR(a[1], b[1], 0.5 * delta * std::abs(b[1]));  // they differ in second order
     EXPECT_NEAR(a[0], b[0], 0.5 * delta * std::abs(b[0]));
   }
@@ -261,8 +265,8 @@ TEST(Hover, EachPairOfThrustersDrivesItsOwnMotion) {
 
 TEST(Hover, ThrustAtRestIsTheBollardPull) {
   const Thruster t = built_in_model("hover")->thrusters[0];
-  EXPECT_NEAR(thruster_force(t, 1026, Vec6::Zero(), 0, 60)[0], 51.5, tolerance(1e-9));
-  EXPECT_NEAR(thruster_force(t, 1026, Vec6::Zero(), 0, -60)[0], -0.78 * 51.5, tolerance(1e-9));
+  EXPECT_NEAR(thruster_force(t, 1026, BodyVelocity(), 0, 60).vector()[0], 51.5, tolerance(1e-9));
+  EXPECT_NEAR(thruster_force(t, 1026, BodyVelocity(), 0, -60).vector()[0], -0.78 * 51.5, tolerance(1e-9));
 }
 
 TEST(Thruster, PushesAlongItsDirectionAboutItsPlace) {
@@ -270,7 +274,7 @@ TEST(Thruster, PushesAlongItsDirectionAboutItsPlace) {
   t.position_m = {0.3, -0.2, 0.1};
   t.direction = Vec3(1, 2, -2) / 3;
   t.torque_share = 0;
-  const Vec6 force = thruster_force(t, 1026, Vec6::Zero(), 0, 30);
+  const Vec6 force = thruster_force(t, 1026, BodyVelocity(), 0, 30).vector();
   EXPECT_GT(force.head<3>().dot(t.direction), 0);
   EXPECT_LT((force.tail<3>() - t.position_m.cross(Vec3(force.head<3>()))).norm(), tolerance(1e-12));
 }
@@ -281,9 +285,10 @@ TEST(Thruster, AxialInflowIsThatOfTheWaterAlongTheShaft) {
   turning[5] = 0.5;  // the starboard one moves astern: -r y
   Vec6 backing = Vec6::Zero();
   backing[0] = -0.5 * 0.25;
-  EXPECT_NEAR(thruster_force(t, 1026, turning, 0, 30)[0], thruster_force(t, 1026, backing, 0, 30)[0],
-              tolerance(1e-12));
-  EXPECT_GT(thruster_force(t, 1026, backing, 0, 30)[0], thruster_force(t, 1026, Vec6::Zero(), 0, 30)[0]);
+  EXPECT_NEAR(thruster_force(t, 1026, turning, 0, 30).vector()[0],
+              thruster_force(t, 1026, backing, 0, 30).vector()[0], tolerance(1e-12));
+  EXPECT_GT(thruster_force(t, 1026, backing, 0, 30).vector()[0],
+            thruster_force(t, 1026, BodyVelocity(), 0, 30).vector()[0]);
 }
 
 }  // namespace
