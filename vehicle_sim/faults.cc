@@ -49,7 +49,13 @@ void VehicleFaults::leak(double seconds, double water_density_kg_m3) {
 }
 
 ModelParameters VehicleFaults::broken(ModelParameters sound) const {
-  sound.mass_kg += water_kg_;
+  // Two bodies as one: the common centre of gravity, and the inertia about it with their reduced mass at the distance.
+  const double dry_kg = sound.mass_kg, all_kg = dry_kg + water_kg_;
+  const Vec3& r = sound.leak_offset_m;
+  sound.inertia_kg_m2 +=
+      dry_kg * water_kg_ / all_kg * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  sound.center_of_gravity_m += water_kg_ / all_kg * r;
+  sound.mass_kg = all_kg;
   if (lost_propeller_) sound.propeller.thrust_share = sound.propeller.torque_share = 0;
   return sound;
 }

@@ -56,6 +56,8 @@ void visit_body(ConfigVisitor& v, ModelParameters& p) {
   v.number("buoyancy_n", p.buoyancy_n, {0, kMost, "N", "of the whole hull under water"});
   v.vector3("center_of_gravity_m", p.center_of_gravity_m, {-1000, 1000, "m", "from the hull's middle"});
   v.vector3("center_of_buoyancy_m", p.center_of_buoyancy_m, {-1000, 1000, "m", "from the hull's middle"});
+  v.vector3("leak_offset_m", p.leak_offset_m,
+            {-1000, 1000, "m", "where the water of a leak gathers, from the centre of gravity"});
   visit_symmetric(v, "inertia_kg_m2", p.inertia_kg_m2, 1e-9, "kg m^2",
                   "about the centre of gravity: roll, pitch, yaw");
   visit_symmetric(v, "added_mass", p.added_mass, 0, "kg; kg m^2", "about the hull's middle: surge to yaw");

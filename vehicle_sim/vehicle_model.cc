@@ -32,6 +32,7 @@ void check_body(const ModelParameters& p) {
   require_not_negative(p.buoyancy_n, "buoyancy", "N");
   require(p.center_of_gravity_m.allFinite(), "the centre of gravity is not finite");
   require(p.center_of_buoyancy_m.allFinite(), "the centre of buoyancy is not finite");
+  require(p.leak_offset_m.allFinite(), "the place of a leak's water is not finite");
 }
 
 void check_forces(const ModelParameters& p) {

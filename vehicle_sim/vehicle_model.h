@@ -143,8 +143,9 @@ struct ModelParameters {
   double buoyancy_n = 0;                     // of the whole hull under water, 0 or above
   Vec3 center_of_gravity_m = Vec3::Zero();   // from CO
   Vec3 center_of_buoyancy_m = Vec3::Zero();  // from CO
-  Mat3 inertia_kg_m2 = Mat3::Identity();     // about the centre of gravity; symmetric, positive
-  Mat6 added_mass = Mat6::Zero();            // about CO; symmetric, none negative
+  Vec3 leak_offset_m = Vec3::Zero();  // of the place where a leak's water gathers from the centre of gravity
+  Mat3 inertia_kg_m2 = Mat3::Identity();  // about the centre of gravity; symmetric, positive
+  Mat6 added_mass = Mat6::Zero();         // about CO; symmetric, none negative
   AddedMassCoriolis added_mass_coriolis = AddedMassCoriolis::kFull;
   CurrentTreatment current_treatment = CurrentTreatment::kGalilean;
   Damping damping;

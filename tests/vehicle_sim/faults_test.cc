@@ -86,6 +86,40 @@ TEST(Faults, AFullHullSinksAtTheRateThatCrossFlowLeaves) {
               std::sqrt(2 * pull / (kDensity * 1.1 * 0.4 * 1.5)), tolerance(1e-9));
 }
 
+// Weight and buoyancy are equal when the hull is full: then it stands still where the common centre of gravity is right below
+// the centre of buoyancy: tan(pitch) = -w x / (m z_g + w z), with the water w at (x, z).
+TEST(Faults, WaterInTheBowTrimsAHullUntilTheCommonCentreOfGravityIsBelowThatOfBuoyancy) {
+  for (const double ahead : {0.3, -0.5}) {
+    ModelParameters p = plain_body();
+    const double water = 0.002 * kDensity, z_g = 0.02, below = 0.05;
+    p.damping.linear << 40, 40, 40, 2, 4, 4;
+    p.center_of_gravity_m.z() = z_g;
+    p.leak_offset_m = {ahead, 0, below};
+    p.buoyancy_n = (50 + water) * kGravity;
+    Fleet fleet = fleet_of(p);
+    fleet.break_down(0, leak(0.1, 0.002));
+    fleet.advance(at_s(200));
+    const VehicleState end = fleet.state_at(0, at_s(200));
+    const double z = z_g + below;
+    EXPECT_NEAR(std::tan(to_euler(end.orientation).pitch), -water * ahead / (50 * z_g + water * z),
+                tolerance(1e-9));
+    EXPECT_LT(end.velocity_body.norm(), tolerance(1e-9));
+  }
+}
+
+TEST(Faults, AVehicleWithWaterInsideHasTheMassMatrixOfBothBodies) {
+  ModelParameters p = plain_body();
+  p.center_of_gravity_m = {0.1, 0, 0.02};
+  p.leak_offset_m = {0.4, -0.1, 0.06};
+  VehicleFaults faults;
+  faults.take(leak(0.1, 1), {});
+  faults.leak(30, kDensity);
+  const Model both(faults.broken(p));
+  const Mat6 sum = Model(p).rigid_body_mass() +
+                   rigid_body_mass_matrix(3, Mat3::Zero(), p.center_of_gravity_m + p.leak_offset_m);
+  EXPECT_LT((both.rigid_body_mass() - sum).norm(), tolerance(1e-12) * sum.norm());
+}
+
 TEST(Faults, AMendedLeakKeepsItsWaterAndANegativeRatePumpsItOut) {
   Fleet fleet = fleet_of(plain_body());
   fleet.break_down(0, leak(0.1, 0.01));
