@@ -106,6 +106,8 @@ void visit_navigator(ConfigVisitor& v, PilotConfig& pilot) {
   v.number("log_drift_mps", rules.log_drift_mps, {0, 10, "m/s", "by the speed through the water: currents"});
   v.number("ground_drift", rules.ground_drift, {0, 1, "", "metres a metre by the speed over ground"});
   v.number("start_deviation_m", rules.start_deviation_m, {0, 1e4, "m", "of the place at the start"});
+  bus::degrees(v, "gyro_bias_degps", rules.gyro_bias_radps,
+               {0, 10, "deg/s", "at most, of a gyro that carries the heading on without a compass"});
   bus::seconds(v, "dvl_fresh_for_s", pilot.dvl_fresh_for,
                {0, 60, "s", "how long a Doppler log's velocity is used; then the speed through the water"});
   v.text("usbl_beacons", pilot.usbl_beacons, {},

@@ -27,19 +27,31 @@ Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& naviga
   situation.time_s = time_s;
   situation.position_ned_m = navigator.position_ned_m(time_s);
   situation.velocity_ned_mps = navigator.velocity_ned_mps();
-  situation.attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad};
+  situation.attitude = navigator.has_sample()
+                           ? navigator.last().attitude
+                           : EulerAngles{sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad};
   situation.pitch_rate_radps = sensors.angular_rate_body_radps[1];
   situation.yaw_rate_radps = sensors.angular_rate_body_radps[2];
   situation.water_speed_mps = sensors.water_speed_mps;
   return situation;
 }
 
-NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors,
+AttitudeReading to_attitude_reading(const vehicle_sensors_t& sensors) {
+  AttitudeReading reading{.time_s = SimTime::from_utime(sensors.utime).seconds()};
+  const double* rates = sensors.angular_rate_body_radps;
+  if (sensors.attitude_fresh)
+    reading.attitude = EulerAngles{sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad};
+  if (sensors.angular_rate_fresh) reading.rates_radps = Vec3(rates[0], rates[1], rates[2]);
+  return reading;
+}
+
+NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors, const AttitudeKeeper& attitude,
                                       const std::optional<vehicle_dvl_t>& ping) {
   NavigationSample sample{.time_s = SimTime::from_utime(sensors.utime).seconds(),
-                          .attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad},
+                          .attitude = attitude.attitude(),
                           .depth_m = sensors.depth_m,
-                          .water_speed_mps = sensors.water_speed_mps};
+                          .water_speed_mps = sensors.water_speed_mps,
+                          .heading_deviation_rad = attitude.heading_deviation_rad()};
   if (ping) {
     const double* v = ping->ground_velocity_body_mps;
     sample.ground_velocity_body_mps = Vec3(v[0], v[1], v[2]);
@@ -87,7 +99,7 @@ AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situati
   return {
       .time_s = time_s,
       .position_ned_m = situation.position_ned_m + (time_s - situation.time_s) * situation.velocity_ned_mps,
-      .attitude = {sensors.roll_rad, sensors.pitch_rad, sensors.heading_rad},
+      .attitude = situation.attitude,
       .has_echo = sensors.altitude_status == vehicle_sensors_t::ALTITUDE_MEASURED,
       .altitude_m = sensors.altitude_m};
 }

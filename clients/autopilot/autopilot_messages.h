@@ -7,6 +7,7 @@
 
 #include "bus/messages.h"
 #include "clients/autopilot/acoustic_fix.h"
+#include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/navigator.h"
@@ -17,11 +18,14 @@ namespace halocline::clients {
 // From the state. The speed is the forward component over ground: SENSORS tells that through the water.
 Situation to_situation(const vehicle_state_t& state);
 
-// From the vehicle's own sensors alone; the place by dead reckoning, at `time_s`.
+// From the vehicle's own sensors alone; place and attitude by reckoning, at `time_s`.
 Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& navigator, double time_s);
 
+// What compass and gyro measured afresh.
+AttitudeReading to_attitude_reading(const vehicle_sensors_t& sensors);
+
 // With the velocity over ground of a Doppler log's ping, where one is given.
-NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors,
+NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors, const AttitudeKeeper& attitude,
                                       const std::optional<vehicle_dvl_t>& ping);
 
 // Fixes of what the navigator remembers; others are ignored.

@@ -37,6 +37,7 @@ void AutopilotNode::subscribe(Pilot& pilot) {
   const bool by_sensors = config.navigate_by == NavigateBy::kSensors;
   if (by_sensors) {
     pilot.navigator.emplace(config.start_ned_m, config.navigator);
+    pilot.attitude.emplace(config.navigator.gyro_bias_radps);
     subscribe_fixes(pilot);
   } else {
     bus().subscribe<vehicle_state_t>(
@@ -48,10 +49,14 @@ void AutopilotNode::subscribe(Pilot& pilot) {
       [&pilot](const vehicle_sensors_t& sensors) {
         pilot.sensors = sensors;
         pilot.looked = false;
-        if (pilot.navigator)
-          pilot.navigator->add(to_navigation_sample(sensors, pilot.fresh_ping(sensors.utime)));
+        if (pilot.navigator) reckon(pilot, sensors);
       },
       bus::Hearing::kStores);
+}
+
+void AutopilotNode::reckon(Pilot& pilot, const vehicle_sensors_t& sensors) {
+  pilot.attitude->add(to_attitude_reading(sensors));
+  pilot.navigator->add(to_navigation_sample(sensors, *pilot.attitude, pilot.fresh_ping(sensors.utime)));
 }
 
 void AutopilotNode::subscribe_fixes(Pilot& pilot) {
@@ -190,7 +195,10 @@ void AutopilotNode::on_restart(const bus::Now& now) {
     pilot->ping.reset();
     pilot->situation.reset();
     pilot->pilot.restart();
-    if (pilot->navigator) pilot->navigator.emplace(pilot->config.start_ned_m, pilot->config.navigator);
+    if (pilot->navigator) {
+      pilot->navigator.emplace(pilot->config.start_ned_m, pilot->config.navigator);
+      pilot->attitude.emplace(pilot->config.navigator.gyro_bias_radps);
+    }
     if (pilot->link) pilot->link->restart(now.sim);
   }
 }

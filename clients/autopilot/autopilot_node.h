@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bus/node.h"
+#include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation_link.h"
 #include "clients/autopilot/navigator.h"
@@ -41,8 +42,9 @@ class AutopilotNode : public bus::Node {
     bool looked = false;  // its altitude was taken in
     VehiclePilot pilot;
     std::int64_t sequence = 0;
-    std::optional<Navigator> navigator{};  // by sensors alone
-    std::optional<Situation> situation{};  // the latest
+    std::optional<Navigator> navigator{};      // by sensors alone
+    std::optional<AttitudeKeeper> attitude{};  // likewise
+    std::optional<Situation> situation{};      // the latest
     std::unique_ptr<FormationLink> link{};
     std::optional<vehicle_dvl_t> ping{};  // the latest that holds a velocity
     std::map<std::int32_t, Vec3> beacons{};
@@ -53,6 +55,7 @@ class AutopilotNode : public bus::Node {
   void add_pilot(const AutopilotConfig& all, const PilotConfig& config);
   void subscribe(Pilot& pilot);
   void subscribe_fixes(Pilot& pilot);
+  static void reckon(Pilot& pilot, const vehicle_sensors_t& sensors);
   void join_formation(const AutopilotConfig& all, Pilot& pilot);
   std::optional<Situation> situation_of(Pilot& pilot, SimTime instant) const;
   void command_all(SimTime instant);

@@ -31,6 +31,7 @@ void Navigator::add(const NavigationSample& sample) {
     position_ned_m_ += step;
     deviation_m_ += sample.ground_velocity_body_mps ? rules_.ground_drift * step.head<2>().norm()
                                                     : rules_.log_drift_mps * dt_s;
+    deviation_m_ += std::min(sample.heading_deviation_rad, 1.0) * step.head<2>().norm();
   }
   position_ned_m_.z() = sample.depth_m;
   velocity_ned_mps_ = velocity;

@@ -5,7 +5,8 @@
 // evenly between samples (trapezium). z is the measured depth. Uncertainty: a standard deviation of each
 // horizontal axis that grows with time, by `log_drift_mps` while the speed is that through the water (the
 // current that is not known) and by `ground_drift` times the way while it is that over ground (the Doppler
-// log's scale and the compass): both are lasting errors, so deviations add up, not variances. A fix moves
+// log's scale and the compass): both are lasting errors, so deviations add up, not variances. While the gyro carries the heading
+// on without a compass (attitude_keeper.h) it grows by that heading's deviation times the way as well, by the way at most. A fix moves
 // the position by P / (P + R) of the difference (Kalman's gain with one variance for both axes) and leaves
 // 1 / (1/P + 1/R). So in a current c the error grows as c t, and a good fix takes it away. A fix of up to kMemory s ago
 // is compared with the place reckoned then. Left out: the current is not estimated, nor the compass's error; sideslip
@@ -23,6 +24,8 @@ struct NavigatorRules {
   double log_drift_mps = 0.1;    // metres a second through unknown currents, 0 or above
   double ground_drift = 0.01;    // metres a metre of way over ground, 0 or above
   double start_deviation_m = 1;  // of the place it is put into the water, 0 or above
+  // Of a gyro that carries the heading on without a compass, at most; 0 or above: 36 degrees an hour
+  double gyro_bias_radps = 1.7453292519943296e-4;
 };
 
 // What its sensors tell at an instant.
@@ -32,6 +35,7 @@ struct NavigationSample {
   double depth_m = 0;                              // becomes z
   double water_speed_mps = 0;                      // forward through the water
   std::optional<Vec3> ground_velocity_body_mps{};  // of a Doppler log
+  double heading_deviation_rad = 0;                // without a compass, see attitude_keeper.h
 };
 
 class Navigator {

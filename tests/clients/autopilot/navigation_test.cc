@@ -55,6 +55,7 @@ Way way_with(const SensorSettings& sensors, double minutes = kMinutes) {
   Fleet fleet = torpedo();
   SensorStation station({{1, sensors}}, 1, kPeriod, 100);
   Navigator navigator(kStart, {});
+  AttitudeKeeper attitude(NavigatorRules{}.gyro_bias_radps);
   std::optional<vehicle_dvl_t> ping;
   const SimTime end = SimTime::from_seconds(60 * minutes);
   for (SimTime now = station.next(); now <= end; now = station.next()) {
@@ -64,8 +65,9 @@ Way way_with(const SensorSettings& sensors, double minutes = kMinutes) {
       answer(tick);
       for (const auto& job : tick.jobs) {
         if (const auto* noted = std::get_if<SensorReading>(&job.sample)) {
-          navigator.add(
-              to_navigation_sample(to_sensors_message(now, station.finish(tick, job, *noted)), ping));
+          const auto message = to_sensors_message(now, station.finish(tick, job, *noted));
+          attitude.add(to_attitude_reading(message));
+          navigator.add(to_navigation_sample(message, attitude, ping));
         } else if (const auto* fix = std::get_if<GpsFix>(&job.sample)) {
           if (now > SimTime()) take_in(to_gps_message(now, *fix, sensors.gps.errors.noise), navigator);
         } else if (const auto* out = std::get_if<DvlPing>(&job.sample)) {
@@ -113,6 +115,66 @@ TEST(NavigationTest, OneFixAtTheEndTakesAwayWhatTheCurrentDid) {
   const Way way = way_with(s);
   EXPECT_LT(way.error_m, 4 * 2 + 0.2);  // 4 standard deviations, and what the gain leaves of 120 m
   EXPECT_NEAR(way.deviation_m, 2, 0.1);
+}
+
+struct Kept {
+  double heading_off_rad = 0;   // of the true heading at the end from the one steered for
+  double deviation_rad = 0;     // that the vehicle knows of
+  double greatest_off_rad = 0;  // of the reckoned heading from the true one
+};
+
+// The torpedo keeps its heading for ten minutes with the autopilot's fins; the compass dies after one.
+Kept way_without_compass(double gyro_bias_radps) {
+  Fleet fleet = torpedo();
+  SensorSettings sensors;
+  sensors.gyro.errors.bias = gyro_bias_radps;
+  SensorStation station({{1, sensors}}, 1, kPeriod, 100);
+  fleet.break_down(0, {.from = SimTime::from_seconds(60),
+                       .kind = vehicle_sim::FaultKind::kDeadSensor,
+                       .sensor = vehicle_sim::SensorKind::kCompass});
+  AttitudeKeeper attitude(gyro_bias_radps);
+  Integrals integrals;
+  const double course = std::numbers::pi / 4;
+  const SetPoints points{.course_rad = course, .z_ned_m = kStart.z(), .speed_mps = 1.5};
+  Kept kept;
+  const SimTime end = SimTime::from_seconds(60 * kMinutes);
+  for (SimTime now = station.next(); now <= end; now = station.next()) {
+    fleet.advance(now);
+    const double truth = to_euler(fleet.state_at(0, now).orientation).yaw;
+    for (SensorTick& tick : station.take(fleet, 4096)) {
+      for (const auto& job : tick.jobs) {
+        const auto* noted = std::get_if<SensorReading>(&job.sample);
+        if (noted == nullptr) continue;
+        const auto m = to_sensors_message(now, station.finish(tick, job, *noted));
+        attitude.add(to_attitude_reading(m));
+        const EulerAngles& a = attitude.attitude();
+        const ActuatorCommand c = command(Gains{}, points,
+                                          {m.depth_m, a.yaw, a.pitch, m.angular_rate_body_radps[1],
+                                           m.angular_rate_body_radps[2], m.water_speed_mps},
+                                          kPeriod.seconds(), integrals);
+        fleet.command(0, {now, {c.rudder_rad, c.stern_plane_rad, c.propeller_rpm / 60}});
+        kept.greatest_off_rad = std::max(kept.greatest_off_rad, std::abs(a.yaw - truth));
+      }
+    }
+    kept.heading_off_rad = truth - course;
+  }
+  kept.deviation_rad = attitude.heading_deviation_rad();
+  return kept;
+}
+
+// The bias times nine minutes; its part about the other axes tilts the reckoned axes by as much, which is of second order.
+TEST(NavigationTest, WithADeadCompassTheHeadingIsOffByTheGyrosBiasTimesTheTime) {
+  const double bias = std::numbers::pi / 180 * 0.01, drift = bias * 60 * (kMinutes - 1);
+  const Kept kept = way_without_compass(bias);
+  EXPECT_NEAR(kept.heading_off_rad, -drift, 0.1 * drift);
+  EXPECT_LT(kept.greatest_off_rad, 1.1 * drift);
+  EXPECT_NEAR(kept.deviation_rad, drift, 0.01 * drift);
+}
+
+TEST(NavigationTest, AGyroWithoutBiasReplacesACompass) {
+  const Kept kept = way_without_compass(0);
+  EXPECT_LT(std::abs(kept.heading_off_rad), std::numbers::pi / 180 * 0.5);
+  EXPECT_LT(kept.greatest_off_rad, std::numbers::pi / 180 * 0.5);
 }
 
 TEST(NavigationTest, AnUnseenBottomLeavesTheSpeedThroughTheWater) {
