@@ -1,5 +1,5 @@
-// What missions come to in the whole simulation, measured by the true states: surveys at a height, formations by sound, dead
-// reckoning.
+// What missions come to in the whole simulation, measured by the true states: surveys at a height, formations by
+// sound, dead reckoning.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -52,6 +52,13 @@ class EmbeddedMissionsTest : public testing::EmbeddedTest {
     return heights;
   }
 
+  // The tolerance that docs/autopilot.md states: 0.5 m either way of 5 m.
+  static void expect_height_kept(const Heights& heights) {
+    EXPECT_GT(heights.count, 5000);
+    EXPECT_NEAR(heights.lowest, 5, tolerance(0.5));
+    EXPECT_NEAR(heights.highest, 5, tolerance(0.5));
+  }
+
   static Vec3 position_of(const vehicle_state_t& state) {
     return {state.position_ned_m[0], state.position_ned_m[1], state.position_ned_m[2]};
   }
@@ -96,14 +103,10 @@ class EmbeddedMissionsTest : public testing::EmbeddedTest {
   }
 };
 
-// The tolerance that docs/autopilot.md states: 0.5 m either way of 5 m.
 TEST_F(EmbeddedMissionsTest, SurveyKeepsItsHeightOverTheSeamount) {
   const ScenarioConfig config = load("survey", {});
   const std::string log = run(config, "survey");
-  const Heights heights = heights_on_tracks(config, log);
-  EXPECT_GT(heights.count, 5000);
-  EXPECT_NEAR(heights.lowest, 5, tolerance(0.5));
-  EXPECT_NEAR(heights.highest, 5, tolerance(0.5));
+  expect_height_kept(heights_on_tracks(config, log));
   EXPECT_FALSE(was_on_the_seabed(log));
 }
 
@@ -115,10 +118,7 @@ TEST_F(EmbeddedMissionsTest, SurveyKeepsItsHeightOverAFractalRidge) {
                  "terrain.relief.longest_wavelength_m=400", "terrain.relief.shortest_wavelength_m=80",
                  "vehicle.0.start_ned_m=[-250.0, -100.0, 40.0]", "environment.profile=\"global-mean\""});
   const std::string log = run(config, "ridge");
-  const Heights heights = heights_on_tracks(config, log);
-  EXPECT_GT(heights.count, 5000);
-  EXPECT_NEAR(heights.lowest, 5, tolerance(0.5));
-  EXPECT_NEAR(heights.highest, 5, tolerance(0.5));
+  expect_height_kept(heights_on_tracks(config, log));
   EXPECT_FALSE(was_on_the_seabed(log));
 }
 

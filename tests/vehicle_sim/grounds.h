@@ -1,11 +1,14 @@
-// Grounds given by formulas, for contact tests.
+// Grounds given by formulas, hulls put down somewhere, and how deep they lie in a ground: for contact tests.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <numbers>
 
+#include "vehicle_sim/equations_of_motion.h"
 #include "vehicle_sim/seabed.h"
 
 namespace halocline::vehicle_sim::testing {
@@ -22,7 +25,7 @@ class FormulaGround : public Seabed {
     const double dz_east = (z_(north, east + kReach) - z_(north, east - kReach)) / (2 * kReach);
     return SeabedPlane{z_(north, east), Vec3(dz_north, dz_east, -1).normalized()};
   }
-  double z(double north, double east) const { return z_(north, east); }
+  double operator()(double north, double east) const { return z_(north, east); }
 
  private:
   Formula z_;
@@ -52,6 +55,34 @@ inline GroundPointer ridge(double crest_z, double angle_rad) {
   const double fall = std::tan(angle_rad);
   return std::make_shared<FormulaGround>(
       [=](double north, double) { return crest_z + fall * std::abs(north); });
+}
+
+// At rest in its own frame but for its speed ahead.
+inline VehicleState at(const Vec3& position, const EulerAngles& attitude = {}, double speed = 0) {
+  VehicleState s;
+  s.position_ned_m = position;
+  s.orientation = to_quaternion(attitude);
+  s.velocity_body[0] = speed;
+  return s;
+}
+
+// How deep the hull, a spheroid, lies in the ground: over points of its whole surface, measured vertically,
+// so never less than the true depth. `ground_z`(north, east) is the ground's z, positive down.
+template <class Ground>
+double deepest_in(const Ground& ground_z, const VehicleState& s, const HullShape& hull) {
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= 40; ++i) {
+    const double along = i / 20.0 - 1,
+                 radius = hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along));
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 2 * std::numbers::pi * k / 12;
+      const Vec3 point =
+          s.position_ned_m +
+          s.orientation * Vec3(along * hull.length_m / 2, radius * std::cos(angle), radius * std::sin(angle));
+      deepest = std::max(deepest, point.z() - ground_z(point.x(), point.y()));
+    }
+  }
+  return deepest;
 }
 
 }  // namespace halocline::vehicle_sim::testing

@@ -8,6 +8,7 @@
 #include "bathymetry/generated_terrain.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
+#include "tests/vehicle_sim/grounds.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/submergence.h"
 #include "vehicle_sim/terrain_seabed.h"
@@ -18,6 +19,8 @@ namespace {
 
 using bathymetry::Terrain;
 using halocline::testing::tolerance;
+using testing::at;
+using testing::deepest_in;
 using TerrainPointer = std::shared_ptr<const Terrain>;
 
 constexpr double kMostPenetration = 0.02;  // m, the project's bound
@@ -37,31 +40,6 @@ std::shared_ptr<const Model> torpedo(double buoyancy_ratio) {
   return std::make_shared<const Model>(p);
 }
 
-VehicleState at(const Vec3& position, const EulerAngles& attitude = {}, double speed = 0) {
-  VehicleState s;
-  s.position_ned_m = position;
-  s.orientation = to_quaternion(attitude);
-  s.velocity_body[0] = speed;
-  return s;
-}
-
-// The deepest point of the spheroid in the ground, measured vertically: never less than the true depth.
-double penetration(const VehicleState& s, const HullShape& hull, const Terrain& ground) {
-  double deepest = -1e9;
-  for (int i = 0; i <= 40; ++i) {
-    const double along = i / 20.0 - 1,
-                 radius = hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along));
-    for (int k = 0; k < 12; ++k) {
-      const double angle = std::numbers::pi * k / 6;
-      const Vec3 point =
-          s.position_ned_m +
-          s.orientation * Vec3(along * hull.length_m / 2, radius * std::cos(angle), radius * std::sin(angle));
-      deepest = std::max(deepest, point.z() - ground.depth_at(point.x(), point.y()).z_m);
-    }
-  }
-  return deepest;
-}
-
 struct Outcome {
   VehicleState end;
   double deepest_m = -1e9;
@@ -70,6 +48,7 @@ struct Outcome {
 
 Outcome run(const TerrainPointer& ground, double buoyancy_ratio, const VehicleState& start,
             const ActuatorValues& command, double duration_s, double step_s) {
+  const auto ground_z = [&](double north, double east) { return ground->depth_at(north, east).z_m; };
   VehicleWorld world(std::make_shared<TerrainSeabed>(ground));
   world.add(torpedo(buoyancy_ratio), start);
   world.set_command(0, command);
@@ -80,7 +59,7 @@ Outcome run(const TerrainPointer& ground, double buoyancy_ratio, const VehicleSt
     EXPECT_FALSE(world.is_lost(0));
     if (i % std::lround(0.04 / step_s) == 0)
       result.deepest_m =
-          std::max(result.deepest_m, penetration(world.state(0), world.model(0).parameters().hull, *ground));
+          std::max(result.deepest_m, deepest_in(ground_z, world.state(0), world.model(0).parameters().hull));
     if (i >= steps - last_second) result.mean_force += world.seabed_force_ned_n(0) / last_second;
   }
   result.end = world.state(0);

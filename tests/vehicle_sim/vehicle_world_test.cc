@@ -20,6 +20,8 @@ namespace halocline::vehicle_sim {
 namespace {
 
 using halocline::testing::tolerance;
+using testing::at;
+using testing::deepest_in;
 using testing::flat;
 using testing::GroundPointer;
 
@@ -30,32 +32,6 @@ std::shared_ptr<const Model> remus(double buoyancy_ratio) {
   ModelParameters p = remus100_pvs_parameters(CurrentTreatment::kGalilean);
   p.buoyancy_n *= buoyancy_ratio;
   return std::make_shared<const Model>(p);
-}
-
-VehicleState at(const Vec3& position, const EulerAngles& attitude = {}, double speed = 0) {
-  VehicleState s;
-  s.position_ned_m = position;
-  s.orientation = to_quaternion(attitude);
-  s.velocity_body[0] = speed;
-  return s;
-}
-
-// How deep the hull, a spheroid, lies in the ground: over points of its whole surface, measured vertically,
-// so never less than the true depth.
-double penetration(const VehicleState& s, const HullShape& hull, const testing::FormulaGround& ground) {
-  double deepest = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= 40; ++i) {
-    const double along = i / 20.0 - 1,
-                 radius = hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along));
-    for (int k = 0; k < 12; ++k) {
-      const double angle = 2 * std::numbers::pi * k / 12;
-      const Vec3 point =
-          s.position_ned_m +
-          s.orientation * Vec3(along * hull.length_m / 2, radius * std::cos(angle), radius * std::sin(angle));
-      deepest = std::max(deepest, point.z() - ground.z(point.x(), point.y()));
-    }
-  }
-  return deepest;
 }
 
 struct Outcome {
@@ -76,7 +52,7 @@ Outcome run(const GroundPointer& ground, double buoyancy_ratio, const VehicleSta
     world.step(step_s);
     EXPECT_FALSE(world.is_lost(0));
     if (i % std::lround(0.04 / step_s) == 0) {
-      const double depth = penetration(world.state(0), world.model(0).parameters().hull, *ground);
+      const double depth = deepest_in(*ground, world.state(0), world.model(0).parameters().hull);
       result.deepest_m = std::max(result.deepest_m, depth);
     }
     result.peak_speed = std::max(result.peak_speed, world.state(0).velocity_body.head<3>().norm());
@@ -238,7 +214,7 @@ TEST(VehicleWorld, AVehicleWhoseEquationsFailIsLostAndTheOthersGoOn) {
 TEST(VehicleWorld, AVehiclePlacedInTheGroundIsMovedOutSlowly) {
   const Outcome r = run(flat(10), 0.98, at({0, 0, 10.5}), {}, 30, 0.01);
   EXPECT_LT(r.peak_speed, 0.5);
-  EXPECT_LT(penetration(r.end, remus(1)->parameters().hull, *flat(10)), tolerance(kMostPenetration));
+  EXPECT_LT(deepest_in(*flat(10), r.end, remus(1)->parameters().hull), tolerance(kMostPenetration));
 }
 
 TEST(VehicleWorld, BeyondTheMapThereIsNoGround) {
