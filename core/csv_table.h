@@ -32,6 +32,9 @@ struct CsvTable {
 // a quote left open) to `errors`, a line of text each, and leaves such rows out.
 CsvTable read_csv(std::istream& in, std::vector<std::string>& errors);
 
+// The text as one cell: in quotes when it holds what would end the cell or the line.
+std::string csv_cell(std::string_view text);
+
 // The number a cell holds: a decimal number, finite, with nothing before or after it. Does not depend on the
 // locale.
 std::optional<double> parse_number(std::string_view cell);

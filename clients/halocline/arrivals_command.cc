@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "clients/halocline/commands.h"
+#include "clients/halocline/run_files.h"
 #include "clients/rays/arrival_output.h"
 #include "clients/rays/arrival_plot.h"
 #include "clients/rays/sea_files.h"
@@ -51,10 +52,7 @@ int find_arrivals(const ArrivalsArguments& arguments) {
   std::ostringstream text;  // so that nothing is written unless all went well
   print_arrivals(text, found, format_of(arguments.format));
   if (arguments.output.empty()) return std::cout << text.str() << std::flush, kDone;
-  std::ofstream out(arguments.output);
-  out << text.str();
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + arguments.output);
+  write_text(arguments.output, text.str());
   return kDone;
 }
 

@@ -5,6 +5,7 @@
 
 #include "clients/calc/calc.h"
 #include "clients/halocline/commands.h"
+#include "clients/halocline/run_files.h"
 #include "core/check.h"
 
 namespace halocline::clients {
@@ -32,10 +33,7 @@ int calc(CalcArguments& arguments) {
   const int code = run_calc(arguments.options, file.is_open() ? file : std::cin, text, std::cerr);
   if (arguments.output.empty() || arguments.output == "-") return std::cout << text.str() << std::flush, code;
   if (code != kDone) return code;
-  std::ofstream out(arguments.output);
-  out << text.str();
-  out.close();
-  if (!out) throw std::runtime_error("cannot write " + arguments.output);
+  write_text(arguments.output, text.str());
   return kDone;
 }
 

@@ -14,6 +14,7 @@
 #include "clients/halocline/channel_types.h"
 #include "clients/halocline/message_fields.h"
 #include "core/check.h"
+#include "core/csv_table.h"
 
 namespace halocline::clients {
 namespace {
@@ -48,13 +49,6 @@ std::string number_text(Number value) {
   }
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
-
 std::string hexadecimal(const std::vector<std::uint8_t>& bytes) {
   constexpr const char* kDigits = "0123456789abcdef";
   std::string out;
@@ -79,7 +73,7 @@ class RowWriter {
     if constexpr (std::is_arithmetic_v<T>) {
       cell(name, [&] { return number_text(value); });
     } else if constexpr (std::is_same_v<T, std::string>) {
-      cell(name, [&] { return quoted(value); });
+      cell(name, [&] { return csv_cell(value); });
     } else if constexpr (kIsBytes<T>) {
       cell(name, [&] { return hexadecimal(value); });
     } else if constexpr (std::is_array_v<T>) {

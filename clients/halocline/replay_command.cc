@@ -1,8 +1,8 @@
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "bus/event_log.h"
 #include "bus/node_process.h"
@@ -66,10 +66,9 @@ void compare_with_original(const ReplayOptions& options, const std::string& made
   LogReader original(options.logs), replayed(made);
   const Comparison comparison(fates_of(original, zero.nanoseconds() / 1000), fates_of(replayed));
   const std::string csv = beside_log(made, ".comparison.csv"), json = beside_log(made, ".comparison.json");
-  std::ofstream table(csv);
+  std::ostringstream table;
   print_csv(table, comparison);
-  table.close();
-  if (!table) throw std::runtime_error("cannot write " + csv);
+  write_text(csv, table.str());
   write_text(json, to_json(comparison) + "\n");
   if (options.quiet) return;
   show(comparison, options.format);

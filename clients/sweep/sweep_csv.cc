@@ -1,24 +1,15 @@
 // The results of a sweep as tables.
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <ostream>
-#include <stdexcept>
+#include <sstream>
 
+#include "clients/halocline/run_files.h"
 #include "clients/sweep/sweep_summary.h"
 #include "core/csv_table.h"
 
 namespace halocline::clients {
 namespace {
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
 
 // An empty cell where there is no number.
 std::string cell(double value) { return std::isnan(value) ? "" : format_number(value); }
@@ -31,7 +22,7 @@ std::string column(std::string name) {
 void write_axes(std::ostream& out, const SweepResults& results, std::size_t point) {
   const SweepRun run = run_of(results.plan, point * results.plan.seeds.size());
   for (std::size_t i = 0; i < run.at.size(); ++i)
-    out << ',' << quoted(results.plan.axes[i].values[run.at[i]]);
+    out << ',' << csv_cell(results.plan.axes[i].values[run.at[i]]);
 }
 
 void name_axes(std::ostream& out, const SweepResults& results) {
@@ -98,20 +89,17 @@ void write_runs(std::ostream& out, const SweepResults& results) {
     const auto& metrics = results.runs[i];
     out << i << ',' << run.point;
     write_axes(out, results, run.point);
-    out << ',' << run.seed << ',' << (metrics ? 1 : 0) << ',' << quoted(results.folders[i]) << ','
+    out << ',' << run.seed << ',' << (metrics ? 1 : 0) << ',' << csv_cell(results.folders[i]) << ','
         << (metrics ? cell(metrics->simulated_s) : "");
     for (std::size_t n = 0; n < kRunNumbers; ++n) out << ',' << (metrics ? cell(metrics->numbers[n]) : "");
     out << "\n";
   }
 }
 
-void write_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
-  const std::string unfinished = path + ".unfinished";
-  std::ofstream file(unfinished);
-  write(file);
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + unfinished);
-  std::filesystem::rename(unfinished, path);
+std::string text_of(const SweepResults& results, void (*write)(std::ostream&, const SweepResults&)) {
+  std::ostringstream text;
+  write(text, results);
+  return text.str();
 }
 
 std::string formatted(const char* format, double a, double b, double c) {
@@ -123,9 +111,9 @@ std::string formatted(const char* format, double a, double b, double c) {
 }  // namespace
 
 void write_csvs(const SweepResults& results, const std::string& folder) {
-  write_file(folder + "/points.csv", [&](std::ostream& out) { write_points(out, results); });
-  write_file(folder + "/pairs.csv", [&](std::ostream& out) { write_pairs(out, results); });
-  write_file(folder + "/runs.csv", [&](std::ostream& out) { write_runs(out, results); });
+  replace_whole(folder + "/points.csv", text_of(results, write_points));
+  replace_whole(folder + "/pairs.csv", text_of(results, write_pairs));
+  replace_whole(folder + "/runs.csv", text_of(results, write_runs));
 }
 
 void print(std::ostream& out, const SweepResults& results) {

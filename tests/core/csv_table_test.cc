@@ -49,6 +49,15 @@ TEST(CsvTable, ReportsEveryFaultAtOnce) {
   EXPECT_EQ(r.table.rows.size(), 1u);
 }
 
+TEST(CsvTable, WrittenCellsReadBackAsTheSameText) {
+  for (const std::string text : {"plain", "a,b", "say \"so\"", "\"", ""}) {
+    const auto table = read("x,y\n" + csv_cell(text) + ",1\n").table;
+    ASSERT_EQ(table.rows.size(), 1u) << text;
+    EXPECT_EQ(table.rows[0].cells[0], text);
+  }
+  EXPECT_EQ(csv_cell("two\nlines"), "\"two\nlines\"");
+}
+
 TEST(CsvTable, AnEmptyTextHasNoHeader) {
   EXPECT_THAT(read("\n").errors, ElementsAre(HasSubstr("no header")));
 }
