@@ -105,8 +105,7 @@ void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handle
 }
 
 bool Bus::is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence) {
-  const auto arrival =
-      (repair_ ? repair_->watch() : flows_).on_message(steady_, channel, session, sequence, answered_);
+  const auto arrival = flows_.on_message(steady_, channel, session, sequence, answered_);
   counters_.gaps += arrival.newly_missing;
   counters_.repaired += arrival.fills_gap ? 1 : 0;
   if (!repair_ || !arrival.is_repeated) return false;
@@ -115,14 +114,13 @@ bool Bus::is_repeated(std::string_view channel, std::int64_t session, std::int64
 }
 
 bool Bus::hears(std::string_view channel) const {
-  const auto is_in = [&](const std::string& prefix) { return channel.starts_with(prefix); };
-  return std::find(exact_channels_.begin(), exact_channels_.end(), channel) != exact_channels_.end() ||
-         std::any_of(prefixes_.begin(), prefixes_.end(), is_in);
+  return std::any_of(heard_.begin(), heard_.end(),
+                     [&](const ChannelPattern& pattern) { return pattern.matches(channel); });
 }
 
 void Bus::enable_repair() {
   if (repair_) return;
-  repair_ = std::make_unique<FlowRepair>(identity_.name, identity_.session);
+  repair_ = std::make_unique<FlowRepair>(identity_.name, identity_.session, flows_);
   subscribe<repair_request_t>(channels::kRepairRequest,
                               [this](const repair_request_t& request) { answer(request); });
   subscribe<flow_heartbeat_t>(
@@ -133,7 +131,7 @@ void Bus::enable_repair() {
 }
 
 void Bus::answer(const repair_request_t& request) {
-  for (const FlowHistory::Bytes* message : repair_->answers_to(request)) {
+  for (const Bytes* message : repair_->answers_to(request)) {
     publish_bytes(channels::kRepair.of(request.missing_channel), message->data(), message->size());
   }
 }
@@ -147,7 +145,7 @@ void Bus::repair(SimTime sim, SimTime steady) {
   for (const repair_request_t& request : repair_->take_requests(sim, steady)) {
     publish(channels::kRepairRequest, request);
   }
-  const std::int64_t lost = repair_->watch().lost();
+  const std::int64_t lost = flows_.lost();
   if (lost > counters_.lost) log_.warning("messages-lost", "count=" + std::to_string(lost));
   counters_.lost = lost;
 }

@@ -1,9 +1,9 @@
 // Typed publish and subscribe on an lcm::LCM, safe against what a bus may carry.
 //
-// A message that does not decode, or holds what cannot be (message_checks.h), is counted, reported with its
+// A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its
 // channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session,
-// sequence) is counted and, with enable_repair(), repaired. An exception that a handler throws never crosses LCM's C frames: it is kept, and
-// thrown by rethrow_if_failed().
+// sequence) is counted and, with enable_repair(), repaired. An exception that a handler throws never crosses
+// LCM's C frames: it is kept, and thrown by rethrow_if_failed().
 //
 //   Bus bus(lcm, {"channel-server", session});
 //   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s)
@@ -18,6 +18,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -26,11 +27,11 @@
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "bus/channel_pattern.h"
 #include "bus/channels.h"
 #include "bus/event_log.h"
 #include "bus/flow_repair.h"
-#include "bus/message_checks.h"
-#include "bus/wire_layout.h"
+#include "bus/message_codec.h"
 #include "core/names.h"
 
 namespace halocline::bus {
@@ -112,7 +113,7 @@ class Bus {
   void repair(SimTime sim, SimTime steady);
   SimTime next_repair() const { return repair_ ? repair_->next_due() : SimTime::never(); }
   // Another run has begun: whoever published in the old one may number anew.
-  void forget_flows() { (repair_ ? repair_->watch() : flows_).forget(); }
+  void forget_flows() { flows_.forget(); }
 
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
@@ -128,7 +129,7 @@ class Bus {
   // handled as if heard there.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler, Hearing hearing);
   template <class Message>
-  bool decode(std::string_view channel, const void* data, std::size_t size, Message& message);
+  bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence);
   bool hears(std::string_view channel) const;
   void answer(const repair_request_t& request);
@@ -137,11 +138,11 @@ class Bus {
   NodeIdentity identity_;
   BusCounters counters_;
   EventLog log_;
-  FlowWatch flows_;  // without repair
+  FlowWatch flows_;
   std::unique_ptr<FlowRepair> repair_;
   SimTime steady_;
-  bool answered_ = false;                               // what is being handled came on REPAIR.<channel>
-  std::vector<std::string> exact_channels_, prefixes_;  // subscribed
+  bool answered_ = false;              // what is being handled came on REPAIR.<channel>
+  std::vector<ChannelPattern> heard_;  // what is subscribed to as messages, not as bytes
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
@@ -181,8 +182,7 @@ std::int64_t number_in_flow(const Message& message) {
 
 template <class Message>
 void Bus::publish(std::string_view channel, const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  Bytes bytes = encoded(message);
   publish_bytes(channel, bytes.data(), bytes.size());
   if constexpr (IsOfFlow<Message>) {
     if (repair_) repair_->on_published(channel, message.session, number_in_flow(message), std::move(bytes));
@@ -191,11 +191,11 @@ void Bus::publish(std::string_view channel, const Message& message) {
 
 template <class Message>
 void Bus::subscribe(std::string_view channel, Handler<Message> handler, Hearing hearing) {
-  exact_channels_.emplace_back(channel);
+  heard_.emplace_back(escaped(channel));
   const auto decode_and_handle = [this, handler = std::move(handler)](std::string_view heard_on,
                                                                       const void* data, std::size_t size) {
     Message message;
-    if (decode(heard_on, data, size, message)) handler(message);
+    if (accept(heard_on, data, size, message)) handler(message);
   };
   subscribe_raw(escaped(channel), decode_and_handle, hearing);
 }
@@ -203,22 +203,20 @@ void Bus::subscribe(std::string_view channel, Handler<Message> handler, Hearing 
 template <class Message>
 void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Hearing hearing) {
   const std::string_view prefix = family.prefix;
-  prefixes_.emplace_back(prefix);
+  heard_.emplace_back(escaped(prefix) + ".*");
   const auto decode_and_handle = [this, prefix, handler = std::move(handler)](
                                      std::string_view heard_on, const void* data, std::size_t size) {
     const std::string_view name = heard_on.substr(prefix.size());
     if (!is_valid_name(name)) return refuse(heard_on, "the channel's name is no valid name");
     Message message;
-    if (decode(heard_on, data, size, message)) handler(name, message);
+    if (accept(heard_on, data, size, message)) handler(name, message);
   };
   subscribe_raw(escaped(prefix) + ".*", decode_and_handle, hearing);
 }
 
 template <class Message>
-bool Bus::decode(std::string_view channel, const void* data, std::size_t size, Message& message) {
-  std::string problem = misfit(wire_layout<Message>(), data, size);
-  if (problem.empty() && message.decode(data, 0, static_cast<int>(size)) < 0) problem = "another type";
-  if (problem.empty()) problem = problem_in(message);
+bool Bus::accept(std::string_view channel, const void* data, std::size_t size, Message& message) {
+  const std::string problem = decode(std::span(static_cast<const std::uint8_t*>(data), size), message);
   if (!problem.empty()) {
     refuse(channel, problem);
     return false;

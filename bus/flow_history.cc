@@ -36,8 +36,7 @@ void FlowHistory::forget_oldest_flow() {
   flows_.erase(oldest);
 }
 
-const FlowHistory::Bytes* FlowHistory::find(std::string_view channel, std::int64_t session,
-                                            std::int64_t sequence) const {
+const Bytes* FlowHistory::find(std::string_view channel, std::int64_t session, std::int64_t sequence) const {
   const auto flow = flows_.find(FlowName(channel, session));
   if (flow == flows_.end()) return nullptr;
   const auto message = flow->second.messages.find(sequence);

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "bus/message_codec.h"
+
 namespace halocline::bus {
 
 class FlowHistory {
  public:
-  using Bytes = std::vector<std::uint8_t>;
-
   static constexpr std::size_t kMostFlows = 500;
   // `most_bytes` of messages are kept, and the last message whatever its size.
   explicit FlowHistory(std::size_t most_bytes) : most_bytes_(most_bytes) {}

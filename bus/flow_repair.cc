@@ -2,8 +2,8 @@
 
 namespace halocline::bus {
 
-std::vector<const FlowHistory::Bytes*> FlowRepair::answers_to(const repair_request_t& request) const {
-  std::vector<const FlowHistory::Bytes*> answers;
+std::vector<const Bytes*> FlowRepair::answers_to(const repair_request_t& request) const {
+  std::vector<const Bytes*> answers;
   std::size_t bytes = 0;
   for (const std::int64_t sequence : request.missing_sequence) {
     const auto* message = history_.find(request.missing_channel, request.publisher_session, sequence);

@@ -29,24 +29,21 @@ class FlowRepair {
   // What one request is answered with at most; the rest is asked for again.
   static constexpr std::size_t kMostAnswerBytes = 256u << 10;
 
-  // `name` and `session`: of the node whose Bus this is.
-  FlowRepair(std::string name, std::int64_t session)
-      : name_(std::move(name)), session_(session), history_(kHistoryBytes) {}
+  // `name` and `session`: of the node whose Bus this is. `watch`: what it hears is told to that, which outlives this.
+  FlowRepair(std::string name, std::int64_t session, FlowWatch& watch)
+      : name_(std::move(name)), session_(session), history_(kHistoryBytes), watch_(watch) {}
 
   // ---- as a publisher
-  void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence,
-                    FlowHistory::Bytes message) {
+  void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     history_.keep(channel, session, sequence, std::move(message));
   }
   // The messages asked for that are still kept.
-  std::vector<const FlowHistory::Bytes*> answers_to(const repair_request_t& request) const;
+  std::vector<const Bytes*> answers_to(const repair_request_t& request) const;
   // The heartbeat when it is due at `steady`, which it then is a period later again.
   bool heartbeat_is_due(SimTime steady) const { return steady >= next_heartbeat_; }
   flow_heartbeat_t take_heartbeat(SimTime sim, SimTime steady);
 
   // ---- as a hearer
-  FlowWatch& watch() { return watch_; }
-  const FlowWatch& watch() const { return watch_; }
   // Returns how many messages of the flows that `hears` selects are newly missing.
   std::int64_t on_heartbeat(SimTime steady, const flow_heartbeat_t& heartbeat,
                             const std::function<bool(std::string_view channel)>& hears);
@@ -59,7 +56,7 @@ class FlowRepair {
   std::string name_;
   std::int64_t session_;
   FlowHistory history_;
-  FlowWatch watch_;
+  FlowWatch& watch_;
   SimTime next_heartbeat_ = SimTime::at_once();
   SimTime began_;
   std::int64_t heartbeats_ = 0;

@@ -25,7 +25,8 @@ void LockstepParticipant::on_grant(const lockstep_grant_t& grant, SimTime steady
     return say_where();  // the conductor thinks it elsewhere
   const auto body = grants_.add(last, grant.slice_number, grant.slice_count, grant.slice_bytes);
   if (!body) return;
-  if (const auto turns = decoded_turns(*body, grant.num_turns)) take(*turns, first, grant.past != 0);
+  const auto turns = decoded_list<lockstep_turn_t>(*body);
+  if (turns && std::ssize(*turns) == grant.num_turns) take(*turns, first, grant.past != 0);
 }
 
 void LockstepParticipant::take(const std::vector<lockstep_turn_t>& turns, std::int64_t first, bool past) {

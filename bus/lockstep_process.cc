@@ -11,18 +11,13 @@
 #include "bus/lockstep_turns.h"
 #include "bus/node_process.h"
 #include "bus/transport.h"
+#include "core/hash.h"
 
 namespace halocline::bus {
 namespace {
 
 // How long a participant that was told to stop waits for its farewell.
 constexpr SimDuration kFarewellPatience = SimDuration::from_milliseconds(4000);
-
-std::uint64_t fnv(std::string_view text) {
-  std::uint64_t sum = 0xcbf29ce484222325u;
-  for (const char c : text) sum = (sum ^ static_cast<std::uint8_t>(c)) * 0x100000001b3u;
-  return sum;
-}
 
 // The participant's two ends of the sync plane: hears grants, speaks answers.
 class SyncPlane {
@@ -63,7 +58,7 @@ class SyncPlane {
 std::string digest_of(const Scenario& scenario) {
   Scenario shared = scenario;
   const std::string text = to_toml([&](ConfigVisitor& v) { visit(v, shared); }, /*with_comments=*/false);
-  return std::to_string(fnv(text));
+  return std::to_string(fnv1a(text));
 }
 
 std::int64_t draw_life() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/hash.h"
 #include "core/names.h"
 
 namespace halocline::bus {
@@ -9,24 +10,9 @@ namespace {
 
 constexpr int kMostSlices = 10'000;  // half a gigabyte; a body that says more is corrupt
 
-std::uint64_t fnv(std::uint64_t sum, std::span<const std::uint8_t> bytes) {
-  for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3u;
-  return sum;
-}
-
 std::string problem_in_slices(int number, int count) {
   if (count < 1 || count > kMostSlices) return "slice_count is impossible";
   return number >= 0 && number < count ? "" : "slice_number is impossible";
-}
-
-void append_length(std::size_t length, Bytes& to) {
-  for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::uint8_t>(length >> shift));
-}
-
-std::size_t length_at(std::span<const std::uint8_t> bytes) {
-  std::size_t length = 0;
-  for (int i = 0; i < 4; ++i) length = length << 8 | bytes[static_cast<std::size_t>(i)];
-  return length;
 }
 
 }  // namespace
@@ -72,27 +58,6 @@ std::string problem_in(const lockstep_notice_t& m) {
   return known ? "" : "notice_kind is no value of its enumeration";
 }
 
-Bytes encoded_turns(std::span<const lockstep_turn_t> turns) {
-  Bytes body;
-  for (const lockstep_turn_t& turn : turns) {
-    append_length(static_cast<std::size_t>(turn.getEncodedSize()), body);
-    append_encoded(turn, body);
-  }
-  return body;
-}
-
-std::optional<std::vector<lockstep_turn_t>> decoded_turns(std::span<const std::uint8_t> bytes, int count) {
-  std::vector<lockstep_turn_t> turns;
-  for (int i = 0; i < count; ++i) {
-    if (bytes.size() < 4 || length_at(bytes) > bytes.size() - 4) return std::nullopt;
-    auto turn = decoded<lockstep_turn_t>(bytes.subspan(4, length_at(bytes)));
-    if (!turn) return std::nullopt;
-    turns.push_back(std::move(*turn));
-    bytes = bytes.subspan(4 + length_at(bytes));
-  }
-  return bytes.empty() ? std::optional(std::move(turns)) : std::nullopt;
-}
-
 int slice_count(std::size_t body_bytes) {
   return static_cast<int>(std::max<std::size_t>(1, (body_bytes + kMostSliceBytes - 1) / kMostSliceBytes));
 }
@@ -119,9 +84,9 @@ std::optional<Bytes> SliceCollector::add(std::int64_t key, int number, int count
 }
 
 std::int64_t digest_of(std::int64_t before, std::span<const lockstep_message_t> said) {
-  auto sum = static_cast<std::uint64_t>(before) ^ 0xcbf29ce484222325u;
-  for (const lockstep_message_t& message : said) sum = fnv(sum, encoded(message));
-  return static_cast<std::int64_t>(sum ^ 0xcbf29ce484222325u);
+  auto sum = static_cast<std::uint64_t>(before) ^ kFnvStart;
+  for (const lockstep_message_t& message : said) sum = fnv1a(encoded(message), sum);
+  return static_cast<std::int64_t>(sum ^ kFnvStart);
 }
 
 }  // namespace halocline::bus

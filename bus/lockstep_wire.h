@@ -1,4 +1,5 @@
-// Lockstep's messages as bytes: encoded, cut into slices that fit a datagram, put together again, summed up.
+// Lockstep's messages on the wire: their channels, bodies cut into slices that fit a datagram and put together
+// again, and sums over what was said.
 //
 // A body (the turns of a grant, the result of an answer) may be longer than what LCM carries well in one
 // datagram; it travels in slices. The same body is always cut the same way, so slices of repetitions fit together.
@@ -11,9 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/message_checks.h"
-#include "bus/messages.h"
-#include "bus/wire_layout.h"
+#include "bus/message_codec.h"
 
 namespace halocline::bus {
 
@@ -28,37 +27,6 @@ inline constexpr std::string_view kLockstepJoin = "LOCKSTEP_JOIN";
 
 // Leaves room for the heads of the slice and of LCM below the 65 507 bytes of a UDP datagram.
 inline constexpr std::size_t kMostSliceBytes = 56'000;
-
-using Bytes = std::vector<std::uint8_t>;
-
-template <class Message>
-void append_encoded(const Message& message, Bytes& to) {
-  const auto start = to.size(), size = static_cast<std::size_t>(message.getEncodedSize());
-  to.resize(start + size);
-  message.encode(to.data() + start, 0, static_cast<int>(size));
-}
-
-template <class Message>
-Bytes encoded(const Message& message) {
-  Bytes bytes;
-  append_encoded(message, bytes);
-  return bytes;
-}
-
-// Empty when the bytes are no sound message of that type, whole.
-template <class Message>
-std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
-  Message message;
-  if (!misfit(wire_layout<Message>(), bytes.data(), bytes.size()).empty()) return std::nullopt;
-  if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) return std::nullopt;
-  if (!problem_in(message).empty()) return std::nullopt;
-  return message;
-}
-
-// Turns as a grant's body holds them: each after its length.
-Bytes encoded_turns(std::span<const lockstep_turn_t> turns);
-// Empty when the bytes are not `count` sound turns, whole.
-std::optional<std::vector<lockstep_turn_t>> decoded_turns(std::span<const std::uint8_t> bytes, int count);
 
 // How many slices a body takes, one at least, and the bytes of one.
 int slice_count(std::size_t body_bytes);

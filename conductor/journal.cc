@@ -18,14 +18,6 @@ namespace {
 constexpr std::uint32_t kEntryWord = 0x484c4a31;  // "HLJ1"
 constexpr std::size_t kHeadBytes = 13;            // word, kind, length, check sum
 
-void put32(std::uint32_t value, bus::Bytes& to) {
-  for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-std::uint32_t get32(const std::uint8_t* at) {
-  return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 | at[3];
-}
-
 // FNV-1a, 32 bits.
 std::uint32_t check_sum(std::span<const std::uint8_t> bytes) {
   std::uint32_t sum = 0x811c9dc5u;
@@ -44,12 +36,12 @@ JournalContents read_journal(const std::string& path) {
   JournalContents contents;
   const bus::Bytes file = contents_of(path);
   std::size_t at = 0;
-  while (file.size() - at >= kHeadBytes && get32(&file[at]) == kEntryWord) {
-    const std::size_t length = get32(&file[at + 5]);
+  while (file.size() - at >= kHeadBytes && bus::uint32_at(file, at) == kEntryWord) {
+    const std::size_t length = bus::uint32_at(file, at + 5);
     if (file.size() - at - kHeadBytes < length) break;
     const auto bytes = std::span(file).subspan(at + kHeadBytes, length);
     const bool known = file[at + 4] <= static_cast<std::uint8_t>(EntryKind::kOver);
-    if (!known || get32(&file[at + 9]) != check_sum(bytes)) break;
+    if (!known || bus::uint32_at(file, at + 9) != check_sum(bytes)) break;
     contents.entries.push_back({static_cast<EntryKind>(file[at + 4]), {bytes.begin(), bytes.end()}});
     at += kHeadBytes + length;
   }
@@ -71,10 +63,10 @@ Journal::~Journal() { close(file_); }
 void Journal::append(const JournalEntry& entry) {
   bus::Bytes bytes;
   bytes.reserve(kHeadBytes + entry.bytes.size());
-  put32(kEntryWord, bytes);
+  bus::append_uint32(kEntryWord, bytes);
   bytes.push_back(static_cast<std::uint8_t>(entry.kind));
-  put32(static_cast<std::uint32_t>(entry.bytes.size()), bytes);
-  put32(check_sum(entry.bytes), bytes);
+  bus::append_uint32(static_cast<std::uint32_t>(entry.bytes.size()), bytes);
+  bus::append_uint32(check_sum(entry.bytes), bytes);
   bytes.insert(bytes.end(), entry.bytes.begin(), entry.bytes.end());
   if (write(file_, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
     throw std::runtime_error("the journal " + path_ + " could not be written whole (disk full?)");

@@ -12,17 +12,6 @@ bus::Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}
 
 std::string at(SimTime sim) { return "t=" + std::to_string(sim.seconds()); }
 
-// Results as the journal holds them: a count, then each after its length.
-bus::Bytes encoded_results(const std::vector<lockstep_result_t>& results) {
-  bus::Bytes bytes;
-  for (const lockstep_result_t& result : results) {
-    const auto length = static_cast<std::uint32_t>(result.getEncodedSize());
-    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(length >> shift));
-    bus::append_encoded(result, bytes);
-  }
-  return bytes;
-}
-
 lockstep_result_t given_up(const std::string& name) {
   lockstep_result_t result{};
   result.participant_name = name;
@@ -142,7 +131,7 @@ void LockstepConductor::begin_exchange(SimTime steady) {
 bool LockstepConductor::finish_round() {
   const auto round = sequencer_.round();
   if (results_.size() < round.size()) return false;
-  record(EntryKind::kRound, encoded_results(results_));
+  record(EntryKind::kRound, bus::encoded_list<lockstep_result_t>(results_));
   sequencer_.complete(std::exchange(results_, {}));
   for (const std::string& name : round) {
     Link& link = links_[name];
@@ -214,7 +203,7 @@ std::vector<std::string> LockstepConductor::waiting_for() const {
 // ---- grants
 
 void LockstepConductor::prepare_turn(const std::string& name, Link& link) {
-  link.body = bus::encoded_turns(std::vector{sequencer_.turn_of(name)});
+  link.body = bus::encoded_list<lockstep_turn_t>(std::vector{sequencer_.turn_of(name)});
   link.turns_in_body = 1;
 }
 

@@ -85,7 +85,7 @@ void LockstepConductor::go_on_with(const std::string& name, Link& link, SimTime 
 
 void LockstepConductor::tell_past(const std::string& name, Link& link, SimTime steady) {
   const auto turns = sequencer_.past_turns(name, link.taken + 1, kPastBytesPerGrant);
-  link.body = bus::encoded_turns(turns);
+  link.body = bus::encoded_list<lockstep_turn_t>(turns);
   link.turns_in_body = static_cast<std::int32_t>(turns.size());
   say_grants({name}, steady);
 }

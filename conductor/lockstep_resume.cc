@@ -9,23 +9,10 @@ namespace {
 
 std::string text_of(const bus::Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
-template <class Message>
-Message decoded_or_throw(std::span<const std::uint8_t> bytes) {
-  auto message = bus::decoded<Message>(bytes);
-  if (!message) throw std::runtime_error("the journal holds an entry that no conductor wrote");
-  return std::move(*message);
-}
-
-std::vector<lockstep_result_t> decoded_results(std::span<const std::uint8_t> bytes) {
-  std::vector<lockstep_result_t> results;
-  while (bytes.size() >= 4) {
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | bytes[i];
-    length = std::min(length, bytes.size() - 4);
-    results.push_back(decoded_or_throw<lockstep_result_t>(bytes.subspan(4, length)));
-    bytes = bytes.subspan(4 + length);
-  }
-  return results;
+template <class Decoded>
+Decoded expected(std::optional<Decoded> decoded) {
+  if (!decoded) throw std::runtime_error("the journal holds an entry that no conductor wrote");
+  return std::move(*decoded);
 }
 
 }  // namespace
@@ -45,7 +32,7 @@ void LockstepConductor::apply(const JournalEntry& entry) {
       run_id_ = std::stoll(text_of(entry.bytes));
       return;
     case EntryKind::kJoin: {
-      const auto join = decoded_or_throw<lockstep_join_t>(entry.bytes);
+      const auto join = expected(bus::decoded<lockstep_join_t>(entry.bytes));
       sequencer_.admit(join);
       links_[join.participant_name].wants_in = false;
       return;
@@ -56,7 +43,7 @@ void LockstepConductor::apply(const JournalEntry& entry) {
       sequencer_.let_go(text_of(entry.bytes));
       return;
     case EntryKind::kOutside:
-      return sequencer_.hear_from_outside(decoded_or_throw<lockstep_message_t>(entry.bytes));
+      return sequencer_.hear_from_outside(expected(bus::decoded<lockstep_message_t>(entry.bytes)));
     case EntryKind::kEnd:
       ending_ = true;
       return sequencer_.end_run(SimTime::from_nanoseconds(std::stoll(text_of(entry.bytes))));
@@ -70,7 +57,7 @@ void LockstepConductor::apply_round(const bus::Bytes& bytes) {
     if (ending_) throw std::runtime_error("the journal has a round after the last");
     sequencer_.begin_instant(sequencer_.next_instant());
   }
-  sequencer_.complete(decoded_results(bytes));
+  sequencer_.complete(expected(bus::decoded_list<lockstep_result_t>(bytes)));
 }
 
 void LockstepConductor::replay_local(const std::string& name, Link& link) {

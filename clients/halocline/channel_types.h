@@ -54,9 +54,7 @@ std::string_view family_of(std::string_view channel);
 // Decodes bytes as bus::Bus does, without counting or reporting; false when they are no sound Message.
 template <class Message>
 bool decode_checked(const std::vector<std::uint8_t>& bytes, Message& message) {
-  if (!bus::misfit(bus::wire_layout<Message>(), bytes.data(), bytes.size()).empty()) return false;
-  return message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) >= 0 &&
-         bus::problem_in(message).empty();
+  return bus::decode(bytes, message).empty();
 }
 
 }  // namespace halocline::clients

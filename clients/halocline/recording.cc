@@ -56,8 +56,7 @@ bool fill_orientation(vehicle_state_t& state) {
 // Decodes and checks one message to be played; what a foreign vehicle may leave out stands no longer against it.
 template <class Message>
 bool decode_played(const std::vector<std::uint8_t>& bytes, Message& message, Recording& recording) {
-  if (!bus::misfit(bus::wire_layout<Message>(), bytes.data(), bytes.size()).empty()) return false;
-  if (message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0) return false;
+  if (!bus::decode_unchecked(bytes, message).empty()) return false;
   Message filled = message;
   bool turned = false;
   if constexpr (std::is_same_v<Message, vehicle_state_t>) {

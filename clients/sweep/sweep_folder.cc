@@ -7,29 +7,15 @@
 #include <stdexcept>
 
 #include "bus/version.h"
+#include "clients/halocline/run_files.h"
+#include "core/hash.h"
 
 namespace halocline::clients {
 namespace {
 
 namespace fs = std::filesystem;
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo).
-std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
-}
-
 std::string result_path(const std::string& folder) { return folder + "/result.json"; }
-
-void write_whole(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".unfinished";
-  std::ofstream file(unfinished);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + unfinished);
-  fs::rename(unfinished, path);
-}
 
 // For a shell: in single quotes.
 std::string quoted(const std::string& text) {
@@ -42,7 +28,7 @@ std::string quoted(const std::string& text) {
 
 std::string run_identity(const std::string& effective_configuration) {
   char digits[20];
-  const std::uint64_t hash = hash_of(std::string(bus::kVersion) + "\n" + effective_configuration);
+  const std::uint64_t hash = fnv1a(std::string(bus::kVersion) + "\n" + effective_configuration);
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
   return digits;
 }
@@ -63,7 +49,7 @@ std::optional<RunMetrics> result_in(const std::string& folder) {
 }
 
 void write_result(const std::string& folder, const RunMetrics& metrics) {
-  write_whole(result_path(folder), to_json(metrics) + "\n");
+  replace_whole(result_path(folder), to_json(metrics) + "\n");
 }
 
 std::string plan_path(const std::string& out) { return out + "/plan.toml"; }
@@ -72,7 +58,7 @@ void write_plan(const std::string& out, const SweepPlan& plan) {
   std::error_code error;
   fs::create_directories(out, error);
   if (error) throw std::runtime_error("cannot make the folder " + out + ": " + error.message());
-  write_whole(plan_path(out), to_toml(plan));
+  replace_whole(plan_path(out), to_toml(plan));
 }
 
 std::string slurm_script(const std::string& program, const std::string& out, std::size_t tasks) {

@@ -13,7 +13,6 @@ namespace halocline::bus {
 namespace {
 
 using ::testing::ElementsAre;
-using testing::encoded;
 using ::testing::HasSubstr;
 using testing::valid_message;
 

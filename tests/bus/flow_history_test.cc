@@ -5,13 +5,13 @@
 namespace halocline::bus {
 namespace {
 
-FlowHistory::Bytes message_of(std::size_t size) { return FlowHistory::Bytes(size, std::uint8_t{7}); }
+Bytes message_of(std::size_t size) { return Bytes(size, std::uint8_t{7}); }
 
 TEST(FlowHistory, GivesBackTheBytesOfAMessage) {
   FlowHistory history(1000);
   history.keep("A", 1, 5, {1, 2, 3});
   ASSERT_NE(history.find("A", 1, 5), nullptr);
-  EXPECT_EQ(*history.find("A", 1, 5), (FlowHistory::Bytes{1, 2, 3}));
+  EXPECT_EQ(*history.find("A", 1, 5), (Bytes{1, 2, 3}));
   EXPECT_EQ(history.find("A", 1, 4), nullptr);
   EXPECT_EQ(history.find("A", 2, 5), nullptr);
   EXPECT_EQ(history.find("B", 1, 5), nullptr);

@@ -12,6 +12,15 @@ std::vector<std::uint8_t> bytes_of(unsigned seed) {
   return bytes;
 }
 
+// One slice of three.
+template <class Message>
+void fill_slice(unsigned seed, Message& m) {
+  m.slice_number = static_cast<std::int32_t>(seed % 3u);
+  m.slice_count = 3;
+  m.slice_bytes = bytes_of(seed);
+  m.num_slice_bytes = static_cast<std::int32_t>(m.slice_bytes.size());
+}
+
 }  // namespace
 
 template <>
@@ -70,10 +79,7 @@ lockstep_grant_t valid_message(unsigned seed) {
   }
   m.num_turns = 1;
   m.past = seed % 2u;
-  m.slice_number = static_cast<std::int32_t>(seed % 3u);
-  m.slice_count = 3;
-  m.slice_bytes = bytes_of(seed);
-  m.num_slice_bytes = static_cast<std::int32_t>(m.slice_bytes.size());
+  fill_slice(seed, m);
   return m;
 }
 
@@ -84,10 +90,7 @@ lockstep_answer_t valid_message(unsigned seed) {
   m.answering_life = 20 + seed;
   m.turn_number = 1 + seed;
   m.wants_to_leave = seed % 2u;
-  m.slice_number = static_cast<std::int32_t>(seed % 3u);
-  m.slice_count = 3;
-  m.slice_bytes = bytes_of(seed);
-  m.num_slice_bytes = static_cast<std::int32_t>(m.slice_bytes.size());
+  fill_slice(seed, m);
   return m;
 }
 

@@ -19,19 +19,18 @@ Bytes body_of(std::size_t size) {
 
 Bytes copy(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
 
-TEST(LockstepWire, TurnsSurviveTheRoundTrip) {
+TEST(LockstepWire, ListsOfMessagesSurviveTheRoundTrip) {
   std::vector<lockstep_turn_t> turns;
   for (unsigned seed = 0; seed < 5; ++seed) turns.push_back(valid_message<lockstep_turn_t>(seed));
-  const auto back = decoded_turns(encoded_turns(turns), 5);
+  const auto back = decoded_list<lockstep_turn_t>(encoded_list<lockstep_turn_t>(turns));
   ASSERT_TRUE(back.has_value());
-  EXPECT_EQ(encoded_turns(*back), encoded_turns(turns));
+  EXPECT_EQ(encoded_list<lockstep_turn_t>(*back), encoded_list<lockstep_turn_t>(turns));
 }
 
-TEST(LockstepWire, TurnsThatAreCutOffAreRefused) {
-  const Bytes body = encoded_turns(std::vector{valid_message<lockstep_turn_t>(3)});
-  for (std::size_t size = 0; size < body.size(); ++size)
-    EXPECT_FALSE(decoded_turns(std::span(body).first(size), 1).has_value()) << size;
-  EXPECT_FALSE(decoded_turns(body, 2).has_value());
+TEST(LockstepWire, AListThatIsCutOffIsRefused) {
+  const Bytes body = encoded_list<lockstep_turn_t>(std::vector{valid_message<lockstep_turn_t>(3)});
+  for (std::size_t size = 1; size < body.size(); ++size)
+    EXPECT_FALSE(decoded_list<lockstep_turn_t>(std::span(body).first(size)).has_value()) << size;
 }
 
 TEST(LockstepWire, SlicesMakeTheBodyInWhateverOrderTheyCome) {

@@ -25,11 +25,4 @@ using AllMessages =
 template <class Message>
 Message valid_message(unsigned seed);
 
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
-
 }  // namespace halocline::bus::testing

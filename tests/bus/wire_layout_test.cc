@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "bus/message_codec.h"
 #include "tests/bus/messages_for_tests.h"
 
 namespace halocline::bus {
 namespace {
 
-using testing::encoded;
 using testing::valid_message;
 
 constexpr unsigned kSeeds = 12;

@@ -1,0 +1,93 @@
+// Messages of lcm-gen's types as bytes and back, for all who do not leave that to LCM.
+//
+// What is decoded is sound, or refused with the reason: the bytes fit the type's layout (wire_layout.h) and the
+// message holds nothing that cannot be (message_checks.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/message_checks.h"
+#include "bus/messages.h"
+#include "bus/wire_layout.h"
+
+namespace halocline::bus {
+
+using Bytes = std::vector<std::uint8_t>;
+
+template <class Message>
+void append_encoded(const Message& message, Bytes& to) {
+  const auto start = to.size(), size = static_cast<std::size_t>(message.getEncodedSize());
+  to.resize(start + size);
+  message.encode(to.data() + start, 0, static_cast<int>(size));
+}
+
+template <class Message>
+Bytes encoded(const Message& message) {
+  Bytes bytes;
+  append_encoded(message, bytes);
+  return bytes;
+}
+
+// Both return what is wrong with the bytes: nothing when `message` holds one message, whole. The first leaves
+// unasked whether it holds what cannot be.
+template <class Message>
+std::string decode_unchecked(std::span<const std::uint8_t> bytes, Message& message) {
+  std::string problem = misfit(wire_layout<Message>(), bytes.data(), bytes.size());
+  if (problem.empty() && message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0)
+    problem = "another type";
+  return problem;
+}
+template <class Message>
+std::string decode(std::span<const std::uint8_t> bytes, Message& message) {
+  std::string problem = decode_unchecked(bytes, message);
+  return problem.empty() ? problem_in(message) : problem;
+}
+
+// Empty when the bytes are no sound message of that type, whole.
+template <class Message>
+std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
+  Message message;
+  return decode(bytes, message).empty() ? std::optional(std::move(message)) : std::nullopt;
+}
+
+// Numbers as LCM writes them: the highest byte first.
+inline void append_uint32(std::uint32_t value, Bytes& to) {
+  for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+inline std::uint32_t uint32_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+  const auto part = [&](std::size_t i, int shift) { return std::uint32_t{bytes[at + i]} << shift; };
+  return part(0, 24) | part(1, 16) | part(2, 8) | part(3, 0);
+}
+
+// Messages one after another, each after its length.
+template <class Message>
+Bytes encoded_list(std::span<const Message> messages) {
+  Bytes bytes;
+  for (const Message& message : messages) {
+    append_uint32(static_cast<std::uint32_t>(message.getEncodedSize()), bytes);
+    append_encoded(message, bytes);
+  }
+  return bytes;
+}
+// Empty when the bytes are not sound messages of that type and nothing else.
+template <class Message>
+std::optional<std::vector<Message>> decoded_list(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kLengthBytes = 4;
+  std::vector<Message> messages;
+  while (!bytes.empty()) {
+    if (bytes.size() < kLengthBytes || uint32_at(bytes, 0) > bytes.size() - kLengthBytes) return std::nullopt;
+    const std::size_t length = uint32_at(bytes, 0);
+    auto message = decoded<Message>(bytes.subspan(kLengthBytes, length));
+    if (!message) return std::nullopt;
+    messages.push_back(std::move(*message));
+    bytes = bytes.subspan(kLengthBytes + length);
+  }
+  return messages;
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,25 @@
+// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv): a quick sum that tells texts and
+// messages apart. Not against an adversary, who finds collisions at will.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace halocline {
+
+// The sum of nothing, with which one begins.
+inline constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325u;
+
+// The sum over what `sum` covers and then `bytes`.
+constexpr std::uint64_t fnv1a(std::span<const std::uint8_t> bytes, std::uint64_t sum = kFnvStart) {
+  for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3u;
+  return sum;
+}
+
+constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t sum = kFnvStart) {
+  for (const char c : text) sum = (sum ^ static_cast<std::uint8_t>(c)) * 0x100000001b3u;
+  return sum;
+}
+
+}  // namespace halocline
