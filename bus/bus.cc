@@ -47,6 +47,7 @@ struct Bus::Subscription {
     if (bus->failure_) return;  // one failure ends the node; nothing more is handled on its way out
     try {
       std::string_view heard_on = channel;
+      bus->received_at_ = SimTime::from_utime(buffer->recv_utime);
       bus->answered_ = heard_on.starts_with(channels::kRepair.prefix);
       if (bus->answered_) heard_on.remove_prefix(channels::kRepair.prefix.size());
       handler(heard_on, buffer->data, buffer->data_size);

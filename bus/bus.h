@@ -102,6 +102,9 @@ class Bus {
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   void subscribe_to_all(RawHandler handler) { subscribe_raw(".*", std::move(handler), Hearing::kMayWake); }
 
+  // The wall time (Unix) at which LCM received the message that is being handled; the kernel's stamp over udpm.
+  SimTime received_at() const { return received_at_; }
+
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
 
@@ -140,7 +143,7 @@ class Bus {
   EventLog log_;
   FlowWatch flows_;
   std::unique_ptr<FlowRepair> repair_;
-  SimTime steady_;
+  SimTime steady_, received_at_;
   bool answered_ = false;              // what is being handled came on REPAIR.<channel>
   std::vector<ChannelPattern> heard_;  // what is subscribed to as messages, not as bytes
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports

@@ -7,6 +7,7 @@
 #include <exception>
 
 #include <poll.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include "bus/lockstep_process.h"
@@ -48,9 +49,7 @@ std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm,
     case TimeSourceKind::kLockstep:
       break;
   }
-  const auto unix_time = std::chrono::system_clock::now().time_since_epoch();
-  return std::make_unique<WallTime>(std::chrono::duration_cast<std::chrono::microseconds>(unix_time).count() -
-                                    steady_now().to_utime());
+  return std::make_unique<WallTime>(wall_now().to_utime() - steady_now().to_utime());
 }
 
 // In lockstep a node is on a bus of its own, and its identity is the same in every run.
@@ -102,22 +101,37 @@ void catch_stop_signals() {
 bool stop_requested() { return stop_signal_seen != 0; }
 
 // The signals are let in only while sleeping, so that none slips by between the check and the sleep.
-void wait_for_bus(lcm::LCM& lcm, SimTime wake) {
+bool wait_for_bus(lcm::LCM& lcm, SimTime wake) {
   const SimDuration left = std::min(std::max(wake, steady_now()) - steady_now(), kLongestSleep);
-  const timespec timeout{0, static_cast<long>(std::max<std::int64_t>(left.nanoseconds(), 0))};
   pollfd bus{lcm.getFileno(), POLLIN, 0};
   sigset_t blocked, before;
   sigemptyset(&blocked);
   sigaddset(&blocked, SIGINT);
   sigaddset(&blocked, SIGTERM);
   sigprocmask(SIG_BLOCK, &blocked, &before);
-  if (!stop_requested()) ppoll(&bus, 1, &timeout, &before);
+  const timespec timeout{0, stop_requested() ? 0 : std::max<long>(left.nanoseconds(), 0)};
+  const bool has_something = ppoll(&bus, 1, &timeout, &before) > 0;
   sigprocmask(SIG_SETMASK, &before, nullptr);
+  return has_something;
+}
+
+void wait_and_dispatch(lcm::LCM& lcm, SimTime wake) {
+  if (!wait_for_bus(lcm, wake)) return;
+  lcm.handle();
+  pollfd bus{lcm.getFileno(), POLLIN, 0};
+  for (int i = 1; i < kMostMessagesPerTurn && poll(&bus, 1, 0) > 0; ++i) lcm.handle();
 }
 
 void dispatch_waiting(lcm::LCM& lcm) {
   for (int i = 0; i < kMostMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
   }
+}
+
+void sleep_precisely() { prctl(PR_SET_TIMERSLACK, 1); }
+
+SimTime wall_now() {
+  const auto unix_time = std::chrono::system_clock::now().time_since_epoch();
+  return SimTime::from_utime(std::chrono::duration_cast<std::chrono::microseconds>(unix_time).count());
 }
 
 SimTime steady_now() {
@@ -138,16 +152,17 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   const auto is_due = [&](const Due& due) {
     return due.steady <= now.steady || due.sim == SimTime::at_once() || (now.sim_known && due.sim <= now.sim);
   };
+  sleep_precisely();
   while (!should_stop()) {
     wait_for_bus(lcm, wake_time(node, time));
-    time.set_steady(steady_now());
+    time.set_steady(steady_now(), wall_now());
     node.set_steady(steady_now());
     dispatch_waiting(lcm);
     update_time();
     if (time.restarted()) node.restart(now);
     if (is_due(node.due())) node.step(now);
   }
-  time.set_steady(steady_now());
+  time.set_steady(steady_now(), wall_now());
   dispatch_until_silent(lcm);
   update_time();
   if (is_due(node.due())) node.step(now);

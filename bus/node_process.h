@@ -70,10 +70,19 @@ void catch_stop_signals();
 bool stop_requested();
 
 // Sleeps until the bus has something, `wake` (steady) has come, a stop signal, or a tenth of a second has passed.
-void wait_for_bus(lcm::LCM& lcm, SimTime wake);
+// Returns whether the bus has something.
+bool wait_for_bus(lcm::LCM& lcm, SimTime wake);
 // Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work.
 void dispatch_waiting(lcm::LCM& lcm);
 
+// Both, one after the other, in fewer system calls.
+void wait_and_dispatch(lcm::LCM& lcm, SimTime wake);
+
+// From now on this thread's sleeps end when asked, not up to 50 us later (Linux' timer slack).
+void sleep_precisely();
+
+// Unix time.
+SimTime wall_now();
 // Nanoseconds since the process started; never goes back.
 SimTime steady_now();
 

@@ -8,6 +8,8 @@
 namespace halocline::bus {
 namespace {
 
+// A message that waited longer between the network and us says nothing of when it was sent.
+constexpr SimDuration kLongestWait = SimDuration::from_milliseconds(100);
 constexpr SimDuration kSampleMemory = SimDuration::from_milliseconds(1000);
 // Messages of one moment reach us in any order within far less than this; a log started anew jumps by more.
 constexpr SimDuration kJumpBack = SimDuration::from_milliseconds(10'000);
@@ -23,10 +25,16 @@ SimTime to_steady(double seconds) {
 
 ConductorTime::ConductorTime(lcm::LCM& lcm, std::string process_name)
     : bus_(lcm, {std::move(process_name), 0}) {
-  bus_.subscribe<sim_clock_t>(channels::kClock, [this](const sim_clock_t& clock) { on_clock(clock); });
+  bus_.subscribe<sim_clock_t>(channels::kClock,
+                              [this](const sim_clock_t& clock) { on_clock(clock, heard()); });
 }
 
-void ConductorTime::on_clock(const sim_clock_t& clock) {
+SimTime ConductorTime::heard() const {
+  if (!wall_) return steady_;
+  return steady_ - std::clamp(*wall_ - bus_.received_at(), SimDuration(), kLongestWait);
+}
+
+void ConductorTime::on_clock(const sim_clock_t& clock, SimTime heard) {
   const SimTime sim = SimTime::from_utime(clock.utime);
   if (clock.session != session_ || clock.clock_rate != rate_) samples_.clear();
   if (clock.session != session_ && latest_ > sim + kJumpBack) {
@@ -37,8 +45,8 @@ void ConductorTime::on_clock(const sim_clock_t& clock) {
   rate_ = clock.clock_rate;
   paused_at_ = rate_ > 0 ? std::nullopt : std::optional(sim);
   if (rate_ <= 0) return;
-  samples_.push_back({heard_at_, heard_at_.seconds() - sim.seconds() / rate_});
-  while (samples_.front().heard + kSampleMemory < heard_at_) samples_.pop_front();
+  samples_.push_back({heard, heard.seconds() - sim.seconds() / rate_});
+  while (samples_.front().heard + kSampleMemory < heard) samples_.pop_front();
 }
 
 std::optional<SimTime> ConductorTime::now(SimTime steady) {

@@ -1,6 +1,6 @@
 // Where a process takes its simulation time from.
 //
-// Steady time is given in, never read here: integer nanoseconds since the process started.
+// Steady time is given in, never read here: integer nanoseconds since the process started. So is the wall's.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,12 @@ namespace halocline::bus {
 class TimeSource {
  public:
   virtual ~TimeSource() = default;
-  // Called before messages are dispatched: the steady time at which they are heard.
-  virtual void set_steady(SimTime /*steady*/) {}
+  // Called before messages are dispatched: the steady time at which that begins, and the wall's (Unix time), by
+  // which is known how long ago LCM received them; without it they count as received now.
+  void set_steady(SimTime steady, std::optional<SimTime> wall = {}) {
+    steady_ = steady;
+    wall_ = wall;
+  }
   // Simulation time at `steady`; empty while none is known yet. Never goes back but where restarted() says
   // so.
   virtual std::optional<SimTime> now(SimTime steady) = 0;
@@ -30,6 +34,10 @@ class TimeSource {
   virtual SimTime steady_at(SimTime sim) const = 0;
   // True once after simulation time jumped back: another run has begun, state kept of the old one is void.
   virtual bool restarted() { return false; }
+
+ protected:
+  SimTime steady_;
+  std::optional<SimTime> wall_;
 };
 
 // Follows the CLOCK of a conductor, and coasts at its last rate when the conductor falls silent.
@@ -39,22 +47,22 @@ class TimeSource {
 class ConductorTime : public TimeSource {
  public:
   explicit ConductorTime(lcm::LCM& lcm, std::string process_name);
-  void set_steady(SimTime steady) override { heard_at_ = steady; }
-
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   bool restarted() override { return std::exchange(restarted_, false); }
 
-  // What set_steady and a CLOCK message do together; for tests.
-  void on_clock(const sim_clock_t& clock);
+  // A CLOCK that was received at `heard` (steady).
+  void on_clock(const sim_clock_t& clock, SimTime heard);
 
  private:
   struct Sample {
     SimTime heard;    // steady
     double offset_s;  // heard - utime / rate, seconds
   };
+  // When the message being handled was received. The wall may have been set meanwhile: within a bound.
+  SimTime heard() const;
+
   Bus bus_;
-  SimTime heard_at_;
   double rate_ = 0;
   std::int64_t session_ = 0;
   std::deque<Sample> samples_;

@@ -19,7 +19,7 @@ PacedTime::PacedTime(lcm::LCM& lcm, double rate) : bus_(lcm, {"paced-time", 0}),
 
 void PacedTime::on_utime(std::int64_t utime) {
   if (running_ || utime <= 0) return;
-  const SimTime zero = SimTime::from_utime(utime) - scaled(heard_at_, rate_);
+  const SimTime zero = SimTime::from_utime(utime) - scaled(steady_, rate_);
   zero_ = heard_ ? std::max(zero_, zero) : zero;
   heard_ = true;
 }

@@ -20,7 +20,6 @@ class PacedTime : public bus::TimeSource {
   // `rate`: simulated seconds per second of steady time, above 0.
   PacedTime(lcm::LCM& lcm, double rate);
 
-  void set_steady(SimTime steady) override { heard_at_ = steady; }
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
 
@@ -30,7 +29,6 @@ class PacedTime : public bus::TimeSource {
  private:
   bus::Bus bus_;
   double rate_;
-  SimTime heard_at_;
   std::optional<SimTime> started_listening_;
   SimTime zero_;  // simulation time at steady time 0, as heard so far
   bool heard_ = false;

@@ -69,7 +69,7 @@ void BlockingModem::wait(SimDuration timeout, const std::function<bool()>& done)
     const SimDuration left = end - now;
     const SimDuration until_repair = std::max(bus_.next_repair(), now) - now;
     sleep_until_heard(lcm_, std::clamp(std::min(left, until_repair), SimDuration(), kLongestSleep));
-    time_.set_steady(bus::steady_now());
+    time_.set_steady(bus::steady_now(), bus::wall_now());
     bus_.set_steady(bus::steady_now());
     const bool heard = lcm_.handleTimeout(0) > 0;
     bus_.rethrow_if_failed();

@@ -1,5 +1,6 @@
 #include "bus/time_source.h"
 
+#include <chrono>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ SimTime at(double seconds) { return SimTime::from_seconds(seconds); }
 
 class ConductorTimeTest : public ::testing::Test {
  protected:
-  void hear(double steady_s, double sim_s, double rate = 1, std::int64_t session = 1) {
+  sim_clock_t clock_at(double sim_s, double rate = 1, std::int64_t session = 1) {
     sim_clock_t clock;
     clock.utime = at(sim_s).to_utime();
     clock.session = session;
@@ -22,8 +23,10 @@ class ConductorTimeTest : public ::testing::Test {
     clock.clock_rate = rate;
     clock.clock_step_us = 100'000;
     clock.lockstep = rate == 0;
-    time_.set_steady(at(steady_s));
-    time_.on_clock(clock);
+    return clock;
+  }
+  void hear(double steady_s, double sim_s, double rate = 1, std::int64_t session = 1) {
+    time_.on_clock(clock_at(sim_s, rate, session), at(steady_s));
   }
   double now(double steady_s) { return time_.now(at(steady_s))->seconds(); }
 
@@ -44,18 +47,31 @@ TEST_F(ConductorTimeTest, FollowsTheClockAtItsRate) {
 }
 
 TEST_F(ConductorTimeTest, HearsTheClockOnTheBus) {
-  sim_clock_t clock;
-  clock.utime = 7'000'000;
-  clock.session = 3;
-  clock.sequence = 0;
-  clock.clock_rate = 1;
-  clock.clock_step_us = 1000;
-  clock.lockstep = 0;
+  const sim_clock_t clock = clock_at(7);
   time_.set_steady(at(2));
   lcm_.publish("CLOCK", &clock);
   while (lcm_.handleTimeout(0) > 0) {
   }
   EXPECT_NEAR(now(2), 7, 1e-9);
+}
+
+TEST_F(ConductorTimeTest, AClockThatWaitedToBeHandledCountsFromWhenItWasReceived) {
+  const auto wall_now = [] {
+    const auto since_epoch = std::chrono::system_clock::now().time_since_epoch();
+    return SimTime::from_nanoseconds(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count());
+  };
+  const sim_clock_t clock = clock_at(7, 2);
+  const SimTime before = wall_now();
+  lcm_.publish("CLOCK", &clock);
+  const SimTime after = wall_now();
+  const SimDuration waited = SimDuration::from_milliseconds(40);
+  time_.set_steady(at(2), after + waited);
+  while (lcm_.handleTimeout(0) > 0) {
+  }
+  constexpr double kStampStepS = 1e-6;
+  EXPECT_GE(now(2), 7 + 2 * (waited.seconds() - kStampStepS));
+  EXPECT_LE(now(2), 7 + 2 * ((after + waited - before).seconds() + kStampStepS));
 }
 
 TEST_F(ConductorTimeTest, CoastsWhenTheConductorFallsSilent) {
