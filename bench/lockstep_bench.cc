@@ -81,8 +81,7 @@ class Weather {
   ears.subscribe<lockstep_grant_t>(std::string(bus::channels::kLockstepGrant) + "." + name, on_grant);
   for (;;) {
     participant.on_timer(bus::steady_now());
-    bus::wait_for_bus(*grants_lcm, participant.next_timer());
-    bus::dispatch_waiting(*grants_lcm);
+    bus::wait_and_dispatch(*grants_lcm, participant.next_timer());
   }
 }
 
@@ -130,8 +129,7 @@ void lockstep_steps(benchmark::State& bench) {
   const auto step_to = [&](std::int64_t rounds) {
     while (conductor.sequencer().rounds() < rounds) {
       conductor.on_timer(bus::steady_now());
-      bus::wait_for_bus(*answers_lcm, conductor.next_timer());
-      bus::dispatch_waiting(*answers_lcm);
+      bus::wait_and_dispatch(*answers_lcm, conductor.next_timer());
     }
   };
   step_to(200);  // all have joined, and the timers know the way

@@ -43,8 +43,7 @@ class SyncPlane {
             [this](const lockstep_answer_t& m) { mouth_.publish(channels::kLockstepAnswer, m); }};
   }
   void wait_and_dispatch(SimTime wake) {
-    wait_for_bus(*grants_lcm_, wake);
-    dispatch_waiting(*grants_lcm_);
+    bus::wait_and_dispatch(*grants_lcm_, wake);
     ears_.rethrow_if_failed();
   }
 

@@ -52,6 +52,7 @@ LockstepTurns::Interest LockstepTurns::interest_in(const std::string& channel) {
 }
 
 void LockstepTurns::hear(const std::vector<lockstep_message_t>& heard) {
+  if (heard.empty()) return;
   const SimTime due = node_.lockstep_due();
   bool may_wake = false;
   for (const lockstep_message_t& message : heard) {

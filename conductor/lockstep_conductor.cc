@@ -1,6 +1,7 @@
 #include "conductor/lockstep_conductor.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "core/check.h"
@@ -104,38 +105,40 @@ void LockstepConductor::end_at(SimTime instant) {
 void LockstepConductor::begin_exchange(SimTime steady) {
   round_began_ = steady;
   results_.clear();
-  std::vector<std::string> remote, local;
+  round_.clear();
+  std::vector<NamedLink*> remote, local;
   for (const std::string& name : sequencer_.round()) {
-    Link& link = links_[name];
-    link.answered = false;
+    NamedLink& named = *links_.try_emplace(name).first;
+    Link& link = named.second;
+    round_.push_back(&named);
+    link.waited_for = true;
     if (link.take) {
-      local.push_back(name);
+      local.push_back(&named);
     } else if (link.up_to_date && link.life != 0) {
       // A life that came when its predecessor had answered lacks that turn.
       link.up_to_date = link.taken >= sequencer_.turns_taken(name);
       if (!link.up_to_date) {
-        tell_past(name, link, steady);
+        tell_past(named, steady);
         continue;
       }
       prepare_turn(name, link);
-      remote.push_back(name);
+      remote.push_back(&named);
     }
   }
   say_grants(remote, steady);
-  for (const std::string& name : local) {
-    results_.push_back(links_[name].take(sequencer_.turn_of(name)));
-    links_[name].answered = true;
+  for (NamedLink* named : local) {
+    results_.push_back(named->second.take(sequencer_.turn_of(named->first)));
+    named->second.waited_for = false;
   }
 }
 
 bool LockstepConductor::finish_round() {
-  const auto round = sequencer_.round();
-  if (results_.size() < round.size()) return false;
+  if (results_.size() < sequencer_.round().size()) return false;
   record(EntryKind::kRound, bus::encoded_list<lockstep_result_t>(results_));
   sequencer_.complete(std::exchange(results_, {}));
-  for (const std::string& name : round) {
-    Link& link = links_[name];
-    if (sequencer_.takes_part(name) || link.life == 0) continue;
+  for (NamedLink* named : round_) {
+    Link& link = named->second;
+    if (sequencer_.takes_part(named->first) || link.life == 0) continue;
     link.said_goodbye = true;
     if (!ending_) notice(link.life, lockstep_notice_t::OVER);
   }
@@ -153,14 +156,13 @@ void LockstepConductor::finish() {
 // ---- answers
 
 void LockstepConductor::on_answer(const lockstep_answer_t& answer, SimTime steady) {
-  const auto known = name_of_life_.find(answer.answering_life);
-  if (known == name_of_life_.end() || answer.run_id != run_id_) return;
-  const std::string& name = known->second;
-  Link& link = links_[name];
+  const auto known = link_of_life_.find(answer.answering_life);
+  if (known == link_of_life_.end() || answer.run_id != run_id_) return;
+  auto& [name, link] = *known->second;
   link.last_heard = steady;
   link.wants_to_leave = link.wants_to_leave || answer.wants_to_leave != 0;
   const bool past = !link.up_to_date;
-  if (!past && !is_waited_for(name, link)) return;
+  if (!past && !link.waited_for) return;
   if (answer.turn_number != first_turn_granted(name, link) + (past ? link.turns_in_body - 1 : 0)) return;
   const auto body =
       link.answer.add(answer.turn_number, answer.slice_number, answer.slice_count, answer.slice_bytes);
@@ -168,22 +170,17 @@ void LockstepConductor::on_answer(const lockstep_answer_t& answer, SimTime stead
   auto result = bus::decoded<lockstep_result_t>(*body);
   if (!result || result->participant_name != name) return;
   if (past) {
-    on_past_taken(name, link, *result, steady);
+    on_past_taken(*known->second, *result, steady);
   } else {
     link.timer.answered(steady);
     link.taken = answer.turn_number;
-    link.answered = true;
+    link.waited_for = false;
     results_.push_back(std::move(*result));
   }
   advance(steady);
 }
 
 void LockstepConductor::on_outside(lockstep_message_t message) { outside_.push_back(std::move(message)); }
-
-bool LockstepConductor::is_waited_for(const std::string& name, const Link& link) const {
-  const auto& round = sequencer_.round();
-  return !link.answered && std::find(round.begin(), round.end(), name) != round.end();
-}
 
 std::vector<std::string> LockstepConductor::waiting_for() const {
   std::vector<std::string> names;
@@ -194,8 +191,8 @@ std::vector<std::string> LockstepConductor::waiting_for() const {
     }
     return names;
   }
-  for (const std::string& name : sequencer_.round()) {
-    if (!links_.at(name).answered) names.push_back(name);
+  for (const NamedLink* named : round_) {
+    if (named->second.waited_for) names.push_back(named->first);
   }
   return names;
 }
@@ -203,7 +200,7 @@ std::vector<std::string> LockstepConductor::waiting_for() const {
 // ---- grants
 
 void LockstepConductor::prepare_turn(const std::string& name, Link& link) {
-  link.body = bus::encoded_list<lockstep_turn_t>(std::vector{sequencer_.turn_of(name)});
+  link.body = bus::encoded_list<lockstep_turn_t>(std::array{sequencer_.turn_of(name)});
   link.turns_in_body = 1;
 }
 
@@ -212,35 +209,36 @@ std::int64_t LockstepConductor::first_turn_granted(const std::string& name, cons
 }
 
 // One grant for all whose turns are alike.
-void LockstepConductor::say_grants(const std::vector<std::string>& names, SimTime steady) {
-  std::vector<std::string> left = names;
-  while (!left.empty()) {
-    const Link& first = links_[left.front()];
-    const auto others = std::stable_partition(left.begin(), left.end(), [&](const std::string& name) {
-      const Link& link = links_[name];
-      return link.up_to_date == first.up_to_date && link.body == first.body;
+void LockstepConductor::say_grants(const std::vector<NamedLink*>& links, SimTime steady) {
+  std::vector<NamedLink*> left = links;
+  for (auto begin = left.begin(); begin != left.end();) {
+    const Link& first = (*begin)->second;
+    const auto others = std::stable_partition(begin, left.end(), [&](const NamedLink* named) {
+      return named->second.up_to_date == first.up_to_date && named->second.body == first.body;
     });
-    say_grant({left.begin(), others});
-    left.erase(left.begin(), others);
+    say_grant({begin, others});
+    begin = others;
   }
-  for (const std::string& name : names) links_[name].timer.say(steady);
+  for (NamedLink* named : links) {
+    named->second.timer.say(steady);
+    next_repetition_ = std::min(next_repetition_, named->second.timer.again_at());
+  }
 }
 
-void LockstepConductor::say_grant(const std::vector<std::string>& names) {
-  const Link& any = links_[names.front()];
+void LockstepConductor::say_grant(std::span<NamedLink* const> links) {
+  const Link& any = links.front()->second;
   lockstep_grant_t grant{};
   grant.run_id = run_id_;
-  for (const std::string& name : names) {
-    const Link& link = links_[name];
-    grant.addressed_lives.push_back(link.life);
-    grant.first_turns.push_back(first_turn_granted(name, link));
+  for (const NamedLink* named : links) {
+    grant.addressed_lives.push_back(named->second.life);
+    grant.first_turns.push_back(first_turn_granted(named->first, named->second));
   }
-  grant.num_addressed = static_cast<std::int32_t>(names.size());
+  grant.num_addressed = static_cast<std::int32_t>(links.size());
   grant.num_turns = any.turns_in_body;
   grant.past = any.up_to_date ? 0 : 1;
   grant.slice_count = bus::slice_count(any.body.size());
   std::string channel(bus::channels::kLockstepGrant);
-  if (names.size() == 1) channel += "." + names.front();
+  if (links.size() == 1) channel += "." + links.front()->first;
   for (grant.slice_number = 0; grant.slice_number < grant.slice_count; ++grant.slice_number) {
     const auto slice = bus::slice_of(any.body, grant.slice_number);
     grant.slice_bytes.assign(slice.begin(), slice.end());
@@ -258,39 +256,47 @@ void LockstepConductor::on_timer(SimTime steady) {
 }
 
 void LockstepConductor::repeat_unanswered(SimTime steady) {
-  std::vector<std::string> unanswered;
-  for (const auto& [name, link] : links_) {
-    if (link.life != 0 && link.timer.again_at() <= steady) unanswered.push_back(name);
+  if (steady < next_repetition_) return;
+  next_repetition_ = SimTime::never();
+  std::vector<NamedLink*> unanswered;
+  for (NamedLink& named : links_) {
+    const auto& [name, link] = named;
+    if (link.life == 0) continue;
+    if (link.timer.again_at() <= steady) {
+      unanswered.push_back(&named);
+    } else {
+      next_repetition_ = std::min(next_repetition_, link.timer.again_at());
+    }
   }
   repetitions_ += static_cast<std::int64_t>(unanswered.size());
-  if (!unanswered.empty()) say_grants(unanswered, steady);
+  say_grants(unanswered, steady);
 }
 
 void LockstepConductor::drop_silent(SimTime steady) {
   if (rules_.drop_after == SimDuration()) return;
-  for (const std::string& name : sequencer_.round()) {
-    Link& link = links_[name];
-    if (link.answered || steady - std::max(round_began_, link.last_heard) < rules_.drop_after) continue;
+  for (NamedLink* named : round_) {
+    auto& [name, link] = *named;
+    if (!link.waited_for || steady < dropped_at(link)) continue;
     mouth_.report("dropped", "participant=" + name + " " + at(sequencer_.now()) +
                                  " silent_s=" + std::to_string(rules_.drop_after.seconds()));
-    name_of_life_.erase(link.life);
+    link_of_life_.erase(link.life);
     link.life = 0;
     link.up_to_date = false;
     link.timer = {};
-    link.answered = true;
+    link.waited_for = false;
     results_.push_back(given_up(name));
   }
 }
 
+SimTime LockstepConductor::dropped_at(const Link& link) const {
+  return std::max(round_began_, link.last_heard) + rules_.drop_after;
+}
+
 SimTime LockstepConductor::next_timer() const {
-  SimTime next = SimTime::never();
-  for (const auto& [name, link] : links_) {
-    if (link.life != 0) next = std::min(next, link.timer.again_at());
-  }
+  SimTime next = next_repetition_;
   if (rules_.drop_after == SimDuration() || !running_) return next;
-  for (const std::string& name : sequencer_.round()) {
-    const Link& link = links_.at(name);
-    if (!link.answered) next = std::min(next, std::max(round_began_, link.last_heard) + rules_.drop_after);
+  for (const NamedLink* named : round_) {
+    if (named->second.waited_for) next = std::min(next, dropped_at(named->second));
   }
   return next;
 }

@@ -9,7 +9,9 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/lockstep_wire.h"
@@ -83,16 +85,17 @@ class LockstepConductor {
     bus::Bytes body;  // of the turns granted to it and not answered
     std::int32_t turns_in_body = 0;
     bus::SliceCollector answer;
-    bool answered = false;  // its result of the round is here
+    bool waited_for = false;  // in the round, and its result is not here
   };
+  using NamedLink = std::pair<const std::string, Link>;
 
   // Joining
   bool is_past_taking_part(const lockstep_join_t& join) const;
   std::string objection_to(const lockstep_join_t& join, const Link& link) const;
-  void adopt(const lockstep_join_t& join, Link& link, SimTime steady);
-  void go_on_with(const std::string& name, Link& link, SimTime steady);
-  void tell_past(const std::string& name, Link& link, SimTime steady);
-  void on_past_taken(const std::string& name, Link& link, const lockstep_result_t& result, SimTime steady);
+  void adopt(const lockstep_join_t& join, NamedLink& named, SimTime steady);
+  void go_on_with(NamedLink& named, SimTime steady);
+  void tell_past(NamedLink& named, SimTime steady);
+  void on_past_taken(NamedLink& named, const lockstep_result_t& result, SimTime steady);
   void put_out(std::int64_t life, const std::string& name, const std::string& reason) const;
   void notice(std::int64_t life, std::int8_t kind, const std::string& reason = "") const;
 
@@ -108,13 +111,13 @@ class LockstepConductor {
   void finish();
 
   // Grants
-  bool is_waited_for(const std::string& name, const Link& link) const;
   void prepare_turn(const std::string& name, Link& link);
-  void say_grants(const std::vector<std::string>& names, SimTime steady);
-  void say_grant(const std::vector<std::string>& names);
+  void say_grants(const std::vector<NamedLink*>& links, SimTime steady);
+  void say_grant(std::span<NamedLink* const> links);
   std::int64_t first_turn_granted(const std::string& name, const Link& link) const;
   void repeat_unanswered(SimTime steady);
   void drop_silent(SimTime steady);
+  SimTime dropped_at(const Link& link) const;
 
   void apply(const JournalEntry& entry);
   void apply_round(const bus::Bytes& bytes);
@@ -126,11 +129,13 @@ class LockstepConductor {
   Mouth mouth_;
   Sequencer sequencer_;
   std::map<std::string, Link> links_;
-  std::map<std::int64_t, std::string> name_of_life_;
+  std::map<std::int64_t, NamedLink*> link_of_life_;
+  std::vector<NamedLink*> round_;  // of those in the sequencer's
   std::vector<lockstep_result_t> results_;
   std::vector<lockstep_message_t> outside_;
   SimTime furthest_ = SimTime::never();
-  SimTime round_began_;  // steady
+  SimTime round_began_;                         // steady
+  SimTime next_repetition_ = SimTime::never();  // steady; nothing is to be repeated before
   bool running_ = false, ending_ = false, over_ = false, stop_asked_ = false;
   std::int64_t repetitions_ = 0;
 };

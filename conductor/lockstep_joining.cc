@@ -13,8 +13,8 @@ constexpr std::size_t kPastBytesPerGrant = 40'000;
 }  // namespace
 
 void LockstepConductor::on_join(const lockstep_join_t& join, SimTime steady) {
-  const std::string& name = join.participant_name;
-  Link& link = links_[name];
+  NamedLink& named = *links_.try_emplace(join.participant_name).first;
+  auto& [name, link] = named;
   advance(steady);  // after a resume: the round that is under way counts
   if (link.life == join.joining_life) {
     link.last_heard = steady;
@@ -24,14 +24,14 @@ void LockstepConductor::on_join(const lockstep_join_t& join, SimTime steady) {
     // Further than was thought: what it said of an earlier instant came first.
     if (!link.up_to_date && join.turns_taken > link.taken) {
       link.taken = join.turns_taken;
-      go_on_with(name, link, steady);
+      go_on_with(named, steady);
     }
     return advance(steady);
   }
   if (is_past_taking_part(join)) return notice(join.joining_life, lockstep_notice_t::OVER);
   const std::string objection = objection_to(join, link);
   if (!objection.empty()) return put_out(join.joining_life, name, objection);
-  adopt(join, link, steady);
+  adopt(join, named, steady);
   advance(steady);
 }
 
@@ -56,11 +56,11 @@ std::string LockstepConductor::objection_to(const lockstep_join_t& join, const L
   return ahead <= (in_round ? 1 : 0) ? "" : "it took turns that the run does not count";
 }
 
-void LockstepConductor::adopt(const lockstep_join_t& join, Link& link, SimTime steady) {
-  const std::string& name = join.participant_name;
+void LockstepConductor::adopt(const lockstep_join_t& join, NamedLink& named, SimTime steady) {
+  auto& [name, link] = named;
   if (link.life != 0 || sequencer_.knows(name)) mouth_.report("returned", "participant=" + name);
-  name_of_life_.erase(link.life);
-  name_of_life_[join.joining_life] = name;
+  link_of_life_.erase(link.life);
+  link_of_life_[join.joining_life] = &named;
   link.life = join.joining_life;
   link.join = join;
   link.taken = join.turns_taken;
@@ -70,35 +70,37 @@ void LockstepConductor::adopt(const lockstep_join_t& join, Link& link, SimTime s
   link.timer = {};
   link.answer = {};
   notice(link.life, lockstep_notice_t::WELCOME);
-  go_on_with(name, link, steady);
+  go_on_with(named, steady);
 }
 
 // A life that lacks turns of the past is told them; one that has them all is granted the turn of the round.
-void LockstepConductor::go_on_with(const std::string& name, Link& link, SimTime steady) {
+void LockstepConductor::go_on_with(NamedLink& named, SimTime steady) {
+  auto& [name, link] = named;
   link.up_to_date = link.taken >= sequencer_.turns_taken(name);
-  if (!link.up_to_date) return tell_past(name, link, steady);
+  if (!link.up_to_date) return tell_past(named, steady);
   link.wants_in = !sequencer_.takes_part(name);
-  if (!is_waited_for(name, link)) return;
+  if (!link.waited_for) return;
   prepare_turn(name, link);
-  say_grants({name}, steady);
+  say_grants({&named}, steady);
 }
 
-void LockstepConductor::tell_past(const std::string& name, Link& link, SimTime steady) {
+void LockstepConductor::tell_past(NamedLink& named, SimTime steady) {
+  auto& [name, link] = named;
   const auto turns = sequencer_.past_turns(name, link.taken + 1, kPastBytesPerGrant);
   link.body = bus::encoded_list<lockstep_turn_t>(turns);
   link.turns_in_body = static_cast<std::int32_t>(turns.size());
-  say_grants({name}, steady);
+  say_grants({&named}, steady);
 }
 
-void LockstepConductor::on_past_taken(const std::string& name, Link& link, const lockstep_result_t& result,
-                                      SimTime steady) {
+void LockstepConductor::on_past_taken(NamedLink& named, const lockstep_result_t& result, SimTime steady) {
+  auto& [name, link] = named;
   link.timer.answered(steady);
   link.taken += link.turns_in_body;
   if (link.taken == sequencer_.turns_taken(name) && result.said_digest != sequencer_.digest_of(name)) {
     const std::int64_t life = std::exchange(link.life, 0);
     return put_out(life, name, "it says otherwise than in its earlier life");
   }
-  go_on_with(name, link, steady);
+  go_on_with(named, steady);
 }
 
 void LockstepConductor::put_out(std::int64_t life, const std::string& name, const std::string& reason) const {

@@ -127,8 +127,7 @@ class Run {
   }
 
   void hear_until(SimTime wake) {
-    bus::wait_for_bus(*answers_lcm_, wake);
-    bus::dispatch_waiting(*answers_lcm_);
+    bus::wait_and_dispatch(*answers_lcm_, wake);
     ears_.rethrow_if_failed();
     if (run_.hear_outside) bus::dispatch_waiting(bus_lcm_);
   }

@@ -75,7 +75,7 @@ void Sequencer::begin_instant(SimTime instant) {
   schedule_.begin(instant);
   for (lockstep_message_t& message : std::exchange(outside_, {})) {
     message.instant_ns = instant.nanoseconds();
-    deliver(message);
+    deliver(std::move(message));
   }
 }
 
@@ -131,23 +131,23 @@ std::vector<std::string> Sequencer::stopping_channels(const Seat& alone) const {
 }
 
 void Sequencer::complete(std::vector<lockstep_result_t> results) {
-  std::sort(results.begin(), results.end(), [this](const auto& a, const auto& b) {
-    return order_of(*find(a.participant_name)) < order_of(*find(b.participant_name));
-  });
   ensure(results.size() == round_.size(), "a round is complete with one result of each");
-  for (const lockstep_result_t& result : results) take_result(result);
-  for (const lockstep_result_t& result : results) {
-    for (const lockstep_message_t& message : result.said) deliver(message);
+  std::vector<std::pair<Seat*, lockstep_result_t*>> in_order;
+  for (lockstep_result_t& result : results) in_order.emplace_back(find(result.participant_name), &result);
+  std::sort(in_order.begin(), in_order.end(),
+            [](const auto& a, const auto& b) { return order_of(*a.first) < order_of(*b.first); });
+  for (const auto& [seat, result] : in_order) take_result(*seat, *result);
+  for (const auto& [seat, result] : in_order) {
+    for (lockstep_message_t& message : result->said) deliver(std::move(message));
   }
   const SimTime reached = SimTime::from_nanoseconds(results.front().reached_ns);
   if (results.size() == 1 && reached > now())
-    schedule_.resume_after(reached, find(results.front().participant_name)->place.stage);
+    schedule_.resume_after(reached, in_order.front().first->place.stage);
   round_.clear();
   ++rounds_;
 }
 
-void Sequencer::take_result(const lockstep_result_t& result) {
-  Seat& seat = *find(result.participant_name);
+void Sequencer::take_result(Seat& seat, const lockstep_result_t& result) {
   ++turns_;
   seat.place.must_hear = false;
   if (result.num_steps == kGivenUp) {
@@ -166,15 +166,16 @@ void Sequencer::take_result(const lockstep_result_t& result) {
   seat.told = 0;
 }
 
-void Sequencer::deliver(const lockstep_message_t& message) {
+void Sequencer::deliver(lockstep_message_t message) {
   const std::size_t index = messages_.size();
-  messages_.push_back(message);
-  for (const Hearer& hearer : hearers_of(message.channel_name)) {
+  messages_.push_back(std::move(message));
+  const lockstep_message_t& kept = messages_.back();
+  for (const Hearer& hearer : hearers_of(kept.channel_name)) {
     if (!hearer.seat->present) continue;
     hearer.seat->heard.push_back(index);
     if (hearer.may_wake) hearer.seat->place.must_hear = true;
   }
-  said_(message);
+  said_(kept);
 }
 
 const std::vector<Sequencer::Hearer>& Sequencer::hearers_of(const std::string& channel) {

@@ -16,9 +16,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -103,14 +103,14 @@ class Sequencer {
   Seat& add_seat(const lockstep_join_t& join);
   std::vector<bus::LockstepSeat> places() const;
   const std::vector<Hearer>& hearers_of(const std::string& channel);
-  void deliver(const lockstep_message_t& message);
-  void take_result(const lockstep_result_t& result);
+  void deliver(lockstep_message_t message);
+  void take_result(Seat& seat, const lockstep_result_t& result);
   lockstep_turn_t bare_turn(const Seat& seat, std::size_t heard_from, std::size_t heard_end) const;
   std::vector<std::string> stopping_channels(const Seat& alone) const;
 
   std::function<void(const lockstep_message_t&)> said_;
   std::vector<std::unique_ptr<Seat>> seats_;  // in the order of (stage, name)
-  std::map<std::string, Seat*, std::less<>> by_name_;
+  std::unordered_map<std::string, Seat*> by_name_;
   bus::LockstepSchedule schedule_;
   SimTime furthest_ = SimTime::at_once();
   std::vector<std::string> round_;
@@ -120,7 +120,7 @@ class Sequencer {
   bool ended_ = false;
   std::vector<lockstep_message_t> outside_;
   std::vector<lockstep_message_t> messages_;
-  std::map<std::string, std::vector<Hearer>, std::less<>> hearers_;
+  std::unordered_map<std::string, std::vector<Hearer>> hearers_;
   std::int64_t rounds_ = 0, turns_ = 0;
 };
 
