@@ -13,43 +13,20 @@ namespace {
 
 constexpr double kOffBoundary = 1e-6;  // m, as in acoustics/layered_path.cc
 constexpr double kGiveUp = 0.25;       // of the least factor
-constexpr double kLeastSine = 1e-9;    // where 1 / sin is taken
-constexpr double kLeastCosine = 1e-3;  // steeper than 89.94 degrees a ray counts as turned back
-constexpr double kTouching = 1e-9;     // m: nearer than that to a facet is on it
 constexpr std::size_t kLossSteps = 64;
 constexpr std::size_t kUsualEvents = 48;  // of one ray: its history rarely has to grow
 constexpr int kMostSteps = 200'000;       // crossings of layers: a guard, never met
 
-// sin(x) to 1e-16 by its series for |x| up to 0.3, which is more than half of any bend but those of a wide crease
-// angle.
-double sine_of_bend(double x) {
-  if (std::abs(x) > 0.3) return std::sin(x);
-  constexpr double k3 = 1.0 / 6, k5 = k3 / 20, k7 = k5 / 42, k9 = k7 / 72, k11 = k9 / 110;
-  const double y = x * x;
-  return x * (1 - y * (k3 - y * (k5 - y * (k7 - y * (k9 - y * k11)))));
-}
-
 }  // namespace
 
-// The ray at one point. Depth, sine and c = cos / xi belong together.
-struct ArcTracer::State {
-  double r, z, sine, xi, c;
-  double per_xi;  // 1 / xi
+struct ArcTracer::State : ArcPoint {
   double q, p;    // the tube
   double qx, px;  // the same for rays as they are reflected, facet by facet: the slope of zeta
-  std::size_t layer, facet;
-  bool on_facet = false;               // just reflected by `facet`
   double orientation = 1, images = 0;  // o and k of zeta
 };
 
-// To the next knot or through a turn back to the same depth.
-struct ArcTracer::Step {
-  double dr, z, sine;
-  bool turns, down;
-};
-
 ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
-    : sea_(sea), range_(std::max(link.range_m, 1e-3)) {
+    : sea_(sea), surface_loss_(sea.surface, sea.options.frequency_hz), range_(std::max(link.range_m, 1e-3)) {
   require_in_range(link.range_m, 0, 1e7, "range", "m");
   bottom_at_receiver_ = sea.profile.depth_at(range_);
   const double bottom_at_source = sea.profile.depth_at(0);
@@ -75,83 +52,9 @@ double ArcTracer::rough_bottom_factor(double sine) const {
   return bottom_factor_[i] + (place - static_cast<double>(i)) * (bottom_factor_[i + 1] - bottom_factor_[i]);
 }
 
-ArcTracer::Step ArcTracer::next_step(const State& s) const {
-  const double g = sea_.water.gradients_per_s()[s.layer];
-  const bool down = s.sine > 0 || (s.sine == 0 && g <= 0);
-  const std::size_t knot = down ? s.layer + 1 : s.layer;
-  const double c = sea_.water.speeds_mps()[knot], z = sea_.water.depths_m()[knot];
-  const double cosine = s.xi * c, steep = std::abs(s.sine);
-  if (cosine < 1 && (steep > 0 || g != 0)) {
-    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
-    const double dr = std::abs(z - s.z) * s.xi * (s.c + c) / (steep + sine);
-    return {dr, z, down ? sine : -sine, false, down};
-  }
-  if (g == 0 || steep == 0) return {std::numeric_limits<double>::infinity(), s.z, s.sine, false, down};
-  return {2 * steep * s.per_xi / std::abs(g), s.z, -s.sine, true, down};
-}
-
-// The arc of a step stays above z + slope * (way): curving up above its tangent, curving down above its chord.
-double ArcTracer::deepest_slope(const State& s, const Step& step) const {
-  const double g = sea_.water.gradients_per_s()[s.layer];
-  if (g < 0 && step.dr > 0) return (step.z - s.z) / step.dr;
-  return g == 0 && step.z == s.z ? 0 : s.sine * s.per_xi / s.c;
-}
-
-// Circle through the ray's point against the facet's line, x along r: A x^2 + B x + C = 0, see below.
-bool ArcTracer::solve_facet(const State& s, std::size_t index, double until, double& dr) const {
-  const Facet& facet = sea_.profile.facets()[index];
-  const double st = s.sine, ct = s.xi * s.c, b = facet.slope;
-  const double curvature = -s.xi * sea_.water.gradients_per_s()[s.layer];  // d angle / d length
-  double d = facet.z0 + b * (s.r - facet.r0) - s.z;  // how far the line is below the ray
-  // The ray is curvature (x^2 + y^2) / 2 = ct y - st x; on the line y = d + b x.
-  double x;
-  if (s.on_facet && index == s.facet) {
-    const double a2 = curvature * (1 + b * b) / 2, b2 = st - ct * b;
-    x = b2 < 0 && a2 > 0 ? -b2 / a2 : -1;
-  } else {
-    if (std::abs(d) < kTouching) d = std::max(d, 0.0);
-    const double a2 = curvature * (1 + b * b) / 2, b2 = curvature * d * b + st - ct * b;
-    const double c2 = curvature * d * d / 2 - ct * d, disc = b2 * b2 - 4 * a2 * c2;
-    const double root = disc >= 0 ? std::sqrt(disc) : -1, bottom = b2 + root;
-    // The root at which the ray goes down through the line. Below the line drawn on beyond its facet (before a
-    // crest), a ray that bends down passes it upwards first.
-    if (root < 0) return false;
-    x = bottom > 0 ? -2 * c2 / bottom : c2 > 0 && a2 > 0 ? (root - b2) / (2 * a2) : -1;
-  }
-  const double first = std::max(facet.r0 - s.r, 0.0), last = std::min(facet.r1 - s.r, until);
-  if (!(x >= first - kTouching && x <= last + kTouching)) return false;
-  dr = std::clamp(x, first, std::max(first, last));
-  return true;
-}
-
-bool ArcTracer::find_hit(const State& s, const Step& step, double until, Hit& hit) const {
-  const std::vector<Facet>& facets = sea_.profile.facets();
-  const std::vector<double>& blocks = sea_.profile.block_shallowest_m();
-  const double end = s.r + until, margin = kTouching, slope = deepest_slope(s, step);
-  const auto below = [&](double shallowest, double r0, double r1) {  // the arc cannot reach down there
-    const double far = slope > 0 ? std::min(r1, end) - s.r : std::max(r0 - s.r, 0.0);
-    return s.z + slope * far + margin < shallowest;
-  };
-  for (std::size_t i = s.facet; i < facets.size() && facets[i].r0 <= end;) {
-    if (i % BottomProfile::kBlock == 0) {
-      const std::size_t last = std::min(i + BottomProfile::kBlock, facets.size()) - 1;
-      if (below(blocks[i / BottomProfile::kBlock], facets[i].r0, facets[last].r1)) {
-        i += BottomProfile::kBlock;
-        continue;
-      }
-    }
-    if (!below(facets[i].shallowest_m, facets[i].r0, facets[i].r1) && solve_facet(s, i, until, hit.dr)) {
-      hit.facet = i;
-      return true;
-    }
-    ++i;
-  }
-  return false;
-}
-
 void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
   const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
-  const double chord = std::hypot(dr, z - s.z);
+  const double chord = std::sqrt(dr * dr + (z - s.z) * (z - s.z));
   const double length = chord * asin_over(s.xi * g * chord / 2);
   details.delay_s += s.xi * dr / mix * atanh_over(s.xi * g * dr / mix);
   details.length_m += length;
@@ -202,45 +105,22 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
   s.orientation = -s.orientation;
   ray.events.push_back({RayEvent::kSurface, 0});
   ++ray.surface_bounces;
-  if (is_excluded(ray)) return false;
-  const bool lossless = sea_.surface.model == SurfaceModel::kFlat ||
-                        (sea_.surface.model == SurfaceModel::kAplBubbles && sea_.surface.wind_mps <= 0);
-  if (!lossless) {
-    const double one =
-        surface_magnitude(sea_.surface, std::atan2(sine, s.xi * s.c), sea_.options.frequency_hz);
-    ray.factor *= one;
-    if (details != nullptr) details->surface_loss_db -= 20 * std::log10(one);
-  }
+  if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
+  const double lost_db = surface_loss_.db_at_sine(std::min(sine, 1.0));
+  if (lost_db > 0) ray.factor *= std::exp(-std::numbers::ln10 / 20 * lost_db);
+  if (details != nullptr) details->surface_loss_db += lost_db;
   return ray.factor >= least_factor_;
 }
 
 bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
   const Facet& facet = sea_.profile.facets()[index];
   const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
-  double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // of the slope that reflects
-  const double grazing_facet = st * cosine - ct * sine;                      // sin(angle - slope)
-  if (facet.bent()) {
-    const double share = (s.r - facet.r0) / (facet.r1 - facet.r0);
-    const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = sine_of_bend(turn),
-                 tc = std::sqrt(1 - ts * ts);
-    const double bent_sine = sine * tc + cosine * ts, bent_cosine = cosine * tc - sine * ts;
-    // Where the bent slope would throw the ray into the facet, or did not meet it at all, the facet's own
-    // reflects.
-    const double grazing = st * bent_cosine - ct * bent_sine;
-    const double leaving =
-        grazing * tc - (ct * bent_cosine + st * bent_sine) * ts;  // sin(angle - 2 bent + own)
-    if (grazing > kLeastSine && leaving > kLeastSine) {
-      sine = bent_sine;
-      cosine = bent_cosine;
-    } else {
-      bend = 0;
-    }
-  }
-  const double sin_g = std::max(st * cosine - ct * sine, kLeastSine), cos_g = ct * cosine + st * sine;
-  const double out_sine = sine * cos_g - cosine * sin_g, out_cosine = cosine * cos_g + sine * sin_g;
+  const FacetBounce bounce = bounce_off(facet, s);
+  const double sin_g = bounce.sine, cos_g = bounce.cosine, bend = bounce.bend_per_m;
+  const double out_sine = bounce.out_sine, out_cosine = bounce.out_cosine;
   if (out_cosine < kLeastCosine) return false;
   // As the rays are: they meet the facet itself, and leave it at another angle than they came.
-  const double in_s = std::max(grazing_facet, kLeastSine), in_c = ct * facet.cosine + st * facet.sine;
+  const double in_s = bounce.facet_sine, in_c = ct * facet.cosine + st * facet.sine;
   // One division for all: it takes as long as a dozen products.
   const double sines = sin_g * in_s, per_all = 1 / (s.c * out_cosine * sines),
                per_sines = per_all * out_cosine;
@@ -259,7 +139,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   s.orientation = -s.orientation;
   ray.events.push_back({RayEvent::kBottom, facet.smooth_group});
   ++ray.bottom_bounces;
-  if (is_excluded(ray)) return false;
+  if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
   if (details == nullptr) {
     ray.factor *= rough_bottom_factor(sin_g);
   } else {
@@ -290,7 +170,7 @@ ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   ray.events.clear();
   ray.events.reserve(kUsualEvents);
   const double sine = std::sin(theta), xi = std::cos(theta) / source_speed_, p = 1 / source_speed_;
-  State s{0, source_depth_, sine, xi, source_speed_, 1 / xi, 0, p, 0, p, source_layer_, source_facet_};
+  State s{{0, source_depth_, sine, xi, source_speed_, 1 / xi, source_layer_, source_facet_}, 0, p, 0, p};
   // At a knot the layer is the one into which the ray goes.
   const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);
   if (s.z == sea_.water.depths_m()[s.layer] && rises) --s.layer;
@@ -310,7 +190,7 @@ void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* deta
   s.c = c;
 }
 
-bool ArcTracer::go_to_bottom(State& s, const Hit& hit, TracedRay& ray, TracedDetails* details) const {
+bool ArcTracer::go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const {
   go_part(s, hit.dr, ray, details);
   const Facet& facet = sea_.profile.facets()[hit.facet];
   s.z = facet.z0 + facet.slope * (s.r - facet.r0);
@@ -319,7 +199,7 @@ bool ArcTracer::go_to_bottom(State& s, const Hit& hit, TracedRay& ray, TracedDet
   return meet_bottom(s, hit.facet, ray, details);
 }
 
-bool ArcTracer::go_to_knot(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const {
+bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const {
   if (step.turns) note_turn(step.down, ray);
   go(s, step.dr, step.z, step.sine, ray, details);
   while (sea_.profile.facets()[s.facet].r1 < s.r) ++s.facet;
@@ -329,21 +209,15 @@ bool ArcTracer::go_to_knot(State& s, const Step& step, TracedRay& ray, TracedDet
   return true;
 }
 
-bool ArcTracer::is_excluded(const TracedRay& ray) const {
-  const int bounces = ray.surface_bounces + ray.bottom_bounces;
-  return bounces > sea_.options.max_bounces ||
-         (bounces > 0 && std::abs(ray.theta) > sea_.options.max_launch_angle_rad);
-}
-
 void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
   State s = start(theta, ray);
   const double shallowest = sea_.profile.shallowest_m();
   for (int steps = 0; steps < kMostSteps; ++steps) {
-    const Step step = next_step(s);
+    const ArcStep step = next_step(sea_.water, s);
     const double left = range_ - s.r;
     const bool near_bottom = sea_.water.depths_m()[s.layer + 1] > shallowest;
-    Hit hit;
-    if (near_bottom && find_hit(s, step, std::min(step.dr, left), hit)) {
+    ArcHit hit;
+    if (near_bottom && find_hit(sea_.water, sea_.profile, s, step, std::min(step.dr, left), hit)) {
       if (!go_to_bottom(s, hit, ray, details)) return;
     } else if (step.dr >= left) {
       go_part(s, left, ray, details);

@@ -20,9 +20,11 @@
 // xi at both ends).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "acoustics/arc_steps.h"
 #include "acoustics/arrivals.h"
 #include "acoustics/bottom_profile.h"
 #include "acoustics/boundary_reflection.h"
@@ -81,28 +83,27 @@ class ArcTracer {
   double range_m() const { return range_; }
   double bottom_at_receiver_m() const { return bottom_at_receiver_; }
   double source_speed_mps() const { return source_speed_; }
+  std::size_t source_layer() const { return source_layer_; }
+  std::size_t source_facet() const { return source_facet_; }
+  // Rays that bounces leave less of are given up.
+  double least_factor() const { return least_factor_; }
+  // Whether the options exclude a ray launched at `theta` after `bounces`.
+  bool is_excluded(double theta, int bounces) const {
+    return bounces > sea_.options.max_bounces ||
+           (bounces > 0 && std::abs(theta) > sea_.options.max_launch_angle_rad);
+  }
   const ProfiledSea& sea() const { return sea_; }
 
  private:
   struct State;
-  struct Hit {
-    double dr;
-    std::size_t facet;
-  };
-  struct Step;
   State start(double theta, TracedRay& ray) const;
-  Step next_step(const State& s) const;
-  double deepest_slope(const State& s, const Step& step) const;
-  bool find_hit(const State& s, const Step& step, double until, Hit& hit) const;
-  bool solve_facet(const State& s, std::size_t facet, double until, double& dr) const;
   void go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const;
   void add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const;
   static void note_turn(bool lower, TracedRay& ray);
   // To a point within a step, to the bottom, to the end of a step; false when the ray is given up there.
   void go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const;
-  bool go_to_bottom(State& s, const Hit& hit, TracedRay& ray, TracedDetails* details) const;
-  bool go_to_knot(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const;
-  bool is_excluded(const TracedRay& ray) const;
+  bool go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const;
+  bool go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const;
   void cross_knot(State& s, bool down) const;
   bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
   bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;
@@ -110,6 +111,7 @@ class ArcTracer {
   double rough_bottom_factor(double sine) const;
 
   ProfiledSea sea_;
+  SurfaceLoss surface_loss_;
   double source_depth_, receiver_depth_, range_, bottom_at_receiver_, source_speed_, least_factor_;
   std::size_t source_layer_, source_facet_;
   std::vector<double> bottom_factor_;  // at sines 0..1, evenly: enough to give up faint rays by

@@ -225,6 +225,19 @@ double surface_loss_db(const RaySurface& surface, double grazing_rad, double fre
   return 0;
 }
 
+SurfaceLoss::SurfaceLoss(const RaySurface& surface, double frequency_hz)
+    : surface_(surface),
+      frequency_hz_(frequency_hz),
+      bubbles_db_(apl_bubble_loss_db(surface.wind_mps, pi / 2, hz_to_khz(frequency_hz))) {}
+
+double SurfaceLoss::db_at_sine(double sine) const {
+  if (surface_.model == SurfaceModel::kFlat) return 0;
+  const double loss = surface_.model == SurfaceModel::kAplBubbles
+                          ? bubbles_db_ / std::max(sine, kLeastGrazing)
+                          : surface_loss_db(surface_, std::asin(sine), frequency_hz_);
+  return std::min(loss, kGreatestLoss);
+}
+
 double surface_magnitude(const RaySurface& surface, double grazing_rad, double frequency_hz) {
   if (surface.model == SurfaceModel::kFlat) return 1;
   if (surface.model == SurfaceModel::kAplBubbles && surface.wind_mps <= 0) return 1;

@@ -18,10 +18,13 @@ class HermiteCubic {
   double operator()(double t) const { return a_ + t * (b_ + t * (c_ + t * d_)); }
   double slope(double t) const { return b_ + t * (2 * c_ + t * 3 * d_); }
 
-  // How far the function is from it at t = 1/2, by value and by slope: the larger of the error of the value
+  // How far the function is from it at t, by value and by slope: the larger of the error of the value
   // and of what the error of the slope would make over an eighth of the width `h`.
+  double error_at(double t, double value, double slope_there, double h) const {
+    return std::max(std::abs((*this)(t)-value), std::abs(slope(t) - slope_there * h) / 8);
+  }
   double error_at_middle(double value, double slope_there, double h) const {
-    return std::max(std::abs((*this)(0.5) - value), std::abs(slope(0.5) - slope_there * h) / 8);
+    return error_at(0.5, value, slope_there, h);
   }
 
   // Where it turns strictly inside 0..1, rising: at most two places.

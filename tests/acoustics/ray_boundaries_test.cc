@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -154,6 +155,20 @@ TEST(SurfaceLoss, ModelsAreKnownByName) {
     EXPECT_EQ(surface_model_from_name(to_name(model)), model);
   }
   EXPECT_FALSE(surface_model_from_name("glass"));
+}
+
+TEST(SurfaceLossAtManyAngles, IsThatOfOneAngleAtATime) {
+  using Model = SurfaceModel;
+  for (const Model model :
+       {Model::kFlat, Model::kAplBubbles, Model::kEckart, Model::kCoates, Model::kJones}) {
+    const RaySurface surface{model, 8};
+    const SurfaceLoss loss(surface, 25e3);
+    for (const double grazing : {0.02, 0.2, 0.7, 1.5}) {
+      EXPECT_NEAR(loss.db_at_sine(std::sin(grazing)),
+                  std::min(surface_loss_db(surface, grazing, 25e3), 400.0), tolerance(1e-9))
+          << to_name(model) << " at " << grazing;
+    }
+  }
 }
 
 }  // namespace
