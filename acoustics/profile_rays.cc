@@ -178,7 +178,7 @@ void Search::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, 
          off *= kGrazeStep) {
       FanRay next = traced(edge.theta + off);
       scan_last(next);
-      last = std::move(next);
+      last = next;
     }
   }
   scan_last(edge);
@@ -230,7 +230,7 @@ bool Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
     const double share = slow ? 0.5 : std::clamp(at_low / (at_low - at_high), 1e-3, 1 - 1e-3);
     FanRay middle = traced(low + share * (high - low));
     if (!middle.arrived) break;
-    turn = std::move(middle);
+    turn = middle;
     const double slope = turn.zeta_slope;
     const double left = std::abs(slope) * (high - low);
     if (left < kTurnTolerance || off_nearest_image(turn.zeta) > 2 * left + kFoldZone * depth_) break;
