@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bus/channel_pattern.h"
 #include "core/check.h"
 #include "core/names.h"
 
@@ -103,6 +104,19 @@ void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handle
   subscription->lcm_subscription->setQueueCapacity(kQueueCapacity);
   subscriptions_.push_back(std::move(subscription));
   subscribed_.push_back({regular_expression, hearing});
+}
+
+void Bus::hear_again(std::string_view channel, const std::vector<std::uint8_t>& bytes) {
+  answered_ = false;
+  for (std::size_t i = 0; i < subscribed_.size(); ++i) {
+    if (!ChannelPattern(subscribed_[i].expression).matches(channel)) continue;
+    subscriptions_[i]->handler(channel, bytes.data(), bytes.size());
+  }
+}
+
+void Bus::keep_published(std::string_view channel, std::int64_t session, std::int64_t number,
+                         std::vector<std::uint8_t> bytes) {
+  if (repair_) repair_->on_published_earlier(channel, session, number, std::move(bytes));
 }
 
 bool Bus::is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence) {

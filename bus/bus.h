@@ -104,6 +104,14 @@ class Bus {
 
   // The wall time (Unix) at which LCM received the message that is being handled; the kernel's stamp over udpm.
   SimTime received_at() const { return received_at_; }
+  // From now on `tap` is shown, before its handler, each message that is accepted.
+  void set_tap(RawHandler tap) { tap_ = std::move(tap); }
+  // Handles a message as if LCM had dispatched it, before anything else is heard: what an earlier life of this node heard
+  // (message_journal.h). What follows it in its flow is then known to be missing, and repaired.
+  void hear_again(std::string_view channel, const std::vector<std::uint8_t>& bytes);
+  // An earlier life of this node published this: it goes on being repaired. After enable_repair().
+  void keep_published(std::string_view channel, std::int64_t session, std::int64_t number,
+                      std::vector<std::uint8_t> bytes);
 
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
@@ -151,6 +159,7 @@ class Bus {
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::vector<Subscribed> subscribed_;
   Outbox outbox_;
+  RawHandler tap_;
 };
 
 // An LCM regular expression that matches `channel` and nothing else.
@@ -229,6 +238,7 @@ bool Bus::accept(std::string_view channel, const void* data, std::size_t size, M
     const bool is_known = is_repeated(channel, message.session, number_in_flow(message));
     if (is_known && !IsPacketToSend<Message>) return false;
   }
+  if (tap_) tap_(channel, data, size);
   return true;
 }
 

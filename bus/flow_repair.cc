@@ -1,6 +1,12 @@
 #include "bus/flow_repair.h"
 
 namespace halocline::bus {
+namespace {
+
+// The age of flows that began before this process: three years.
+constexpr SimDuration kOlderThanAll = SimDuration::from_milliseconds(100'000'000'000);
+
+}  // namespace
 
 std::vector<const Bytes*> FlowRepair::answers_to(const repair_request_t& request) const {
   std::vector<const Bytes*> answers;
@@ -22,7 +28,7 @@ flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
   heartbeat.utime = sim.to_utime();
   heartbeat.session = session_;
   heartbeat.sequence = heartbeats_++;
-  heartbeat.age_us = (steady - began_).nanoseconds() / 1000;
+  heartbeat.age_us = (resumes_ ? kOlderThanAll : steady - began_).nanoseconds() / 1000;
   for (const FlowHistory::Flow& flow : history_.flows()) {
     heartbeat.flow_channel.push_back(flow.channel);
     heartbeat.flow_session.push_back(flow.session);

@@ -37,6 +37,12 @@ class FlowRepair {
   void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     history_.keep(channel, session, sequence, std::move(message));
   }
+  // The same by an earlier life, whose flows this one goes on with: no hearer is older than they are.
+  void on_published_earlier(std::string_view channel, std::int64_t session, std::int64_t sequence,
+                            Bytes message) {
+    resumes_ = true;
+    on_published(channel, session, sequence, std::move(message));
+  }
   // The messages asked for that are still kept.
   std::vector<const Bytes*> answers_to(const repair_request_t& request) const;
   // The heartbeat when it is due at `steady`, which it then is a period later again.
@@ -60,6 +66,7 @@ class FlowRepair {
   SimTime next_heartbeat_ = SimTime::at_once();
   SimTime began_;
   std::int64_t heartbeats_ = 0;
+  bool resumes_ = false;
 };
 
 }  // namespace halocline::bus

@@ -57,7 +57,7 @@ void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
   lcm::LCM memq("memq://");
   const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),
                               program.stage};
-  const auto node = program.make_node({memq, identity, run.scenario, run.folder, run.sync_url});
+  const auto node = program.make_node({memq, identity, run.scenario, run.folder, run.sync_url, true});
   run_lockstep_participant(memq, *node, run.sync_url, digest_of(run.scenario), stop_requested);
 }
 

@@ -51,6 +51,7 @@ struct NodeProgram {
     const Scenario& scenario;
     const std::string& folder;
     const std::string& sync_url;
+    bool in_lockstep = false;  // as a participant
   };
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
   // Only for the program that makes the time itself; the others choose with --time-source.

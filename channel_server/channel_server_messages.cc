@@ -130,6 +130,11 @@ std::vector<double> depths_to_tell(const acoustics::SoundSpeedProfile& profile) 
   return depths;
 }
 
+std::string name_of(std::string name, std::initializer_list<std::int64_t> numbers) {
+  for (const std::int64_t number : numbers) name += ' ' + std::to_string(number);
+  return name;
+}
+
 }  // namespace
 
 StampedState to_state(const vehicle_state_t& message) {
@@ -265,6 +270,25 @@ modem_receive_t to_receive(const PacketEnd& end, SimTime at) {
   message.payload_size = static_cast<std::int32_t>(request.payload.size());
   message.payload = request.payload;
   return message;
+}
+
+// A sender that keeps no session may number anew: the instant tells its packets apart.
+std::string name_of_said(const std::string& channel, const modem_receipt_t& m) {
+  return name_of(channel, {m.send_session, m.packet_sequence, m.send_session == 0 ? m.start_utime : 0});
+}
+
+std::string name_of_said(const std::string& channel, const modem_receive_t& m) {
+  return name_of(channel, {m.source_id, m.send_session, m.packet_sequence, m.packet_kind,
+                           m.send_session == 0 ? m.utime : 0});
+}
+
+std::string name_of_said(const std::string& channel, const packet_outcome_t& m) {
+  return name_of(channel, {m.source_id, m.send_session, m.packet_sequence, m.packet_kind, m.receiver_id,
+                           m.send_session == 0 ? m.departure_utime : 0});
+}
+
+std::string name_of_said(const std::string& channel, const ping_answer_t& m) {
+  return name_of(channel, {m.answering_id, m.asking_id, m.ping_session, m.ping_sequence, m.answer_start_ns});
 }
 
 link_t to_message(const LinkRow& row) {

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "bus/channels.h"
+#include "bus/message_codec.h"
 #include "channel_server/channel_server_messages.h"
 #include "core/check.h"
 
@@ -27,37 +28,11 @@ constexpr std::size_t kMostNumbered = 4096;
 // How much longer than their rules say states and receipts are kept, so that no instant still asked about lacks
 // them.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
-// Due as soon as simulation time is known: before every time that a message may tell.
-constexpr SimTime kBeforeAll = SimTime::from_nanoseconds(-4'000'000'000'000'000'000);
-
 SimTime on_grid_from(SimTime now, SimDuration period) {
   return next_on_grid(now - SimDuration::from_nanoseconds(1), period);
 }
 
-std::string in_base_36(std::uint64_t number) {
-  std::string digits;
-  do {
-    digits += "0123456789abcdefghijklmnopqrstuvwxyz"[number % 36];
-    number /= 36;
-  } while (number != 0);
-  return {digits.rbegin(), digits.rend()};
-}
-
 }  // namespace
-
-WaterModel straight_model(const acoustics::Environment& environment) {
-  auto waters = std::make_shared<EnvironmentTimeline>(environment);
-  auto propagation = std::make_unique<StraightPropagation>(waters);
-  return {waters, std::make_shared<ProfileBook>(ProfileRule{}), std::move(propagation), {"straight", {}, {}}};
-}
-
-WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
-                     const ProfileRule& rule) {
-  auto waters = std::make_shared<EnvironmentTimeline>(environment);
-  auto bottoms = std::make_shared<ProfileBook>(rule);
-  auto propagation = std::make_unique<RayPropagation>(waters, bottoms, rays);
-  return {waters, bottoms, std::move(propagation), {"rays", rays.bottom, rays.surface}};
-}
 
 ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
                                      const ConfiguredModems& modems, const ServerRules& rules)
@@ -80,26 +55,21 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
   subscribe_all();
 }
 
-// 13 digits of base 36 hold every session; the name has 24 characters at most.
-std::string ChannelServerNode::ray_client_name(std::int64_t session) {
-  return "channel-" + in_base_36(static_cast<std::uint64_t>(session));
-}
-
 void ChannelServerNode::subscribe_all() {
   bus().subscribe<vehicle_state_t>(
       channels::kState,
       [this](std::string_view vehicle, const vehicle_state_t& m) {
-        keep(states_, vehicle, m, channels::kState);
+        keep(inbox_.states, vehicle, m, channels::kState);
       },
       bus::Hearing::kStores);
   bus().subscribe<modem_config_t>(
       channels::kModem,
       [this](std::string_view vehicle, const modem_config_t& m) {
-        keep(modems_, vehicle, m, channels::kModem);
+        keep(inbox_.modems, vehicle, m, channels::kModem);
       },
       bus::Hearing::kStores);
   bus().subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
-    keep(sends_, vehicle, m, channels::kSend);
+    keep(inbox_.sends, vehicle, m, channels::kSend);
   });
   bus().subscribe<link_query_t>(channels::kLinkQuery, [this](const link_query_t& m) {
     const Shard& shard = rules_.medium.shard;
@@ -110,17 +80,17 @@ void ChannelServerNode::subscribe_all() {
     queries_.push_back(m);
   });
   bus().subscribe<environment_change_t>(channels::kSetEnvironment, [this](const environment_change_t& m) {
-    if (changes_.size() >= kMostChangesWaiting) {
+    if (inbox_.changes.size() >= kMostChangesWaiting) {
       return bus().refuse(channels::kSetEnvironment, "too many changes at once");
     }
-    changes_.push_back(m);
+    inbox_.changes.push_back(m);
   });
   if (!rules_.medium.shard.is_alone()) {
     bus().subscribe<ping_answer_t>(channels::kPingAnswer, [this](const ping_answer_t& m) {
-      if (ping_answers_.size() >= kMostWaiting) {
+      if (inbox_.ping_answers.size() >= kMostWaiting) {
         return bus().refuse(channels::kPingAnswer, "too many messages at once");
       }
-      ping_answers_.push_back(m);
+      inbox_.ping_answers.push_back(m);
     });
   }
   bus().subscribe<ray_reply_t>(channels::kRayReply.of(ray_client_),
@@ -135,25 +105,26 @@ void ChannelServerNode::keep(Heard<Message>& inbox, std::string_view vehicle, co
 }
 
 bus::Due ChannelServerNode::on_due() const {
+  if (recovery_) return recovery_due();
   bus::Due due;
   due.sim = std::min({next_tick_, next_environment_, medium_.next_event()});
-  for (const auto& [vehicle, send] : sends_) due.sim = std::min(due.sim, SimTime::from_utime(send.utime));
-  for (const ping_answer_t& answer : ping_answers_) {
+  for (const auto& [vehicle, send] : inbox_.sends)
+    due.sim = std::min(due.sim, SimTime::from_utime(send.utime));
+  for (const ping_answer_t& answer : inbox_.ping_answers) {
     due.sim = std::min(due.sim, SimTime::from_nanoseconds(answer.answer_start_ns));
   }
-  if (!queries_.empty() || !changes_.empty()) due.sim = SimTime::at_once();
+  if (!queries_.empty() || !inbox_.changes.empty()) due.sim = SimTime::at_once();
   due.steady = ray_replies_.empty() ? std::min(asker_.due(), desk_.due()) : SimTime::at_once();
   return due;
 }
 
 void ChannelServerNode::on_step(const bus::Now& now) {
   take_ray_replies();
+  now_ = now.sim;
+  if (recovery_ && !(now.sim_known && recover(now))) return ask_terrain(now);
   if (now.sim_known) {
-    take_states(now.sim);
-    take_modems();
-    take_environment_changes(now.sim);
-    take_sends(now.sim);
-    take_ping_answers();
+    if (journal_) journal_->write_heard(now.sim);
+    take_heard(now.sim);
     run_water_to(now.sim);
     forget_old(now.sim);
   }
@@ -162,50 +133,17 @@ void ChannelServerNode::on_step(const bus::Now& now) {
   publish_replies(now.steady);
 }
 
-void ChannelServerNode::take_ray_replies() {
-  for (const ray_reply_t& reply : std::exchange(ray_replies_, {})) {
-    if (reply.terrain_version != terrain_version_) {
-      forget_echoes();
-      terrain_version_ = reply.terrain_version;
-      next_environment_ = kBeforeAll;
-    }
-    if (reply.reply_status == ray_reply_t::OK) {
-      asker_.answer(reply.request_id, to_answers(reply));
-    } else {
-      bus().refuse(channels::kRayReply.of(ray_client_), "the service refused: " + reply.refusal);
-      asker_.refuse(reply.request_id);
-    }
-  }
-  take_finished_surveys();
-}
-
-// Those of another terrain; what is being asked is answered by a mixture of the two.
-void ChannelServerNode::forget_echoes() {
-  if (terrain_version_.empty()) return;
-  book_.clear();
-  bottoms_->clear();
-  surveyed_pairs_.clear();
-}
-
-void ChannelServerNode::take_finished_surveys() {
-  for (TerrainAsker::Finished& finished : asker_.take_finished()) {
-    if (desk_.finish(finished)) continue;
-    const auto pair = surveyed_pairs_.extract(finished.id);
-    if (pair.empty()) continue;
-    book_.note_asked(pair.mapped());
-    bottoms_->note_asked(pair.mapped());
-    if (!finished.answered) continue;
-    if (auto* echoes = std::get_if<EchoSurvey>(&finished.survey)) {
-      book_.store(pair.mapped(), std::move(*echoes));
-    } else {
-      bottoms_->store(pair.mapped(), std::get<ProfileSurvey>(finished.survey));
-    }
-  }
+void ChannelServerNode::take_heard(SimTime now) {
+  take_states(now);
+  take_modems();
+  take_environment_changes(now);
+  take_sends(now);
+  take_ping_answers();
 }
 
 // By time and name, so that of two that claim one id at one time the same one gets it in every run.
 void ChannelServerNode::take_states(SimTime now) {
-  auto heard = std::exchange(states_, {});
+  auto heard = std::exchange(inbox_.states, {});
   std::stable_sort(heard.begin(), heard.end(), [](const auto& a, const auto& b) {
     return std::tie(a.second.utime, a.first) < std::tie(b.second.utime, b.first);
   });
@@ -219,7 +157,7 @@ void ChannelServerNode::take_states(SimTime now) {
 }
 
 void ChannelServerNode::take_modems() {
-  for (const auto& [vehicle, message] : std::exchange(modems_, {})) {
+  for (const auto& [vehicle, message] : std::exchange(inbox_.modems, {})) {
     try {
       const std::string problem =
           fleet_.hear_modem(vehicle, SimTime::from_utime(message.utime), to_modem(message));
@@ -231,7 +169,7 @@ void ChannelServerNode::take_modems() {
 }
 
 void ChannelServerNode::take_sends(SimTime now) {
-  auto heard = std::exchange(sends_, {});
+  auto heard = std::exchange(inbox_.sends, {});
   std::stable_sort(heard.begin(), heard.end(), [](const auto& a, const auto& b) {
     return std::tie(a.second.utime, a.first, a.second.session, a.second.packet_sequence) <
            std::tie(b.second.utime, b.first, b.second.session, b.second.packet_sequence);
@@ -243,13 +181,13 @@ void ChannelServerNode::take_sends(SimTime now) {
 }
 
 void ChannelServerNode::take_ping_answers() {
-  for (const ping_answer_t& message : std::exchange(ping_answers_, {}))
+  for (const ping_answer_t& message : std::exchange(inbox_.ping_answers, {}))
     medium_.hear_answer(to_answer(message));
 }
 
 // Whatever was published up to now stays true: a change announced for earlier holds from now on.
 void ChannelServerNode::take_environment_changes(SimTime now) {
-  for (const environment_change_t& message : std::exchange(changes_, {})) {
+  for (const environment_change_t& message : std::exchange(inbox_.changes, {})) {
     try {
       const std::string problem =
           waters_->hear(SimTime::from_utime(message.utime), now, {message.session, message.sequence},
@@ -263,12 +201,16 @@ void ChannelServerNode::take_environment_changes(SimTime now) {
   }
 }
 
-void ChannelServerNode::run_water_to(SimTime now) {
+void ChannelServerNode::open_instants(SimTime now) {
   if (next_environment_ == kBeforeAll) publish_environment(now);
   const SimDuration period = rules_.link_period;
   if (next_tick_ == kBeforeAll) next_tick_ = on_grid_from(now, period);
   const SimTime earliest = now - period * kMostTicksBehind;
   if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, period);
+}
+
+void ChannelServerNode::run_water_to(SimTime now) {
+  open_instants(now);
   for (SimTime next = std::min(next_tick_, next_environment_); next <= now;
        next = std::min(next_tick_, next_environment_)) {
     run_instant(next);
@@ -283,31 +225,31 @@ void ChannelServerNode::run_instant(SimTime instant) {
   if (instant == next_environment_) publish_environment(instant);
   for (const MediumEvent& event : medium_.advance_to(instant)) publish_event(event);
   if (!tick) return;
-  publish_links(instant);
+  recovery_ ? survey(instant) : publish_links(instant);
   next_tick_ = next_on_grid(instant, rules_.link_period);
 }
 
 void ChannelServerNode::publish_event(const MediumEvent& event) {
   if (const auto* receipt = std::get_if<Receipt>(&event.what)) return publish_receipt(*receipt, event.at);
   if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
-    return publish_numbered(std::string(channels::kPingAnswer), to_message(*answer, event.at));
+    return publish_once(std::string(channels::kPingAnswer), to_message(*answer, event.at));
   }
-  if (event.late) ++bus().counters().late;
+  if (event.late && !recovery_) ++bus().counters().late;
   publish_end(std::get<PacketEnd>(event.what), event.at);
 }
 
 void ChannelServerNode::publish_receipt(const Receipt& receipt, SimTime at) {
-  publish_numbered(channels::kReceipt.of(receipt.vehicle), to_message(receipt, at));
+  publish_once(channels::kReceipt.of(receipt.vehicle), to_message(receipt, at));
 }
 
 void ChannelServerNode::publish_end(const PacketEnd& end, SimTime at) {
-  if (end.deliver) publish_numbered(channels::kReceive.of(end.receiver), to_receive(end, at));
-  publish_numbered(std::string(channels::kOutcome), to_outcome(end, at));
+  if (end.deliver) publish_once(channels::kReceive.of(end.receiver), to_receive(end, at));
+  publish_once(std::string(channels::kOutcome), to_outcome(end, at));
 }
 
 void ChannelServerNode::publish_environment(SimTime instant) {
   book_.forget_verdicts();
-  if (rules_.medium.shard.index == 0) {
+  if (rules_.medium.shard.index == 0 && !recovery_) {
     publish_numbered(std::string(channels::kEnvironment),
                      to_message(propagation_->environment(instant), description_, instant, terrain_version_));
   }
@@ -333,19 +275,6 @@ void ChannelServerNode::publish_links(SimTime tick) {
   tell_who_came_and_left(vehicles);
 }
 
-void ChannelServerNode::ask_for_echoes(const std::vector<PlacedVehicle>& vehicles) {
-  for (const VehiclePair& pair : book_.begin_tick(vehicles, rules_.medium.shard)) {
-    const EchoSurvey survey(book_.place(pair.first), book_.place(pair.second), rules_.bottom_points);
-    surveyed_pairs_.emplace(asker_.ask_routine(survey), pair);
-  }
-}
-
-void ChannelServerNode::ask_for_profiles(const std::vector<PlacedVehicle>& vehicles) {
-  for (const VehiclePair& pair : bottoms_->take_geometry(vehicles, rules_.medium.shard)) {
-    surveyed_pairs_.emplace(asker_.ask_routine(bottoms_->survey_of(pair)), pair);
-  }
-}
-
 void ChannelServerNode::tell_who_came_and_left(const std::vector<PlacedVehicle>& vehicles) {
   std::set<std::string> present;
   for (const PlacedVehicle& vehicle : vehicles) present.insert(fleet_.name_of(vehicle.id));
@@ -366,26 +295,12 @@ void ChannelServerNode::forget_old(SimTime now) {
   waters_->forget_before(horizon - kLongestFlight);
   bottoms_->forget_before(horizon - kLongestFlight);
   fleet_.forget_before(horizon - rules_.position.state_timeout - rules_.position.state_lag);
+  if (now > said_forgotten_at_) said_.clear();
 }
 
 void ChannelServerNode::take_questions(const bus::Now& now) {
   for (const link_query_t& query : std::exchange(queries_, {})) {
     desk_.ask(to_question(query), now.sim_known ? std::optional(now.sim) : std::nullopt, now.steady);
-  }
-}
-
-void ChannelServerNode::ask_terrain(const bus::Now& now) {
-  for (const RayBatch& batch : asker_.take_batches(now.steady)) {
-    bus().publish(channels::kRayQuery, to_message(batch, ray_client_, now.sim));
-  }
-  take_finished_surveys();
-  if (asker_.is_away() == told_away_) return;
-  told_away_ = asker_.is_away();
-  if (told_away_) {
-    bus().log().warning("bathymetry-away", propagation_->uses_bottom() ? "paths=straight multipath=unknown"
-                                                                       : "multipath=unknown");
-  } else {
-    bus().log().info("bathymetry-back");
   }
 }
 
@@ -398,13 +313,25 @@ void ChannelServerNode::publish_replies(SimTime steady) {
 }
 
 template <class Message>
-void ChannelServerNode::publish_numbered(const std::string& channel, Message message) {
-  message.session = bus().identity().session;
+void ChannelServerNode::number(const std::string& channel, Message& message) {
   // Every client that ever asked had a channel of its own. One that asks again after so many others begins anew.
-  if (sequences_.size() >= kMostNumbered && !sequences_.contains(channel))
-    std::erase_if(sequences_,
-                  [](const auto& one) { return one.first.starts_with(channels::kLinkReply.prefix); });
-  message.sequence = sequences_[channel]++;
+  if (flows_.size() >= kMostNumbered && !flows_.contains(channel))
+    std::erase_if(flows_, [](const auto& one) { return one.first.starts_with(channels::kLinkReply.prefix); });
+  Flow& flow = flows_.try_emplace(channel, Flow{bus().identity().session, 0}).first->second;
+  message.session = flow.session;
+  message.sequence = flow.next++;
+}
+
+template <class Message>
+void ChannelServerNode::publish_once(const std::string& channel, Message message) {
+  if (!journal_) return publish_numbered(channel, std::move(message));
+  const bool may_repeat =
+      std::is_same_v<Message, modem_receipt_t> && !recovery_;  // a SEND heard again is answered again
+  if (!may_repeat && said_.contains(name_of_said(channel, message))) return;
+  if (recovery_) said_.insert(name_of_said(channel, message));
+  if (recovery_ && std::is_same_v<Message, packet_outcome_t>) ++recovery_->said_late, ++bus().counters().late;
+  number(channel, message);
+  journal_->write_said(now_, channel, bus::encoded(message));
   bus().publish(channel, message);
 }
 
@@ -421,11 +348,14 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   present_.clear();
   const std::int64_t latest = (now.sim + kFurthestAhead).to_utime();
   const auto of_old_run = [&](const auto& heard) { return heard.second.utime > latest; };
-  std::erase_if(states_, of_old_run);
-  std::erase_if(modems_, of_old_run);
-  std::erase_if(sends_, of_old_run);
-  ping_answers_.clear();
-  std::erase_if(changes_, [&](const environment_change_t& change) { return change.utime > latest; });
+  std::erase_if(inbox_.states, of_old_run);
+  std::erase_if(inbox_.modems, of_old_run);
+  std::erase_if(inbox_.sends, of_old_run);
+  inbox_.ping_answers.clear();
+  if (journal_) journal_->clear();
+  recovery_.reset();
+  said_.clear();
+  std::erase_if(inbox_.changes, [&](const environment_change_t& change) { return change.utime > latest; });
   next_tick_ = next_environment_ = kBeforeAll;
 }
 
@@ -437,23 +367,6 @@ std::string ChannelServerNode::status_text() const {
          " links told, " + std::to_string(medium_.packets_in_flight()) + " packets in flight, bathymetry " +
          terrain + ", " + std::to_string(asker_.counters().surveys_dropped) + " echo surveys dropped, " +
          std::to_string(asker_.counters().surveys_failed) + " failed";
-}
-
-std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
-                                                       const ChannelServerConfig& config,
-                                                       const bus::Scenario& scenario,
-                                                       const std::string& folder) {
-  const Shard& shard = config.rules.medium.shard;
-  require(shard.index < shard.count, "channel_server.shard is " + std::to_string(shard.index) +
-                                         "; allowed is 0 to shards - 1, " + std::to_string(shard.count - 1));
-  const acoustics::Environment environment = make_environment(config.environment, scenario, folder);
-  WaterModel water = config.propagation.model == PropagationModel::kRays
-                         ? ray_model(environment, make_rays(config), config.rules.profile)
-                         : straight_model(environment);
-  schedule_changes(config, scenario, folder, *water.waters);
-  ServerRules rules = config.rules;
-  rules.medium.seed = scenario.seed;
-  return std::make_unique<ChannelServerNode>(lcm, identity, std::move(water), make_modems(config), rules);
 }
 
 }  // namespace halocline::channel_server

@@ -8,19 +8,26 @@
 // Of several servers of one water (rules.medium.shard) each hears all the others hear and publishes its share; the first
 // also ENVIRONMENT; LINK_QUERYs go by their request_id; PING_ANSWER tells the others of answers to pings.
 //
+// With a journal (remember_in) a server that was killed goes on where it was: it is told again what its earlier life heard of
+// the last minute, lets the water pass up to the present without a word about what was said already, and says the rest
+// (recovery_node.cc; docs/time.md).
+//
 // A step, in this order: answers of the bathymetry service; what was heard of vehicles; the events of the
 // water and the link tables, in the order of their instants, up to now; questions; what is to be asked of the
 // bathymetry service; replies.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bus/message_journal.h"
 #include "bus/node.h"
 #include "bus/worker_pool.h"
 #include "channel_server/channel_server_config.h"
@@ -49,6 +56,10 @@ class ChannelServerNode : public bus::Node {
   ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
                     const ConfiguredModems& modems, const ServerRules& rules);
 
+  // Keeps a journal at `path`, and takes up what an earlier life left there. Once, before the first step and before
+  // anything is heard; not in lockstep, where the conductor remembers. Throws InvalidArgument when it cannot be written.
+  void remember_in(const std::string& path);
+
   // Where the bathymetry service's replies to this life of the node go.
   static std::string ray_client_name(std::int64_t session);
 
@@ -59,8 +70,40 @@ class ChannelServerNode : public bus::Node {
   std::string status_text() const override;
 
  private:
+  // Due as soon as simulation time is known: before every time that a message may tell.
+  static constexpr SimTime kBeforeAll = SimTime::from_nanoseconds(-4'000'000'000'000'000'000);
+
   template <class Message>
   using Heard = std::vector<std::pair<std::string, Message>>;  // by vehicle, in order of arrival
+
+  // What was heard and waits for the next step.
+  struct Inbox {
+    Heard<vehicle_state_t> states;
+    Heard<modem_config_t> modems;
+    Heard<modem_send_t> sends;
+    std::vector<environment_change_t> changes;
+    std::vector<ping_answer_t> ping_answers;  // of other shards
+  };
+  // A flow that this server publishes: who it is there, which goes on through its lives where a journal tells, and the
+  // next number.
+  struct Flow {
+    std::int64_t session = 0, next = 0;
+  };
+  // What an earlier life knew, until it is told.
+  struct Recovery {
+    struct Step {
+      SimTime at;
+      Inbox heard;
+    };
+    std::deque<Step> steps;
+    std::vector<bus::JournalledMessage> said;
+    SimTime last;  // the earlier life's last step
+    SimTime reached;
+    SimTime hear_until, patience_ends;  // steady
+    SimTime wake = SimTime::never();    // steady
+    bool begun = false, took_present = false;
+    std::int64_t said_late = 0;
+  };
 
   void subscribe_all();
   template <class Message>
@@ -75,10 +118,21 @@ class ChannelServerNode : public bus::Node {
   void take_modems();
   void take_sends(SimTime now);
   void take_ping_answers();
+  void open_instants(SimTime now);
   void run_water_to(SimTime now);
   void take_questions(const bus::Now& now);
   void ask_terrain(const bus::Now& now);
   void publish_replies(SimTime steady);
+
+  // True when the earlier life's water has reached the present.
+  bool recover(const bus::Now& now);
+  void begin_recovery(const bus::Now& now);
+  void take_up_said();
+  bool waits_for_terrain(SimTime steady) const;
+  bool take_next_step(const bus::Now& now);
+  void take_heard(SimTime now);
+  bus::Due recovery_due() const;
+  void survey(SimTime tick);
 
   void publish_event(const MediumEvent& event);
   void publish_receipt(const Receipt& receipt, SimTime at);
@@ -92,9 +146,17 @@ class ChannelServerNode : public bus::Node {
   void ask_for_profiles(const std::vector<PlacedVehicle>& vehicles);
   void tell_who_came_and_left(const std::vector<PlacedVehicle>& vehicles);
   void forget_old(SimTime now);
-  // Publishes `message` with this node's session and the channel's next sequence.
+  // Gives `message` the session and the next number of its channel's flow.
   template <class Message>
-  void publish_numbered(const std::string& channel, Message message);
+  void number(const std::string& channel, Message& message);
+  template <class Message>
+  void publish_numbered(const std::string& channel, Message message) {
+    number(channel, message);
+    bus().publish(channel, message);
+  }
+  // The same for what must be said once: unless an earlier life has, and not before the journal knows of it.
+  template <class Message>
+  void publish_once(const std::string& channel, Message message);
 
   ServerRules rules_;
   std::shared_ptr<EnvironmentTimeline> waters_;
@@ -109,17 +171,18 @@ class ChannelServerNode : public bus::Node {
   TerrainAsker asker_;
   LinkDesk desk_;
 
-  Heard<vehicle_state_t> states_;
-  Heard<modem_config_t> modems_;
-  Heard<modem_send_t> sends_;
+  Inbox inbox_;
   std::vector<link_query_t> queries_;
   std::vector<ray_reply_t> ray_replies_;
-  std::vector<environment_change_t> changes_;
-  std::vector<ping_answer_t> ping_answers_;  // of other shards
+
+  std::unique_ptr<bus::MessageJournal> journal_;
+  std::unique_ptr<Recovery> recovery_;
+  std::set<std::string> said_;  // by earlier lives, as name_of_said() has it
+  SimTime now_, said_forgotten_at_ = SimTime::never();
 
   SimTime next_tick_, next_environment_;
   std::map<TerrainAsker::SurveyId, VehiclePair> surveyed_pairs_;
-  std::map<std::string, std::int64_t> sequences_;  // by channel
+  std::map<std::string, Flow> flows_;  // by channel
   std::string terrain_version_;
   std::set<std::string> present_;
   std::int64_t links_published_ = 0;

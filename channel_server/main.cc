@@ -3,6 +3,7 @@
 #include "core/check.h"
 
 using halocline::InvalidArgument;
+using halocline::require;
 using halocline::bus::NodeProgram;
 using halocline::channel_server::ChannelServerConfig;
 using halocline::channel_server::make_channel_server;
@@ -39,15 +40,22 @@ int main(int argc, char** argv) {
       "publishes: LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"
       "           LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER (as a shard), STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
-  std::string share;
-  program.options = {{"--shard", "I/N: serve the vehicles whose id mod N is I, beside N - 1 other servers",
-                      &share, nullptr, shard_settings}};
+  std::string share, journal;
+  program.options = {
+      {"--shard", "I/N: serve the vehicles whose id mod N is I, beside N - 1 other servers", &share, nullptr,
+       shard_settings},
+      {"--journal", "file from which a server that was killed goes on where it was (not in lockstep)",
+       &journal}};
   program.default_name = [&] {
     const auto& shard = config.rules.medium.shard;
     return "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
   };
   program.make_node = [&](const NodeProgram::Context& context) {
-    return make_channel_server(context.lcm, context.identity, config, context.scenario, context.folder);
+    auto node = make_channel_server(context.lcm, context.identity, config, context.scenario, context.folder);
+    require(journal.empty() || !context.in_lockstep,
+            "--journal is " + journal + "; in lockstep the conductor remembers for all");
+    if (!journal.empty()) node->remember_in(journal);
+    return node;
   };
   return halocline::bus::run_node_program(argc, argv, program);
 }

@@ -1,0 +1,181 @@
+// A channel server that dies while packets are under way, and returns with its journal, has said in both lives together
+// what one that lived on says: nothing twice, nothing missing, the same numbers.
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "bus/event_log.h"
+#include "tests/channel_server/node_bench.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using testing::NodeBench;
+
+constexpr VehicleId kVehicles = 4;
+constexpr double kBottomM = 200;
+
+// The bytes of a message without who said it as his how-manieth.
+template <class Message>
+std::string unnumbered(Message message) {
+  message.session = message.sequence = 0;
+  std::string bytes(static_cast<std::size_t>(message.getEncodedSize()), '\0');
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+// One life of a server, beside the bathymetry service.
+struct Life {
+  Life(bool rays, const std::string& journal)
+      : bench({}, {testing::quick_modem(), {}},
+              rays ? ray_model(testing::even_water(), {}, {}) : straight_model(testing::even_water())),
+        bottom(bench.lcm(), kBottomM) {
+    if (!journal.empty()) bench.node().remember_in(journal);
+  }
+  // What four vehicles, two to six kilometres apart, say in a tenth of a second: two send at times, of which one pings.
+  void say(int tenth) {
+    const double t = tenth / 10.0;
+    for (VehicleId id = 1; id <= kVehicles; ++id) {
+      bench.state(id, t, {2000.0 * id + t, 40.0 * id - 2 * t, 60}, {1, -2, 0});
+    }
+    if (tenth % 7 == 3) bench.send(1 + tenth % kVehicles, t + 0.02, tenth, 20);
+    if (tenth % 23 != 5) return;
+    modem_send_t ping = bench.send(2, t + 0.3, 10'000 + tenth, 1, 3);
+    ping.packet_kind = modem_send_t::PING;
+    ping.packet_sequence += 10'000;
+    ping.utime += 400'000;
+    bench.bus().publish(testing::channels::kSend.of(testing::name_of(2)), ping);
+  }
+  void live(int from_tenth, int to_tenth) {
+    for (int tenth = from_tenth; tenth < to_tenth; ++tenth) {
+      say(tenth);
+      bench.run_to(tenth / 10.0 + 0.0999);
+    }
+  }
+
+  NodeBench bench;
+  testing::FlatBottom bottom;
+};
+
+struct Told {
+  std::multiset<std::string> outcomes, receives, receipts;
+  std::multiset<double> arrivals_s;
+  void add(const NodeBench& bench) {
+    for (const auto& m : bench.outcomes) outcomes.insert(unnumbered(m));
+    for (const auto& m : bench.receives) receives.insert(m.channel + unnumbered(m.message));
+    for (const auto& m : bench.receipts) receipts.insert(m.channel + unnumbered(m.message));
+  }
+};
+
+class RecoveringServer : public ::testing::TestWithParam<bool> {
+ protected:
+  RecoveringServer() { bus::set_log_level(bus::LogLevel::kSilent); }
+  ~RecoveringServer() override { forget(); }
+  void forget() {
+    for (const char* part : {"", ".1"}) std::filesystem::remove(journal_ + part);
+  }
+
+  // Dies at each of `deaths` (tenths of a second), and returns `away` tenths later; what was said meanwhile is repaired.
+  Told with_deaths(const std::vector<int>& deaths, int away) {
+    forget();
+    Told told;
+    int tenth = 0;
+    auto life = std::make_unique<Life>(GetParam(), journal_);
+    for (const int death : deaths) {
+      life->live(tenth, death);
+      told.add(life->bench);
+      late_ += life->bench.node().counters().late;
+      life = std::make_unique<Life>(GetParam(), journal_);
+      for (tenth = death; tenth < death + away; ++tenth) life->say(tenth);
+      life->bench.step((tenth - 1) / 10.0 + 0.0999);
+    }
+    life->live(tenth, kTenths);
+    life->bench.run_to(kTenths / 10.0 + 20);
+    told.add(life->bench);
+    late_ += life->bench.node().counters().late;
+    return told;
+  }
+
+  static constexpr int kTenths = 400;
+  const std::string journal_ = ::testing::TempDir() + "halocline-journal-" + std::to_string(getpid());
+  std::int64_t late_ = 0;
+};
+
+TEST_P(RecoveringServer, SaysInAllItsLivesWhatOneThatLivedOnSays) {
+  const Told one = with_deaths({}, 0);
+  EXPECT_GT(one.outcomes.size(), 150u);
+  EXPECT_GT(one.receives.size(), 30u);
+  EXPECT_EQ(late_, 0);
+  const Told several = with_deaths({51, 123, 140, 266, 301}, 12);
+  EXPECT_TRUE(several.outcomes == one.outcomes);
+  EXPECT_TRUE(several.receives == one.receives);
+  EXPECT_TRUE(several.receipts.size() == one.receipts.size());
+  EXPECT_GT(late_, 5) << "nothing was due while it was away: not much of a test";
+}
+
+TEST_P(RecoveringServer, WithoutAJournalLosesWhatWasUnderWay) {
+  const Told one = with_deaths({}, 0);
+  Life first(GetParam(), "");
+  first.live(0, 200);
+  Life second(GetParam(), "");
+  second.live(200, kTenths);
+  second.bench.run_to(kTenths / 10.0 + 20);
+  EXPECT_LT(first.bench.outcomes.size() + second.bench.outcomes.size(), one.outcomes.size());
+}
+
+TEST_P(RecoveringServer, GoesOnWithTheNumbersOfItsFlows) {
+  Life first(GetParam(), journal_);
+  first.live(0, 100);
+  ASSERT_FALSE(first.bench.outcomes.empty());
+  Life second(GetParam(), journal_);
+  second.bench.step(10.0);
+  second.live(100, 200);
+  ASSERT_FALSE(second.bench.outcomes.empty());
+  EXPECT_EQ(second.bench.outcomes.front().session, first.bench.outcomes.back().session);
+  EXPECT_EQ(second.bench.outcomes.front().sequence, first.bench.outcomes.back().sequence + 1);
+}
+
+TEST_P(RecoveringServer, TellsNoTableOfATickThatPassedWhileItWasAway) {
+  Life first(GetParam(), journal_);
+  first.live(0, 100);
+  Life second(GetParam(), journal_);
+  for (int tenth = 100; tenth < 135; ++tenth) second.say(tenth);
+  second.bench.step(13.45);
+  second.live(135, 160);
+  ASSERT_FALSE(second.bench.links.empty());
+  EXPECT_EQ(second.bench.links.front().message.utime, 14'000'000);
+}
+
+TEST_P(RecoveringServer, ForgetsTheJournalOfAnotherRun) {
+  Life first(GetParam(), journal_);
+  first.live(0, 300);
+  Life second(GetParam(), journal_);
+  second.say(3);
+  second.bench.step(0.5);
+  second.live(6, 300);
+  second.bench.run_to(50);
+  EXPECT_FALSE(second.bench.outcomes.empty());
+  EXPECT_EQ(second.bench.outcomes.front().sequence, 0);
+}
+
+TEST_P(RecoveringServer, AJournalCutOffWithinAnEntryIsReadUpToThere) {
+  Life first(GetParam(), journal_);
+  first.live(0, 100);
+  std::filesystem::resize_file(journal_, std::filesystem::file_size(journal_) - 7);
+  Life second(GetParam(), journal_);
+  second.bench.step(10.0);
+  second.live(100, 200);
+  EXPECT_FALSE(second.bench.outcomes.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Channel, RecoveringServer, ::testing::Values(false, true),
+                         [](const auto& kind) { return kind.param ? "Rays" : "Straight"; });
+
+}  // namespace
+}  // namespace halocline::channel_server

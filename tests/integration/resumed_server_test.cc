@@ -1,0 +1,170 @@
+// Channel servers that are killed where they stand while packets are under way for seconds, on udpm in real time, and
+// return with their journal: every packet that a receipt accepts has one outcome at each other vehicle, and every
+// reception that the ledger names arrives, once. Runs inside a network namespace of its own (scripts/isolated).
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "bus/bus.h"
+#include "bus/node_process.h"
+#include "bus/transport.h"
+#include "tests/support/process.h"
+
+namespace halocline {
+namespace {
+
+using testing::Process;
+
+const char* const kScenario = HALOCLINE_TEST_DATA "/scenarios/far_apart.toml";
+constexpr int kVehicles = 5;
+
+// Sender, session, sequence and receiver of a packet.
+using AtReceiver = std::tuple<std::int32_t, std::int64_t, std::int64_t, std::int32_t>;
+
+// Hears the ledger, and what is lost on the way to it.
+class Auditor {
+ public:
+  Auditor() : lcm_(bus::open_transport(bus::effective_url(""))), bus_(*lcm_, {"auditor", 4711}) {
+    bus_.enable_repair();
+    bus_.subscribe<modem_receipt_t>(bus::channels::kReceipt, [this](std::string_view vehicle, const auto& m) {
+      if (m.receipt_result != modem_receipt_t::ACCEPTED && m.receipt_result != modem_receipt_t::QUEUED)
+        return;
+      const std::int32_t id = vehicle.back() - '0' + 1;  // "v3" has the id 4
+      accepted.emplace(id, m.send_session, m.packet_sequence);
+    });
+    bus_.subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& m) {
+      ++outcomes[{m.source_id, m.send_session, m.packet_sequence, m.receiver_id}];
+      const bool addressed = m.destination_id == m.receiver_id || m.destination_id == kBroadcastId;
+      if (m.packet_fate == packet_outcome_t::RECEIVED && addressed)
+        named.emplace(m.source_id, m.send_session, m.packet_sequence, m.receiver_id);
+    });
+    bus_.subscribe<modem_receive_t>(bus::channels::kReceive, [this](std::string_view, const auto& m) {
+      ++received[{m.source_id, m.send_session, m.packet_sequence, m.receiver_id}];
+    });
+    bus_.subscribe<node_status_t>(bus::channels::kStatus, [this](std::string_view node, const auto& m) {
+      late[{std::string(node), m.session}] = m.late;
+    });
+  }
+  void listen_for(double seconds) {
+    const SimTime end = bus::steady_now() + SimDuration::from_seconds(seconds);
+    while (bus::steady_now() < end) {
+      bus_.set_steady(bus::steady_now());
+      while (lcm_->handleTimeout(0) > 0) {
+      }
+      bus_.rethrow_if_failed();
+      bus_.repair(SimTime(), bus::steady_now());
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+  const bus::BusCounters& counters() const { return bus_.counters(); }
+
+  std::set<std::tuple<std::int32_t, std::int64_t, std::int64_t>> accepted;
+  std::map<AtReceiver, int> outcomes, received;
+  std::set<AtReceiver> named;
+  std::map<std::pair<std::string, std::int64_t>, std::int64_t> late;  // by node and life
+
+ private:
+  std::unique_ptr<lcm::LCM> lcm_;
+  bus::Bus bus_;
+};
+
+class ResumedServer : public ::testing::TestWithParam<std::tuple<int, double>> {
+ protected:
+  ResumedServer() : folder_(::testing::TempDir() + "halocline-resumed-" + std::to_string(getpid())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~ResumedServer() override {
+    processes_.clear();
+    std::filesystem::remove_all(folder_);
+  }
+  void start(const std::string& program) {
+    processes_[program] = std::make_unique<Process>(command(program));
+  }
+  void start_server(int shard) {
+    auto words = command("halocline-channel-server");
+    const std::string share = std::to_string(shard) + "/" + std::to_string(std::get<0>(GetParam()));
+    words.insert(words.end(), {"--journal", folder_ + "/journal-" + std::to_string(shard), "--shard", share});
+    processes_["server" + std::to_string(shard)] = std::make_unique<Process>(words);
+  }
+  static std::vector<std::string> command(const std::string& program) {
+    std::vector<std::string> words;
+    if (const double loss = std::get<1>(GetParam()); loss > 0) {
+      words = {"/usr/bin/env", "LD_PRELOAD=" HALOCLINE_LOSSY_UDP,
+               "HALOCLINE_UDP_LOSS=" + std::to_string(loss)};
+    }
+    words.insert(words.end(), {HALOCLINE_BIN_DIR "/" + program, kScenario});
+    return words;
+  }
+
+  std::string folder_;
+  std::map<std::string, std::unique_ptr<Process>> processes_;
+};
+
+TEST_P(ResumedServer, SaysWhatBecameOfEveryPacketOnce) {
+  const int shards = std::get<0>(GetParam());
+  Auditor auditor;
+  for (const char* program :
+       {"halocline-conductor", "halocline-bathymetry", "halocline-vehicle-sim", "halocline-traffic"}) {
+    start(program);
+  }
+  for (int shard = 0; shard < shards; ++shard) start_server(shard);
+  auditor.listen_for(6);
+  std::string told;
+  for (int kill = 0; kill < 6; ++kill) {
+    const int shard = kill % shards;
+    Process& server = *processes_.at("server" + std::to_string(shard));
+    server.signal(SIGKILL);
+    server.wait();
+    told += server.output();
+    auditor.listen_for(0.4 + 0.25 * kill);  // up to 1.65 s away
+    start_server(shard);
+    auditor.listen_for(2);
+  }
+  processes_.at("halocline-traffic")->signal(SIGTERM);
+  auditor.listen_for(10);  // the sound under way arrives
+  for (int shard = 0; shard < shards; ++shard)
+    told += processes_.at("server" + std::to_string(shard))->output();
+
+  EXPECT_GT(auditor.accepted.size(), 60u) << told;
+  std::size_t missing = 0;
+  for (const auto& [source, session, sequence] : auditor.accepted) {
+    for (std::int32_t receiver = 1; receiver <= kVehicles; ++receiver)
+      missing += receiver != source && !auditor.outcomes.contains({source, session, sequence, receiver});
+  }
+  EXPECT_EQ(missing, 0u) << "of " << auditor.accepted.size() * (kVehicles - 1) << told;
+  EXPECT_EQ(auditor.outcomes.size(), auditor.accepted.size() * (kVehicles - 1))
+      << "outcomes without a receipt";
+  for (const auto& [packet, times] : auditor.outcomes) EXPECT_EQ(times, 1);
+  EXPECT_EQ(auditor.received.size(), auditor.named.size());
+  for (const auto& [packet, times] : auditor.received) EXPECT_EQ(times, 1);
+  for (const AtReceiver& packet : auditor.named) EXPECT_TRUE(auditor.received.contains(packet));
+  EXPECT_EQ(auditor.counters().lost, 0);
+  EXPECT_THAT(told, ::testing::HasSubstr("resumed"));
+  std::int64_t late = 0;
+  for (const auto& [life, count] : auditor.late) late += count;
+  EXPECT_GT(late, 0) << "nothing was due while a server was away: not much of a test";
+  std::printf("%zu packets, %zu outcomes, %zu receptions, %lld of them late\n", auditor.accepted.size(),
+              auditor.outcomes.size(), auditor.received.size(), static_cast<long long>(late));
+}
+
+INSTANTIATE_TEST_SUITE_P(Servers, ResumedServer,
+                         ::testing::Values(std::tuple(1, 0.0), std::tuple(2, 0.0), std::tuple(2, 0.05)),
+                         [](const auto& kind) {
+                           return std::to_string(std::get<0>(kind.param)) + "Servers" +
+                                  (std::get<1>(kind.param) > 0 ? "5PercentLost" : "");
+                         });
+
+}  // namespace
+}  // namespace halocline
