@@ -91,7 +91,7 @@ class Auditor {
   bus::Bus bus_;
 };
 
-// A host of its own: a network namespace joined to this one's bridge by a cable.
+// A host of its own: a network namespace at the end of a cable, whose other end cable<number> is in this one.
 class Host {
  public:
   explicit Host(int number) : keeper_({"/usr/bin/unshare", "-n", "/bin/sleep", "1000"}) {
@@ -102,12 +102,15 @@ class Host {
         "/ns/net)\" != \"$(readlink /proc/self/ns/net)\" ] && "
         "break; sleep 0.02; done");
     run("ip link add cable" + name + " type veth peer name eth0 netns " + pid);
-    run("ip link set cable" + name + " master bridge0 up");
+    run("ip link set cable" + name + " up");
     run(inside + "ip addr add 10.99.0." + std::to_string(number + 10) + "/24 dev eth0");
     run(inside + "ip link set lo up");
     run(inside + "ip link set eth0 up");
     run(inside + "ip route add 224.0.0.0/4 dev eth0");
-    run(inside + HALOCLINE_SOURCE_DIR "/scripts/lose 5 eth0");
+  }
+  void lose(int percent) const {
+    run("nsenter -n -t " + std::to_string(keeper_.pid()) + " " HALOCLINE_SOURCE_DIR "/scripts/lose " +
+        std::to_string(percent) + " eth0");
   }
   // A command as it runs on this host.
   std::vector<std::string> command(const std::vector<std::string>& words) const {
@@ -142,6 +145,30 @@ class LossyBus : public ::testing::Test {
       auditor_->listen();
       for (const auto& client : clients_) client->take(received_);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+  // The programs on three hosts, this one being a fourth for clients and auditor.
+  void start_on_hosts() {
+    setenv("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=4194304", 1);
+    listen();
+    for (const char* program :
+         {"halocline-conductor", "halocline-vehicle-sim", "halocline-autopilot", "halocline-traffic"}) {
+      start_on(0, program);
+    }
+    start_on(1, "halocline-bathymetry");
+    start_on(1, "halocline-channel-server", {"--shard", "0/2"});
+    start_on(2, "halocline-channel-server", {"--shard", "1/2"});
+  }
+  void start_on(std::size_t host, const std::string& program, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{HALOCLINE_BIN_DIR "/" + program, kScenario};
+    words.insert(words.end(), more.begin(), more.end());
+    start(more.empty() ? program : program + more.back(), hosts_.at(host)->command(words));
+  }
+  void expect_two_shards_that_said_all_once() {
+    EXPECT_EQ(auditor_->servers.size(), 2u);
+    for (const auto& [reception, times] : auditor_->outcomes) EXPECT_EQ(times, 1);
+    for (const char* server : {"channel-server-0", "channel-server-1"}) {
+      EXPECT_EQ(auditor_->last_status[server].lost, 0) << server;
     }
   }
   // Lets all talk, then fall silent, and compares what the ledger names with what was received.
@@ -188,28 +215,44 @@ TEST_F(LossyBus, ThreeHostsWithTwoShardsSayWhatBecameOfEveryPacketOnce) {
   Host::run("ip link set bridge0 up");
   Host::run("ip route replace 224.0.0.0/4 dev bridge0");
   Host::run(HALOCLINE_SOURCE_DIR "/scripts/lose 5 bridge0");
-  for (int i = 0; i < 3; ++i) hosts_.push_back(std::make_unique<Host>(i));
-  setenv("LCM_DEFAULT_URL", "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=4194304", 1);
-  listen();
-  const auto start_on = [&](int host, const std::string& program, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words{HALOCLINE_BIN_DIR "/" + program, kScenario};
-    words.insert(words.end(), more.begin(), more.end());
-    start(more.empty() ? program : program + more.back(),
-          hosts_[static_cast<std::size_t>(host)]->command(words));
-  };
-  for (const char* program :
-       {"halocline-conductor", "halocline-vehicle-sim", "halocline-autopilot", "halocline-traffic"}) {
-    start_on(0, program);
+  for (int i = 0; i < 3; ++i) {
+    hosts_.push_back(std::make_unique<Host>(i));
+    Host::run("ip link set cable" + std::to_string(i) + " master bridge0");
+    hosts_.back()->lose(5);
   }
-  start_on(1, "halocline-bathymetry");
-  start_on(1, "halocline-channel-server", {"--shard", "0/2"});
-  start_on(2, "halocline-channel-server", {"--shard", "1/2"});
+  start_on_hosts();
   talk_and_compare();
-  EXPECT_EQ(auditor_->servers.size(), 2u);
-  for (const auto& [reception, times] : auditor_->outcomes) EXPECT_EQ(times, 1);
-  for (const char* server : {"channel-server-0", "channel-server-1"}) {
-    EXPECT_EQ(auditor_->last_status[server].lost, 0) << server;
+  expect_two_shards_that_said_all_once();
+}
+
+// The same where each frame takes 3 to 7 ms from host to host, so that frames overtake each other, and 5 % are lost.
+TEST_F(LossyBus, ThreeHostsOnASlowAndUnevenNetworkSayItOnceAsWell) {
+  Host::run("ip link add own type veth peer name own-end");
+  Host::run("ip addr add 10.99.0.1/24 dev own");
+  Host::run("ip link set own up");
+  Host::run("ip link set own-end up");
+  Host::run("ip route replace 224.0.0.0/4 dev own");
+  std::vector<std::string> words{HALOCLINE_SLOW_SWITCH, "1", "5", "2", "0.05", "own-end"};
+  for (int i = 0; i < 3; ++i) {
+    hosts_.push_back(std::make_unique<Host>(i));
+    words.push_back("cable" + std::to_string(i));
   }
+  start("switch", words);
+  start_on_hosts();
+  talk_and_compare();
+  expect_two_shards_that_said_all_once();
+  Process& slow_switch = *processes_.at("switch");
+  ASSERT_TRUE(slow_switch.running()) << slow_switch.output();
+  slow_switch.signal(SIGTERM);
+  slow_switch.wait();
+  long long copies = 0, lost = 0, overtook = 0;
+  ASSERT_EQ(std::sscanf(slow_switch.output().c_str(), "copies=%lld lost=%lld overtook=%lld", &copies, &lost,
+                        &overtook),
+            3)
+      << slow_switch.output();
+  EXPECT_NEAR(static_cast<double>(lost) / static_cast<double>(copies), 0.05, 0.01) << copies;
+  EXPECT_GT(overtook, copies / 100);
+  std::printf("%s", slow_switch.output().c_str());
 }
 
 }  // namespace
