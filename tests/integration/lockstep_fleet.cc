@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <lcm/lcm-cpp.hpp>
 #include <unistd.h>
 
 namespace halocline::testing {
@@ -112,6 +113,14 @@ bool LockstepFleet::run_to_the_end(std::chrono::seconds limit) {
 std::string LockstepFleet::conductor_output() { return earlier_output_ + at("conductor").output(); }
 
 std::string LockstepFleet::log_bytes() const { return contents_of(folder_ / "separate.lcm"); }
+
+std::map<std::string, int> LockstepFleet::events_by_channel() const {
+  lcm::LogFile log((folder_ / "separate.lcm").string(), "r");
+  std::map<std::string, int> counts;
+  for (const lcm::LogEvent* event = log.readNextEvent(); event != nullptr; event = log.readNextEvent())
+    ++counts[event->channel];
+  return counts;
+}
 
 std::string LockstepFleet::output_bytes() const { return output_of(folder_ / "separate.lcm"); }
 

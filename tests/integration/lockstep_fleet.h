@@ -43,6 +43,7 @@ class LockstepFleet {
   // What the conductor's lives have written so far.
   std::string conductor_output();
   std::string log_bytes() const;
+  std::map<std::string, int> events_by_channel() const;
   // The simulation output alone (`halocline log output`) of this run, and of the same in one process.
   std::string output_bytes() const;
   std::string output_of_one_process(const std::vector<std::string>& more_settings = {});

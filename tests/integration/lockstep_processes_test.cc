@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using testing::LockstepFleet;
 using ::testing::Not;
+using testing::Process;
 using testing::Weather;
 
 constexpr std::chrono::seconds kLimit{120};
@@ -215,6 +216,28 @@ TEST(LockstepProcesses, AConductorThatIsToldToStopSaysGoodbyeToAll) {
   fleet.at("conductor").signal(SIGTERM);
   EXPECT_EQ(fleet.at("conductor").wait(8s), 0) << fleet.conductor_output();
   for (const std::string& name : fleet.participants()) EXPECT_EQ(fleet.at(name).wait(5s), 0) << name;
+}
+
+// Two vehicles that know LCM and the message types alone swim among the scenario's; the conductor dies once.
+TEST(LockstepProcesses, VehiclesFromOutsideTakePart) {
+  LockstepFleet fleet = fleet_of("30");
+  fleet.start_all({"--outside", "--rate", "2"});
+  Process visitor({HALOCLINE_BIN_DIR "/foreign-vehicle", "--name", "visitor", "--id", "77", "--depth", "30",
+                   "--every", "1.7"});
+  Process neighbour({HALOCLINE_BIN_DIR "/foreign-vehicle", "--name", "neighbour", "--id", "78", "--depth",
+                     "40", "--north", "300", "--every", "0"});
+  pause(6s);
+  fleet.kill_and_restart("conductor");
+  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  EXPECT_THAT(visitor.output(), HasSubstr("was accepted"));
+  EXPECT_THAT(neighbour.output(), HasSubstr("from vehicle 77 after 0."));
+  auto events = fleet.events_by_channel();
+  EXPECT_GT(events["STATE.visitor"], 200) << "ten a second for thirty seconds, at best";
+  EXPECT_GT(events["LINKS.visitor"], 20);
+  EXPECT_GE(events["SEND.visitor"], 8);
+  EXPECT_EQ(events["RECEIPT.visitor"], events["SEND.visitor"]);
+  EXPECT_GT(events["RECEIVE.neighbour"], 5);
+  EXPECT_EQ(events["CLOCK"], 301) << "what the run itself shows is not heard from outside";
 }
 
 TEST(LockstepProcesses, WhoIsMissingIsNamed) {
