@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bus/log_recorder.h"
+#include "bus/message_codec.h"
 #include "bus/transport.h"
 #include "clients/halocline/channel_types.h"
 #include "core/check.h"
@@ -14,7 +15,7 @@
 namespace halocline::clients {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using bus::Bytes;
 using Said = std::pair<std::string, Bytes>;  // channel and message
 
 bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
@@ -37,9 +38,7 @@ Bytes without_number(const Bytes& bytes) {
   if (!decode_checked(bytes, message)) return {};
   if constexpr (requires { message.session; }) message.session = 0;
   if constexpr (requires { message.sequence; }) message.sequence = 0;
-  Bytes bare(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bare.data(), 0, static_cast<int>(bare.size()));
-  return bare;
+  return bus::encoded(message);
 }
 
 // Empty for what is no simulation output.
