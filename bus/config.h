@@ -60,6 +60,8 @@ class ConfigVisitor {
   virtual bool given(std::string_view key) const = 0;
   // True when configuration is written: values that hold are to be visited, whatever `given` says.
   virtual bool writing() const = 0;
+  // The folder that relative paths in the file start from: the one that holds it; "." when writing.
+  virtual std::string folder() const = 0;
   // Reports that the key's value is impossible in a way that no rule says; for checks across keys.
   virtual void problem(std::string_view key, std::string_view what_is_allowed) = 0;
   // This table also holds keys that other programs read: unknown ones are not errors here.
@@ -137,8 +139,7 @@ class ConfigFile {
   // no read() asked for. Without it, only unknown keys of sections that were read and not shared are errors.
   void check(bool whole_file);
 
-  // The folder that relative paths in the file start from: the one that holds it.
-  std::string folder() const;
+  std::string folder() const;  // as ConfigVisitor::folder
   const std::string& path() const;
 
  private:

@@ -22,6 +22,7 @@ struct ConfigDocument {
 
   // "file:line", or "command line" for an override.
   std::string place_of(const toml::node& node) const;
+  std::string folder() const;
   // Kept once, however often it is found.
   void add_error(const std::string& error);
 };
@@ -46,6 +47,7 @@ class ConfigReader : public ConfigVisitor {
             const std::function<void(ConfigVisitor&, std::size_t)>& item) override;
   bool given(std::string_view key) const override { return table_.contains(key); }
   bool writing() const override { return false; }
+  std::string folder() const override { return document_.folder(); }
   void problem(std::string_view key, std::string_view what_is_allowed) override;
   void shared_with_others() override { document_.shared.insert(&table_); }
 

@@ -128,6 +128,7 @@ class Writer : public ConfigVisitor {
   }
   bool given(std::string_view) const override { return true; }
   bool writing() const override { return true; }
+  std::string folder() const override { return "."; }
   void problem(std::string_view, std::string_view) override {}
   void shared_with_others() override {}
 

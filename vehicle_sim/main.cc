@@ -31,7 +31,6 @@ int main(int argc, char** argv) {
   program.make_node = [&](const NodeProgram::Context& context) {
     const auto prepared = prepare_terrain(recipe, {context.scenario.origin_latitude_deg,
                                                    context.scenario.origin_longitude_deg, context.folder});
-    config.model_folder = context.folder;
     return std::make_unique<VehicleSimNode>(context.lcm, context.identity, context.scenario, config,
                                             std::make_shared<TerrainSeabed>(prepared.terrain));
   };

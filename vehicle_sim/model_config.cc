@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "vehicle_sim/model_library.h"
+#include "vehicle_sim/sensor_config.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -138,18 +139,26 @@ void check_as_a_whole(ConfigVisitor& v, const ModelParameters& p) {
   }
 }
 
-ModelParameters read_model(bus::ConfigFile& file) {
-  ModelParameters p;
+void visit_whole(ConfigVisitor& v, ModelFile& model) {
+  visit(v, model.parameters);
+  if (v.writing() ? !model.sensors.has_value() : !v.given("sensors")) return;
+  if (!model.sensors) model.sensors.emplace();
+  v.section("sensors", "What it carries, where no scenario says otherwise",
+            [&](ConfigVisitor& section) { visit(section, *model.sensors); });
+}
+
+ModelFile read_model(bus::ConfigFile& file) {
+  ModelFile model;
   file.read([&](ConfigVisitor& v) {
     std::string base;
     v.text("based_on", base, built_in_models(), "a built-in model to start from");
-    if (!base.empty()) p = built_in_model(base).value_or(p);
-    visit(v, p);
+    if (!base.empty()) model.parameters = built_in_model(base).value_or(model.parameters);
+    visit_whole(v, model);
   });
   file.check(/*whole_file=*/true);
-  file.read([&](ConfigVisitor& v) { check_as_a_whole(v, p); });
+  file.read([&](ConfigVisitor& v) { check_as_a_whole(v, model.parameters); });
   file.check(/*whole_file=*/true);
-  return p;
+  return model;
 }
 
 }  // namespace
@@ -181,27 +190,27 @@ void visit(ConfigVisitor& v, ModelParameters& p) {
 
 bool names_a_model_file(const std::string& model) { return model.ends_with(".toml"); }
 
-ModelParameters load_model(const std::string& model, const std::string& folder) {
+ModelFile load_model(const std::string& model, const std::string& folder) {
   if (!names_a_model_file(model)) {
     auto parameters = built_in_model(model);
     std::string names;
     for (const std::string& name : built_in_models()) names += name + ", ";
     require(parameters.has_value(),
             "unknown vehicle model '" + model + "'; there are " + names + "or a file .toml");
-    return *parameters;
+    return {*parameters, {}};
   }
   auto file = bus::ConfigFile::load((std::filesystem::path(folder) / model).string());
   return read_model(file);
 }
 
-ModelParameters parse_model(const std::string& text, const std::string& name_for_errors) {
+ModelFile parse_model(const std::string& text, const std::string& name_for_errors) {
   auto file = bus::ConfigFile::parse(text, name_for_errors);
   return read_model(file);
 }
 
-std::string model_toml(const ModelParameters& parameters) {
-  ModelParameters p = parameters;
-  return bus::to_toml([&](ConfigVisitor& v) { visit(v, p); }, /*with_comments=*/true);
+std::string model_toml(const ModelFile& model) {
+  ModelFile written = model;
+  return bus::to_toml([&](ConfigVisitor& v) { visit_whole(v, written); }, /*with_comments=*/true);
 }
 
 }  // namespace halocline::vehicle_sim

@@ -1,14 +1,17 @@
 // Vehicle models as TOML files: every parameter with its unit and range, and where a model of a scenario comes from.
 //
 // A file starts from nothing (an effect that it does not name is absent) or, with `based_on`, from a built-in model.
+// Its [sensors] are those that such a vehicle carries unless a scenario says otherwise (vehicle_sim_config.h).
 // Unknown keys, wrong types and impossible values are errors with file, line, key and what is allowed.
 // docs/vehicles.md explains the parameters; vehicles/ holds the built-in models as such files.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/config.h"
+#include "vehicle_sim/sensor_settings.h"
 #include "vehicle_sim/vehicle_model.h"
 
 namespace halocline::vehicle_sim {
@@ -19,14 +22,20 @@ void visit(bus::ConfigVisitor& v, ModelParameters& parameters);
 // True for what names a file rather than a built-in model.
 bool names_a_model_file(const std::string& model);
 
+// What such a file holds.
+struct ModelFile {
+  ModelParameters parameters;
+  std::optional<SensorSettings> sensors;  // where it has [sensors]
+};
+
 // A built-in model by name, or the file of that path (ending in .toml), relative to `folder`. Throws bus::ConfigErrors
 // with what is wrong in the file, InvalidArgument for a name that is none.
-ModelParameters load_model(const std::string& model, const std::string& folder = ".");
+ModelFile load_model(const std::string& model, const std::string& folder = ".");
 
 // The same from text; `name_for_errors` stands for the file.
-ModelParameters parse_model(const std::string& text, const std::string& name_for_errors);
+ModelFile parse_model(const std::string& text, const std::string& name_for_errors);
 
 // The model as a file, every key with unit, range and meaning.
-std::string model_toml(const ModelParameters& parameters);
+std::string model_toml(const ModelFile& model);
 
 }  // namespace halocline::vehicle_sim

@@ -107,23 +107,43 @@ void visit_tethers(ConfigVisitor& v, std::vector<TetherEntry>& tethers) {
       });
 }
 
-void visit_vehicle_sensors(ConfigVisitor& v, VehicleSensors& vehicle, const SensorSettings& standard) {
+void visit_common_sensors(ConfigVisitor& v, SensorSettings& sensors) {
+  v.section("sensors", "The sensors of every vehicle, where it has none of its own",
+            [&](ConfigVisitor& section) { visit(section, sensors); });
+}
+
+// What the file of the vehicle's model says of sensors.
+std::optional<SensorSettings> sensors_of_model(ConfigVisitor& v) {
+  std::string model = built_in_models().front();
+  v.text("model", model, {}, "what moves it");
+  if (v.writing() || !names_a_model_file(model)) return std::nullopt;
+  std::optional<SensorSettings> sensors;
+  bus::report_refusal(v, "model", [&] { sensors = load_model(model, v.folder()).sensors; });
+  return sensors;
+}
+
+// Where two say something of a key: the [[vehicle]] before the scenario's [sensors], and that before the model's file.
+void visit_vehicle_sensors(ConfigVisitor& root, ConfigVisitor& v, VehicleSensors& vehicle,
+                           const SensorSettings& common) {
   v.shared_with_others();
   v.text("name", vehicle.vehicle, {}, "channel suffix");
-  if (!v.writing()) vehicle.own = v.given("sensors");
+  if (!v.writing()) {
+    const auto fitted = sensors_of_model(v);
+    vehicle.own = fitted.has_value() || v.given("sensors");
+    vehicle.sensors = fitted.value_or(common);
+    if (fitted) visit_common_sensors(root, vehicle.sensors);
+  }
   if (!vehicle.own) return;
-  if (!v.writing()) vehicle.sensors = standard;
-  v.section("sensors", "Where they differ from [sensors]",
+  v.section("sensors", "Where they differ from [sensors] and from the model's",
             [&](ConfigVisitor& section) { visit(section, vehicle.sensors); });
 }
 
 void visit_sensors(ConfigVisitor& v, VehicleSimConfig& config) {
-  v.section("sensors", "The sensors of every vehicle without its own",
-            [&](ConfigVisitor& section) { visit(section, config.sensors); });
+  visit_common_sensors(v, config.sensors);
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) {
-        visit_vehicle_sensors(item, config.vehicles[i], config.sensors);
+        visit_vehicle_sensors(v, item, config.vehicles[i], config.sensors);
       });
 }
 
@@ -175,7 +195,7 @@ VehicleState start_of(const bus::VehicleEntry& entry, const Vec3& current_ned) {
 }
 
 std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSimConfig& config) {
-  ModelParameters parameters = load_model(name, config.model_folder);
+  ModelParameters parameters = load_model(name, config.model_folder).parameters;
   parameters.buoyancy_n *= config.buoyancy_over_weight;
   if (config.current_treatment == TreatmentChoice::kUpstream)
     parameters.current_treatment = CurrentTreatment::kUpstream;
@@ -187,6 +207,7 @@ std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSim
 }  // namespace
 
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
+  if (!v.writing()) config.model_folder = v.folder();
   v.section("vehicle_sim", "The vehicle simulator",
             [&](ConfigVisitor& section) { visit_section(section, config); });
   visit_sensors(v, config);

@@ -35,7 +35,7 @@ struct TetherEntry {
 // The sensors of one vehicle of the scenario.
 struct VehicleSensors {
   std::string vehicle;
-  bool own = false;  // has a [vehicle.sensors]
+  bool own = false;  // has a [vehicle.sensors], or a model whose file has [sensors]
   SensorSettings sensors;
 };
 

@@ -72,7 +72,7 @@ std::vector<double> numbers_of(const CsvTable& table, const CsvLine& row, std::v
 Vec3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 ModelParameters parameters_of(const VehicleReplay& r) {
-  ModelParameters p = vehicle_sim::load_model(r.model);
+  ModelParameters p = vehicle_sim::load_model(r.model).parameters;
   using vehicle_sim::CurrentTreatment;
   if (r.current_treatment == "upstream") p.current_treatment = CurrentTreatment::kUpstream;
   if (r.current_treatment == "galilean") p.current_treatment = CurrentTreatment::kGalilean;

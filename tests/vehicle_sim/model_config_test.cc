@@ -48,8 +48,8 @@ TEST_P(ShippedModel, FileGivesASourceForEachSection) {
 }
 
 TEST_P(ShippedModel, SurvivesBeingWrittenAndRead) {
-  const ModelParameters p = load_model(GetParam());
-  const Model before(p), after(parse_model(model_toml(p), "written"));
+  const ModelFile written = load_model(GetParam());
+  const Model before(written.parameters), after(parse_model(model_toml(written), "written").parameters);
   EXPECT_EQ(before.mass(), after.mass());
   VehicleState s;
   s.velocity_body << 1, 0.2, -0.1, 0.05, 0.1, -0.2;
@@ -64,9 +64,19 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedModel, ::testing::ValuesIn(built_in_models(
 });
 
 TEST(ModelConfig, AFileChangesWhatItNamesOfItsBase) {
-  const ModelParameters p = parse_model("based_on = \"torpedo\"\n[body]\nmass_kg = 33\n", "mine.toml");
-  EXPECT_EQ(p.mass_kg, 33);
-  EXPECT_EQ(p.buoyancy_n, load_model("torpedo").buoyancy_n);
+  const ModelFile file = parse_model("based_on = \"torpedo\"\n[body]\nmass_kg = 33\n", "mine.toml");
+  EXPECT_EQ(file.parameters.mass_kg, 33);
+  EXPECT_EQ(file.parameters.buoyancy_n, load_model("torpedo").parameters.buoyancy_n);
+  EXPECT_FALSE(file.sensors.has_value());
+}
+
+TEST(ModelConfig, AFileMaySayWhatSensorsTheVehicleCarries) {
+  const ModelFile file = parse_model("based_on = \"torpedo\"\n[sensors.dvl]\nrate_hz = 4\n", "mine.toml");
+  ASSERT_TRUE(file.sensors.has_value());
+  EXPECT_EQ(file.sensors->dvl.period, SimDuration::from_milliseconds(250));
+  EXPECT_EQ(parse_model(model_toml(file), "written").sensors, file.sensors);
+  EXPECT_THAT(errors_of("based_on = \"torpedo\"\n[sensors.dvl]\nrate = 4\n"),
+              AllOf(HasSubstr("mine.toml:3"), HasSubstr("sensors.dvl.rate")));
 }
 
 TEST(ModelConfig, AnUnknownKeyIsNamedWithItsLine) {

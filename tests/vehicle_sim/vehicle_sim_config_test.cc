@@ -1,6 +1,8 @@
 #include "vehicle_sim/vehicle_sim_config.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +18,7 @@ using bus::ConfigErrors;
 using bus::ConfigFile;
 using bus::ConfigVisitor;
 using halocline::testing::tolerance;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 struct Read {
@@ -112,15 +115,14 @@ model = "hover"
 [[vehicle]]
 name = "c"
 id = 3
-model = "vehicles/remus100-pvs.toml"
+model = ")" HALOCLINE_SOURCE_DIR R"(/vehicles/remus100-pvs.toml"
 )");
-  r.config.model_folder = HALOCLINE_SOURCE_DIR;
   const auto members = members_of(r.scenario, r.config);
   EXPECT_EQ(members[0].model->name(), "torpedo");
   EXPECT_EQ(members[1].model->name(), "hover");
   EXPECT_EQ(members[2].model->name(), "remus100-pvs");
-  r.config.model_folder = "/nowhere";
-  EXPECT_THROW(members_of(r.scenario, r.config), bus::ConfigErrors);
+  EXPECT_THAT(errors_of("[[vehicle]]\nname = \"a\"\nid = 1\nmodel = \"nowhere/mine.toml\"\n"),
+              AllOf(HasSubstr("test.toml:4"), HasSubstr("nowhere/mine.toml")));
 }
 
 TEST(VehicleSimConfig, OnlyOurVehiclesBecomeMembers) {
@@ -258,6 +260,24 @@ TEST(VehicleSimConfig, SensorsAreThoseOfAllUnlessAVehicleHasItsOwn) {
   EXPECT_TRUE(own.usbl.fitted);
   EXPECT_FALSE(common.usbl.fitted);
   EXPECT_EQ(common.gps.period, SimDuration());  // none
+}
+
+TEST(VehicleSimConfig, TheVehicleSaysOfSensorsBeforeTheScenarioAndThatBeforeTheModelsFile) {
+  const std::string path = ::testing::TempDir() + "/fitted.toml";
+  std::ofstream(path) << "based_on = \"torpedo\"\n[sensors.dvl]\nrate_hz = 2\nnoise_mps = 0.1\nrange_m = 33\n"
+                         "[sensors.gps]\nrate_hz = 1\n";
+  const Read r =
+      read("[sensors.dvl]\nrate_hz = 4\nnoise_mps = 0.2\n[[vehicle]]\nname = \"a\"\nid = 1\nmodel = \"" +
+           path + "\"\n[vehicle.sensors.dvl]\nrate_hz = 5\n[[vehicle]]\nname = \"b\"\nid = 2\n");
+  const auto stations = stations_of(r.scenario, members_of(r.scenario, r.config), r.config);
+  const SensorSettings &fitted = stations[0].settings, &plain = stations[1].settings;
+  EXPECT_EQ(fitted.dvl.period, SimDuration::from_milliseconds(200));  // the vehicle's
+  EXPECT_EQ(fitted.dvl.errors.noise, 0.2);                            // the scenario's
+  EXPECT_EQ(fitted.dvl.range_m, 33);                                  // the model's
+  EXPECT_EQ(fitted.gps.period, SimDuration::from_milliseconds(1000));
+  EXPECT_EQ(plain.dvl.period, SimDuration::from_milliseconds(250));
+  EXPECT_EQ(plain.gps.period, SimDuration());  // none
+  std::filesystem::remove(path);
 }
 
 TEST(VehicleSimConfig, AFaultHasItsTimesAndItsEnd) {
