@@ -1,5 +1,5 @@
 // How fast whole runs are: the seamount's sea with 3, 20 or 100 submarines, links along rays, all nodes in one process
-// and one thread, log included. Start-up (terrain, water) is not timed.
+// and one thread or two, log included. Start-up (terrain, water) is not timed.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -49,7 +49,8 @@ void run(benchmark::State& state) {
   const std::string folder =
       (std::filesystem::temp_directory_path() / "halocline-bench-").string() + std::to_string(getpid());
   std::filesystem::create_directories(folder);
-  const ScenarioConfig config = seamount_with(static_cast<int>(state.range(0)), folder);
+  ScenarioConfig config = seamount_with(static_cast<int>(state.range(0)), folder);
+  config.channel_server.rules.threads = static_cast<int>(state.range(2));
   EmbeddedRun settings{.end = SimTime::from_seconds(static_cast<double>(state.range(1))),
                        .log_path = folder + "/run.lcm"};
   settings.quiet = true;
@@ -64,10 +65,13 @@ void run(benchmark::State& state) {
   std::filesystem::remove_all(folder);
 }
 BENCHMARK(run)
-    ->ArgNames({"vehicles", "seconds"})
-    ->Args({3, 200})
-    ->Args({20, 60})
-    ->Args({100, 10})
+    ->ArgNames({"vehicles", "seconds", "threads"})
+    ->Args({3, 200, 1})
+    ->Args({20, 60, 1})
+    ->Args({20, 60, 2})
+    ->Args({100, 10, 1})
+    ->Args({100, 10, 2})
+    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
