@@ -16,8 +16,8 @@ namespace halocline::acoustics {
 inline constexpr double kLeastSine = 1e-9;    // where 1 / sin is taken
 inline constexpr double kLeastCosine = 1e-3;  // steeper than 89.94 degrees a ray counts as turned back
 
-// A ray at one point: range and depth, m; sine of its angle, positive down; Snell's xi = cos / c, s/m. Depth, sine and
-// c = cos / xi belong together.
+// A ray at one point: range and depth, m; sine of its angle, positive down; Snell's xi = cos / c, s/m. Depth,
+// sine and c = cos / xi belong together.
 struct ArcPoint {
   double r, z, sine, xi, c;
   double per_xi;  // 1 / xi
@@ -25,7 +25,8 @@ struct ArcPoint {
   bool on_facet = false;  // just reflected by `facet`
 };
 
-// How far along range, m, to depth `z` and `sine` there; `turns`: through a turn; `down`: towards the bottom at first.
+// How far along range, m, to depth `z` and `sine` there; `turns`: through a turn; `down`: towards the bottom
+// at first.
 struct ArcStep {
   double dr, z, sine;
   bool turns, down;

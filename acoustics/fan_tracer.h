@@ -3,9 +3,9 @@
 //
 // Model: that of acoustics/arc_tracer.h, arc by arc, without step error; whole layers of one stretch between two
 // bounces at the bottom come from a column (acoustics/ray_column.h), whatever lies above the shallowest bottom as one
-// excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope over links of
-// kilometres; more within a microradian of a ray that grazes). Rays that lose 6 dB more than paths may are given up,
-// by interpolated losses.
+// excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope
+// over links of kilometres; more within a microradian of a ray that grazes). Rays that lose 6 dB more than
+// paths may are given up, by interpolated losses.
 //
 // Keeps a column and the rays' events between calls: one for each search, not shared between threads.
 #pragma once
@@ -53,7 +53,8 @@ class FanTracer {
   // From a knot through whole layers to the last knot before the ray turns, meets the bottom or arrives.
   bool run_through_layers(State& s, std::size_t knot);
   void stand_at_knot(State& s, std::size_t knot, bool down) const;
-  // Whether the ray crosses the layer beside `knot` from end to end. Near the bottom the state is brought to that knot.
+  // Whether the ray crosses the layer beside `knot` from end to end. Near the bottom the state is brought to
+  // that knot.
   bool next_layer_is_whole(State& s, std::size_t knot, bool down) const;
   bool clears_bottom(double sine, double next_sine) const;
   bool meet_surface(State& s, double sine);

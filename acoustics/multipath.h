@@ -2,11 +2,11 @@
 //
 // Model: Sehgal, Cernea and Birk 2010: rays go from the transmitter to the seabed at several points along the
 // line to the receiver, and on from there to the receiver. Each whole path loses by the law of the straight
-// link over its total length (leg by leg through c(z) and alpha(z)) and by the beams at both ends; it counts when its level exceeds the
-// receiver's cut-off and terrain blocks neither leg. The bottom reflects all of the energy, in every
-// direction: an upper bound. Pure geometry: who asks the terrain gives the bottom points and what it found in
-// the way. Left out: loss and direction at the bounce, surface echoes, more than one bounce (the ray model's
-// business).
+// link over its total length (leg by leg through c(z) and alpha(z)) and by the beams at both ends; it counts
+// when its level exceeds the receiver's cut-off and terrain blocks neither leg. The bottom reflects all of
+// the energy, in every direction: an upper bound. Pure geometry: who asks the terrain gives the bottom points
+// and what it found in the way. Left out: loss and direction at the bounce, surface echoes, more than one
+// bounce (the ray model's business).
 #pragma once
 
 #include <vector>

@@ -1,8 +1,9 @@
 // Lockstep steps per second: a conductor and N participants, each a process of its own, over udpm on loopback.
 //
-// All participants are due at every step and publish one vehicle state each, which the conductor puts in order; nobody
-// hears another (what is heard costs its bytes in the grant). The first argument is N, the second the share of
-// datagrams that each participant and the conductor throw away, in percent. scripts/bench gives a bus of its own.
+// All participants are due at every step and publish one vehicle state each, which the conductor puts in
+// order; nobody hears another (what is heard costs its bytes in the grant). The first argument is N, the
+// second the share of datagrams that each participant and the conductor throw away, in percent. scripts/bench
+// gives a bus of its own.
 #include <csignal>
 #include <memory>
 #include <random>

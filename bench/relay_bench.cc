@@ -1,8 +1,8 @@
 // How far from its instant a packet is delivered in real time: a channel server in a process of its own, over udpm.
 //
-// This program is the conductor and both vehicles; so simulation time is its own steady clock, and the error of a delivery
-// is the instant at which RECEIVE is handled here less the utime that RECEIVE states. Run it on a private bus
-// (scripts/isolated). Aim on an idle machine: 50 % within 0.2 ms, 99 % within 2 ms.
+// This program is the conductor and both vehicles; so simulation time is its own steady clock, and the error
+// of a delivery is the instant at which RECEIVE is handled here less the utime that RECEIVE states. Run it on
+// a private bus (scripts/isolated). Aim on an idle machine: 50 % within 0.2 ms, 99 % within 2 ms.
 #include <algorithm>
 #include <atomic>
 #include <filesystem>

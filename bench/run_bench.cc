@@ -1,5 +1,5 @@
-// How fast whole runs are: the seamount's sea with 3, 20 or 100 submarines, links along rays, all nodes in one process
-// and one thread or two, log included. Start-up (terrain, water) is not timed.
+// How fast whole runs are: the seamount's sea with 3, 20 or 100 submarines, links along rays, all nodes in
+// one process and one thread or two, log included. Start-up (terrain, water) is not timed.
 #include <filesystem>
 #include <fstream>
 #include <sstream>

@@ -106,8 +106,9 @@ class Bus {
   SimTime received_at() const { return received_at_; }
   // From now on `tap` is shown, before its handler, each message that is accepted.
   void set_tap(RawHandler tap) { tap_ = std::move(tap); }
-  // Handles a message as if LCM had dispatched it, before anything else is heard: what an earlier life of this node heard
-  // (message_journal.h). What follows it in its flow is then known to be missing, and repaired.
+  // Handles a message as if LCM had dispatched it, before anything else is heard: what an earlier life of
+  // this node heard (message_journal.h). What follows it in its flow is then known to be missing, and
+  // repaired.
   void hear_again(std::string_view channel, const std::vector<std::uint8_t>& bytes);
   // An earlier life of this node published this: it goes on being repaired. After enable_repair().
   void keep_published(std::string_view channel, std::int64_t session, std::int64_t number,

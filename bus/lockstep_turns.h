@@ -1,9 +1,10 @@
 // A node's side of lockstep: takes turns. Hears what it is told to hear, steps if it is due, and gives back all it
 // said and when it is next due.
 //
-// The node is on a memq LCM of its own, so it runs unchanged: what is heard is published there for it, and what it says
-// goes to nobody but the result. In a window (a turn whose horizon lies beyond its instant) it goes on through its
-// own instants until the horizon, or until it says something that somebody must hear at once.
+// The node is on a memq LCM of its own, so it runs unchanged: what is heard is published there for it, and
+// what it says goes to nobody but the result. In a window (a turn whose horizon lies beyond its instant) it
+// goes on through its own instants until the horizon, or until it says something that somebody must hear at
+// once.
 #pragma once
 
 #include <map>

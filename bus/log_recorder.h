@@ -2,8 +2,8 @@
 // log of a run. The same run writes the same bytes.
 //
 // Rotated, a log is a series of files (log_series.h), each a whole LCM log (LCM numbers
-// the events of each file from 0). Parts change before an event that would make one longer than `part_bytes`, and at multiples of
-// `part_time`: the same run is cut at the same events.
+// the events of each file from 0). Parts change before an event that would make one longer than `part_bytes`,
+// and at multiples of `part_time`: the same run is cut at the same events.
 #pragma once
 
 #include <cstdint>

@@ -1,14 +1,14 @@
-// A node's memory on disk of what it heard and said lately, so that its next life knows what was under way when this one
-// was killed.
+// A node's memory on disk of what it heard and said lately, so that its next life knows what was under way
+// when this one was killed.
 //
 // A file of entries: a word that begins each, its kind, stamp, lengths, a check sum, channel and message. What is
 // written is handed to the kernel before anything that follows from it is said, so a killed process forgets nothing
 // that anybody acted upon; a machine that loses power may (nothing is forced to the disk). What a kill cut off at
 // the end is no entry.
 //
-// Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before) and another
-// begins, with what is carried along: the last message of each channel of `carries_last`, and all on
-// `carries_all` (the latest 1000). So at least `kept` is there, and twice that at most.
+// Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
+// and another begins, with what is carried along: the last message of each channel of `carries_last`, and all
+// on `carries_all` (the latest 1000). So at least `kept` is there, and twice that at most.
 #pragma once
 
 #include <cstdint>

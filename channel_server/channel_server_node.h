@@ -1,16 +1,17 @@
 // The channel server on the bus: hears states, modems and transmissions; publishes the water, the link tables,
 // and what becomes of every packet; answers questions about links.
 //
-// Hears STATE.*, MODEM.*, SEND.*, SET_ENVIRONMENT, LINK_QUERY, and RAY_REPLY of its own client name (which contains its session,
-// so that a recorded reply is not taken for its own). Publishes ENVIRONMENT, LINKS.<vehicle>, RECEIPT.<vehicle>,
-// RECEIVE.<vehicle>, OUTCOME, LINK_REPLY.<client>, RAY_QUERY.
+// Hears STATE.*, MODEM.*, SEND.*, SET_ENVIRONMENT, LINK_QUERY, and RAY_REPLY of its own client name (which
+// contains its session, so that a recorded reply is not taken for its own). Publishes ENVIRONMENT,
+// LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, LINK_REPLY.<client>, RAY_QUERY.
 //
-// Of several servers of one water (rules.medium.shard) each hears all the others hear and publishes its share; the first
-// also ENVIRONMENT; LINK_QUERYs go by their request_id; PING_ANSWER tells the others of answers to pings.
+// Of several servers of one water (rules.medium.shard) each hears all the others hear and publishes its
+// share; the first also ENVIRONMENT; LINK_QUERYs go by their request_id; PING_ANSWER tells the others of
+// answers to pings.
 //
-// With a journal (remember_in) a server that was killed goes on where it was: it is told again what its earlier life heard of
-// the last minute, lets the water pass up to the present without a word about what was said already, and says the rest
-// (recovery_node.cc; docs/time.md).
+// With a journal (remember_in) a server that was killed goes on where it was: it is told again what its
+// earlier life heard of the last minute, lets the water pass up to the present without a word about what was
+// said already, and says the rest (recovery_node.cc; docs/time.md).
 //
 // A step, in this order: answers of the bathymetry service; what was heard of vehicles; the events of the
 // water and the link tables, in the order of their instants, up to now; questions; what is to be asked of the
@@ -57,7 +58,8 @@ class ChannelServerNode : public bus::Node {
                     const ConfiguredModems& modems, const ServerRules& rules);
 
   // Keeps a journal at `path`, and takes up what an earlier life left there. Once, before the first step and before
-  // anything is heard; not in lockstep, where the conductor remembers. Throws InvalidArgument when it cannot be written.
+  // anything is heard; not in lockstep, where the conductor remembers. Throws InvalidArgument when it cannot
+  // be written.
   void remember_in(const std::string& path);
 
   // Where the bathymetry service's replies to this life of the node go.
@@ -84,8 +86,8 @@ class ChannelServerNode : public bus::Node {
     std::vector<environment_change_t> changes;
     std::vector<ping_answer_t> ping_answers;  // of other shards
   };
-  // A flow that this server publishes: who it is there, which goes on through its lives where a journal tells, and the
-  // next number.
+  // A flow that this server publishes: who it is there, which goes on through its lives where a journal
+  // tells, and the next number.
   struct Flow {
     std::int64_t session = 0, next = 0;
   };

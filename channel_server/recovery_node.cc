@@ -1,10 +1,11 @@
 // How a channel server that was killed goes on where it was (ChannelServerNode::remember_in).
 //
-// Its journal holds what it heard and said in the last minute. The new life is told what was heard again, step by step,
-// and lets the water pass as then: decisions depend on contents and instants alone, so they are the same. What was said
-// is not said again; what was due while it was away is said at once, with its own instant, and counted as late.
-// Three things take wall time on the way: the bottom under the links is asked for anew, tick by tick; what vehicles
-// said meanwhile is waited for, as repair brings it; and no table of a tick that has passed is told.
+// Its journal holds what it heard and said in the last minute. The new life is told what was heard again,
+// step by step, and lets the water pass as then: decisions depend on contents and instants alone, so they are
+// the same. What was said is not said again; what was due while it was away is said at once, with its own
+// instant, and counted as late. Three things take wall time on the way: the bottom under the links is asked
+// for anew, tick by tick; what vehicles said meanwhile is waited for, as repair brings it; and no table of a
+// tick that has passed is told.
 #include <algorithm>
 #include <utility>
 
@@ -17,8 +18,8 @@ namespace {
 namespace channels = bus::channels;
 using Kind = bus::JournalledMessage::Kind;
 
-// How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not taken up, nor is
-// anything after a longer absence.
+// How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not taken
+// up, nor is anything after a longer absence.
 constexpr SimDuration kRemembered = SimDuration::from_milliseconds(60'000);
 // A time further before the journal's end than this belongs to another run.
 constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
@@ -126,7 +127,8 @@ bool ChannelServerNode::waits_for_terrain(SimTime steady) const {
   return waits;
 }
 
-// The last step is the present one: what was heard by now, once repair has had its time. False when there is none (yet).
+// The last step is the present one: what was heard by now, once repair has had its time. False when there is
+// none (yet).
 bool ChannelServerNode::take_next_step(const bus::Now& now) {
   if (recovery_->steps.empty() && !recovery_->took_present) {
     recovery_->wake = recovery_->hear_until;

@@ -2,9 +2,10 @@
 // the batches, gives up in time, and finds out when the service is back.
 //
 // Surveys go through their questions (depths; an echo survey then ways), each in batches of one kind of up to
-// `rays_per_batch` rays. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick` are sent between
-// two begin_tick(); routine surveys that have not been sent by the next tick are dropped and counted: their rows
-// say unknown, and their turn comes first then. Urgent surveys go before routine ones and do not count.
+// `rays_per_batch` rays. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick`
+// are sent between two begin_tick(); routine surveys that have not been sent by the next tick are dropped and
+// counted: their rows say unknown, and their turn comes first then. Urgent surveys go before routine ones and
+// do not count.
 //
 // A batch without an answer is sent again after half of the deadline, and given up at the deadline: the
 // service is away then. While it is away urgent surveys fail at once, and one batch at a time keeps probing;

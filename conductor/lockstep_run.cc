@@ -17,8 +17,8 @@
 namespace halocline::conductor {
 namespace {
 
-// How long farewells are waited for after a stop was wished for; how long the end is told to who asks; how often who is
-// waited for is named.
+// How long farewells are waited for after a stop was wished for; how long the end is told to who asks; how
+// often who is waited for is named.
 constexpr SimDuration kFarewellPatience = SimDuration::from_milliseconds(4000);
 constexpr SimDuration kLastWords = SimDuration::from_milliseconds(600);
 constexpr SimDuration kNamingPeriod = SimDuration::from_milliseconds(5000);

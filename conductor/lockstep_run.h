@@ -22,9 +22,10 @@ struct LockstepRun {
   std::string sync_url;
 };
 
-// Returns when the run is over. `bus_lcm`: where all that is said is shown, best effort. When `should_stop` first says so,
-// everybody is asked for a farewell at the instant reached; who does not give it within a few seconds is not waited
-// for, and the journal keeps the run open. Throws InvalidArgument for what cannot be written or is over already.
+// Returns when the run is over. `bus_lcm`: where all that is said is shown, best effort. When `should_stop`
+// first says so, everybody is asked for a farewell at the instant reached; who does not give it within a few
+// seconds is not waited for, and the journal keeps the run open. Throws InvalidArgument for what cannot be
+// written or is over already.
 void run_lockstep(lcm::LCM& bus_lcm, const bus::NodeIdentity& identity, const bus::Scenario& scenario,
                   const LockstepRun& run, const std::function<bool()>& should_stop);
 

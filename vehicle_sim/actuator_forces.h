@@ -2,7 +2,8 @@
 //
 // Body frame about CO; N and N m; signs of VehicleState's ActuatorValues. Sources: Allen, Vorus and Prestero
 // 2000 and Fossen 2021, section 9.4 (published laws); Polhamus 1966, NASA TN D-3767 (FinLaw::kLocalFlow: the force of
-// a thin low fin stands across its chord). Left out: the propeller's race over the fins, interference of fin and hull.
+// a thin low fin stands across its chord). Left out: the propeller's race over the fins, interference of fin
+// and hull.
 #pragma once
 
 #include <cmath>

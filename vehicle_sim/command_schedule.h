@@ -1,9 +1,10 @@
 // Which command a vehicle obeys at an instant: each holds from its own time on, until a later one, or until it is
 // too old; then the vehicle is in its safe state.
 //
-// Safe state: propeller and thrusters stopped and fins amidships, so a vehicle without a pilot slows down and drifts; one that
-// is buoyant (the scenario's buoyancy_over_weight above 1) comes up. A vehicle that was never commanded is in it too.
-// What was asked for an instant does not depend on the order in which commands with different times came.
+// Safe state: propeller and thrusters stopped and fins amidships, so a vehicle without a pilot slows down and
+// drifts; one that is buoyant (the scenario's buoyancy_over_weight above 1) comes up. A vehicle that was
+// never commanded is in it too. What was asked for an instant does not depend on the order in which commands
+// with different times came.
 #pragma once
 
 #include <cstddef>

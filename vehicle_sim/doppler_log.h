@@ -1,11 +1,12 @@
 // A Doppler velocity log of four beams in bottom track, and a forward sonar: sensors that send rays to the seabed.
 //
-// Doppler log: beam k points along b_k (unit, body frame); its speed is the instrument's velocity over ground along it,
-// s_k = b_k . (v + omega x r) (1 + scale) + bias + noise; the velocity is the least-squares solution of b_k . v = s_k over the
-// locked beams, three or four (Brokloff 1994, "Matrix algorithm for Doppler sonar navigation", for the Janus
-// geometry). With four beams at the angle J and noise sigma of each, forward and starboard have sigma / (sqrt(2)
-// sin J), down sigma / (2 cos J). A beam is a thin ray: no footprint, no side lobes, no water track, no ping time.
-// Sonar: each ray's echo is the seabed's first hit; other hulls are not seen, loss and clutter are not modelled.
+// Doppler log: beam k points along b_k (unit, body frame); its speed is the instrument's velocity over ground
+// along it, s_k = b_k . (v + omega x r) (1 + scale) + bias + noise; the velocity is the least-squares
+// solution of b_k . v = s_k over the locked beams, three or four (Brokloff 1994, "Matrix algorithm for
+// Doppler sonar navigation", for the Janus geometry). With four beams at the angle J and noise sigma of each,
+// forward and starboard have sigma / (sqrt(2) sin J), down sigma / (2 cos J). A beam is a thin ray: no
+// footprint, no side lobes, no water track, no ping time. Sonar: each ray's echo is the seabed's first hit;
+// other hulls are not seen, loss and clutter are not modelled.
 #pragma once
 
 #include <array>

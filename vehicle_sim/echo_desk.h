@@ -1,7 +1,8 @@
 // Measurements that wait for their echoes: kept in order of time until answered or given up.
 //
-// One entry a sensor tick, all vehicles in it. An entry is complete when its echoes are known (at once when it has asked for
-// none) or its deadline has passed; entries leave in the order in which they came, so messages go out in order of time.
+// One entry a sensor tick, all vehicles in it. An entry is complete when its echoes are known (at once when
+// it has asked for none) or its deadline has passed; entries leave in the order in which they came, so
+// messages go out in order of time.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,12 @@
 // The right-hand side of a vehicle's motion, and its solution step by step.
 //
-// Model and sources: vehicle_model.h, hull_forces.h, actuator_forces.h, submergence.h. The current changes evenly over
-// a step; its rate in the turning body frame is R' dv_c/dt - omega x v_c, which carries a neutrally buoyant hull along as
-// the water's own pressure does. Forces of the water scale with the share of the hull
-// under it. Integration: the classical Runge-Kutta method of order 4 with the command held over the step and
-// the quaternion brought back to unit length after it. For `remus100-pvs` a step of 10 ms errs by less than
-// 1e-6 m over minutes where the forces are smooth. Steps up to 20 ms are stable for vehicles of this size.
-// Pure functions; may run in any number of threads at once.
+// Model and sources: vehicle_model.h, hull_forces.h, actuator_forces.h, submergence.h. The current changes
+// evenly over a step; its rate in the turning body frame is R' dv_c/dt - omega x v_c, which carries a
+// neutrally buoyant hull along as the water's own pressure does. Forces of the water scale with the share of
+// the hull under it. Integration: the classical Runge-Kutta method of order 4 with the command held over the
+// step and the quaternion brought back to unit length after it. For `remus100-pvs` a step of 10 ms errs by
+// less than 1e-6 m over minutes where the forces are smooth. Steps up to 20 ms are stable for vehicles of
+// this size. Pure functions; may run in any number of threads at once.
 //
 //   const Model model(remus100_pvs_parameters(CurrentTreatment::kUpstream));
 //   VehicleState state;

@@ -49,7 +49,8 @@ void VehicleFaults::leak(double seconds, double water_density_kg_m3) {
 }
 
 ModelParameters VehicleFaults::broken(ModelParameters sound) const {
-  // Two bodies as one: the common centre of gravity, and the inertia about it with their reduced mass at the distance.
+  // Two bodies as one: the common centre of gravity, and the inertia about it with their reduced mass at the
+  // distance.
   const double dry_kg = sound.mass_kg, all_kg = dry_kg + water_kg_;
   const Vec3& r = sound.leak_offset_m;
   sound.inertia_kg_m2 +=

@@ -1,10 +1,12 @@
 // What breaks on a vehicle, and what that does to its commands, its model and its sensors.
 //
-// Stuck rudder or stern planes: the servo holds its angle, or drives to a given one within its limits, whatever is commanded.
-// Lost propeller: no thrust, no torque on the hull, no drag; its motor turns on as commanded. Leak: water comes in at a
-// steady rate up to a volume; it gathers at one point (ModelParameters::leak_offset_m from the dry centre of gravity, by default
-// there; no sloshing), and adds its mass and inertia to the vehicle's and no buoyancy: off the centre of gravity it trims the hull. What comes in moves with the vehicle already: the momentum it takes up is left out. A negative rate pumps out. Dead
-// sensor: it measures nothing. Each fault ends when it is mended; the water of a leak stays in.
+// Stuck rudder or stern planes: the servo holds its angle, or drives to a given one within its limits,
+// whatever is commanded. Lost propeller: no thrust, no torque on the hull, no drag; its motor turns on as
+// commanded. Leak: water comes in at a steady rate up to a volume; it gathers at one point
+// (ModelParameters::leak_offset_m from the dry centre of gravity, by default there; no sloshing), and adds
+// its mass and inertia to the vehicle's and no buoyancy: off the centre of gravity it trims the hull. What
+// comes in moves with the vehicle already: the momentum it takes up is left out. A negative rate pumps out.
+// Dead sensor: it measures nothing. Each fault ends when it is mended; the water of a leak stays in.
 #pragma once
 
 #include <array>

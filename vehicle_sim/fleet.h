@@ -62,8 +62,8 @@ class Fleet {
   // step at or after its time.
   CommandVerdict command(std::size_t index, const TimedCommand& command);
 
-  // Takes note of another current; it holds from the first physics step at or after `from`, of two for one instant the
-  // one noted later. Throws InvalidArgument where it is impossible; false, and no change, when
+  // Takes note of another current; it holds from the first physics step at or after `from`, of two for one
+  // instant the one noted later. Throws InvalidArgument where it is impossible; false, and no change, when
   // too many wait.
   bool change_current(SimTime from, const CurrentSettings& current);
 

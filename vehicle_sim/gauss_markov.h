@@ -2,12 +2,13 @@
 // exp(-|t| / T).
 //
 // The value at an instant is one fixed number, whatever the step and whoever asks: the process is built from its ends
-// inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants hold that value), it is drawn at the
-// middle of each interval given both ends, which for a Gauss-Markov process is exact: with h half the interval and
-// c = exp(-h / T), mean (a + b) c / (1 + c^2), variance sigma^2 (1 - c^2) / (1 + c^2) (Rasmussen and Williams 2006,
-// appendix B). Each draw is addressed by the millisecond it stands for (core/random.h). On whole milliseconds the process
-// is exact in distribution; between them it is interpolated linearly, so its derivative exists. Pure; a Cursor keeps what
-// was drawn last so that neighbouring instants cost two draws instead of 37; results do not depend on it.
+// inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants hold that value), it is
+// drawn at the middle of each interval given both ends, which for a Gauss-Markov process is exact: with h
+// half the interval and c = exp(-h / T), mean (a + b) c / (1 + c^2), variance sigma^2 (1 - c^2) / (1 + c^2)
+// (Rasmussen and Williams 2006, appendix B). Each draw is addressed by the millisecond it stands for
+// (core/random.h). On whole milliseconds the process is exact in distribution; between them it is
+// interpolated linearly, so its derivative exists. Pure; a Cursor keeps what was drawn last so that
+// neighbouring instants cost two draws instead of 37; results do not depend on it.
 #pragma once
 
 #include <cstdint>

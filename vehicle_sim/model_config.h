@@ -28,8 +28,8 @@ struct ModelFile {
   std::optional<SensorSettings> sensors;  // where it has [sensors]
 };
 
-// A built-in model by name, or the file of that path (ending in .toml), relative to `folder`. Throws bus::ConfigErrors
-// with what is wrong in the file, InvalidArgument for a name that is none.
+// A built-in model by name, or the file of that path (ending in .toml), relative to `folder`. Throws
+// bus::ConfigErrors with what is wrong in the file, InvalidArgument for a name that is none.
 ModelFile load_model(const std::string& model, const std::string& folder = ".");
 
 // The same from text; `name_for_errors` stands for the file.

@@ -1,11 +1,12 @@
 // What a sensor gets wrong, as draws that are addressed: noise, bias that wanders, drop-outs.
 //
-// Model: reading = truth + bias + walk + noise. Noise is normal and independent from sample to sample and from axis to
-// axis. The walk is a Wiener process (random walk of the bias), of which the standard deviation after t seconds is
-// walk sqrt(t); built from one step a second of simulation time and linear between, so it is the same whatever the
-// sensor's rate. A sample drops out with a probability of its own. Every draw is a function of (seed, vehicle, sensor,
-// sample, axis) alone (core/random.h): neither the order, nor the thread, nor the process matters. Samples are counted
-// from simulation time 0 on. Left out: correlated noise, quantisation, outliers, scale errors (but the Doppler log's).
+// Model: reading = truth + bias + walk + noise. Noise is normal and independent from sample to sample and
+// from axis to axis. The walk is a Wiener process (random walk of the bias), of which the standard deviation
+// after t seconds is walk sqrt(t); built from one step a second of simulation time and linear between, so it
+// is the same whatever the sensor's rate. A sample drops out with a probability of its own. Every draw is a
+// function of (seed, vehicle, sensor, sample, axis) alone (core/random.h): neither the order, nor the thread,
+// nor the process matters. Samples are counted from simulation time 0 on. Left out: correlated noise,
+// quantisation, outliers, scale errors (but the Doppler log's).
 #pragma once
 
 #include <array>
@@ -52,7 +53,8 @@ double noise_draw(const SensorIdentity& sensor, std::int64_t sample, int axis);
 // `part` 0 to 1023: beams and rays drop out one by one.
 bool drops_out(const SensorIdentity& sensor, std::int64_t sample, double probability, int part = 0);
 
-// The walk of one axis of a sensor, for a step of 1 a second. Keeps its sum; asking out of order costs time, nothing else.
+// The walk of one axis of a sensor, for a step of 1 a second. Keeps its sum; asking out of order costs time,
+// nothing else.
 class BiasWalk {
  public:
   BiasWalk(const SensorIdentity& sensor, int axis) : sensor_(sensor), axis_(axis) {}

@@ -1,7 +1,8 @@
 // What sensors a vehicle carries, and how good each is.
 //
-// Depth, altimeter, speed log, compass and gyro are always there, by default without errors and measured at each SENSORS;
-// the others are there when their period is above 0. Angles in radians, places from CO in the body frame.
+// Depth, altimeter, speed log, compass and gyro are always there, by default without errors and measured at
+// each SENSORS; the others are there when their period is above 0. Angles in radians, places from CO in the
+// body frame.
 #pragma once
 
 #include "vehicle_sim/sensor_errors.h"
@@ -16,8 +17,8 @@ struct BasicSensor {
   bool operator==(const BasicSensor&) const = default;
 };
 
-// Four beams, each leaning out of the instrument's down axis by beam_angle, towards 45, 135, 225 and 315 degrees of the
-// instrument's forward axis, which is the vehicle's turned by mounting_yaw.
+// Four beams, each leaning out of the instrument's down axis by beam_angle, towards 45, 135, 225 and 315
+// degrees of the instrument's forward axis, which is the vehicle's turned by mounting_yaw.
 struct DvlSettings {
   SimDuration period = {};                     // 0: none
   double beam_angle_rad = 0.5235987755982988;  // above 0, below pi/2

@@ -1,8 +1,8 @@
 // All sensors of all vehicles: which measure when, what they ask of the seabed, and what they say once that is known.
 //
-// Each sensor measures at multiples of its period since time 0. take() notes what holds at the next of these instants and
-// lists the beams to be asked for; finish() makes readings of what came back. What was noted is not touched by anything that
-// happens between the two. Threads: one at a time.
+// Each sensor measures at multiples of its period since time 0. take() notes what holds at the next of these
+// instants and lists the beams to be asked for; finish() makes readings of what came back. What was noted is
+// not touched by anything that happens between the two. Threads: one at a time.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
-// What a vehicle measures of itself: the readings of its sensors, without errors (measure) and with them (SensorSuite).
+// What a vehicle measures of itself: the readings of its sensors, without errors (measure) and with them
+// (SensorSuite).
 //
-// The errors are those of sensor_errors.h. Left out: the places of depth sensor, compass and altimeter on the hull (all
-// measure at CO), the altimeter's beam width.
+// The errors are those of sensor_errors.h. Left out: the places of depth sensor, compass and altimeter on the
+// hull (all measure at CO), the altimeter's beam width.
 #pragma once
 
 #include <array>
@@ -40,8 +41,8 @@ struct SensorReading {
   bool on_seabed = false;    // the hull touches the ground
 };
 
-// Everything but altitude, safe state and contact, which are not the vehicle's own to know. `water` as the vehicle has
-// it; its sea surface finite.
+// Everything but altitude, safe state and contact, which are not the vehicle's own to know. `water` as the
+// vehicle has it; its sea surface finite.
 SensorReading measure(const Model& model, const VehicleState& state, const Water& water);
 
 // The same for a node that is moored: a pose that never changes in a current, without actuators.
@@ -98,8 +99,8 @@ struct SoundDirection {
   double elevation_rad = 0;  // above the plane of forward and starboard
 };
 
-// `azimuth_rad` from north by east, `elevation_rad` above the horizontal; `orientation` body to world. `draw` names the
-// measurement: noise is a function of it.
+// `azimuth_rad` from north by east, `elevation_rad` above the horizontal; `orientation` body to world. `draw`
+// names the measurement: noise is a function of it.
 SoundDirection read_usbl(const UsblSettings& usbl, const SensorIdentity& sensor, std::uint64_t draw,
                          double azimuth_rad, double elevation_rad, const Quaternion& orientation);
 

@@ -5,8 +5,8 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// Prestero 2001, after Hoerner 1965: of a low fin of the vehicle's planform; of a cylinder across the flow; of a slender
-// body on its diameter squared, which acts at 0.65 of the length from the leading end.
+// Prestero 2001, after Hoerner 1965: of a low fin of the vehicle's planform; of a cylinder across the flow;
+// of a slender body on its diameter squared, which acts at 0.65 of the length from the leading end.
 constexpr double kFinLiftSlope = 3.12;  // 1/rad
 constexpr double kSectionDrag = 1.1;
 constexpr double kBodyLiftOnDiameter = 1.2;  // 1/rad

@@ -1,10 +1,10 @@
 // A vehicle's hydrophone array: from what the channel server tells of arrivals, to what the vehicle measures.
 //
-// The direction of an arrival is in OUTCOME (rays give its elevation, the straight line its azimuth), which nobody on board
-// hears; the vehicle's own RECEIVE tells that the packet is for it, and how long it travelled where it can know. A bearing
-// is made when both have come and the attitude at the instant of the first bit is known: between two noted poses it is
-// interpolated along the shortest turn. Bearings leave in the order in which their second half came. What waits for longer
-// than kPatience is forgotten.
+// The direction of an arrival is in OUTCOME (rays give its elevation, the straight line its azimuth), which
+// nobody on board hears; the vehicle's own RECEIVE tells that the packet is for it, and how long it travelled
+// where it can know. A bearing is made when both have come and the attitude at the instant of the first bit
+// is known: between two noted poses it is interpolated along the shortest turn. Bearings leave in the order
+// in which their second half came. What waits for longer than kPatience is forgotten.
 #pragma once
 
 #include <cstdint>

@@ -53,7 +53,8 @@ struct Damping {
   Vec6 decay_s_per_m = Vec6::Zero();  // 0 or above; 0 leaves the term constant
 };
 
-// Lift and drag of the hull in its x-z plane, of the angle of attack alpha = atan2(w_r, u_r), as `remus100-pvs` has it:
+// Lift and drag of the hull in its x-z plane, of the angle of attack alpha = atan2(w_r, u_r), as
+// `remus100-pvs` has it:
 // C_L = lift_slope alpha, C_D = zero_lift_drag + C_L^2 / (pi oswald aspect_ratio). Jumps in reverse flow.
 struct LiftDrag {
   double reference_area_m2 = 0;   // 0 or above

@@ -122,7 +122,8 @@ std::optional<SensorSettings> sensors_of_model(ConfigVisitor& v) {
   return sensors;
 }
 
-// Where two say something of a key: the [[vehicle]] before the scenario's [sensors], and that before the model's file.
+// Where two say something of a key: the [[vehicle]] before the scenario's [sensors], and that before the
+// model's file.
 void visit_vehicle_sensors(ConfigVisitor& root, ConfigVisitor& v, VehicleSensors& vehicle,
                            const SensorSettings& common) {
   v.shared_with_others();

@@ -59,8 +59,8 @@ struct VehicleSimConfig {
   std::string model_folder = ".";  // where the paths of model files start; not in the file
 };
 
-// Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves], [sensors], [vehicle.sensors], [[tether]] and [[fault]]; also
-// reports each [[vehicle]] whose model is none.
+// Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves], [sensors], [vehicle.sensors],
+// [[tether]] and [[fault]]; also reports each [[vehicle]] whose model is none.
 void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
 
 // The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle starts
@@ -76,8 +76,8 @@ std::vector<SensorStation::Vehicle> stations_of(const bus::Scenario& scenario,
                                                 const std::vector<FleetMember>& members,
                                                 const VehicleSimConfig& config);
 
-// Faults of the scenario, each by the index of its member, and their ends. Throws InvalidArgument where one names no vehicle of
-// ours.
+// Faults of the scenario, each by the index of its member, and their ends. Throws InvalidArgument where one
+// names no vehicle of ours.
 std::vector<std::pair<std::size_t, Fault>> faults_of(const std::vector<FleetMember>& members,
                                                      const VehicleSimConfig& config);
 

@@ -1,10 +1,11 @@
 // Moves the vehicles of a scenario and speaks for them on the bus.
 //
-// Hears COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles with a USBL array
-// OUTCOME and RECEIVE.<vehicle>; publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS, SONAR.<vehicle> at multiples of their
-// periods since time 0, stamped with that instant, USBL.<vehicle> when a packet was received, and RAY_QUERY for what lies
-// below. A measurement waits for its echoes until the service answers or the node's patience (steady time) ends; then
-// they are unavailable. A node that is started into a running simulation puts its vehicles where they start, at that time.
+// Hears COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles
+// with a USBL array OUTCOME and RECEIVE.<vehicle>; publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS,
+// SONAR.<vehicle> at multiples of their periods since time 0, stamped with that instant, USBL.<vehicle> when
+// a packet was received, and RAY_QUERY for what lies below. A measurement waits for its echoes until the
+// service answers or the node's patience (steady time) ends; then they are unavailable. A node that is
+// started into a running simulation puts its vehicles where they start, at that time.
 #pragma once
 
 #include <map>

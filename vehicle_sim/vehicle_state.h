@@ -14,8 +14,8 @@
 namespace halocline::vehicle_sim {
 
 // Fins, propeller and thrusters, as commanded or as they are. Positive rudder turns to starboard (positive yaw rate),
-// positive stern planes push the bow down, a positive propeller drives ahead, a positive thruster pushes the hull along
-// its direction.
+// positive stern planes push the bow down, a positive propeller drives ahead, a positive thruster pushes the
+// hull along its direction.
 struct ActuatorValues {
   double rudder_rad = 0;
   double stern_planes_rad = 0;

@@ -1,28 +1,30 @@
-// Vehicles as rigid bodies in an ODE world, free in the water and in contact with the seabed, with each other and with
-// tethers.
+// Vehicles as rigid bodies in an ODE world, free in the water and in contact with the seabed, with each other
+// and with tethers.
 //
 // Formulation: each step solves our own equations of motion (equations_of_motion.h) by Runge-Kutta; the force
 // that takes the ODE body to that velocity, M_ode (v_rk4 - v) / h, is applied at its centre of gravity
 // together with the contacts, and ODE steps (dWorldStep, which is exact and draws no random numbers). A free
-// vehicle takes the Runge-Kutta state whole, so free flight does not depend on ODE, which sees only those in contact. In contact with the ground it takes
-// ODE's velocity, and its pose from the old pose and that velocity, x + h v: then a vehicle that rests, rests (with
-// x_rk4 + h (v - v_rk4) friction let it creep uphill by half a step's acceleration). M_ode is the dry mass
-// plus the heave added mass, the inertia likewise. Contacts are looked for at the pose the free velocity
-// leads to, and limit the velocity so that none is in the ground after the step: no bounce, Coulomb friction
-// (a pyramid, up to 1.4 times stronger along its edges; along the hull, where the true mass is less than
-// M_ode, it holds half as much). Accuracy: a resting vehicle is held by its weight less its buoyancy to 1e-3;
-// it stays less than 1 cm in even ground at steps to 20 ms.
+// vehicle takes the Runge-Kutta state whole, so free flight does not depend on ODE, which sees only those in
+// contact. In contact with the ground it takes ODE's velocity, and its pose from the old pose and that
+// velocity, x + h v: then a vehicle that rests, rests (with x_rk4 + h (v - v_rk4) friction let it creep
+// uphill by half a step's acceleration). M_ode is the dry mass plus the heave added mass, the inertia
+// likewise. Contacts are looked for at the pose the free velocity leads to, and limit the velocity so that
+// none is in the ground after the step: no bounce, Coulomb friction (a pyramid, up to 1.4 times stronger
+// along its edges; along the hull, where the true mass is less than M_ode, it holds half as much). Accuracy:
+// a resting vehicle is held by its weight less its buoyancy to 1e-3; it stays less than 1 cm in even ground
+// at steps to 20 ms.
 //
-// Two vehicles: contacts likewise (vehicle_contact.h), without friction or bounce. There M_ode is scaled so that ODE's
-// body gives way at the point of contact as the vehicle with all its added mass does; ODE then finds the impulse, and
-// each vehicle takes it by its own equations (body_motion.h), so that the momentum of vehicles and water is conserved.
-// With more contacts than one on a vehicle the scale is that of the closest, and the others close or open in the next
-// steps. A tether is the same contact with the distance turned round: it holds its two ends within its length, pulls
-// and never pushes, weighs nothing, has no drag and does not stretch.
+// Two vehicles: contacts likewise (vehicle_contact.h), without friction or bounce. There M_ode is scaled so
+// that ODE's body gives way at the point of contact as the vehicle with all its added mass does; ODE then
+// finds the impulse, and each vehicle takes it by its own equations (body_motion.h), so that the momentum of
+// vehicles and water is conserved. With more contacts than one on a vehicle the scale is that of the closest,
+// and the others close or open in the next steps. A tether is the same contact with the distance turned
+// round: it holds its two ends within its length, pulls and never pushes, weighs nothing, has no drag and
+// does not stretch.
 //
 // Left out: soft sediment, the changed added mass near the ground and near others. Coordinates are local to the
-// scenario: ODE's steps lose 1e-5 m far from the origin (1e6 m). Threads: one world in one thread at a time; any number
-// of worlds in as many threads, with equal results.
+// scenario: ODE's steps lose 1e-5 m far from the origin (1e6 m). Threads: one world in one thread at a time;
+// any number of worlds in as many threads, with equal results.
 #pragma once
 
 #include <cstddef>
@@ -76,7 +78,8 @@ class VehicleWorld {
   void set_command(std::size_t index, const ActuatorValues& command);
   void set_water(std::size_t index, const Water& water);
 
-  // Another model in the place of a vehicle's, from the next step on: a leak makes it heavier. The hull must be the same.
+  // Another model in the place of a vehicle's, from the next step on: a leak makes it heavier. The hull must
+  // be the same.
   void set_model(std::size_t index, std::shared_ptr<const Model> model);
 
   // Advances all vehicles by `step_s`, above 0 and at most kLongestStep_s.

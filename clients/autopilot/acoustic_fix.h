@@ -1,10 +1,11 @@
 // A place from where a beacon's sound came from and how long it was on its way.
 //
-// Model: the beacon's place is known; the slant range is travel time times a mean sound speed; the horizontal range follows from
-// it and the two depths; the direction, measured by an array about the vehicle's own axes, is turned into the world by the
-// vehicle's own attitude, and its horizontal part is where the beacon lies. The measured elevation enters through that turn
-// alone, so a bent ray hurts little. Deviation: of the range, and of angle and heading together times the horizontal range.
-// Useless for a beacon right above or below. Left out: the turn between departure and arrival, the way of the sound's bending.
+// Model: the beacon's place is known; the slant range is travel time times a mean sound speed; the horizontal
+// range follows from it and the two depths; the direction, measured by an array about the vehicle's own axes,
+// is turned into the world by the vehicle's own attitude, and its horizontal part is where the beacon lies.
+// The measured elevation enters through that turn alone, so a bent ray hurts little. Deviation: of the range,
+// and of angle and heading together times the horizontal range. Useless for a beacon right above or below.
+// Left out: the turn between departure and arrival, the way of the sound's bending.
 #pragma once
 
 #include <optional>

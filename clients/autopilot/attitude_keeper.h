@@ -1,11 +1,12 @@
 // Heading, pitch and roll by the compass, carried on by the gyro while the compass tells nothing.
 //
-// Model: the compass's reading is taken as it is; until the next one the attitude turns with the angular rates measured, as
-// q' = 1/2 q (0, omega) with the mean of two samples (error of the third order of the turn between them). A constant bias b
-// of the gyro turns the heading away by b t on a level course; its pitch and roll drift likewise. The heading's uncertainty,
-// beyond the compass's own, grows by `gyro_bias_radps` times the time since the compass, up to that of a heading of which nothing
-// is known, pi / sqrt(3). Rates older than kRatesHold_s count as lost: the attitude stays, and the heading is held to be unknown.
-// Left out: estimating the bias while the compass is there, the pull of gravity on pitch and roll.
+// Model: the compass's reading is taken as it is; until the next one the attitude turns with the angular
+// rates measured, as q' = 1/2 q (0, omega) with the mean of two samples (error of the third order of the turn
+// between them). A constant bias b of the gyro turns the heading away by b t on a level course; its pitch and
+// roll drift likewise. The heading's uncertainty, beyond the compass's own, grows by `gyro_bias_radps` times
+// the time since the compass, up to that of a heading of which nothing is known, pi / sqrt(3). Rates older
+// than kRatesHold_s count as lost: the attitude stays, and the heading is held to be unknown. Left out:
+// estimating the bias while the compass is there, the pull of gravity on pitch and roll.
 #pragma once
 
 #include <optional>

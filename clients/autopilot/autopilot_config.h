@@ -58,7 +58,8 @@ struct AutopilotConfig {
 
 void visit(bus::ConfigVisitor& v, AutopilotConfig& config);
 
-// The places of a pilot's beacons by id: where they start. Throws InvalidArgument for a name that is no other vehicle.
+// The places of a pilot's beacons by id: where they start. Throws InvalidArgument for a name that is no other
+// vehicle.
 std::map<std::int32_t, Vec3> beacons_of(const AutopilotConfig& config, const PilotConfig& pilot);
 
 // The vehicle of this name if it broadcasts its place; else null.

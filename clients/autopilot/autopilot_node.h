@@ -1,10 +1,11 @@
-// Hears STATE and SENSORS of the vehicles that have a mission, and publishes their COMMAND on the time grid; leaders of a
-// formation also SEND, followers hear RECEIVE.
+// Hears STATE and SENSORS of the vehicles that have a mission, and publishes their COMMAND on the time grid;
+// leaders of a formation also SEND, followers hear RECEIVE.
 //
-// Position and attitude come from STATE (the vehicle knows where it is), speed through the water and altitude from SENSORS
-// where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h), from DVL, GPS and USBL where
-// the vehicle has them, and from ESTIMATE where a localiser publishes it; STATE is not heard, and z is the depth below the sea surface. A vehicle whose state (or sensors)
-// is older than the time-out gets no commands, and so falls into its safe state.
+// Position and attitude come from STATE (the vehicle knows where it is), speed through the water and altitude
+// from SENSORS where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h),
+// from DVL, GPS and USBL where the vehicle has them, and from ESTIMATE where a localiser publishes it; STATE
+// is not heard, and z is the depth below the sea surface. A vehicle whose state (or sensors) is older than
+// the time-out gets no commands, and so falls into its safe state.
 #pragma once
 
 #include <map>
@@ -24,8 +25,8 @@ namespace halocline::clients {
 
 class AutopilotNode : public bus::Node {
  public:
-  // Pilots the vehicles of `config` that have waypoints or behaviours. Throws InvalidArgument when config.only_vehicle is
-  // none of them.
+  // Pilots the vehicles of `config` that have waypoints or behaviours. Throws InvalidArgument when
+  // config.only_vehicle is none of them.
   AutopilotNode(lcm::LCM& lcm, bus::NodeIdentity identity, const AutopilotConfig& config);
 
  protected:

@@ -6,8 +6,9 @@
 //                                                           depth: PI on the outside, PD of pitch within
 //   rpm     = feed_forward u_d + p_speed (u_d - u) + integral               speed: PI with feed-forward
 // Signs as in vehicle_command_t: positive rudder turns to starboard, positive stern planes push the nose
-// down. An integral stands still while its output is at a limit. The default gains suit `torpedo` and `remus100-pvs` at 0.8
-// to 2.5 m/s: heading and pitch settle within about 5 s, the depth loop has 0.1 rad/s at 2 m/s. Left out:
+// down. An integral stands still while its output is at a limit. The default gains suit `torpedo` and
+// `remus100-pvs` at 0.8 to 2.5 m/s: heading and pitch settle within about 5 s, the depth loop has 0.1 rad/s
+// at 2 m/s. Left out:
 // fins' loss of effect at low speed (gains are not scheduled), roll (the hull rights itself).
 #pragma once
 

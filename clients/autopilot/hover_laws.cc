@@ -16,7 +16,8 @@ double rpm_for(const HoverGains& g, double thrust_n) {
   return std::copysign(rpm, thrust_n);
 }
 
-// The force wanted in the horizontal plane. The integral moves only near the point, and no further than the thrusters.
+// The force wanted in the horizontal plane. The integral moves only near the point, and no further than the
+// thrusters.
 Vec2 horizontal_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
                       HoverIntegrals& integrals) {
   const Vec2 away = (point.position_ned_m - m.position_ned_m).head<2>();

@@ -5,12 +5,12 @@
 // evenly between samples (trapezium). z is the measured depth. Uncertainty: a standard deviation of each
 // horizontal axis that grows with time, by `log_drift_mps` while the speed is that through the water (the
 // current that is not known) and by `ground_drift` times the way while it is that over ground (the Doppler
-// log's scale and the compass): both are lasting errors, so deviations add up, not variances. While the gyro carries the heading
-// on without a compass (attitude_keeper.h) it grows by that heading's deviation times the way as well, by the way at most. A fix moves
-// the position by P / (P + R) of the difference (Kalman's gain with one variance for both axes) and leaves
-// 1 / (1/P + 1/R). So in a current c the error grows as c t, and a good fix takes it away. A fix of up to kMemory s ago
-// is compared with the place reckoned then. Left out: the current is not estimated, nor the compass's error; sideslip
-// without a Doppler log.
+// log's scale and the compass): both are lasting errors, so deviations add up, not variances. While the gyro
+// carries the heading on without a compass (attitude_keeper.h) it grows by that heading's deviation times the
+// way as well, by the way at most. A fix moves the position by P / (P + R) of the difference (Kalman's gain
+// with one variance for both axes) and leaves 1 / (1/P + 1/R). So in a current c the error grows as c t, and
+// a good fix takes it away. A fix of up to kMemory s ago is compared with the place reckoned then. Left out:
+// the current is not estimated, nor the compass's error; sideslip without a Doppler log.
 #pragma once
 
 #include <deque>
@@ -53,8 +53,8 @@ class Navigator {
   // The place by another reckoning that holds all this one knows and more: it replaces this one's.
   void replace(double north_m, double east_m, double deviation_m);
 
-  // What was measured and reckoned at `time_s`, linear between samples; of the latest sample from that on. Empty before what is
-  // remembered.
+  // What was measured and reckoned at `time_s`, linear between samples; of the latest sample from that on.
+  // Empty before what is remembered.
   struct Past {
     double time_s = 0;
     EulerAngles attitude;

@@ -52,8 +52,9 @@ struct Behaviour {
   Formation formation{};
 };
 
-// The points of a survey: each track from `turn_m` before the box to `turn_m` behind it, to and fro, the first along the
-// heading at the port side. The tracks are as many as fit, their rest is left evenly at both sides. z is the depth.
+// The points of a survey: each track from `turn_m` before the box to `turn_m` behind it, to and fro, the
+// first along the heading at the port side. The tracks are as many as fit, their rest is left evenly at both
+// sides. z is the depth.
 std::vector<Vec3> survey_points(const Behaviour& survey);
 
 // Behaviours with what is computed of them once.

@@ -63,8 +63,8 @@ struct SeabedRules {
   double ahead_m = 4;         // how far ahead the ground is looked at, 0 or above
 };
 
-// The set points with the ground taken into account: height instead of depth where one is asked for, and the least height
-// always. `z_ned_m`: of the vehicle.
+// The set points with the ground taken into account: height instead of depth where one is asked for, and the
+// least height always. `z_ned_m`: of the vehicle.
 SetPoints above_ground(const SeabedRules& rules, const SeabedAhead& seabed, double time_s, double z_ned_m,
                        SetPoints points);
 

@@ -21,8 +21,8 @@ inline constexpr int kCalcDone = 0;
 inline constexpr int kCalcBadTable = 1;    // the table: missing columns, bad cells
 inline constexpr int kCalcBadRequest = 2;  // the options: no such quantity, model or profile
 
-// Computes options.quantity for every row of `in`. With options.list describes the quantities instead (all, or the one
-// named) and does not read. Messages go to `err`, one a line. Returns one of the codes above.
+// Computes options.quantity for every row of `in`. With options.list describes the quantities instead (all,
+// or the one named) and does not read. Messages go to `err`, one a line. Returns one of the codes above.
 int run_calc(const CalcOptions& options, std::istream& in, std::ostream& out, std::ostream& err);
 
 // Names of all quantities, and the models of one (empty when there is no such quantity): for help and completion.

@@ -1,13 +1,13 @@
 // Two logs of one mission side by side: which packets changed their fate, and the numbers that changed it.
 //
-// A packet at a receiver is found again in the other log by its name (sender, kind, session, sequence), destination and
-// receiver; where a name was used more than once, by the instant of departure, and by turn where that moved. Where
-// one log has no outcome for it, the receipt of its transmission may say why (refused), or the log ended before, or
-// the log holds no outcomes at all (a mission recorded at sea).
+// A packet at a receiver is found again in the other log by its name (sender, kind, session, sequence),
+// destination and receiver; where a name was used more than once, by the instant of departure, and by turn
+// where that moved. Where one log has no outcome for it, the receipt of its transmission may say why
+// (refused), or the log ended before, or the log holds no outcomes at all (a mission recorded at sea).
 //
-// `moved` names the inputs of the decision that differ: level, noise, interference, paths, propagation, range, duration,
-// cutoff, doppler, draws, colliders. Levels by 0.05 dB, ranges by 0.1 m, Doppler factors by 1e-6, durations by 1 us,
-// others at all; a difference below that is rounding's.
+// `moved` names the inputs of the decision that differ: level, noise, interference, paths, propagation,
+// range, duration, cutoff, doppler, draws, colliders. Levels by 0.05 dB, ranges by 0.1 m, Doppler factors by
+// 1e-6, durations by 1 us, others at all; a difference below that is rounding's.
 #pragma once
 
 #include <cstdint>

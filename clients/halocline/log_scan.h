@@ -1,10 +1,12 @@
 // Finds the events of an LCM log in its bytes, sound or damaged.
 //
-// Format (LCM's event log): per event the word 0xEDA1DA01, then number and stamp (64 bit), length of the channel and of
-// the data (32 bit), all big-endian, then channel and data. There is no checksum: bytes that changed within the data of
-// an event do not show here. What shows is where events begin and how long they say they are. Rules:
+// Format (LCM's event log): per event the word 0xEDA1DA01, then number and stamp (64 bit), length of the
+// channel and of the data (32 bit), all big-endian, then channel and data. There is no checksum: bytes that
+// changed within the data of an event do not show here. What shows is where events begin and how long they
+// say they are. Rules:
 //
-// - A header is plausible when the channel has 1 to 63 bytes, no control characters, and the event ends within the log.
+// - A header is plausible when the channel has 1 to 63 bytes, no control characters, and the event ends
+// within the log.
 // - An event that is followed by another word, or by the end of the log, is sound; but when other events with the
 //   numbers that follow fill its data exactly to the end, its length is corrupt and it is damage.
 // - One that is followed by anything else is sound, too, unless a plausible header begins within its data: then its
@@ -12,8 +14,9 @@
 // - What lies between sound events is damage. At the end of a log it is an event that was cut short when it begins
 //   with (the beginning of) a word and no whole event follows.
 //
-// So every event that does not overlap damaged bytes is found. Left out: a message that itself carries whole LCM events
-// is taken for damage when the event after it is damaged, or when it carries the numbers that follow its own.
+// So every event that does not overlap damaged bytes is found. Left out: a message that itself carries whole
+// LCM events is taken for damage when the event after it is damaged, or when it carries the numbers that
+// follow its own.
 #pragma once
 
 #include <cstdint>

@@ -1,14 +1,17 @@
-// What of a recorded log is played again: states, transmissions, modems and changes of the environment, each at its time.
+// What of a recorded log is played again: states, transmissions, modems and changes of the environment, each
+// at its time.
 //
 // What the log holds of answers (LINKS, RECEIPT, OUTCOME, ...) is not played. Times, by who recorded:
 //
 // - A lockstep run stamps its log with simulation time: messages are played at their stamps, in their order. A stamp
 //   that breaks their order was damaged and counts as the one before it.
-// - Any other log (lcm-logger's, one recorded at sea) goes by the messages' own utime: STATE, MODEM and SET_ENVIRONMENT
+// - Any other log (lcm-logger's, one recorded at sea) goes by the messages' own utime: STATE, MODEM and
+// SET_ENVIRONMENT
 //   when they hold, SEND when it starts. A utime more than 30 days from the middle of all states' comes from another clock
 //   (or from none: 0): such a message is played at the latest sound utime that the log had reached. When no state
 //   tells a time, all go by the stamps.
-// - Such a log whose first message is later than a day (Unix time, a machine's uptime) is moved: its first whole second
+// - Such a log whose first message is later than a day (Unix time, a machine's uptime) is moved: its first
+// whole second
 //   becomes 0, `zero` tells what it was, and every utime of what is played moves with it.
 //
 // What a foreign vehicle leaves out is filled in: a vehicle_id or source_id of 0 is the scenario's for that name,

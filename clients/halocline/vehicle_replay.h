@@ -1,10 +1,10 @@
 // A vehicle run along a table of commands and written as a table of states: `halocline vehicle replay`.
 //
 // Columns written: t (s), x_n y_e z_d (m, NED of the body's origin), phi theta psi (rad), u v w (m/s) and
-// p q r (rad/s) (body, over ground), cmd_rudder cmd_stern cmd_rpm and act_rudder act_stern act_rpm (rad, rpm), then for
-// each thruster of the model cmd_thruster_<i>_rpm and act_thruster_<i>_rpm. Twelve digits. A command stands in the
-// row of the instant from which it holds, as given. psi counts whole turns on unless it is wrapped to -pi to pi. The
-// water has no surface and no bottom.
+// p q r (rad/s) (body, over ground), cmd_rudder cmd_stern cmd_rpm and act_rudder act_stern act_rpm (rad,
+// rpm), then for each thruster of the model cmd_thruster_<i>_rpm and act_thruster_<i>_rpm. Twelve digits. A
+// command stands in the row of the instant from which it holds, as given. psi counts whole turns on unless it
+// is wrapped to -pi to pi. The water has no surface and no bottom.
 #pragma once
 
 #include <iosfwd>

@@ -5,9 +5,9 @@
 // the travel times of the answers; with `use_stamps` also from stamped packets of beacons. A travel time becomes
 // a length by the mean sound speed between the two depths, of the profile that ENVIRONMENT tells: a straight way;
 // where the water bends sound, the range is off: by Fermat's principle
-// the bent way is quicker, by (g r)^2 / (24 c^2) of the time for a gradient g (5 cm in 1 km at 0.05 1/s, 4 m at 0.45 1/s).
-// Before the first ENVIRONMENT (the channel server repeats it once a minute) no range is used. STATE serves for one
-// thing: to say by how much the estimate errs.
+// the bent way is quicker, by (g r)^2 / (24 c^2) of the time for a gradient g (5 cm in 1 km at 0.05 1/s, 4 m
+// at 0.45 1/s). Before the first ENVIRONMENT (the channel server repeats it once a minute) no range is used.
+// STATE serves for one thing: to say by how much the estimate errs.
 //
 // Estimates are published on the time grid, and know what was stamped 0.1 s before or earlier: longer than a message
 // takes, so that a run in many processes gives what one in lockstep does. An answer is counted from the

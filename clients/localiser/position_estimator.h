@@ -1,9 +1,9 @@
 // Where a vehicle is, from ranges to beacons at known places and from its own speed, heading and depth.
 //
 // Model: an extended Kalman filter (Bar-Shalom, Li and Kirubarajan 2001, ch. 10; updates iterated as in 10.5.2)
-// over horizontal position and current, [north, east, current north, current east]. Between ranges the vehicle goes by
-// dead reckoning plus the current; both wander as random walks. Depth below the sea surface is measured and no
-// part of the state. A
+// over horizontal position and current, [north, east, current north, current east]. Between ranges the
+// vehicle goes by dead reckoning plus the current; both wander as random walks. Depth below the sea surface
+// is measured and no part of the state. A
 // range is the length of one way (a stamped packet) or the sum of two (a ping and its answer), each from where the
 // vehicle was at that way's own instant, which may lie seconds back:
 //   sum over ways of |p(t) - beacon|,  p(t) = p(now) - (gone through the water since t) - current (now - t)

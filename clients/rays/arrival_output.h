@@ -39,9 +39,9 @@ double path_level_db(const LinkArrivals& found, std::size_t index);
 // Why there is no path.
 std::string why_silent(const LinkArrivals& found);
 
-// CSV: delay_s, real, imaginary and magnitude_db of each sample of acoustics::impulse_response about the carrier, from
-// the sample before the first path to the one after the last; pressure re that at 1 m, beams in it. In a shadow no
-// row.
+// CSV: delay_s, real, imaginary and magnitude_db of each sample of acoustics::impulse_response about the
+// carrier, from the sample before the first path to the one after the last; pressure re that at 1 m, beams in
+// it. In a shadow no row.
 void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz);
 
 void print_arrivals(std::ostream& out, const std::vector<LinkArrivals>& links, OutputFormat format);

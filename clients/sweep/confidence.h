@@ -1,10 +1,10 @@
 // Confidence intervals of shares and means.
 //
-// Shares: Wilson's score interval (Wilson 1927, "Probable inference, the law of succession, and statistical inference"),
-// for k of n independent trials; it stays within 0 to 1 and holds for few trials (Newcombe 1998, method 3).
-// Means: Student's t (1908), for independent values that are normal, or many. Quantiles by bisection on the
-// distribution functions (erfc; the incomplete beta function by its continued fraction, Abramowitz and Stegun 26.5.8),
-// to 1e-10.
+// Shares: Wilson's score interval (Wilson 1927, "Probable inference, the law of succession, and statistical
+// inference"), for k of n independent trials; it stays within 0 to 1 and holds for few trials (Newcombe 1998,
+// method 3). Means: Student's t (1908), for independent values that are normal, or many. Quantiles by
+// bisection on the distribution functions (erfc; the incomplete beta function by its continued fraction,
+// Abramowitz and Stegun 26.5.8), to 1e-10.
 #pragma once
 
 #include <cstdint>

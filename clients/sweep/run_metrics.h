@@ -1,9 +1,10 @@
 // What a sweep keeps of one run.
 //
-// A packet counts at a receiver that it was addressed to (or sent to all); those merely overheard count among the fates
-// only. Delays are travel times of the first significant path of what was delivered; latency goes from the first bit that
-// left to the last that arrived. Throughput counts the payloads' bits that reached who they were for. Percentiles are the
-// least value that at least that share of the sample does not exceed (nearest rank).
+// A packet counts at a receiver that it was addressed to (or sent to all); those merely overheard count among
+// the fates only. Delays are travel times of the first significant path of what was delivered; latency goes
+// from the first bit that left to the last that arrived. Throughput counts the payloads' bits that reached
+// who they were for. Percentiles are the least value that at least that share of the sample does not exceed
+// (nearest rank).
 #pragma once
 
 #include <array>

@@ -21,8 +21,8 @@ struct ProgramEnd {
 // `stopped` is true.
 ProgramEnd run_program(const ProgramRun& run, const std::function<bool()>& should_stop);
 
-// Calls work(0) to work(count - 1), `jobs` at a time, each on one of `jobs` threads; none is begun once `should_stop` says
-// so. The first exception ends the rest in the same way, and is thrown.
+// Calls work(0) to work(count - 1), `jobs` at a time, each on one of `jobs` threads; none is begun once
+// `should_stop` says so. The first exception ends the rest in the same way, and is thrown.
 void for_each_parallel(std::size_t count, std::size_t jobs, const std::function<void(std::size_t)>& work,
                        const std::function<bool()>& should_stop);
 

@@ -1,8 +1,9 @@
 // The results of a sweep, point by point, with confidence intervals.
 //
-// Shares of packets (delivery, fates) pool the packets of all seeds and carry Wilson's interval, which takes packets as
-// independent; packets of one run share water and paths, so it is too narrow where runs differ much. The interval of
-// the mean over runs (Student's t, runs independent by their seeds) does not depend on that: compare the two.
+// Shares of packets (delivery, fates) pool the packets of all seeds and carry Wilson's interval, which takes
+// packets as independent; packets of one run share water and paths, so it is too narrow where runs differ
+// much. The interval of the mean over runs (Student's t, runs independent by their seeds) does not depend on
+// that: compare the two.
 #pragma once
 
 #include <map>
@@ -50,8 +51,8 @@ SweepResults summed_up(const SweepPlan& plan, std::vector<std::optional<RunMetri
 // written whole, then moved into place. Throws std::runtime_error when one cannot be.
 void write_csvs(const SweepResults& results, const std::string& folder);
 
-// The same numbers as netCDF-4, by the CF conventions: a dimension an axis, then seed, fate, pair and bound (low, high).
-// A point without results holds NaN. Throws std::runtime_error.
+// The same numbers as netCDF-4, by the CF conventions: a dimension an axis, then seed, fate, pair and bound
+// (low, high). A point without results holds NaN. Throws std::runtime_error.
 void write_netcdf(const SweepResults& results, const std::string& path);
 
 // For a person: a line a point.

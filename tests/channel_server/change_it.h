@@ -1,5 +1,5 @@
-// A weak link and a packet over it in a small world, all numbers that the channel server tells of them, and claims about
-// how each moves: for tests that turn one input alone.
+// A weak link and a packet over it in a small world, all numbers that the channel server tells of them, and
+// claims about how each moves: for tests that turn one input alone.
 //
 // The link is 800 m long, at a depth of 50 m over 200 m of water, and so weak that the packet is noticed and right
 // with probabilities well inside 0..1: they show what moves them.
@@ -19,7 +19,8 @@ namespace halocline::channel_server::testing {
 inline constexpr double kAt = 3;  // s: table and packet
 inline constexpr double kRangeM = 800;
 inline constexpr std::int32_t kBytes = 10;
-// Of packets with this number the draws are 0.41 (noticed) and 0.56 (right), so that fates move with the probabilities.
+// Of packets with this number the draws are 0.41 (noticed) and 0.56 (right), so that fates move with the
+// probabilities.
 inline constexpr std::int64_t kSequence = 5;
 
 // Before the first late echo comes a packet along rays has the noise alone against it.

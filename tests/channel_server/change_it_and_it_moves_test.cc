@@ -1,5 +1,6 @@
-// Change it and it moves: each physical input turned alone moves the numbers of a link and of a packet that it should,
-// in the right direction, by the right amount where there is a closed form, and leaves every other to the last bit.
+// Change it and it moves: each physical input turned alone moves the numbers of a link and of a packet that
+// it should, in the right direction, by the right amount where there is a closed form, and leaves every other
+// to the last bit.
 #include <cmath>
 #include <functional>
 

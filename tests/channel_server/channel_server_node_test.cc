@@ -22,7 +22,8 @@ using testing::NodeBench;
 class ChannelServerNodeTest : public ::testing::Test {
  protected:
   void SetUp() override { bus::set_log_level(bus::LogLevel::kSilent); }
-  // Two vehicles at rest 3000 m apart, states every half second over [begin, end] (no more than 10 s ahead are taken).
+  // Two vehicles at rest 3000 m apart, states every half second over [begin, end] (no more than 10 s ahead
+  // are taken).
   void two_at_rest(NodeBench& bench, double begin_s = 0, double end_s = 10) {
     for (double t = begin_s; t <= end_s; t += 0.5) {
       bench.state(1, t, {0, 0, 50});

@@ -184,8 +184,8 @@ TEST_F(RayPropagationTest, ARidgeUpToTheSurfaceBlocks) {
   EXPECT_EQ(reception.budget.received_level, kSilence);
 }
 
-// Speed falls with depth by 1 /s: rays bend down with a radius of 1500 m, so none that misses the absorbing bottom gets
-// to a shallow receiver some kilometres away.
+// Speed falls with depth by 1 /s: rays bend down with a radius of 1500 m, so none that misses the absorbing
+// bottom gets to a shallow receiver some kilometres away.
 TEST_F(RayPropagationTest, WhereNoRayGetsIsAShadowWithTheStatedLevel) {
   acoustics::Environment water;
   water.profile = acoustics::SoundSpeedProfile::from_speeds({{0, 1540}, {400, 1460}}, {10, 35});

@@ -125,8 +125,8 @@ TEST_F(RayReuseTest, BothWaysHaveTheSamePathsToTheLastBit) {
   EXPECT_EQ(propagation.searches(), 1);
 }
 
-// 60 random links at 200 to 1500 m: for nine of ten the first path's delay is within 10 us and the level within 0.1 dB of
-// those of a search of their own (a path that begins or ends within a cell makes more).
+// 60 random links at 200 to 1500 m: for nine of ten the first path's delay is within 10 us and the level
+// within 0.1 dB of those of a search of their own (a path that begins or ends within a cell makes more).
 TEST_F(RayReuseTest, DelayAndLevelAreCloseToThoseOfASearchOfItsOwn) {
   std::vector<double> delays_s, levels_db;
   for (std::uint32_t i = 0; i < 60; ++i) {

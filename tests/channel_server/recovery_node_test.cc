@@ -1,5 +1,5 @@
-// A channel server that dies while packets are under way, and returns with its journal, has said in both lives together
-// what one that lived on says: nothing twice, nothing missing, the same numbers.
+// A channel server that dies while packets are under way, and returns with its journal, has said in both
+// lives together what one that lived on says: nothing twice, nothing missing, the same numbers.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -38,7 +38,8 @@ struct Life {
         bottom(bench.lcm(), kBottomM) {
     if (!journal.empty()) bench.node().remember_in(journal);
   }
-  // What four vehicles, two to six kilometres apart, say in a tenth of a second: two send at times, of which one pings.
+  // What four vehicles, two to six kilometres apart, say in a tenth of a second: two send at times, of which
+  // one pings.
   void say(int tenth) {
     const double t = tenth / 10.0;
     for (VehicleId id = 1; id <= kVehicles; ++id) {
@@ -81,7 +82,8 @@ class RecoveringServer : public ::testing::TestWithParam<bool> {
     for (const char* part : {"", ".1"}) std::filesystem::remove(journal_ + part);
   }
 
-  // Dies at each of `deaths` (tenths of a second), and returns `away` tenths later; what was said meanwhile is repaired.
+  // Dies at each of `deaths` (tenths of a second), and returns `away` tenths later; what was said meanwhile
+  // is repaired.
   Told with_deaths(const std::vector<int>& deaths, int away) {
     forget();
     Told told;

@@ -1,4 +1,5 @@
-// Several media of one water, each following packets only to the receivers it serves: together they say what one says.
+// Several media of one water, each following packets only to the receivers it serves: together they say what
+// one says.
 #include "channel_server/shard.h"
 
 #include <algorithm>

@@ -12,8 +12,8 @@ namespace halocline::conductor::testing {
 
 class ChattyNode : public bus::Node {
  public:
-  // Hears what others say (SAY.<other>, stored), and what is asked of it (ASK.<name>, answered at the same instant). Now and
-  // then asks `neighbour`.
+  // Hears what others say (SAY.<other>, stored), and what is asked of it (ASK.<name>, answered at the same
+  // instant). Now and then asks `neighbour`.
   ChattyNode(lcm::LCM& lcm, const std::string& name, bus::Stage stage, SimDuration period,
              const std::vector<std::string>& others, std::string neighbour)
       : Node(lcm, {name, 1, stage}), period_(period), neighbour_(std::move(neighbour)) {

@@ -122,8 +122,8 @@ TEST_F(EmbeddedMissionsTest, SurveyKeepsItsHeightOverAFractalRidge) {
   EXPECT_FALSE(was_on_the_seabed(log));
 }
 
-// The bound that docs/autopilot.md states, on straight legs: a report is rounded to 0.1 m and 0.003 degrees, the rest is the
-// control's.
+// The bound that docs/autopilot.md states, on straight legs: a report is rounded to 0.1 m and 0.003 degrees,
+// the rest is the control's.
 TEST_F(EmbeddedMissionsTest, FollowersKeepTheirPlacesByWhatTheyHear) {
   const ScenarioConfig config = load("formation", {});
   const std::string log = run(config, "formation");

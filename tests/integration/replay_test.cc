@@ -1,5 +1,5 @@
-// A recorded mission through another sea: the same scenario repeats every number; each change moves what it must; a log
-// from sea, or a damaged one, is replayed as far as it can be read.
+// A recorded mission through another sea: the same scenario repeats every number; each change moves what it
+// must; a log from sea, or a damaged one, is replayed as far as it can be read.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -79,7 +79,8 @@ TEST_F(ReplayTest, WindMovesTheNoiseAndTheSurface) {
 }
 
 TEST_F(ReplayTest, AnotherProfileMovesTravelTimesByItsSpeedOfSound) {
-  // Fresh water of one temperature: 1447 m/s at 10 degrees (Del Grosso and Mader 1972), where the harbour has 1510 to 1520.
+  // Fresh water of one temperature: 1447 m/s at 10 degrees (Del Grosso and Mader 1972), where the harbour has
+  // 1510 to 1520.
   const Comparison comparison =
       replayed_with({"environment.water_rows=[[0.0, 10.0, 0.0], [20.0, 10.0, 0.0]]"});
   int compared_times = 0;

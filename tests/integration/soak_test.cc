@@ -1,5 +1,5 @@
-// Long missions need no more memory than short ones: hours of simulated time, as fast as they compute, with the bytes in
-// use compared between the first half and the second. Not a test of time.
+// Long missions need no more memory than short ones: hours of simulated time, as fast as they compute, with
+// the bytes in use compared between the first half and the second. Not a test of time.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -46,7 +46,8 @@ class SoakTest : public testing::EmbeddedTest {
   }
 };
 
-// What is kept of the latest thousand packets (modem clients) fills within the time to settle: everybody sends once a second.
+// What is kept of the latest thousand packets (modem clients) fills within the time to settle: everybody
+// sends once a second.
 std::vector<std::string> busy(int vehicles) {
   std::vector<std::string> overrides{"propagation.model=\"straight\""};
   for (int i = 0; i < vehicles; ++i)

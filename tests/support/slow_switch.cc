@@ -1,11 +1,12 @@
-// A network between hosts that is slow, uneven and loses: joins Ethernet devices of this network namespace as a switch
-// would that floods every frame to all others, each copy after a delay of its own.
+// A network between hosts that is slow, uneven and loses: joins Ethernet devices of this network namespace as
+// a switch would that floods every frame to all others, each copy after a delay of its own.
 //
 //   slow_switch SEED DELAY_MS JITTER_MS LOSS DEVICE DEVICE...
 //
-// A copy is lost with the probability LOSS; else it leaves DELAY_MS + u JITTER_MS after it came, u uniform in [-1, 1): a
-// later frame with a smaller delay overtakes. Draws come from one generator with the given seed, in the order in which
-// frames come. For kernels without netem; refuses the machine's own network namespace. Writes what it counted at SIGTERM.
+// A copy is lost with the probability LOSS; else it leaves DELAY_MS + u JITTER_MS after it came, u uniform in
+// [-1, 1): a later frame with a smaller delay overtakes. Draws come from one generator with the given seed,
+// in the order in which frames come. For kernels without netem; refuses the machine's own network namespace.
+// Writes what it counted at SIGTERM.
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -34,7 +35,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The flag in the first byte of a frame's head (virtio_net_hdr of linux/virtio_net.h, which is no C++) that may be sent.
+// The flag in the first byte of a frame's head (virtio_net_hdr of linux/virtio_net.h, which is no C++) that
+// may be sent.
 constexpr char kNeedsCheckSum = 1;
 
 volatile std::sig_atomic_t stop = 0;

@@ -86,8 +86,9 @@ TEST(Faults, AFullHullSinksAtTheRateThatCrossFlowLeaves) {
               std::sqrt(2 * pull / (kDensity * 1.1 * 0.4 * 1.5)), tolerance(1e-9));
 }
 
-// Weight and buoyancy are equal when the hull is full: then it stands still where the common centre of gravity is right below
-// the centre of buoyancy: tan(pitch) = -w x / (m z_g + w z), with the water w at (x, z).
+// Weight and buoyancy are equal when the hull is full: then it stands still where the common centre of
+// gravity is right below the centre of buoyancy: tan(pitch) = -w x / (m z_g + w z), with the water w at (x,
+// z).
 TEST(Faults, WaterInTheBowTrimsAHullUntilTheCommonCentreOfGravityIsBelowThatOfBuoyancy) {
   for (const double ahead : {0.3, -0.5}) {
     ModelParameters p = plain_body();

@@ -48,7 +48,8 @@ double mean_square(std::uint64_t seed, int step_ms, int seconds) {
 }
 
 // Samples of one path are correlated: over a time S the mean square's relative standard error is sqrt(2 T / S) (its
-// correlation is exp(-2 t / T)): 4.5 % for S = 2000 s. Bounds at 4 standard errors: a true variance fails once in 16 000.
+// correlation is exp(-2 t / T)): 4.5 % for S = 2000 s. Bounds at 4 standard errors: a true variance fails
+// once in 16 000.
 TEST(GaussMarkov, VarianceIsTheSameAtOneTenAndAHundredMilliseconds) {
   constexpr int kSeconds = 2000;
   const double bound = 4 * std::sqrt(2 * kTime_s / kSeconds);
@@ -78,7 +79,8 @@ TEST(GaussMarkov, CorrelationFallsExponentially) {
         << lags_ms[k] << " ms";
 }
 
-// The step of a millisecond has variance 2 sigma^2 (1 - exp(-h / T)); 20 000 of them tell it to 4 sqrt(2 / 20 000) = 4 %.
+// The step of a millisecond has variance 2 sigma^2 (1 - exp(-h / T)); 20 000 of them tell it to 4 sqrt(2 / 20
+// 000) = 4 %.
 TEST(GaussMarkov, IncrementsHaveTheRightSizeAtTheFinestStep) {
   const GaussMarkovProcess p = process(77);
   GaussMarkovProcess::Cursor cursor;

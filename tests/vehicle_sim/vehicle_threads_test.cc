@@ -29,7 +29,8 @@ struct Outcome {
   int touched = 0, grounded = 0, pulled = 0;
 };
 
-// 60 groups of three heavy vehicles that run across each other over a ridge, two of each tied: all kinds of contact at once.
+// 60 groups of three heavy vehicles that run across each other over a ridge, two of each tied: all kinds of
+// contact at once.
 Outcome crowd(const ForEach& for_each) {
   VehicleWorld world(testing::ridge(20.7, 0.01), 0.5, for_each);
   ModelParameters p = *built_in_model("torpedo");

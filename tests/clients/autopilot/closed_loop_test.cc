@@ -1,4 +1,5 @@
-// The control laws steering the equations of motion of the fin-steered vehicles: what a mission looks like in the water.
+// The control laws steering the equations of motion of the fin-steered vehicles: what a mission looks like in
+// the water.
 #include <cmath>
 #include <functional>
 #include <numbers>

@@ -30,7 +30,8 @@ TEST(LeaderReport, SurvivesItsWayToWithinTheRounding) {
 TEST(LeaderReport, HasTheLayoutThatIsWrittenDown) {
   const std::vector<std::uint8_t> expected{0xF1, 0x01, 0x00, 0x00, 0xFF, 0xFF, 0xFF, 0xD0, 0x07,
                                            0x00, 0x00, 0x40, 0xDC, 0x05, 0xE8, 0x03, 0x2D};
-  // 1 dm north, 1 dm west, 200 m down, east, 1.5 m/s, second 1. Sum: 241 + 1 + 765 + 215 + 64 + 225 + 235 = 0x6D2; 0xFF - 0xD2 = 0x2D.
+  // 1 dm north, 1 dm west, 200 m down, east, 1.5 m/s, second 1. Sum: 241 + 1 + 765 + 215 + 64 + 225 + 235 =
+  // 0x6D2; 0xFF - 0xD2 = 0x2D.
   EXPECT_EQ(encode_report({{0.1, -0.1, 200}, kPi / 2, 1.5, 1}), expected);
 }
 

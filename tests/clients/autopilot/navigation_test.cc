@@ -1,4 +1,5 @@
-// How well a vehicle knows where it is after minutes by its sensors, from its true motion through messages to its reckoning.
+// How well a vehicle knows where it is after minutes by its sensors, from its true motion through messages to
+// its reckoning.
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -162,7 +163,8 @@ Kept way_without_compass(double gyro_bias_radps) {
   return kept;
 }
 
-// The bias times nine minutes; its part about the other axes tilts the reckoned axes by as much, which is of second order.
+// The bias times nine minutes; its part about the other axes tilts the reckoned axes by as much, which is of
+// second order.
 TEST(NavigationTest, WithADeadCompassTheHeadingIsOffByTheGyrosBiasTimesTheTime) {
   const double bias = std::numbers::pi / 180 * 0.01, drift = bias * 60 * (kMinutes - 1);
   const Kept kept = way_without_compass(bias);

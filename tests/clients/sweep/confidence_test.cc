@@ -73,8 +73,9 @@ TEST(MeanEstimate, LeavesOutWhatIsUnknown) {
   EXPECT_TRUE(std::isnan(mean_estimate(std::vector<double>{}, 0.95).mean));
 }
 
-// 2000 experiments each: the share of intervals that hold the truth is within 3.5 standard errors of the level (normal
-// values), or at least the level less that (Wilson's for p = 0.1, n = 50: coverage 0.94 to 0.97, Brown et al. 2001).
+// 2000 experiments each: the share of intervals that hold the truth is within 3.5 standard errors of the
+// level (normal values), or at least the level less that (Wilson's for p = 0.1, n = 50: coverage 0.94 to
+// 0.97, Brown et al. 2001).
 TEST(ConfidenceIntervals, HoldTheTruthAsOftenAsTheySay) {
   constexpr int kExperiments = 2000;
   int means = 0, shares = 0;

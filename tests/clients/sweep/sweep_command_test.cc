@@ -1,4 +1,5 @@
-// `halocline sweep` as a person starts it: every run done once, whatever stopped it before, on one machine or by a job array.
+// `halocline sweep` as a person starts it: every run done once, whatever stopped it before, on one machine or
+// by a job array.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
