@@ -1,11 +1,13 @@
 // Waters, modems and fleets that several tests of the channel server start from.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "channel_server/fleet.h"
 #include "channel_server/packet_medium.h"
+#include "channel_server/profile_book.h"
 #include "channel_server/propagation.h"
 
 namespace halocline::channel_server::testing {
@@ -71,6 +73,25 @@ inline std::vector<PacketEnd> ends_in(const std::vector<MediumEvent>& events) {
     if (const auto* end = std::get_if<PacketEnd>(&event.what)) ends.push_back(*end);
   }
   return ends;
+}
+
+// The bottom between vehicle 1 at `one` and vehicle 2 at `other`, `depth_at(north)` metres deep, known from 1 s on.
+template <class DepthAt>
+std::shared_ptr<ProfileBook> bottoms_between(const Vec3& one, const Vec3& other, DepthAt depth_at) {
+  auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+  PlacedVehicle low, high;
+  low.id = 1, high.id = 2;
+  low.placement.position_ned_m = one, high.placement.position_ned_m = other;
+  bottoms->take_geometry({low, high});
+  ProfileSurvey survey = bottoms->survey_of({1, 2});
+  std::vector<RayAnswer> answers;
+  for (const TerrainRay& ray : survey.rays()) {
+    answers.push_back({RayAnswer::Kind::kHit, depth_at(ray.origin_ned_m.x())});
+  }
+  survey.take(answers);
+  bottoms->store({1, 2}, survey);
+  bottoms->open_tick(at_s(1));
+  return bottoms;
 }
 
 }  // namespace halocline::channel_server::testing

@@ -126,24 +126,9 @@ TEST_F(RayPropagationTest, WithOnePathTheBudgetIsThatOfSphericalSpreading) {
 }
 
 TEST_F(RayPropagationTest, BothWaysHaveTheSamePathsToTheLastBit) {
-  auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+  const auto bottoms =
+      testing::bottoms_between({0, 0, 30}, {1000, 0, 60}, [](double north_m) { return 150 - north_m / 25; });
   auto propagation = rays({}, acoustics::Environment{}, bottoms);
-  SeabedProfile slope;
-  for (int i = 0; i <= 40; ++i) slope.push_back(150 - i);
-  PlacedVehicle one, two;
-  one.id = 1;
-  two.id = 2;
-  one.placement.position_ned_m = {0, 0, 30};
-  two.placement.position_ned_m = {1000, 0, 60};
-  bottoms->take_geometry({one, two});
-  ProfileSurvey survey = bottoms->survey_of({1, 2});
-  std::vector<RayAnswer> answers;
-  for (const TerrainRay& ray : survey.rays()) {
-    answers.push_back({RayAnswer::Kind::kHit, 150 - ray.origin_ned_m.x() / 25});
-  }
-  survey.take(answers);
-  bottoms->store({1, 2}, survey);
-  bottoms->open_tick(at_s(1));
   const LinkEnd a = end({0, 0, 30}, modem_, 1), b = end({1000, 0, 60}, modem_, 2);
   const Reception there = propagation.reception(at_s(1), a, b), back = propagation.reception(at_s(1), b, a);
   ASSERT_EQ(there.used, PropagationUsed::kRays);

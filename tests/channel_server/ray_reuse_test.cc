@@ -44,22 +44,7 @@ TEST(RayCells, AShortLinkIsSearchedItself) {
 // Two vehicles over a slope of a hundredth, known from 1 s on.
 class RayReuseTest : public ::testing::Test {
  protected:
-  std::shared_ptr<ProfileBook> bottoms_between(const Vec3& one, const Vec3& other) {
-    auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
-    PlacedVehicle low, high;
-    low.id = 1, high.id = 2;
-    low.placement.position_ned_m = one, high.placement.position_ned_m = other;
-    bottoms->take_geometry({low, high});
-    ProfileSurvey survey = bottoms->survey_of({1, 2});
-    std::vector<RayAnswer> answers;
-    for (const TerrainRay& ray : survey.rays()) {
-      answers.push_back({RayAnswer::Kind::kHit, 150 - ray.origin_ned_m.x() / 100});
-    }
-    survey.take(answers);
-    bottoms->store({1, 2}, survey);
-    bottoms->open_tick(at_s(1));
-    return bottoms;
-  }
+  static double slope(double north_m) { return 150 - north_m / 100; }
   RayPropagation rays(const std::shared_ptr<ProfileBook>& bottoms, double reuse_distance_m,
                       bool coherent = false) const {
     RayModel model;
@@ -70,7 +55,7 @@ class RayReuseTest : public ::testing::Test {
   LinkEnd end(VehicleId id, const Vec3& place) const { return {id, place, Vec3::Zero(), &modem_}; }
 
   const Vec3 first_ = Vec3(0, 0, 31), second_ = Vec3(1000, 0, 62);
-  std::shared_ptr<ProfileBook> bottoms_ = bottoms_between(first_, second_);
+  std::shared_ptr<ProfileBook> bottoms_ = testing::bottoms_between(first_, second_, slope);
   acoustics::Modem modem_;
 };
 
@@ -131,7 +116,7 @@ TEST_F(RayReuseTest, DelayAndLevelAreCloseToThoseOfASearchOfItsOwn) {
   std::vector<double> delays_s, levels_db;
   for (std::uint32_t i = 0; i < 60; ++i) {
     const Vec3 one(0, 0, 20 + 80 * draw(i, 6)), other(200 + 1300 * draw(i, 7), 0, 20 + 80 * draw(i, 8));
-    const auto bottoms = bottoms_between(one, other);
+    const auto bottoms = testing::bottoms_between(one, other, slope);
     auto shared = rays(bottoms, kCellM), own = rays(bottoms, 0);
     const Reception a = shared.reception(at_s(1), end(1, one), end(2, other)),
                     b = own.reception(at_s(1), end(1, one), end(2, other));
