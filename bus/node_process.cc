@@ -1,6 +1,7 @@
 #include "bus/node_process.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -17,8 +18,10 @@
 namespace halocline::bus {
 namespace {
 
-volatile std::sig_atomic_t stop_signal_seen = 0;
-void on_stop_signal(int) { stop_signal_seen = 1; }
+// Set in a signal handler, read by any thread.
+std::atomic<bool> stop_signal_seen = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+void on_stop_signal(int) { stop_signal_seen = true; }
 
 // Longest sleep: a stop wished for by other means than a signal is seen within this.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
@@ -98,7 +101,7 @@ void catch_stop_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-bool stop_requested() { return stop_signal_seen != 0; }
+bool stop_requested() { return stop_signal_seen; }
 
 // The signals are let in only while sleeping, so that none slips by between the check and the sleep.
 bool wait_for_bus(lcm::LCM& lcm, SimTime wake) {
