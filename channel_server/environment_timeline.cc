@@ -69,7 +69,8 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
 }
 
 void EnvironmentTimeline::forget_before(SimTime time) {
-  if (changes_kept() <= kHeardKept) return;
+  constexpr std::size_t kForgottenTogether = kHeardKept / 10;  // for each time all others are moved
+  if (changes_kept() < kHeardKept + kForgottenTogether) return;
   auto surplus = changes_kept() - kHeardKept;
   std::vector<Span> kept;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
