@@ -1,8 +1,8 @@
 // The [terrain] section of a scenario: how its keys fill a TerrainRecipe.
 #pragma once
 
-#include "bathymetry/terrain_recipe.h"
-#include "bus/config.h"
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "bus/config/config.h"
 
 namespace halocline::bathymetry {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bathymetry/terrain_recipe.h"
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "core/check.h"
 
 namespace halocline::bathymetry {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bathymetry/bathymetry_messages.h"
-#include "bathymetry/terrain.h"
-#include "bus/node.h"
+#include "bathymetry/terrain/terrain.h"
+#include "bus/runtime/node.h"
 
 namespace halocline::bathymetry {
 

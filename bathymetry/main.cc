@@ -1,6 +1,6 @@
 #include "bathymetry/bathymetry_config.h"
 #include "bathymetry/bathymetry_node.h"
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
 
 using halocline::bathymetry::BathymetryNode;
 using halocline::bathymetry::PreparedTerrain;

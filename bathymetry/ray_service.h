@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "bathymetry/profile.h"
-#include "bathymetry/terrain.h"
+#include "bathymetry/terrain/profile.h"
+#include "bathymetry/terrain/terrain.h"
 
 namespace halocline::bathymetry {
 

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/environment.h"
-#include "bus/config.h"
-#include "bus/scenario.h"
-#include "channel_server/fleet.h"
-#include "channel_server/packet_medium.h"
-#include "channel_server/profile_survey.h"
-#include "channel_server/ray_propagation.h"
-#include "channel_server/terrain_asker.h"
+#include "acoustics/sea/environment.h"
+#include "bus/config/config.h"
+#include "bus/runtime/scenario.h"
+#include "channel_server/links/terrain_asker.h"
+#include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/vehicles/fleet.h"
 
 namespace halocline::channel_server {
 
@@ -58,7 +58,7 @@ enum class PropagationModel { kRays, kStraight };
 // The bottom by name or by numbers; what rays look for.
 struct PropagationConfig {
   PropagationModel model = PropagationModel::kRays;
-  std::string sediment = "MediumSand";  // of acoustics/boundary_reflection.h; "custom": the three numbers
+  std::string sediment = "MediumSand";  // of acoustics/sea/boundary_reflection.h; "custom": the three numbers
   double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
   std::string surface_loss_model = "apl-bubbles";
   std::string solver = "auto";  // or images, snell, arcs

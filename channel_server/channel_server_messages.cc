@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "acoustics/modem_profile.h"
+#include "acoustics/modem/modem_profile.h"
 #include "bus/message_checks.h"
 #include "core/check.h"
 

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/boundary_reflection.h"
+#include "acoustics/sea/boundary_reflection.h"
 #include "bus/messages.h"
-#include "channel_server/environment_timeline.h"
-#include "channel_server/fleet.h"
-#include "channel_server/link_desk.h"
-#include "channel_server/link_table.h"
-#include "channel_server/packet.h"
-#include "channel_server/terrain_asker.h"
+#include "channel_server/links/link_desk.h"
+#include "channel_server/links/link_table.h"
+#include "channel_server/links/terrain_asker.h"
+#include "channel_server/packets/packet.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/vehicles/fleet.h"
 
 namespace halocline::channel_server {
 
@@ -26,7 +26,7 @@ struct WaterDescription {
 
 StampedState to_state(const vehicle_state_t& message);
 
-// A modem that acoustics/modem.h refuses throws InvalidArgument.
+// A modem that acoustics/modem/modem.h refuses throws InvalidArgument.
 VehicleModem to_modem(const modem_config_t& message);
 modem_config_t to_message(const VehicleModem& modem, SimTime from);
 

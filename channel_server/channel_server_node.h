@@ -28,15 +28,15 @@
 #include <utility>
 #include <vector>
 
-#include "bus/message_journal.h"
-#include "bus/node.h"
-#include "bus/worker_pool.h"
+#include "bus/runtime/message_journal.h"
+#include "bus/runtime/node.h"
+#include "bus/runtime/worker_pool.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_messages.h"
-#include "channel_server/environment_timeline.h"
-#include "channel_server/link_desk.h"
-#include "channel_server/profile_book.h"
-#include "channel_server/ray_propagation.h"
+#include "channel_server/links/link_desk.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_book.h"
+#include "channel_server/propagation/ray_propagation.h"
 
 namespace halocline::channel_server {
 

@@ -1,4 +1,4 @@
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
 #include "channel_server/channel_server_node.h"
 #include "core/check.h"
 

@@ -1,6 +1,6 @@
 #include "channel_server/modem_config.h"
 
-#include "acoustics/modem_profile.h"
+#include "acoustics/modem/modem_profile.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "acoustics/profile_reader.h"
+#include "acoustics/sea/profile_reader.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -2,7 +2,7 @@
 // [[environment_change]].
 #pragma once
 
-#include "bus/config.h"
+#include "bus/config/config.h"
 #include "channel_server/channel_server_config.h"
 
 namespace halocline::channel_server {

@@ -1,9 +1,12 @@
 # What every target of ours is compiled with: link it as `halocline_options` (PRIVATE).
 add_library(halocline_options INTERFACE)
 target_compile_options(halocline_options INTERFACE
+  # With it ccache keeps what uses a precompiled header.
+  -fpch-preprocess
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
-  # GCC 12 sees overlapping copies in every optimised concatenation of texts (GCC bug 105651).
+  # GCC 12 sees overlapping and endless copies in optimised concatenations of texts (GCC bugs 105651, 105329).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Debug>>>:-Wno-restrict>
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Debug>>>:-Wno-stringop-overflow>
   # A fused multiply-add rounds once where two operations round twice: results would depend on the
   # optimisation level and the processor. The same scenario has to give the same bytes everywhere.
   -ffp-contract=off)
@@ -24,12 +27,21 @@ if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
+# What nearly every file includes, parsed once: half of the time of a build. Files still include what they use.
+set(HALOCLINE_COMMON_HEADERS
+  <Eigen/Dense> <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <optional> <set> <span>
+  <sstream> <stdexcept> <string> <string_view> <tuple> <utility> <vector>)
+add_library(halocline_library_headers OBJECT ${CMAKE_CURRENT_LIST_DIR}/common_headers.cc)
+target_link_libraries(halocline_library_headers PRIVATE halocline_options Eigen3::Eigen)
+target_precompile_headers(halocline_library_headers PRIVATE ${HALOCLINE_COMMON_HEADERS})
+
 # halocline_library(name SOURCES ... LINK ...): a static library of one layer.
 function(halocline_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LINK_PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE halocline_options ${ARG_LINK_PRIVATE})
+  target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
 endfunction()
 
 # halocline_program(name SOURCES ... LINK ...): an executable in build/<preset>/bin.

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "bus/node.h"
+#include "bus/runtime/node.h"
 
 namespace halocline::conductor {
 

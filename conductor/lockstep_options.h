@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
 
 namespace halocline::conductor {
 

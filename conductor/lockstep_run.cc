@@ -4,13 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "bus/lockstep_process.h"
-#include "bus/lockstep_turns.h"
-#include "bus/log_recorder.h"
-#include "bus/node_process.h"
+#include "bus/lockstep/lockstep_conductor.h"
+#include "bus/logs/log_recorder.h"
+#include "bus/runtime/lockstep_process.h"
+#include "bus/runtime/lockstep_turns.h"
+#include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "conductor/conductor_node.h"
-#include "conductor/lockstep_conductor.h"
 #include "conductor/outside_ear.h"
 #include "core/check.h"
 

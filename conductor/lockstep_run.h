@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bus/bus.h"
-#include "bus/scenario.h"
+#include "bus/runtime/scenario.h"
 
 namespace halocline::conductor {
 

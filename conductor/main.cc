@@ -1,4 +1,4 @@
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
 #include "conductor/conductor_node.h"
 #include "conductor/lockstep_options.h"
 #include "conductor/paced_time.h"

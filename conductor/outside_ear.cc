@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "bus/lockstep_wire.h"
+#include "bus/lockstep/lockstep_wire.h"
 
 namespace halocline::conductor {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "bus/bus.h"
-#include "bus/time_source.h"
+#include "bus/runtime/time_source.h"
 
 namespace halocline::conductor {
 

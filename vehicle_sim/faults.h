@@ -13,8 +13,8 @@
 #include <optional>
 
 #include "core/sim_time.h"
-#include "vehicle_sim/sensor_errors.h"
-#include "vehicle_sim/vehicle_state.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
 

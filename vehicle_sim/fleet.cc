@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/check.h"
-#include "vehicle_sim/equations_of_motion.h"
+#include "vehicle_sim/dynamics/equations_of_motion.h"
 
 namespace halocline::vehicle_sim {
 

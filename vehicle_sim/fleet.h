@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "core/for_each.h"
-#include "vehicle_sim/command_schedule.h"
-#include "vehicle_sim/currents.h"
+#include "vehicle_sim/dynamics/command_schedule.h"
+#include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/faults.h"
-#include "vehicle_sim/sensors.h"
-#include "vehicle_sim/vehicle_world.h"
+#include "vehicle_sim/sensors/sensors.h"
+#include "vehicle_sim/world/vehicle_world.h"
 
 namespace halocline::vehicle_sim {
 

@@ -1,7 +1,7 @@
 #include "bathymetry/bathymetry_config.h"
-#include "bus/node_process.h"
-#include "vehicle_sim/terrain_seabed.h"
+#include "bus/runtime/node_process.h"
 #include "vehicle_sim/vehicle_sim_node.h"
+#include "vehicle_sim/world/terrain_seabed.h"
 
 using halocline::bus::NodeProgram;
 using halocline::vehicle_sim::TerrainSeabed;

@@ -3,16 +3,16 @@
 // A file starts from nothing (an effect that it does not name is absent) or, with `based_on`, from a built-in model.
 // Its [sensors] are those that such a vehicle carries unless a scenario says otherwise (vehicle_sim_config.h).
 // Unknown keys, wrong types and impossible values are errors with file, line, key and what is allowed.
-// docs/vehicles.md explains the parameters; vehicles/ holds the built-in models as such files.
+// docs/vehicles.md explains the parameters; models/vehicles/ holds the built-in models as such files.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bus/config.h"
-#include "vehicle_sim/sensor_settings.h"
-#include "vehicle_sim/vehicle_model.h"
+#include "bus/config/config.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
 
 namespace halocline::vehicle_sim {
 

@@ -1,8 +1,8 @@
 #include "vehicle_sim/model_library.h"
 
-#include "vehicle_sim/hover.h"
-#include "vehicle_sim/remus100_pvs.h"
-#include "vehicle_sim/torpedo.h"
+#include "vehicle_sim/dynamics/hover.h"
+#include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/dynamics/torpedo.h"
 
 namespace halocline::vehicle_sim {
 namespace {

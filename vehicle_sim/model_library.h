@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vehicle_sim/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 
 namespace halocline::vehicle_sim {
 

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/config.h"
+#include "bus/config/config.h"
 #include "vehicle_sim/faults.h"
-#include "vehicle_sim/sensor_settings.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
 
 namespace halocline::vehicle_sim {
 

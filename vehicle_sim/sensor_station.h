@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
-#include "vehicle_sim/doppler_log.h"
 #include "vehicle_sim/fleet.h"
-#include "vehicle_sim/sensors.h"
+#include "vehicle_sim/sensors/doppler_log.h"
+#include "vehicle_sim/sensors/sensors.h"
 
 namespace halocline::vehicle_sim {
 

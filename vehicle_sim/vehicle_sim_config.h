@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/scenario.h"
+#include "bus/runtime/scenario.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/sensor_config.h"
 #include "vehicle_sim/sensor_station.h"

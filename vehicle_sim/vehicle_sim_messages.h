@@ -9,10 +9,10 @@
 
 #include "bus/messages.h"
 #include "core/sim_time.h"
-#include "vehicle_sim/command_schedule.h"
-#include "vehicle_sim/currents.h"
+#include "vehicle_sim/dynamics/command_schedule.h"
+#include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/sensor_station.h"
-#include "vehicle_sim/usbl_desk.h"
+#include "vehicle_sim/sensors/usbl_desk.h"
 
 namespace halocline::vehicle_sim {
 

@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "bus/node.h"
-#include "bus/worker_pool.h"
+#include "bus/runtime/node.h"
+#include "bus/runtime/worker_pool.h"
 #include "vehicle_sim/echo_desk.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/sensor_station.h"
-#include "vehicle_sim/usbl_desk.h"
+#include "vehicle_sim/sensors/usbl_desk.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
 namespace halocline::vehicle_sim {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/config.h"
+#include "bus/config/config.h"
 #include "clients/autopilot/acoustic_fix.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/guidance.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/node.h"
+#include "bus/runtime/node.h"
 #include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation_link.h"

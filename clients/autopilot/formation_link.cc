@@ -1,6 +1,6 @@
 #include "clients/autopilot/formation_link.h"
 
-#include "bus/scenario.h"
+#include "bus/runtime/scenario.h"
 #include "clients/autopilot/autopilot_messages.h"
 #include "core/names.h"
 

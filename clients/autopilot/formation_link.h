@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "bus/node.h"
+#include "bus/runtime/node.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/vehicle_pilot.h"
 #include "clients/modem/modem_client.h"

@@ -6,7 +6,7 @@
 // after Fossen 2021, Handbook, 2nd ed., section 13.3). In a current the integral becomes the drag, so the bow
 // comes to face the current and the vehicle stands still. Below a least force the heading is kept. Depth: PID
 // of z; pitch and heading: PD. Thrust goes with the square of speed; thrusters in the order of
-// vehicle_sim/hover.h. Left out: a station closer than the vehicle can turn in gusts that veer by more than
+// vehicle_sim/dynamics/hover.h. Left out: a station closer than the vehicle can turn in gusts that veer by more than
 // it can follow. Pure functions.
 #pragma once
 

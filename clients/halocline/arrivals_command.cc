@@ -3,11 +3,11 @@
 #include <memory>
 #include <sstream>
 
+#include "clients/halocline/analysis/run_files.h"
+#include "clients/halocline/arrivals/arrival_output.h"
+#include "clients/halocline/arrivals/arrival_plot.h"
+#include "clients/halocline/arrivals/sea_files.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/run_files.h"
-#include "clients/rays/arrival_output.h"
-#include "clients/rays/arrival_plot.h"
-#include "clients/rays/sea_files.h"
 #include "core/check.h"
 
 namespace halocline::clients {

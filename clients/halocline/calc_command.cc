@@ -3,9 +3,9 @@
 #include <memory>
 #include <sstream>
 
-#include "clients/calc/calc.h"
+#include "clients/halocline/analysis/run_files.h"
+#include "clients/halocline/calc/calc.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/run_files.h"
 #include "core/check.h"
 
 namespace halocline::clients {

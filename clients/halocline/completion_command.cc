@@ -1,7 +1,7 @@
 #include <iostream>
 #include <memory>
 
-#include "clients/calc/calc.h"
+#include "clients/halocline/calc/calc.h"
 #include "clients/halocline/commands.h"
 
 namespace halocline::clients {

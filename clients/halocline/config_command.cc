@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "clients/halocline/commands.h"
-#include "clients/halocline/composition.h"
+#include "clients/halocline/scenario/composition.h"
 
 namespace halocline::clients {
 namespace {

@@ -2,8 +2,8 @@
 #include <iostream>
 #include <memory>
 
+#include "clients/halocline/analysis/ledger.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/ledger.h"
 #include "core/check.h"
 
 namespace halocline::clients {

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clients/halocline/arrivals/arrival_plot.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/link_survey.h"
-#include "clients/rays/arrival_plot.h"
+#include "clients/halocline/scenario/link_survey.h"
 #include "core/check.h"
 
 namespace halocline::clients {
@@ -126,8 +126,7 @@ void print_paths(const LinkOptions& options, const LinkEnd& from, const LinkArri
   if (!options.plot.empty())
     write_plot(arrival_plot({found}, options.from + " to " + options.to), options.plot);
   if (options.impulse_rate_hz > 0) {
-    print_impulse_response(std::cout, found, from.modem.modem.centre_frequency_hz,
-                           options.impulse_rate_hz);
+    print_impulse_response(std::cout, found, from.modem.modem.centre_frequency_hz, options.impulse_rate_hz);
     if (found.arrivals.shadow()) std::cerr << why_silent(found) << "\n";
     return;
   }

@@ -1,10 +1,10 @@
 #include <iostream>
 #include <memory>
 
+#include "clients/halocline/analysis/csv_export.h"
+#include "clients/halocline/analysis/log_statistics.h"
+#include "clients/halocline/analysis/simulation_output.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/csv_export.h"
-#include "clients/halocline/log_statistics.h"
-#include "clients/halocline/simulation_output.h"
 
 namespace halocline::clients {
 namespace {

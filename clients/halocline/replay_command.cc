@@ -5,14 +5,14 @@
 #include <sstream>
 
 #include "bus/event_log.h"
-#include "bus/node_process.h"
+#include "bus/logs/log_rotation.h"
+#include "bus/runtime/node_process.h"
+#include "clients/halocline/analysis/comparison.h"
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/comparison.h"
-#include "clients/halocline/composition.h"
-#include "clients/halocline/embedded_run.h"
-#include "clients/halocline/log_rotation.h"
-#include "clients/halocline/replay_node.h"
-#include "clients/halocline/run_files.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/embedded_run.h"
+#include "clients/halocline/scenario/replay_node.h"
 #include "core/check.h"
 
 namespace halocline::clients {

@@ -6,14 +6,14 @@
 #include <memory>
 
 #include "bus/event_log.h"
-#include "bus/node_process.h"
+#include "bus/logs/log_rotation.h"
+#include "bus/runtime/node_process.h"
+#include "clients/halocline/analysis/csv_export.h"
+#include "clients/halocline/analysis/log_statistics.h"
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/composition.h"
-#include "clients/halocline/csv_export.h"
-#include "clients/halocline/embedded_run.h"
-#include "clients/halocline/log_rotation.h"
-#include "clients/halocline/log_statistics.h"
-#include "clients/halocline/run_files.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/embedded_run.h"
 
 namespace halocline::clients {
 namespace {

@@ -9,13 +9,13 @@
 #include <thread>
 
 #include "bus/event_log.h"
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
-#include "clients/halocline/composition.h"
-#include "clients/halocline/run_files.h"
-#include "clients/sweep/run_pool.h"
-#include "clients/sweep/sweep_folder.h"
-#include "clients/sweep/sweep_summary.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/sweep/run_pool.h"
+#include "clients/halocline/sweep/sweep_folder.h"
+#include "clients/halocline/sweep/sweep_summary.h"
 #include "core/check.h"
 
 namespace halocline::clients {

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "clients/halocline/commands.h"
-#include "clients/halocline/vehicle_replay.h"
+#include "clients/halocline/scenario/vehicle_replay.h"
 #include "vehicle_sim/model_config.h"
 #include "vehicle_sim/model_library.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/config.h"
+#include "bus/config/config.h"
 #include "clients/localiser/position_estimator.h"
 #include "core/sim_time.h"
 

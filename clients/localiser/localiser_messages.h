@@ -1,7 +1,7 @@
 // Messages of the bus to the values of the position estimator, and back.
 #pragma once
 
-#include "acoustics/sound_speed_profile.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages.h"
 #include "clients/localiser/position_estimator.h"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "bus/scenario.h"
-#include "channel_server/packet.h"
+#include "bus/runtime/scenario.h"
+#include "channel_server/packets/packet.h"
 #include "clients/localiser/localiser_messages.h"
 #include "core/check.h"
 

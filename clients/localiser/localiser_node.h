@@ -19,8 +19,8 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/sound_speed_profile.h"
-#include "bus/node.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "bus/runtime/node.h"
 #include "clients/localiser/localiser_config.h"
 #include "clients/modem/modem_client.h"
 

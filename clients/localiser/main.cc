@@ -1,4 +1,4 @@
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
 #include "clients/localiser/localiser_node.h"
 
 using halocline::bus::NodeProgram;

@@ -4,7 +4,7 @@
 
 #include <poll.h>
 
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
 
 namespace halocline::clients {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <functional>
 
-#include "bus/time_source.h"
+#include "bus/runtime/time_source.h"
 #include "clients/modem/modem_client.h"
 
 namespace halocline::clients {

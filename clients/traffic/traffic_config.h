@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/config.h"
+#include "bus/config/config.h"
 #include "core/names.h"
 #include "core/sim_time.h"
 

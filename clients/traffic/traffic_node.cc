@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bus/scenario.h"
+#include "bus/runtime/scenario.h"
 
 namespace halocline::clients {
 namespace {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "bus/node.h"
+#include "bus/runtime/node.h"
 #include "clients/modem/modem_client.h"
 #include "clients/traffic/traffic_config.h"
 

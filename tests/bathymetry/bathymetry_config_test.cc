@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bathymetry/terrain_recipe.h"
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "core/check.h"
-#include "tests/bathymetry/raster_fixtures.h"
+#include "tests/bathymetry/rasters/raster_fixtures.h"
 
 namespace halocline::bathymetry {
 namespace {

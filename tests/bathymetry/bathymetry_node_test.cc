@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bathymetry/terrain_recipe.h"
-#include "tests/bathymetry/terrain_fixtures.h"
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::bathymetry {

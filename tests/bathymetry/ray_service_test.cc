@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/bathymetry/terrain_fixtures.h"
+#include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::bathymetry {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/noise.h"
+#include "acoustics/sea/noise.h"
 #include "tests/channel_server/change_it.h"
 
 namespace halocline::channel_server {

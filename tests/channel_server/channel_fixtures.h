@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "channel_server/fleet.h"
-#include "channel_server/packet_medium.h"
-#include "channel_server/profile_book.h"
-#include "channel_server/propagation.h"
+#include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/profile_book.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/fleet.h"
 
 namespace halocline::channel_server::testing {
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/modem_profile.h"
+#include "acoustics/modem/modem_profile.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/modem_profile.h"
+#include "acoustics/modem/modem_profile.h"
 #include "bus/message_checks.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"

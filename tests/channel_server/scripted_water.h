@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "channel_server/packet_medium.h"
+#include "channel_server/packets/packet_medium.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server::testing {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/lockstep_runner.h"
+#include "bus/runtime/lockstep_runner.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

@@ -13,11 +13,11 @@
 #include <unistd.h>
 
 #include "bus/event_log.h"
-#include "clients/halocline/channel_types.h"
-#include "clients/halocline/composition.h"
-#include "clients/halocline/embedded_run.h"
-#include "clients/halocline/log_reader.h"
-#include "clients/halocline/replay_node.h"
+#include "bus/logs/channel_types.h"
+#include "bus/logs/log_reader.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/embedded_run.h"
+#include "clients/halocline/scenario/replay_node.h"
 
 namespace halocline::clients::testing {
 

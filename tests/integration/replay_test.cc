@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/halocline/comparison.h"
+#include "clients/halocline/analysis/comparison.h"
 #include "core/random.h"
 #include "tests/integration/embedded_fixture.h"
 

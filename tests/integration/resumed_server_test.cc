@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #include "bus/bus.h"
-#include "bus/node_process.h"
+#include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "tests/support/process.h"
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
-#include "bus/lockstep_runner.h"
-#include "bus/log_recorder.h"
-#include "bus/log_series.h"
+#include "bus/logs/log_recorder.h"
+#include "bus/logs/log_series.h"
+#include "bus/runtime/lockstep_runner.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

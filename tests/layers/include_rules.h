@@ -29,7 +29,7 @@ std::string without_comments(std::string_view source);
 // empty when nothing, or when `file` is not pure.
 std::string impure_name(std::string_view file, std::string_view source);
 
-// Why `file` (from the root, "acoustics/noise.cc") may not include `path`; empty when it may.
+// Why `file` (from the root, "acoustics/sea/noise.cc") may not include `path`; empty when it may.
 std::string objection(std::string_view file, std::string_view path);
 
 // A source file by its path from the root.

@@ -63,9 +63,9 @@ TEST(IncludeScan, SurvivesAnUnfinishedCommentAndAnUnfinishedPath) {
 
 TEST(IncludeRules, OnlyTheBusIncludesLcm) {
   EXPECT_TRUE(allowed("bus/transport.h", "lcm/lcm-cpp.hpp"));
-  for (const char* file :
-       {"core/units.h", "acoustics/noise.cc", "bathymetry/terrain.cc", "channel_server/channel_server_node.h",
-        "vehicle_sim/main.cc", "conductor/paced_time.h", "clients/modem/modem_client.h"}) {
+  for (const char* file : {"core/units.h", "acoustics/sea/noise.cc", "bathymetry/terrain/terrain.cc",
+                           "channel_server/channel_server_node.h", "vehicle_sim/main.cc",
+                           "conductor/paced_time.h", "clients/modem/modem_client.h"}) {
     EXPECT_FALSE(allowed(file, "lcm/lcm-cpp.hpp")) << file;
   }
 }
@@ -78,52 +78,52 @@ TEST(IncludeRules, TheForeignVehicleKnowsLcmAndMessageTypesAlone) {
 }
 
 TEST(IncludeRules, MessageTypesStayOutOfPureFiles) {
-  EXPECT_FALSE(allowed("acoustics/noise.h", "halocline/link_t.hpp"));
-  EXPECT_FALSE(allowed("channel_server/link_table.h", "bus/messages.h"));
-  EXPECT_FALSE(allowed("channel_server/link_table.h", "lcmtypes/halocline/link_t.hpp"));
+  EXPECT_FALSE(allowed("acoustics/sea/noise.h", "halocline/link_t.hpp"));
+  EXPECT_FALSE(allowed("channel_server/links/link_table.h", "bus/messages.h"));
+  EXPECT_FALSE(allowed("channel_server/links/link_table.h", "lcmtypes/halocline/link_t.hpp"));
   EXPECT_TRUE(allowed("channel_server/link_messages.cc", "halocline/link_t.hpp"));
 }
 
 TEST(IncludeRules, PureFilesHaveNoClockThreadFileOrLog) {
   for (const char* header : {"chrono", "thread", "mutex", "fstream", "filesystem", "iostream", "random",
                              "ctime", "time.h", "unistd.h", "sys/time.h", "spdlog/spdlog.h", "lcm/lcm.h"}) {
-    EXPECT_FALSE(allowed("vehicle_sim/hull_forces.cc", header)) << header;
+    EXPECT_FALSE(allowed("vehicle_sim/dynamics/hull_forces.cc", header)) << header;
     EXPECT_FALSE(allowed("core/random.cc", header)) << header;
   }
-  EXPECT_TRUE(allowed("vehicle_sim/hull_forces.cc", "cmath"));
+  EXPECT_TRUE(allowed("vehicle_sim/dynamics/hull_forces.cc", "cmath"));
 }
 
 TEST(IncludeRules, PureFilesUseNoneOfThatThroughAnAllowedHeader) {
-  EXPECT_EQ(impure_name("acoustics/noise.cc", "std::snprintf(text, 3, format);  // not fopen"), "");
-  EXPECT_EQ(impure_name("acoustics/noise.cc", "auto* file = std::fopen(path, mode);"), "fopen");
+  EXPECT_EQ(impure_name("acoustics/sea/noise.cc", "std::snprintf(text, 3, format);  // not fopen"), "");
+  EXPECT_EQ(impure_name("acoustics/sea/noise.cc", "auto* file = std::fopen(path, mode);"), "fopen");
   EXPECT_EQ(impure_name("core/random.cc", "std::random_device device;"), "random_device");
-  EXPECT_EQ(impure_name("bus/node_process.cc", "std::chrono::steady_clock::now();"), "");
+  EXPECT_EQ(impure_name("bus/runtime/node_process.cc", "std::chrono::steady_clock::now();"), "");
 }
 
 TEST(IncludeRules, OnlyNamedReadersReadFiles) {
-  EXPECT_TRUE(allowed("bathymetry/raster_source.cc", "gdal_priv.h"));
+  EXPECT_TRUE(allowed("bathymetry/rasters/raster_source.cc", "gdal_priv.h"));
   EXPECT_TRUE(allowed("bathymetry/terrain_loader.cc", "filesystem"));
-  EXPECT_TRUE(allowed("acoustics/profile_reader.cc", "fstream"));
-  EXPECT_FALSE(allowed("bathymetry/terrain.cc", "gdal_priv.h"));
-  EXPECT_FALSE(allowed("acoustics/environment.cc", "fstream"));
+  EXPECT_TRUE(allowed("acoustics/sea/profile_reader.cc", "fstream"));
+  EXPECT_FALSE(allowed("bathymetry/terrain/terrain.cc", "gdal_priv.h"));
+  EXPECT_FALSE(allowed("acoustics/sea/environment.cc", "fstream"));
 }
 
 TEST(IncludeRules, FoldersStandOnThoseBelow) {
-  EXPECT_FALSE(allowed("core/units.h", "acoustics/noise.h"));
-  EXPECT_FALSE(allowed("acoustics/noise.h", "bathymetry/terrain.h"));
-  EXPECT_FALSE(allowed("acoustics/noise.h", "bus/config.h"));
-  EXPECT_FALSE(allowed("bus/bus.h", "acoustics/noise.h"));
-  EXPECT_FALSE(allowed("vehicle_sim/vehicle_world.cc", "bathymetry/ray_trace.h"));
-  EXPECT_FALSE(allowed("channel_server/medium.cc", "bathymetry/terrain.h"));
-  EXPECT_TRUE(allowed("vehicle_sim/vehicle_world.cc", "bathymetry/terrain.h"));
-  EXPECT_TRUE(allowed("channel_server/medium.cc", "acoustics/noise.h"));
+  EXPECT_FALSE(allowed("core/units.h", "acoustics/sea/noise.h"));
+  EXPECT_FALSE(allowed("acoustics/sea/noise.h", "bathymetry/terrain/terrain.h"));
+  EXPECT_FALSE(allowed("acoustics/sea/noise.h", "bus/config/config.h"));
+  EXPECT_FALSE(allowed("bus/bus.h", "acoustics/sea/noise.h"));
+  EXPECT_FALSE(allowed("vehicle_sim/world/vehicle_world.cc", "bathymetry/terrain/ray_trace.h"));
+  EXPECT_FALSE(allowed("channel_server/medium.cc", "bathymetry/terrain/terrain.h"));
+  EXPECT_TRUE(allowed("vehicle_sim/world/vehicle_world.cc", "bathymetry/terrain/terrain.h"));
+  EXPECT_TRUE(allowed("channel_server/medium.cc", "acoustics/sea/noise.h"));
 }
 
 TEST(IncludeRules, NodesStandOnTheirOwnPurePartAlone) {
-  EXPECT_TRUE(allowed("bathymetry/bathymetry_node.cc", "bathymetry/terrain.h"));
-  EXPECT_TRUE(allowed("bathymetry/bathymetry_node.cc", "bus/node.h"));
-  EXPECT_TRUE(allowed("channel_server/channel_server_node.cc", "acoustics/modem.h"));
-  EXPECT_FALSE(allowed("channel_server/channel_server_node.cc", "vehicle_sim/vehicle_model.h"));
+  EXPECT_TRUE(allowed("bathymetry/bathymetry_node.cc", "bathymetry/terrain/terrain.h"));
+  EXPECT_TRUE(allowed("bathymetry/bathymetry_node.cc", "bus/runtime/node.h"));
+  EXPECT_TRUE(allowed("channel_server/channel_server_node.cc", "acoustics/modem/modem.h"));
+  EXPECT_FALSE(allowed("channel_server/channel_server_node.cc", "vehicle_sim/dynamics/vehicle_model.h"));
   EXPECT_FALSE(allowed("vehicle_sim/vehicle_sim_node.cc", "channel_server/channel_server_node.h"));
   EXPECT_FALSE(allowed("conductor/main.cc", "bathymetry/bathymetry_node.h"));
   EXPECT_TRUE(allowed("vehicle_sim/main.cc", "bathymetry/bathymetry_config.h"));  // makes the same terrain
@@ -132,8 +132,8 @@ TEST(IncludeRules, NodesStandOnTheirOwnPurePartAlone) {
 }
 
 TEST(IncludeRules, PureFilesKnowNoNodeOfTheirOwnFolder) {
-  EXPECT_FALSE(allowed("bathymetry/terrain.cc", "bathymetry/bathymetry_config.h"));
-  EXPECT_FALSE(allowed("bathymetry/terrain.cc", "bathymetry/bathymetry_node.h"));
+  EXPECT_FALSE(allowed("bathymetry/terrain/terrain.cc", "bathymetry/bathymetry_config.h"));
+  EXPECT_FALSE(allowed("bathymetry/terrain/terrain.cc", "bathymetry/bathymetry_node.h"));
 }
 
 TEST(IncludeRules, OnlyTheCommandIncludesOtherProcessesNodes) {
@@ -147,17 +147,17 @@ TEST(IncludeRules, NobodyIncludesAMain) {
        {"clients/command/run.cc", "tests/bus/bus_test.cc", "bathymetry/bathymetry_node.cc"}) {
     EXPECT_FALSE(allowed(file, "bathymetry/main.cc")) << file;
     EXPECT_FALSE(allowed(file, "bathymetry/main.h")) << file;
-    EXPECT_FALSE(allowed(file, "bathymetry/terrain.cc")) << file;
+    EXPECT_FALSE(allowed(file, "bathymetry/terrain/terrain.cc")) << file;
   }
 }
 
 TEST(IncludeRules, PathsStartAtTheRoot) {
-  EXPECT_FALSE(allowed("acoustics/noise.cc", "../bus/bus.h"));
-  EXPECT_FALSE(allowed("acoustics/noise.cc", "noise.h"));
+  EXPECT_FALSE(allowed("acoustics/sea/noise.cc", "../bus/bus.h"));
+  EXPECT_FALSE(allowed("acoustics/sea/noise.cc", "noise.h"));
 }
 
 TEST(IncludeRules, AMacroInPlaceOfAPathIsRefused) {
-  EXPECT_FALSE(allowed("acoustics/noise.cc", "LCM_HEADER"));
+  EXPECT_FALSE(allowed("acoustics/sea/noise.cc", "LCM_HEADER"));
   EXPECT_FALSE(allowed("clients/modem/modem_client.h", "LCM_HEADER"));
 }
 
@@ -171,10 +171,10 @@ TEST(IncludeRules, AnUnknownFolderHasNoRule) {
 }
 
 TEST(IncludeRules, ABreachNamesFileLineAndReason) {
-  const std::vector<SourceFile> tree{{"acoustics/noise.cc", "\n# include <lcm/lcm-cpp.hpp>\n"},
+  const std::vector<SourceFile> tree{{"acoustics/sea/noise.cc", "\n# include <lcm/lcm-cpp.hpp>\n"},
                                      {"bus/bus.cc", "#include <lcm/lcm-cpp.hpp>\n"}};
   EXPECT_THAT(breaches(tree),
-              ElementsAre("acoustics/noise.cc:2: includes lcm/lcm-cpp.hpp: a pure file knows no LCM"));
+              ElementsAre("acoustics/sea/noise.cc:2: includes lcm/lcm-cpp.hpp: a pure file knows no LCM"));
 }
 
 TEST(IncludeRules, ACircleOfFoldersIsFound) {

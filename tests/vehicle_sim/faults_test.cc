@@ -7,9 +7,9 @@
 
 #include "core/check.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/remus100_pvs.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/model_library.h"
-#include "vehicle_sim/remus100_pvs.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "bathymetry/generated_terrain.h"
+#include "bathymetry/terrain/generated_terrain.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
-#include "tests/vehicle_sim/grounds.h"
-#include "vehicle_sim/remus100_pvs.h"
-#include "vehicle_sim/terrain_seabed.h"
+#include "tests/vehicle_sim/world/grounds.h"
+#include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/world/terrain_seabed.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "vehicle_sim/equations_of_motion.h"
+#include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/remus100_pvs.h"
 #include "vehicle_sim/model_library.h"
-#include "vehicle_sim/remus100_pvs.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const std::string kVehicles = std::string(HALOCLINE_SOURCE_DIR) + "/vehicles";
+const std::string kVehicles = std::string(HALOCLINE_SOURCE_DIR) + "/models/vehicles";
 
 std::string errors_of(const std::string& text) {
   try {

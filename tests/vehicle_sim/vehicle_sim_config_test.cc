@@ -115,7 +115,7 @@ model = "hover"
 [[vehicle]]
 name = "c"
 id = 3
-model = ")" HALOCLINE_SOURCE_DIR R"(/vehicles/remus100-pvs.toml"
+model = ")" HALOCLINE_SOURCE_DIR R"(/models/vehicles/remus100-pvs.toml"
 )");
   const auto members = members_of(r.scenario, r.config);
   EXPECT_EQ(members[0].model->name(), "torpedo");

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/lockstep_runner.h"
+#include "bus/runtime/lockstep_runner.h"
 #include "tests/support/tolerance.h"
-#include "tests/vehicle_sim/grounds.h"
+#include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/vehicle_sim_messages.h"
 
 namespace halocline::vehicle_sim {

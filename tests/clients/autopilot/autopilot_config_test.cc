@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/scenario.h"
+#include "bus/runtime/scenario.h"
 #include "core/units.h"
 
 namespace halocline::clients {

@@ -9,7 +9,7 @@
 
 #include "clients/autopilot/control_laws.h"
 #include "tests/support/tolerance.h"
-#include "vehicle_sim/equations_of_motion.h"
+#include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/model_library.h"
 
 namespace halocline::clients {

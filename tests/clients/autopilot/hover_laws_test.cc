@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/tolerance.h"
-#include "vehicle_sim/equations_of_motion.h"
-#include "vehicle_sim/hover.h"
+#include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/hover.h"
 
 namespace halocline::clients {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "bus/event_log.h"
-#include "bus/lockstep_runner.h"
-#include "channel_server/packet.h"
+#include "bus/runtime/lockstep_runner.h"
+#include "channel_server/packets/packet.h"
 #include "core/check.h"
 
 namespace halocline::clients {

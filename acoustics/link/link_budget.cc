@@ -1,0 +1,206 @@
+#include "acoustics/link/link_budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "acoustics/link/transmission_loss.h"
+#include "acoustics/math/depth_cells.h"
+#include "acoustics/math/frequency_band.h"
+#include "acoustics/math/gauss_legendre.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr int kNodesPerPiece = 5;  // of gauss_legendre_5
+constexpr double kMetresPerKilometre = 1000;
+constexpr double kNepersPerDecibel = std::numbers::ln10 / 10;  // of power
+
+double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWater); }
+
+}  // namespace
+
+double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m) {
+  const Vec3 way = to_ned_m - from_ned_m;
+  return std::atan2(way.z(), std::hypot(way.x(), way.y()));
+}
+
+struct LinkModel::Sample {
+  AbsorptionSpectrum spectrum;
+  double share;
+};
+
+// Mean alpha = sum of share * alpha(sample) + cells_share * (table[last] - table[first]).
+struct LinkModel::Samples {
+  std::array<Sample, 2 * kNodesPerPiece> of;
+  int count = 0;
+  std::size_t first_boundary = 0, last_boundary = 0;
+  double cells_share = 0;
+
+  void add_piece(const Environment& environment, double from_m, double to_m, double height_m) {
+    const GaussLegendreRule& rule = gauss_legendre_5();
+    const double middle = (from_m + to_m) / 2, half = (to_m - from_m) / 2;
+    for (int i = 0; i < kNodesPerPiece; ++i) {
+      const double depth = middle + half * rule.nodes[i];
+      of[count++] = {absorption_spectrum_at(environment, depth), rule.weights[i] * half / height_m};
+    }
+  }
+};
+
+LinkModel::LinkModel(const Environment& environment, const Modem& transmitter, const Modem& receiver)
+    : environment_(environment), transmitter_(transmitter), receiver_(receiver) {
+  validate(environment);
+  validate(transmitter);
+  validate(receiver);
+  const Band band = transmitter.band();
+  std::vector<FrequencyNode> nodes = frequency_nodes(band.low_hz, band.high_hz);
+  nodes.insert(nodes.begin(), {band.centre_hz(), 0});
+  const double density =
+      to_power_ratio(transmitter.source_level + receiver.directivity_index).value / band.width_hz();
+  for (const FrequencyNode& node : nodes) {
+    frequency_khz_squared_.push_back(hz_to_khz(node.frequency_hz) * hz_to_khz(node.frequency_hz));
+    weight_hz_.push_back(node.weight_hz);
+    unit_ratio_.push_back(density / noise_power_density(node.frequency_hz, environment.noise).value);
+  }
+  centre_noise_ = noise_components(band.centre_hz(), environment.noise).total;
+  noise_level_ = noise_level_over_band(band.low_hz, band.high_hz, environment.noise);
+  tabulate_absorption();
+}
+
+// The running integral of alpha dz, boundary by boundary.
+void LinkModel::tabulate_absorption() {
+  const std::vector<double>& boundaries = environment_.profile.cell_boundaries_m();
+  const GaussLegendreRule& rule = gauss_legendre_5();
+  std::vector<double> sum(frequency_khz_squared_.size(), 0);
+  absorption_to_boundary_ = sum;
+  for (std::size_t cell = 1; cell < boundaries.size(); ++cell) {
+    const double half = (boundaries[cell] - boundaries[cell - 1]) / 2;
+    for (int i = 0; i < kNodesPerPiece; ++i) {
+      const double depth = boundaries[cell - 1] + half * (1 + rule.nodes[i]);
+      const AbsorptionSpectrum spectrum = absorption_spectrum_at(environment_, depth);
+      for (std::size_t f = 0; f < sum.size(); ++f) {
+        sum[f] += rule.weights[i] * half * spectrum.db_per_km(frequency_khz_squared_[f]);
+      }
+    }
+    absorption_to_boundary_.insert(absorption_to_boundary_.end(), sum.begin(), sum.end());
+  }
+}
+
+LinkModel::Samples LinkModel::sample_path(double from_depth_m, double to_depth_m) const {
+  const double z1 = within_water(std::min(from_depth_m, to_depth_m));
+  const double z2 = within_water(std::max(from_depth_m, to_depth_m));
+  Samples samples;
+  if (z1 == z2) {
+    samples.of[samples.count++] = {absorption_spectrum_at(environment_, z1), 1};
+    return samples;
+  }
+  const DepthSpan span = split_span(environment_.profile.cell_boundaries_m(), z1, z2);
+  samples.add_piece(environment_, span.head_from_m, span.head_to_m, z2 - z1);
+  if (!span.crosses) return samples;
+  samples.add_piece(environment_, span.tail_from_m, span.tail_to_m, z2 - z1);
+  samples.first_boundary = span.first_boundary;
+  samples.last_boundary = span.last_boundary;
+  samples.cells_share = 1 / (z2 - z1);
+  return samples;
+}
+
+// dB/km, mean along the path.
+double LinkModel::mean_absorption(const Samples& samples, std::size_t frequency) const {
+  double mean = 0;
+  for (int i = 0; i < samples.count; ++i) {
+    mean += samples.of[i].share * samples.of[i].spectrum.db_per_km(frequency_khz_squared_[frequency]);
+  }
+  const std::size_t frequencies = frequency_khz_squared_.size();
+  return mean +
+         samples.cells_share * (absorption_to_boundary_[samples.last_boundary * frequencies + frequency] -
+                                absorption_to_boundary_[samples.first_boundary * frequencies + frequency]);
+}
+
+double LinkModel::capacity(const Samples& samples, double range_m, Decibels beams) const {
+  const bool lossless = range_m < kReferenceRange;
+  const double spread = lossless ? 1 : std::pow(range_m, -environment_.spreading_exponent);
+  const double gain = spread * to_power_ratio(-beams).value;
+  const double nepers_per_db_per_km = lossless ? 0 : kNepersPerDecibel * range_m / kMetresPerKilometre;
+  double bits = 0;
+  for (std::size_t f = 1; f < unit_ratio_.size(); ++f) {
+    const double absorbed = std::exp(-nepers_per_db_per_km * mean_absorption(samples, f));
+    bits += weight_hz_[f] * log2_of_1_plus(unit_ratio_[f] * gain * absorbed);
+  }
+  return bits;
+}
+
+// The loss at f is that at the centre plus (alpha(f) - alpha(centre)) l.
+double LinkModel::capacity_of_path(const Samples& samples, Decibels loss, double path_length_m) const {
+  const double gain = to_power_ratio(Decibels{-loss.value}).value;
+  const double nepers_per_db_per_km = kNepersPerDecibel * path_length_m / kMetresPerKilometre;
+  const double at_centre = mean_absorption(samples, 0);
+  double bits = 0;
+  for (std::size_t f = 1; f < unit_ratio_.size(); ++f) {
+    const double more = std::exp(-nepers_per_db_per_km * (mean_absorption(samples, f) - at_centre));
+    bits += weight_hz_[f] * log2_of_1_plus(unit_ratio_[f] * gain * more);
+  }
+  return bits;
+}
+
+PathLoss LinkModel::path_loss(double from_depth_m, double to_depth_m, double path_length_m) const {
+  const double alpha = mean_absorption(sample_path(from_depth_m, to_depth_m), 0);
+  return {alpha, transmission_loss(path_length_m, environment_.spreading_exponent, alpha).total};
+}
+
+double LinkModel::delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
+  return environment_.profile.travel_time_s(depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m),
+                                            depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m),
+                                            (to_ned_m - from_ned_m).norm());
+}
+
+LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
+  const double from_depth = depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m);
+  const double to_depth = depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m);
+  const Samples samples = sample_path(from_depth, to_depth);
+  const double slowness = environment_.profile.travel_time_s(from_depth, to_depth, 1);  // s/m
+
+  LinkBudget link;
+  link.range_m = (to_ned_m - from_ned_m).norm();
+  link.delay_s = link.range_m * slowness;
+  link.mean_sound_speed_mps = 1 / slowness;
+  link.absorption_db_per_km = mean_absorption(samples, 0);
+  // The receiver looks back along the line.
+  const double down_rad = angle_down_rad(from_ned_m, to_ned_m);
+  const Decibels beams = transmitter_.beam.loss(down_rad) + receiver_.beam.loss(-down_rad);
+  set_levels(
+      link,
+      transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km).total +
+          beams);
+  link.capacity_bps = capacity(samples, link.range_m, beams);
+  return link;
+}
+
+void LinkModel::set_levels(LinkBudget& link, Decibels loss) const {
+  link.transmission_loss = loss;
+  link.received_level = transmitter_.source_level - link.transmission_loss;
+  link.noise_level = noise_level_;
+  link.noise_spectrum_level = centre_noise_;
+  link.snr = link.received_level - noise_level_ + receiver_.directivity_index;
+  const Decibels bandwidth = to_decibels(PowerRatio{transmitter_.bandwidth_hz});
+  link.snr_narrowband = link.received_level - centre_noise_ - bandwidth + receiver_.directivity_index;
+  link.receivable =
+      link.received_level >= receiver_.least_receivable_level && bands_overlap(transmitter_, receiver_);
+}
+
+LinkBudget LinkModel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,
+                                     double path_length_m) const {
+  LinkBudget link = budget(from_ned_m, to_ned_m);
+  const Samples samples = sample_path(depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m),
+                                      depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m));
+  set_levels(link, loss);
+  link.capacity_bps = capacity_of_path(samples, loss, path_length_m);
+  return link;
+}
+
+LinkBudget link_budget(const Environment& environment, const Modem& transmitter, const Modem& receiver,
+                       const Vec3& from_ned_m, const Vec3& to_ned_m) {
+  return LinkModel(environment, transmitter, receiver).budget(from_ned_m, to_ned_m);
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,110 @@
+#include "acoustics/link/received_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kEchoRange = 1e-3;  // of the strongest power: 30 dB
+
+Decibels level_of(double power, const FieldOptions& options) {
+  const Decibels level = to_decibels({power});
+  return options.floor ? std::max(level, *options.floor) : level;
+}
+
+// A path of phase phi (which grows as its delay shrinks) and delay t at f: e^(i (phi - 2 pi f t)).
+std::complex<double> phasor(const Arrival& path, double pressure, double frequency_hz) {
+  const double cycles = std::fmod(frequency_hz * path.delay_s, 1.0);
+  return std::polar(pressure, path.phase_rad - 2 * std::numbers::pi * cycles);
+}
+
+struct WeightedDelay {
+  double delay_s, power;
+};
+
+std::vector<WeightedDelay> weighted_delays(const Arrivals& arrivals, const Transducers& transducers) {
+  std::vector<WeightedDelay> delays;
+  for (const Arrival& path : arrivals.paths) {
+    const double pressure = weighted_pressure(path, transducers);
+    delays.push_back({path.delay_s, pressure * pressure});
+  }
+  return delays;
+}
+
+void set_moments(const std::vector<WeightedDelay>& delays, double power, ReceivedField& field) {
+  double first_moment = 0, second_moment = 0;
+  for (const auto& [delay, weight] : delays) first_moment += weight * (delay - field.first_delay_s);
+  const double mean = first_moment / power;
+  for (const auto& [delay, weight] : delays) {
+    const double off = delay - field.first_delay_s - mean;
+    second_moment += weight * off * off;
+  }
+  field.mean_delay_s = field.first_delay_s + mean;
+  field.delay_spread_s = std::sqrt(second_moment / power);
+}
+
+double longest_echo_s(const std::vector<WeightedDelay>& delays) {
+  double strongest = 0, first = std::numeric_limits<double>::infinity(), last = 0;
+  for (const WeightedDelay& path : delays) strongest = std::max(strongest, path.power);
+  for (const auto& [delay, power] : delays) {
+    if (power < kEchoRange * strongest) continue;
+    first = std::min(first, delay);
+    last = std::max(last, delay);
+  }
+  return std::max(0.0, last - first);
+}
+
+}  // namespace
+
+double weighted_pressure(const Arrival& path, const Transducers& transducers) {
+  // The receiver looks back along the ray: what travels down comes from above.
+  // The beams' product first, so that the way back has the same pressure to the last bit.
+  return path.received_pressure() * (transducers.source.factor(path.launch_angle_rad) *
+                                     transducers.receiver.factor(-path.arrival_angle_rad));
+}
+
+ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options) {
+  ReceivedField field;
+  field.shadow = arrivals.shadow();
+  const std::vector<WeightedDelay> delays = weighted_delays(arrivals, options.transducers);
+  double power = 0;
+  for (const WeightedDelay& path : delays) power += path.power;
+  field.level = level_of(power, options);
+  if (delays.empty()) return field;
+  field.first_delay_s = arrivals.paths.front().delay_s;
+  field.mean_delay_s = field.first_delay_s;
+  if (power > 0) set_moments(delays, power, field);
+  field.longest_echo_s = longest_echo_s(delays);
+  return field;
+}
+
+Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options) {
+  require_in_range(frequency_hz, 10, 1e6, "frequency of a coherent level", "Hz");
+  std::complex<double> sum = 0;
+  for (const Arrival& path : arrivals.paths) {
+    sum += phasor(path, weighted_pressure(path, options.transducers), frequency_hz);
+  }
+  return level_of(std::norm(sum), options);
+}
+
+std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
+                                                   double rate_hz, double from_s, std::size_t count,
+                                                   const Transducers& transducers) {
+  require_in_range(carrier_hz, 0, 1e6, "carrier of an impulse response", "Hz");
+  require_in_range(rate_hz, 1e-6, 1e7, "sampling rate of an impulse response", "Hz");
+  require_in_range(static_cast<double>(count), 1, 1e7, "samples of an impulse response");
+  std::vector<std::complex<double>> taps(count);
+  for (const Arrival& path : arrivals.paths) {
+    const double place = std::round((path.delay_s - from_s) * rate_hz);
+    if (place < 0 || place >= static_cast<double>(count)) continue;
+    taps[static_cast<std::size_t>(place)] += phasor(path, weighted_pressure(path, transducers), carrier_hz);
+  }
+  return taps;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,13 @@
+#include "acoustics/link/transmission_loss.h"
+
+namespace halocline::acoustics {
+
+TransmissionLoss transmission_loss(double range_m, double spreading_exponent, double absorption_db_per_km) {
+  if (range_m < kReferenceRange) return {};
+  constexpr double kMetresPerKilometre = 1000;
+  const Decibels spreading{spreading_exponent * 10 * std::log10(range_m)};
+  const Decibels absorption{absorption_db_per_km * range_m / kMetresPerKilometre};
+  return {spreading, absorption, spreading + absorption};
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,38 @@
+#include "acoustics/math/frequency_band.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/math/gauss_legendre.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz, double panel_ratio) {
+  const double wanted = std::log(high_hz / low_hz) / std::log(panel_ratio);
+  const int panels = std::max(1, static_cast<int>(std::ceil(wanted)));
+  const GaussLegendreRule& rule = gauss_legendre_16();
+  double from = low_hz;
+  for (int panel = 1; panel <= panels; ++panel) {
+    const double share = static_cast<double>(panel) / panels;
+    const double to = panel == panels ? high_hz : low_hz * std::pow(high_hz / low_hz, share);
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+      nodes.push_back({(from + to) / 2 + (to - from) / 2 * rule.nodes[i], (to - from) / 2 * rule.weights[i]});
+    }
+    from = to;
+  }
+}
+
+}  // namespace
+
+std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio) {
+  require(low_hz > 0 && low_hz <= high_hz && std::isfinite(high_hz), "a band needs 0 < low_hz <= high_hz");
+  std::vector<FrequencyNode> nodes;
+  const bool joint_inside = low_hz < kThorpJointHz && kThorpJointHz < high_hz;
+  if (joint_inside) add_panels(nodes, low_hz, kThorpJointHz, panel_ratio);
+  add_panels(nodes, joint_inside ? kThorpJointHz : low_hz, high_hz, panel_ratio);
+  return nodes;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,62 @@
+#include "acoustics/modem/bit_error.h"
+
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+// Q(sqrt(2 x)).
+double tail_of_root(double x) { return std::erfc(std::sqrt(x)) / 2; }
+
+// (1 - s) / 2 for s = sqrt(g / (k + g)), as (1 - s^2) / (2 (1 + s)) with 1 - s^2 = k / (k + g): no difference
+// of nearly equal numbers, and no infinity over infinity.
+double coherent_in_rayleigh(double k, double g) {
+  return k / (k + g) / (2 * (1 + std::sqrt(1 / (1 + k / g))));
+}
+
+double error_without_fading(Modulation modulation, double g) {
+  switch (modulation) {
+    case Modulation::kBpsk:
+      return tail_of_root(g);
+    case Modulation::kDbpsk:
+      return std::exp(-g) / 2;
+    case Modulation::kCoherentBfsk:
+      return tail_of_root(g / 2);
+    case Modulation::kNoncoherentBfsk:
+      break;
+  }
+  return std::exp(-g / 2) / 2;
+}
+
+double error_in_rayleigh(Modulation modulation, double g) {
+  switch (modulation) {
+    case Modulation::kBpsk:
+      return coherent_in_rayleigh(1, g);
+    case Modulation::kDbpsk:
+      return 1 / (2 * (1 + g));
+    case Modulation::kCoherentBfsk:
+      return coherent_in_rayleigh(2, g);
+    case Modulation::kNoncoherentBfsk:
+      break;
+  }
+  return 1 / (2 + g);
+}
+
+}  // namespace
+
+double bit_error_rate(Modulation modulation, Fading fading, PowerRatio eb_over_n0) {
+  require(eb_over_n0.value >= 0, "Eb/N0 is a ratio of powers and must not be negative or NaN");
+  return fading == Fading::kNone ? error_without_fading(modulation, eb_over_n0.value)
+                                 : error_in_rayleigh(modulation, eb_over_n0.value);
+}
+
+double packet_error_rate(double bit_error_rate, std::int64_t bits) {
+  require_in_range(bit_error_rate, 0, 1, "bit error rate", "");
+  require(bits >= 0, "a packet has no negative number of bits");
+  if (bits == 0) return 0;
+  return -std::expm1(static_cast<double>(bits) * std::log1p(-bit_error_rate));
+}
+
+}  // namespace halocline::acoustics

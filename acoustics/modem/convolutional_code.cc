@@ -1,0 +1,147 @@
+#include "acoustics/modem/convolutional_code.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr int kGreatestJanusDistance = 28;
+// exp(-x) is 0 in a double beyond this.
+constexpr double kExponentOfZero = 745;
+
+// Paths that are now in one state of the trellis, by the distance so far.
+struct Bundle {
+  double paths = 0;
+  double information_ones = 0;
+};
+using Front = std::vector<std::vector<Bundle>>;  // [state][distance]
+
+struct Edge {
+  unsigned to;
+  int ones;
+};
+
+Edge edge_of(const ConvolutionalCode& code, unsigned state, unsigned bit) {
+  const unsigned word = (bit << (code.constraint_length - 1)) | state;
+  const auto parity = [&](unsigned generator) { return std::popcount(word & generator) & 1; };
+  return {word >> 1, parity(code.generators[0]) + parity(code.generators[1])};
+}
+
+void carry(Front& to, const Edge& edge, const Bundle& bundle, int distance, unsigned bit) {
+  const auto reached = static_cast<std::size_t>(distance + edge.ones);
+  if (bundle.paths == 0 || reached >= to[edge.to].size()) return;
+  Bundle& sum = to[edge.to][reached];
+  sum.paths += bundle.paths;
+  sum.information_ones += bundle.information_ones + bit * bundle.paths;
+}
+
+// All paths one bit further on, except those that have come back to state 0.
+Front step(const ConvolutionalCode& code, const Front& now) {
+  Front next(now.size(), std::vector<Bundle>(now[0].size()));
+  for (unsigned state = 1; state < now.size(); ++state) {
+    for (int distance = 0; distance < static_cast<int>(now[state].size()); ++distance) {
+      const Bundle& bundle = now[state][static_cast<std::size_t>(distance)];
+      for (const unsigned bit : {0u, 1u}) carry(next, edge_of(code, state, bit), bundle, distance, bit);
+    }
+  }
+  return next;
+}
+
+bool any_on_the_way(const Front& front) {
+  return std::any_of(front.begin() + 1, front.end(), [](const std::vector<Bundle>& state) {
+    return std::any_of(state.begin(), state.end(), [](const Bundle& b) { return b.paths > 0; });
+  });
+}
+
+double binomial(int n, int k) {
+  double value = 1;
+  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;  // exact at every step below 2^53
+  return value;
+}
+
+double soft_without_fading(int d, double g) {
+  const double half = d * g / 2;
+  if (half > kExponentOfZero) return 0;
+  std::vector<double> choices;  // choices[m] = sum over n <= m of C(2d-1, n)
+  for (int n = 0; n < d; ++n) choices.push_back((n ? choices.back() : 0) + binomial(2 * d - 1, n));
+  double sum = 0, power = 1;  // power = half^k / k!
+  for (int k = 0; k < d; ++k) {
+    sum += power * choices[static_cast<std::size_t>(d - 1 - k)];
+    power *= half / (k + 1);
+  }
+  return std::ldexp(std::exp(-half) * sum, 1 - 2 * d);
+}
+
+double soft_in_rayleigh(int d, double p) {
+  double sum = 0, power = 1;
+  for (int k = 0; k < d; ++k, power *= 1 - p) sum += binomial(d - 1 + k, k) * power;
+  return std::pow(p, d) * sum;
+}
+
+double hard(int d, double p) {
+  double sum = d % 2 == 0 ? binomial(d, d / 2) * std::pow(p * (1 - p), d / 2) / 2 : 0;
+  for (int k = d / 2 + 1; k <= d; ++k) sum += binomial(d, k) * std::pow(p, k) * std::pow(1 - p, d - k);
+  return sum;
+}
+
+// P2(d) of the header.
+double pairwise_error(int d, Decision decision, Fading fading, PowerRatio chip_snr) {
+  const double p = bit_error_rate(Modulation::kNoncoherentBfsk, fading, chip_snr);
+  if (decision == Decision::kHard) return hard(d, p);
+  return fading == Fading::kNone ? soft_without_fading(d, chip_snr.value) : soft_in_rayleigh(d, p);
+}
+
+}  // namespace
+
+std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int greatest_distance) {
+  require_in_range(code.constraint_length, 2, 16, "constraint length", "");
+  require_in_range(greatest_distance, 1, 60, "greatest distance", "");
+  const unsigned states = 1u << (code.constraint_length - 1);
+  for (const unsigned generator : code.generators) {
+    require(generator > 0 && generator < 2 * states, "a generator is longer than the constraint length");
+  }
+  const auto distances = static_cast<std::size_t>(greatest_distance) + 1;
+  Front front(states, std::vector<Bundle>(distances));
+  carry(front, edge_of(code, 0, 1), {1, 0}, 0, 1);
+  std::vector<Bundle> back(distances);
+  // A path that adds nothing for as many bits as there are states has gone round a loop of distance 0.
+  const std::size_t longest = (distances + 1) * states;
+  for (std::size_t bits = 1; any_on_the_way(front); ++bits) {
+    require(bits < longest, "the code is catastrophic: endless paths of finite distance");
+    front = step(code, front);
+    for (std::size_t d = 0; d < distances; ++d) {
+      back[d].paths += front[0][d].paths;
+      back[d].information_ones += front[0][d].information_ones;
+    }
+  }
+  std::vector<SpectrumTerm> terms;
+  for (std::size_t d = 0; d < distances; ++d) {
+    if (back[d].paths > 0) terms.push_back({static_cast<int>(d), back[d].paths, back[d].information_ones});
+  }
+  return terms;
+}
+
+const std::vector<SpectrumTerm>& janus_spectrum() {
+  static const std::vector<SpectrumTerm> spectrum = distance_spectrum(kJanusCode, kGreatestJanusDistance);
+  return spectrum;
+}
+
+double union_bound(const std::vector<SpectrumTerm>& spectrum, Decision decision, Fading fading,
+                   PowerRatio chip_snr) {
+  double sum = 0;
+  for (const SpectrumTerm& term : spectrum) {
+    sum += term.information_ones * pairwise_error(term.distance, decision, fading, chip_snr);
+  }
+  return sum;
+}
+
+double coded_bit_error_rate(const std::vector<SpectrumTerm>& spectrum, Decision decision, Fading fading,
+                            PowerRatio chip_snr) {
+  return std::min(0.5, union_bound(spectrum, decision, fading, chip_snr));
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,69 @@
+#include "acoustics/modem/error_model.h"
+
+#include "acoustics/modem/bit_error.h"
+#include "acoustics/modem/block_code.h"
+#include "acoustics/modem/convolutional_code.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kConvolutionalRate = 0.5;  // chips carry half the energy of an information bit
+
+template <Modulation modulation, Fading fading>
+double uncoded(PowerRatio eb_over_n0) {
+  return bit_error_rate(modulation, fading, eb_over_n0);
+}
+
+template <Fading fading>
+double janus(PowerRatio eb_over_n0) {
+  return coded_bit_error_rate(janus_spectrum(), Decision::kSoft, fading,
+                              {kConvolutionalRate * eb_over_n0.value});
+}
+
+double never(PowerRatio) { return 0; }
+double bch64(PowerRatio eb_over_n0) { return coded_bit_error_rate(bch_64_10(), eb_over_n0); }
+double hamming14(PowerRatio eb_over_n0) { return coded_bit_error_rate(hamming_14_9(), eb_over_n0); }
+
+struct Known {
+  ErrorModel model;
+  std::string_view name;
+  double (*bit_error_rate)(PowerRatio);
+};
+
+constexpr Known kKnown[] = {
+    {ErrorModel::kNone, "none", never},
+    {ErrorModel::kBfsk, "bfsk", uncoded<Modulation::kNoncoherentBfsk, Fading::kNone>},
+    {ErrorModel::kBfskRayleigh, "bfsk-rayleigh", uncoded<Modulation::kNoncoherentBfsk, Fading::kRayleigh>},
+    {ErrorModel::kBpsk, "bpsk", uncoded<Modulation::kBpsk, Fading::kNone>},
+    {ErrorModel::kBpskRayleigh, "bpsk-rayleigh", uncoded<Modulation::kBpsk, Fading::kRayleigh>},
+    {ErrorModel::kDbpsk, "dbpsk", uncoded<Modulation::kDbpsk, Fading::kNone>},
+    {ErrorModel::kDbpskRayleigh, "dbpsk-rayleigh", uncoded<Modulation::kDbpsk, Fading::kRayleigh>},
+    {ErrorModel::kJanus, "janus", janus<Fading::kNone>},
+    {ErrorModel::kJanusRayleigh, "janus-rayleigh", janus<Fading::kRayleigh>},
+    {ErrorModel::kBpskBch64, "bpsk-bch64", bch64},
+    {ErrorModel::kBpskHamming14, "bpsk-hamming14", hamming14},
+};
+
+const Known& known(ErrorModel model) {
+  const auto place = static_cast<std::size_t>(model);
+  ensure(place < std::size(kKnown) && kKnown[place].model == model, "an error model without a formula");
+  return kKnown[place];
+}
+
+}  // namespace
+
+std::string_view to_name(ErrorModel model) { return known(model).name; }
+
+std::optional<ErrorModel> error_model_from_name(std::string_view name) {
+  for (const Known& each : kKnown) {
+    if (each.name == name) return each.model;
+  }
+  return std::nullopt;
+}
+
+double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0) {
+  return known(model).bit_error_rate(eb_over_n0);
+}
+
+}  // namespace halocline::acoustics

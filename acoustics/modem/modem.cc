@@ -1,0 +1,99 @@
+#include "acoustics/modem/modem.h"
+
+#include <algorithm>
+
+#include "acoustics/modem/preamble_detection.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr std::int64_t kBitsPerByte = 8;
+constexpr double kMostBits = 1e6;
+
+void validate(const FrameLayout& layout) {
+  require_in_range(layout.header_bits, 0, kMostBits, "header", "bits");
+  require_in_range(layout.tail_bits, 0, kMostBits, "tail of a coded block", "bits");
+  require_in_range(layout.frame_bytes, 0, 32'768, "frame", "bytes");
+  require_in_range(layout.most_bytes, 0, 32'768, "largest payload", "bytes");
+  require_in_range(layout.most_frames, layout.frame_bytes > 0 ? 1 : 0, 1024, "frames of a packet");
+}
+
+// Bytes that are sent for a payload: whole frames, where there are frames.
+std::int64_t sent_bytes(const FrameLayout& layout, std::int64_t payload_bytes) {
+  if (layout.frame_bytes == 0) return payload_bytes;
+  return (payload_bytes + layout.frame_bytes - 1) / layout.frame_bytes * layout.frame_bytes;
+}
+
+// Bits of a coded block: its information and the tail, nothing where there is nothing to send.
+std::int64_t block_bits(const FrameLayout& layout, std::int64_t information_bits) {
+  return information_bits > 0 ? information_bits + layout.tail_bits : 0;
+}
+
+}  // namespace
+
+void validate(const Modem& modem) {
+  require_in_range(modem.source_level.value, 0, 250, "source level", "dB re 1 uPa at 1 m");
+  require_in_range(modem.least_receivable_level.value, -200, 250, "least receivable level", "dB re 1 uPa");
+  require_in_range(modem.centre_frequency_hz, 10, 1e6, "centre frequency", "Hz");
+  require_finite(modem.bandwidth_hz, "bandwidth");
+  require(modem.bandwidth_hz > 0 && modem.bandwidth_hz < 2 * modem.centre_frequency_hz,
+          "bandwidth is " + std::to_string(modem.bandwidth_hz) +
+              " Hz; allowed is above 0 and below twice the centre frequency of " +
+              std::to_string(modem.centre_frequency_hz) + " Hz");
+  require_in_range(modem.directivity_index.value, 0, 40, "directivity index", "dB");
+  require_in_range(modem.bit_rate_bps, 1e-3, 1e7, "bit rate", "bit/s");
+  require_in_range(modem.packet_overhead.seconds(), 0, 60, "packet overhead", "s");
+  require_in_range(modem.preamble.seconds(), 0, modem.packet_overhead.seconds(),
+                   "preamble (part of the packet overhead)", "s");
+  require_in_range(modem.preamble_pieces, 1, 256, "pieces of the preamble");
+  require_in_range(modem.guard_time.seconds(), 0, 10, "guard time", "s");
+  require_in_range(modem.doppler_tolerance, 0, 1, "Doppler tolerance");
+  validate(modem.layout);
+}
+
+Modem generic_modem(Decibels strength, Decibels cut_off, double centre_frequency_hz, double bandwidth_hz) {
+  Modem modem;
+  modem.source_level = strength;
+  modem.least_receivable_level = cut_off;
+  modem.centre_frequency_hz = centre_frequency_hz;
+  modem.bandwidth_hz = bandwidth_hz;
+  validate(modem);
+  return modem;
+}
+
+PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes) {
+  require(payload_bytes <= max_payload_bytes(modem), "a payload of " + std::to_string(payload_bytes) +
+                                                         " bytes; allowed is at most " +
+                                                         std::to_string(max_payload_bytes(modem)));
+  const FrameLayout& layout = modem.layout;
+  const std::int64_t body_bits = kBitsPerByte * sent_bytes(layout, static_cast<std::int64_t>(payload_bytes));
+  const std::int64_t bits = block_bits(layout, layout.header_bits) + block_bits(layout, body_bits);
+  return {modem.packet_overhead + SimDuration::from_seconds(static_cast<double>(bits) / modem.bit_rate_bps),
+          modem.preamble, layout.header_bits + body_bits};
+}
+
+std::size_t max_payload_bytes(const Modem& modem) {
+  const FrameLayout& layout = modem.layout;
+  const std::int64_t most = layout.frame_bytes > 0 ? std::int64_t{layout.frame_bytes} * layout.most_frames
+                                                   : std::int64_t{layout.most_bytes};
+  return static_cast<std::size_t>(most);
+}
+
+double acquisition_probability(const Modem& modem, PowerRatio sinr) {
+  require(sinr.value >= 0, "a signal-to-noise ratio must not be negative or NaN");
+  if (modem.preamble == SimDuration()) return 1;
+  const double time_bandwidth = modem.preamble.seconds() * modem.bandwidth_hz;
+  return detection_probability(modem.preamble_pieces, kFalseAlarmProbability, {time_bandwidth * sinr.value});
+}
+
+double bit_error_rate(const Modem& modem, PowerRatio sinr) {
+  return bit_error_rate(modem.error_model, PowerRatio{sinr.value * modem.bandwidth_hz / modem.bit_rate_bps});
+}
+
+bool bands_overlap(const Modem& one, const Modem& other) {
+  return std::max(one.band().low_hz, other.band().low_hz) <
+         std::min(one.band().high_hz, other.band().high_hz);
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,109 @@
+// An acoustic modem as the water sees it: how loud it is, in which band, what it can still hear, how it puts
+// bytes into a packet, and how well it gets them out again.
+//
+// The generic profile takes the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),
+// cut-off (least receivable level), bandwidth and centre frequency. Those of real modems are in modem_profile.h.
+// A value; nothing here knows a bus or a clock. The transducer's pattern in elevation weighs the paths of sound
+// at both ends; noise comes from all around and is weighed by the directivity index alone. Left out: patterns in
+// bearing.
+//
+//   const Modem modem = profile_modem(ModemProfile::kJanus);
+//   packet_timing(modem, 16).duration;                            // 2.8 s
+//   bit_error_rate(modem, to_power_ratio(Decibels{-8}));          // noise and interference, whole band
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "acoustics/math/frequency_band.h"
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/modem/error_model.h"
+#include "core/sim_time.h"
+#include "core/units.h"
+
+namespace halocline::acoustics {
+
+enum class ModemProfile { kGeneric, kJanus, kMicromodemFsk, kMicromodemPsk };
+
+// How a packet is put together. A frame is sent whole, however few of its bytes are used.
+struct FrameLayout {
+  std::int32_t header_bits = 0;      // a coded block before the payload that has to be right as well
+  std::int32_t tail_bits = 0;        // that end the code, after every coded block; carry nothing
+  std::int32_t frame_bytes = 0;      // 0: the payload is sent as it is, in no frames
+  std::int32_t most_frames = 0;      // in one packet; read only with frame_bytes above 0
+  std::int32_t most_bytes = 32'768;  // largest payload without frames
+  bool operator==(const FrameLayout&) const = default;
+};
+
+// The defaults are one generic modem of the 25 kHz class with the band of the reference figures.
+struct Modem {
+  // Strength: dB re 1 uPa at 1 m over the band, 0..250. Real modems give 160..190 (WHOI Micromodem about
+  // 185); the paper's figures use 60..120, which is 120 dB = 8.4 microwatts.
+  Decibels source_level{185};
+  // Cut-off: the least level that is received, dB re 1 uPa over the band, -200..250. 70 dB is 10 dB above the
+  // noise of a still sea in the default band (59.3 dB).
+  Decibels least_receivable_level{70};
+  double centre_frequency_hz = 25'000;  // 10..1e6
+  double bandwidth_hz = 5'000;          // above 0, below twice the centre frequency
+  Decibels directivity_index{0};        // gain of reception over noise from all around, dB, 0..40
+  double bit_rate_bps = 80;             // of information, above 0, at most 1e7; 80 is the Micromodem's FH-FSK
+  // Everything a packet takes besides its coded bits (preamble, header, check), 0..60 s.
+  SimDuration packet_overhead;
+
+  // The first part of the overhead, by which the packet is noticed, 0..60 s. 0: it is always noticed.
+  SimDuration preamble;
+  std::int32_t preamble_pieces = 1;  // 1..256, matched each, added without phase (preamble_detection.h)
+  // An echo this much later than the first arrival, or less, adds to the signal; a later one interferes.
+  // 0..10 s; 10 ms is our choice, near a bit of 80 bit/s.
+  SimDuration guard_time = SimDuration::from_milliseconds(10);
+  // Greatest |f_rx / f_tx - 1| at which a packet can be received, 0..1. 0.1 is 150 m/s: of no effect on
+  // submarines, because the generic modem's Doppler correction is nobody's.
+  double doppler_tolerance = 0.1;
+  ErrorModel error_model = ErrorModel::kBfsk;
+  FrameLayout layout;
+  BeamPattern beam;  // for sending and hearing alike; source and cut-off level are those of its 0 dB
+
+  ModemProfile profile = ModemProfile::kGeneric;  // where the numbers come from
+  std::int32_t psk_rate = 0;                      // of the Micromodem's PSK, else 0
+
+  Band band() const {
+    return {centre_frequency_hz - bandwidth_hz / 2, centre_frequency_hz + bandwidth_hz / 2};
+  }
+  bool operator==(const Modem&) const = default;
+};
+
+// Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
+void validate(const Modem& modem);
+
+// The paper's four parameters on top of the other defaults.
+Modem generic_modem(Decibels strength, Decibels cut_off, double centre_frequency_hz, double bandwidth_hz);
+
+struct PacketTiming {
+  SimDuration duration;           // from the first of the preamble to the last bit
+  SimDuration preamble;           // its part in front
+  std::int64_t information_bits;  // that all have to be right: header and whole frames, before coding
+};
+
+// How a packet of `payload_bytes` occupies the water. The payload must not exceed max_payload_bytes
+// (InvalidArgument).
+PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes);
+
+// Largest payload of one packet, bytes.
+std::size_t max_payload_bytes(const Modem& modem);
+
+// The chance that each instant's noise alone looks like a preamble. A band of some kHz is tested some thousand
+// times a second: one false alarm in several hours. Our choice; no modem's own number is public.
+inline constexpr double kFalseAlarmProbability = 1e-8;
+
+// The probability that a receiver notices the packet; `sinr` is the ratio of its power to that of noise and
+// interference over the modem's band (>= 0), during the preamble. 1 without a preamble.
+double acquisition_probability(const Modem& modem, PowerRatio sinr);
+
+// The probability that an information bit is wrong after decoding, 0..0.5, never rising with `sinr` (as above,
+// during the bits). Eb/N0 = sinr bandwidth / bit rate: noise and interference are taken as white over the band.
+double bit_error_rate(const Modem& modem, PowerRatio sinr);
+
+// True when the two bands share frequencies: only then can one modem hear the other.
+bool bands_overlap(const Modem& one, const Modem& other);
+
+}  // namespace halocline::acoustics

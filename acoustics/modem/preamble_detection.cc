@@ -1,0 +1,53 @@
+#include "acoustics/modem/preamble_detection.h"
+
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+// P(a Poisson number of mean `mean` is below `pieces`): the chance that noise stays above `mean`.
+double noise_above(double mean, int pieces) {
+  double sum = 0, term = std::exp(-mean);
+  for (int n = 0; n < pieces; ++n) {
+    sum += term;
+    term *= mean / (n + 1);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double detection_threshold(int pieces, double false_alarm) {
+  require_in_range(pieces, 1, 256, "pieces of a preamble", "");
+  require_in_range(false_alarm, 1e-15, 0.5, "probability of a false alarm", "");
+  double low = 1e-3, high = 1;
+  while (noise_above(high, pieces) > false_alarm) high *= 2;
+  // Halved until the two ends are neighbours: 60 times are enough for the digits of a double.
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (noise_above(middle, pieces) > false_alarm ? low : high) = middle;
+  }
+  return high;
+}
+
+double detection_probability(int pieces, double false_alarm, PowerRatio energy_over_noise_density) {
+  const double h = energy_over_noise_density.value;
+  require(h >= 0, "an energy over a noise density must not be negative or NaN");
+  const double threshold = detection_threshold(pieces, false_alarm);
+  // Terms beyond the mean by 12 deviations and more (Chernoff: below 1e-20) add nothing.
+  const int last = static_cast<int>(threshold + 12 * std::sqrt(threshold) + 60) + pieces;
+  double noise_term = std::exp(-threshold), missed = 0;
+  for (int n = 1; n <= pieces; ++n) noise_term *= threshold / n;
+  double signal_term = std::exp(-h), signal_at_most = signal_term;
+  for (int n = pieces; n <= last; ++n) {
+    missed += noise_term * signal_at_most;
+    noise_term *= threshold / (n + 1);
+    signal_term *= h / (n + 1 - pieces);
+    if (signal_term > 0) signal_at_most += signal_term;  // 0 times infinity is no number
+  }
+  return 1 - missed;
+}
+
+}  // namespace halocline::acoustics

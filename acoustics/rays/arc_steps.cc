@@ -1,0 +1,138 @@
+#include "acoustics/rays/arc_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kTouching = 1e-9;  // m: nearer than that to a facet is on it
+
+// sin(x) to 1e-16 by its series for |x| up to 0.3, which is more than half of any bend but those of a wide crease
+// angle.
+double sine_of_bend(double x) {
+  if (std::abs(x) > 0.3) return std::sin(x);
+  constexpr double k3 = 1.0 / 6, k5 = k3 / 20, k7 = k5 / 42, k9 = k7 / 72, k11 = k9 / 110;
+  const double y = x * x;
+  return x * (1 - y * (k3 - y * (k5 - y * (k7 - y * (k9 - y * k11)))));
+}
+
+// The arc of a step stays above z + slope * (way): curving up above its tangent, curving down above its chord.
+double deepest_slope(const RayWater& water, const ArcPoint& s, const ArcStep& step) {
+  const double g = water.gradients_per_s()[s.layer];
+  if (g < 0 && step.dr > 0) return (step.z - s.z) / step.dr;
+  return g == 0 && step.z == s.z ? 0 : s.sine * s.per_xi / s.c;
+}
+
+// Circle through the ray's point against the facet's line, x along r: A x^2 + B x + C = 0, see below.
+bool solve_facet(const RayWater& water, const Facet& facet, const ArcPoint& s, bool on_it, double until,
+                 double& dr) {
+  const double st = s.sine, ct = s.xi * s.c, b = facet.slope;
+  const double curvature = -s.xi * water.gradients_per_s()[s.layer];  // d angle / d length
+  double d = facet.z0 + b * (s.r - facet.r0) - s.z;                   // how far the line is below the ray
+  // The ray is curvature (x^2 + y^2) / 2 = ct y - st x; on the line y = d + b x.
+  double x;
+  if (on_it) {
+    const double a2 = curvature * (1 + b * b) / 2, b2 = st - ct * b;
+    x = b2 < 0 && a2 > 0 ? -b2 / a2 : -1;
+  } else {
+    if (std::abs(d) < kTouching) d = std::max(d, 0.0);
+    const double a2 = curvature * (1 + b * b) / 2, b2 = curvature * d * b + st - ct * b;
+    const double c2 = curvature * d * d / 2 - ct * d, disc = b2 * b2 - 4 * a2 * c2;
+    const double root = disc >= 0 ? std::sqrt(disc) : -1, bottom = b2 + root;
+    // The root at which the ray goes down through the line. Below the line drawn on beyond its facet (before a
+    // crest), a ray that bends down passes it upwards first.
+    if (root < 0) return false;
+    x = bottom > 0 ? -2 * c2 / bottom : c2 > 0 && a2 > 0 ? (root - b2) / (2 * a2) : -1;
+  }
+  const double first = std::max(facet.r0 - s.r, 0.0), last = std::min(facet.r1 - s.r, until);
+  if (!(x >= first - kTouching && x <= last + kTouching)) return false;
+  dr = std::clamp(x, first, std::max(first, last));
+  return true;
+}
+
+}  // namespace
+
+ArcStep next_step(const RayWater& water, const ArcPoint& s) {
+  const double g = water.gradients_per_s()[s.layer];
+  const bool down = s.sine > 0 || (s.sine == 0 && g <= 0);
+  const std::size_t knot = down ? s.layer + 1 : s.layer;
+  const double c = water.speeds_mps()[knot], z = water.depths_m()[knot];
+  const double cosine = s.xi * c, steep = std::abs(s.sine);
+  if (cosine < 1 && (steep > 0 || g != 0)) {
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+    const double dr = std::abs(z - s.z) * s.xi * (s.c + c) / (steep + sine);
+    return {dr, z, down ? sine : -sine, false, down};
+  }
+  if (g == 0 || steep == 0) return {std::numeric_limits<double>::infinity(), s.z, s.sine, false, down};
+  return {2 * steep * s.per_xi / std::abs(g), s.z, -s.sine, true, down};
+}
+
+bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoint& s, const ArcStep& step,
+              double until, ArcHit& hit) {
+  const std::vector<Facet>& facets = profile.facets();
+  const std::vector<double>& blocks = profile.block_shallowest_m();
+  const double end = s.r + until, margin = kTouching, slope = deepest_slope(water, s, step);
+  const auto below = [&](double shallowest, double r0, double r1) {  // the arc cannot reach down there
+    const double far = slope > 0 ? std::min(r1, end) - s.r : std::max(r0 - s.r, 0.0);
+    return s.z + slope * far + margin < shallowest;
+  };
+  const auto misses = [&](const Facet& facet) {  // its line, above which the arc stays at both its ends
+    const double first = std::max(facet.r0, s.r), last = std::min(facet.r1, end);
+    return s.z + slope * (first - s.r) + margin < facet.z0 + facet.slope * (first - facet.r0) &&
+           s.z + slope * (last - s.r) + margin < facet.z0 + facet.slope * (last - facet.r0);
+  };
+  std::size_t i = s.facet;
+  if (slope > 0) {  // before it is as deep as the shallowest bottom there is nothing to meet
+    const double reach = std::min(s.r + (profile.shallowest_m() - margin - s.z) / slope, end);
+    while (facets[i].r1 < reach) ++i;
+  }
+  while (i < facets.size() && facets[i].r0 <= end) {
+    if (i % BottomProfile::kBlock == 0) {
+      const std::size_t last = std::min(i + BottomProfile::kBlock, facets.size()) - 1;
+      if (below(blocks[i / BottomProfile::kBlock], facets[i].r0, facets[last].r1)) {
+        i += BottomProfile::kBlock;
+        continue;
+      }
+    }
+    if (!misses(facets[i]) && solve_facet(water, facets[i], s, s.on_facet && i == s.facet, until, hit.dr)) {
+      hit.facet = i;
+      return true;
+    }
+    ++i;
+  }
+  return false;
+}
+
+FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
+  const double ct = s.xi * s.c, st = s.sine;
+  double sine = facet.sine, cosine = facet.cosine, bend = facet.bend_per_m;  // of the slope that reflects
+  const double grazing_facet = st * cosine - ct * sine;                      // sin(angle - slope)
+  if (facet.bent()) {
+    const double share = (s.r - facet.r0) / (facet.r1 - facet.r0);
+    const double turn = facet.turn0 + share * (facet.turn1 - facet.turn0), ts = sine_of_bend(turn),
+                 tc = std::sqrt(1 - ts * ts);
+    const double bent_sine = sine * tc + cosine * ts, bent_cosine = cosine * tc - sine * ts;
+    // Where the bent slope would throw the ray into the facet, or did not meet it at all, the facet's own
+    // reflects.
+    const double grazing = st * bent_cosine - ct * bent_sine;
+    const double leaving =
+        grazing * tc - (ct * bent_cosine + st * bent_sine) * ts;  // sin(angle - 2 bent + own)
+    if (grazing > kLeastSine && leaving > kLeastSine) {
+      sine = bent_sine;
+      cosine = bent_cosine;
+    } else {
+      bend = 0;
+    }
+  }
+  const double sin_g = std::max(st * cosine - ct * sine, kLeastSine), cos_g = ct * cosine + st * sine;
+  return {sin_g,
+          cos_g,
+          sine * cos_g - cosine * sin_g,
+          cosine * cos_g + sine * sin_g,
+          std::max(grazing_facet, kLeastSine),
+          bend};
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,233 @@
+#include "acoustics/rays/arc_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "acoustics/math/arc_math.h"
+#include "acoustics/rays/ray_water.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kOffBoundary = 1e-6;  // m, as in acoustics/rays/layered_path.cc
+constexpr double kGiveUp = 0.25;       // of the least factor
+constexpr std::size_t kLossSteps = 64;
+constexpr std::size_t kUsualEvents = 48;  // of one ray: its history rarely has to grow
+constexpr int kMostSteps = 200'000;       // crossings of layers: a guard, never met
+
+}  // namespace
+
+struct ArcTracer::State : ArcPoint {
+  double q, p;    // the tube
+  double qx, px;  // the same for rays as they are reflected, facet by facet: the slope of zeta
+  double orientation = 1, images = 0;  // o and k of zeta
+};
+
+ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
+    : sea_(sea), surface_loss_(sea.surface, sea.options.frequency_hz), range_(std::max(link.range_m, 1e-3)) {
+  require_in_range(link.range_m, 0, 1e7, "range", "m");
+  bottom_at_receiver_ = sea.profile.depth_at(range_);
+  const double bottom_at_source = sea.profile.depth_at(0);
+  require_in_range(link.source_depth_m, 0, bottom_at_source, "depth of the source", "m");
+  require_in_range(link.receiver_depth_m, 0, bottom_at_receiver_, "depth of the receiver", "m");
+  source_depth_ = std::clamp(link.source_depth_m, kOffBoundary, bottom_at_source - kOffBoundary);
+  receiver_depth_ = std::clamp(link.receiver_depth_m, kOffBoundary, bottom_at_receiver_ - kOffBoundary);
+  source_layer_ = sea.water.layer_at(source_depth_);
+  source_facet_ = sea.profile.facet_at(0);
+  source_speed_ = sea.water.speed_at(source_depth_);
+  least_factor_ = kGiveUp * sea.options.min_boundary_factor;
+  const double bottom_speed = sea.water.speed_at(sea.profile.deepest_m());
+  bottom_factor_.resize(kLossSteps + 1);
+  for (std::size_t i = 0; i <= kLossSteps; ++i) {
+    bottom_factor_[i] = bottom_magnitude_at_sine(
+        sea.bottom, static_cast<double>(i) / static_cast<double>(kLossSteps), bottom_speed);
+  }
+}
+
+double ArcTracer::rough_bottom_factor(double sine) const {
+  const double place = sine * static_cast<double>(kLossSteps);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), kLossSteps - 1);
+  return bottom_factor_[i] + (place - static_cast<double>(i)) * (bottom_factor_[i + 1] - bottom_factor_[i]);
+}
+
+void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
+  const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
+  const double chord = std::sqrt(dr * dr + (z - s.z) * (z - s.z));
+  const double length = chord * asin_over(s.xi * g * chord / 2);
+  details.delay_s += s.xi * dr / mix * atanh_over(s.xi * g * dr / mix);
+  details.length_m += length;
+  details.slowness_over_range += s.xi * dr;
+  const double top = sea_.water.depths_m()[s.layer], height = sea_.water.depths_m()[s.layer + 1] - top;
+  const LayerAbsorption& layer = sea_.water.absorption()[s.layer];
+  const double u1 = (s.z - top) / height, u2 = (z - top) / height;
+  if (s.sine * sine >= 0) {
+    details.absorption_db +=
+        length * mean_absorption(restricted(layer, u1, u2), std::abs(s.sine), std::abs(sine));
+  } else {  // through a turn: two ways, of lengths as their sines
+    const double turn = (1 / s.xi - sea_.water.speeds_mps()[s.layer]) / g / height;
+    const double share = std::abs(s.sine) / (std::abs(s.sine) + std::abs(sine));
+    details.absorption_db +=
+        length * (share * mean_absorption(restricted(layer, u1, turn), std::abs(s.sine), 0) +
+                  (1 - share) * mean_absorption(restricted(layer, u2, turn), std::abs(sine), 0));
+  }
+}
+
+void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
+  const double way = dr * s.per_xi, q = s.q + s.p * way;
+  if (q * s.q < 0) ++ray.caustics;
+  s.q = q;
+  s.qx += s.px * way;
+  if (details != nullptr && dr > 0) add_details(s, dr, z, sine, *details);
+  s.r += dr;
+  s.z = z;
+  s.sine = sine;
+  s.on_facet = s.on_facet && dr == 0;
+}
+
+void ArcTracer::cross_knot(State& s, bool down) const {
+  const double before = sea_.water.gradients_per_s()[s.layer];
+  s.layer = down ? s.layer + 1 : s.layer - 1;
+  s.c = sea_.water.speeds_mps()[down ? s.layer : s.layer + 1];
+  const double change = (sea_.water.gradients_per_s()[s.layer] - before) * (down ? 1 : -1);
+  const double kink = s.xi * s.xi * change / std::max(std::abs(s.sine), kLeastSine);
+  s.p -= s.q * kink;
+  s.px -= s.qx * kink;
+}
+
+bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
+  const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kLeastSine);
+  s.c = sea_.water.speeds_mps()[0];
+  s.p -= 2 * s.q * s.xi * s.xi * g / sine;
+  s.px -= 2 * s.qx * s.xi * s.xi * g / sine;
+  s.sine = -s.sine;
+  s.orientation = -s.orientation;
+  ray.events.push_back({RayEvent::kSurface, 0});
+  ++ray.surface_bounces;
+  if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
+  const double lost_db = surface_loss_.db_at_sine(std::min(sine, 1.0));
+  if (lost_db > 0) ray.factor *= std::exp(-std::numbers::ln10 / 20 * lost_db);
+  if (details != nullptr) details->surface_loss_db += lost_db;
+  return ray.factor >= least_factor_;
+}
+
+bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
+  const Facet& facet = sea_.profile.facets()[index];
+  const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
+  const FacetBounce bounce = bounce_off(facet, s);
+  const double sin_g = bounce.sine, cos_g = bounce.cosine, bend = bounce.bend_per_m;
+  const double out_sine = bounce.out_sine, out_cosine = bounce.out_cosine;
+  if (out_cosine < kLeastCosine) return false;
+  // As the rays are: they meet the facet itself, and leave it at another angle than they came.
+  const double in_s = bounce.facet_sine, in_c = ct * facet.cosine + st * facet.sine;
+  // One division for all: it takes as long as a dozen products.
+  const double sines = sin_g * in_s, per_all = 1 / (s.c * out_cosine * sines),
+               per_sines = per_all * out_cosine;
+  const double xi = per_sines * sines * out_cosine;
+  s.p += s.q * (g * (s.xi + xi) * cos_g + 2 * bend) * (per_sines * in_s);
+  const double off_s = facet.sine * out_cosine - facet.cosine * out_sine;
+  const double off_c = facet.cosine * out_cosine + facet.sine * out_sine;
+  s.px += s.qx * (g * (s.xi * in_c + xi * off_c) + 2 * bend) * (per_sines * sin_g);
+  s.qx *= off_s * (per_sines * sin_g * s.c);
+  s.sine = out_sine;
+  s.xi = xi;
+  s.per_xi = per_all * sines * s.c * s.c;
+  s.facet = index;
+  s.on_facet = true;
+  s.images += s.orientation;
+  s.orientation = -s.orientation;
+  ray.events.push_back({RayEvent::kBottom, facet.smooth_group});
+  ++ray.bottom_bounces;
+  if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
+  if (details == nullptr) {
+    ray.factor *= rough_bottom_factor(sin_g);
+  } else {
+    const Reflection one = bottom_reflection_at_sine(sea_.bottom, std::min(sin_g, 1.0), s.c);
+    ray.factor *= one.magnitude;
+    details->bottom_phase_rad += one.phase_rad;
+    details->bottom_loss_db += one.loss_db();
+  }
+  return ray.factor >= least_factor_;
+}
+
+void ArcTracer::arrive(const State& s, TracedRay& ray) const {
+  ray.arrived = true;
+  ray.z = s.z;
+  ray.sine = s.sine;
+  ray.xi = s.xi;
+  ray.q = s.q;
+  ray.p = s.p;
+  ray.zeta = s.orientation * s.z + 2 * bottom_at_receiver_ * s.images;
+  ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kLeastCosine * kLeastCosine));
+}
+
+ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
+  ray.theta = theta;
+  ray.arrived = false;
+  ray.factor = 1;
+  ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
+  ray.events.clear();
+  ray.events.reserve(kUsualEvents);
+  const double sine = std::sin(theta), xi = std::cos(theta) / source_speed_, p = 1 / source_speed_;
+  State s{{0, source_depth_, sine, xi, source_speed_, 1 / xi, source_layer_, source_facet_}, 0, p, 0, p};
+  // At a knot the layer is the one into which the ray goes.
+  const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);
+  if (s.z == sea_.water.depths_m()[s.layer] && rises) --s.layer;
+  return s;
+}
+
+void ArcTracer::note_turn(bool lower, TracedRay& ray) {
+  ray.events.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
+  ++(lower ? ray.lower_turns : ray.upper_turns);
+}
+
+void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const {
+  const double sine = s.sine - s.xi * sea_.water.gradients_per_s()[s.layer] * dr;
+  const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) * s.per_xi;
+  if (s.sine * sine < 0) note_turn(s.sine > 0, ray);
+  go(s, dr, s.z + dr * (s.sine + sine) / (s.xi * (s.c + c)), sine, ray, details);
+  s.c = c;
+}
+
+bool ArcTracer::go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const {
+  go_part(s, hit.dr, ray, details);
+  const Facet& facet = sea_.profile.facets()[hit.facet];
+  s.z = facet.z0 + facet.slope * (s.r - facet.r0);
+  s.c = sea_.water.speeds_mps()[s.layer] +
+        sea_.water.gradients_per_s()[s.layer] * (s.z - sea_.water.depths_m()[s.layer]);
+  return meet_bottom(s, hit.facet, ray, details);
+}
+
+bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const {
+  if (step.turns) note_turn(step.down, ray);
+  go(s, step.dr, step.z, step.sine, ray, details);
+  while (sea_.profile.facets()[s.facet].r1 < s.r) ++s.facet;
+  if (step.turns) return true;
+  if (!step.down && s.layer == 0) return meet_surface(s, ray, details);
+  cross_knot(s, step.down);
+  return true;
+}
+
+void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
+  State s = start(theta, ray);
+  const double shallowest = sea_.profile.shallowest_m();
+  for (int steps = 0; steps < kMostSteps; ++steps) {
+    const ArcStep step = next_step(sea_.water, s);
+    const double left = range_ - s.r;
+    const bool near_bottom = sea_.water.depths_m()[s.layer + 1] > shallowest;
+    ArcHit hit;
+    if (near_bottom && find_hit(sea_.water, sea_.profile, s, step, std::min(step.dr, left), hit)) {
+      if (!go_to_bottom(s, hit, ray, details)) return;
+    } else if (step.dr >= left) {
+      go_part(s, left, ray, details);
+      arrive(s, ray);
+      return;
+    } else if (!go_to_knot(s, step, ray, details)) {
+      return;
+    }
+  }
+}
+
+}  // namespace halocline::acoustics

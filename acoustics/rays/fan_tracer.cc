@@ -1,0 +1,238 @@
+#include "acoustics/rays/fan_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr std::size_t kLossSteps = 64;
+constexpr double kMostLossOfABounceDb = 400;
+constexpr double kGiveUpDb = 6;             // beyond what a path may lose
+constexpr int kMostSteps = 200'000;         // arcs of one ray: a guard, never met
+constexpr std::size_t kUsualEvents = 4096;  // of one search
+
+double away_from_zero(double sine) {
+  return std::abs(sine) > kLeastSine ? sine : std::copysign(kLeastSine, sine);
+}
+
+double interpolated(const std::vector<double>& table, double sine) {
+  const double place = sine * static_cast<double>(kLossSteps);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), kLossSteps - 1);
+  return table[i] + (place - static_cast<double>(i)) * (table[i + 1] - table[i]);
+}
+
+}  // namespace
+
+struct FanTracer::State : ArcPoint {
+  double q, p;  // the tube of rays as they are reflected, facet by facet
+  double theta;
+  double orientation = 1, images = 0;  // o and k of zeta
+  double loss_db = 0;
+  int bounces = 0;
+  bool hits = false;  // `hit` is known already
+  ArcHit hit{};
+};
+
+FanTracer::FanTracer(const ArcTracer& exact)
+    : exact_(exact),
+      water_(exact.sea().water),
+      profile_(exact.sea().profile),
+      column_(water_, profile_.shallowest_m(), profile_.deepest_m()),
+      range_(exact.range_m()),
+      shallowest_(profile_.shallowest_m()),
+      most_loss_db_(kGiveUpDb - 20 * std::log10(exact.sea().options.min_boundary_factor)),
+      steepest_rise_(0) {
+  events_.reserve(kUsualEvents);
+  for (const Facet& facet : profile_.facets()) steepest_rise_ = std::max(steepest_rise_, -facet.sine);
+  const ProfiledSea& sea = exact.sea();
+  const double speed = water_.speed_at(profile_.deepest_m());
+  const SurfaceLoss surface(sea.surface, sea.options.frequency_hz);
+  for (std::size_t i = 0; i <= kLossSteps; ++i) {
+    const double sine = std::max(static_cast<double>(i) / static_cast<double>(kLossSteps), 1e-3);
+    const double bottom_db = -20 * std::log10(bottom_magnitude_at_sine(sea.bottom, sine, speed));
+    bottom_loss_db_.push_back(std::min(bottom_db, kMostLossOfABounceDb));
+    surface_loss_db_.push_back(sine *
+                               surface_loss_db(sea.surface, std::asin(sine), sea.options.frequency_hz));
+  }
+}
+
+FanTracer::State FanTracer::start(double theta) const {
+  const double c = exact_.source_speed_mps(), sine = std::sin(theta), xi = std::cos(theta) / c;
+  State s{{0, exact_.source_depth_m(), sine, xi, c, 1 / xi, exact_.source_layer(), exact_.source_facet()},
+          0,
+          1 / c,
+          theta};
+  // At a knot the layer is the one into which the ray goes.
+  const bool rises = sine < 0 || (sine == 0 && water_.gradients_per_s()[s.layer] > 0);
+  if (s.z == water_.depths_m()[s.layer] && rises) --s.layer;
+  return s;
+}
+
+void FanTracer::note_turn(bool lower) {
+  events_.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
+}
+
+void FanTracer::go(State& s, double dr, double z, double sine) const {
+  s.q += s.p * dr * s.per_xi;
+  s.r += dr;
+  s.z = z;
+  s.sine = sine;
+  s.on_facet = s.on_facet && dr == 0;
+}
+
+void FanTracer::go_part(State& s, double dr) {
+  const double sine = s.sine - s.xi * water_.gradients_per_s()[s.layer] * dr;
+  const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) * s.per_xi;
+  if (s.sine * sine < 0) note_turn(s.sine > 0);
+  go(s, dr, s.z + dr * (s.sine + sine) / (s.xi * (s.c + c)), sine);
+  s.c = c;
+}
+
+bool FanTracer::bounce(State& s, const Facet& facet) const {
+  const FacetBounce one = bounce_off(facet, s);
+  if (one.out_cosine < kLeastCosine) return false;
+  const double g = water_.gradients_per_s()[s.layer], ct = s.xi * s.c;
+  // One division for all: it takes as long as a dozen products.
+  const double per_all = 1 / (s.c * one.facet_sine * one.out_cosine), per_in = per_all * one.out_cosine;
+  const double xi = per_in * one.facet_sine * one.out_cosine;
+  const double in_c = ct * facet.cosine + s.sine * facet.sine;
+  const double off_s = facet.sine * one.out_cosine - facet.cosine * one.out_sine;
+  const double off_c = facet.cosine * one.out_cosine + facet.sine * one.out_sine;
+  s.p += s.q * (g * (s.xi * in_c + xi * off_c) + 2 * one.bend_per_m) * per_in;
+  s.q *= off_s * per_in * s.c;
+  s.sine = one.out_sine;
+  s.xi = xi;
+  s.per_xi = per_all * one.facet_sine * s.c * s.c;
+  s.images += s.orientation;
+  s.orientation = -s.orientation;
+  s.loss_db += interpolated(bottom_loss_db_, std::min(one.sine, 1.0));
+  return true;
+}
+
+bool FanTracer::go_to_bottom(State& s, ArcHit hit) {
+  s.hits = false;
+  go_part(s, hit.dr);
+  const Facet& facet = profile_.facets()[hit.facet];
+  s.z = facet.z0 + facet.slope * (s.r - facet.r0);
+  s.c = water_.speeds_mps()[s.layer] + water_.gradients_per_s()[s.layer] * (s.z - water_.depths_m()[s.layer]);
+  if (!bounce(s, facet)) return false;
+  s.facet = hit.facet;
+  s.on_facet = true;
+  events_.push_back({RayEvent::kBottom, facet.smooth_group});
+  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= most_loss_db_;
+}
+
+bool FanTracer::meet_surface(State& s, double sine) {
+  s.orientation = -s.orientation;
+  events_.push_back({RayEvent::kSurface, 0});
+  s.loss_db += interpolated(surface_loss_db_, sine) / std::max(sine, kLeastSine);
+  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= most_loss_db_;
+}
+
+bool FanTracer::go_to_knot(State& s, const ArcStep& step) {
+  go(s, step.dr, step.z, step.sine);
+  while (profile_.facets()[s.facet].r1 < s.r) ++s.facet;
+  if (step.turns) {
+    note_turn(step.down);
+    return true;
+  }
+  return run_through_layers(s, step.down ? s.layer + 1 : s.layer);
+}
+
+void FanTracer::stand_at_knot(State& s, std::size_t knot, bool down) const {
+  s.layer = down ? knot : knot - 1;
+  s.z = water_.depths_m()[knot];
+  s.c = water_.speeds_mps()[knot];
+  s.sine = down ? column_.sine_at(knot) : -column_.sine_at(knot);
+  while (profile_.facets()[s.facet].r1 < s.r) ++s.facet;
+}
+
+// A ray that rises more steeply than the bottom does anywhere leaves it behind; within a layer its sine lies between
+// those at its ends.
+bool FanTracer::clears_bottom(double sine, double next_sine) const {
+  return std::max(sine, next_sine) < -steepest_rise_;
+}
+
+bool FanTracer::next_layer_is_whole(State& s, std::size_t knot, bool down) const {
+  const std::size_t layer = down ? knot : knot - 1, next = down ? knot + 1 : knot - 1;
+  if (next > column_.last_knot() || !(column_.sine_at(next) > 0)) return false;
+  const double dr = column_.range_through(layer);
+  if (s.r + dr >= range_) return false;
+  if (!is_near_bottom(layer)) return true;
+  if (!down && clears_bottom(-column_.sine_at(knot), -column_.sine_at(next))) return true;
+  stand_at_knot(s, knot, down);
+  const double next_sine = down ? column_.sine_at(next) : -column_.sine_at(next);
+  s.hits = find_hit(water_, profile_, s, {dr, water_.depths_m()[next], next_sine, false, down}, dr, s.hit);
+  return !s.hits;
+}
+
+bool FanTracer::run_through_layers(State& s, std::size_t knot) {
+  if (column_.xi() != s.xi) column_.set(s.xi);
+  const double xi2 = s.xi * s.xi, sine_before = away_from_zero(s.sine);
+  double turning = -(sine_before * s.p + water_.gradients_per_s()[s.layer] * xi2 * s.q);  // E
+  double off = -s.q / sine_before;                                                        // X
+  const RayColumn::Excursion& excursion = column_.excursion();
+  for (bool down = s.sine > 0;; knot = down ? knot + 1 : knot - 1) {
+    const bool away = !down && knot == column_.excursion_knot() && s.r + excursion.range_m < range_;
+    if (away) {
+      s.on_facet = false;
+      s.r += excursion.range_m;
+      off += turning * excursion.range_slope;
+    }
+    if (away && excursion.turns) {
+      note_turn(false);
+      down = true;
+    } else if (away || (!down && knot == 0)) {
+      if (!meet_surface(s, column_.sine_at(0))) return false;
+      off = -off;  // the tube is seen unfolded, in the mirror
+      turning = -turning;
+      down = true;
+    }
+    if (!next_layer_is_whole(s, knot, down)) {
+      stand_at_knot(s, knot, down);
+      break;
+    }
+    const std::size_t layer = down ? knot : knot - 1;
+    s.on_facet = false;
+    s.r += column_.range_through(layer);
+    off += turning * column_.range_slope_through(layer);
+  }
+  const double sine = away_from_zero(s.sine);
+  s.q = -sine * off;
+  s.p = -(turning + water_.gradients_per_s()[s.layer] * xi2 * s.q) / sine;
+  return true;
+}
+
+void FanTracer::follow(State& s, FanRay& ray) {
+  for (int steps = 0; steps < kMostSteps; ++steps) {
+    if (s.hits) {
+      if (!go_to_bottom(s, s.hit)) return;
+      continue;
+    }
+    const ArcStep step = next_step(water_, s);
+    const double left = range_ - s.r;
+    const bool may_hit = is_near_bottom(s.layer) && !clears_bottom(s.sine, step.sine);
+    if (may_hit && find_hit(water_, profile_, s, step, std::min(step.dr, left), s.hit)) {
+      if (!go_to_bottom(s, s.hit)) return;
+    } else if (step.dr >= left) {
+      go_part(s, left);
+      ray.arrived = true;
+      ray.zeta = s.orientation * s.z + 2 * exact_.bottom_at_receiver_m() * s.images;
+      ray.zeta_slope = s.q / std::sqrt(std::max(1 - s.sine * s.sine, kLeastCosine * kLeastCosine));
+      return;
+    } else if (!go_to_knot(s, step)) {
+      return;
+    }
+  }
+}
+
+FanRay FanTracer::trace(double theta) {
+  FanRay ray{.theta = theta, .first_event = events_.size()};
+  State s = start(theta);
+  follow(s, ray);
+  ray.events = events_.size() - ray.first_event;
+  return ray;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,74 @@
+// Follows the many rays among which a search looks for the few that arrive: as acoustics/rays/arc_tracer.h does, without
+// what only a kept ray needs.
+//
+// Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers of one stretch between two
+// bounces at the bottom come from a column (acoustics/rays/ray_column.h), whatever lies above the shallowest bottom as one
+// excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope
+// over links of kilometres; more within a microradian of a ray that grazes). Rays that lose 6 dB more than
+// paths may are given up, by interpolated losses.
+//
+// Keeps a column and the rays' events between calls: one for each search, not shared between threads.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/ray_column.h"
+
+namespace halocline::acoustics {
+
+struct FanRay {
+  double theta = 0;                         // launch angle, rad, positive down
+  bool arrived = false;                     // false: too faint, turned back or too many bounces
+  double zeta = 0;                          // unfolded depth at the receiver's range, m
+  double zeta_slope = 0;                    // d zeta / d theta
+  std::size_t first_event = 0, events = 0;  // of what happened to it; the tracer keeps that
+};
+
+class FanTracer {
+ public:
+  // Refers to the tracer, which has to outlive this.
+  explicit FanTracer(const ArcTracer& exact);
+
+  // Follows the ray of `theta` to the receiver's range.
+  FanRay trace(double theta);
+  // What happened to a ray of this tracer, in order.
+  std::span<const EventCode> events_of(const FanRay& ray) const {
+    return std::span(events_).subspan(ray.first_event, ray.events);
+  }
+  // What has been kept so far; and to forget the rays traced since then.
+  std::size_t kept_events() const { return events_.size(); }
+  void forget_since(std::size_t kept_events) { events_.resize(kept_events); }
+
+ private:
+  struct State;
+  State start(double theta) const;
+  void follow(State& s, FanRay& ray);
+  void go(State& s, double dr, double z, double sine) const;
+  void go_part(State& s, double dr);
+  bool go_to_bottom(State& s, ArcHit hit);
+  bool bounce(State& s, const Facet& facet) const;
+  bool go_to_knot(State& s, const ArcStep& step);
+  // From a knot through whole layers to the last knot before the ray turns, meets the bottom or arrives.
+  bool run_through_layers(State& s, std::size_t knot);
+  void stand_at_knot(State& s, std::size_t knot, bool down) const;
+  // Whether the ray crosses the layer beside `knot` from end to end. Near the bottom the state is brought to
+  // that knot.
+  bool next_layer_is_whole(State& s, std::size_t knot, bool down) const;
+  bool clears_bottom(double sine, double next_sine) const;
+  bool meet_surface(State& s, double sine);
+  void note_turn(bool lower);
+  bool is_near_bottom(std::size_t layer) const { return water_.depths_m()[layer + 1] > shallowest_; }
+
+  const ArcTracer& exact_;
+  const RayWater& water_;
+  const BottomProfile& profile_;
+  RayColumn column_;
+  std::vector<EventCode> events_;                             // of all rays
+  double range_, shallowest_, most_loss_db_, steepest_rise_;  // of the bottom, sine
+  std::vector<double> bottom_loss_db_;                        // at sines 0..1, evenly
+  std::vector<double> surface_loss_db_;  // times the sine, which makes an even curve of the bubbles' 1 / sine
+};
+
+}  // namespace halocline::acoustics

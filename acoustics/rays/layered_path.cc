@@ -1,0 +1,144 @@
+#include "acoustics/rays/layered_path.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "acoustics/math/arc_math.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+// Ends are kept this far from the boundaries, so that the ray that meets a boundary at the very receiver has
+// a direction before and after: 1e-9 s of delay.
+constexpr double kOffBoundary = 1e-6;  // m
+
+struct Bounces {
+  int surface, bottom, upper_turns, lower_turns;
+};
+
+Bounces bounces_of(const LayeredSpans& spans, const LayeredRay& ray) {
+  const int above = ray.cycles + (ray.family.up ? 1 : 0), below = ray.cycles + (ray.family.down ? 1 : 0);
+  return {spans.meets_surface() ? above : 0, spans.meets_bottom() ? below : 0,
+          spans.meets_surface() ? 0 : above, spans.meets_bottom() ? 0 : below};
+}
+
+// See the header of layered_rays.h.
+int caustics_of(const Bounces& bounces, double range_slope) {
+  const int turns = bounces.upper_turns + bounces.lower_turns;
+  return turns == 0 ? 0 : turns - 1 + (range_slope > 0 ? 1 : 0);
+}
+
+// Signed angle, positive down, of a ray whose sine is `sine` >= 0.
+double angle(bool down, double sine, double speed, double xi) {
+  return (down ? 1 : -1) * angle_of(sine, xi * speed);
+}
+
+void set_directions(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, double xi,
+                    Arrival& path) {
+  // A ray from the upper end leaves downward unless it runs U first; from the lower end the other way round.
+  const bool leaves_down = link.source_is_upper ? !ray.family.up : ray.family.down;
+  const bool comes_down = link.source_is_upper ? !ray.family.down : ray.family.up;
+  path.launch_angle_rad =
+      angle(leaves_down, spans.sine_at(link.source_speed_mps, ray.sine), link.source_speed_mps, xi);
+  path.arrival_angle_rad =
+      angle(comes_down, spans.sine_at(link.receiver_speed_mps, ray.sine), link.receiver_speed_mps, xi);
+  path.launch_slowness_spm = path.range_slowness_spm = xi;
+  path.identity.launched_up = !leaves_down;
+}
+
+// False when the bounces leave too little.
+bool set_boundaries(const LayeredLink& link, const SpanSums& sums, const Bounces& bounces, Arrival& path) {
+  const RayOptions& options = link.sea.options;
+  double factor = 1, phase = pi * (bounces.surface % 2);
+  if (bounces.bottom > 0) {
+    const Reflection one =
+        bottom_reflection_at_sine(link.sea.bottom, sums.sine_bottom, link.bottom_speed_mps);
+    factor *= std::pow(one.magnitude, bounces.bottom);
+    phase += one.phase_rad * bounces.bottom;
+    path.bottom_loss_db = bounces.bottom * one.loss_db();
+  }
+  if (bounces.surface > 0 && link.sea.surface.model != SurfaceModel::kFlat) {
+    const double grazing = std::atan2(sums.sine_top, sums.xi * link.surface_speed_mps);
+    const double one = surface_magnitude(link.sea.surface, grazing, options.frequency_hz);
+    if (one < 1) path.surface_loss_db = -20 * bounces.surface * std::log10(one);
+    factor *= std::pow(one, bounces.surface);
+  }
+  path.amplitude = factor;
+  path.phase_rad = phase;
+  return factor >= options.min_boundary_factor;
+}
+
+void set_spreading(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+                   const SpanSums& sums, const Bounces& bounces, Arrival& path) {
+  const RangeTerms terms = range_terms(sums, ray.family);
+  const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
+  const double sines =
+      spans.sine_at(link.source_speed_mps, ray.sine) * spans.sine_at(link.receiver_speed_mps, ray.sine);
+  const double tube = q * std::max(std::abs(m), ray.least_slope) * sines;
+  path.amplitude *= std::sqrt(link.source_speed_mps * link.receiver_speed_mps / tube);
+  path.caustics = caustics_of(bounces, m);
+  path.phase_rad = std::fmod(path.phase_rad + path.caustics * pi / 2, 2 * pi);
+}
+
+void set_lengths(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, double xi,
+                 Arrival& path) {
+  const SpanDetails one_way = spans.details(ray.sine, ray.cosine);
+  const std::array<double, 3> times = {2.0 * (ray.cycles + (ray.family.up ? 1 : 0)), 2.0 * ray.cycles + 1,
+                                       2.0 * (ray.cycles + (ray.family.down ? 1 : 0))};
+  path.delay_s = xi * link.range_m;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    path.delay_s += times[i] * one_way.intercept_s[i];
+    path.path_length_m += times[i] * one_way.length_m[i];
+    path.absorption_db += times[i] * one_way.absorption_db[i];
+  }
+}
+
+}  // namespace
+
+LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link)
+    : sea(flat_sea), range_m(link.range_m) {
+  require_in_range(sea.bottom_depth_m, 0.1, kDeepestWater, "depth of the bottom", "m");
+  require_in_range(link.source_depth_m, 0, sea.bottom_depth_m, "depth of the source", "m");
+  require_in_range(link.receiver_depth_m, 0, sea.bottom_depth_m, "depth of the receiver", "m");
+  require_in_range(link.range_m, 0, 1e7, "range", "m");
+  const auto inside = [this](double z) {
+    return std::clamp(z, kOffBoundary, sea.bottom_depth_m - kOffBoundary);
+  };
+  const double source = inside(link.source_depth_m);
+  double receiver = inside(link.receiver_depth_m);
+  // Nearer than that, a direct ray in a layer of one speed is horizontal to all purposes.
+  constexpr double kSameDepth = 1e-5;  // m
+  if (std::abs(source - receiver) < kSameDepth) receiver = source;
+  source_is_upper = source <= receiver;
+  upper_m = std::min(source, receiver);
+  lower_m = std::max(source, receiver);
+  range_m = std::max(link.range_m, 1e-6);
+  source_speed_mps = sea.water.speed_at(source);
+  receiver_speed_mps = sea.water.speed_at(receiver);
+  surface_speed_mps = sea.water.speed_at(0);
+  bottom_speed_mps = sea.water.speed_at(sea.bottom_depth_m);
+  log_min_factor = sea.options.min_boundary_factor > 0 ? std::log(sea.options.min_boundary_factor)
+                                                       : -std::numeric_limits<double>::infinity();
+}
+
+void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+                    const SpanSums& sums, std::vector<Arrival>& paths) {
+  const Bounces bounces = bounces_of(spans, ray);
+  if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return;
+  Arrival path;
+  if (!set_boundaries(link, sums, bounces, path)) return;
+  set_spreading(link, spans, ray, sums, bounces, path);
+  set_directions(link, spans, ray, sums.xi, path);
+  set_lengths(link, spans, ray, sums.xi, path);
+  path.surface_bounces = path.identity.surface_bounces = bounces.surface;
+  path.bottom_bounces = path.identity.bottom_bounces = bounces.bottom;
+  path.identity.upper_turns = bounces.upper_turns;
+  path.identity.lower_turns = bounces.lower_turns;
+  paths.push_back(path);
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,70 @@
+// Turns one Snell ray of a flat sea, named by family and number of cycles, into an arrival.
+//
+// Shared by the search for rays and by the following of rays found before (acoustics/rays/layered_rays.h).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/layered_rays.h"
+#include "acoustics/rays/layered_spans.h"
+
+namespace halocline::acoustics {
+
+// A family is whether the ray runs U and D once more than its n whole cycles say.
+struct Family {
+  bool up, down;
+};
+inline constexpr std::array<Family, 4> kFamilies = {
+    {{false, false}, {true, false}, {false, true}, {true, true}}};
+
+// b and X of the equation b + n X = r in units of xi (q) and their derivatives (m).
+struct RangeTerms {
+  double bq, bm, xq, xm;
+};
+
+inline RangeTerms range_terms(const SpanSums& s, Family family) {
+  const double u = family.up ? 2 : 0, d = family.down ? 2 : 0;
+  return {u * s.q[0] + s.q[1] + d * s.q[2], u * s.m[0] + s.m[1] + d * s.m[2], 2 * (s.q[0] + s.q[1] + s.q[2]),
+          2 * (s.m[0] + s.m[1] + s.m[2])};
+}
+
+// What of a flat sea and a link stays the same for all of its rays.
+struct LayeredLink {
+  LayeredLink(const FlatSea& flat_sea, const RayLink& ray_link);
+
+  // Factor that all bounces leave of the pressure: the bottom's alone, an upper bound.
+  double bottom_factor(const SpanSums& sums) const {
+    return bottom_magnitude_at_sine(sea.bottom, sums.sine_bottom, bottom_speed_mps);
+  }
+
+  const FlatSea& sea;
+  double upper_m, lower_m, range_m;
+  bool source_is_upper;
+  double source_speed_mps, receiver_speed_mps, surface_speed_mps, bottom_speed_mps;
+  double log_min_factor;  // ln of RayOptions::min_boundary_factor, -infinity for 0
+};
+
+// A ray: where it is in the spans, by sine and cosine of the angle at the barrier.
+struct LayeredRay {
+  Family family;
+  int cycles;
+  double sine, cosine;
+  double least_slope = 0;  // of |dr/dxi|, near a fold; 0 elsewhere
+};
+
+// Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays err
+// by its square. Far away and near grazing, rounding may leave more: then what no longer shrinks is enough.
+inline constexpr double kNotYet = 1e300;
+inline bool is_settled(double off, double off_before) {
+  constexpr double kSettled = 1e-6, kNearlySettled = 1e-4;
+  return std::abs(off) < kSettled ||
+         (std::abs(off) < kNearlySettled && std::abs(off) > 0.5 * std::abs(off_before));
+}
+
+// Appends the arrival unless the options exclude it; `sums` are those of the ray.
+void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
+                    const SpanSums& sums, std::vector<Arrival>& paths);
+
+}  // namespace halocline::acoustics

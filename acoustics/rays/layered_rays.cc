@@ -1,0 +1,299 @@
+#include "acoustics/rays/layered_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "acoustics/math/hermite_cubic.h"
+#include "acoustics/rays/layered_path.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kNoFold = -1;            // no angle
+constexpr double kLeastAngle = 1e-9;      // rad at the barrier: where tables begin
+constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
+constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
+constexpr double kNearFold = 0.2;         // of f: a turn nearer to a whole number is sought out exactly
+constexpr double kMarginOfFactor = 0.7;   // ln: cells are left out only when clearly below the least factor
+
+constexpr double kClearOfRays =
+    0.02;  // of f: less than that and its slopes allow it does not change in a cell
+constexpr std::size_t kUsualPaths = 64;  // of one link
+
+// f = (r - b)/X of the four families and its slope, at one angle of one interval.
+struct Node {
+  double theta = 0;
+  SpanSums sums;
+  std::array<double, 4> f{}, slope{};
+  double log_factor = 0;  // ln of the bottom's factor a bounce
+};
+
+// One crossing to be found: between two nodes where f - n has opposite signs.
+struct Bracket {
+  double from, to;  // theta
+  bool rising;
+  double guess;
+  double fold_theta;      // of a turn of f at one end, or kNoFold
+  double mean_curvature;  // of r between the ends, d2r/dxi2
+};
+
+class Search {
+ public:
+  Search(const FlatSea& sea, const RayLink& link)
+      : link_(sea, link),
+        spans_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m),
+        omega_(2 * pi * sea.options.frequency_hz) {}
+
+  std::vector<Arrival> run() {
+    paths_.reserve(kUsualPaths);
+    add_horizontal();
+    do {
+      scan_interval();
+    } while (!past_steepest_ && spans_.advance());
+    finish(paths_, link_.sea.options);
+    return std::move(paths_);
+  }
+
+ private:
+  // Ends at one depth within a layer of one speed: the straight horizontal ray, which no angle > 0 reaches.
+  void add_horizontal();
+  void scan_interval();
+  // The angle at the barrier at which rays reach speed `c`, which is at least the barrier's.
+  double theta_reaching(double c) const;
+  Node node_at(double theta) const;
+  void refine(const Node& a, const Node& b, int depth);
+  bool is_clear(const Node& a, const Node& b) const;
+  void solve_cell(const Node& a, const Node& b);
+  void solve_family(const Node& a, const Node& b, std::size_t family);
+  // Rays between two nodes between which f is monotone; `fold_theta` is the angle of a turn of f at one of
+  // them, or kNoFold.
+  void solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta);
+  void polish(const Bracket& bracket, std::size_t family, int cycles);
+  bool too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const;
+  bool seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const;
+  double fold_slope(const Bracket& bracket, double range_slope, double xi) const;
+
+  LayeredLink link_;
+  LayeredSpans spans_;
+  double omega_;
+  std::vector<Arrival> paths_;
+  bool direct_only_ = false, past_steepest_ = false;
+};
+
+HermiteCubic cubic_of(const Node& a, const Node& b, std::size_t family) {
+  return {a.f[family], a.slope[family], b.f[family], b.slope[family], b.theta - a.theta};
+}
+
+// dr/dxi of n cycles.
+double range_slope(const Node& node, std::size_t family, int cycles) {
+  const RangeTerms terms = range_terms(node.sums, kFamilies[family]);
+  return terms.bm + cycles * terms.xm;
+}
+
+double mean_curvature(const Node& a, const Node& b, std::size_t family, int cycles) {
+  return std::abs((range_slope(b, family, cycles) - range_slope(a, family, cycles)) /
+                  (b.sums.xi - a.sums.xi));
+}
+
+void Search::add_horizontal() {
+  if (link_.upper_m != link_.lower_m) return;
+  const RayWater& water = link_.sea.water;
+  const double z = link_.upper_m;
+  const std::size_t layer = water.layer_at(z);
+  const bool still = water.gradients_per_s()[layer] == 0 ||
+                     (layer > 0 && z == water.depths_m()[layer] && water.gradients_per_s()[layer - 1] == 0);
+  if (!still) return;
+  Arrival path;
+  path.delay_s = link_.range_m / link_.source_speed_mps;
+  path.amplitude = 1 / link_.range_m;
+  path.launch_slowness_spm = path.range_slowness_spm = 1 / link_.source_speed_mps;
+  path.path_length_m = link_.range_m;
+  path.absorption_db = link_.range_m * water.absorption_db_per_m(z);
+  paths_.push_back(path);
+}
+
+double Search::theta_reaching(double c) const {
+  const double barrier = spans_.barrier_mps();
+  return std::atan2(std::sqrt(std::max(0.0, (c - barrier) * (c + barrier))), barrier);
+}
+
+void Search::scan_interval() {
+  // Launched at the greatest angle a ray reaches speed c_source / cos(angle) where it is horizontal.
+  const double cosine = std::cos(link_.sea.options.max_launch_angle_rad);
+  const double next = spans_.next_barrier_mps();
+  const double steepest =
+      cosine > 1e-12 ? theta_reaching(std::max(link_.source_speed_mps / cosine, spans_.barrier_mps()))
+                     : pi / 2;
+  double to = next > 0 ? theta_reaching(next) : pi / 2;
+  past_steepest_ = next <= 0;
+  const double limit = direct_only_ ? kLeastAngle : std::min(to, steepest);
+  if (limit > kLeastAngle) refine(node_at(kLeastAngle), node_at(limit), 0);
+  if (limit >= to) return;
+  direct_only_ = true;
+  refine(node_at(std::max(limit, kLeastAngle)), node_at(to), 0);
+}
+
+Node Search::node_at(double theta) const {
+  Node node;
+  node.theta = theta;
+  const double sine = std::sin(theta), cosine = std::cos(theta), r = link_.range_m;
+  node.sums = spans_.sums(sine, cosine);
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    const RangeTerms t = range_terms(node.sums, kFamilies[k]);
+    // f = (r / xi - b_q) / X_q; dxi/dtheta = -sin / c*. Vertical rays (xi = 0) go nowhere: f = -b / X.
+    node.f[k] = (r - node.sums.xi * t.bq) / (node.sums.xi * t.xq);
+    node.slope[k] = (t.bm + node.f[k] * t.xm) * sine / (cosine * t.xq);
+  }
+  node.log_factor = spans_.meets_bottom() ? std::log(link_.bottom_factor(node.sums)) : 0;
+  return node;
+}
+
+bool Search::too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const {
+  if (direct_only_) return family != 0;
+  const int below = std::max(0, static_cast<int>(std::ceil(least_f))) + (kFamilies[family].down ? 1 : 0);
+  const double log_factor = std::max(a.log_factor, b.log_factor);
+  return below * log_factor < link_.log_min_factor - kMarginOfFactor;
+}
+
+void Search::refine(const Node& a, const Node& b, int depth) {
+  if (is_clear(a, b)) return;
+  bool any = false, fits = true;
+  const Node middle = node_at(0.5 * (a.theta + b.theta));
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    const double least = std::min({a.f[k], b.f[k], middle.f[k]});
+    if (too_faint(a, b, k, least - 0.5)) continue;
+    any = true;
+    const double error = cubic_of(a, b, k).error_at_middle(middle.f[k], middle.slope[k], b.theta - a.theta);
+    // Where f is large its rays are many and the cubic only has to keep them apart.
+    fits = fits && error <= kCubicTolerance * (1 + 0.05 * std::abs(middle.f[k]));
+  }
+  if (!any) return;
+  if (fits || depth >= kDeepestRefinement) {
+    solve_cell(a, middle);
+    solve_cell(middle, b);
+  } else {
+    refine(a, middle, depth + 1);
+    refine(middle, b, depth + 1);
+  }
+}
+
+// No ray of any family between two nodes, by far: neither slope could bring f to a whole number within the
+// cell.
+bool Search::is_clear(const Node& a, const Node& b) const {
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    const double change =
+        std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) + kClearOfRays;
+    const double least = std::min(a.f[k], b.f[k]) - change, most = std::max(a.f[k], b.f[k]) + change;
+    if (most < 0 || too_faint(a, b, k, least)) continue;
+    if (std::ceil(least) <= most) return false;
+  }
+  return true;
+}
+
+void Search::solve_cell(const Node& a, const Node& b) {
+  for (std::size_t k = 0; k < kFamilies.size(); ++k) {
+    if (!too_faint(a, b, k, std::min(a.f[k], b.f[k]) - 0.5)) solve_family(a, b, k);
+  }
+}
+
+void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
+  const HermiteCubic cubic = cubic_of(a, b, family);
+  Node from = a;
+  double fold_theta = kNoFold;
+  for (const double t : cubic.turns()) {
+    const double expected = cubic(t);
+    Node turn = node_at(a.theta + t * (b.theta - a.theta));
+    if (turn.theta <= from.theta) continue;
+    const bool fold =
+        std::abs(expected - std::round(expected)) < kNearFold && seek_turn(from, b, family, turn);
+    const double at = fold ? turn.theta : kNoFold;
+    solve_monotone(from, turn, family, at);
+    fold_theta = at;
+    from = turn;
+  }
+  solve_monotone(from, b, family, fold_theta);
+}
+
+// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by bisection that follows the secant;
+// false when there is no such place.
+bool Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const {
+  const auto rises = [family](const Node& node) { return node.slope[family] > 0; };
+  const bool before = rises(a) != rises(turn);
+  if (!before && rises(turn) == rises(b)) return false;
+  Node low = before ? a : turn, high = before ? turn : b;
+  for (int i = 0; i < 40; ++i) {
+    const double share = low.slope[family] / (low.slope[family] - high.slope[family]);
+    const double bounded = i % 3 == 2 ? 0.5 : std::clamp(share, 0.01, 0.99);
+    turn = node_at(low.theta + bounded * (high.theta - low.theta));
+    if (std::abs(turn.slope[family]) * (high.theta - low.theta) < 1e-12) break;
+    (rises(turn) == rises(low) ? low : high) = turn;
+  }
+  return true;
+}
+
+void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta) {
+  const double low = std::min(a.f[family], b.f[family]), high = std::max(a.f[family], b.f[family]);
+  if (!(high >= 0)) return;
+  const int most = direct_only_ ? 0 : link_.sea.options.max_bounces;
+  const int first = static_cast<int>(std::ceil(std::max(low, 0.0)));
+  const int last =
+      static_cast<int>(std::min(std::ceil(high) - 1, static_cast<double>(most)));  // low <= n < high
+  if (last < first) return;
+  const HermiteCubic cubic = cubic_of(a, b, family);
+  for (int n = first; n <= last; ++n) {
+    const double t = cubic.crossing(n);
+    const double bend = fold_theta == kNoFold ? 0 : mean_curvature(a, b, family, n);
+    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta), fold_theta, bend},
+           family, n);
+  }
+}
+
+void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
+  double low = bracket.from, high = bracket.to, theta = bracket.guess, off_before = kNotYet;
+  LayeredRay ray{kFamilies[family], cycles, 0, 1};
+  SpanSums sums;
+  RangeTerms t{};
+  for (int i = 0; i < 60; ++i) {
+    ray.sine = std::sin(theta);
+    ray.cosine = std::cos(theta);
+    sums = spans_.sums(ray.sine, ray.cosine);
+    t = range_terms(sums, ray.family);
+    const double off = link_.range_m - sums.xi * (t.bq + cycles * t.xq);  // (f - n) X
+    if (is_settled(off, off_before)) break;
+    off_before = off;
+    const double f = cycles + off / (sums.xi * t.xq);
+    const double slope = (t.bm + f * t.xm) * ray.sine / (ray.cosine * t.xq);
+    ((off > 0) == bracket.rising ? high : low) = theta;
+    const double next = slope != 0 ? theta - (f - cycles) / slope : -1;
+    theta = next > low && next < high ? next : 0.5 * (low + high);
+    if (high - low < 1e-15 * high) break;
+  }
+  ray.least_slope = fold_slope(bracket, t.bm + cycles * t.xm, sums.xi);
+  const bool trapped = cycles > 0 && !spans_.meets_surface() && !spans_.meets_bottom();
+  const double wavelength = 2 * pi * spans_.barrier_mps() / omega_;
+  if (trapped && spans_.height_of_swing_m(sums.xi) < wavelength) return;
+  append_arrival(link_, spans_, ray, sums, paths_);
+}
+
+// A turn of f beside a ray need not be a fold of its r = b + n X: near a barrier X' is so large that f may turn
+// where r does not. There |r'| / off is far above the mean curvature of the cell.
+double Search::fold_slope(const Bracket& bracket, double range_slope, double xi) const {
+  if (bracket.fold_theta == kNoFold) return 0;
+  const double off_fold = xi - std::cos(bracket.fold_theta) / spans_.barrier_mps();
+  if (off_fold == 0) return 0;
+  const double curvature = std::min(std::abs(range_slope / off_fold), 2 * bracket.mean_curvature);
+  return 0.555 * std::cbrt(curvature * curvature / (4 * omega_));
+}
+
+}  // namespace
+
+std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link) {
+  validate(sea.options);
+  return Search(sea, link).run();
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,45 @@
+// Every ray between two points of water that depends on depth alone, over a flat bottom.
+//
+// Method: the four families of acoustics/rays/layered_spans.h each ask for b(xi) + n X(xi) = r, X one whole cycle.
+// So f = (r - b)/X is tabulated between consecutive barriers against the grazing angle at the barrier, in
+// which it is smooth; wherever f crosses a whole number n >= 0 there is a ray of n cycles, and a turn of f (a
+// fold, the caustic of two rays) is found first and split at. The table is refined until a cubic through
+// values and slopes predicts it. Newton on f polishes. Delay is xi r + (tau - xi r), which errs by the square
+// of what is left of the range. Amplitude from dr/dxi in closed form,
+//   A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r),
+// which is the same with the ends swapped. A ray of m turns in the water has touched m - 1 caustics, and one
+// more when dr/dxi > 0. At a fold |dr/dxi| is kept above 0.555 omega^(-1/3) (|d2r/dxi2| / 2)^(2/3): the peak
+// of the Airy function (shared between the two rays), so that levels there go with the wavelength and stay
+// finite.
+//
+// Accuracy: exact for the knots given (delays to 1e-9 s). Left out: diffraction into shadows, beam
+// displacement at the bottom, rays trapped within less than a wavelength of a speed minimum.
+#pragma once
+
+#include <vector>
+
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/boundary_reflection.h"
+
+namespace halocline::acoustics {
+
+// A flat sea: water, its two boundaries and what to look for. Refers to the water, which has to outlive the
+// call.
+struct FlatSea {
+  const RayWater& water;
+  double bottom_depth_m;  // 0.1..12 000
+  FluidBottom bottom;
+  RaySurface surface;
+  RayOptions options;
+};
+
+// All rays of `link`, whose depths are within 0..bottom_depth_m (at a boundary: a micrometre off it).
+std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link);
+
+// The same from paths found before, for ends that moved little: each is followed to where it is now. Those
+// that could not be (they ended at a fold or an edge) are dropped, and where they carried 1 % of the power
+// the answer is not complete: search again. Paths that came into being are not found.
+FollowedRays follow_layered_rays(const FlatSea& sea, const RayLink& link, const std::vector<Arrival>& before);
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,34 @@
+// Turns one traced ray over a bottom profile into an arrival, and says which rays a search begins with.
+//
+// Shared by the search for rays (acoustics/rays/profile_rays.h) and by the following of rays found before.
+#pragma once
+
+#include <vector>
+
+#include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/arrivals.h"
+
+namespace halocline::acoustics {
+
+// A turn of zeta beside a ray: the launch angle there, rad, and |d2zeta/dtheta2|, the mean from there to the
+// next ray beyond. None by default.
+struct Fold {
+  double theta = 10;  // no launch angle
+  double bend = 0;
+  bool none() const { return bend == 0; }
+};
+
+// Traces the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of
+// unfolded depth, and appends its arrival unless the options exclude it.
+void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& fold, double target,
+                            std::vector<Arrival>& paths);
+
+// Launch angles above -steepest and up to `steepest`, rising, rad: close near the horizontal, where rays are
+// many and far apart in range; and just on both sides of the angles at which rays graze a knot of the water
+// on their first leg.
+std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
+
+// Every ray launched between two angles, rad, in the order they are found and not finished.
+std::vector<Arrival> profile_rays_between(const ArcTracer& tracer, double from, double to);
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,299 @@
+#include "acoustics/rays/profile_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "acoustics/math/hermite_cubic.h"
+#include "acoustics/rays/fan_tracer.h"
+#include "acoustics/rays/profile_path.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounce
+constexpr double kLeastParting = 1e-11;        // rad: between the rays on both sides of a parting
+constexpr double kNextToEachOther = 4e-9;      // rad: the two rays of a fan beside one that grazes a knot
+constexpr int kDeepestHalving = 14;
+constexpr int kDeepestEdgeHalving = 7;    // towards where rays become too faint
+constexpr double kFinestGraze = 1e-7;     // rad: nearest to the ray that grazes
+constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
+constexpr double kCubicTolerance = 0.02;  // of the water depth
+constexpr double kShareBeforehand =
+    0.3;  // of it that rays beside an interval may err for the interval to need no look
+constexpr double kNearFold = 0.15;  // of the water depth: a turn nearer to an image is sought out exactly
+constexpr double kDepthTolerance = 1e-4;     // m before the last step of Newton
+constexpr double kLastStepTolerance = 1e-5;  // m after it, as foreseen
+constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from where it turns
+constexpr double kFoldZone = 0.01;  // of the water depth: further from all images a turn need not be exact
+constexpr int kMostTurnSteps = 40;
+constexpr int kMostTraces = 200'000;  // of one link: a guard against water of endless detail
+
+class Search {
+ public:
+  explicit Search(const ArcTracer& tracer)
+      : tracer_(tracer), fan_(tracer), depth_(tracer.bottom_at_receiver_m()) {}
+
+  // Rays launched between the first and the last of `angles`, as they are found.
+  std::vector<Arrival> run(const std::vector<double>& angles);
+
+ private:
+  FanRay traced(double theta);
+  std::optional<std::size_t> parting(const FanRay& a, const FanRay& b) const;
+  bool shares_event(const FanRay& ray, const FanRay& other, std::size_t event) const;
+  bool meets_bottom_at(const FanRay& ray, std::size_t event) const;
+  // All rays between two; what is traced for it is forgotten.
+  void scan(const FanRay& a, const FanRay& b, int depth);
+  void look_between(const FanRay& a, const FanRay& b, int depth);
+  void part(const FanRay& a, const FanRay& b, std::size_t event, int depth);
+  // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster the
+  // less they bounce: they are looked at in steps that shrink towards the edge.
+  void scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth);
+  void solve(const FanRay& a, const FanRay& b);
+  // Rays between two between which zeta is monotone; `fold` is one of them or none.
+  void solve_monotone(const FanRay& a, const FanRay& b, const Fold& fold);
+  void polish(const FanRay& a, const FanRay& b, double target, const Fold& fold);
+  bool seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
+  double off_nearest_image(double zeta) const;
+  bool is_foretold(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const;
+
+  const ArcTracer& tracer_;
+  FanTracer fan_;
+  double depth_;
+  int traces_ = 0;
+  std::vector<Arrival> paths_;
+};
+
+HermiteCubic cubic_of(const FanRay& a, const FanRay& b) {
+  return {a.zeta, a.zeta_slope, b.zeta, b.zeta_slope, b.theta - a.theta};
+}
+
+// Mean of |d2 zeta / d theta2| between two rays.
+double bend_between(const FanRay& a, const FanRay& b) {
+  return std::abs((b.zeta_slope - a.zeta_slope) / (b.theta - a.theta));
+}
+
+Fold fold_between(const FanRay& turn, const FanRay& other) { return {turn.theta, bend_between(turn, other)}; }
+
+// The first event at which two rays differ; empty when one history begins with the other.
+std::optional<std::size_t> Search::parting(const FanRay& a, const FanRay& b) const {
+  const auto one = fan_.events_of(a), other = fan_.events_of(b);
+  const std::size_t common = std::min(one.size(), other.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    if (!(one[i] == other[i])) return i;
+  }
+  return std::nullopt;
+}
+
+bool Search::shares_event(const FanRay& ray, const FanRay& other, std::size_t event) const {
+  if (ray.events <= event) return false;
+  const auto first = parting(ray, other);
+  return !first || *first > event;
+}
+
+bool Search::meets_bottom_at(const FanRay& ray, std::size_t event) const {
+  return fan_.events_of(ray)[event].event == RayEvent::kBottom;
+}
+
+FanRay Search::traced(double theta) {
+  ++traces_;
+  return fan_.trace(theta);
+}
+
+std::vector<Arrival> Search::run(const std::vector<double>& angles) {
+  std::vector<FanRay> fan;
+  fan.reserve(angles.size());
+  for (const double theta : angles) fan.push_back(traced(theta));
+  std::vector<bool> foretold;  // by the rays on both sides
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    foretold.push_back(i > 0 && i + 1 < fan.size() &&
+                       is_foretold(fan[i - 1], fan[i], fan[i + 1], kShareBeforehand));
+  }
+  for (std::size_t i = 1; i < fan.size(); ++i) {
+    foretold[i - 1] && foretold[i] ? solve(fan[i - 1], fan[i]) : scan(fan[i - 1], fan[i], 0);
+  }
+  return std::move(paths_);
+}
+
+// Whether a cubic through two rays says where one between them arrives, to a share of the tolerance.
+bool Search::is_foretold(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const {
+  if (!(a.arrived && b.arrived && middle.arrived) || parting(a, middle) || parting(middle, b)) return false;
+  const double width = b.theta - a.theta, t = (middle.theta - a.theta) / width;
+  const double error = cubic_of(a, b).error_at(t, middle.zeta, middle.zeta_slope, width);
+  return error <= share * (kCubicTolerance * depth_ + 0.01 * std::abs(b.zeta - a.zeta));
+}
+
+void Search::scan(const FanRay& a, const FanRay& b, int depth) {
+  const std::size_t before = fan_.kept_events();
+  look_between(a, b, depth);
+  fan_.forget_since(before);
+}
+
+void Search::look_between(const FanRay& a, const FanRay& b, int depth) {
+  if (!a.arrived && !b.arrived) return;
+  if (b.theta - a.theta < 4 * kLeastParting || traces_ > kMostTraces) return;
+  const auto event = parting(a, b);
+  if (depth == 0 && b.theta - a.theta < kNextToEachOther) {
+    if (!event && a.arrived && b.arrived) solve_monotone(a, b, Fold{});
+    return;
+  }
+  if (event) return part(a, b, *event, depth);
+  if (depth >= kDeepestHalving || (!(a.arrived && b.arrived) && depth >= kDeepestEdgeHalving)) {
+    if (a.arrived && b.arrived) solve(a, b);
+    return;
+  }
+  const FanRay middle = traced(0.5 * (a.theta + b.theta));
+  if (is_foretold(a, middle, b, 1)) {
+    solve(a, middle);
+    solve(middle, b);
+  } else {
+    scan(a, middle, depth + 1);
+    scan(middle, b, depth + 1);
+  }
+}
+
+void Search::part(const FanRay& a, const FanRay& b, std::size_t event, int depth) {
+  FanRay low = a, high = b;
+  while (high.theta - low.theta > kLeastParting && traces_ <= kMostTraces) {
+    FanRay middle = traced(0.5 * (low.theta + high.theta));
+    std::swap(shares_event(middle, a, event) ? low : high, middle);
+  }
+  const bool bounce_below = meets_bottom_at(a, event), bounce_above = meets_bottom_at(b, event);
+  depth = std::max(0, depth - 4);
+  scan_to_edge(a, low, bounce_below && !bounce_above, depth);
+  scan_to_edge(b, high, bounce_above && !bounce_below, depth);
+}
+
+void Search::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth) {
+  FanRay last = from;
+  const auto scan_last = [&](const FanRay& next) {
+    last.theta < next.theta ? scan(last, next, depth) : scan(next, last, depth);
+  };
+  if (grazing) {
+    for (double off = kGrazeStep * (from.theta - edge.theta); std::abs(off) > kFinestGraze;
+         off *= kGrazeStep) {
+      FanRay next = traced(edge.theta + off);
+      scan_last(next);
+      last = next;
+    }
+  }
+  scan_last(edge);
+}
+
+double Search::off_nearest_image(double zeta) const {
+  const double period = 2 * depth_, z = tracer_.receiver_depth_m();
+  return std::min(std::abs(std::remainder(zeta - z, period)), std::abs(std::remainder(zeta + z, period)));
+}
+
+void Search::solve(const FanRay& a, const FanRay& b) {
+  const HermiteCubic cubic = cubic_of(a, b);
+  const HermiteCubic::Turns turns = cubic.turns();
+  FanRay from = a;
+  Fold before;
+  for (const double t : turns) {
+    const double theta = a.theta + t * (b.theta - a.theta);
+    if (theta <= from.theta) continue;
+    FanRay turn;
+    bool folds = false;
+    if (turns.count > 1 || off_nearest_image(cubic(t)) < kNearFold * depth_) {
+      turn = traced(theta);
+      if (!turn.arrived) continue;
+      folds = off_nearest_image(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn);
+    } else {  // whichever images lie on either side, this ray tells them apart as well as the one that turns
+      turn.theta = theta;
+      turn.zeta = cubic(t);
+    }
+    solve_monotone(from, turn, folds ? fold_between(turn, from) : Fold{});
+    before = folds ? fold_between(turn, b) : Fold{};
+    from = turn;
+  }
+  solve_monotone(from, b, before);
+}
+
+// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; false when there is no such place. False
+// position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time, so both ends
+// close in; every third step halves where that does not.
+bool Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
+  const auto rises = [](const FanRay& ray) { return ray.zeta_slope > 0; };
+  const bool before = rises(a) != rises(turn);
+  if (!before && rises(turn) == rises(b)) return false;
+  const FanRay &first = before ? a : turn, &last = before ? turn : b;
+  double low = first.theta, high = last.theta, at_low = first.zeta_slope, at_high = last.zeta_slope;
+  const bool rises_at_low = rises(first);
+  double width = high - low;
+  for (int i = 1; i <= kMostTurnSteps; ++i) {
+    const bool slow = i % 3 == 0 && high - low > 0.25 * std::exchange(width, high - low);
+    const double share = slow ? 0.5 : std::clamp(at_low / (at_low - at_high), 1e-3, 1 - 1e-3);
+    FanRay middle = traced(low + share * (high - low));
+    if (!middle.arrived) break;
+    turn = middle;
+    const double slope = turn.zeta_slope;
+    const double left = std::abs(slope) * (high - low);
+    if (left < kTurnTolerance || off_nearest_image(turn.zeta) > 2 * left + kFoldZone * depth_) break;
+    const bool beside_low = rises(turn) == rises_at_low;
+    double &replaced = beside_low ? at_low : at_high, &kept = beside_low ? at_high : at_low;
+    const double scale = 1 - slope / replaced;
+    kept *= scale > 0 ? scale : 0.5;
+    replaced = slope;
+    (beside_low ? low : high) = turn.theta;
+  }
+  return true;
+}
+
+void Search::solve_monotone(const FanRay& a, const FanRay& b, const Fold& fold) {
+  const double low = std::min(a.zeta, b.zeta), high = std::max(a.zeta, b.zeta), period = 2 * depth_;
+  for (const double image : {tracer_.receiver_depth_m(), -tracer_.receiver_depth_m()}) {
+    for (double k = std::ceil((low - image) / period); image + k * period < high;
+         ++k) {  // low <= target < high
+      polish(a, b, image + k * period, fold);
+    }
+  }
+}
+
+void Search::polish(const FanRay& a, const FanRay& b, double target, const Fold& fold) {
+  const bool rising = b.zeta > a.zeta;
+  double low = a.theta, high = b.theta;
+  double theta = low + cubic_of(a, b).crossing(target) * (high - low);
+  for (int i = 0; i < 60; ++i) {
+    const FanRay ray = fan_.trace(theta);
+    if (!ray.arrived) return;
+    const double off = ray.zeta - target;
+    ((off > 0) == rising ? high : low) = theta;
+    const double next = ray.zeta_slope != 0 ? theta - off / ray.zeta_slope : low - 1;
+    const bool inside = next > low && next < high;
+    // What the step leaves, by how much the slope changes to either side.
+    const double bend = std::max(bend_between(a, ray), bend_between(ray, b)), step = next - theta;
+    if (std::abs(off) < kDepthTolerance || (inside && 0.5 * bend * step * step < kLastStepTolerance)) {
+      if (inside) theta = next;  // none where rounding rules
+      break;
+    }
+    theta = inside ? next : 0.5 * (low + high);
+    if (high - low < 1e-15) break;
+  }
+  append_profile_arrival(tracer_, theta, fold, target, paths_);
+}
+
+}  // namespace
+
+std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
+  validate(sea.options);
+  const ArcTracer tracer(sea, link);
+  std::vector<Arrival> paths = profile_rays_between(tracer, -kSteepest, kSteepest);
+  finish(paths, sea.options);
+  return paths;
+}
+
+std::vector<Arrival> profile_rays_between(const ArcTracer& tracer, double from, double to) {
+  std::vector<double> angles = {std::max(from, -kSteepest)};
+  for (const double theta : fan_angles(tracer, kSteepest)) {
+    if (theta > from && theta < to) angles.push_back(theta);
+  }
+  angles.push_back(std::min(to, kSteepest));
+  return Search(tracer).run(angles);
+}
+
+}  // namespace halocline::acoustics

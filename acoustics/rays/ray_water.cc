@@ -1,0 +1,140 @@
+#include "acoustics/rays/ray_water.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kThinnestSample = 1.0;  // m: sampling a smooth profile goes no finer
+constexpr double kTallestSample =
+    250.0;  // m: nor coarser, so that a bump between two probes is not passed over
+constexpr double kTallestProbe = 5000.0;  // m: below it formulas and tables are taken as constant
+
+LayerAbsorption parabola(double top, double middle, double bottom) {
+  return {top, 4 * middle - 3 * top - bottom, 2 * (top + bottom) - 4 * middle};
+}
+
+// Adds knots below the last one down to `to`, halving until the chord is within tolerance of the profile.
+void sample(const SoundSpeedProfile& profile, double to, double tolerance, std::vector<SpeedRow>& knots) {
+  const SpeedRow from = knots.back();
+  const double height = to - from.depth_m, end = profile.sound_speed_mps(to);
+  const auto off = [&](double share) {
+    const double chord = from.sound_speed_mps + share * (end - from.sound_speed_mps);
+    return std::abs(profile.sound_speed_mps(from.depth_m + share * height) - chord);
+  };
+  const bool fits = height <= kTallestSample && std::max({off(0.25), off(0.5), off(0.75)}) <= tolerance;
+  if (fits || height <= kThinnestSample) {
+    knots.push_back({to, end});
+    return;
+  }
+  sample(profile, from.depth_m + height / 2, tolerance, knots);
+  sample(profile, to, tolerance, knots);
+}
+
+std::vector<SpeedRow> sampled_knots(const SoundSpeedProfile& profile, double tolerance) {
+  std::vector<SpeedRow> knots = {{0, profile.sound_speed_mps(0)}};
+  std::vector<double> corners = profile.row_depths_m();
+  corners.push_back(std::max(kTallestProbe, corners.empty() ? 0.0 : corners.back()));
+  for (const double depth : corners) {
+    if (depth > knots.back().depth_m) sample(profile, depth, tolerance, knots);
+  }
+  return knots;
+}
+
+std::vector<SpeedRow> table_knots(const SoundSpeedProfile& profile) {
+  std::vector<SpeedRow> knots;
+  for (const double depth : profile.row_depths_m()) knots.push_back({depth, profile.sound_speed_mps(depth)});
+  return knots;
+}
+
+bool is_table_of_speeds(const SoundSpeedProfile& profile) {
+  return !profile.knows_water() && !profile.row_depths_m().empty();
+}
+
+}  // namespace
+
+RayWater::RayWater(std::vector<SpeedRow> knots, const AbsorptionAtDepth& absorption_db_per_km) {
+  require(!knots.empty(), "a profile needs at least one knot");
+  if (knots.front().depth_m > 0) knots.insert(knots.begin(), {0, knots.front().sound_speed_mps});
+  if (knots.back().depth_m < kDeepestWater) knots.push_back({kDeepestWater, knots.back().sound_speed_mps});
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    require_in_range(knots[i].depth_m, 0, kDeepestWater, "depth of a knot", "m");
+    require_in_range(knots[i].sound_speed_mps, 1000, 2000, "sound speed of a knot", "m/s");
+    require(i == 0 || knots[i].depth_m > knots[i - 1].depth_m, "the knots of a profile do not go down");
+    depth_.push_back(knots[i].depth_m);
+    speed_.push_back(knots[i].sound_speed_mps);
+  }
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const double top = depth_[i], height = depth_[i + 1] - top;
+    const auto at = [&](double share) { return absorption_db_per_km(top + share * height) / 1000; };
+    gradient_.push_back((speed_[i + 1] - speed_[i]) / height);
+    absorption_.push_back(parabola(at(0), at(0.5), at(1)));
+  }
+}
+
+RayWater RayWater::from_profile(const SoundSpeedProfile& profile,
+                                const AbsorptionAtDepth& absorption_db_per_km, double speed_tolerance_mps) {
+  require_in_range(speed_tolerance_mps, 1e-6, 10, "speed tolerance of a profile for rays", "m/s");
+  return RayWater(
+      is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps),
+      absorption_db_per_km);
+}
+
+std::size_t RayWater::layer_at(double depth_m) const {
+  const auto below = std::upper_bound(depth_.begin() + 1, depth_.end() - 1, depth_m);
+  return static_cast<std::size_t>(below - depth_.begin() - 1);
+}
+
+double RayWater::speed_at(double depth_m) const {
+  const std::size_t i = layer_at(depth_m);
+  return speed_[i] + gradient_[i] * (depth_m - depth_[i]);
+}
+
+double RayWater::absorption_db_per_m(double depth_m) const {
+  const std::size_t i = layer_at(depth_m);
+  const double u = (depth_m - depth_[i]) / (depth_[i + 1] - depth_[i]);
+  return absorption_[i].a0 + u * (absorption_[i].a1 + u * absorption_[i].a2);
+}
+
+bool RayWater::is_isovelocity_above(double bottom_depth_m) const {
+  for (std::size_t i = 0; i < layers() && depth_[i] < bottom_depth_m; ++i) {
+    if (speed_[i + 1] != speed_[i]) return false;
+  }
+  return true;
+}
+
+std::vector<SpeedRow> knots_of(const RayWater& water) {
+  std::vector<SpeedRow> knots;
+  for (std::size_t i = 0; i < water.depths_m().size(); ++i) {
+    knots.push_back({water.depths_m()[i], water.speeds_mps()[i]});
+  }
+  return knots;
+}
+
+std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps) {
+  require_in_range(tolerance_mps, 0, 100, "tolerance of thinning", "m/s");
+  if (knots.size() < 3) return knots;
+  std::vector<SpeedRow> kept = {knots.front()};
+  std::size_t from = 0;
+  while (from + 1 < knots.size()) {
+    const auto chord_fits = [&](std::size_t to) {
+      const double slope = (knots[to].sound_speed_mps - knots[from].sound_speed_mps) /
+                           (knots[to].depth_m - knots[from].depth_m);
+      for (std::size_t k = from + 1; k < to; ++k) {
+        const double chord = knots[from].sound_speed_mps + slope * (knots[k].depth_m - knots[from].depth_m);
+        if (std::abs(chord - knots[k].sound_speed_mps) > tolerance_mps) return false;
+      }
+      return true;
+    };
+    std::size_t to = knots.size() - 1;
+    while (to > from + 1 && !chord_fits(to)) --to;
+    kept.push_back(knots[to]);
+    from = to;
+  }
+  return kept;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,247 @@
+#include "acoustics/sea/boundary_reflection.h"
+
+#include <algorithm>
+#include <array>
+#include <complex>
+#include <numbers>
+
+#include "acoustics/math/arc_math.h"
+#include "core/check.h"
+#include "core/units.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+struct NamedSediment {
+  std::string_view name;
+  double density_ratio, sound_speed_ratio, loss_parameter;
+};
+
+// APL-UW TR 9407, table 2. Where its print and its own polynomials disagree (speed of sandy gravel, density
+// of very coarse sand) the polynomials stand. Rock and pebbles: commonly quoted, from one source.
+constexpr std::array<NamedSediment, 22> kSediments = {{
+    {"Rock", 2.5, 2.5, 0.01374},
+    {"Pebbles", 2.5, 1.8, 0.01374},
+    {"SandyGravel", 2.492, 1.337, 0.01705},
+    {"VeryCoarseSand", 2.401, 1.3067, 0.01667},
+    {"MuddySandyGravel", 2.314, 1.2778, 0.0163},
+    {"CoarseSand", 2.231, 1.2503, 0.01638},
+    {"GravellyMuddySand", 2.151, 1.2241, 0.01645},
+    {"MediumSand", 1.845, 1.1782, 0.01624},
+    {"MuddyGravel", 1.615, 1.1396, 0.0161},
+    {"FineSand", 1.451, 1.1073, 0.01602},
+    {"MuddySand", 1.339, 1.08, 0.01728},
+    {"VeryFineSand", 1.268, 1.0568, 0.01875},
+    {"ClayeySand", 1.224, 1.0364, 0.02019},
+    {"CoarseSilt", 1.195, 1.0179, 0.02158},
+    {"SandySilt", 1.169, 0.9999, 0.01261},
+    {"MediumSilt", 1.149, 0.9885, 0.00676},
+    {"SandyMud", 1.149, 0.9873, 0.00386},
+    {"FineSilt", 1.148, 0.9861, 0.00306},
+    {"SandyClay", 1.147, 0.9849, 0.00242},
+    {"VeryFineSilt", 1.147, 0.9837, 0.00194},
+    {"SiltyClay", 1.146, 0.9824, 0.00163},
+    {"Clay", 1.145, 0.98, 0.00148},
+}};
+
+constexpr std::array kSurfaceModels = {SurfaceModel::kFlat, SurfaceModel::kAplBubbles, SurfaceModel::kEckart,
+                                       SurfaceModel::kCoates, SurfaceModel::kJones};
+
+// 40 pi log10(e): dB per wavelength of a loss parameter of 1.
+const double kDecibelsPerLossParameter = 40 * pi * std::numbers::log10e;
+
+constexpr double kGravity = 9.8;          // m/s^2, as the wave spectrum was fitted
+constexpr double kWaveModelSpeed = 1500;  // m/s, of Gamma
+constexpr double kKnotsPerMps = 1.94384;  // as Coates's form is commonly evaluated
+constexpr double kLeastGrazing = 1e-9;    // rad: the bubble law has 1 / sin G
+constexpr double kGreatestLoss = 400;     // dB: beyond it a bounce leaves nothing
+
+// The square root with a positive imaginary part: the wave in the bottom dies away downward.
+struct Root {
+  double re, im;
+};
+
+Root root_of(double re, double im) {
+  const double modulus = std::sqrt(re * re + im * im);
+  const double larger = std::sqrt(0.5 * (modulus + std::abs(re)));
+  if (larger == 0) return {0, 0};
+  const double smaller = im / (2 * larger);
+  return re >= 0 ? Root{larger, smaller} : Root{smaller, larger};
+}
+
+struct Quotient {
+  double numerator_re, numerator_im, denominator_re, denominator_im;
+  double magnitude() const {
+    return std::sqrt((numerator_re * numerator_re + numerator_im * numerator_im) /
+                     (denominator_re * denominator_re + denominator_im * denominator_im));
+  }
+};
+
+Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps) {
+  const double ratio =
+      bottom.sound_speed_ratio > 0 ? bottom.sound_speed_ratio : bottom.sound_speed_mps / water_speed_mps;
+  const double delta = bottom.loss_parameter, speed_term = 1 + delta * delta;
+  // n^2 = (1 + i delta)^2 / ratio^2, or 1 / (ratio (1 - i delta))^2 = (1 + i delta)^2 / (ratio (1 +
+  // delta^2))^2
+  const double real = bottom.loss == BottomLoss::kComplexSpeed ? ratio * speed_term : ratio;
+  const double n2 = 1 / (real * real);
+  const Root below = root_of(n2 * (1 - delta * delta) - (1 - sine * sine), 2 * delta * n2);
+  const double above = bottom.density_ratio * sine;
+  return {above - below.re, -below.im, above + below.re, below.im};
+}
+
+double apl_bubble_loss_db(double wind_mps, double grazing_rad, double khz) {
+  constexpr double kJoin = 6;  // m/s
+  const double steady =
+      1.26e-3 / std::sin(grazing_rad) * std::pow(std::max(wind_mps, kJoin), 1.57) * std::pow(khz, 0.85);
+  if (wind_mps <= 0) return 0;  // the fit leaves 7e-4 of its 6 m/s value: a still sea has no bubbles
+  return wind_mps >= kJoin ? steady : steady * std::exp(1.2 * (wind_mps - kJoin));
+}
+
+double eckart_loss_db(double wind_mps, double grazing_rad, double khz) {
+  const double wavenumber = 2 * pi * khz_to_hz(khz) / kWaveModelSpeed;
+  const double gamma = 2 * wavenumber * rms_wave_height_m(wind_mps) * std::sin(grazing_rad);
+  return 10 * std::numbers::log10e * gamma * gamma;  // -20 log10 e^(-Gamma^2 / 2)
+}
+
+double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
+  const double knots = wind_mps * kKnotsPerMps;
+  const double f2 = knots > 0 ? 378 / (knots * knots) : 1e30, f1 = std::sqrt(10.0) * f2;  // kHz
+  const double low = 10 * std::log10((1 + khz * khz / (f1 * f1)) / (1 + khz * khz / (f2 * f2)));
+  const double tilt = to_degrees(grazing_rad) / 30;
+  return -(low - (1 + (90 - knots) / 60) * tilt * tilt);
+}
+
+double jones_loss_db(double wind_mps, double grazing_rad, double khz) {
+  const double a = 1 / (2 * (0.003 + 5.1e-3 * wind_mps)), theta = grazing_rad;
+  const double sine = std::sin(theta), hz = khz_to_hz(khz), spread = a * theta * theta;
+  const double shadowed = (1 - std::exp(-spread / 4) / std::sqrt(pi * spread)) * sine;
+  const double v3 = std::min(std::max(sine / 2, shadowed), 0.99);
+  const double low = 0.3 + 0.7 / (1 + 6.0e-11 * std::pow(wind_mps, 4) * hz * hz);
+  return -20 * std::log10(low) - 10 * std::log10(1 - v3);
+}
+
+}  // namespace
+
+void validate(const FluidBottom& bottom) {
+  require_in_range(bottom.density_ratio, 0.5, 10, "bottom density ratio");
+  require((bottom.sound_speed_ratio > 0) != (bottom.sound_speed_mps > 0),
+          "a bottom needs its sound speed either as a ratio or in m/s, not both");
+  if (bottom.sound_speed_ratio > 0)
+    require_in_range(bottom.sound_speed_ratio, 0.5, 5, "bottom sound speed ratio");
+  if (bottom.sound_speed_mps > 0)
+    require_in_range(bottom.sound_speed_mps, 500, 7000, "bottom sound speed", "m/s");
+  require_in_range(bottom.loss_parameter, 0, 1, "bottom loss parameter");
+}
+
+FluidBottom fluid_bottom(double density_ratio, double sound_speed_mps, double attenuation_db_per_wavelength) {
+  const FluidBottom bottom{density_ratio, 0, sound_speed_mps,
+                           loss_parameter_from_attenuation(attenuation_db_per_wavelength),
+                           BottomLoss::kComplexSpeed};
+  validate(bottom);
+  return bottom;
+}
+
+double loss_parameter_from_attenuation(double db_per_wavelength) {
+  return db_per_wavelength / kDecibelsPerLossParameter;
+}
+
+double attenuation_from_loss_parameter(double loss_parameter) {
+  return loss_parameter * kDecibelsPerLossParameter;
+}
+
+std::optional<FluidBottom> sediment(std::string_view name) {
+  for (const NamedSediment& row : kSediments) {
+    if (row.name == name)
+      return FluidBottom{row.density_ratio, row.sound_speed_ratio, 0, row.loss_parameter,
+                         BottomLoss::kComplexWaveNumber};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> sediment_names() {
+  std::vector<std::string_view> names;
+  for (const NamedSediment& row : kSediments) names.push_back(row.name);
+  return names;
+}
+
+Reflection bottom_reflection(const FluidBottom& bottom, double grazing_rad, double water_speed_mps) {
+  return bottom_reflection_at_sine(bottom, std::sin(grazing_rad), water_speed_mps);
+}
+
+Reflection bottom_reflection_at_sine(const FluidBottom& bottom, double sine, double water_speed_mps) {
+  const Quotient v = rayleigh(bottom, sine, water_speed_mps);
+  // arg V = arg(numerator conj(denominator)).
+  const double re = v.numerator_re * v.denominator_re + v.numerator_im * v.denominator_im;
+  const double im = v.numerator_im * v.denominator_re - v.numerator_re * v.denominator_im;
+  return {v.magnitude(), -angle_of(im, re)};
+}
+
+double bottom_magnitude_at_sine(const FluidBottom& bottom, double sine, double water_speed_mps) {
+  return rayleigh(bottom, sine, water_speed_mps).magnitude();
+}
+
+std::string_view to_name(SurfaceModel model) {
+  switch (model) {
+    case SurfaceModel::kFlat:
+      return "flat";
+    case SurfaceModel::kAplBubbles:
+      return "apl-bubbles";
+    case SurfaceModel::kEckart:
+      return "eckart";
+    case SurfaceModel::kCoates:
+      return "coates";
+    case SurfaceModel::kJones:
+      return "jones";
+  }
+  return "";
+}
+
+std::optional<SurfaceModel> surface_model_from_name(std::string_view name) {
+  for (const SurfaceModel model : kSurfaceModels) {
+    if (to_name(model) == name) return model;
+  }
+  return std::nullopt;
+}
+
+double rms_wave_height_m(double wind_mps) { return 0.22 * wind_mps * wind_mps / (4 * kGravity); }
+
+double surface_loss_db(const RaySurface& surface, double grazing_rad, double frequency_hz) {
+  const double khz = hz_to_khz(frequency_hz), grazing = std::max(grazing_rad, kLeastGrazing);
+  switch (surface.model) {
+    case SurfaceModel::kFlat:
+      return 0;
+    case SurfaceModel::kAplBubbles:
+      return apl_bubble_loss_db(surface.wind_mps, grazing, khz);
+    case SurfaceModel::kEckart:
+      return eckart_loss_db(surface.wind_mps, grazing, khz);
+    case SurfaceModel::kCoates:
+      return coates_loss_db(surface.wind_mps, grazing, khz);
+    case SurfaceModel::kJones:
+      return jones_loss_db(surface.wind_mps, grazing, khz);
+  }
+  return 0;
+}
+
+SurfaceLoss::SurfaceLoss(const RaySurface& surface, double frequency_hz)
+    : surface_(surface),
+      frequency_hz_(frequency_hz),
+      bubbles_db_(apl_bubble_loss_db(surface.wind_mps, pi / 2, hz_to_khz(frequency_hz))) {}
+
+double SurfaceLoss::db_at_sine(double sine) const {
+  if (surface_.model == SurfaceModel::kFlat) return 0;
+  const double loss = surface_.model == SurfaceModel::kAplBubbles
+                          ? bubbles_db_ / std::max(sine, kLeastGrazing)
+                          : surface_loss_db(surface_, std::asin(sine), frequency_hz_);
+  return std::min(loss, kGreatestLoss);
+}
+
+double surface_magnitude(const RaySurface& surface, double grazing_rad, double frequency_hz) {
+  if (surface.model == SurfaceModel::kFlat) return 1;
+  if (surface.model == SurfaceModel::kAplBubbles && surface.wind_mps <= 0) return 1;
+  return std::pow(10.0, -std::min(surface_loss_db(surface, grazing_rad, frequency_hz), kGreatestLoss) / 20);
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,33 @@
+// The water a link runs through: everything about the sea that the acoustics ask for, as one value.
+//
+// Immutable by convention: build one, `validate` it, share it by const reference between threads. Horizontal
+// position does not enter: one profile, one sea state for the whole scenario.
+#pragma once
+
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/noise.h"
+#include "acoustics/sea/sound_speed_profile.h"
+
+namespace halocline::acoustics {
+
+// The defaults are those of the reference figures 4, 6 and 7: global mean profile, s = 0.5, w = 0, k = 1.5.
+struct Environment {
+  SoundSpeedProfile profile = SoundSpeedProfile::global_mean();
+  NoiseSources noise;               // shipping 0..1, wind 0..60 m/s
+  double spreading_exponent = 1.5;  // 1 cylindrical to 2 spherical
+  AbsorptionModel absorption_model = AbsorptionModel::kFisherSimmons1977;
+  double ph = 8.0;                       // 7 to 9, NBS scale
+  double latitude_rad = to_radians(45);  // depth to pressure; -pi/2..pi/2
+  double sea_surface_z_m = 0;            // NED z of the surface, -100..100
+};
+
+// Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
+void validate(const Environment& environment);
+
+// Water as absorption sees it at `depth_m` below the surface (taken as 0 above it).
+AbsorbingWater absorbing_water(const Environment& environment, double depth_m);
+
+// alpha(f) of the environment's model at a depth.
+AbsorptionSpectrum absorption_spectrum_at(const Environment& environment, double depth_m);
+
+}  // namespace halocline::acoustics

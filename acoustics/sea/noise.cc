@@ -1,0 +1,38 @@
+#include "acoustics/sea/noise.h"
+
+#include <cmath>
+
+#include "acoustics/math/frequency_band.h"
+
+namespace halocline::acoustics {
+
+NoiseComponents noise_components(double frequency_hz, const NoiseSources& sources) {
+  const double f = hz_to_khz(frequency_hz), log_f = std::log10(f);
+  NoiseComponents n;
+  n.turbulence = {17 - 30 * log_f};
+  n.shipping = {40 + 20 * (sources.shipping - 0.5) + 26 * log_f - 60 * std::log10(f + 0.03)};
+  n.wind = {50 + 7.5 * std::sqrt(sources.wind_mps) + 20 * log_f - 40 * std::log10(f + 0.4)};
+  n.thermal = {-15 + 20 * log_f};
+  n.total_power = to_power_ratio(n.turbulence) + to_power_ratio(n.shipping) + to_power_ratio(n.wind) +
+                  to_power_ratio(n.thermal);
+  n.total = to_decibels(n.total_power);
+  return n;
+}
+
+PowerRatio noise_power_density(double frequency_hz, const NoiseSources& sources) {
+  return noise_components(frequency_hz, sources).total_power;
+}
+
+PowerRatio noise_power_over_band(double low_hz, double high_hz, const NoiseSources& sources) {
+  double power = 0;
+  for (const FrequencyNode& node : frequency_nodes(low_hz, high_hz)) {
+    power += node.weight_hz * noise_power_density(node.frequency_hz, sources).value;
+  }
+  return {power};
+}
+
+Decibels noise_level_over_band(double low_hz, double high_hz, const NoiseSources& sources) {
+  return to_decibels(noise_power_over_band(low_hz, high_hz, sources));
+}
+
+}  // namespace halocline::acoustics

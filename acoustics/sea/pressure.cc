@@ -1,0 +1,45 @@
+#include "acoustics/sea/pressure.h"
+
+#include <cmath>
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kDecibarPerMegapascal = 100;
+
+double squared_sine(double angle_rad) {
+  const double s = std::sin(angle_rad);
+  return s * s;
+}
+
+}  // namespace
+
+double standard_ocean_pressure_dbar(double depth_m, double latitude_rad) {
+  const double z = depth_m;
+  // h(Z, 45): pressure in MPa at 45 degrees (equation 3 of the paper).
+  const double h45 = (((2.8e-19 * z - 1.25e-13) * z + 2.465e-8) * z + 1.00818e-2) * z;
+  // k(Z, phi): gravity at the latitude over gravity at 45 degrees, both falling with depth (equation 4).
+  const double gravity = 9.7803 * (1 + 5.3e-3 * squared_sine(latitude_rad));
+  const double k = (gravity - 2e-5 * z) / (9.80612 - 2e-5 * z);
+  return h45 * k * kDecibarPerMegapascal;
+}
+
+double common_oceans_pressure_dbar(double depth_m, double latitude_rad) {
+  const double z = depth_m;
+  const double correction_mpa = 1e-2 * z / (z + 100) + 6.2e-6 * z;  // table II, "common oceans"
+  return standard_ocean_pressure_dbar(depth_m, latitude_rad) - correction_mpa * kDecibarPerMegapascal;
+}
+
+double unesco_depth_m(double pressure_dbar, double latitude_rad) {
+  const double p = pressure_dbar;
+  const double x = squared_sine(latitude_rad);
+  // Gravity at the surface plus half of its growth down to p.
+  const double gravity = 9.780318 * (1 + (5.2788e-3 + 2.36e-5 * x) * x) + 1.092e-6 * p;
+  return (((-1.82e-15 * p + 2.279e-10) * p - 2.2512e-5) * p + 9.72659) * p / gravity;
+}
+
+double pressure_atm_absolute(double depth_m, double latitude_rad) {
+  return 1 + standard_ocean_pressure_dbar(depth_m, latitude_rad) / kDecibarPerAtmosphere;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,171 @@
+#include "acoustics/sea/sound_speed_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "acoustics/math/depth_cells.h"
+#include "acoustics/math/gauss_legendre.h"
+#include "core/check.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kTallestCell = 100;       // m, within the table
+constexpr double kTallestCellBelow = 500;  // m, below it, where only pressure changes
+
+std::string row_name(std::size_t index, const char* what) {
+  return "profile row " + std::to_string(index + 1) + ": " + what;
+}
+
+template <typename Row>
+void require_rising_depths(const std::vector<Row>& rows) {
+  require(!rows.empty(), "a profile needs at least one row");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    require_in_range(rows[i].depth_m, 0, kDeepestWater, row_name(i, "depth"), "m");
+    require(i == 0 || rows[i].depth_m > rows[i - 1].depth_m,
+            row_name(i, "depth ") + std::to_string(rows[i].depth_m) + " m is not below the row before");
+  }
+}
+
+// Index of the row at or above `depth_m`, and how far it is towards the next, 0..1. Outside of the table: an
+// end row.
+struct Place {
+  std::size_t row;
+  double share;
+};
+
+template <typename Row>
+Place place_of(const std::vector<Row>& rows, double depth_m) {
+  if (depth_m <= rows.front().depth_m) return {0, 0};
+  if (depth_m >= rows.back().depth_m) return {rows.size() - 1, 0};
+  const auto below = std::upper_bound(rows.begin(), rows.end(), depth_m,
+                                      [](double depth, const Row& row) { return depth < row.depth_m; });
+  const Row& upper = *(below - 1);
+  return {static_cast<std::size_t>(below - rows.begin() - 1),
+          (depth_m - upper.depth_m) / (below->depth_m - upper.depth_m)};
+}
+
+template <typename Row>
+double interpolate(const std::vector<Row>& rows, Place place, double Row::*value) {
+  const double upper = rows[place.row].*value;
+  return place.share == 0 ? upper : upper + place.share * (rows[place.row + 1].*value - upper);
+}
+
+// Adds boundaries from the last one to `to`, none taller than `tallest`.
+void add_cells(std::vector<double>& boundaries, double to, double tallest) {
+  const double from = boundaries.back();
+  if (to <= from) return;
+  const int count = static_cast<int>(std::ceil((to - from) / tallest));
+  for (int i = 1; i <= count; ++i) boundaries.push_back(i == count ? to : from + (to - from) * i / count);
+}
+
+}  // namespace
+
+SoundSpeedProfile SoundSpeedProfile::from_water(std::vector<WaterRow> rows, SoundSpeedModel model,
+                                                double latitude_rad) {
+  require_rising_depths(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    require_in_range(rows[i].temperature_degc, -5, 45, row_name(i, "temperature"), "degC");
+    require_in_range(rows[i].salinity_psu, 0, 50, row_name(i, "salinity"), "psu");
+  }
+  require_in_range(latitude_rad, -std::numbers::pi / 2, std::numbers::pi / 2, "latitude", "rad");
+  SoundSpeedProfile profile;
+  profile.kind_ = Kind::kWater;
+  profile.model_ = model;
+  profile.latitude_rad_ = latitude_rad;
+  profile.water_rows_ = std::move(rows);
+  profile.build_cells();
+  return profile;
+}
+
+SoundSpeedProfile SoundSpeedProfile::from_speeds(std::vector<SpeedRow> rows, WaterSample assumed) {
+  require_rising_depths(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    require_in_range(rows[i].sound_speed_mps, 1000, 2000, row_name(i, "sound speed"), "m/s");
+  }
+  require_in_range(assumed.temperature_degc, -5, 45, "assumed temperature", "degC");
+  require_in_range(assumed.salinity_psu, 0, 50, "assumed salinity", "psu");
+  SoundSpeedProfile profile;
+  profile.kind_ = Kind::kSpeeds;
+  profile.speed_rows_ = std::move(rows);
+  profile.assumed_ = assumed;
+  profile.build_cells();
+  return profile;
+}
+
+SoundSpeedProfile SoundSpeedProfile::munk(WaterSample assumed) {
+  SoundSpeedProfile profile;
+  profile.kind_ = Kind::kMunk;
+  profile.assumed_ = assumed;
+  profile.build_cells();
+  return profile;
+}
+
+SoundSpeedProfile SoundSpeedProfile::isovelocity(double sound_speed_mps, WaterSample assumed) {
+  return from_speeds({{0, sound_speed_mps}}, assumed);
+}
+
+std::vector<double> SoundSpeedProfile::row_depths_m() const {
+  std::vector<double> depths;
+  for (const WaterRow& row : water_rows_) depths.push_back(row.depth_m);
+  for (const SpeedRow& row : speed_rows_) depths.push_back(row.depth_m);
+  return depths;
+}
+
+void SoundSpeedProfile::build_cells() {
+  boundaries_m_ = {0};
+  for (const double depth : row_depths_m()) add_cells(boundaries_m_, depth, kTallestCell);
+  add_cells(boundaries_m_, kDeepestWater, kTallestCellBelow);
+  const auto slowness = [this](double z) { return 1 / sound_speed_mps(z); };
+  slowness_to_boundary_ = {0};
+  for (std::size_t i = 1; i < boundaries_m_.size(); ++i) {
+    const double cell = integrate(gauss_legendre_5(), boundaries_m_[i - 1], boundaries_m_[i], slowness);
+    slowness_to_boundary_.push_back(slowness_to_boundary_.back() + cell);
+  }
+}
+
+double SoundSpeedProfile::sound_speed_mps(double depth_m) const {
+  const double z = std::max(depth_m, 0.0);
+  if (kind_ == Kind::kMunk) return munk_sound_speed_mps(z);
+  if (kind_ == Kind::kSpeeds) {
+    return interpolate(speed_rows_, place_of(speed_rows_, z), &SpeedRow::sound_speed_mps);
+  }
+  const WaterSample here = water(z);
+  return acoustics::sound_speed_mps(model_, here.temperature_degc, here.salinity_psu, z, latitude_rad_);
+}
+
+WaterSample SoundSpeedProfile::water(double depth_m) const {
+  if (kind_ != Kind::kWater) return assumed_;
+  const Place place = place_of(water_rows_, depth_m);
+  return {interpolate(water_rows_, place, &WaterRow::temperature_degc),
+          interpolate(water_rows_, place, &WaterRow::salinity_psu)};
+}
+
+double SoundSpeedProfile::slowness_integral(double from_depth_m, double to_depth_m) const {
+  const auto slowness = [this](double z) { return 1 / sound_speed_mps(z); };
+  const DepthSpan span = split_span(boundaries_m_, from_depth_m, to_depth_m);
+  double sum = integrate(gauss_legendre_5(), span.head_from_m, span.head_to_m, slowness);
+  if (!span.crosses) return sum;
+  sum += integrate(gauss_legendre_5(), span.tail_from_m, span.tail_to_m, slowness);
+  return sum + (slowness_to_boundary_[span.last_boundary] - slowness_to_boundary_[span.first_boundary]);
+}
+
+double SoundSpeedProfile::travel_time_s(double from_depth_m, double to_depth_m, double path_length_m) const {
+  const double z1 = std::clamp(std::min(from_depth_m, to_depth_m), 0.0, kDeepestWater);
+  const double z2 = std::clamp(std::max(from_depth_m, to_depth_m), 0.0, kDeepestWater);
+  if (z1 == z2) return path_length_m / sound_speed_mps(z1);
+  return path_length_m * (slowness_integral(z1, z2) / (z2 - z1));
+}
+
+double SoundSpeedProfile::mean_sound_speed_mps(double from_depth_m, double to_depth_m) const {
+  return 1 / travel_time_s(from_depth_m, to_depth_m, 1);
+}
+
+double munk_sound_speed_mps(double depth_m) {
+  constexpr double kAxisSpeed = 1500, kAxisDepth = 1300, kScale = 1300, kPerturbation = 0.00737;
+  const double n = 2 * (depth_m - kAxisDepth) / kScale;
+  return kAxisSpeed * (1 + kPerturbation * (n - 1 + std::exp(-n)));
+}
+
+}  // namespace halocline::acoustics

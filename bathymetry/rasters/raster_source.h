@@ -1,0 +1,84 @@
+// One band of a raster file, opened with GDAL: where its posts lie, and its depths, window by window.
+//
+// Posts are addressed as (column, row), 0 to size - 1, at their own place: a pixel's centre, or the node. The
+// traps that this class is for:
+// - global rasters whose pixel edges pass the poles, or whose longitudes run 0..360: longitudes are unwrapped
+//   around the scenario, columns taken modulo a turn, nothing is warped as a whole;
+// - a longitude axis whose step is rounded (ETOPO5 drifts by 0.0033 degrees over the globe): a raster that
+// goes
+//   round the earth gets the step 360 / columns;
+// - NoData: declared values, netCDF fills, masks, NaN; values no sea or mountain has (below -12 000 m, above
+//   9 500 m); and undeclared -9999 or 9999, told from a real trench by neighbours none of which is within
+//   2000 m;
+// - scale and offset of the band; feet; rows that run either way.
+// Only windows are read, so a global 15 arc-second grid costs what the scenario covers of it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bathymetry/rasters/raster_options.h"
+
+namespace halocline::bathymetry {
+
+// A place between posts: column and row, fractions included.
+struct PixelPosition {
+  double column = 0, row = 0;
+};
+
+// Posts first_column .. first_column + columns - 1 (which may run past a turn of a global raster), and rows
+// so.
+struct RasterWindow {
+  int first_column = 0, first_row = 0, columns = 0, rows = 0;
+  std::vector<float> depths_m;  // positive down from the file's zero plus the offset; NaN no data; row by row
+
+  // Bilinear over the posts around; NaN when one that counts is NaN, and beyond the window: nothing bleeds,
+  // nothing is extrapolated.
+  double depth_at(const PixelPosition& at) const;
+};
+
+struct PostCounts {
+  std::size_t declared_no_data = 0;    // as the file or the options say
+  std::size_t undeclared_no_data = 0;  // recognised as stated above
+};
+
+class RasterSource {
+ public:
+  // origin_latitude_deg, origin_longitude_deg: of the scenario, around which longitudes are unwrapped.
+  // Throws InvalidArgument with GDAL's words when the file cannot be read, and when it lacks what options
+  // must say.
+  RasterSource(const RasterOptions& options, double origin_latitude_deg, double origin_longitude_deg);
+  ~RasterSource();
+  RasterSource(const RasterSource&) = delete;
+  RasterSource& operator=(const RasterSource&) = delete;
+
+  int columns() const;
+  int rows() const;
+  bool is_local() const;  // its coordinates are metres east and north of the scenario's origin
+
+  // Of a place on the earth (degrees, WGS84); NaN where the raster's projection has none. Not for local
+  // rasters.
+  PixelPosition pixel_at(double latitude_deg, double longitude_deg) const;
+  // Of metres east and north of the origin; only for local rasters.
+  PixelPosition pixel_at_local(double north_m, double east_m) const;
+  // Only for local rasters: the south-western post and the distance of posts. Throws unless pixels are square
+  // and the axes unrotated.
+  struct LocalPosts {
+    double first_north_m = 0, first_east_m = 0, spacing_m = 0;
+    bool south_first = false;
+  };
+  LocalPosts local_posts() const;
+
+  // The part of the raster within one post around low..high, empty (0 columns) where they do not meet.
+  RasterWindow read(const PixelPosition& low, const PixelPosition& high, PostCounts& counts) const;
+
+  std::string coordinate_system() const;  // by name
+  std::string vertical_datum() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace halocline::bathymetry

@@ -1,0 +1,114 @@
+#include "bathymetry/rasters/terrain_recipe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/check.h"
+#include "core/units.h"
+
+namespace halocline::bathymetry {
+namespace {
+
+constexpr double kMostCells = 32'768;  // each way
+
+double cells(double size_m, double spacing_m) { return std::round(size_m / spacing_m); }
+
+bool is_whole_multiple(double size_m, double spacing_m) {
+  constexpr double kDecimalTolerance = 1e-6;  // of a cell: sizes are written in decimals
+  const double count = size_m / spacing_m;
+  return count >= 1 && count <= kMostCells && std::abs(count - std::round(count)) <= kDecimalTolerance;
+}
+
+// GDAL's own names ("NETCDF:...", "/vsi...") and absolute paths are taken as they are.
+RasterOptions located(RasterOptions options, const std::string& folder) {
+  require(!options.path.empty(), "terrain.raster.path is missing; it names a raster file");
+  const bool relative = options.path.front() != '/' && options.path.find(':') == std::string::npos;
+  if (relative && !folder.empty()) options.path = folder + "/" + options.path;
+  return options;
+}
+
+HeightGrid base_grid(const TerrainRecipe& recipe, const LocalFrame& frame, const Site& site,
+                     std::vector<RasterReport>& reports) {
+  const auto shaped = [&](const Shape& shape) { return make_grid(recipe.domain.geometry(), shape); };
+  switch (recipe.kind) {
+    case TerrainKind::kFlat:
+      return shaped(recipe.flat);
+    case TerrainKind::kSlope:
+      return shaped(recipe.slope);
+    case TerrainKind::kRidge:
+      return shaped(recipe.ridge);
+    case TerrainKind::kSeamount:
+      return shaped(recipe.seamount);
+    case TerrainKind::kRaster:
+      break;
+  }
+  const RasterOptions options = located(recipe.raster, site.folder);
+  LoadedRaster loaded =
+      recipe.whole_file ? load_local_raster(options) : load_raster(options, frame, recipe.domain.geometry());
+  reports.push_back(std::move(loaded.report));
+  return std::move(loaded.grid);
+}
+
+std::string summary_of(const TerrainRecipe& recipe, const Terrain& terrain,
+                       const std::vector<RasterReport>& reports) {
+  static constexpr const char* kNames[] = {"flat", "slope", "ridge", "seamount", "raster"};
+  const GridGeometry& g = terrain.extent();
+  char text[160];
+  std::snprintf(text, sizeof text, ", %d x %d posts %g m apart, %zu grid(s)", g.posts_x, g.posts_y,
+                g.spacing_m, terrain.grid_count());
+  std::string summary = kNames[static_cast<int>(recipe.kind)] + std::string(text);
+  for (const RasterReport& report : reports) {
+    std::snprintf(text, sizeof text, " (%s, datum %s, %.0f to %.0f m, %zu posts without depth)",
+                  report.coordinate_system.c_str(), report.vertical_datum.c_str(), report.shallowest_m,
+                  report.deepest_m, report.posts_without_depth);
+    summary += "; " + report.path + text;
+  }
+  if (recipe.relief.rms_m > 0) {
+    std::snprintf(text, sizeof text, "; with SYNTHETIC relief of %g m rms", recipe.relief.rms_m);
+    summary += text;
+  }
+  return summary + "; version " + version_text(terrain.version());
+}
+
+}  // namespace
+
+bool DomainRecipe::is_possible() const {
+  return spacing_m > 0 && is_whole_multiple(size_north_m, spacing_m) &&
+         is_whole_multiple(size_east_m, spacing_m);
+}
+
+GridGeometry DomainRecipe::geometry() const {
+  require(is_possible(), "the terrain's size must be 1 to 32768 whole multiples of its spacing, both ways");
+  return {center_north_m - 0.5 * size_north_m, center_east_m - 0.5 * size_east_m, spacing_m,
+          static_cast<int>(cells(size_north_m, spacing_m)) + 1,
+          static_cast<int>(cells(size_east_m, spacing_m)) + 1};
+}
+
+std::string version_text(std::uint64_t version) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(version));
+  return text;
+}
+
+PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site) {
+  const LocalFrame frame(recipe.frame, to_radians(site.origin_latitude_deg),
+                         to_radians(site.origin_longitude_deg));
+  PreparedTerrain prepared;
+  HeightGrid base = base_grid(recipe, frame, site, prepared.rasters);
+  const bool rough = recipe.relief.rms_m > 0;
+  if (rough) add_relief(recipe.relief, base);
+  std::vector<NestedGrid> nested;
+  for (const NestedRecipe& inner : recipe.nested) {
+    LoadedRaster loaded = load_raster(located(inner.raster, site.folder), frame, inner.domain.geometry());
+    if (rough) add_relief(recipe.relief, loaded.grid);
+    prepared.rasters.push_back(std::move(loaded.report));
+    nested.push_back({std::move(loaded.grid), inner.blend_width_m, inner.holes});
+  }
+  prepared.terrain = std::make_shared<const Terrain>(std::move(base), std::move(nested));
+  prepared.summary = summary_of(recipe, *prepared.terrain, prepared.rasters);
+  return prepared;
+}
+
+}  // namespace halocline::bathymetry

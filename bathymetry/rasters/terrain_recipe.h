@@ -1,0 +1,76 @@
+// How a scenario's terrain is made: a base grid from a shape or a raster, relief on top, finer grids nested in it.
+//
+// Order: the base is made (shape sampled, or raster resampled once into the local frame), relief is added, nested
+// grids are read and blended in, each with relief of its own. Relief is synthetic and labelled so in the summary.
+// A nested grid's relief is that of the base where both hold the same octaves: relief belongs to the place.
+//
+//   const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167, scenario_folder});
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bathymetry/rasters/raster_loader.h"
+#include "bathymetry/terrain/fractal_relief.h"
+#include "bathymetry/terrain/generated_terrain.h"
+#include "bathymetry/terrain/terrain.h"
+
+namespace halocline::bathymetry {
+
+enum class TerrainKind { kFlat, kSlope, kRidge, kSeamount, kRaster };
+
+// A rectangle of posts around a centre, local NED.
+struct DomainRecipe {
+  double center_north_m = 0, center_east_m = 0;
+  double size_north_m = 4000, size_east_m = 4000;  // whole multiples of the spacing
+  double spacing_m = 20;
+
+  // The grid; its posts lie symmetrically about the centre.
+  GridGeometry geometry() const;
+  // True when both sizes are whole multiples of the spacing, at least one.
+  bool is_possible() const;
+};
+
+struct NestedRecipe {
+  DomainRecipe domain = {};
+  double blend_width_m = 200;
+  Holes holes = Holes::kKeep;
+  RasterOptions raster = {};
+};
+
+struct TerrainRecipe {
+  TerrainKind kind = TerrainKind::kFlat;
+  FrameMode frame = FrameMode::kFlat;  // for rasters
+  DomainRecipe domain = {};
+  FlatShape flat;
+  SlopeShape slope;
+  RidgeShape ridge;
+  SeamountShape seamount;
+  RasterOptions raster = {};
+  bool whole_file = false;  // a local raster as it is: its own posts, `domain` is not looked at
+  // rms_m 0: none.
+  FractalRelief relief{
+      .rms_m = 0, .longest_wavelength_m = 500, .shortest_wavelength_m = 50, .hurst = 0.9, .seed = 1};
+  std::vector<NestedRecipe> nested;
+};
+
+// Where the scenario lies.
+struct Site {
+  double origin_latitude_deg = 0, origin_longitude_deg = 0;
+  std::string folder = {};  // relative raster paths start here
+};
+
+struct PreparedTerrain {
+  std::shared_ptr<const Terrain> terrain;
+  std::vector<RasterReport> rasters;  // as read, base first; empty for generated terrain
+  std::string summary;                // one line for a person
+};
+
+// Throws InvalidArgument for an impossible recipe and for rasters that cannot be read.
+PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site);
+
+// The version as it travels on the bus: 16 hexadecimal digits.
+std::string version_text(std::uint64_t version);
+
+}  // namespace halocline::bathymetry

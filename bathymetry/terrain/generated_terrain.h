@@ -1,0 +1,56 @@
+// Terrain from a formula: flat, slope, ridge and seamount, for scenarios without a chart and tests with an
+// answer.
+//
+// Model: each shape gives z of the bottom (metres, down) at any point of the plane (local NED); make_grid
+// samples it at the posts. A Gaussian of height h and scale w is h exp(-d^2 / (2 w^2)): its steepest slope is
+// 0.607 h / w, at d = w, its foot (1 % of h) at 3.03 w. Relief is added by fractal_relief.h.
+#pragma once
+
+#include <functional>
+#include <variant>
+
+#include "bathymetry/terrain/height_grid.h"
+
+namespace halocline::bathymetry {
+
+// The same depth everywhere.
+struct FlatShape {
+  double depth_m = 100;
+};
+
+// A plane: depth_m at the origin, deeper by slope a metre in the direction `azimuth_rad`.
+struct SlopeShape {
+  double depth_m = 100;
+  double slope = 0.05;     // dz / d(distance), 0.05 is 2.9 degrees
+  double azimuth_rad = 0;  // from north towards east, where it falls away
+};
+
+// An endless ridge with a Gaussian section over a flat bottom.
+struct RidgeShape {
+  double depth_m = 200;                 // far from the crest
+  double height_m = 150;                // of the crest above that; negative: a trench
+  double half_width_m = 300;            // Gaussian scale; above 0
+  double crest_x_m = 0, crest_y_m = 0;  // a point of the crest
+  double azimuth_rad = 0;               // along the crest
+};
+
+// A round Gaussian seamount over a flat bottom.
+struct SeamountShape {
+  double depth_m = 2000;
+  double height_m = 1700;  // summit above that; negative: a basin
+  double radius_m = 2500;  // Gaussian scale; above 0
+  double summit_x_m = 0, summit_y_m = 0;
+};
+
+using Shape = std::variant<FlatShape, SlopeShape, RidgeShape, SeamountShape>;
+
+// z of the bottom at (x, y), local NED.
+double depth_of(const Shape& shape, double x_m, double y_m);
+
+// The shape sampled at every post. Throws InvalidArgument for parameters outside of what the shape states.
+HeightGrid make_grid(const GridGeometry& geometry, const Shape& shape);
+
+// Any function of the plane, sampled at every post: z_m(x_m, y_m); NaN is no data.
+HeightGrid make_grid(const GridGeometry& geometry, const std::function<double(double, double)>& z_m);
+
+}  // namespace halocline::bathymetry

@@ -1,0 +1,31 @@
+// How a fine grid is fitted into the coarser grid around it, so that the two surfaces meet without a step.
+//
+// Model: the fine grid covers whole cells of the grid around it and its spacing divides that grid's, so along
+// its border every knot of the coarse surface is a post of the fine one. With d the distance of a post from
+// the border and w the blend width, post = z_around + (z_fine - z_around) min(1, d / w): the border itself (d
+// = 0) lies on the surface around, also for w = 0. Where the surface around is not known, the fine post stays
+// as it is. Accuracy: what rounding to float posts leaves, 0.25 mm at 4000 m.
+#pragma once
+
+#include <cstddef>
+
+#include "bathymetry/terrain/height_grid.h"
+#include "bathymetry/terrain/ray_trace.h"
+
+namespace halocline::bathymetry {
+
+// Throws InvalidArgument, naming the nested grid by `number` (from 0), unless `fine` is aligned inside
+// `around`.
+void require_nested(const GridGeometry& fine, const GridGeometry& around, std::size_t number);
+
+// The cells of `around` under a grid that passed require_nested.
+CellBlock cells_covered(const GridGeometry& fine, const GridGeometry& around);
+
+// True when the two rectangles share area (a shared edge is none).
+bool overlap(const GridGeometry& one, const GridGeometry& other);
+
+// Draws the posts of `fine` to the surface of `around` inside its border. `fill_holes`: its no-data posts
+// take the surface around. blend_width_m: 0 or more.
+void blend_into(const HeightGrid& around, double blend_width_m, bool fill_holes, HeightGrid& fine);
+
+}  // namespace halocline::bathymetry

@@ -1,0 +1,126 @@
+// The seabed as others see it: how deep the bottom is, where a ray meets it, what a line crosses.
+//
+// Model: one base grid, and finer grids nested in it (and in each other); beyond the base grid is `outside`.
+// The surface is bilinear in each cell (height_grid.h). A nested grid covers whole cells of the grid around
+// it, its spacing divides that grid's, and inside its border, over `blend_width_m`, its posts are drawn
+// linearly to the surface around: so the surface has no step where grids meet (but for the rounding of float
+// posts, 0.25 mm at 4000 m, which rays meet as a wall of that height, never as a gap). No data: a point over
+// a no-data cell has no depth, and a ray that comes over such a cell before it hits anything ends there as
+// `no_data`, at whatever depth it passes: what is not known to be deep may not be taken as water. There is no
+// sea surface here: a ray upwards goes on until its greatest range or the edge of the terrain. Answers are
+// never made up: what is not known has a status, and NaN where the number would be.
+//
+//   const Terrain terrain(make_grid(geometry, FlatShape{.depth_m = 100}));
+//   const RayHit hit = terrain.closest_hit({.origin_ned_m = {0, 0, 20}, .direction = {0, 0, 1}, .max_range_m
+//   = 500});
+//
+// Immutable: const calls may overlap between threads. All coordinates are local NED, metres, z down from the
+// datum.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "bathymetry/terrain/height_grid.h"
+#include "bathymetry/terrain/ray_trace.h"
+#include "bathymetry/terrain/shallowest_pyramid.h"
+#include "core/frames.h"
+
+namespace halocline::bathymetry {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+enum class DepthStatus : std::uint8_t { kOk, kOutside, kNoData, kBadInput };
+
+// The bottom below (or above) one point of the plane.
+struct DepthSample {
+  DepthStatus status = DepthStatus::kOutside;
+  double z_m = kUnknown;    // of the bottom; NaN unless ok
+  double slope_north = 0;   // dz/dx: above 0 where the bottom falls away towards north; 0 unless ok
+  double slope_east = 0;    // dz/dy
+  Vec3 normal_ned() const;  // unit, into the water; straight up unless ok
+};
+
+enum class RayStatus : std::uint8_t {
+  kHit,                 // met the bottom at range_m
+  kMiss,                // water over known bottom all the way to max_range_m
+  kOutside,             // left the terrain at range_m without a hit (0: began there)
+  kNoData,              // came over a no-data cell at range_m without a hit before
+  kStartedBelowBottom,  // the origin lies below the bottom
+  kBadInput,            // not finite, no direction, or a range below 0
+};
+
+struct Ray {
+  Vec3 origin_ned_m = Vec3::Zero();
+  Vec3 direction = Vec3::UnitZ();  // any length but 0
+  double max_range_m = 0;          // finite, 0 or more
+};
+
+struct RayHit {
+  RayStatus status = RayStatus::kBadInput;
+  double range_m = kUnknown;       // see RayStatus; max_range_m for a miss; NaN below the bottom, bad input
+  Vec3 normal_ned = Vec3::Zero();  // of the bottom at a hit, unit, into the water; zero otherwise
+};
+
+// What to do with the posts a nested grid lacks.
+enum class Holes : std::uint8_t {
+  kKeep,           // no data stays no data
+  kFillFromAround  // take the surface of the grid around it at that post
+};
+
+struct NestedGrid {
+  HeightGrid grid;
+  double blend_width_m = 0;  // from its border inwards; 0 or more; posts of the border itself always join
+  Holes holes = Holes::kKeep;
+};
+
+class Terrain {
+ public:
+  // nested: coarse before fine; each lies in the base or in an earlier one, without overlapping others beside
+  // it. Throws InvalidArgument, naming the grid, when one is not aligned as stated above.
+  explicit Terrain(HeightGrid base, std::vector<NestedGrid> nested = {});
+
+  DepthSample depth_at(double x_m, double y_m) const;
+
+  // Where the ray first meets the bottom. A ray that begins exactly on the bottom hits at range 0.
+  RayHit closest_hit(const Ray& ray) const;
+
+  // Whether the bottom stands between two points: `hit` blocked (range from `from`), `miss` free, else as
+  // above. The first and the last `skin_m` (0 or more) of the segment are not looked at, for ends that lie on
+  // the bottom.
+  RayHit occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const;
+
+  // The base grid's geometry: the terrain is the rectangle between its first and last post.
+  const GridGeometry& extent() const { return patches_.front().grid.geometry(); }
+  // Nested grids after blending, base first.
+  std::size_t grid_count() const { return patches_.size(); }
+  const HeightGrid& grid(std::size_t index) const { return patches_[index].grid; }
+
+  // The index of the finest grid over (x, y); -1 outside.
+  int grid_index_at(double x_m, double y_m) const;
+
+  // A number of the content (geometry and posts, bit by bit): equal terrains have equal versions in every
+  // process.
+  std::uint64_t version() const { return version_; }
+
+ private:
+  struct Patch {
+    HeightGrid grid;
+    ShallowestPyramid pyramid;
+    CellBlock covers = {};                 // cells of the patch around; unused in the base
+    std::vector<std::size_t> inside = {};  // patches nested directly in this one
+  };
+  void nest(NestedGrid nested, std::size_t number);
+  std::size_t patch_around(const GridGeometry& geometry, std::size_t number) const;
+  const Patch& finest_patch(const Patch& from, double x_m, double y_m) const;
+  bool is_surely_in_water(const Vec3& point_ned_m) const;
+  DepthSample sample(const Patch& patch, double x_m, double y_m) const;
+  TraceResult trace(const Patch& patch, const Ray& unit_ray, Interval interval, const Patch** owner) const;
+  RayHit finish(const Ray& unit_ray, const TraceResult& result, const Patch* owner, Interval inside) const;
+
+  std::vector<Patch> patches_;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace halocline::bathymetry

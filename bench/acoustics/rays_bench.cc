@@ -1,0 +1,125 @@
+// What the eigenrays of one link cost on one core, cold (searched for) and warm (followed after the ends
+// moved).
+//
+// Claims (microseconds, cold): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots
+// 80, a slope 150, a bottom of many facets 1500; warm at most half of cold.
+#include <cmath>
+#include <numbers>
+
+#include <benchmark/benchmark.h>
+
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/ray_carry.h"
+
+namespace halocline::acoustics {
+namespace {
+
+double some_absorption(double depth_m) { return 4.5 - 1e-4 * depth_m; }
+
+std::vector<SpeedRow> munk_of_101_knots() {
+  std::vector<SpeedRow> knots;
+  for (int i = 0; i <= 100; ++i) knots.push_back({50.0 * i, munk_sound_speed_mps(50.0 * i)});
+  return knots;
+}
+
+RaySea sea_of(const std::vector<SpeedRow>& knots, BottomProfile bottom) {
+  return {RayWater(knots, some_absorption), std::move(bottom), fluid_bottom(1.9, 1650, 0.8),
+          RaySurface{SurfaceModel::kFlat, 0}, RayOptions{}};
+}
+
+const std::vector<SpeedRow> kThreeKnots = {{0, 1520}, {50, 1490}, {100, 1490}};
+const std::vector<SpeedRow> kSevenKnots = {{0, 1522},  {10, 1521}, {20, 1512}, {35, 1500},
+                                           {50, 1494}, {70, 1492}, {100, 1493}};
+const std::vector<SpeedRow> kSeamountWater = {{0, 1520}, {50, 1490}, {200, 1492}};
+
+BottomProfile hill_of_facets() {  // a cosine hill in 100 facets of 50 m
+  std::vector<ProfiledDepth> points;
+  for (int i = 0; i <= 100; ++i) {
+    const double along = (50.0 * i - 2500) / 1000;
+    points.push_back(
+        {50.0 * i, std::abs(along) < 1 ? 200 - 60 * (1 + std::cos(std::numbers::pi * along)) : 200});
+  }
+  return BottomProfile(std::move(points));
+}
+
+struct Situation {
+  RaySea sea;
+  RayLink link;
+};
+
+Situation situation(int which) {
+  switch (which) {
+    case 0:
+      return {sea_of({{0, 1500}}, BottomProfile::flat(100)), {30, 50, 3000}};
+    case 1:
+      return {sea_of(kThreeKnots, BottomProfile::flat(100)), {20, 50, 2000}};
+    case 2:
+      return {sea_of(kSevenKnots, BottomProfile::flat(100)), {25, 60, 2000}};
+    case 3:
+      return {sea_of(thinned(munk_of_101_knots(), 0.1), BottomProfile::flat(5000)), {1000, 800, 50000}};
+    case 4:
+      return {sea_of(munk_of_101_knots(), BottomProfile::flat(5000)), {1000, 800, 50000}};
+    case 5:
+      return {sea_of({{0, 1500}}, BottomProfile({{0, 100}, {5000, 40}})), {20, 30, 2000}};
+    case 6:
+      return {sea_of(kSeamountWater, BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}})),
+              {20, 50, 3000}};
+    default:
+      return {sea_of(kSeamountWater, hill_of_facets()), {20, 50, 3000}};
+  }
+}
+
+constexpr const char* kNames[] = {"isovelocity",        "layered_3_knots",   "layered_7_knots",
+                                  "deep_thinned",       "deep_101",          "slope",
+                                  "seamount_3_corners", "hill_of_100_facets"};
+
+void cold(benchmark::State& state) {
+  const auto which = static_cast<int>(state.range(0));
+  Situation at = situation(which);
+  std::size_t paths = 0;
+  for (auto _ : state) {
+    at.link.range_m += 1e-6;
+    paths = arrivals(at.sea, at.link).paths.size();
+    benchmark::DoNotOptimize(paths);
+  }
+  state.SetLabel(kNames[which]);
+  state.counters["paths"] = static_cast<double>(paths);
+}
+BENCHMARK(cold)->DenseRange(0, 7)->Unit(benchmark::kMicrosecond);
+
+// Ends wander within 5 m of where the rays were searched for.
+void warm(benchmark::State& state) {
+  const auto which = static_cast<int>(state.range(0));
+  const Situation at = situation(which);
+  const Arrivals before = arrivals(at.sea, at.link);
+  double step = 0;
+  for (auto _ : state) {
+    RayLink moved = at.link;
+    step += 1;
+    moved.range_m += 3 * std::sin(1.7 * step);
+    moved.source_depth_m += 2 * std::sin(2.3 * step);
+    moved.receiver_depth_m += 2 * std::cos(1.1 * step);
+    benchmark::DoNotOptimize(follow(at.sea, moved, before));
+  }
+  state.SetLabel(kNames[which]);
+  state.counters["paths"] = static_cast<double>(before.paths.size());
+}
+BENCHMARK(warm)->DenseRange(1, 7)->Unit(benchmark::kMicrosecond);
+
+// To first order, as the channel server does within a cell. Items are paths.
+void carry(benchmark::State& state) {
+  const Situation at = situation(2);
+  const std::vector<Arrival> before = arrivals(at.sea, at.link).paths;
+  const EndSpeeds speeds{at.sea.water.speed_at(at.link.source_depth_m),
+                         at.sea.water.speed_at(at.link.receiver_depth_m)};
+  RayLink moved = at.link;
+  for (auto _ : state) {
+    moved.range_m += 1e-3;
+    benchmark::DoNotOptimize(carried(before, at.link, speeds, moved));
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(before.size()));
+}
+BENCHMARK(carry);
+
+}  // namespace
+}  // namespace halocline::acoustics

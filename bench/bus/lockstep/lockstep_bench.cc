@@ -1,0 +1,149 @@
+// Lockstep steps per second: a conductor and N participants, each a process of its own, over udpm on loopback.
+//
+// All participants are due at every step and publish one vehicle state each, which the conductor puts in
+// order; nobody hears another (what is heard costs its bytes in the grant). The first argument is N, the
+// second the share of datagrams that each participant and the conductor throw away, in percent. scripts/bench
+// gives a bus of its own.
+#include <csignal>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bus/lockstep/lockstep_conductor.h"
+#include "bus/lockstep/lockstep_participant.h"
+#include "bus/runtime/lockstep_process.h"
+#include "bus/runtime/lockstep_turns.h"
+#include "bus/runtime/node_process.h"
+#include "bus/transport.h"
+
+namespace halocline {
+namespace {
+
+constexpr SimDuration kStep = SimDuration::from_milliseconds(1);
+
+class Mover : public bus::Node {
+ public:
+  Mover(lcm::LCM& lcm, const std::string& name) : Node(lcm, {name, 1, bus::Stage::kVehicles}) {}
+
+ protected:
+  bus::Due on_due() const override { return {.sim = next_}; }
+  void on_step(const bus::Now& now) override {
+    vehicle_state_t state{};
+    state.utime = now.sim.to_utime();
+    state.vehicle_id = 1;
+    state.orientation_wxyz[0] = 1;
+    bus().publish(bus::channels::kState.of(name()), state);
+    next_ = now.sim + kStep;
+  }
+  std::string status_text() const override { return ""; }
+
+ private:
+  SimTime next_;
+};
+
+// Throws away a share of what is to be said.
+class Weather {
+ public:
+  Weather(double loss, unsigned seed) : loss_(loss), random_(seed) {}
+  bool carries() { return loss_ == 0 || std::uniform_real_distribution<double>(0, 1)(random_) >= loss_; }
+
+ private:
+  double loss_;
+  std::mt19937 random_;
+};
+
+[[noreturn]] void be_participant(const std::string& name, double loss, unsigned seed) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  lcm::LCM memq("memq://");
+  Mover mover(memq, name);
+  bus::LockstepTurns turns(memq, mover);
+  lockstep_join_t join = turns.introduction();
+  join.joining_life = bus::draw_life() * 1000 + seed;
+  const std::string url(bus::kDefaultSyncUrl);
+  const auto grants_lcm = bus::open_transport(url), answers_lcm = bus::open_transport(bus::next_port(url));
+  bus::Bus ears(*grants_lcm, {name, 0}), mouth(*answers_lcm, {name, 0});
+  Weather weather(loss, seed);
+  bus::LockstepParticipant participant(
+      join, [&](const lockstep_turn_t& turn) { return turns.take(turn); },
+      {[&](const lockstep_join_t& m) { mouth.publish(bus::channels::kLockstepJoin, m); },
+       [&](const lockstep_answer_t& m) {
+         if (weather.carries()) mouth.publish(bus::channels::kLockstepAnswer, m);
+       }});
+  const auto on_grant = [&](const lockstep_grant_t& m) {
+    if (weather.carries()) participant.on_grant(m, bus::steady_now());
+  };
+  ears.subscribe<lockstep_grant_t>(bus::channels::kLockstepGrant, on_grant);
+  ears.subscribe<lockstep_grant_t>(std::string(bus::channels::kLockstepGrant) + "." + name, on_grant);
+  for (;;) {
+    participant.on_timer(bus::steady_now());
+    bus::wait_and_dispatch(*grants_lcm, participant.next_timer());
+  }
+}
+
+class Fleet {
+ public:
+  Fleet(int count, double loss) {
+    for (int i = 0; i < count; ++i) {
+      const std::string name = "mover-" + std::to_string(i);
+      names.insert(name);
+      const pid_t pid = fork();
+      if (pid == 0) be_participant(name, loss, static_cast<unsigned>(i) + 1);
+      pids_.push_back(pid);
+    }
+  }
+  ~Fleet() {
+    for (const pid_t pid : pids_) kill(pid, SIGKILL);
+    for (const pid_t pid : pids_) waitpid(pid, nullptr, 0);
+  }
+  std::set<std::string> names;
+
+ private:
+  std::vector<pid_t> pids_;
+};
+
+void lockstep_steps(benchmark::State& bench) {
+  const int count = static_cast<int>(bench.range(0));
+  const double loss = static_cast<double>(bench.range(1)) / 100;
+  const Fleet fleet(count, loss);
+  const std::string url(bus::kDefaultSyncUrl);
+  const auto grants_lcm = bus::open_transport(url), answers_lcm = bus::open_transport(bus::next_port(url));
+  bus::Bus mouth(*grants_lcm, {"conductor", 0}), ears(*answers_lcm, {"conductor", 0});
+  std::int64_t said = 0;
+  conductor::LockstepConductor conductor(
+      {.expected = fleet.names, .end = SimTime::from_seconds(1e6)}, bus::draw_life(),
+      {[&](const std::string& channel, const lockstep_grant_t& m) { mouth.publish(channel, m); },
+       [&](const lockstep_notice_t& m) { mouth.publish(bus::channels::kLockstepNotice, m); },
+       [](const conductor::JournalEntry&) {}, [&](const lockstep_message_t&) { ++said; },
+       [](const std::string&, const std::string&) {}});
+  ears.subscribe<lockstep_join_t>(bus::channels::kLockstepJoin,
+                                  [&](const lockstep_join_t& m) { conductor.on_join(m, bus::steady_now()); });
+  ears.subscribe<lockstep_answer_t>(bus::channels::kLockstepAnswer, [&](const lockstep_answer_t& m) {
+    conductor.on_answer(m, bus::steady_now());
+  });
+  conductor.start();
+  const auto step_to = [&](std::int64_t rounds) {
+    while (conductor.sequencer().rounds() < rounds) {
+      conductor.on_timer(bus::steady_now());
+      bus::wait_and_dispatch(*answers_lcm, conductor.next_timer());
+    }
+  };
+  step_to(200);  // all have joined, and the timers know the way
+  for (auto _ : bench) step_to(conductor.sequencer().rounds() + 1);
+  const auto rounds = static_cast<double>(bench.iterations());
+  bench.counters["steps"] = benchmark::Counter(rounds, benchmark::Counter::kIsRate);
+  bench.counters["repeated"] =
+      static_cast<double>(conductor.repetitions()) / static_cast<double>(conductor.sequencer().turns());
+}
+BENCHMARK(lockstep_steps)
+    ->ArgsProduct({{2, 8, 32, 64}, {0, 1, 10}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace halocline

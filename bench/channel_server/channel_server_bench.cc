@@ -1,0 +1,181 @@
+// Claims about the channel server's speed: docs/performance.md holds the table.
+#include <cmath>
+#include <memory>
+
+#include <benchmark/benchmark.h>
+
+#include "channel_server/links/echo_book.h"
+#include "channel_server/links/link_table.h"
+#include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/ray_propagation.h"
+
+namespace halocline::channel_server {
+namespace {
+
+constexpr double kSpeedMps = 2;
+
+Vec3 start_of(VehicleId id) { return {150.0 * id, 70.0 * (id % 5), 20.0 + 7 * id}; }
+
+// States ten times a second over the last ten seconds before `end`.
+void hear_fleet(Fleet& fleet, int vehicles, SimTime end) {
+  for (VehicleId id = 1; id <= vehicles; ++id) {
+    for (int tick = -100; tick <= 0; ++tick) {
+      const SimTime time = end + SimDuration::from_milliseconds(100) * tick;
+      const Vec3 velocity(kSpeedMps, 0, 0);
+      fleet.hear_state("v" + std::to_string(id), id,
+                       {time, start_of(id) + time.seconds() * velocity, velocity});
+    }
+  }
+}
+
+// All ordered pairs of a fleet, positions and echoes looked up, as for one tick of LINKS.
+void link_table(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  Fleet fleet({}, {});
+  StraightPropagation propagation(acoustics::Environment{});
+  EchoBook book(5);
+  const SimTime end = SimTime::from_seconds(100);
+  hear_fleet(fleet, vehicles, end);
+  SimTime now = end;
+  for (auto _ : state) {
+    now = now + SimDuration::from_microseconds(1);
+    const auto placed = place_all(fleet, now);
+    benchmark::DoNotOptimize(link_tables(now, placed, propagation, [&](const auto& from, const auto& to) {
+      return book.at_last_tick(now, from, to, propagation);
+    }));
+  }
+  state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
+}
+BENCHMARK(link_table)->Arg(3)->Arg(20)->Arg(100);
+
+// A hill of 120 m in water of 200 m, as smooth as a cosine, 3 km across.
+double seamount_z_m(const Vec3& place) {
+  const double from_top_m = std::hypot(place.x() - 1500, place.y());
+  return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
+}
+
+void tell_bottoms(ProfileBook& book, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
+  for (const VehiclePair& pair : book.take_geometry(vehicles)) {
+    ProfileSurvey survey = book.survey_of(pair);
+    std::vector<RayAnswer> answers;
+    for (const TerrainRay& ray : survey.rays()) {
+      answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
+    }
+    survey.take(answers);
+    book.store(pair, survey);
+  }
+  book.open_tick(tick);
+}
+
+// The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
+// pair's paths are searched. Items are links (both ways of a pair share a search).
+void ray_link_table(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  const auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+  RayPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), bottoms, {});
+  const VehicleModem modem;
+  std::vector<PlacedVehicle> placed;
+  SimTime now = SimTime::from_seconds(100);
+  for (VehicleId id = 1; id <= vehicles; ++id) {
+    PlacedVehicle vehicle;
+    vehicle.id = id;
+    vehicle.placement.position_ned_m = {3000.0 * id / vehicles, 90.0 * (id % 5), 20.0 + 10 * (id % 6)};
+    vehicle.modem = &modem;
+    placed.push_back(vehicle);
+  }
+  for (auto _ : state) {
+    state.PauseTiming();
+    now = now + SimDuration::from_milliseconds(1000);
+    for (PlacedVehicle& vehicle : placed) vehicle.placement.position_ned_m.x() += 2e-3 * (vehicle.id % 3 + 1);
+    tell_bottoms(*bottoms, placed, now);
+    bottoms->forget_before(now - SimDuration::from_milliseconds(5000));
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(
+        link_tables(now, placed, propagation, [](const auto&, const auto&) { return Multipath::kUnknown; }));
+  }
+  state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
+}
+BENCHMARK(ray_link_table)->Arg(3)->Arg(20)->Unit(benchmark::kMillisecond);
+
+// A broadcast to a whole fleet from request to the last of its ends. Items are packets; each ends at
+// (vehicles - 1) receivers.
+void packet(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  Fleet fleet({}, {});
+  StraightPropagation propagation(acoustics::Environment{});
+  PacketMedium medium(fleet, propagation, {});
+  SimTime now = SimTime::from_seconds(100);
+  std::int64_t sequence = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    now = now + SimDuration::from_milliseconds(20'000);
+    hear_fleet(fleet, vehicles, now);
+    fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
+    medium.forget_before(now - SimDuration::from_milliseconds(10'000));
+    SendRequest request;
+    request.vehicle = "v1";
+    request.source_id = 1;
+    request.session = 1;
+    request.packet_sequence = sequence++;
+    request.start = now;
+    request.payload.resize(16);
+    state.ResumeTiming();
+    medium.transmit(request, now);
+    benchmark::DoNotOptimize(medium.advance_to(now + SimDuration::from_milliseconds(10'000)));
+  }
+  state.SetItemsProcessed(state.iterations());
+  state.counters["outcomes_per_second"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * (vehicles - 1), benchmark::Counter::kIsRate);
+}
+BENCHMARK(packet)->Arg(3)->Arg(20)->Arg(100);
+
+// Everybody talks at once: each of a fleet broadcasts twice within two seconds, so that at every receiver all
+// packets overlap. Items are packets; each ends at (vehicles - 1) receivers.
+void packets_that_overlap(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  Fleet fleet({}, {});
+  StraightPropagation propagation(acoustics::Environment{});
+  PacketMedium medium(fleet, propagation, {});
+  SimTime now = SimTime::from_seconds(100);
+  std::int64_t sequence = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    now = now + SimDuration::from_milliseconds(20'000);
+    hear_fleet(fleet, vehicles, now + SimDuration::from_milliseconds(4'000));
+    fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
+    medium.forget_before(now - SimDuration::from_milliseconds(11'000));
+    state.ResumeTiming();
+    for (int packet = 0; packet < 2 * vehicles; ++packet) {
+      const VehicleId id = 1 + packet % vehicles;
+      SendRequest request;
+      request.vehicle = "v" + std::to_string(id);
+      request.source_id = id;
+      request.session = 1;
+      request.packet_sequence = sequence++;
+      request.start = now + SimDuration::from_milliseconds(2000 * packet / (2 * vehicles));
+      request.payload.resize(8);
+      medium.transmit(request, now);
+    }
+    benchmark::DoNotOptimize(medium.advance_to(now + SimDuration::from_milliseconds(15'000)));
+  }
+  state.SetItemsProcessed(state.iterations() * 2 * vehicles);
+  state.counters["outcomes_per_second"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * 2 * vehicles * (vehicles - 1), benchmark::Counter::kIsRate);
+}
+BENCHMARK(packets_that_overlap)->Arg(3)->Arg(20);
+
+// What a link table costs more when every pair's echoes are judged anew (a modem changed, or a survey came).
+void judge_echoes(benchmark::State& state) {
+  StraightPropagation propagation(acoustics::Environment{});
+  EchoSurvey survey({0, 0, 50}, {900, 0, 60}, 9);
+  survey.take_depths(std::vector<RayAnswer>(9, {RayAnswer::Kind::kHit, 200}));
+  survey.take_ways(std::vector<RayAnswer>(18, {RayAnswer::Kind::kMiss, 0}));
+  const acoustics::Modem modem;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(multipath_of(survey, false, SimTime(), propagation, modem, modem));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(judge_echoes);
+
+}  // namespace
+}  // namespace halocline::channel_server

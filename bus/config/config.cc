@@ -1,0 +1,61 @@
+#include "bus/config/config.h"
+
+#include <cmath>
+
+#include "core/units.h"
+
+namespace halocline::bus {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+// 15 degrees rather than 14.999999999999998 where both are the same angle in radians.
+double readable_degrees(double radians) {
+  constexpr double kScale = 1e9;
+  const double rounded = std::round(to_degrees(radians) * kScale) / kScale;
+  return to_radians(rounded) == radians ? rounded : to_degrees(radians);
+}
+
+}  // namespace
+
+ConfigErrors::ConfigErrors(std::vector<std::string> lines)
+    : InvalidArgument(joined(lines)), lines_(std::move(lines)) {}
+
+void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule_in_seconds) {
+  double value_s = value.seconds();
+  v.number(key, value_s, rule_in_seconds);
+  value = SimDuration::from_seconds(value_s);
+}
+
+void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt) {
+  try {
+    attempt();
+  } catch (const InvalidArgument& error) {
+    v.problem(key, error.what());
+  }
+}
+
+void degrees(ConfigVisitor& v, std::string_view key, double& radians, const NumberRule& rule_in_degrees) {
+  // Only what the file gives is converted, so that a default survives to the last bit.
+  double value_deg = readable_degrees(radians);
+  const double before = value_deg;
+  v.number(key, value_deg, rule_in_degrees);
+  if (value_deg != before) radians = to_radians(value_deg);
+}
+
+void degrees(ConfigVisitor& v, std::string_view key, std::vector<double>& radians,
+             const NumberRule& rule_in_degrees) {
+  std::vector<double> values_deg;
+  for (const double angle : radians) values_deg.push_back(readable_degrees(angle));
+  const std::vector<double> before = values_deg;
+  v.numbers(key, values_deg, rule_in_degrees);
+  if (values_deg == before) return;
+  radians.clear();
+  for (const double angle_deg : values_deg) radians.push_back(to_radians(angle_deg));
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,135 @@
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bus/config/config_document.h"
+
+namespace halocline::bus {
+namespace {
+
+std::string parse_error_text(const std::string& where, const toml::parse_error& error) {
+  std::ostringstream text;
+  text << where << ":" << error.source().begin.line << ": " << error.description();
+  return text.str();
+}
+
+// A member of a table by key, of an array by index; null when there is none.
+toml::node* child_of(toml::node& parent, std::string_view key) {
+  if (toml::table* table = parent.as_table()) return table->get(key);
+  toml::array* array = parent.as_array();
+  const bool digits =
+      !key.empty() && key.size() < 6 && key.find_first_not_of("0123456789") == std::string_view::npos;
+  return array != nullptr && digits ? array->get(static_cast<std::size_t>(std::stoul(std::string(key))))
+                                    : nullptr;
+}
+
+// Joins `from` into `into` key by key. Only tables are descended into; anything else replaces.
+void merge(toml::node& into, toml::table& from, const std::string& override_text) {
+  for (auto&& [key, value] : from) {
+    toml::node* target = child_of(into, key.str());
+    if (target != nullptr && value.is_table() && !target->is_value()) {
+      merge(*target, *value.as_table(), override_text);
+    } else if (toml::table* table = into.as_table()) {
+      // Moved, because a copy forgets that it came from the command line.
+      value.visit([&, name = key.str()](auto& given) { table->insert_or_assign(name, std::move(given)); });
+    } else {
+      throw ConfigErrors(
+          {"override '" + override_text + "': there is no '" + std::string(key.str()) + "' to change"});
+    }
+  }
+}
+
+void apply_override(toml::table& root, const std::string& text) {
+  try {
+    toml::table given = toml::parse(text, std::string_view("command line"));
+    merge(root, given, text);
+  } catch (const toml::parse_error& error) {
+    throw ConfigErrors({"override '" + text + "': " + std::string(error.description()) +
+                        "; allowed is section.key=value, value in TOML (texts in quotes)"});
+  }
+}
+
+void collect_unknown(ConfigDocument& document, const toml::table& table, const std::string& prefix,
+                     bool whole_file);
+
+void collect_unknown_in(ConfigDocument& document, const toml::node& node, const std::string& name,
+                        bool whole_file) {
+  if (const toml::table* table = node.as_table()) {
+    if (whole_file || document.entered.contains(table))
+      collect_unknown(document, *table, name + ".", whole_file);
+  } else if (const toml::array* array = node.as_array()) {
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      collect_unknown_in(document, *array->get(i), name + "[" + std::to_string(i) + "]", whole_file);
+    }
+  }
+}
+
+void collect_unknown(ConfigDocument& document, const toml::table& table, const std::string& prefix,
+                     bool whole_file) {
+  const bool tolerant = !whole_file && document.shared.contains(&table);
+  for (const auto& [key, value] : table) {
+    const std::string name = prefix + std::string(key.str());
+    if (document.asked.contains(&value)) {
+      collect_unknown_in(document, value, name, whole_file);
+    } else if (!tolerant) {
+      document.add_error(document.place_of(value) + ": " + name +
+                         " is unknown; the keys of a scenario are in docs/scenarios.md");
+    }
+  }
+}
+
+std::unique_ptr<ConfigDocument> parsed(const std::string& text, const std::string& path,
+                                       const std::vector<std::string>& overrides) {
+  auto document = std::make_unique<ConfigDocument>();
+  document->path = path;
+  try {
+    document->root = toml::parse(text, std::string_view(path));
+  } catch (const toml::parse_error& error) {
+    throw ConfigErrors({parse_error_text(path, error)});
+  }
+  for (const std::string& text_of_override : overrides) apply_override(document->root, text_of_override);
+  return document;
+}
+
+}  // namespace
+
+ConfigFile::ConfigFile(std::unique_ptr<ConfigDocument> document) : document_(std::move(document)) {}
+ConfigFile::~ConfigFile() = default;
+ConfigFile::ConfigFile(ConfigFile&&) noexcept = default;
+ConfigFile& ConfigFile::operator=(ConfigFile&&) noexcept = default;
+
+ConfigFile ConfigFile::load(const std::string& path, const std::vector<std::string>& overrides) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (std::filesystem::is_directory(path) || !file || !(text << file.rdbuf())) {
+    throw ConfigErrors({path + ": cannot be read; a scenario file (TOML) is needed"});
+  }
+  return ConfigFile(parsed(text.str(), path, overrides));
+}
+
+ConfigFile ConfigFile::parse(const std::string& text, const std::string& name_for_errors,
+                             const std::vector<std::string>& overrides) {
+  return ConfigFile(parsed(text, name_for_errors, overrides));
+}
+
+void ConfigFile::read(const std::function<void(ConfigVisitor&)>& body) {
+  ConfigReader reader(*document_, document_->root, "");
+  body(reader);
+}
+
+void ConfigFile::check(bool whole_file) {
+  if (!whole_file) document_->shared.insert(&document_->root);
+  collect_unknown(*document_, document_->root, "", whole_file);
+  if (!document_->errors.empty()) throw ConfigErrors(document_->errors);
+}
+
+std::string ConfigDocument::folder() const {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+std::string ConfigFile::folder() const { return document_->folder(); }
+
+const std::string& ConfigFile::path() const { return document_->path; }
+
+}  // namespace halocline::bus

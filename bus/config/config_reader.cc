@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <sstream>
+
+#include "bus/config/config_document.h"
+
+namespace halocline::bus {
+namespace {
+
+std::string number_text(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return text.str();
+}
+
+std::string allowed_text(const NumberRule& rule) {
+  std::string text = "allowed is " + number_text(rule.lowest) + " to " + number_text(rule.highest);
+  if (!rule.unit.empty()) text += " " + std::string(rule.unit);
+  return text;
+}
+
+std::string value_text(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << value; });
+  return text.str();
+}
+
+}  // namespace
+
+std::string ConfigDocument::place_of(const toml::node& node) const {
+  const toml::source_region& source = node.source();
+  if (source.path == nullptr) return path;  // a section that the file does not have
+  if (*source.path != path) return *source.path;
+  return path + ":" + std::to_string(source.begin.line);
+}
+
+void ConfigDocument::add_error(const std::string& error) {
+  if (std::find(errors.begin(), errors.end(), error) == errors.end()) errors.push_back(error);
+}
+
+ConfigReader::ConfigReader(ConfigDocument& document, toml::table& table, std::string prefix)
+    : document_(document), table_(table), prefix_(std::move(prefix)) {
+  document_.entered.insert(&table_);
+}
+
+toml::node* ConfigReader::find(std::string_view key) {
+  toml::node* node = table_.get(key);
+  if (node != nullptr) document_.asked.insert(node);
+  return node;
+}
+
+void ConfigReader::fail(const toml::node& node, std::string_view key, const std::string& allowed) {
+  document_.add_error(document_.place_of(node) + ": " + prefix_ + std::string(key) + " is " +
+                      value_text(node) + "; " + allowed);
+}
+
+void ConfigReader::problem(std::string_view key, std::string_view what_is_allowed) {
+  if (const toml::node* node = find(key)) return fail(*node, key, std::string(what_is_allowed));
+  document_.add_error(document_.place_of(table_) + ": " + prefix_ + std::string(key) + " is missing; " +
+                      std::string(what_is_allowed));
+}
+
+bool ConfigReader::read_number(const toml::node& node, std::string_view key, const NumberRule& rule,
+                               double& value) {
+  const std::optional<double> read = node.is_number() ? node.value<double>() : std::nullopt;
+  if (read && *read >= rule.lowest && *read <= rule.highest) {
+    value = *read;
+    return true;
+  }
+  fail(node, key, (read ? "" : "a number is needed, ") + allowed_text(rule));
+  return false;
+}
+
+void ConfigReader::number(std::string_view key, double& value, const NumberRule& rule) {
+  if (const toml::node* node = find(key)) read_number(*node, key, rule, value);
+}
+
+void ConfigReader::integer(std::string_view key, std::int64_t& value, const NumberRule& rule) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  const std::optional<std::int64_t> read = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+  if (read && static_cast<double>(*read) >= rule.lowest && static_cast<double>(*read) <= rule.highest) {
+    value = *read;
+  } else {
+    fail(*node, key, (read ? "" : "a whole number is needed, ") + allowed_text(rule));
+  }
+}
+
+void ConfigReader::boolean(std::string_view key, bool& value, std::string_view /*meaning*/) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) return fail(*node, key, "allowed is true or false");
+  value = *node->value<bool>();
+}
+
+void ConfigReader::text(std::string_view key, std::string& value, const std::vector<std::string>& allowed,
+                        std::string_view /*meaning*/) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  std::string names;
+  for (const std::string& name : allowed) names += (names.empty() ? "" : ", ") + name;
+  if (!node->is_string())
+    return fail(*node, key, "a text is needed" + (names.empty() ? "" : ", allowed are " + names));
+  const std::string read = *node->value<std::string>();
+  if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), read) == allowed.end()) {
+    return fail(*node, key, "allowed are " + names);
+  }
+  value = read;
+}
+
+bool ConfigReader::read_numbers(const toml::node& node, std::string_view key, const NumberRule& rule,
+                                std::vector<double>& values) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) {
+    fail(node, key, "an array of numbers is needed, each: " + allowed_text(rule));
+    return false;
+  }
+  std::vector<double> read(array->size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    if (!read_number(*array->get(i), key, rule, read[i])) return false;
+  }
+  values = std::move(read);
+  return true;
+}
+
+void ConfigReader::numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) {
+  if (const toml::node* node = find(key)) read_numbers(*node, key, rule, values);
+}
+
+bool ConfigReader::read_point(const toml::node& node, std::string_view key, const NumberRule& rule,
+                              Vec3& value) {
+  std::vector<double> read;
+  if (!read_numbers(node, key, rule, read)) return false;
+  if (read.size() != 3) {
+    fail(node, key, "three numbers are needed, each: " + allowed_text(rule));
+    return false;
+  }
+  value = Vec3(read[0], read[1], read[2]);
+  return true;
+}
+
+void ConfigReader::vector3(std::string_view key, Vec3& value, const NumberRule& rule) {
+  if (const toml::node* node = find(key)) read_point(*node, key, rule, value);
+}
+
+void ConfigReader::points(std::string_view key, std::vector<Vec3>& values, const NumberRule& rule) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  const toml::array* array = node->as_array();
+  if (array == nullptr) return fail(*node, key, "an array of [x, y, z] is needed");
+  std::vector<Vec3> read(array->size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    if (!read_point(*array->get(i), key, rule, read[i])) return;
+  }
+  values = std::move(read);
+}
+
+void ConfigReader::section(std::string_view key, std::string_view /*meaning*/,
+                           const std::function<void(ConfigVisitor&)>& body) {
+  toml::node* node = find(key);
+  toml::table missing;  // an absent section is an empty one, so that its keys are checked for being required
+  toml::table* table = node != nullptr ? node->as_table() : &missing;
+  if (table == nullptr) return fail(*node, key, "a table [" + prefix_ + std::string(key) + "] is needed");
+  ConfigReader reader(document_, *table, prefix_ + std::string(key) + ".");
+  body(reader);
+  document_.entered.erase(&missing);
+  document_.shared.erase(&missing);
+}
+
+void ConfigReader::list(std::string_view key, std::string_view /*meaning*/, std::size_t /*count*/,
+                        const std::function<void(std::size_t)>& resize,
+                        const std::function<void(ConfigVisitor&, std::size_t)>& item) {
+  toml::node* node = find(key);
+  if (node == nullptr) return;
+  toml::array* array = node->as_array();
+  if (array == nullptr || !array->is_homogeneous(toml::node_type::table)) {
+    if (array != nullptr && array->empty()) return resize(0);
+    return fail(*node, key, "an array of tables [[" + prefix_ + std::string(key) + "]] is needed");
+  }
+  resize(array->size());
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    ConfigReader reader(document_, *array->get_as<toml::table>(i),
+                        prefix_ + std::string(key) + "[" + std::to_string(i) + "].");
+    item(reader, i);
+  }
+}
+
+}  // namespace halocline::bus

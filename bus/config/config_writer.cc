@@ -1,0 +1,169 @@
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "bus/config/config.h"
+
+namespace halocline::bus {
+namespace {
+
+// The shortest decimal that reads back as the same double; always with a point or exponent, as TOML wants for
+// floats.
+std::string exact(double value) {
+  char text[40];
+  for (int digits = 1; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    const bool plain = std::strchr(text, 'e') == nullptr || std::abs(value) >= 1e9 || std::abs(value) < 1e-4;
+    if (std::strtod(text, nullptr) == value && plain) break;
+  }
+  const std::string shortest = text;
+  return shortest.find_first_of(".einf") == std::string::npos ? shortest + ".0" : shortest;
+}
+
+std::string quoted(const std::string& value) {
+  std::string text = "\"";
+  for (const char c : value) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\\' || c == '"') text += '\\';
+    if (code < 0x20 || code == 0x7f) {  // control characters: TOML takes them by their code alone
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\u%04X", unsigned{code});
+      text += escape;
+    } else {
+      text += c;
+    }
+  }
+  return text + "\"";
+}
+
+// A table as it will be written. Several bodies may visit one table (each program its keys of [[vehicle]]): the
+// first visit of a key, a section or an item makes it, later ones add what they know.
+struct Table {
+  std::string header;  // comment and [path] line; empty for the document itself
+  std::vector<std::pair<std::string, std::string>> lines;  // key, and its whole line
+  std::vector<std::string> order;                          // of sections and lists
+  std::map<std::string, std::vector<std::unique_ptr<Table>>, std::less<>> tables;
+
+  // The i-th table under `key`, made when it is missing.
+  Table& table(const std::string& key, std::size_t i, const std::string& table_header) {
+    if (!tables.contains(key)) order.push_back(key);
+    auto& list = tables[key];
+    if (i >= list.size()) {
+      list.push_back(std::make_unique<Table>());
+      list.back()->header = table_header;
+    }
+    return *list[i];
+  }
+  void add_line(std::string_view key, std::string line) {
+    for (const auto& [known, text] : lines) {
+      if (known == key) return;
+    }
+    lines.emplace_back(key, std::move(line));
+  }
+  // TOML wants a table's own keys before its sub-tables.
+  void print(std::ostream& out) const {
+    out << header;
+    for (const auto& [key, line] : lines) out << line;
+    for (const std::string& key : order) {
+      for (const auto& table : tables.find(key)->second) table->print(out);
+    }
+  }
+};
+
+class Writer : public ConfigVisitor {
+ public:
+  Writer(Table& table, std::string path, bool with_comments)
+      : table_(table), path_(std::move(path)), with_comments_(with_comments) {}
+
+  void number(std::string_view key, double& value, const NumberRule& rule) override {
+    line(key, exact(value), described(rule));
+  }
+  void integer(std::string_view key, std::int64_t& value, const NumberRule& rule) override {
+    line(key, std::to_string(value), described(rule));
+  }
+  void boolean(std::string_view key, bool& value, std::string_view meaning) override {
+    line(key, value ? "true" : "false", std::string(meaning));
+  }
+  void text(std::string_view key, std::string& value, const std::vector<std::string>& allowed,
+            std::string_view meaning) override {
+    std::string comment(meaning);
+    for (std::size_t i = 0; i < allowed.size(); ++i) comment += (i == 0 ? ": " : ", ") + allowed[i];
+    line(key, quoted(value), comment);
+  }
+  void vector3(std::string_view key, Vec3& value, const NumberRule& rule) override {
+    line(key, array(value), described(rule));
+  }
+  void numbers(std::string_view key, std::vector<double>& values, const NumberRule& rule) override {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "" : ", ") + exact(value);
+    line(key, "[" + text + "]", described(rule));
+  }
+  void points(std::string_view key, std::vector<Vec3>& values, const NumberRule& rule) override {
+    std::string text;
+    for (const Vec3& value : values) text += (text.empty() ? "" : ", ") + array(value);
+    line(key, "[" + text + "]", described(rule));
+  }
+  void section(std::string_view key, std::string_view meaning,
+               const std::function<void(ConfigVisitor&)>& body) override {
+    const std::string path = path_ + std::string(key);
+    Writer nested(table_.table(std::string(key), 0, "\n" + comment_line(meaning) + "[" + path + "]\n"),
+                  path + ".", with_comments_);
+    body(nested);
+  }
+  void list(std::string_view key, std::string_view meaning, std::size_t count,
+            const std::function<void(std::size_t)>& /*resize*/,
+            const std::function<void(ConfigVisitor&, std::size_t)>& item) override {
+    const std::string path = path_ + std::string(key);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string header = "\n" + comment_line(i == 0 ? meaning : "") + "[[" + path + "]]\n";
+      Writer nested(table_.table(std::string(key), i, header), path + ".", with_comments_);
+      item(nested, i);
+    }
+  }
+  bool given(std::string_view) const override { return true; }
+  bool writing() const override { return true; }
+  std::string folder() const override { return "."; }
+  void problem(std::string_view, std::string_view) override {}
+  void shared_with_others() override {}
+
+ private:
+  void line(std::string_view key, const std::string& value, const std::string& comment) {
+    const std::string tail = with_comments_ && !comment.empty() ? "  # " + comment : "";
+    table_.add_line(key, std::string(key) + " = " + value + tail + "\n");
+  }
+  std::string comment_line(std::string_view meaning) const {
+    return with_comments_ && !meaning.empty() ? "# " + std::string(meaning) + "\n" : "";
+  }
+  static std::string array(const Vec3& v) {
+    return "[" + exact(v.x()) + ", " + exact(v.y()) + ", " + exact(v.z()) + "]";
+  }
+  static std::string described(const NumberRule& rule) {
+    std::ostringstream text;
+    text << rule.meaning << " (" << rule.lowest << " to " << rule.highest << (rule.unit.empty() ? "" : " ")
+         << rule.unit << ")";
+    return text.str();
+  }
+
+  Table& table_;
+  std::string path_;
+  bool with_comments_;
+};
+
+}  // namespace
+
+std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_comments) {
+  Table document;
+  Writer writer(document, "", with_comments);
+  body(writer);
+  std::ostringstream out;
+  document.print(out);
+  return out.str();
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,103 @@
+#include "bus/lockstep/lockstep_participant.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+
+namespace halocline::bus {
+
+LockstepParticipant::LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Mouth mouth)
+    : join_(std::move(introduction)), take_(std::move(take)), mouth_(std::move(mouth)) {
+  require(join_.joining_life != 0, "a participant needs a life");
+}
+
+void LockstepParticipant::on_grant(const lockstep_grant_t& grant, SimTime steady) {
+  const auto& lives = grant.addressed_lives;
+  const auto me = std::find(lives.begin(), lives.end(), join_.joining_life);
+  if (me == lives.end() || has_ended() || (join_.run_id != 0 && grant.run_id != join_.run_id)) return;
+  join_.run_id = grant.run_id;
+  last_heard_ = steady;
+  next_join_ = steady + kShowPeriod;
+  const std::int64_t first = grant.first_turns[static_cast<std::size_t>(me - lives.begin())];
+  const std::int64_t last = first + grant.num_turns - 1;
+  if (last == turns_taken_ && !last_result_.empty()) return answer();
+  if (last <= turns_taken_ || first > turns_taken_ + 1)
+    return say_where();  // the conductor thinks it elsewhere
+  const auto body = grants_.add(last, grant.slice_number, grant.slice_count, grant.slice_bytes);
+  if (!body) return;
+  const auto turns = decoded_list<lockstep_turn_t>(*body);
+  if (turns && std::ssize(*turns) == grant.num_turns) take(*turns, first, grant.past != 0);
+}
+
+void LockstepParticipant::take(const std::vector<lockstep_turn_t>& turns, std::int64_t first, bool past) {
+  if (state_ == State::kJoining) state_ = State::kTakingPart;
+  lockstep_result_t result;
+  for (const lockstep_turn_t& turn : turns) {
+    if (first++ <= turns_taken_) continue;
+    result = take_(turn);
+    ++turns_taken_;
+    reached_ = SimTime::from_nanoseconds(result.reached_ns);
+    if (turn.farewell != 0) state_ = State::kSaidGoodbye;
+  }
+  if (past) {  // known to the conductor, which compares digests
+    result.said.clear();
+    result.num_said = 0;
+  }
+  last_result_ = encoded(result);
+  answer();
+}
+
+void LockstepParticipant::answer() {
+  lockstep_answer_t answer;
+  answer.run_id = join_.run_id;
+  answer.answering_life = join_.joining_life;
+  answer.turn_number = turns_taken_;
+  answer.wants_to_leave = join_.wants_to_leave;
+  answer.slice_count = slice_count(last_result_.size());
+  for (answer.slice_number = 0; answer.slice_number < answer.slice_count; ++answer.slice_number) {
+    const auto slice = slice_of(last_result_, answer.slice_number);
+    answer.slice_bytes.assign(slice.begin(), slice.end());
+    answer.num_slice_bytes = static_cast<std::int32_t>(slice.size());
+    mouth_.answer(answer);
+  }
+}
+
+void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime steady) {
+  if (notice.noticed_life != join_.joining_life || has_ended()) return;
+  last_heard_ = steady;
+  switch (notice.notice_kind) {
+    case lockstep_notice_t::WELCOME:
+      join_.run_id = notice.run_id;
+      if (state_ == State::kJoining) state_ = State::kTakingPart;
+      next_join_ = steady + kShowPeriod;
+      return;
+    case lockstep_notice_t::PUT_OUT:
+      reason_ = notice.reason;
+      state_ = State::kPutOut;
+      return;
+    default:
+      if (join_.run_id == 0 || notice.run_id == join_.run_id) state_ = State::kOver;
+  }
+}
+
+void LockstepParticipant::on_timer(SimTime steady) {
+  if (has_ended() || steady < next_join_) return;
+  if (state_ == State::kSaidGoodbye && steady > last_heard_ + kLinger) {
+    state_ = State::kOver;
+    return;
+  }
+  say_where();
+  next_join_ = steady + (state_ == State::kJoining ? kJoinPeriod : kShowPeriod);
+}
+
+void LockstepParticipant::say_where() {
+  join_.turns_taken = turns_taken_;
+  mouth_.join(join_);
+}
+
+void LockstepParticipant::ask_to_leave() {
+  join_.wants_to_leave = 1;
+  next_join_ = SimTime::at_once();
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,119 @@
+#include "bus/logs/log_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+
+namespace halocline::clients {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> kWord{0xED, 0xA1, 0xDA, 0x01};
+constexpr std::size_t kWordBytes = kWord.size(), kHeaderBytes = kWordBytes + 24;
+constexpr std::size_t kLongestChannel = 63;  // LCM's own limit
+
+std::uint64_t big_endian(LogBytes bytes, std::size_t at, std::size_t count) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
+  return value;
+}
+
+bool word_at(LogBytes log, std::size_t at) {
+  return at + kWordBytes <= log.size() &&
+         std::equal(kWord.begin(), kWord.end(), log.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+// The next word that begins in [from, end); `end` when there is none.
+std::size_t find_word(LogBytes log, std::size_t from, std::size_t end) {
+  const std::size_t stop = std::min(log.size(), end + kWordBytes - 1);
+  while (from + kWordBytes <= stop) {
+    const void* found = std::memchr(log.data() + from, kWord[0], stop - from - (kWordBytes - 1));
+    if (found == nullptr) return end;
+    from = static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - log.data());
+    if (word_at(log, from)) return from;
+    ++from;
+  }
+  return end;
+}
+
+bool is_text(std::string_view channel) {
+  return std::none_of(channel.begin(), channel.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
+}
+
+// The event whose word stands at `at`, when its header is plausible.
+std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at) {
+  if (!word_at(log, at) || log.size() - at < kHeaderBytes) return std::nullopt;
+  EventPlace event;
+  event.offset = at;
+  event.number = static_cast<std::int64_t>(big_endian(log, at + 4, 8));
+  event.stamp_us = static_cast<std::int64_t>(big_endian(log, at + 12, 8));
+  const std::size_t channel_size = big_endian(log, at + 20, 4), data_size = big_endian(log, at + 24, 4);
+  if (channel_size == 0 || channel_size > kLongestChannel) return std::nullopt;
+  event.size = kHeaderBytes + channel_size + data_size;
+  if (log.size() - at < event.size) return std::nullopt;
+  const std::size_t channel_at = at + kHeaderBytes;
+  event.channel = {reinterpret_cast<const char*>(log.data()) + channel_at, channel_size};
+  event.data = log.subspan(channel_at + channel_size, data_size);
+  return is_text(event.channel) ? std::optional(event) : std::nullopt;
+}
+
+// The first plausible event that begins within the data of `outer`, or in its last bytes.
+std::optional<EventPlace> first_within(LogBytes log, const EventPlace& outer) {
+  const std::size_t end = outer.offset + outer.size;
+  for (std::size_t at = find_word(log, outer.offset + kWordBytes, end); at < end;
+       at = find_word(log, at + 1, end)) {
+    if (const auto event = plausible_at(log, at)) return event;
+  }
+  return std::nullopt;
+}
+
+// Events from `first` on, each behind the one before, end exactly at `end`.
+bool fill_exactly(LogBytes log, const EventPlace& first, std::size_t end) {
+  std::size_t at = first.offset;
+  while (at < end) {
+    const auto event = plausible_at(log, at);
+    if (!event) return false;
+    at += event->size;
+  }
+  return at == end;
+}
+
+bool is_sound(LogBytes log, const EventPlace& event) {
+  const auto inner = first_within(log, event);
+  if (!inner) return true;
+  const std::size_t end = event.offset + event.size;
+  const bool followed = end == log.size() || word_at(log, end);
+  return followed && !(inner->number == event.number + 1 && fill_exactly(log, *inner, end));
+}
+
+// Whether the last bytes of a log are the beginning of an event.
+bool begins_like_an_event(LogBytes rest) {
+  const std::size_t size = std::min(rest.size(), kWordBytes);
+  return size > 0 &&
+         std::equal(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(size), kWord.begin());
+}
+
+}  // namespace
+
+LogStep next_event(LogBytes log, std::size_t from) {
+  LogStep step;
+  step.damage.offset = from;
+  for (std::size_t at = find_word(log, from, log.size()); at < log.size();
+       at = find_word(log, at + 1, log.size())) {
+    const auto event = plausible_at(log, at);
+    if (!event || !is_sound(log, *event)) continue;
+    step.event = *event;
+    step.damage.size = at - from;
+    return step;
+  }
+  step.at_end = true;
+  step.damage.size = log.size() - from;
+  step.damage.cut_short = begins_like_an_event(log.subspan(from));
+  return step;
+}
+
+bool looks_like_a_log(LogBytes log) {
+  return log.empty() || begins_like_an_event(log) || !next_event(log, 0).at_end;
+}
+
+}  // namespace halocline::clients

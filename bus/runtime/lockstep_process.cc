@@ -1,0 +1,94 @@
+#include "bus/runtime/lockstep_process.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include <unistd.h>
+
+#include "bus/config/config.h"
+#include "bus/lockstep/lockstep_participant.h"
+#include "bus/runtime/lockstep_turns.h"
+#include "bus/runtime/node_process.h"
+#include "bus/transport.h"
+#include "core/hash.h"
+
+namespace halocline::bus {
+namespace {
+
+// How long a participant that was told to stop waits for its farewell.
+constexpr SimDuration kFarewellPatience = SimDuration::from_milliseconds(4000);
+
+// The participant's two ends of the sync plane: hears grants, speaks answers.
+class SyncPlane {
+ public:
+  SyncPlane(const std::string& url, const std::string& name)
+      : grants_lcm_(open_transport(effective_url(url))),
+        answers_lcm_(open_transport(next_port(effective_url(url)))),
+        ears_(*grants_lcm_, {name, 0}),
+        mouth_(*answers_lcm_, {name, 0}) {}
+
+  void connect(LockstepParticipant& participant, const std::string& name) {
+    const auto on_grant = [&participant](const lockstep_grant_t& m) {
+      participant.on_grant(m, steady_now());
+    };
+    ears_.subscribe<lockstep_grant_t>(channels::kLockstepGrant, on_grant);
+    ears_.subscribe<lockstep_grant_t>(std::string(channels::kLockstepGrant) + "." + name, on_grant);
+    ears_.subscribe<lockstep_notice_t>(channels::kLockstepNotice, [&participant](const lockstep_notice_t& m) {
+      participant.on_notice(m, steady_now());
+    });
+  }
+  LockstepParticipant::Mouth mouth() {
+    return {[this](const lockstep_join_t& m) { mouth_.publish(channels::kLockstepJoin, m); },
+            [this](const lockstep_answer_t& m) { mouth_.publish(channels::kLockstepAnswer, m); }};
+  }
+  void wait_and_dispatch(SimTime wake) {
+    bus::wait_and_dispatch(*grants_lcm_, wake);
+    ears_.rethrow_if_failed();
+  }
+
+ private:
+  std::unique_ptr<lcm::LCM> grants_lcm_, answers_lcm_;
+  Bus ears_, mouth_;
+};
+
+}  // namespace
+
+std::string digest_of(const Scenario& scenario) {
+  Scenario shared = scenario;
+  const std::string text = to_toml([&](ConfigVisitor& v) { visit(v, shared); }, /*with_comments=*/false);
+  return std::to_string(fnv1a(text));
+}
+
+std::int64_t draw_life() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count() * 1000 + getpid() % 1000;
+}
+
+void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& sync_url,
+                              const std::string& scenario_digest, const std::function<bool()>& should_stop) {
+  EventLog log(node.name());
+  LockstepTurns turns(memq, node);
+  lockstep_join_t join = turns.introduction();
+  join.joining_life = draw_life();
+  join.scenario_digest = scenario_digest;
+  SyncPlane plane(sync_url, node.name());
+  LockstepParticipant participant(
+      join, [&turns](const lockstep_turn_t& turn) { return turns.take(turn); }, plane.mouth());
+  plane.connect(participant, node.name());
+  log.info("started", "sync_url=" + sync_url);
+  SimTime patience_ends = SimTime::never();
+  while (!participant.has_ended() && steady_now() < patience_ends) {
+    participant.on_timer(steady_now());
+    if (should_stop() && patience_ends == SimTime::never()) {
+      participant.ask_to_leave();
+      patience_ends = steady_now() + kFarewellPatience;
+      continue;
+    }
+    plane.wait_and_dispatch(std::min(participant.next_timer(), patience_ends));
+  }
+  if (participant.state() == LockstepParticipant::State::kPutOut)
+    throw std::runtime_error("put out by the conductor: " + participant.reason());
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,110 @@
+#include "bus/runtime/lockstep_turns.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bus/lockstep/lockstep_wire.h"
+
+namespace halocline::bus {
+namespace {
+
+// A window ends before its result outgrows a datagram by much.
+constexpr int kMostStepsPerTurn = 1000;
+constexpr std::size_t kMostSaidPerTurn = 200;
+
+}  // namespace
+
+LockstepTurns::LockstepTurns(lcm::LCM& memq, Node& node) : memq_(memq), node_(node) {
+  node_.set_outbox([this](std::string_view channel, const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    lockstep_message_t message;
+    message.instant_ns = now_.nanoseconds();
+    message.channel_name = channel;
+    message.num_message_bytes = static_cast<std::int32_t>(size);
+    message.message_bytes.assign(bytes, bytes + size);
+    said_.push_back(std::move(message));
+  });
+}
+
+lockstep_join_t LockstepTurns::introduction() const {
+  lockstep_join_t join{};
+  join.participant_name = node_.name();
+  join.step_stage = static_cast<std::int32_t>(node_.stage());
+  join.next_due_ns = node_.lockstep_due().nanoseconds();
+  for (const Subscribed& subscribed : node_.subscribed()) {
+    join.subscriptions.push_back(subscribed.expression);
+    join.only_stores.push_back(subscribed.hearing == Hearing::kStores ? 1 : 0);
+  }
+  join.num_subscriptions = static_cast<std::int32_t>(join.subscriptions.size());
+  return join;
+}
+
+LockstepTurns::Interest LockstepTurns::interest_in(const std::string& channel) {
+  const auto known = interests_.find(channel);
+  if (known != interests_.end()) return known->second;
+  Interest interest;
+  for (const Subscribed& subscribed : node_.subscribed()) {
+    if (!ChannelPattern(subscribed.expression).matches(channel)) continue;
+    interest.hears = true;
+    interest.may_wake = interest.may_wake || subscribed.hearing == Hearing::kMayWake;
+  }
+  return interests_[channel] = interest;
+}
+
+void LockstepTurns::hear(const std::vector<lockstep_message_t>& heard) {
+  if (heard.empty()) return;
+  const SimTime due = node_.lockstep_due();
+  bool may_wake = false;
+  for (const lockstep_message_t& message : heard) {
+    memq_.publish(message.channel_name, message.message_bytes.data(),
+                  static_cast<unsigned int>(message.message_bytes.size()));
+    may_wake = may_wake || interest_in(message.channel_name).may_wake;
+  }
+  while (memq_.handleTimeout(0) > 0) {
+  }
+  if (!may_wake && node_.lockstep_due() < due)
+    throw std::logic_error(node_.name() + " became due by what it promised only to store");
+}
+
+bool LockstepTurns::must_pause(const lockstep_turn_t& turn, std::size_t said_before) {
+  for (std::size_t i = said_before; i < said_.size(); ++i) {
+    const std::string& channel = said_[i].channel_name;
+    if (interest_in(channel).hears) return true;
+    for (const std::string& expression : turn.stopping_channels) {
+      const auto pattern = stopping_.try_emplace(expression, expression).first;
+      if (pattern->second.matches(channel)) return true;
+    }
+  }
+  return said_.size() >= kMostSaidPerTurn;
+}
+
+lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
+  said_.clear();
+  now_ = SimTime::from_nanoseconds(turn.instant_ns);
+  const SimTime horizon = SimTime::from_nanoseconds(turn.horizon_ns);
+  const int most_steps = turn.most_steps >= 0 ? turn.most_steps : kMostStepsPerTurn;
+  hear(turn.heard);
+  if (turn.farewell != 0) node_.stop({now_, now_});
+  int steps = 0;
+  for (bool paused = turn.farewell != 0; !paused && steps < most_steps; ++steps) {
+    const SimTime next = std::max(node_.lockstep_due(), now_);
+    const bool at_instant = steps == 0 && next == now_;
+    if (!at_instant && next >= horizon) break;
+    const std::size_t said_before = said_.size();
+    now_ = next;
+    node_.step({now_, now_});
+    paused = must_pause(turn, said_before);
+  }
+  digest_ = digest_of(digest_, said_);
+  lockstep_result_t result;
+  result.participant_name = node_.name();
+  result.num_steps = steps;
+  result.reached_ns = now_.nanoseconds();
+  result.next_due_ns = node_.lockstep_due().nanoseconds();
+  result.said_digest = digest_;
+  result.num_said = static_cast<std::int32_t>(said_.size());
+  result.said = said_;
+  return result;
+}
+
+}  // namespace halocline::bus

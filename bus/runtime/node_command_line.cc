@@ -1,0 +1,116 @@
+#include "bus/runtime/node_command_line.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include "bus/transport.h"
+#include "bus/version.h"
+
+namespace halocline::bus {
+namespace {
+
+struct Arguments {
+  std::string scenario_path;
+  std::vector<std::string> overrides;
+  std::string name, lcm_url, sync_url, time_source, log_level = "info";
+  bool example = false, interface = false, print_config = false;
+};
+
+void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
+  app.add_option("scenario", arguments.scenario_path, "scenario file (TOML); without one, defaults hold");
+  app.add_option("--set", arguments.overrides,
+                 "change a key of the scenario: section.key=value (repeatable)");
+  app.add_option("--name", arguments.name,
+                 "name of this node (channel STATUS.<name>); default: " + program.node_name);
+  app.add_option("--lcm-url", arguments.lcm_url, "LCM URL; default: LCM_DEFAULT_URL, else this host only");
+  if (!program.make_time_source) {
+    app.add_option("--time-source", arguments.time_source,
+                   "conductor, messages (what is heard), wall, or lockstep (turns that a conductor grants)")
+        ->default_val("conductor");
+  }
+  app.add_option("--sync-url", arguments.sync_url,
+                 "LCM URL of lockstep's own plane; it takes the next port, too")
+      ->default_val(std::string(kDefaultSyncUrl));
+  for (const ProgramOption& option : program.options) {
+    option.flag != nullptr ? app.add_flag(option.name, *option.flag, option.help)
+                           : app.add_option(option.name, *option.value, option.help);
+  }
+  app.add_option("--log-level", arguments.log_level, "debug, info, warning, error or silent")
+      ->default_val("info");
+  app.add_flag("--example", arguments.example, "print an example of this program's sections and exit");
+  app.add_flag("--interface", arguments.interface, "print the channels heard and published and exit");
+  app.add_flag("--print-config", arguments.print_config, "print the effective configuration and exit");
+  app.set_version_flag("--version", kVersion);
+  app.footer("Example:\n  " + program.program + " scenarios/seamount.toml --log-level debug");
+}
+
+std::vector<std::string> overrides_of(const Arguments& arguments, const NodeProgram& program) {
+  std::vector<std::string> overrides = arguments.overrides;
+  for (const ProgramOption& option : program.options) {
+    if (!option.settings || option.value->empty()) continue;
+    const auto settings = option.settings(*option.value);
+    overrides.insert(overrides.end(), settings.begin(), settings.end());
+  }
+  return overrides;
+}
+
+void read_scenario(const Arguments& arguments, const NodeProgram& program, NodeRun& run) {
+  const std::vector<std::string> overrides = overrides_of(arguments, program);
+  auto file = arguments.scenario_path.empty() ? ConfigFile::parse("", "command line", overrides)
+                                              : ConfigFile::load(arguments.scenario_path, overrides);
+  file.read([&](ConfigVisitor& v) { visit(v, run.scenario); });
+  if (program.visit_config) file.read(program.visit_config);
+  file.check(/*whole_file=*/false);
+  run.folder = file.folder();
+}
+
+std::string config_text(const NodeProgram& program, Scenario scenario, bool with_comments) {
+  return to_toml(
+      [&](ConfigVisitor& v) {
+        visit(v, scenario);
+        if (program.visit_config) program.visit_config(v);
+      },
+      with_comments);
+}
+
+std::uint64_t entropy_of_this_life() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  return static_cast<std::uint64_t>(now) * 1'000'003u + static_cast<std::uint64_t>(getpid());
+}
+
+}  // namespace
+
+std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const NodeProgram& program) {
+  Arguments arguments;
+  CLI::App app(program.purpose, program.program);
+  describe(app, arguments, program);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    app.exit(asked);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw InvalidArgument(std::string(error.what()) + "; --help lists what is allowed");
+  }
+  NodeRun run;
+  if (arguments.interface) return std::printf("%s\n", program.interface.c_str()), std::nullopt;
+  if (arguments.example) return std::printf("%s", config_text(program, {}, true).c_str()), std::nullopt;
+  read_scenario(arguments, program, run);
+  if (arguments.print_config) {
+    return std::printf("%s", config_text(program, run.scenario, false).c_str()), std::nullopt;
+  }
+  std::string name = arguments.name;
+  if (name.empty()) name = program.default_name ? program.default_name() : program.node_name;
+  run.identity = {name, session_of(entropy_of_this_life(), name)};
+  run.lcm_url = arguments.lcm_url;
+  run.sync_url = arguments.sync_url;
+  run.time_source =
+      arguments.time_source.empty() ? program.time_source : time_source_from_name(arguments.time_source);
+  run.log_level = log_level_from_name(arguments.log_level);
+  return run;
+}
+
+}  // namespace halocline::bus

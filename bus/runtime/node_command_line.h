@@ -1,0 +1,28 @@
+// The command line that all node programs share.
+#pragma once
+
+#include <optional>
+
+#include "bus/event_log.h"
+#include "bus/runtime/node_process.h"
+
+namespace halocline::bus {
+
+// What the command line and the scenario file ask for.
+struct NodeRun {
+  NodeIdentity identity;
+  Scenario scenario;
+  std::string folder;   // of the scenario file
+  std::string lcm_url;  // empty: the default
+  std::string sync_url;
+  TimeSourceKind time_source = TimeSourceKind::kConductor;
+  LogLevel log_level = LogLevel::kInfo;
+};
+
+// Empty when the command line asked only for something to be printed (--help, --example, --interface,
+// --version,
+// --print-config), which was done. Throws InvalidArgument for a wrong command line and ConfigErrors for a
+// wrong file.
+std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const NodeProgram& program);
+
+}  // namespace halocline::bus

@@ -1,0 +1,187 @@
+#include "bus/runtime/node_process.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include <poll.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include "bus/runtime/lockstep_process.h"
+#include "bus/runtime/node_command_line.h"
+#include "bus/transport.h"
+
+namespace halocline::bus {
+namespace {
+
+// Set in a signal handler, read by any thread.
+std::atomic<bool> stop_signal_seen = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+void on_stop_signal(int) { stop_signal_seen = true; }
+
+// Longest sleep: a stop wished for by other means than a signal is seen within this.
+constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
+// Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
+constexpr int kMostMessagesPerTurn = 2000;
+
+// What the bus has delivered when the end is wished for: until it is silent for a moment, since LCM's own
+// thread hands over what the socket holds one by one. A flood does not keep us for ever.
+void dispatch_until_silent(lcm::LCM& lcm) {
+  constexpr int kSilenceMs = 10, kMostMessages = 20'000;
+  for (int i = 0; i < kMostMessages && lcm.handleTimeout(kSilenceMs) > 0; ++i) {
+  }
+}
+
+// The steady time of the next step. A node that asks for "at once" gets the time now.
+SimTime wake_time(const Node& node, const TimeSource& time) {
+  const Due due = node.due();
+  return due.sim == SimTime::at_once() ? due.sim : std::min(due.steady, time.steady_at(due.sim));
+}
+
+std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name) {
+  switch (kind) {
+    case TimeSourceKind::kConductor:
+      return std::make_unique<ConductorTime>(lcm, name);
+    case TimeSourceKind::kMessages:
+      return std::make_unique<MessageTime>(lcm, name);
+    case TimeSourceKind::kWall:
+    case TimeSourceKind::kLockstep:
+      break;
+  }
+  return std::make_unique<WallTime>(wall_now().to_utime() - steady_now().to_utime());
+}
+
+// In lockstep a node is on a bus of its own, and its identity is the same in every run.
+void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
+  lcm::LCM memq("memq://");
+  const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),
+                              program.stage};
+  const auto node = program.make_node({memq, identity, run.scenario, run.folder, run.sync_url, true});
+  run_lockstep_participant(memq, *node, run.sync_url, digest_of(run.scenario), stop_requested);
+}
+
+void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& log) {
+  const std::string url = effective_url(run.lcm_url);
+  const auto lcm = open_transport(url);
+  if (const std::string warning = receive_buffer_warning(url); !warning.empty()) {
+    log.warning("small-receive-buffer", warning);
+  }
+  const NodeProgram::Context context{*lcm, run.identity, run.scenario, run.folder, run.sync_url};
+  if (program.run_otherwise && program.run_otherwise(context)) return;
+  const auto time = program.make_time_source ? program.make_time_source(context)
+                                             : make_time_source(run.time_source, *lcm, run.identity.name);
+  const auto node = program.make_node(context);
+  node->enable_repair();
+  log.info("started", "url=" + url);
+  run_node(*lcm, *node, *time, stop_requested);
+}
+
+int run_checked(int argc, char** argv, const NodeProgram& program) {
+  const auto run = parse_node_command_line(argc, argv, program);
+  if (!run) return 0;
+  set_log_level(run->log_level);
+  catch_stop_signals();
+  EventLog log(run->identity.name);
+  run->time_source == TimeSourceKind::kLockstep ? run_in_lockstep(*run, program)
+                                                : run_on_transport(*run, program, log);
+  log.info("stopped");
+  return 0;
+}
+
+}  // namespace
+
+void catch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_stop_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool stop_requested() { return stop_signal_seen; }
+
+// The signals are let in only while sleeping, so that none slips by between the check and the sleep.
+bool wait_for_bus(lcm::LCM& lcm, SimTime wake) {
+  const SimDuration left = std::min(std::max(wake, steady_now()) - steady_now(), kLongestSleep);
+  pollfd bus{lcm.getFileno(), POLLIN, 0};
+  sigset_t blocked, before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGINT);
+  sigaddset(&blocked, SIGTERM);
+  sigprocmask(SIG_BLOCK, &blocked, &before);
+  const timespec timeout{0, stop_requested() ? 0 : std::max<long>(left.nanoseconds(), 0)};
+  const bool has_something = ppoll(&bus, 1, &timeout, &before) > 0;
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+  return has_something;
+}
+
+void wait_and_dispatch(lcm::LCM& lcm, SimTime wake) {
+  if (!wait_for_bus(lcm, wake)) return;
+  lcm.handle();
+  pollfd bus{lcm.getFileno(), POLLIN, 0};
+  for (int i = 1; i < kMostMessagesPerTurn && poll(&bus, 1, 0) > 0; ++i) lcm.handle();
+}
+
+void dispatch_waiting(lcm::LCM& lcm) {
+  for (int i = 0; i < kMostMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
+  }
+}
+
+void sleep_precisely() { prctl(PR_SET_TIMERSLACK, 1); }
+
+SimTime wall_now() {
+  const auto unix_time = std::chrono::system_clock::now().time_since_epoch();
+  return SimTime::from_utime(std::chrono::duration_cast<std::chrono::microseconds>(unix_time).count());
+}
+
+SimTime steady_now() {
+  static const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = std::chrono::steady_clock::now() - start;
+  return SimTime::from_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed).count());
+}
+
+void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop) {
+  Now now{SimTime(), steady_now(), false};
+  const auto update_time = [&] {
+    now.steady = steady_now();
+    if (const auto known = time.now(now.steady)) {
+      now.sim = *known;
+      now.sim_known = true;
+    }
+  };
+  const auto is_due = [&](const Due& due) {
+    return due.steady <= now.steady || due.sim == SimTime::at_once() || (now.sim_known && due.sim <= now.sim);
+  };
+  sleep_precisely();
+  while (!should_stop()) {
+    wait_for_bus(lcm, wake_time(node, time));
+    time.set_steady(steady_now(), wall_now());
+    node.set_steady(steady_now());
+    dispatch_waiting(lcm);
+    update_time();
+    if (time.restarted()) node.restart(now);
+    if (is_due(node.due())) node.step(now);
+  }
+  time.set_steady(steady_now(), wall_now());
+  dispatch_until_silent(lcm);
+  update_time();
+  if (is_due(node.due())) node.step(now);
+  node.stop(now);
+}
+
+int run_node_program(int argc, char** argv, const NodeProgram& program) {
+  try {
+    return run_checked(argc, argv, program);
+  } catch (const InvalidArgument& error) {
+    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    return 1;
+  }
+}
+
+}  // namespace halocline::bus

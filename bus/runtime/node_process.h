@@ -1,0 +1,90 @@
+// A node in a process of its own: command line, transport, time source, loop, and an orderly end.
+//
+// Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT and SIGTERM end
+// the loop: what the bus has delivered is handled, the node takes its last step and says goodbye in STATUS;
+// exit code 0. An error of the user (configuration, command line) prints one line per problem; exit code 2.
+// Any other error: 1.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <lcm/lcm-cpp.hpp>
+
+#include "bus/runtime/node.h"
+#include "bus/runtime/scenario.h"
+#include "bus/runtime/time_source.h"
+
+namespace halocline::bus {
+
+// An option of one program's own: a flag, or a text.
+struct ProgramOption {
+  std::string name;  // "--log"
+  std::string help;
+  std::string* value = nullptr;
+  bool* flag = nullptr;
+  // Of a text that stands for keys of the scenario: its settings ("section.key=value"). Throws InvalidArgument that
+  // says what is allowed.
+  std::function<std::vector<std::string>(const std::string& value)> settings = nullptr;
+};
+
+struct NodeProgram {
+  std::string program;    // "halocline-channel-server"
+  std::string purpose;    // one sentence
+  std::string node_name;  // default for --name
+  std::string interface;  // for --interface: the channels subscribed and published, one a line
+  TimeSourceKind time_source = TimeSourceKind::kConductor;
+  Stage stage = Stage::kClients;  // its place in lockstep
+  std::vector<ProgramOption> options = {};
+  // The name of the node when the command line gives none, asked once the configuration is read; default: node_name.
+  std::function<std::string()> default_name = nullptr;
+
+  // Describes the program's own sections of the scenario file: read from it, printed by --example and
+  // --print-config.
+  std::function<void(ConfigVisitor&)> visit_config = nullptr;
+  // Makes the node after the configuration was read and checked; `folder` is where the scenario file lies.
+  struct Context {
+    lcm::LCM& lcm;
+    NodeIdentity identity;
+    const Scenario& scenario;
+    const std::string& folder;
+    const std::string& sync_url;
+    bool in_lockstep = false;  // as a participant
+  };
+  std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
+  // Only for the program that makes the time itself; the others choose with --time-source.
+  std::function<std::unique_ptr<TimeSource>(const Context&)> make_time_source = nullptr;
+  // Where the program has another way to run than run_node: returns true when it was asked for, and has run.
+  std::function<bool(const Context&)> run_otherwise = nullptr;
+};
+
+// Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
+int run_node_program(int argc, char** argv, const NodeProgram& program);
+
+// The loop alone. `should_stop` is asked at least every 0.1 s. The conductor brings its own TimeSource.
+void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop);
+
+// From now on SIGINT and SIGTERM set a flag instead of ending the process; returns whether either came.
+void catch_stop_signals();
+bool stop_requested();
+
+// Sleeps until the bus has something, `wake` (steady) has come, a stop signal, or a tenth of a second has passed.
+// Returns whether the bus has something.
+bool wait_for_bus(lcm::LCM& lcm, SimTime wake);
+// Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work.
+void dispatch_waiting(lcm::LCM& lcm);
+
+// Both, one after the other, in fewer system calls.
+void wait_and_dispatch(lcm::LCM& lcm, SimTime wake);
+
+// From now on this thread's sleeps end when asked, not up to 50 us later (Linux' timer slack).
+void sleep_precisely();
+
+// Unix time.
+SimTime wall_now();
+// Nanoseconds since the process started; never goes back.
+SimTime steady_now();
+
+}  // namespace halocline::bus

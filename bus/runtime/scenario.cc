@@ -1,0 +1,78 @@
+#include "bus/runtime/scenario.h"
+
+#include <algorithm>
+
+#include "core/names.h"
+#include "core/random.h"
+
+namespace halocline::bus {
+namespace {
+
+constexpr double kLongestRunS = 3.2e7;  // a year
+
+void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
+  v.shared_with_others();
+  v.text("name", vehicle.name, {}, "channel suffix; " + std::string(kNameRule));
+  if (!is_valid_name(vehicle.name)) v.problem("name", "allowed is a name of " + std::string(kNameRule));
+  integer_as(v, "id", vehicle.id, {1, 2147483647, "", "unique number of the vehicle"});
+  if (vehicle.id < 1) v.problem("id", "allowed is a whole number from 1");
+  v.text("model", vehicle.model, {},
+         "torpedo, hover, remus100-pvs, a model file .toml, fixed (does not move) or external (moved by "
+         "another process)");
+  v.vector3("start_ned_m", vehicle.start_ned_m, {-1e6, 1e6, "m", "position at the start: north, east, down"});
+  degrees(v, "heading_deg", vehicle.heading_rad,
+          {-360, 360, "deg", "heading at the start, clockwise from north"});
+  v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
+}
+
+// Two vehicles with one name would publish on one channel; with one id, they would be one to all others.
+void check_unique(ConfigVisitor& v, const std::vector<VehicleEntry>& vehicles, std::size_t index) {
+  for (std::size_t i = 0; i < index; ++i) {
+    if (vehicles[i].name == vehicles[index].name)
+      v.problem("name", "an earlier vehicle has this name; names are unique");
+    if (vehicles[i].id == vehicles[index].id)
+      v.problem("id", "an earlier vehicle has this id; ids are unique");
+  }
+}
+
+}  // namespace
+
+const VehicleEntry* Scenario::find(std::string_view vehicle_name) const {
+  const auto found = std::find_if(vehicles.begin(), vehicles.end(),
+                                  [&](const VehicleEntry& vehicle) { return vehicle.name == vehicle_name; });
+  return found == vehicles.end() ? nullptr : &*found;
+}
+
+void visit(ConfigVisitor& v, Scenario& s) {
+  v.section("scenario", "What this is and where", [&](ConfigVisitor& section) {
+    section.text("name", s.name, {}, "short name");
+    section.text("description", s.description, {}, "one line for a person");
+    integer_as(section, "seed", s.seed, {0, 9e15, "", "seed of all random draws"});
+    seconds(section, "duration_s", s.duration, {0.001, kLongestRunS, "s", "simulated time of a run"});
+    section.number("origin_latitude_deg", s.origin_latitude_deg,
+                   {-90, 90, "deg", "latitude of the world's origin"});
+    section.number("origin_longitude_deg", s.origin_longitude_deg,
+                   {-180, 360, "deg", "longitude of the world's origin"});
+    section.number("sea_surface_z_m", s.sea_surface_z_m,
+                   {-100, 100, "m", "z of the sea surface; negative when above the terrain's datum"});
+  });
+  v.section("time", "How simulation time advances", [&](ConfigVisitor& section) {
+    section.number("rate", s.rate, {1e-3, 1e4, "", "simulated seconds per wall second in real time"});
+    seconds(section, "clock_period_s", s.clock_period,
+            {1e-3, 60, "s", "simulated time between CLOCK messages"});
+  });
+  v.list(
+      "vehicle", "A vehicle", s.vehicles.size(), [&](std::size_t n) { s.vehicles.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) {
+        visit_vehicle(item, s.vehicles[i]);
+        check_unique(item, s.vehicles, i);
+      });
+}
+
+std::int64_t session_of(std::uint64_t entropy, std::string_view node_name) {
+  const std::uint64_t bits =
+      bits_at({.seed = entropy, .purpose = purpose_of("session"), .who = purpose_of(node_name)});
+  return static_cast<std::int64_t>(bits >> 1 | 1);  // positive, never 0
+}
+
+}  // namespace halocline::bus

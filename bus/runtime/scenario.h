@@ -1,0 +1,57 @@
+// What every program of a run shares of a scenario file: name, seed, origin, time, and the vehicles.
+//
+// A scenario is one TOML file. Each program reads this part and the sections of its own; `halocline run`
+// reads all, so that one look finds every error. Sections and their owners:
+//   [scenario] [time] [[vehicle]]      this file
+//   [terrain]                          bathymetry/bathymetry_config.h
+//   [environment] [modem] [channel_server], [vehicle.modem]    channel_server/channel_server_config.h
+//   [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]    vehicle_sim/vehicle_sim_config.h
+//   [vehicle.mission] [vehicle.traffic] [vehicle.localiser]    clients/
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bus/config/config.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+
+namespace halocline::bus {
+
+// One vehicle, as all programs know it.
+struct VehicleEntry {
+  std::string name;     // channel suffix, is_valid_name; unique
+  std::int32_t id = 0;  // 1 and up; unique
+  // What moves it: a model of the vehicle simulator by name or as a file (docs/vehicles.md), "fixed" (the vehicle
+  // simulator publishes a pose that never changes), or "external" (a process that is not ours).
+  std::string model = "torpedo";
+  Vec3 start_ned_m = Vec3::Zero();  // world NED, metres
+  double heading_rad = 0;           // at the start, clockwise from north
+  double speed_mps = 0;             // at the start, forward through the water
+};
+
+struct Scenario {
+  std::string name = "unnamed";
+  std::string description;
+  std::uint64_t seed = 1;
+  SimDuration duration = SimDuration::from_seconds(600);
+  double origin_latitude_deg = 0;   // of the world frame, WGS 84
+  double origin_longitude_deg = 0;  // -180 to 360
+  double sea_surface_z_m = 0;  // z of the surface in the world frame: negative when it lies above the datum
+  double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall
+  SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time
+  std::vector<VehicleEntry> vehicles;
+
+  // The vehicle of that name; null when the scenario has none.
+  const VehicleEntry* find(std::string_view vehicle_name) const;
+};
+
+void visit(ConfigVisitor& v, Scenario& scenario);
+
+// An identity for a node's life. In lockstep it must be the same in each run: made of the seed and the name.
+// In a process of its own it must differ from run to run: made of the given entropy (wall clock, process id)
+// and the name.
+std::int64_t session_of(std::uint64_t entropy, std::string_view node_name);
+
+}  // namespace halocline::bus

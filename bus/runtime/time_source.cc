@@ -1,0 +1,106 @@
+#include "bus/runtime/time_source.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halocline::bus {
+namespace {
+
+// A message that waited longer between the network and us says nothing of when it was sent.
+constexpr SimDuration kLongestWait = SimDuration::from_milliseconds(100);
+constexpr SimDuration kSampleMemory = SimDuration::from_milliseconds(1000);
+// Messages of one moment reach us in any order within far less than this; a log started anew jumps by more.
+constexpr SimDuration kJumpBack = SimDuration::from_milliseconds(10'000);
+
+// Saturating: far instants (never, a slow rate) must not overflow.
+SimTime to_steady(double seconds) {
+  constexpr double kLimit = 9e9;
+  return std::abs(seconds) < kLimit ? SimTime::from_seconds(seconds)
+                                    : (seconds > 0 ? SimTime::never() : SimTime::at_once());
+}
+
+}  // namespace
+
+ConductorTime::ConductorTime(lcm::LCM& lcm, std::string process_name)
+    : bus_(lcm, {std::move(process_name), 0}) {
+  bus_.subscribe<sim_clock_t>(channels::kClock,
+                              [this](const sim_clock_t& clock) { on_clock(clock, heard()); });
+}
+
+SimTime ConductorTime::heard() const {
+  if (!wall_) return steady_;
+  return steady_ - std::clamp(*wall_ - bus_.received_at(), SimDuration(), kLongestWait);
+}
+
+void ConductorTime::on_clock(const sim_clock_t& clock, SimTime heard) {
+  const SimTime sim = SimTime::from_utime(clock.utime);
+  if (clock.session != session_ || clock.clock_rate != rate_) samples_.clear();
+  if (clock.session != session_ && latest_ > sim + kJumpBack) {
+    restarted_ = latest_ != SimTime::at_once();
+    latest_ = SimTime::at_once();
+  }
+  session_ = clock.session;
+  rate_ = clock.clock_rate;
+  paused_at_ = rate_ > 0 ? std::nullopt : std::optional(sim);
+  if (rate_ <= 0) return;
+  samples_.push_back({heard, heard.seconds() - sim.seconds() / rate_});
+  while (samples_.front().heard + kSampleMemory < heard) samples_.pop_front();
+}
+
+std::optional<SimTime> ConductorTime::now(SimTime steady) {
+  if (paused_at_) {
+    latest_ = std::max(latest_, *paused_at_);
+  } else if (!samples_.empty()) {
+    const double offset_s =
+        std::min_element(samples_.begin(), samples_.end(), [](const Sample& a, const Sample& b) {
+          return a.offset_s < b.offset_s;
+        })->offset_s;
+    latest_ = std::max(latest_, SimTime::from_seconds((steady.seconds() - offset_s) * rate_));
+  } else {
+    return std::nullopt;
+  }
+  return latest_;
+}
+
+SimTime ConductorTime::steady_at(SimTime sim) const {
+  if (samples_.empty() || paused_at_ || sim == SimTime::never()) return SimTime::never();
+  if (sim == SimTime::at_once()) return sim;
+  double offset_s = samples_.front().offset_s;
+  for (const Sample& sample : samples_) offset_s = std::min(offset_s, sample.offset_s);
+  return to_steady(sim.seconds() / rate_ + offset_s);
+}
+
+MessageTime::MessageTime(lcm::LCM& lcm, std::string process_name) : bus_(lcm, {std::move(process_name), 0}) {
+  bus_.subscribe<vehicle_state_t>(channels::kState,
+                                  [this](std::string_view, const vehicle_state_t& s) { on_utime(s.utime); });
+  bus_.subscribe<modem_send_t>(channels::kSend,
+                               [this](std::string_view, const modem_send_t& s) { on_utime(s.utime); });
+}
+
+void MessageTime::on_utime(std::int64_t utime) {
+  const SimTime time = SimTime::from_utime(utime);
+  if (latest_ && time + kJumpBack < *latest_) {
+    restarted_ = true;
+    latest_ = time;
+  }
+  latest_ = latest_ ? std::max(*latest_, time) : time;
+}
+
+std::optional<SimTime> MessageTime::now(SimTime /*steady*/) { return latest_; }
+
+SimTime MessageTime::steady_at(SimTime sim) const {
+  return latest_ && sim <= *latest_ ? SimTime::at_once() : SimTime::never();
+}
+
+TimeSourceKind time_source_from_name(std::string_view name) {
+  if (name == "conductor") return TimeSourceKind::kConductor;
+  if (name == "messages") return TimeSourceKind::kMessages;
+  if (name == "wall") return TimeSourceKind::kWall;
+  if (name == "lockstep") return TimeSourceKind::kLockstep;
+  throw InvalidArgument("time source is '" + std::string(name) +
+                        "'; allowed are conductor, messages, wall, lockstep");
+}
+
+}  // namespace halocline::bus

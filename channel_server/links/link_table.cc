@@ -1,0 +1,65 @@
+#include "channel_server/links/link_table.h"
+
+#include <algorithm>
+
+namespace halocline::channel_server {
+
+Multipath multipath_of(const Reception& reception, Decibels cutoff) {
+  if (reception.used != PropagationUsed::kRays) return Multipath::kUnknown;
+  const bool echoes = std::any_of(reception.paths.begin(), reception.paths.end(), [&](const SoundPath& path) {
+    return path.bottom_bounces > 0 && path.level > cutoff;
+  });
+  return echoes ? Multipath::kLikely : Multipath::kUnlikely;
+}
+
+void LinkRow::set(const Reception& reception) {
+  budget = reception.budget;
+  state = reception.state;
+  used = reception.used;
+  path_count = static_cast<std::int32_t>(reception.paths.size());
+  delay_spread_s = reception.delay_spread_s;
+  doppler_factor =
+      reception.paths.empty() ? 1 : reception.paths[first_significant(reception.paths)].doppler_factor;
+}
+
+LinkEnd link_end(const PlacedVehicle& vehicle) {
+  return {vehicle.id, vehicle.placement.position_ned_m, vehicle.placement.velocity_ned_mps,
+          &vehicle.modem->modem};
+}
+
+std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
+                                   Propagation& propagation, const MultipathJudge& multipath,
+                                   const ForEach& for_each, Shard shard) {
+  std::vector<EndPair> links;
+  for (const PlacedVehicle& from : vehicles) {
+    if (!shard.serves(from.id)) continue;
+    for (const PlacedVehicle& to : vehicles) {
+      if (to.id != from.id) links.push_back({link_end(from), link_end(to)});
+    }
+  }
+  const std::vector<Reception> receptions = propagation.receptions(instant, links, for_each);
+  auto reception = receptions.begin();
+  std::vector<LinkTable> tables;
+  for (const PlacedVehicle& from : vehicles) {
+    if (!shard.serves(from.id)) continue;
+    LinkTable table{from.id, {}};
+    for (const PlacedVehicle& to : vehicles) {
+      if (to.id == from.id) continue;
+      LinkRow row;
+      row.transmitter_id = from.id;
+      row.receiver_id = to.id;
+      row.transmitter_age = from.placement.age;
+      row.receiver_age = to.placement.age;
+      row.set(*reception);
+      row.multipath = reception->used == PropagationUsed::kStraight
+                          ? multipath(from, to)
+                          : multipath_of(*reception, to.modem->modem.least_receivable_level);
+      table.rows.push_back(row);
+      ++reception;
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+}  // namespace halocline::channel_server

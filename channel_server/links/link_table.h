@@ -1,0 +1,59 @@
+// The link tables of an instant: the quality of the link from every vehicle present to every other.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/fleet.h"
+#include "channel_server/vehicles/shard.h"
+
+namespace halocline::channel_server {
+
+// What is known of bottom echoes on a link.
+enum class Multipath {
+  kUnlikely,
+  kLikely,   // an echo reaches the receiver above its cut-off
+  kUnknown,  // the terrain was not told
+};
+
+// What the paths themselves say, each with its bounces: an echo is a path that met the bottom. Unknown of
+// straight paths.
+Multipath multipath_of(const Reception& reception, Decibels cutoff);
+
+struct LinkRow {
+  VehicleId transmitter_id = 0;  // 0 for a position that holds no vehicle
+  VehicleId receiver_id = 0;     // likewise
+  acoustics::LinkBudget budget;
+  Multipath multipath = Multipath::kUnknown;
+  SimDuration transmitter_age, receiver_age;  // of the states used
+  PathState state = PathState::kOpen;
+  PropagationUsed used = PropagationUsed::kStraight;
+  std::int32_t path_count = 0;
+  double delay_spread_s = 0;
+  double doppler_factor = 1;  // of the first significant path; 1 without one
+
+  // Takes over budget and paths.
+  void set(const Reception& reception);
+};
+
+struct LinkTable {
+  VehicleId vehicle_id = 0;   // the transmitter of every row
+  std::vector<LinkRow> rows;  // by receiver id
+};
+
+// As the propagation is asked about it.
+LinkEnd link_end(const PlacedVehicle& vehicle);
+
+using MultipathJudge =
+    std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
+
+// One table a vehicle that `shard` serves, by id, of links whose sound leaves at `instant`; a vehicle alone has an
+// empty one. The
+// judge is asked where paths are straight by choice: rays know themselves what the bottom sends.
+std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
+                                   Propagation& propagation, const MultipathJudge& multipath,
+                                   const ForEach& for_each = one_after_the_other, Shard shard = {});
+
+}  // namespace halocline::channel_server

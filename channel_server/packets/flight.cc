@@ -1,0 +1,128 @@
+#include "channel_server/packets/flight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/rays/ray_doppler.h"
+
+namespace halocline::channel_server {
+namespace {
+
+// A fixed point of the arrival is exact enough when a round moves it by less than this; at v/c = 0.07 (100
+// m/s, the fastest a state may tell) that takes 9 rounds.
+constexpr double kSettledS = 1e-10;
+constexpr int kMostRounds = 50;
+constexpr int kMostQuestions = 3;
+// An answer serves a receiver that came this close to the place it was given for, and moves nearly as fast:
+// 0.01 m/s shift a frequency by 7e-6 of itself.
+constexpr double kSamePlaceM = 0.1, kSameVelocityMps = 0.01;
+
+SimDuration shrunk(SimDuration duration, double doppler_factor) {
+  return SimDuration::from_seconds(duration.seconds() / doppler_factor);
+}
+
+bool serves(const Flight& flight, const Placement& place, const acoustics::Modem& modem) {
+  if (flight.times_asked == 0 || !(flight.modem == modem)) return false;
+  const bool same = (place.position_ned_m - flight.place.position_ned_m).norm() <= kSamePlaceM &&
+                    (place.velocity_ned_mps - flight.place.velocity_ned_mps).norm() <= kSameVelocityMps;
+  return same || flight.times_asked >= kMostQuestions;
+}
+
+void ask(Flight& flight, const Placement& place, const acoustics::Modem& modem, Propagation& propagation) {
+  ++flight.times_asked;
+  flight.modem = modem;
+  flight.place = place;
+  flight.reception = propagation.reception(
+      flight.packet->departure, flight.packet->link_end(),
+      {flight.receiver_id, place.position_ned_m, place.velocity_ned_mps, &flight.modem});
+}
+
+// Along the first significant path, s/m; along the straight line without one.
+Vec3 slowness_at(const Flight& flight, Propagation& propagation) {
+  const Vec3 &from = flight.packet->departure_ned_m, &to = flight.place.position_ned_m;
+  const double speed_mps = sound_speed_at(propagation.environment(flight.packet->departure), to);
+  const auto& paths = flight.reception.paths;
+  const Vec3 way = to - from;
+  const double angle = paths.empty() ? std::atan2(way.z(), std::hypot(way.x(), way.y()))
+                                     : paths[first_significant(paths)].arrival_angle_rad;
+  return acoustics::ray_direction(from, to, angle) / speed_mps;
+}
+
+// Of the first significant path, at the place that the reception holds for.
+double solved_delay_s(const Reception& reception) {
+  const auto& paths = reception.paths;
+  return paths.empty() ? reception.budget.delay_s : paths[first_significant(paths)].delay_s;
+}
+
+// How much later than the reception says, because the receiver has moved on.
+double shift_s(const Flight& flight) { return flight.travel_time_s - solved_delay_s(flight.reception); }
+
+// When a path of the reception begins to sound.
+SimTime begin_of(const Flight& flight, const SoundPath& path) {
+  return flight.packet->departure + SimDuration::from_seconds(path.delay_s + shift_s(flight));
+}
+
+}  // namespace
+
+SimTime Flight::first_sound() const {
+  const auto& paths = reception.paths;
+  return paths.empty() ? arrival() : std::min(arrival(), begin_of(*this, paths.front()));
+}
+
+double Flight::doppler_factor() const {
+  const auto& paths = reception.paths;
+  const auto strongest = std::max_element(
+      paths.begin(), paths.end(), [](const SoundPath& a, const SoundPath& b) { return a.level < b.level; });
+  return strongest == paths.end() ? 1 : strongest->doppler_factor;
+}
+
+void aim(Flight& flight, SimTime decided_at, const Fleet& fleet, Propagation& propagation) {
+  ++flight.times_aimed;
+  const auto aimed_at = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
+  if (!aimed_at) return;
+  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, flight.arrival()).modem;
+  if (!serves(flight, *aimed_at, modem)) ask(flight, *aimed_at, modem, propagation);
+  const Vec3 slowness = slowness_at(flight, propagation);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const auto receiver = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
+    const Vec3 moved = receiver->position_ned_m - flight.place.position_ned_m;
+    const double travel_time_s = std::max(solved_delay_s(flight.reception) + slowness.dot(moved), 0.0);
+    const double change_s = std::abs(travel_time_s - flight.travel_time_s);
+    flight.travel_time_s = travel_time_s;
+    if (change_s < kSettledS) return;
+  }
+}
+
+HeardPacket heard_packet(const Flight& flight) {
+  HeardPacket heard{flight.packet, flight.signal.begin, flight.signal.end, {}};
+  for (const SoundPath& path : flight.reception.paths) {
+    const SimTime begin = begin_of(flight, path);
+    const SimTime end = begin + shrunk(flight.packet->timing.duration, path.doppler_factor);
+    heard.paths.push_back({begin, end, to_power_ratio(path.level).value});
+    heard.begin = std::min(heard.begin, begin);
+    heard.end = std::max(heard.end, end);
+  }
+  return heard;
+}
+
+ReceivedSignal received_signal(const Flight& flight, double noise) {
+  const double factor = flight.doppler_factor();
+  ReceivedSignal signal{flight.packet, 0, noise, flight.arrival(), {}, {}, {}};
+  signal.preamble_end = signal.begin + shrunk(flight.packet->timing.preamble, factor);
+  signal.end = signal.begin + shrunk(flight.packet->timing.duration, factor);
+  const double first_s = solved_delay_s(flight.reception);
+  const double last_s = first_s + flight.modem.guard_time.seconds();
+  for (const SoundPath& path : flight.reception.paths) {
+    const double power = to_power_ratio(path.level).value;
+    if (path.delay_s >= first_s && path.delay_s <= last_s) {
+      signal.signal += power;
+      continue;
+    }
+    const SimTime begin = begin_of(flight, path);
+    const SimTime end = begin + shrunk(flight.packet->timing.duration, path.doppler_factor);
+    signal.echoes.push_back({begin, end, power});
+  }
+  return signal;
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,154 @@
+// What the packet medium takes in and gives out: transmissions asked for, receipts, and the ends of packets.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "acoustics/link/link_budget.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/fleet.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+enum class PacketKind {
+  kData,
+  kPing,       // to one vehicle, whose modem answers by itself
+  kPingReply,  // that answer; carries session and packet_sequence of the ping
+};
+
+// From the last bit of a ping as sent (counted from its first bit's arrival) to the first bit of the answer.
+// Our choice: time for a modem to decode and to turn from receiving to sending, and longer than Doppler makes
+// any packet (10 ms of 3 s at 5 m/s); both ends know it, so that the one who asked can take it off.
+inline constexpr SimDuration kPingTurnaround = SimDuration::from_milliseconds(100);
+
+// Transmit this: `session` and `packet_sequence` are the sender's names for it.
+struct SendRequest {
+  std::string vehicle;           // who asks, by the channel it asked on
+  VehicleId source_id = 0;       // who it says it is
+  VehicleId destination_id = 0;  // kBroadcastId for all
+  std::int64_t session = 0;      // 0 where the sender keeps none
+  std::int64_t packet_sequence = 0;
+  SimTime start;  // when the first bit is to leave; a modem that queues may send it later
+  std::vector<std::uint8_t> payload;
+  PacketKind kind = PacketKind::kData;
+  bool stamped = true;  // the packet carries the instant of its departure by the sender's clock
+};
+
+// A modem answers a ping by itself.
+struct PingAnswer {
+  SendRequest request;  // of the answer; starts when it leaves
+  SimTime ping_departure;
+  SimDuration ping_duration;
+};
+
+// In the order of modem_receipt_t.
+enum class SendResult {
+  kAccepted,
+  kBusy,            // another transmission of this modem overlaps this one
+  kTooLarge,        // the payload is beyond the modem's largest
+  kUnknownVehicle,  // no fresh state at the start: nowhere to transmit from
+  kWrongSource,     // source_id is not the id of the vehicle
+  kStale,           // the start lies too far in the past
+  kTooEarly,        // the start lies too far in the future
+  kQueued,          // accepted; it starts when those before it have ended
+  kQueueFull,       // the modem queues, and too many wait already
+};
+
+struct Receipt {
+  std::string vehicle;
+  std::int64_t session = 0;
+  std::int64_t packet_sequence = 0;
+  SendResult result = SendResult::kAccepted;
+  SimTime start = {};         // 0 unless accepted or queued
+  SimDuration duration = {};  // 0 unless accepted or queued
+};
+
+// Tells a packet from all others in the water.
+struct PacketName {
+  VehicleId source_id = 0;
+  std::int64_t packet_sequence = 0;
+  PacketKind kind = PacketKind::kData;
+  VehicleId destination_id = 0;
+  SimTime departure;
+  std::int64_t session = 0;  // last: sessions differ from run to run, and decide nothing but ties of all else
+
+  auto operator<=>(const PacketName&) const = default;
+};
+
+// A packet in the water.
+struct Packet {
+  SendRequest request;
+  SimTime departure;  // of the first bit
+  acoustics::PacketTiming timing;
+  acoustics::Modem modem;               // of the sender when the packet was accepted
+  Vec3 departure_ned_m = Vec3::Zero();  // where the first bit left
+  Vec3 velocity_ned_mps = Vec3::Zero();
+  std::shared_ptr<const Packet> answers = {};  // of a kPingReply: the ping
+
+  PacketName name() const {
+    return {request.source_id, request.packet_sequence, request.kind, request.destination_id,
+            departure,         request.session};
+  }
+  LinkEnd link_end() const { return {request.source_id, departure_ned_m, velocity_ned_mps, &modem}; }
+};
+using PacketPointer = std::shared_ptr<const Packet>;  // never null
+
+// What became of a packet at one possible receiver; in the order of packet_outcome_t. The first of these that
+// holds is the fate, in the order of the numbers in brackets.
+enum class PacketFate {
+  kReceived,      // [11] none of the others
+  kBelowCutoff,   // [4] all paths together are below the receiver's least receivable level
+  kReceiverGone,  // [1] the receiver's state had grown too old at the first bit or at the last
+  kShadow,        // [3] no path: the water bends all away
+  kBlocked,       // [3] no path: the terrain stands in all
+  kOutOfBand,     // [2] the bands of the two modems share nothing
+  kCollided,  // [7] the receiver was locked onto another packet; [8, 9] or without others it had come through
+  kHalfDuplex,   // [5] the receiver transmitted at some instant of the packet
+  kDoppler,      // [6] shifted by more than the receiver's modem follows
+  kBitErrors,    // [9] noticed, with bits that were wrong
+  kNotAcquired,  // [8] its preamble was not noticed
+};
+
+// The numbers of the decision.
+struct Judgement {
+  Decibels interference = kSilence;    // mean over the bits, dB re 1 uPa in the packet's band
+  Decibels sinr;                       // over the bits; 0 unless it came to that
+  double acquisition_probability = 0;  // 0 unless it came to that
+  double success_probability = 0;      // of all bits being right; 0 unless it came to that
+  double acquisition_draw = 0;         // in (0, 1): noticed when below the probability
+  double success_draw = 0;             // likewise
+  std::vector<PacketName> colliders;   // the loudest first, 16 at most
+};
+
+// The end of a packet at one possible receiver.
+struct PacketEnd {
+  PacketPointer packet;
+  VehicleId receiver_id = 0;
+  std::string receiver;  // its name when the packet left
+  PacketFate fate = PacketFate::kReceived;
+  bool deliver = false;              // received, and addressed to this receiver or to all
+  double travel_time_s = 0;          // of the first significant path
+  double two_way_travel_time_s = 0;  // of a kPingReply: out and back; else 0
+  acoustics::LinkBudget budget;      // from the sender at departure to the receiver at arrival
+  Decibels cutoff;                   // the receiver's, dB re 1 uPa
+  PropagationUsed propagation = PropagationUsed::kStraight;
+  std::size_t path_count = 0;
+  double delay_spread_s = 0;
+  double doppler_factor = 1;         // of the strongest path; 1 without a path
+  double arrival_azimuth_rad = 0;    // towards where the sound came from, from north by east, -pi..pi
+  double arrival_elevation_rad = 0;  // likewise, from the horizontal, positive up
+  Judgement judgement;
+};
+
+struct MediumEvent {
+  SimTime at;         // exactly when it happened
+  bool late = false;  // the medium had been advanced beyond `at` before it could know of this
+  std::variant<Receipt, PacketEnd, PingAnswer> what;  // answers only where other shards must learn of them
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,335 @@
+#include "channel_server/packets/packet_medium.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "core/names.h"
+
+namespace halocline::channel_server {
+namespace {
+
+// An arrival solved at an instant no further before it than this stands: the receiver moves by micrometres.
+constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
+// Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
+constexpr int kMostAims = 64;
+
+// Where the sound comes from, seen by the receiver.
+void tell_direction(const Flight& flight, PacketEnd& end) {
+  const Vec3 back = flight.packet->departure_ned_m - flight.place.position_ned_m;
+  end.arrival_azimuth_rad = std::atan2(back.y(), back.x());
+  const auto& paths = flight.reception.paths;
+  // Sound that travels downwards comes from above.
+  end.arrival_elevation_rad = paths.empty() ? std::atan2(-back.z(), std::hypot(back.x(), back.y()))
+                                            : paths[first_significant(paths)].arrival_angle_rad;
+}
+
+bool is_for(const SendRequest& request, VehicleId receiver) {
+  return request.destination_id == receiver || request.destination_id == kBroadcastId;
+}
+
+// Of a ping's answer: what its sender measures, less what both ends know of packets and turnaround.
+double two_way_travel_time_s(const Flight& answer) {
+  const Packet& ping = *answer.packet->answers;
+  const SimDuration waited =
+      answer.packet->departure - ping.departure - ping.timing.duration - kPingTurnaround;
+  return waited.seconds() + answer.travel_time_s;
+}
+
+// What can be said of a packet before its preamble has ended; kReceived: nothing stands against it.
+PacketFate hopeless_fate(const Flight& flight) {
+  const Reception& reception = flight.reception;
+  if (flight.gone) return PacketFate::kReceiverGone;
+  if (!bands_overlap(flight.packet->modem, flight.modem)) return PacketFate::kOutOfBand;
+  if (reception.state == PathState::kBlocked) return PacketFate::kBlocked;
+  if (reception.state == PathState::kShadow || reception.paths.empty()) return PacketFate::kShadow;
+  if (reception.budget.received_level < flight.modem.least_receivable_level) return PacketFate::kBelowCutoff;
+  return PacketFate::kReceived;
+}
+
+bool is_shifted_too_far(const Flight& flight) {
+  return std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
+}
+
+}  // namespace
+
+PacketMedium::PacketMedium(const Fleet& fleet, Propagation& propagation, MediumRule rule)
+    : fleet_(fleet), propagation_(propagation), rule_(rule) {
+  require(rule.greatest_lateness >= SimDuration(), "the greatest lateness must not be negative");
+  require(rule.greatest_earliness >= SimDuration(), "the greatest earliness must not be negative");
+}
+
+std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
+  if (!register_.enter(request)) {
+    const Receipt* given = register_.receipt_of(request);
+    return given && rule_.shard.serves(request.source_id) ? std::optional(*given) : std::nullopt;
+  }
+  Receipt refusal{request.vehicle, request.session, request.packet_sequence, SendResult::kStale, {}, {}};
+  if (request.start >= now - rule_.greatest_lateness && request.start <= now + rule_.greatest_earliness) {
+    add_departure(request.start, {request, nullptr, nullptr});
+    return std::nullopt;
+  }
+  if (request.start > now) refusal.result = SendResult::kTooEarly;
+  register_.decide(request, refusal);
+  return rule_.shard.serves(request.source_id) ? std::optional(refusal) : std::nullopt;
+}
+
+void PacketMedium::hear_answer(const PingAnswer& answer) {
+  const SendRequest& request = answer.request;
+  if (!answered_
+           .insert({request.start, request.source_id, request.destination_id, request.session,
+                    request.packet_sequence})
+           .second) {
+    return;
+  }
+  Packet ping;
+  ping.departure = answer.ping_departure;
+  ping.timing.duration = answer.ping_duration;
+  add_departure(request.start, {request, std::make_shared<const Packet>(std::move(ping)), nullptr});
+}
+
+void PacketMedium::add_departure(SimTime at, Departure departure) {
+  const SendRequest& request = departure.request;
+  departures_.insert_or_assign(
+      DepartureKey{at, request.vehicle, request.kind, request.packet_sequence, request.destination_id,
+                   departure.queued == nullptr, request.session},
+      std::move(departure));
+}
+
+SimTime PacketMedium::next_event() const {
+  SimTime next = SimTime::never();
+  if (!departures_.empty()) next = std::get<0>(departures_.begin()->first);
+  if (!flights_.empty()) next = std::min(next, std::get<0>(flights_.begin()->first));
+  return next;
+}
+
+std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
+  std::vector<MediumEvent> events;
+  for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
+    if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
+      depart(std::move(departures_.extract(departures_.begin()).mapped()), events);
+    } else {
+      on_flight_event(std::move(flights_.extract(flights_.begin()).mapped()), next, events);
+    }
+  }
+  advanced_to_ = std::max(advanced_to_, time);
+  return events;
+}
+
+void PacketMedium::depart(const Departure& departure, std::vector<MediumEvent>& events) {
+  if (departure.queued) return launch(at_its_departure(*departure.queued));
+  const SendRequest& request = departure.request;
+  const VehicleModem& modem = fleet_.modem(request.vehicle, request.start);
+  // A payload beyond the largest is refused, so its duration is of no consequence.
+  const auto timing =
+      packet_timing(modem.modem, std::min(request.payload.size(), largest_payload_bytes(modem)));
+  const Decision decision = decide(request, timing.duration);
+  const bool accepted = decision.result == SendResult::kAccepted || decision.result == SendResult::kQueued;
+  if (accepted) {
+    register_.occupy(request.vehicle, decision.start, timing.duration);
+    const auto place = fleet_.placement(request.source_id, request.start, request.start);
+    const auto packet = std::make_shared<const Packet>(Packet{request, decision.start, timing, modem.modem,
+                                                              place->position_ned_m, place->velocity_ned_mps,
+                                                              departure.answers});
+    if (decision.result == SendResult::kAccepted) {
+      launch(packet);
+    } else {
+      add_departure(decision.start, {request, nullptr, packet});
+    }
+  }
+  if (departure.answers) return;  // a modem gives itself no receipt
+  Receipt receipt{request.vehicle, request.session, request.packet_sequence, decision.result, {}, {}};
+  if (accepted) receipt.start = decision.start, receipt.duration = timing.duration;
+  register_.decide(request, receipt);
+  if (!rule_.shard.serves(request.source_id)) return;
+  events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
+}
+
+PacketMedium::Decision PacketMedium::decide(const SendRequest& request, SimDuration duration) const {
+  const auto id = fleet_.id_of(request.vehicle);
+  const SimTime start = request.start;
+  if (!id || !fleet_.placement(*id, start, start)) return {SendResult::kUnknownVehicle, start};
+  if (*id != request.source_id) return {SendResult::kWrongSource, start};
+  const VehicleModem& modem = fleet_.modem(request.vehicle, start);
+  if (request.payload.size() > largest_payload_bytes(modem)) return {SendResult::kTooLarge, start};
+  if (!register_.is_busy(request.vehicle, start, duration)) return {SendResult::kAccepted, start};
+  if (modem.when_busy == WhenBusy::kRefuse || request.kind == PacketKind::kPingReply) {
+    return {SendResult::kBusy, start};
+  }
+  if (register_.waiting_at(request.vehicle, start) >= kMostQueued) return {SendResult::kQueueFull, start};
+  return {SendResult::kQueued, register_.free_from(request.vehicle, start)};
+}
+
+// Where the sender is by then, or was when the packet was accepted should it be forgotten since.
+PacketPointer PacketMedium::at_its_departure(const Packet& queued) const {
+  Packet packet = queued;
+  if (const auto place = fleet_.prediction(packet.request.source_id, packet.departure, packet.departure)) {
+    packet.departure_ned_m = place->position_ned_m;
+    packet.velocity_ned_mps = place->velocity_ned_mps;
+  }
+  return std::make_shared<const Packet>(std::move(packet));
+}
+
+void PacketMedium::launch(const PacketPointer& packet) {
+  const SimTime departure = packet->departure;
+  const VehicleId source = packet->request.source_id;
+  if (rule_.shard.serves(source)) {
+    hearing_of(source).transmit({packet, departure, departure + packet->timing.duration});
+  }
+  for (const VehicleId receiver : fleet_.present(departure)) {
+    if (receiver == source || !rule_.shard.serves(receiver)) continue;
+    auto flight = std::make_unique<Flight>();
+    flight->packet = packet;
+    flight->receiver_id = receiver;
+    flight->receiver = fleet_.name_of(receiver);
+    aim(*flight, departure, fleet_, propagation_);
+    const SimTime first_sound = flight->first_sound();
+    schedule(first_sound, std::move(flight));
+  }
+}
+
+void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events) {
+  switch (flight->stage) {
+    case Flight::Stage::kComing:
+      return come(std::move(flight), at);
+    case Flight::Stage::kPreamble:
+      return end_preamble(std::move(flight), at);
+    case Flight::Stage::kBits:
+      return end(*flight, at, events);
+  }
+}
+
+void PacketMedium::come(FlightPointer flight, SimTime at) {
+  aim(*flight, at, fleet_, propagation_);
+  const SimTime first_sound = flight->first_sound();
+  if (first_sound > at + kSolvedInTime && flight->times_aimed < kMostAims) {
+    return schedule(first_sound, std::move(flight));
+  }
+  const SimTime arrival = flight->arrival();
+  auto& budget = flight->reception.budget;
+  budget.noise_level = noise_.level(flight->packet->modem.band(), propagation_.environment(arrival).noise);
+  const Decibels noise = budget.noise_level - flight->modem.directivity_index;
+  budget.snr = budget.received_level - noise;
+  flight->gone = !fleet_.placement(flight->receiver_id, arrival, at);
+  flight->signal = received_signal(*flight, to_power_ratio(noise).value);
+  hearing_of(flight->receiver_id).open(heard_packet(*flight));
+  flight->stage = Flight::Stage::kPreamble;
+  const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
+  schedule(preamble_end, std::move(flight));
+}
+
+void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
+  Hearing& hearing = hearing_of(flight->receiver_id);
+  const ReceivedSignal& signal = flight->signal;
+  const bool hopeless = hopeless_fate(*flight) != PacketFate::kReceived || is_shifted_too_far(*flight) ||
+                        !hearing.transmitted_during(signal.begin, signal.preamble_end).empty();
+  if (!hopeless) flight->locked_onto = hearing.locked_onto(signal.preamble_end);
+  if (!hopeless && !flight->locked_onto) {
+    const auto others = hearing.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
+    const PacketDraws draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
+    flight->noticed = notices(signal, others, draws, flight->judgement);
+  }
+  if (flight->noticed) hearing.lock({flight->packet, signal.begin, signal.end}, signal.preamble_end);
+  flight->stage = Flight::Stage::kBits;
+  const SimTime last_bit = std::max(signal.end, at);
+  schedule(last_bit, std::move(flight));
+}
+
+PacketFate PacketMedium::fate_of(Flight& flight, SimTime at) {
+  const ReceivedSignal& signal = flight.signal;
+  Judgement& judgement = flight.judgement;
+  const PacketDraws draws = draws_of(rule_.seed, *flight.packet, flight.receiver_id);
+  judgement.acquisition_draw = draws.acquisition;
+  judgement.success_draw = draws.success;
+  flight.gone = flight.gone || !fleet_.placement(flight.receiver_id, at, at);
+  const PacketFate hopeless = hopeless_fate(flight);
+  if (hopeless != PacketFate::kReceived) return hopeless;
+  const Hearing& hearing = hearing_of(flight.receiver_id);
+  for (const PacketPointer& own : hearing.transmitted_during(signal.begin, signal.end)) {
+    if (judgement.colliders.size() < kMostColliders) judgement.colliders.push_back(own->name());
+  }
+  if (!judgement.colliders.empty()) return PacketFate::kHalfDuplex;
+  if (is_shifted_too_far(flight)) return PacketFate::kDoppler;
+  if (flight.locked_onto) {
+    judgement.colliders.push_back(flight.locked_onto->name());
+    return PacketFate::kCollided;
+  }
+  const auto others = hearing.interferers_of(*flight.packet, signal.begin, signal.end);
+  return judge(signal, others, draws, flight.noticed, judgement);
+}
+
+void PacketMedium::end(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
+  PacketEnd ending = ending_of(flight, at);
+  const bool is_answered = ending.deliver && flight.packet->request.kind == PacketKind::kPing;
+  events.push_back({at, at < advanced_to_, std::move(ending)});
+  if (is_answered) {
+    const PingAnswer answer = answer_of(flight, at);
+    hear_answer(answer);
+    if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
+  }
+  hearing_of(flight.receiver_id).close(flight.first_sound(), at);
+}
+
+PacketEnd PacketMedium::ending_of(Flight& flight, SimTime at) {
+  PacketEnd end;
+  end.fate = fate_of(flight, at);
+  end.packet = flight.packet;
+  end.receiver_id = flight.receiver_id;
+  end.receiver = flight.receiver;
+  end.deliver = end.fate == PacketFate::kReceived && is_for(flight.packet->request, flight.receiver_id);
+  end.travel_time_s = flight.travel_time_s;
+  if (flight.packet->answers) end.two_way_travel_time_s = two_way_travel_time_s(flight);
+  end.budget = flight.reception.budget;
+  end.cutoff = flight.modem.least_receivable_level;
+  end.propagation = flight.reception.used;
+  end.path_count = flight.reception.paths.size();
+  end.delay_spread_s = flight.reception.delay_spread_s;
+  end.doppler_factor = flight.doppler_factor();
+  tell_direction(flight, end);
+  end.judgement = flight.judgement;
+  return end;
+}
+
+PingAnswer PacketMedium::answer_of(const Flight& flight, SimTime at) const {
+  const Packet& ping = *flight.packet;
+  SendRequest answer;
+  answer.vehicle = flight.receiver;
+  answer.source_id = flight.receiver_id;
+  answer.destination_id = ping.request.source_id;
+  answer.session = ping.request.session;
+  answer.packet_sequence = ping.request.packet_sequence;
+  answer.start = std::max(flight.arrival() + ping.timing.duration + kPingTurnaround, at);
+  answer.kind = PacketKind::kPingReply;
+  answer.stamped = false;
+  return {answer, ping.departure, ping.timing.duration};
+}
+
+void PacketMedium::schedule(SimTime at, FlightPointer flight) {
+  FlightKey key{at, flight->stage, flight->receiver_id, flight->packet->name()};
+  const bool fresh = flights_.emplace(std::move(key), std::move(flight)).second;
+  ensure(fresh, "two flights of one packet to one receiver");
+}
+
+Hearing& PacketMedium::hearing_of(VehicleId id) {
+  return hearings_.try_emplace(id, rule_.greatest_lateness).first->second;
+}
+
+void PacketMedium::forget_before(SimTime time) {
+  register_.forget_before(time);
+  answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));
+  for (auto hearing = hearings_.begin(); hearing != hearings_.end();) {
+    hearing->second.forget(time + rule_.greatest_lateness);
+    hearing = hearing->second.silent() ? hearings_.erase(hearing) : std::next(hearing);
+  }
+}
+
+void PacketMedium::clear() {
+  register_ = SendRegister();
+  departures_.clear();
+  flights_.clear();
+  hearings_.clear();
+  answered_.clear();
+  advanced_to_ = SimTime::at_once();
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,135 @@
+// The water between modems as a discrete-event simulation: packets start, travel, arrive, disturb each other
+// and end at their exact instants.
+//
+// Model. A packet asked for at time s is decided at s: refused, accepted, or queued by a modem that queues (16
+// wait at most; each starts when those before it have ended). Every vehicle present at its departure except the
+// sender is a possible receiver, and each gets exactly one PacketEnd.
+//   flight.h        when and how it comes in
+//   hearing.h       what else sounds at the receiver meanwhile
+//   packet_judge.h  whether it is noticed at the end of its preamble, and right at its last bit
+// packet.h lists the possible fates and in which order the first that holds is found. A packet lasts
+// duration / doppler factor at a receiver. A modem that has noticed a packet follows it to its end, even if
+// weak or for another; what comes meanwhile it does not notice. A transmission of its own ends that, and every
+// reception it overlaps. A ping that its addressee received is answered kPingTurnaround later, unless that
+// modem is busy then: a packet like any other.
+//
+// Repeatability. Decisions depend on the contents of states and requests, on the seed, and on instants of
+// simulation time, not on the order they were given in. Events come sorted by time, then receipts before packet
+// ends, then receiver, sender, packet sequence. A request heard after its start is processed as of its start,
+// among all that sounded then; what was due meanwhile comes out at once, with its exact instant, marked late.
+// What was decided before it was heard stays: packets it would have disturbed, and a receiver it would have
+// found unlocked.
+//
+// Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time at
+// most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
+//
+// Shards. A medium that shares the water with others (rule.shard) is told of all states and requests, decides all
+// of them, and follows packets only to the receivers it serves. Only the answer to a ping depends on what another
+// shard's vehicle received; it leaves kPingTurnaround after that, and hear_answer() tells of it meanwhile.
+//
+// Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet,
+// fading.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "channel_server/packets/flight.h"
+#include "channel_server/packets/hearing.h"
+#include "channel_server/packets/noise_book.h"
+#include "channel_server/packets/packet.h"
+#include "channel_server/packets/send_register.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/fleet.h"
+#include "channel_server/vehicles/shard.h"
+
+namespace halocline::channel_server {
+
+struct MediumRule {
+  SimDuration greatest_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
+  SimDuration greatest_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
+  std::uint64_t seed = 1;                                                   // of all draws
+  Shard shard = {};  // of several media of one water, each told of everything
+};
+
+class PacketMedium {
+ public:
+  static constexpr std::size_t kMostQueued = 16;  // at one modem
+
+  // Fleet and propagation must outlive the medium; the fleet is told of states by its owner, before advance_to.
+  PacketMedium(const Fleet& fleet, Propagation& propagation, MediumRule rule);
+
+  // A transmission asked for, heard at `now`. A receipt when it can be given without waiting for the start:
+  // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
+  std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
+
+  // A modem that another shard serves will answer a ping; a repetition changes nothing.
+  void hear_answer(const PingAnswer& answer);
+
+  // When something next happens; SimTime::never() when the water is silent.
+  SimTime next_event() const;
+  // Everything that happens up to and including `time`, which does not decrease from call to call.
+  std::vector<MediumEvent> advance_to(SimTime time);
+
+  // Forgets receipts and occupations from before `time`; the owner gives an instant at least
+  // greatest_lateness ago.
+  void forget_before(SimTime time);
+  // Another run: the water falls silent.
+  void clear();
+
+  std::size_t packets_in_flight() const { return flights_.size(); }  // counted per receiver
+  const MediumRule& rule() const { return rule_; }
+
+ private:
+  // A request that waits for its start; with a packet, one that was queued and waits for its departure.
+  struct Departure {
+    SendRequest request;
+    std::shared_ptr<const Packet> answers;  // of a ping's answer
+    std::shared_ptr<const Packet> queued;
+  };
+  // Events at one instant happen in the order of the rest of the key.
+  using DepartureKey =
+      std::tuple<SimTime, std::string, PacketKind, std::int64_t, VehicleId, bool, std::int64_t>;
+  using FlightKey = std::tuple<SimTime, Flight::Stage, VehicleId, PacketName>;
+  struct Decision {
+    SendResult result;
+    SimTime start;
+  };
+
+  void add_departure(SimTime at, Departure departure);
+  void depart(const Departure& departure, std::vector<MediumEvent>& events);
+  Decision decide(const SendRequest& request, SimDuration duration) const;
+  void launch(const PacketPointer& packet);
+  PacketPointer at_its_departure(const Packet& queued) const;
+
+  using FlightPointer = std::unique_ptr<Flight>;
+  void on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
+  void come(FlightPointer flight, SimTime at);
+  void end_preamble(FlightPointer flight, SimTime at);
+  void end(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
+  PacketEnd ending_of(Flight& flight, SimTime at);
+  PacketFate fate_of(Flight& flight, SimTime at);
+  PingAnswer answer_of(const Flight& flight, SimTime at) const;
+  void schedule(SimTime at, FlightPointer flight);
+  Hearing& hearing_of(VehicleId id);
+
+  const Fleet& fleet_;
+  Propagation& propagation_;
+  MediumRule rule_;
+  SendRegister register_;
+  NoiseBook noise_;
+  std::map<DepartureKey, Departure> departures_;
+  std::map<FlightKey, FlightPointer> flights_;
+  std::map<VehicleId, Hearing> hearings_;
+  std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
+      answered_;  // see hear_answer
+  SimTime advanced_to_ = SimTime::at_once();
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,97 @@
+#include "channel_server/propagation/environment_timeline.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+acoustics::Environment changed(acoustics::Environment environment, const EnvironmentChange& change) {
+  environment.noise.wind_mps = change.wind_mps.value_or(environment.noise.wind_mps);
+  environment.noise.shipping = change.shipping.value_or(environment.noise.shipping);
+  environment.sea_surface_z_m = change.sea_surface_z_m.value_or(environment.sea_surface_z_m);
+  if (change.profile) environment.profile = *change.profile;
+  return environment;
+}
+
+constexpr SimTime kAlways = SimTime::from_nanoseconds(std::numeric_limits<std::int64_t>::min());
+
+}  // namespace
+
+EnvironmentTimeline::EnvironmentTimeline(acoustics::Environment initial) {
+  validate(initial);
+  spans_.push_back({{kAlways, {}}, {}, std::move(initial), ++last_id_});
+}
+
+void EnvironmentTimeline::schedule(SimTime from, const EnvironmentChange& change) {
+  validate(changed(at(from), change));
+  insert({from, {0, static_cast<std::int64_t>(spans_.size())}}, change);
+}
+
+std::string EnvironmentTimeline::hear(SimTime announced, SimTime heard, Origin origin,
+                                      const EnvironmentChange& change) {
+  const bool told = std::any_of(spans_.begin(), spans_.end(),
+                                [&](const Span& span) { return span.order.origin == origin; });
+  if (told) return {};
+  if (spans_.size() > kMostChanges) return "too many changes of the environment in one run";
+  const SimTime from = std::max(announced, heard);
+  try {
+    validate(changed(at(from), change));
+  } catch (const InvalidArgument& error) {
+    return error.what();
+  }
+  insert({from, origin}, change);
+  return {};
+}
+
+void EnvironmentTimeline::insert(const Order& order, const EnvironmentChange& change) {
+  const auto later = std::upper_bound(spans_.begin() + 1, spans_.end(), order,
+                                      [](const Order& one, const Span& span) { return one < span.order; });
+  auto span = spans_.insert(later, Span{order, change, std::prev(later)->environment, 0});
+  for (; span != spans_.end(); ++span) {
+    span->environment = changed(std::prev(span)->environment, span->change);
+    span->id = ++last_id_;
+  }
+}
+
+const EnvironmentTimeline::Span& EnvironmentTimeline::span_at(SimTime instant) const {
+  const auto later = std::upper_bound(spans_.begin() + 1, spans_.end(), instant,
+                                      [](SimTime time, const Span& span) { return time < span.order.from; });
+  return *std::prev(later);
+}
+
+SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
+  const auto later = std::upper_bound(spans_.begin() + 1, spans_.end(), instant,
+                                      [](SimTime time, const Span& span) { return time < span.order.from; });
+  return later == spans_.end() ? SimTime::never() : later->order.from;
+}
+
+void EnvironmentTimeline::forget_before(SimTime time) {
+  constexpr std::size_t kForgottenTogether = kHeardKept / 10;  // for each time all others are moved
+  if (changes_kept() < kHeardKept + kForgottenTogether) return;
+  auto surplus = changes_kept() - kHeardKept;
+  std::vector<Span> kept;
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    const bool heard = i > 0 && spans_[i].order.origin.session != 0;
+    const bool superseded = i + 1 < spans_.size() && spans_[i + 1].order.from <= time;
+    if (surplus > 0 && heard && superseded) {
+      --surplus;
+    } else {
+      kept.push_back(std::move(spans_[i]));
+    }
+  }
+  spans_ = std::move(kept);
+}
+
+void EnvironmentTimeline::clear() {
+  std::vector<Span> scheduled;
+  for (const Span& span : spans_) {
+    if (span.order.origin.session == 0) scheduled.push_back(span);
+  }
+  spans_.assign(1, scheduled.front());
+  for (auto span = scheduled.begin() + 1; span != scheduled.end(); ++span) insert(span->order, span->change);
+}
+
+}  // namespace halocline::channel_server

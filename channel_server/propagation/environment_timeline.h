@@ -1,0 +1,84 @@
+// The water of a run, which may change: which environment holds at which instant.
+//
+// A run starts with one environment; changes follow, from the scenario and from whoever announces them. Each
+// sets some of wind, shipping, sea surface and sound-speed profile from an instant on, and leaves the rest. One
+// that is announced late (its instant lies before what has been published) holds from the instant at which it was
+// heard: what is published stays true. Changes of one instant apply in the order of who announced them and of
+// their numbers, so what holds is a function of what was heard and when, not of the order in one turn.
+//
+// A value in memory; not thread-safe while it is told of changes.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acoustics/sea/environment.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+// What is set, and to what; empty: as before.
+struct EnvironmentChange {
+  std::optional<double> wind_mps, shipping, sea_surface_z_m;  // ranges as in acoustics/sea/environment.h
+  std::optional<acoustics::SoundSpeedProfile> profile;
+};
+
+class EnvironmentTimeline {
+ public:
+  static constexpr std::size_t kMostChanges = 10'000;
+  static constexpr std::size_t kHeardKept = 1000;
+
+  // Who announced a change, and as its how manieth: session 0 is the scenario.
+  struct Origin {
+    std::int64_t session = 0, sequence = 0;
+    auto operator<=>(const Origin&) const = default;
+  };
+  // Where the environment of a span of time differs from all others ever told, so does this.
+  using WaterId = std::int64_t;
+
+  // Throws InvalidArgument when the environment is out of range.
+  explicit EnvironmentTimeline(acoustics::Environment initial);
+
+  // A change of the scenario: survives clear(). Throws InvalidArgument when it leads out of range.
+  void schedule(SimTime from, const EnvironmentChange& change);
+  // One announced by `origin` to hold from `announced`, heard at `heard`. Empty when taken (a repetition is);
+  // else why not.
+  std::string hear(SimTime announced, SimTime heard, Origin origin, const EnvironmentChange& change);
+
+  // At an instant; a change holds at its very instant. References hold until the next change is told.
+  const acoustics::Environment& at(SimTime instant) const { return span_at(instant).environment; }
+  WaterId water_at(SimTime instant) const { return span_at(instant).id; }
+  // The first change after `instant`; never() when none is known.
+  SimTime next_change_after(SimTime instant) const;
+
+  // Forgets changes that were heard and superseded before `time`, but for the latest kHeardKept, of which repetitions
+  // may still come. No instant before `time` is asked about any more.
+  void forget_before(SimTime time);
+  std::size_t changes_kept() const { return spans_.size() - 1; }
+
+  // Another run: forgets what was heard, keeps the schedule.
+  void clear();
+
+ private:
+  struct Order {
+    SimTime from;
+    Origin origin;
+    auto operator<=>(const Order&) const = default;
+  };
+  struct Span {
+    Order order;
+    EnvironmentChange change;
+    acoustics::Environment environment;  // with all changes up to this one
+    WaterId id = 0;
+  };
+  const Span& span_at(SimTime instant) const;
+  void insert(const Order& order, const EnvironmentChange& change);
+
+  std::vector<Span> spans_;  // by order; the first is the initial environment
+  WaterId last_id_ = 0;
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,131 @@
+#include "channel_server/propagation/propagation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/rays/ray_doppler.h"
+
+namespace halocline::channel_server {
+namespace {
+
+SoundPath straight_path(const acoustics::Environment& water, const acoustics::LinkBudget& budget,
+                        const LinkEnd& from, const LinkEnd& to) {
+  const double angle = acoustics::angle_down_rad(from.position_ned_m, to.position_ned_m);
+  const Vec3 along = acoustics::ray_direction(from.position_ned_m, to.position_ned_m, angle);
+  SoundPath path;
+  path.delay_s = budget.delay_s;
+  path.level = budget.received_level;
+  path.doppler_factor =
+      acoustics::doppler_factor(from.velocity_ned_mps.dot(along), sound_speed_at(water, from.position_ned_m),
+                                to.velocity_ned_mps.dot(along), sound_speed_at(water, to.position_ned_m));
+  path.launch_angle_rad = path.arrival_angle_rad = angle;
+  return path;
+}
+
+}  // namespace
+
+std::size_t first_significant(const std::vector<SoundPath>& paths) {
+  const auto strongest = std::max_element(
+      paths.begin(), paths.end(), [](const SoundPath& a, const SoundPath& b) { return a.level < b.level; });
+  const Decibels least = strongest->level - kSignificantBelowStrongest;
+  const auto first =
+      std::find_if(paths.begin(), strongest, [&](const SoundPath& path) { return path.level >= least; });
+  return static_cast<std::size_t>(first - paths.begin());
+}
+
+double delay_spread_s(const std::vector<SoundPath>& paths) {
+  if (paths.size() < 2) return 0;
+  const SoundPath& first = paths[first_significant(paths)];
+  Decibels strongest = first.level;
+  for (const SoundPath& path : paths) strongest = std::max(strongest, path.level);
+  const auto last = std::find_if(paths.rbegin(), paths.rend(), [&](const SoundPath& path) {
+    return path.level >= strongest - kSignificantBelowStrongest;
+  });
+  return last->delay_s - first.delay_s;
+}
+
+Decibels total_level(const std::vector<SoundPath>& paths) {
+  PowerRatio sum;
+  for (const SoundPath& path : paths) sum = sum + to_power_ratio(path.level);
+  return sum.value > 0 ? std::max(to_decibels(sum), kSilence) : kSilence;
+}
+
+double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m) {
+  const double depth_m = depth_below_surface_m(position_ned_m, environment.sea_surface_z_m);
+  return environment.profile.sound_speed_mps(std::clamp(depth_m, 0.0, acoustics::kDeepestWater));
+}
+
+std::vector<Reception> Propagation::receptions(SimTime at, const std::vector<EndPair>& links,
+                                               const ForEach&) {
+  std::vector<Reception> receptions;
+  for (const EndPair& link : links) receptions.push_back(reception(at, link.from, link.to));
+  return receptions;
+}
+
+Reception Propagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                      const std::shared_ptr<const SeabedProfile>&) {
+  return reception(at, from, to);
+}
+
+StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t most_models)
+    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)), most_models) {}
+
+StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
+                                         std::size_t most_models)
+    : waters_(std::move(waters)), most_models_(most_models) {}
+
+// The same integral of ds / c as LinkModel's: it knows no modem, so none is needed.
+double StraightPropagation::delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  const acoustics::Environment& water = waters_->at(at);
+  return water.profile.travel_time_s(depth_below_surface_m(from.position_ned_m, water.sea_surface_z_m),
+                                     depth_below_surface_m(to.position_ned_m, water.sea_surface_z_m),
+                                     (to.position_ned_m - from.position_ned_m).norm());
+}
+
+Reception StraightPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Reception reception;
+  reception.budget = model_of(at, *from.modem, *to.modem)->budget(from.position_ned_m, to.position_ned_m);
+  reception.paths = {straight_path(waters_->at(at), reception.budget, from, to)};
+  return reception;
+}
+
+bool StraightPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
+                                             const acoustics::Modem& receiver, const Vec3& from_ned_m,
+                                             const Vec3& to_ned_m,
+                                             const std::vector<acoustics::BottomPoint>& points) {
+  return assess_echoes(*model_of(at, transmitter, receiver), from_ned_m, to_ned_m, points).likelihood ==
+         acoustics::EchoLikelihood::kLikely;
+}
+
+StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem& modem) {
+  std::vector<double> beam;
+  for (const acoustics::BeamRow& row : modem.beam.rows()) {
+    beam.insert(beam.end(), {row.elevation_rad, row.loss_db});
+  }
+  const std::array<double, 5> numbers{modem.source_level.value, modem.least_receivable_level.value,
+                                      modem.centre_frequency_hz, modem.bandwidth_hz,
+                                      modem.directivity_index.value};
+  return {numbers, std::move(beam)};
+}
+
+std::shared_ptr<const acoustics::LinkModel> StraightPropagation::model_of(SimTime at,
+                                                                          const acoustics::Modem& transmitter,
+                                                                          const acoustics::Modem& receiver) {
+  const PairKey key{waters_->water_at(at), key_of(transmitter), key_of(receiver)};
+  auto kept = models_.find(key);
+  if (kept == models_.end()) {
+    auto model = std::make_shared<const acoustics::LinkModel>(waters_->at(at), transmitter, receiver);
+    if (models_.size() >= most_models_) make_room();
+    kept = models_.emplace(key, KeptModel{std::move(model)}).first;
+  }
+  kept->second.asked_last = ++questions_;
+  return kept->second.model;
+}
+
+void StraightPropagation::make_room() {
+  models_.erase(std::min_element(models_.begin(), models_.end(), [](const auto& a, const auto& b) {
+    return a.second.asked_last < b.second.asked_last;
+  }));
+}
+
+}  // namespace halocline::channel_server

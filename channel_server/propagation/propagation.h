@@ -1,0 +1,165 @@
+// How sound gets from one point to another, behind one interface: what the packet medium and the link tables
+// ask of the water, whichever model answers.
+//
+// Every answer holds for an instant `at`, that of departure: it decides which water and which known bottom
+// count, both of which may change during a run. An implementation may keep what it has computed; its answers
+// depend on the arguments and on what was known for that instant, never on the order of the questions.
+//
+// Decibels are dB re 1 uPa in the transmitter's band. Angles are from the horizontal, positive down, of the
+// direction in which the sound travels: a launch angle as it leaves, an arrival angle as it comes in.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "acoustics/link/link_budget.h"
+#include "acoustics/link/multipath.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/for_each.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+// A level that stands for none at all where a number has to be finite: 300 dB below 1 uPa, far below the
+// thermal noise of any band (-15 dB re 1 uPa^2/Hz at 1 kHz).
+inline constexpr Decibels kSilence{-300};
+
+// Paths more than this below the strongest one do not announce a packet: a receiver finds the preamble by
+// correlation and takes for its start the first peak above a threshold relative to the greatest, and a
+// preamble compressed to one peak has sidelobes of its own up to -13 dB (a linear sweep without shading). 20 dB
+// stays clear of these.
+inline constexpr Decibels kSignificantBelowStrongest{20};
+
+// One end of a link.
+struct LinkEnd {
+  VehicleId id = 0;                         // 0: a position
+  Vec3 position_ned_m = Vec3::Zero();       // world NED, m
+  Vec3 velocity_ned_mps = Vec3::Zero();     // world NED, over ground, m/s
+  const acoustics::Modem* modem = nullptr;  // never null in a question; outlives it
+};
+
+// One path of sound from transmitter to receiver.
+struct SoundPath {
+  double delay_s = 0;
+  Decibels level;             // received, of this path alone
+  double doppler_factor = 1;  // f_rx / f_tx, above 0
+  double launch_angle_rad = 0;
+  double arrival_angle_rad = 0;
+  int surface_bounces = 0, bottom_bounces = 0;
+};
+
+// A link, one way.
+struct EndPair {
+  LinkEnd from, to;
+};
+
+enum class PathState {
+  kOpen,     // there is at least one path
+  kShadow,   // the water bends every path away from the receiver
+  kBlocked,  // the terrain stands in every path
+};
+
+enum class PropagationUsed {
+  kStraight,               // one straight path
+  kRays,                   // rays in the water above the known bottom
+  kStraightWithoutBottom,  // rays were wanted, the bottom was not known (yet): one straight path
+};
+
+// What arrives over one link. In the budget, `delay_s` is that of the first significant path, `received_level`
+// sums the powers of all paths, and the rest follows from these. Without a path both levels are kSilence or
+// what the implementation says of the straight line, and nothing is receivable.
+struct Reception {
+  acoustics::LinkBudget budget;
+  PathState state = PathState::kOpen;
+  PropagationUsed used = PropagationUsed::kStraight;
+  double delay_spread_s = 0;     // from the first significant path to the last
+  std::vector<SoundPath> paths;  // by delay; empty unless the state is kOpen
+};
+
+// Index of the first path within kSignificantBelowStrongest of the strongest; `paths` by delay, not empty.
+std::size_t first_significant(const std::vector<SoundPath>& paths);
+// Of paths by delay: from the first significant to the last significant; 0 of one path or none.
+double delay_spread_s(const std::vector<SoundPath>& paths);
+// Sum of the powers; kSilence of none.
+Decibels total_level(const std::vector<SoundPath>& paths);
+
+// Sound speed where an end is, m/s; above the surface and below the deepest water, that of these.
+double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m);
+
+class Propagation {
+ public:
+  virtual ~Propagation() = default;
+
+  // Travel time to the first significant path, s, where a cheap answer serves: as reception(), or an estimate
+  // that is close to it and finite where there is no path.
+  virtual double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
+  // Throws InvalidArgument when a modem is out of range.
+  virtual Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
+  // The same for many links that leave at one instant, shared out by `for_each`; as reception() one by one,
+  // whatever the sharing.
+  virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
+                                            const ForEach& for_each);
+  // Whether answers depend on the bottom along the link: then reception() uses what is known of it between
+  // vehicles, and reception_over() a bottom that is given, from the one end to the other.
+  virtual bool uses_bottom() const { return false; }
+  virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                   const std::shared_ptr<const SeabedProfile>& seabed);
+  // Whether an echo off one of these points of the bottom reaches the receiver above its cut-off.
+  virtual bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
+                                  const acoustics::Modem& receiver, const Vec3& from_ned_m,
+                                  const Vec3& to_ned_m,
+                                  const std::vector<acoustics::BottomPoint>& points) = 0;
+  // The water at `at`; holds until the propagation is told of another.
+  virtual const acoustics::Environment& environment(SimTime at) const = 0;
+};
+
+// The straight path of acoustics/link/link_budget.h, in the water of the instant, weighed by both beams.
+//
+// A LinkModel takes a millisecond to make and microseconds to ask, so one is kept for each pair of different
+// modems asked about; of more than `most_models`, the one that was asked longest ago makes room.
+class StraightPropagation : public Propagation {
+ public:
+  static constexpr std::size_t kMostModels = 1024;
+  // Throws InvalidArgument when the environment is out of range.
+  explicit StraightPropagation(acoustics::Environment environment, std::size_t most_models = kMostModels);
+  explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
+                               std::size_t most_models = kMostModels);
+
+  double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
+  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
+                          const Vec3& from_ned_m, const Vec3& to_ned_m,
+                          const std::vector<acoustics::BottomPoint>& points) override;
+  const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
+
+  std::shared_ptr<const acoustics::LinkModel> model_of(SimTime at, const acoustics::Modem& transmitter,
+                                                       const acoustics::Modem& receiver);
+
+  std::size_t models_kept() const { return models_.size(); }
+
+ private:
+  using ModemKey = std::pair<std::array<double, 5>, std::vector<double>>;  // numbers of a budget; beam
+  using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
+  struct KeptModel {
+    std::shared_ptr<const acoustics::LinkModel> model;
+    std::int64_t asked_last = 0;
+  };
+  static ModemKey key_of(const acoustics::Modem& modem);
+  void make_room();
+
+  std::shared_ptr<const EnvironmentTimeline> waters_;
+  std::size_t most_models_;
+  std::map<PairKey, KeptModel> models_;
+  std::int64_t questions_ = 0;
+};
+
+}  // namespace halocline::channel_server

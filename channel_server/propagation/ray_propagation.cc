@@ -1,0 +1,308 @@
+#include "channel_server/propagation/ray_propagation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/link/received_field.h"
+#include "acoustics/rays/ray_carry.h"
+#include "acoustics/rays/ray_doppler.h"
+#include "channel_server/propagation/ray_cells.h"
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+constexpr std::size_t kMostKept = 16'384;    // answers of late, 7 kB each
+constexpr std::size_t kMostRayWaters = 256;  // 20 kB each
+// The deepest that an end may be, m: there has to be bottom below it.
+constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;
+
+double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
+  return std::clamp(depth_below_surface_m(end.position_ned_m, environment.sea_surface_z_m), 0.0,
+                    kDeepestEndM);
+}
+
+acoustics::Arrival backwards(acoustics::Arrival path) {
+  const double launch = path.launch_angle_rad;
+  path.launch_angle_rad = -path.arrival_angle_rad;
+  path.arrival_angle_rad = -launch;
+  return path;
+}
+
+std::optional<acoustics::RaySolver> usable(std::optional<acoustics::RaySolver> wanted,
+                                           const acoustics::RaySea& sea, const acoustics::RayLink& link) {
+  using Solver = acoustics::RaySolver;
+  const Solver simplest = choose_solver(sea, link);
+  if (!wanted || *wanted == Solver::kArcs || simplest == Solver::kImages) return wanted;
+  return *wanted == Solver::kSnell && simplest == Solver::kSnell ? wanted : simplest;
+}
+
+}  // namespace
+
+RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
+                               std::shared_ptr<const ProfileBook> bottoms, const RayModel& model)
+    : waters_(std::move(waters)), bottoms_(std::move(bottoms)), model_(model), straight_(waters_) {
+  validate(model.bottom);
+  validate(model.options);
+  require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
+  require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
+}
+
+double RayPropagation::delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  const auto seabed = seabed_between(at, from, to);
+  if (!seabed) return straight_.delay_s(at, from, to);
+  const Task task = shared_task_of(at, from, to, seabed);
+  const std::vector<SoundPath> paths = sound_paths(task, arrivals_at(task, *found(task)));
+  return paths.empty() ? straight_.delay_s(at, from, to) : paths[first_significant(paths)].delay_s;
+}
+
+Reception RayPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  const auto seabed = seabed_between(at, from, to);
+  if (!seabed) return without_bottom(at, from, to);
+  const Task task = shared_task_of(at, from, to, seabed);
+  return answer(task, *found(task));
+}
+
+Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                         const std::shared_ptr<const SeabedProfile>& seabed) {
+  if (!seabed) return without_bottom(at, from, to);
+  const Task task = task_of(at, from, to, seabed, /*reversed=*/false);
+  return answer(task, *found(task));
+}
+
+acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                                  const std::shared_ptr<const SeabedProfile>& seabed) {
+  acoustics::Arrivals all = found(task_of(at, from, to, seabed, /*reversed=*/false))->arrivals;
+  const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
+  std::erase_if(all.paths,
+                [&](const acoustics::Arrival& path) { return !(weighted_pressure(path, beams) > 0); });
+  return all;
+}
+
+// What is kept is looked at and added to in turn; searches and answers are shared out.
+std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
+                                                  const ForEach& for_each) {
+  std::vector<Reception> receptions(links.size());
+  std::vector<Task> tasks;
+  std::vector<std::size_t> link_of;     // of each task
+  std::map<Key, std::size_t> place_of;  // of each question, among `paths`
+  std::vector<FoundPaths> paths;
+  std::vector<std::pair<std::size_t, std::size_t>> to_search;  // place and a task that asks
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto& [from, to] = links[i];
+    const auto seabed = seabed_between(at, from, to);
+    if (!seabed) {
+      receptions[i] = without_bottom(at, from, to);
+      continue;
+    }
+    tasks.push_back(shared_task_of(at, from, to, seabed));
+    link_of.push_back(i);
+    const Key key = key_of(tasks.back().question);
+    if (!place_of.emplace(key, paths.size()).second) continue;
+    paths.push_back(kept(key));
+    if (!paths.back()) to_search.emplace_back(paths.size() - 1, tasks.size() - 1);
+  }
+  for_each(to_search.size(),
+           [&](std::size_t i) { paths[to_search[i].first] = search(tasks[to_search[i].second]); });
+  for (const auto& [place, task] : to_search) keep(key_of(tasks[task].question), paths[place]);
+  searches_ += static_cast<std::int64_t>(to_search.size());
+  for_each(tasks.size(), [&](std::size_t i) {
+    receptions[link_of[i]] = answer(tasks[i], *paths[place_of.at(key_of(tasks[i].question))]);
+  });
+  return receptions;
+}
+
+bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
+                                        const acoustics::Modem& receiver, const Vec3& from_ned_m,
+                                        const Vec3& to_ned_m,
+                                        const std::vector<acoustics::BottomPoint>& points) {
+  return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
+}
+
+RayPropagation::Key RayPropagation::key_of(const Question& q) {
+  return {q.water_id,    q.frequency_hz, q.seabed.get(), q.link.source_depth_m, q.link.receiver_depth_m,
+          q.link.range_m};
+}
+
+std::shared_ptr<const SeabedProfile> RayPropagation::seabed_between(SimTime at, const LinkEnd& from,
+                                                                    const LinkEnd& to) const {
+  if (from.id == 0 || to.id == 0 || from.id == to.id) return nullptr;
+  return bottoms_->at(at, pair_of(from.id, to.id));
+}
+
+std::shared_ptr<const acoustics::RayWater> RayPropagation::water_of(SimTime at, double frequency_hz) {
+  auto& water = ray_waters_[{waters_->water_at(at), frequency_hz}];
+  if (!water) {
+    water = std::make_shared<const acoustics::RayWater>(
+        ray_water(waters_->at(at), frequency_hz, model_.speed_tolerance_mps));
+  }
+  const auto result = water;
+  if (ray_waters_.size() > kMostRayWaters) ray_waters_.erase(ray_waters_.begin());  // of the oldest water
+  return result;
+}
+
+RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                             const std::shared_ptr<const SeabedProfile>& seabed,
+                                             bool reversed) {
+  const acoustics::Environment& environment = waters_->at(at);
+  const LinkEnd &first = reversed ? to : from, &last = reversed ? from : to;
+  const Vec3 way = last.position_ned_m - first.position_ned_m;
+  const double frequency_hz = from.modem->centre_frequency_hz;
+  const acoustics::RayLink link{depth_of(first, environment), depth_of(last, environment),
+                                std::hypot(way.x(), way.y())};
+  return {{from, to},
+          &environment,
+          water_of(at, frequency_hz),
+          straight_.model_of(at, *from.modem, *to.modem),
+          {waters_->water_at(at), frequency_hz, seabed, link},
+          link,
+          reversed};
+}
+
+RayPropagation::Task RayPropagation::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                                    const std::shared_ptr<const SeabedProfile>& seabed) {
+  Task task = task_of(at, from, to, seabed, from.id > to.id);
+  // The phase of a path turns within centimetres.
+  if (model_.reuse_distance_m <= 0 || model_.coherent) return task;
+  if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
+    shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
+    shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
+    task.question.link = *shared;
+  }
+  return task;
+}
+
+RayPropagation::FoundPaths RayPropagation::search(const Task& task) const {
+  const Question& q = task.question;
+  acoustics::RayOptions options = model_.options;
+  options.frequency_hz = q.frequency_hz;
+  const acoustics::RaySea sea{
+      *task.water, bottom_under(*q.seabed, q.link, task.environment->sea_surface_z_m), model_.bottom,
+      acoustics::RaySurface{model_.surface, task.environment->noise.wind_mps}, options};
+  auto found = std::make_shared<Found>();
+  found->seabed = q.seabed;
+  found->arrivals = arrivals(sea, q.link, usable(model_.solver, sea, q.link));
+  found->blocked = cuts_straight_line(sea.bottom_profile, q.link);
+  return found;
+}
+
+RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
+  const Key key = key_of(task.question);
+  if (FoundPaths known = kept(key)) return known;
+  const FoundPaths fresh = search(task);
+  ++searches_;
+  keep(key, fresh);
+  return fresh;
+}
+
+RayPropagation::FoundPaths RayPropagation::kept(const Key& key) {
+  const auto of_late = of_late_.find(key);
+  if (of_late != of_late_.end()) return of_late->second;
+  const auto of_before = of_before_.find(key);
+  if (of_before == of_before_.end()) return nullptr;
+  const FoundPaths known = of_before->second;
+  of_before_.erase(of_before);
+  keep(key, known);  // it is asked about again: it stays
+  return known;
+}
+
+void RayPropagation::keep(const Key& key, const FoundPaths& found) {
+  of_late_[key] = found;
+  if (of_late_.size() < kMostKept) return;
+  of_before_ = std::move(of_late_);
+  of_late_.clear();
+}
+
+Reception RayPropagation::without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Reception reception = straight_.reception(at, from, to);
+  reception.used = PropagationUsed::kStraightWithoutBottom;
+  return reception;
+}
+
+Reception RayPropagation::answer(const Task& task, const Found& found) const {
+  Reception reception;
+  reception.used = PropagationUsed::kRays;
+  const acoustics::Arrivals arrivals = arrivals_at(task, found);
+  reception.paths = sound_paths(task, arrivals);
+  reception.delay_spread_s = delay_spread_s(reception.paths);
+  if (!reception.paths.empty()) {
+    set_open(task, arrivals, reception);
+  } else {
+    reception.state = found.blocked ? PathState::kBlocked : PathState::kShadow;
+    set_silent(task, reception);
+  }
+  return reception;
+}
+
+acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const Found& found) const {
+  const acoustics::RayLink &searched = task.question.link, &link = task.link;
+  const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
+                      searched.receiver_depth_m == link.receiver_depth_m;
+  if (itself) return found.arrivals;
+  const acoustics::EndSpeeds speeds{task.water->speed_at(searched.source_depth_m),
+                                    task.water->speed_at(searched.receiver_depth_m)};
+  return {found.arrivals.solver, carried(found.arrivals.paths, searched, speeds, link)};
+}
+
+std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
+                                                   const acoustics::Arrivals& arrivals) const {
+  const auto& [from, to] = task.ends;
+  const acoustics::MovingEnds ends{from.position_ned_m,
+                                   from.velocity_ned_mps,
+                                   to.position_ned_m,
+                                   to.velocity_ned_mps,
+                                   sound_speed_at(*task.environment, from.position_ned_m),
+                                   sound_speed_at(*task.environment, to.position_ned_m)};
+  const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
+  std::vector<SoundPath> paths;
+  for (const acoustics::Arrival& arrival : arrivals.paths) {
+    const acoustics::Arrival path = task.reversed ? backwards(arrival) : arrival;
+    const double pressure = weighted_pressure(path, beams);
+    if (!(pressure > 0)) continue;  // absorbed beyond what a double holds
+    const Decibels level = from.modem->source_level + Decibels{20 * std::log10(pressure)};
+    paths.push_back({path.delay_s, std::max(level, kSilence), doppler_factor(path, ends),
+                     path.launch_angle_rad, path.arrival_angle_rad, path.surface_bounces,
+                     path.bottom_bounces});
+  }
+  return paths;
+}
+
+Decibels RayPropagation::received_level(const Task& task, const acoustics::Arrivals& arrivals,
+                                        const std::vector<SoundPath>& paths) const {
+  if (!model_.coherent) return total_level(paths);
+  const auto& [from, to] = task.ends;
+  const LinkEnd &first = task.reversed ? to : from, &last = task.reversed ? from : to;
+  acoustics::FieldOptions field;
+  field.transducers = {first.modem->beam, last.modem->beam};
+  return std::max(from.modem->source_level + coherent_level(arrivals, from.modem->centre_frequency_hz, field),
+                  kSilence);
+}
+
+void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arrivals,
+                              Reception& reception) const {
+  const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
+  const Decibels level = received_level(task, arrivals, reception.paths);
+  const SoundPath& first = reception.paths[first_significant(reception.paths)];
+  // As many arrivals as paths unless one was absorbed altogether: found again by its delay.
+  const auto arrival = std::find_if(arrivals.paths.begin(), arrivals.paths.end(),
+                                    [&](const auto& one) { return one.delay_s == first.delay_s; });
+  acoustics::LinkBudget& budget = reception.budget;
+  budget = task.budget->budget_of_path(from, to, task.ends.from.modem->source_level - level,
+                                       arrival->path_length_m);
+  budget.delay_s = first.delay_s;
+  if (budget.range_m > 0) budget.mean_sound_speed_mps = budget.range_m / first.delay_s;
+  if (arrival->path_length_m > 0) {
+    budget.absorption_db_per_km = 1000 * arrival->absorption_db / arrival->path_length_m;
+  }
+}
+
+void RayPropagation::set_silent(const Task& task, Reception& reception) const {
+  const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
+  const bool leaks = reception.state == PathState::kShadow && model_.shadow_loss.has_value();
+  const Decibels silent = task.ends.from.modem->source_level - kSilence;
+  reception.budget =
+      task.budget->budget_of_path(from, to, leaks ? *model_.shadow_loss : silent, (to - from).norm());
+  reception.budget.receivable = false;
+}
+
+}  // namespace halocline::channel_server

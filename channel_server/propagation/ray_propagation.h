@@ -1,0 +1,132 @@
+// Sound along rays, over the bottom that is known between the ends of a link.
+//
+// Model: acoustics/rays/eigenray.h gives the paths; each has the level
+//   source level - spreading - bounces - absorption - beams (the sender's at the launch angle; the receiver's looking
+//   back along the arriving ray, so at minus the arrival angle),
+// and the link the sum of their powers (or, if wished, of their phasors for the ends exactly where they are). In
+// the budget: delay, mean sound speed (range over delay) and absorption are those of the first significant path;
+// transmission loss = source level - received level; noise, signal-to-noise ratio and what is receivable follow;
+// capacity takes that loss at the centre of the band, and elsewhere in the band as much more or less as water
+// between the two depths absorbs more or less over the length of the first significant path
+// (LinkModel::budget_of_path). Doppler of each path is that of acoustics/rays/ray_doppler.h.
+// Where no ray arrives: blocked when the bottom cuts the straight line between the ends, in a shadow otherwise;
+// the level is kSilence or, in a shadow, that of the stated floor, the delay that of the straight line, and
+// nothing is receivable.
+// Where the bottom is not known (no profile for the instant, or between positions): the straight path.
+//
+// Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
+// the same paths backwards, so the two are reciprocal to the last bit. With a distance of reuse, the search is
+// for the middle of the cell that the link lies in (ray_cells.h), and its paths are carried from there to the link
+// (acoustics/rays/ray_carry.h); not for given bottoms and coherent levels, which a search of their own serves. Answers are
+// functions of environment, profile and ends alone: what was found is kept for the very same question, and found
+// again when it was forgotten. Ends above the surface are taken at it. Left out: motion of the bottom's slope across
+// the link (acoustics/rays/eigenray.h).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "acoustics/rays/eigenray.h"
+#include "channel_server/propagation/profile_book.h"
+#include "channel_server/propagation/propagation.h"
+
+namespace halocline::channel_server {
+
+struct RayModel {
+  acoustics::FluidBottom bottom;
+  acoustics::SurfaceModel surface = acoustics::SurfaceModel::kAplBubbles;
+  acoustics::RayOptions options;               // its frequency is the transmitter's, whatever it says
+  std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
+  std::optional<Decibels> shadow_loss;         // transmission loss where no ray gets; empty: silence
+  bool coherent = false;                       // received level: sum of phasors at the centre frequency
+  double speed_tolerance_mps = 0;              // knots of the water are thinned to that, 0..1
+  double reuse_distance_m = 0;  // of ray_cells.h, 0..1000; 0: every link is searched for itself
+};
+
+class RayPropagation : public Propagation {
+ public:
+  // Throws InvalidArgument when the model is out of range.
+  RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
+                 std::shared_ptr<const ProfileBook> bottoms, const RayModel& model);
+
+  double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
+                                    const ForEach& for_each) override;
+  bool uses_bottom() const override { return true; }
+  Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                           const std::shared_ptr<const SeabedProfile>& seabed) override;
+  // The paths behind reception_over(), one for each of its own and in their order. Amplitudes are without the
+  // beams of the modems.
+  acoustics::Arrivals arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                    const std::shared_ptr<const SeabedProfile>& seabed);
+  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
+                          const Vec3& from_ned_m, const Vec3& to_ned_m,
+                          const std::vector<acoustics::BottomPoint>& points) override;
+  const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
+
+  std::int64_t searches() const { return searches_; }  // of paths, since the start
+
+ private:
+  // What paths depend on. The link runs from the profile's first end.
+  struct Question {
+    EnvironmentTimeline::WaterId water_id;
+    double frequency_hz;
+    std::shared_ptr<const SeabedProfile> seabed;
+    acoustics::RayLink link;
+  };
+  using Key = std::tuple<EnvironmentTimeline::WaterId, double, const SeabedProfile*, double, double, double>;
+  struct Found {
+    std::shared_ptr<const SeabedProfile> seabed;  // whose address is in the key
+    acoustics::Arrivals arrivals;
+    bool blocked = false;  // the bottom cuts the straight line
+  };
+  using FoundPaths = std::shared_ptr<const Found>;
+  // A link over a known bottom, ready to be answered without touching what is kept.
+  struct Task {
+    EndPair ends;
+    const acoustics::Environment* environment;
+    std::shared_ptr<const acoustics::RayWater> water;
+    std::shared_ptr<const acoustics::LinkModel> budget;
+    Question question;
+    acoustics::RayLink link;  // where the ends are; the question's own unless its paths are carried
+    bool reversed = false;    // the transmitter is the profile's last end
+  };
+
+  static Key key_of(const Question& question);
+  std::shared_ptr<const SeabedProfile> seabed_between(SimTime at, const LinkEnd& from,
+                                                      const LinkEnd& to) const;
+  std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
+  Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
+               const std::shared_ptr<const SeabedProfile>& seabed, bool reversed);
+  // For two vehicles: the question may be that of a cell, shared by links near it.
+  Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                      const std::shared_ptr<const SeabedProfile>& seabed);
+  FoundPaths search(const Task& task) const;
+  FoundPaths found(const Task& task);
+  FoundPaths kept(const Key& key);
+  void keep(const Key& key, const FoundPaths& found);
+  Reception without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  Reception answer(const Task& task, const Found& found) const;
+  // What was found, at the ends of the task.
+  acoustics::Arrivals arrivals_at(const Task& task, const Found& found) const;
+  std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
+  Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
+                          const std::vector<SoundPath>& paths) const;
+  void set_open(const Task& task, const acoustics::Arrivals& arrivals, Reception& reception) const;
+  void set_silent(const Task& task, Reception& reception) const;
+
+  std::shared_ptr<const EnvironmentTimeline> waters_;
+  std::shared_ptr<const ProfileBook> bottoms_;
+  RayModel model_;
+  StraightPropagation straight_;
+  std::map<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
+      ray_waters_;
+  // Those asked about of late, and those of before, which go when there are enough of late.
+  std::map<Key, FoundPaths> of_late_, of_before_;
+  std::int64_t searches_ = 0;
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,51 @@
+// Which modem a vehicle carries at an instant: the one configured, until it announces another.
+//
+// Announcements hold from the instant they name, in whatever order they were heard.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "acoustics/modem/modem.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+// What a modem does that is asked to send while it is sending.
+enum class WhenBusy {
+  kRefuse,  // the transmission is refused
+  kQueue,   // it starts when those before it have ended
+};
+
+struct VehicleModem {
+  acoustics::Modem modem;
+  std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768; the modem's own limit holds as well
+  WhenBusy when_busy = WhenBusy::kRefuse;
+  bool operator==(const VehicleModem&) const = default;
+};
+
+// The largest payload of one packet that both limits allow.
+inline std::size_t largest_payload_bytes(const VehicleModem& modem) {
+  return std::min(static_cast<std::size_t>(modem.max_payload_bytes), max_payload_bytes(modem.modem));
+}
+
+class ModemSchedule {
+ public:
+  explicit ModemSchedule(VehicleModem configured) : configured_(std::move(configured)) {}
+
+  // `modem` holds from `from` on, until an announcement of a later instant. A repetition of what holds
+  // already changes nothing.
+  void announce(SimTime from, const VehicleModem& modem);
+  const VehicleModem& at(SimTime instant) const;
+  // Drops announcements that were superseded before `time`.
+  void forget_before(SimTime time);
+
+ private:
+  static constexpr std::size_t kMostAnnouncements = 64;  // the earliest make room
+  VehicleModem configured_;
+  std::map<SimTime, VehicleModem> announced_;
+};
+
+}  // namespace halocline::channel_server

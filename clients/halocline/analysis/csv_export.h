@@ -1,0 +1,28 @@
+// Turns a log into CSV: a file for each channel family, a row for each message.
+//
+// The columns are event (its number in the log), stamp_us, channel, then the message's fields. A field that is a
+// fixed array has a column for each element (position_ned_m_0, ...); a message with lists (the peers of a link
+// table, the layers of a profile) has a row for each element, its other fields repeated. Payloads are hexadecimal.
+// Numbers are written in the shortest form that reads back as the same double.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "bus/logs/log_reader.h"
+
+namespace halocline::clients {
+
+struct ExportResult {
+  std::map<std::string, std::int64_t> rows_by_file;  // path of each file written
+  std::int64_t foreign = 0;                          // events on channels that are none of ours
+  std::int64_t undecodable = 0;                      // on our channels, but no sound message
+};
+
+// Exports the events whose channel matches `channel_pattern` (an ECMAScript regular expression for the whole
+// name; empty: all) into `folder`, which is made when it is missing. Throws InvalidArgument for a bad
+// pattern, std::runtime_error when a file cannot be written.
+ExportResult export_csv(LogReader& log, const std::string& folder, const std::string& channel_pattern = "");
+
+}  // namespace halocline::clients

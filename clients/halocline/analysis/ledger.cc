@@ -1,0 +1,59 @@
+#include "clients/halocline/analysis/ledger.h"
+
+#include <numeric>
+
+#include "bus/channels.h"
+#include "bus/logs/channel_types.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+
+Ledger::Ledger(std::int64_t window_us) : window_us_(window_us) {
+  require(window_us > 0, "the window must be above 0");
+}
+
+void Ledger::count(const LoggedEvent& event, std::int64_t zero_us) {
+  with_type_of(event.channel, [&]<class Message>() {
+    if constexpr (std::is_same_v<Message, packet_outcome_t> || std::is_same_v<Message, vehicle_state_t>) {
+      Message message;
+      if (!decode_checked(event.data, message)) return;
+      if constexpr (std::is_same_v<Message, packet_outcome_t>) {
+        message.utime -= zero_us;
+        message.departure_utime -= zero_us;
+        count(message);
+      } else {
+        names_.emplace(message.vehicle_id, event.channel.substr(bus::channels::kState.prefix.size()));
+      }
+    }
+  });
+}
+
+void Ledger::count(const packet_outcome_t& outcome) {
+  const Key key{outcome.source_id,    outcome.receiver_id,     outcome.destination_id,
+                outcome.send_session, outcome.packet_sequence, outcome.departure_utime,
+                outcome.packet_kind};
+  if (!counted_.insert(key).second) {
+    ++repeated_;
+    return;
+  }
+  const auto fate = static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.packet_fate));
+  const std::int64_t departure = outcome.departure_utime;
+  const std::int64_t into_window = ((departure % window_us_) + window_us_) % window_us_;
+  ++total_.at(fate);
+  ++by_pair_[{outcome.source_id, outcome.receiver_id}].at(fate);
+  ++by_window_[departure - into_window].at(fate);
+  outcomes_.push_back(outcome);
+}
+
+std::string Ledger::name(std::int32_t vehicle_id) const {
+  const auto found = names_.find(vehicle_id);
+  return found != names_.end() ? found->second : std::to_string(vehicle_id);
+}
+
+Ledger ledger_of(LogReader& log, std::int64_t window_us) {
+  Ledger ledger(window_us);
+  for (LoggedEvent event; log.next(event);) ledger.count(event);
+  return ledger;
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,80 @@
+// The ledger of a run: what became of every packet at every possible receiver, summed by cause, pair and time.
+//
+// Counted from the OUTCOMEs of a log; each (packet, receiver) counts once, however often its outcome stands in the
+// log (a recorder may hear a repetition). Vehicles go by the names of their STATE channels, or by their ids where no
+// state was recorded.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <iosfwd>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/logs/log_reader.h"
+#include "bus/messages.h"
+#include "clients/halocline/analysis/log_statistics.h"
+#include "clients/halocline/plot/plot.h"
+
+namespace halocline::clients {
+
+using FateCounts = std::array<std::int64_t, LogStatistics::kFates>;  // by packet_outcome_t.packet_fate
+
+class Ledger {
+ public:
+  using Pair = std::pair<std::int32_t, std::int32_t>;  // ids of sender and receiver
+
+  // Outcomes are summed over windows of `window_us` > 0 of simulation time, by the instant of departure.
+  explicit Ledger(std::int64_t window_us);
+
+  // `zero_us` is taken off the outcome's times.
+  void count(const LoggedEvent& event, std::int64_t zero_us = 0);
+
+  const FateCounts& total() const { return total_; }
+  const std::map<Pair, FateCounts>& by_pair() const { return by_pair_; }
+  const std::map<std::int64_t, FateCounts>& by_window() const { return by_window_; }  // by its start, us
+  // In the order of the log.
+  const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
+  std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
+  // Of a vehicle id: its name, or the id as text.
+  std::string name(std::int32_t vehicle_id) const;
+  const std::map<std::int32_t, std::string>& names() const { return names_; }  // of the vehicles with a state
+
+ private:
+  struct Key {
+    std::int32_t source_id, receiver_id, destination_id;
+    std::int64_t send_session, packet_sequence, departure_utime;
+    std::int8_t packet_kind;
+    auto operator<=>(const Key&) const = default;
+  };
+  void count(const packet_outcome_t& outcome);
+
+  std::int64_t window_us_;
+  FateCounts total_{};
+  std::map<Pair, FateCounts> by_pair_;
+  std::map<std::int64_t, FateCounts> by_window_;
+  std::vector<packet_outcome_t> outcomes_;
+  std::map<std::int32_t, std::string> names_;
+  std::set<Key> counted_;
+  std::int64_t repeated_ = 0;
+};
+
+Ledger ledger_of(LogReader& log, std::int64_t window_us);
+
+// For a person: causes, pairs, windows, each with counts and shares.
+void print(std::ostream& out, const Ledger& ledger);
+// One object: "causes", "pairs", "windows".
+std::string to_json(const Ledger& ledger);
+// One row a pair and cause that occurred: sender, receiver, cause, packets.
+void print_csv(std::ostream& out, const Ledger& ledger);
+// One row an outcome, with the numbers that decided it.
+void print_outcomes_csv(std::ostream& out, const Ledger& ledger);
+
+// Two charts: bars of the causes that occurred; lines of each of these causes over the windows of time.
+Plot ledger_plot(const Ledger& ledger, const std::string& title);
+
+}  // namespace halocline::clients

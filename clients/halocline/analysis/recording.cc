@@ -1,0 +1,260 @@
+#include "clients/halocline/analysis/recording.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <ostream>
+#include <set>
+
+#include "bus/channels.h"
+#include "bus/logs/channel_types.h"
+
+namespace halocline::clients {
+namespace {
+
+constexpr std::int64_t kSecond_us = 1'000'000, kDay_us = 86'400 * kSecond_us;
+constexpr std::int64_t kSameClock_us = 30 * kDay_us;
+// Of the CLOCKs of a lockstep run all stand at their stamps, but for those that damage changed.
+constexpr double kLeastShareAtStamp = 0.9;
+
+template <class Message>
+inline constexpr bool kIsPlayed =
+    std::is_same_v<Message, vehicle_state_t> || std::is_same_v<Message, modem_send_t> ||
+    std::is_same_v<Message, modem_config_t> || std::is_same_v<Message, environment_change_t>;
+
+// Of STATE.auv-1: auv-1.
+std::string vehicle_of(const std::string& channel) { return channel.substr(channel.find('.') + 1); }
+
+struct Logged {
+  std::size_t index;  // among all events of the log
+  Recording::Event event;
+};
+
+std::int64_t utime_of(const Recording::Event& event) {
+  return std::visit([](const auto& message) { return message.utime; }, event.message);
+}
+void set_utime(Recording::Event& event, std::int64_t utime) {
+  std::visit([&](auto& message) { message.utime = utime; }, event.message);
+}
+
+// The vehicle's id in a message that has one; null elsewhere.
+std::int32_t* id_in(Recording::Event& event) {
+  if (auto* state = std::get_if<vehicle_state_t>(&event.message)) return &state->vehicle_id;
+  if (auto* send = std::get_if<modem_send_t>(&event.message)) return &send->source_id;
+  return nullptr;
+}
+
+bool fill_orientation(vehicle_state_t& state) {
+  for (const double part : state.orientation_wxyz) {
+    if (part != 0) return false;
+  }
+  state.orientation_wxyz[0] = 1;
+  return true;
+}
+
+// Decodes and checks one message to be played; what a foreign vehicle may leave out stands no longer against it.
+template <class Message>
+bool decode_played(const std::vector<std::uint8_t>& bytes, Message& message, Recording& recording) {
+  if (!bus::decode_unchecked(bytes, message).empty()) return false;
+  Message filled = message;
+  bool turned = false;
+  if constexpr (std::is_same_v<Message, vehicle_state_t>) {
+    turned = fill_orientation(message);
+    filled = message;
+    if (filled.vehicle_id == 0) filled.vehicle_id = 1;
+  } else if constexpr (std::is_same_v<Message, modem_send_t>) {
+    if (filled.source_id == 0) filled.source_id = 1;
+  }
+  if (!bus::problem_in(filled).empty()) return false;
+  recording.without_orientation += turned ? 1 : 0;
+  return true;
+}
+
+// Collects what a log holds.
+struct Collector {
+  explicit Collector(Recording& into) : recording(into) {}
+  Recording& recording;
+  std::vector<Logged> logged;
+  std::vector<std::int64_t> stamps;  // of all events
+  std::int64_t clocks = 0, clocks_at_stamp = 0, last_clock = 0;
+
+  template <class Message>
+  void take(const LoggedEvent& event) {
+    Message message{};
+    if constexpr (kIsPlayed<Message>) {
+      if (decode_played(event.data, message, recording)) {
+        logged.push_back({stamps.size() - 1, {SimTime(), event.channel, message}});
+        return;
+      }
+    } else if (decode_checked(event.data, message)) {
+      if constexpr (std::is_same_v<Message, packet_outcome_t>) ++recording.outcomes;
+      if constexpr (std::is_same_v<Message, sim_clock_t>) {
+        ++clocks;
+        clocks_at_stamp += message.utime == event.stamp_us ? 1 : 0;
+        last_clock = std::max(last_clock, message.utime);
+      }
+    }
+    ++recording.ignored;
+  }
+
+  void read(LogReader& log) {
+    for (LoggedEvent event; log.next(event);) {
+      stamps.push_back(event.stamp_us);
+      if (!with_type_of(event.channel, [&]<class Message>() { take<Message>(event); })) ++recording.ignored;
+    }
+  }
+};
+
+// Stamps with those that break the order replaced: the longest ascending selection stays (patience sorting); and what
+// lies more than a day behind the last of it.
+std::vector<std::int64_t> in_order(const std::vector<std::int64_t>& stamps) {
+  std::vector<std::size_t> tails, before(stamps.size());  // tails[n]: last of the best selection of n + 1
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const auto place =
+        std::upper_bound(tails.begin(), tails.end(), stamps[i],
+                         [&](std::int64_t stamp, std::size_t tail) { return stamp < stamps[tail]; });
+    before[i] = place == tails.begin() ? i : *std::prev(place);
+    if (place == tails.end()) {
+      tails.push_back(i);
+    } else {
+      *place = i;
+    }
+  }
+  std::vector<bool> stays(stamps.size(), false);
+  for (std::size_t i = tails.empty() ? 0 : tails.back(), left = tails.size(); left > 0; --left, i = before[i])
+    stays[i] = true;
+  std::vector<std::int64_t> ordered(stamps.size());
+  std::optional<std::int64_t> last;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    if (stays[i] && (!last || stamps[i] - *last <= kDay_us)) last = stamps[i];
+    ordered[i] = last.value_or(0);
+  }
+  return ordered;
+}
+
+void go_by_stamps(const Collector& collected, Recording& recording) {
+  const std::vector<std::int64_t> stamps = in_order(collected.stamps);
+  for (const Logged& logged : collected.logged) {
+    recording.events.push_back(logged.event);
+    recording.events.back().at = SimTime::from_utime(stamps[logged.index]);
+  }
+  recording.end = SimTime::from_utime(stamps.empty() ? 0 : stamps.back());
+}
+
+// The middle of the states' times: of a clock that most vehicles share. Empty where no state tells a time.
+std::optional<std::int64_t> middle_of_states(const std::vector<Logged>& logged) {
+  std::vector<std::int64_t> times;
+  for (const Logged& entry : logged) {
+    if (std::holds_alternative<vehicle_state_t>(entry.event.message)) times.push_back(utime_of(entry.event));
+  }
+  std::sort(times.begin(), times.end());
+  if (times.empty() || (times.front() == times.back() && times.size() > 1)) return std::nullopt;
+  return times[times.size() / 2];
+}
+
+// The utime of each message, or where it has none the latest that the log had reached by then.
+std::vector<std::int64_t> sound_times(const Collector& collected, Recording& recording) {
+  const auto middle = middle_of_states(collected.logged);
+  const auto is_sound = [&](std::int64_t utime) {
+    return middle && std::abs(utime - *middle) <= kSameClock_us;
+  };
+  std::vector<std::int64_t> times;
+  std::optional<std::int64_t> reached;
+  for (const Logged& entry : collected.logged) {  // until the first sound time, it is that
+    if (!reached && is_sound(utime_of(entry.event))) reached = utime_of(entry.event);
+  }
+  for (const Logged& entry : collected.logged) {
+    const std::int64_t utime = utime_of(entry.event);
+    const bool is_state = std::holds_alternative<vehicle_state_t>(entry.event.message);
+    if (is_state && is_sound(utime)) reached = std::max(*reached, utime);
+    if (!is_sound(utime)) ++recording.without_time;
+    times.push_back(is_sound(utime) ? utime : reached.value_or(collected.stamps[entry.index]));
+  }
+  return times;
+}
+
+void go_by_messages(const Collector& collected, Recording& recording) {
+  const std::vector<std::int64_t> times = sound_times(collected, recording);
+  if (times.empty()) return;
+  const std::int64_t first = *std::min_element(times.begin(), times.end());
+  const std::int64_t zero = first > kDay_us ? first / kSecond_us * kSecond_us : 0;
+  recording.zero = SimDuration::from_microseconds(zero);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    recording.events.push_back(collected.logged[i].event);
+    recording.events.back().at = SimTime::from_utime(times[i] - zero);
+    set_utime(recording.events.back(), times[i] - zero);
+    if (std::holds_alternative<vehicle_state_t>(recording.events.back().message))
+      recording.end = std::max(recording.end, recording.events.back().at);
+  }
+  const bool clocks_agree = collected.last_clock - zero > 0 && collected.last_clock - zero <= kSameClock_us;
+  if (clocks_agree) recording.end = std::max(recording.end, SimTime::from_utime(collected.last_clock - zero));
+}
+
+// Ids for the messages that have none.
+void fill_ids(const bus::Scenario& scenario, Recording& recording) {
+  std::map<std::string, std::int32_t> ids;
+  std::set<std::int32_t> taken;
+  for (const bus::VehicleEntry& vehicle : scenario.vehicles) {
+    ids.emplace(vehicle.name, vehicle.id);
+    taken.insert(vehicle.id);
+  }
+  for (Recording::Event& event : recording.events) {
+    const std::int32_t* id = id_in(event);
+    if (id == nullptr || *id == 0) continue;
+    if (std::holds_alternative<vehicle_state_t>(event.message))
+      ids.insert_or_assign(vehicle_of(event.channel), *id);
+    taken.insert(*id);
+  }
+  std::set<std::string> told;
+  for (Recording::Event& event : recording.events) {
+    std::int32_t* id = id_in(event);
+    if (id == nullptr || *id != 0) continue;
+    const std::string vehicle = vehicle_of(event.channel);
+    std::int32_t free = 1;
+    while (taken.contains(free)) ++free;
+    *id = ids.emplace(vehicle, free).first->second;
+    taken.insert(*id);
+    ++recording.without_id;
+    if (told.insert(vehicle).second) recording.ids_given.emplace_back(vehicle, *id);
+  }
+}
+
+}  // namespace
+
+Recording read_recording(LogReader& log, const bus::Scenario& scenario) {
+  Recording recording;
+  Collector collected(recording);
+  collected.read(log);
+  recording.stamped_with_simulation_time =
+      collected.clocks > 0 && static_cast<double>(collected.clocks_at_stamp) >=
+                                  kLeastShareAtStamp * static_cast<double>(collected.clocks);
+  if (recording.stamped_with_simulation_time) {
+    go_by_stamps(collected, recording);
+  } else {
+    go_by_messages(collected, recording);
+  }
+  fill_ids(scenario, recording);
+  std::stable_sort(recording.events.begin(), recording.events.end(),
+                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  return recording;
+}
+
+void tell_repairs(std::ostream& out, const Recording& recording) {
+  if (recording.zero > SimDuration())
+    out << "times       moved: 0 is the recording's " << recording.zero.nanoseconds() / 1'000'000'000
+        << " s\n";
+  if (recording.without_time > 0)
+    out << "times       " << recording.without_time
+        << " messages are stamped by another clock or by none; played when they were logged\n";
+  if (recording.without_id > 0) {
+    out << "ids         " << recording.without_id << " messages have no vehicle id; given:";
+    for (const auto& [vehicle, id] : recording.ids_given) out << " " << vehicle << "=" << id;
+    out << "\n";
+  }
+  if (recording.without_orientation > 0)
+    out << "pose        " << recording.without_orientation
+        << " states have no orientation; taken as level, towards north\n";
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,47 @@
+#include "clients/halocline/analysis/run_files.h"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace halocline::clients {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) fs::create_directories(folder, error);
+  if (error) throw std::runtime_error("cannot make the folder " + folder.string() + ": " + error.message());
+}
+
+}  // namespace
+
+RunFiles run_files(const std::string& out, const std::string& name, const std::string& log,
+                   const std::string& csv) {
+  RunFiles files;
+  files.log = log.empty() ? (fs::path(out) / (name + ".lcm")).string() : log;
+  files.csv = csv.empty() ? (fs::path(out) / "csv").string() : csv;
+  files.config = config_beside(files.log);
+  make_folder(fs::path(files.log).parent_path());
+  return files;
+}
+
+std::string config_beside(const std::string& log) {
+  return fs::path(log).replace_extension(".toml").string();
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+void replace_whole(const std::string& path, const std::string& text) {
+  const std::string unfinished = path + ".unfinished";
+  write_text(unfinished, text);
+  fs::rename(unfinished, path);
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,85 @@
+#include "clients/halocline/analysis/simulation_output.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bus/logs/channel_types.h"
+#include "bus/logs/log_recorder.h"
+#include "bus/message_codec.h"
+#include "bus/transport.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+using bus::Bytes;
+using Said = std::pair<std::string, Bytes>;  // channel and message
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_between_programs(std::string_view channel) {
+  return is_one_of(family_of(channel), {"STATUS", "HEARTBEAT", "REPAIR_REQUEST", "REPAIR", "RAY_QUERY",
+                                        "RAY_REPLY", "PING_ANSWER"});
+}
+
+bool is_of_channel_server(std::string_view channel) {
+  return is_one_of(family_of(channel),
+                   {"ENVIRONMENT", "LINKS", "RECEIPT", "RECEIVE", "OUTCOME", "LINK_REPLY"});
+}
+
+template <class Message>
+Bytes without_number(const Bytes& bytes) {
+  Message message;
+  if (!decode_checked(bytes, message)) return {};
+  if constexpr (requires { message.session; }) message.session = 0;
+  if constexpr (requires { message.sequence; }) message.sequence = 0;
+  return bus::encoded(message);
+}
+
+// Empty for what is no simulation output.
+std::optional<Said> output_of(const LogReader& log, const LoggedEvent& event) {
+  if (is_between_programs(event.channel)) return std::nullopt;
+  Bytes bytes = event.data;
+  const bool is_ours = with_type_of(event.channel, [&]<class Message>() {
+    if (is_of_channel_server(event.channel)) bytes = without_number<Message>(event.data);
+  });
+  if (!is_ours) return std::nullopt;
+  require(!bytes.empty(), place_of(log, event) + ": an event on " + event.channel + " does not decode");
+  return Said{event.channel, std::move(bytes)};
+}
+
+}  // namespace
+
+std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
+  const auto memq = bus::open_transport("memq://");
+  std::int64_t stamp_us = 0;
+  bus::LogRecorder recorder(*memq, path, [&] { return SimTime::from_utime(stamp_us); });
+  std::vector<Said> at_stamp;
+  const auto write = [&] {
+    std::sort(at_stamp.begin(), at_stamp.end());
+    for (const auto& [channel, bytes] : at_stamp) {
+      memq->publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
+      memq->handleTimeout(0);
+    }
+    at_stamp.clear();
+  };
+  for (LoggedEvent event; log.next(event);) {
+    require(event.stamp_us >= stamp_us || recorder.events() + std::ssize(at_stamp) == 0,
+            place_of(log, event) +
+                ": the stamp is before that of the event before; allowed are logs in "
+                "simulation time, as ours are");
+    if (event.stamp_us != stamp_us) write();
+    stamp_us = event.stamp_us;
+    if (auto said = output_of(log, event)) at_stamp.push_back(std::move(*said));
+  }
+  write();
+  recorder.close();
+  return recorder.events();
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,24 @@
+// The simulation output of a run, apart from how many programs made it: for comparing runs whose channel server was
+// split (channel_server/vehicles/shard.h) with runs whose was not.
+//
+// Left out is what programs say of themselves and to each other: STATUS, HEARTBEAT, REPAIR_REQUEST, REPAIR,
+// RAY_QUERY, RAY_REPLY, PING_ANSWER, and what is on channels that are none of ours. What a channel server
+// says (ENVIRONMENT, LINKS, RECEIPT, RECEIVE, OUTCOME, LINK_REPLY) loses session and sequence, which tell
+// which of several said it as his how-manieth. What has one stamp is put in order by channel and bytes,
+// because servers speak one after the other. All else stays as it is, byte for byte: two runs of the same
+// output write the same file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bus/logs/log_reader.h"
+
+namespace halocline::clients {
+
+// Writes the output as an LCM log to `path` and returns the number of its events. Stamps must not fall, which
+// those of our own logs do not; throws InvalidArgument where they do, for an event of a channel server that
+// does not decode, and when `path` cannot be written.
+std::int64_t write_simulation_output(LogReader& log, const std::string& path);
+
+}  // namespace halocline::clients

@@ -1,0 +1,49 @@
+// Arrivals as people and programs read them: a table, CSV with the columns of the reference arrivals, or JSON.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "acoustics/link/received_field.h"
+#include "acoustics/rays/arrivals.h"
+
+namespace halocline::clients {
+
+enum class OutputFormat { kTable, kCsv, kJson };
+
+// What a receiver gets of one path from the transmitter's modem.
+struct ReceivedPath {
+  double level_db;        // dB re 1 uPa
+  double doppler_factor;  // received over sent frequency
+};
+
+struct LinkArrivals {
+  acoustics::RayLink link;
+  acoustics::Arrivals arrivals;
+  bool modems_known = false;          // then `received` holds one for each path
+  acoustics::Transducers beams = {};  // of the modems, which weigh summary and impulse response
+  std::vector<ReceivedPath> received = {};
+  bool blocked = false;       // where no ray gets there: the bottom cuts the straight line
+  std::string found_by = {};  // empty: the solver's name
+};
+
+// CSV: one row a path: src_depth_m, rcv_depth_m, rcv_range_m, index (by delay, from 0), delay_s, amplitude (re 1 m,
+// without absorption), phase_deg (0..360), launch_angle_deg, arrival_angle_deg (positive down), n_surface, n_bottom,
+// n_caustic, path_length_m, absorption_db, surface_loss_db, bottom_loss_db; with known modems also level_db and
+// doppler_factor. A link in a shadow has no row.
+// JSON: a list of links, each with its solver, shadow (true or false), summary and paths, by the same names.
+// Level of a path: received, dB re 1 uPa, where the modems are known, else dB re the source level.
+double path_level_db(const LinkArrivals& found, std::size_t index);
+
+// Why there is no path.
+std::string why_silent(const LinkArrivals& found);
+
+// CSV: delay_s, real, imaginary and magnitude_db of each sample of acoustics::impulse_response about the
+// carrier, from the sample before the first path to the one after the last; pressure re that at 1 m, beams in
+// it. In a shadow no row.
+void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz);
+
+void print_arrivals(std::ostream& out, const std::vector<LinkArrivals>& links, OutputFormat format);
+
+}  // namespace halocline::clients

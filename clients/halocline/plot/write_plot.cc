@@ -1,0 +1,78 @@
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "clients/halocline/plot/plot.h"
+
+namespace halocline::clients {
+namespace {
+
+struct Closer {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Closer>;
+
+File nameless_file() {
+  File file(std::tmpfile());
+  if (!file) throw std::runtime_error("cannot make a temporary file for gnuplot");
+  return file;
+}
+
+std::string text_of(std::FILE* file) {
+  std::rewind(file);
+  std::string text;
+  std::array<char, 4096> part{};
+  for (std::size_t got = 0; (got = std::fread(part.data(), 1, part.size(), file)) > 0;)
+    text.append(part.data(), got);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+// Runs gnuplot with `script` as its standard input; false with what it said when it failed.
+bool run_gnuplot(const std::string& script, std::string& said) {
+  const File in = nameless_file(), out = nameless_file();
+  if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() || std::fflush(in.get()) != 0)
+    throw std::runtime_error("cannot write the commands for gnuplot");
+  if (lseek(fileno(in.get()), 0, SEEK_SET) != 0) throw std::runtime_error("cannot rewind gnuplot's commands");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(in.get()), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDERR_FILENO);
+  std::string program = "gnuplot", defaults = "--default-settings";
+  std::array<char*, 3> arguments{program.data(), defaults.data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error == ENOENT)
+    throw std::runtime_error("plots need gnuplot, which is not installed: apt-get install gnuplot-nox");
+  if (error != 0) throw std::runtime_error(std::string("cannot start gnuplot: ") + std::strerror(error));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  said = text_of(out.get());
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+void write_plot(const Plot& plot, const std::string& file) {
+  const std::string script = gnuplot_script(plot, file);
+  std::string said;
+  const bool done = run_gnuplot(script, said);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (!done || error || size == 0)
+    throw std::runtime_error("gnuplot could not make " + file + (said.empty() ? "" : ": " + said));
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,136 @@
+#include "clients/halocline/scenario/composition.h"
+
+#include <filesystem>
+
+#include "bathymetry/bathymetry_config.h"
+#include "bathymetry/bathymetry_node.h"
+#include "channel_server/channel_server_node.h"
+#include "clients/autopilot/autopilot_node.h"
+#include "clients/localiser/localiser_node.h"
+#include "clients/traffic/traffic_node.h"
+#include "conductor/conductor_node.h"
+#include "vehicle_sim/vehicle_sim_node.h"
+#include "vehicle_sim/world/terrain_seabed.h"
+
+namespace halocline::clients {
+namespace {
+
+// A path of a scenario, made to hold wherever the configuration is written. What is no file (GDAL takes other
+// names too) stays as it is.
+void make_absolute(std::string& path, const std::string& folder) {
+  const auto joined = std::filesystem::path(folder) / path;
+  if (!path.empty() && std::filesystem::exists(joined))
+    path = std::filesystem::absolute(joined).lexically_normal();
+}
+
+void resolve(channel_server::ProfileConfig& profile, const ScenarioConfig& config) {
+  make_absolute(profile.file, config.folder);
+  make_absolute(profile.salinity_file, config.folder);
+  if (profile.position_given) return;
+  profile.latitude_rad = to_radians(config.scenario.origin_latitude_deg);
+  profile.longitude_rad = to_radians(config.scenario.origin_longitude_deg);
+}
+
+// What the scenario says by leaving it out, said.
+void resolve(ScenarioConfig& config) {
+  make_absolute(config.terrain.raster.path, config.folder);
+  for (auto& vehicle : config.scenario.vehicles) make_absolute(vehicle.model, config.folder);
+  for (auto& nested : config.terrain.nested) make_absolute(nested.raster.path, config.folder);
+  resolve(config.channel_server.environment.profile, config);
+  for (auto& change : config.channel_server.changes) {
+    if (change.profile) resolve(*change.profile, config);
+  }
+}
+
+}  // namespace
+
+void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
+  bus::visit(v, config.scenario);
+  bathymetry::visit(v, config.terrain);
+  channel_server::visit(v, config.channel_server);
+  vehicle_sim::visit(v, config.vehicle_sim);
+  visit(v, config.autopilot);
+  visit(v, config.traffic);
+  visit(v, config.localiser);
+}
+
+ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides) {
+  ScenarioConfig config;
+  auto file = bus::ConfigFile::load(path, overrides);
+  file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
+  file.check(/*whole_file=*/true);
+  config.folder = file.folder();
+  // These throw with what is wrong in a model's file, a fault or a name.
+  vehicle_sim::faults_of(vehicle_sim::members_of(config.scenario, config.vehicle_sim), config.vehicle_sim);
+  for (const PilotConfig& pilot : config.autopilot.vehicles) beacons_of(config.autopilot, pilot);
+  for (const VehicleTraffic& traffic : config.traffic.vehicles) destination_id(config.traffic, traffic);
+  for (const VehicleLocaliser& vehicle : config.localiser.vehicles) beacons_of(config.localiser, vehicle);
+  return config;
+}
+
+std::string effective_toml(const ScenarioConfig& config) {
+  ScenarioConfig resolved = config;
+  resolve(resolved);
+  return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, resolved); }, /*with_comments=*/false);
+}
+
+std::string commented_toml() {
+  ScenarioConfig config;
+  config.scenario.vehicles.resize(1);
+  config.scenario.vehicles[0].name = "auv-1";
+  config.scenario.vehicles[0].id = 1;
+  config.channel_server.vehicles.resize(1);
+  config.vehicle_sim.tethers.resize(1);
+  config.vehicle_sim.faults.resize(1);
+  config.vehicle_sim.faults[0].fault.angle_rad = 0;
+  config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig()}};
+  config.autopilot.vehicles.resize(1);
+  config.autopilot.vehicles[0].behaviours.resize(1);
+  config.traffic.vehicles.resize(1);
+  config.localiser.vehicles.resize(1);
+  return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);
+}
+
+bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config) {
+  return prepare_terrain(config.terrain, {config.scenario.origin_latitude_deg,
+                                          config.scenario.origin_longitude_deg, config.folder});
+}
+
+template <class NodeType, class... Arguments>
+void Composition::add(bus::Stage stage, const std::string& name, Arguments&&... arguments) {
+  const bus::NodeIdentity identity{name, bus::session_of(seed_, name), stage};
+  owned_.push_back(std::make_unique<NodeType>(lcm_, identity, std::forward<Arguments>(arguments)...));
+  order_.push_back(owned_.back().get());
+}
+
+Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded)
+    : lcm_(lcm), seed_(config.scenario.seed), terrain_(make_terrain(config)) {
+  // Nothing paces lockstep: the clock announces rate 0.
+  add<conductor::ConductorNode>(bus::Stage::kTime, "conductor", config.scenario.clock_period, 0.0);
+  add<bathymetry::BathymetryNode>(bus::Stage::kTerrain, "bathymetry", terrain_.terrain, terrain_.summary);
+  if (kind == kReplay) {
+    order_.push_back(recorded);
+  } else {
+    add<vehicle_sim::VehicleSimNode>(bus::Stage::kVehicles, "vehicle-sim", config.scenario,
+                                     config.vehicle_sim,
+                                     std::make_shared<vehicle_sim::TerrainSeabed>(terrain_.terrain));
+    add<AutopilotNode>(bus::Stage::kPilots, "autopilot", config.autopilot);
+    add<TrafficNode>(bus::Stage::kTraffic, "traffic", config.traffic);
+    add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
+  }
+  add_channel_servers(config);
+}
+
+void Composition::add_channel_servers(const ScenarioConfig& config) {
+  channel_server::ChannelServerConfig server = config.channel_server;
+  channel_server::Shard& shard = server.rules.medium.shard;
+  for (shard.index = 0; shard.index < shard.count; ++shard.index) {
+    const std::string name = "channel-server" + (shard.is_alone() ? "" : "-" + std::to_string(shard.index));
+    const bus::NodeIdentity identity{name, bus::session_of(seed_, name), bus::Stage::kChannel};
+    owned_.push_back(
+        channel_server::make_channel_server(lcm_, identity, server, config.scenario, config.folder));
+    order_.push_back(owned_.back().get());
+  }
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,78 @@
+// A whole scenario in one place: its file read and checked as a whole, and the nodes it is made of.
+//
+//   const ScenarioConfig config = load_scenario("scenarios/seamount.toml", {"modem.source_level_db=170"});
+//   lcm::LCM lcm("memq://");
+//   Composition all(lcm, config, Composition::kRun);
+//   bus::LockstepRunner runner(lcm, all.nodes());
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "bus/runtime/node.h"
+#include "bus/runtime/scenario.h"
+#include "channel_server/channel_server_config.h"
+#include "clients/autopilot/autopilot_config.h"
+#include "clients/localiser/localiser_config.h"
+#include "clients/traffic/traffic_config.h"
+#include "vehicle_sim/vehicle_sim_config.h"
+
+namespace halocline::clients {
+
+// Every section of a scenario file.
+struct ScenarioConfig {
+  bus::Scenario scenario;
+  bathymetry::TerrainRecipe terrain;
+  vehicle_sim::VehicleSimConfig vehicle_sim;
+  channel_server::ChannelServerConfig channel_server;
+  AutopilotConfig autopilot;
+  TrafficConfig traffic;
+  LocaliserConfig localiser;
+  std::string folder = ".";  // where relative paths of the file start
+};
+
+void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
+
+// Throws bus::ConfigErrors with everything that is wrong with the file: in its sections, between them, and
+// keys that no program reads.
+ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides);
+
+// The configuration as a scenario file of its own: every key with its value; paths made absolute, so that it
+// may lie anywhere.
+std::string effective_toml(const ScenarioConfig& config);
+
+// Every key with its default and its meaning, with one vehicle.
+std::string commented_toml();
+
+// The seabed; throws InvalidArgument when a raster cannot be read.
+bathymetry::PreparedTerrain make_terrain(const ScenarioConfig& config);
+
+class Composition {
+ public:
+  // Which nodes: all of a run; or those that stay beside a recorded log, whose states and transmissions come
+  // from `recorded`.
+  enum Kind { kRun, kReplay };
+
+  // Sessions are made of the scenario's seed and the nodes' names. `recorded` steps where the vehicle simulator
+  // would; it must outlive the composition.
+  Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded = nullptr);
+
+  // In the order in which they step: who moves vehicles before who pilots them, the channel server last.
+  std::vector<bus::Node*> nodes() const { return order_; }
+  const bathymetry::PreparedTerrain& terrain() const { return terrain_; }
+
+ private:
+  template <class NodeType, class... Arguments>
+  void add(bus::Stage stage, const std::string& name, Arguments&&... arguments);
+  void add_channel_servers(const ScenarioConfig& config);
+
+  lcm::LCM& lcm_;
+  std::uint64_t seed_;
+  bathymetry::PreparedTerrain terrain_;
+  std::vector<std::unique_ptr<bus::Node>> owned_;
+  std::vector<bus::Node*> order_;
+};
+
+}  // namespace halocline::clients

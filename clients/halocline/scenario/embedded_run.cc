@@ -1,0 +1,77 @@
+#include "clients/halocline/scenario/embedded_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "bus/runtime/lockstep_runner.h"
+#include "bus/runtime/node_process.h"
+#include "bus/transport.h"
+#include "clients/halocline/scenario/progress_line.h"
+
+namespace halocline::clients {
+namespace {
+
+// Shows everything of one LCM on another, for lcm-spy and the like. Nothing comes back.
+class Mirror {
+ public:
+  Mirror(lcm::LCM& from, const std::string& url)
+      : to_(bus::open_transport(bus::effective_url(url))), from_(from) {
+    subscription_ = from_.subscribe(".*", &Mirror::pass_on, this);
+  }
+  ~Mirror() { from_.unsubscribe(subscription_); }
+  Mirror(const Mirror&) = delete;
+  Mirror& operator=(const Mirror&) = delete;
+
+ private:
+  void pass_on(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    to_->publish(channel, buffer->data, buffer->data_size);
+  }
+  std::unique_ptr<lcm::LCM> to_;
+  lcm::LCM& from_;
+  lcm::Subscription* subscription_ = nullptr;
+};
+
+void sleep_for(SimDuration duration) {
+  std::this_thread::sleep_for(std::chrono::nanoseconds(duration.nanoseconds()));
+}
+
+// Waits until the wall has come as far as `sim` at `rate`; false when stopped meanwhile.
+bool keep_pace(SimTime sim, SimTime started, double rate, const std::function<bool()>& should_stop) {
+  constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
+  const SimTime due = started + SimDuration::from_seconds(sim.seconds() / rate);
+  for (SimTime now = bus::steady_now(); now < due; now = bus::steady_now()) {
+    if (should_stop()) return false;
+    sleep_for(std::min(due - now, kLongestSleep));
+  }
+  return true;
+}
+
+}  // namespace
+
+RunOutcome run_embedded(lcm::LCM& lcm, const std::vector<bus::Node*>& nodes, const EmbeddedRun& run) {
+  bus::LockstepRunner runner(lcm, nodes);
+  bus::LogRecorder recorder(
+      lcm, run.log_path, [&] { return runner.now(); }, run.rotation);
+  const auto mirror = run.mirror_url.empty() ? nullptr : std::make_unique<Mirror>(lcm, run.mirror_url);
+  ProgressLine progress(stderr, run.end, run.quiet);
+  const SimTime started = bus::steady_now();
+  RunOutcome outcome;
+  runner.set_before_instant([&](SimTime instant) {
+    outcome.interrupted =
+        run.should_stop() || (run.rate > 0 && !keep_pace(instant, started, run.rate, run.should_stop));
+    progress.show(runner.now(), bus::steady_now());
+    if (!outcome.interrupted) outcome.reached = instant;
+    return !outcome.interrupted;
+  });
+  runner.run_until(run.end);
+  runner.stop();
+  recorder.close();
+  if (!outcome.interrupted) outcome.reached = run.end;
+  outcome.wall_s = (bus::steady_now() - started).seconds();
+  progress.finish(outcome.reached, bus::steady_now());
+  return outcome;
+}
+
+}  // namespace halocline::clients

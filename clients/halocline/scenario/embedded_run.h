@@ -1,0 +1,34 @@
+// Runs nodes in lockstep in this process into a log, as fast as they compute or paced by the wall clock.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bus/logs/log_recorder.h"
+#include "bus/runtime/node.h"
+
+namespace halocline::clients {
+
+struct EmbeddedRun {
+  SimTime end;           // the run goes from 0 to here, both included
+  std::string log_path;  // replaced
+  bus::LogRotation rotation = {};
+  double rate = 0;              // simulated seconds per wall second; 0: as fast as it computes
+  std::string mirror_url = {};  // where everything is shown as well (a udpm URL); empty: nowhere
+  bool quiet = false;           // no progress line
+  // Asked before each instant; true ends the run there.
+  std::function<bool()> should_stop = [] { return false; };
+};
+
+struct RunOutcome {
+  SimTime reached;
+  double wall_s = 0;
+  bool interrupted = false;
+};
+
+// `lcm` is the memq on which the nodes are. The log holds simulation time as its stamps; it is sound and closed
+// when this returns or throws.
+RunOutcome run_embedded(lcm::LCM& lcm, const std::vector<bus::Node*>& nodes, const EmbeddedRun& run);
+
+}  // namespace halocline::clients

@@ -1,0 +1,169 @@
+#include "clients/halocline/scenario/link_survey.h"
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include "bathymetry/ray_service.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+using channel_server::RayAnswer;
+using channel_server::TerrainRay;
+
+RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
+  using Status = bathymetry::RayStatus;
+  switch (status) {
+    case Status::kHit:
+      return RayAnswer::Kind::kHit;
+    case Status::kMiss:
+      return RayAnswer::Kind::kMiss;
+    case Status::kOutside:
+      return RayAnswer::Kind::kOutside;
+    case Status::kNoData:
+      return RayAnswer::Kind::kNoData;
+    case Status::kStartedBelowBottom:
+      return RayAnswer::Kind::kBelowBottom;
+    case Status::kBadInput:
+      break;
+  }
+  return RayAnswer::Kind::kBadInput;
+}
+
+std::vector<RayAnswer> ask(const bathymetry::Terrain& terrain, bathymetry::QueryMode mode,
+                           const std::vector<TerrainRay>& rays) {
+  if (rays.empty()) return {};
+  bathymetry::RayBatch batch{.mode = mode};
+  for (const TerrainRay& ray : rays)
+    batch.rays.push_back({ray.origin_ned_m, ray.direction, ray.greatest_range_m});
+  const auto answers = bathymetry::answer(terrain, bathymetry::version_text(terrain.version()), batch);
+  std::vector<RayAnswer> out;
+  for (std::size_t i = 0; i < answers.statuses.size(); ++i) {
+    out.push_back({kind_of(answers.statuses[i]), answers.results_m[i]});
+  }
+  return out;
+}
+
+bool parse_position(const std::string& text, Vec3& position) {
+  std::istringstream in(text);
+  std::string part;
+  int count = 0;
+  for (; std::getline(in, part, ','); ++count) {
+    if (count == 3) return false;
+    const char* end = part.data() + part.size();
+    const auto [stop, error] = std::from_chars(part.data(), end, position[count]);
+    if (error != std::errc() || stop != end || !std::isfinite(position[count])) return false;
+  }
+  return count == 3;
+}
+
+// The one straight path as an arrival: what the transmission loss holds besides absorption and beams is spreading.
+acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
+                                     const acoustics::Transducers& beams) {
+  const acoustics::LinkBudget& budget = reception.budget;
+  acoustics::Arrival path;
+  path.delay_s = budget.delay_s;
+  path.path_length_m = budget.range_m;
+  path.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
+  path.launch_angle_rad = reception.paths.front().launch_angle_rad;
+  path.arrival_angle_rad = reception.paths.front().arrival_angle_rad;
+  const Decibels weighed =
+      beams.source.loss(path.launch_angle_rad) + beams.receiver.loss(-path.arrival_angle_rad);
+  path.amplitude = std::pow(10, (path.absorption_db + weighed.value - budget.transmission_loss.value) / 20);
+  return {.paths = {path}};
+}
+
+// What is told of the paths of an answer, whichever propagation found them.
+LinkArrivals told(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to,
+                  const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
+  const Vec3 way = to.position_ned_m - from.position_ned_m;
+  const double surface_z_m = config.scenario.sea_surface_z_m;
+  LinkArrivals all{
+      .link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
+               depth_below_surface_m(to.position_ned_m, surface_z_m), std::hypot(way.x(), way.y())},
+      .arrivals = std::move(arrivals)};
+  all.modems_known = true;
+  all.beams = {from.modem.modem.beam, to.modem.modem.beam};
+  all.blocked = reception.state == channel_server::PathState::kBlocked;
+  if (reception.used != channel_server::PropagationUsed::kRays) all.found_by = "straight";
+  for (const channel_server::SoundPath& path : reception.paths)
+    all.received.push_back({path.level.value, path.doppler_factor});
+  return all;
+}
+
+}  // namespace
+
+Vec3 parse_vector(const std::string& text, const std::string& what) {
+  Vec3 vector;
+  require(parse_position(text, vector), what + " is '" + text + "'; allowed is north,east,down");
+  return vector;
+}
+
+LinkEnd link_end(const ScenarioConfig& config, const std::string& text) {
+  const auto modems = make_modems(config.channel_server);
+  LinkEnd end{.name = text, .modem = modems.standard};
+  if (const bus::VehicleEntry* vehicle = config.scenario.find(text)) {
+    end.position_ned_m = vehicle->start_ned_m;
+    end.modem = modems.of(text);
+  } else {
+    require(parse_position(text, end.position_ned_m),
+            "'" + text +
+                "' is no link end; allowed is the name of a vehicle of the scenario, or "
+                "north,east,down in metres");
+  }
+  require(depth_below_surface_m(end.position_ned_m, config.scenario.sea_surface_z_m) >= 0,
+          "'" + text + "' lies above the sea surface");
+  return end;
+}
+
+channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                         const Vec3& to_ned_m, int bottom_points) {
+  channel_server::EchoSurvey survey(from_ned_m, to_ned_m, bottom_points);
+  survey.take_depths(ask(terrain, bathymetry::QueryMode::kDepth, survey.depth_rays()));
+  survey.take_ways(ask(terrain, bathymetry::QueryMode::kOccluded, survey.way_rays()));
+  return survey;
+}
+
+channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                             const Vec3& to_ned_m, const channel_server::ProfileRule& rule) {
+  channel_server::ProfileSurvey survey(cells_of(from_ned_m, to_ned_m, rule), rule);
+  survey.take(ask(terrain, bathymetry::QueryMode::kDepth, survey.rays()));
+  return survey;
+}
+
+LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to) {
+  const auto terrain = make_terrain(config).terrain;
+  const channel_server::LinkEnd here{0, from.position_ned_m, from.velocity_ned_mps, &from.modem.modem};
+  const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &to.modem.modem};
+  const auto waters = std::make_shared<channel_server::EnvironmentTimeline>(
+      make_environment(config.channel_server.environment, config.scenario, config.folder));
+  const channel_server::ServerRules& rules = config.channel_server.rules;
+  const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
+  LinkAnswer answer;
+  if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
+    channel_server::RayPropagation propagation(waters,
+                                               std::make_shared<channel_server::ProfileBook>(rules.profile),
+                                               make_rays(config.channel_server));
+    const auto seabed =
+        survey_profile(*terrain, from.position_ned_m, to.position_ned_m, rules.profile).profile();
+    answer.reception = propagation.reception_over(SimTime(), here, there, seabed);
+    const bool rays = answer.reception.used == channel_server::PropagationUsed::kRays;
+    answer.arrivals = told(config, from, to, answer.reception,
+                           rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
+                                : straight_arrival(answer.reception, beams));
+    answer.multipath = multipath_of(answer.reception, to.modem.modem.least_receivable_level);
+    return answer;
+  }
+  channel_server::StraightPropagation propagation(waters);
+  answer.reception = propagation.reception(SimTime(), here, there);
+  answer.arrivals = told(config, from, to, answer.reception, straight_arrival(answer.reception, beams));
+  const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
+  answer.multipath =
+      multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);
+  return answer;
+}
+
+}  // namespace halocline::clients

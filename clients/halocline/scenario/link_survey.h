@@ -1,0 +1,47 @@
+// One link of a scenario between two points, computed here and now: budget, paths, and whether the bottom sends
+// echoes.
+//
+// The same computation as a channel server's table: channel_server/links/link_table.h for the water, echo_survey.h over the
+// scenario's terrain.
+#pragma once
+
+#include <string>
+
+#include "channel_server/links/echo_survey.h"
+#include "channel_server/links/link_table.h"
+#include "clients/halocline/arrivals/arrival_output.h"
+#include "clients/halocline/scenario/composition.h"
+
+namespace halocline::clients {
+
+struct LinkEnd {
+  std::string name;  // of the vehicle, or the position as text
+  Vec3 position_ned_m = Vec3::Zero();
+  Vec3 velocity_ned_mps = Vec3::Zero();  // for Doppler alone
+  channel_server::VehicleModem modem;
+};
+
+struct LinkAnswer {
+  channel_server::Reception reception;
+  channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
+  LinkArrivals arrivals;  // the paths of the reception with all that is known of them
+};
+
+// An end by the name of a vehicle of the scenario (where it starts, with its modem) or by "north,east,down" in metres
+// (with the standard modem). Throws InvalidArgument when `text` is neither, or lies above the surface.
+LinkEnd link_end(const ScenarioConfig& config, const std::string& text);
+
+// "1,2,3" as three numbers; throws InvalidArgument, naming `what`, when `text` is something else.
+Vec3 parse_vector(const std::string& text, const std::string& what);
+
+LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to);
+
+// Which echoes the bottom can send between two points of a terrain.
+channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                         const Vec3& to_ned_m, int bottom_points);
+
+// How the bottom runs between them.
+channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
+                                             const Vec3& to_ned_m, const channel_server::ProfileRule& rule);
+
+}  // namespace halocline::clients

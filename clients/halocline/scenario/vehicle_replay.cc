@@ -1,0 +1,191 @@
+#include "clients/halocline/scenario/vehicle_replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "clients/halocline/analysis/run_files.h"
+#include "core/check.h"
+#include "core/csv_table.h"
+#include "core/units.h"
+#include "vehicle_sim/model_config.h"
+
+namespace halocline::clients {
+namespace {
+
+using vehicle_sim::ActuatorValues;
+using vehicle_sim::ModelParameters;
+using vehicle_sim::OpenLoopRun;
+using vehicle_sim::OpenLoopSample;
+using vehicle_sim::ScheduledCommand;
+using vehicle_sim::VehicleState;
+
+constexpr double kSecondsPerMinute = 60, kLongestRun_s = 1e6;
+
+const std::vector<std::string>& command_columns() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list{"t_s", "propeller_rpm", "rudder_deg", "stern_plane_deg"};
+    for (std::size_t i = 1; i <= vehicle_sim::kMostThrusters; ++i)
+      list.push_back("thruster_" + std::to_string(i) + "_rpm");
+    return list;
+  }();
+  return names;
+}
+
+// In the order of command_columns.
+ScheduledCommand to_command(const std::vector<double>& cells) {
+  ScheduledCommand command;
+  command.from = SimTime::from_seconds(cells[0]);
+  command.actuators.propeller_hz = cells[1] / kSecondsPerMinute;
+  command.actuators.rudder_rad = to_radians(cells[2]);
+  command.actuators.stern_planes_rad = to_radians(cells[3]);
+  for (std::size_t i = 0; i < vehicle_sim::kMostThrusters; ++i)
+    command.actuators.thruster_hz[i] = cells[4 + i] / kSecondsPerMinute;
+  return command;
+}
+
+void check_columns(const CsvTable& table, std::vector<std::string>& errors) {
+  const auto& known = command_columns();
+  for (const std::string& cell : table.header.cells) {
+    if (std::find(known.begin(), known.end(), cell) == known.end())
+      errors.push_back("column '" + cell + "' is unknown");
+  }
+  if (!table.column("t_s")) errors.emplace_back("there is no column t_s");
+}
+
+std::vector<double> numbers_of(const CsvTable& table, const CsvLine& row, std::vector<std::string>& errors) {
+  std::vector<double> cells;
+  for (const std::string& name : command_columns()) {
+    const auto column = table.column(name);
+    const auto number = column ? parse_number(row.cells[*column]) : 0;
+    if (!number) errors.push_back("line " + std::to_string(row.number) + ": " + name + " is no number");
+    cells.push_back(number.value_or(0));
+  }
+  if (cells[0] < 0 || cells[0] > kLongestRun_s)
+    errors.push_back("line " + std::to_string(row.number) + ": t_s must be 0 to 1e6");
+  return cells;
+}
+
+Vec3 vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
+
+ModelParameters parameters_of(const VehicleReplay& r) {
+  ModelParameters p = vehicle_sim::load_model(r.model).parameters;
+  using vehicle_sim::CurrentTreatment;
+  if (r.current_treatment == "upstream") p.current_treatment = CurrentTreatment::kUpstream;
+  if (r.current_treatment == "galilean") p.current_treatment = CurrentTreatment::kGalilean;
+  p.buoyancy_n *= r.buoyancy_over_weight;
+  return r.hold_to_limits ? p : vehicle_sim::without_limits(p);
+}
+
+VehicleState start_of(const VehicleReplay& r, const Vec3& current_ned) {
+  VehicleState s;
+  s.position_ned_m = vector_of(r.position_ned_m);
+  s.orientation = to_quaternion({to_radians(r.heel_deg), to_radians(r.pitch_deg), to_radians(r.heading_deg)});
+  s.velocity_body << vector_of(r.velocity_body_mps), vector_of(r.rates_body_radps);
+  if (r.velocity_through_water) s.velocity_body.head<3>() += s.orientation.conjugate() * current_ned;
+  return s;
+}
+
+std::vector<ScheduledCommand> schedule_of(const VehicleReplay& r) {
+  if (r.commands.empty()) return {};
+  std::ifstream file(r.commands);
+  require(file.is_open(), "cannot read " + r.commands);
+  return read_schedule(file, r.commands);
+}
+
+class RowWriter {
+ public:
+  explicit RowWriter(std::ostream& out) : out_(out) {}
+  void number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.12g", value);
+    out_ << (first_ ? "" : ",") << text;
+    first_ = false;
+  }
+  void numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {
+    for (const double value : values) number(value);
+  }
+  void actuators(const ActuatorValues& a) {
+    number(a.rudder_rad);
+    number(a.stern_planes_rad);
+    number(a.propeller_hz * kSecondsPerMinute);
+  }
+  void end() {
+    out_ << "\n";
+    first_ = true;
+  }
+
+ private:
+  std::ostream& out_;
+  bool first_ = true;
+};
+
+void write_row(RowWriter& row, const OpenLoopSample& s, std::size_t thrusters, bool wrap_yaw) {
+  const EulerAngles euler = to_euler(s.state.orientation);
+  row.number(s.time.seconds());
+  row.numbers(s.state.position_ned_m);
+  row.numbers(Vec3(euler.roll, euler.pitch, wrap_yaw ? euler.yaw : s.yaw_unwrapped_rad));
+  row.numbers(s.state.velocity_body);
+  row.actuators(s.command);
+  row.actuators(s.state.actuators);
+  for (std::size_t i = 0; i < thrusters; ++i) {
+    row.number(s.command.thruster_hz[i] * kSecondsPerMinute);
+    row.number(s.state.actuators.thruster_hz[i] * kSecondsPerMinute);
+  }
+  row.end();
+}
+
+}  // namespace
+
+std::vector<ScheduledCommand> read_schedule(std::istream& in, const std::string& name_for_errors) {
+  std::vector<std::string> errors;
+  const CsvTable table = read_csv(in, errors);
+  if (errors.empty()) check_columns(table, errors);
+  std::vector<ScheduledCommand> schedule;
+  for (const CsvLine& row : table.rows) {
+    if (!errors.empty()) break;
+    schedule.push_back(to_command(numbers_of(table, row, errors)));
+    if (schedule.size() > 1 && !(schedule[schedule.size() - 2].from < schedule.back().from))
+      errors.push_back("line " + std::to_string(row.number) + ": t_s must rise from row to row");
+  }
+  std::string text;
+  for (const std::string& error : errors) text += (text.empty() ? "" : "\n") + name_for_errors + ": " + error;
+  require(errors.empty(), text);
+  return schedule;
+}
+
+void write_samples(std::ostream& out, const std::vector<OpenLoopSample>& samples, std::size_t thrusters,
+                   bool wrap_yaw) {
+  out << "t,x_n,y_e,z_d,phi,theta,psi,u,v,w,p,q,r,cmd_rudder,cmd_stern,cmd_rpm,act_rudder,act_stern,act_rpm";
+  for (std::size_t i = 1; i <= thrusters; ++i)
+    out << ",cmd_thruster_" << i << "_rpm,act_thruster_" << i << "_rpm";
+  out << "\n";
+  RowWriter row(out);
+  for (const OpenLoopSample& sample : samples) write_row(row, sample, thrusters, wrap_yaw);
+}
+
+int replay_vehicle(const VehicleReplay& r) {
+  const double toward = to_radians(r.current_toward_deg);
+  const Vec3 current = r.current_mps * Vec3(std::cos(toward), std::sin(toward), 0);
+  OpenLoopRun run;
+  run.start = start_of(r, current);
+  run.schedule = schedule_of(r);
+  run.water.current_ned_mps = current;
+  run.duration = SimDuration::from_seconds(r.duration_s);
+  run.step = SimDuration::from_seconds(r.step_ms / 1000);
+  run.sample_period = SimDuration::from_seconds(r.sample_s);
+  const vehicle_sim::Model model(parameters_of(r));
+  std::ostringstream text;
+  write_samples(text, run_open_loop(model, run), model.parameters().thrusters.size(), r.wrap_yaw);
+  if (r.out.empty() || r.out == "-") {
+    std::cout << text.str();
+  } else {
+    write_text(r.out, text.str());
+  }
+  return 0;
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,62 @@
+// What a sweep keeps of one run.
+//
+// A packet counts at a receiver that it was addressed to (or sent to all); those merely overheard count among
+// the fates only. Delays are travel times of the first significant path of what was delivered; latency goes
+// from the first bit that left to the last that arrived. Throughput counts the payloads' bits that reached
+// who they were for. Percentiles are the least value that at least that share of the sample does not exceed
+// (nearest rank).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "clients/halocline/analysis/ledger.h"
+
+namespace halocline::clients {
+
+// The numbers of a run that have a mean over seeds; NaN where the run has none (nothing was delivered).
+enum class RunNumber {
+  kPacketsSent,
+  kPacketsRefused,
+  kDeliveryRatio,
+  kDelayMean,
+  kDelayMedian,
+  kDelay90,
+  kDelay99,
+  kLatencyMean,
+  kThroughput,
+};
+inline constexpr std::size_t kRunNumbers = 9;
+
+struct RunNumberInfo {
+  const char* name;     // as a column and a variable
+  const char* unit;     // as UDUNITS has it
+  const char* meaning;  // one line
+};
+const RunNumberInfo& info_of(std::size_t number);
+
+struct Delivered {
+  std::int64_t packets = 0, received = 0;  // at receivers
+};
+
+struct RunMetrics {
+  std::array<double, kRunNumbers> numbers{};
+  double simulated_s = 0;
+  Delivered all;
+  std::map<std::pair<std::string, std::string>, Delivered> by_pair;  // sender, receiver
+  FateCounts fates{};  // of all outcomes, addressed and overheard
+
+  double& operator[](RunNumber n) { return numbers[static_cast<std::size_t>(n)]; }
+  double operator[](RunNumber n) const { return numbers[static_cast<std::size_t>(n)]; }
+};
+
+RunMetrics metrics_of(LogReader& log);
+
+std::string to_json(const RunMetrics& metrics);
+// Throws std::runtime_error for a text that to_json did not write.
+RunMetrics metrics_from_json(const std::string& text);
+
+}  // namespace halocline::clients

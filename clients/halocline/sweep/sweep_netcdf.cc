@@ -1,0 +1,255 @@
+// The results of a sweep as netCDF-4, through netCDF's C library.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include <netcdf.h>
+
+#include "bus/version.h"
+#include "clients/halocline/sweep/sweep_summary.h"
+#include "core/csv_table.h"
+
+namespace halocline::clients {
+namespace {
+
+using Dimensions = std::vector<int>;
+
+void checked(int status, const std::string& what) {
+  if (status != NC_NOERR) throw std::runtime_error("cannot write " + what + ": " + nc_strerror(status));
+}
+
+// A file that is being written: variables are defined with their values.
+class NetcdfFile {
+ public:
+  explicit NetcdfFile(const std::string& path) : path_(path) {
+    checked(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_), path_);
+  }
+  ~NetcdfFile() {
+    if (open_) nc_abort(id_);
+  }
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+  void close() {
+    open_ = false;
+    checked(nc_close(id_), path_);
+  }
+  int dimension(const std::string& name, std::size_t size) {
+    int dimension = 0;
+    checked(nc_def_dim(id_, name.c_str(), size, &dimension), path_ + ", dimension " + name);
+    return dimension;
+  }
+  void attribute(const std::string& name, const std::string& value) { attribute(NC_GLOBAL, name, value); }
+
+  void numbers(const std::string& name, const Dimensions& dimensions, const std::vector<double>& values,
+               const std::string& unit, const std::string& meaning) {
+    const double missing = std::numeric_limits<double>::quiet_NaN();
+    const int variable = define(name, NC_DOUBLE, dimensions, meaning);
+    checked(nc_put_att_double(id_, variable, "_FillValue", NC_DOUBLE, 1, &missing), path_);
+    attribute(variable, "units", unit);
+    checked(nc_put_var_double(id_, variable, values.data()), path_ + ", " + name);
+  }
+  // A dimension's own values, which may not be missing.
+  void coordinates(const std::string& name, int dimension, const std::vector<double>& values,
+                   const std::string& unit, const std::string& meaning) {
+    const int variable = define(name, NC_DOUBLE, {dimension}, meaning);
+    attribute(variable, "units", unit);
+    checked(nc_put_var_double(id_, variable, values.data()), path_ + ", " + name);
+  }
+  void counts(const std::string& name, const Dimensions& dimensions, const std::vector<long long>& values,
+              const std::string& meaning) {
+    const int variable = define(name, NC_INT64, dimensions, meaning);
+    attribute(variable, "units", "1");
+    checked(nc_put_var_longlong(id_, variable, values.data()), path_ + ", " + name);
+  }
+  void texts(const std::string& name, int dimension, const std::vector<std::string>& values,
+             const std::string& meaning) {
+    const int variable = define(name, NC_STRING, {dimension}, meaning);
+    std::vector<const char*> pointers;
+    for (const std::string& value : values) pointers.push_back(value.c_str());
+    checked(nc_put_var_string(id_, variable, pointers.data()), path_ + ", " + name);
+  }
+
+ private:
+  int define(const std::string& name, nc_type type, const Dimensions& dimensions,
+             const std::string& meaning) {
+    int variable = 0;
+    checked(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(),
+                       &variable),
+            path_ + ", variable " + name);
+    attribute(variable, "long_name", meaning);
+    return variable;
+  }
+  void attribute(int variable, const std::string& name, const std::string& value) {
+    checked(nc_put_att_text(id_, variable, name.c_str(), value.size(), value.data()), path_ + ", " + name);
+  }
+
+  std::string path_;
+  int id_ = 0;
+  bool open_ = true;
+};
+
+// environment.wind_mps: environment_wind_mps. A name of netCDF begins with a letter.
+std::string variable_name(const std::string& key) {
+  std::string name;
+  for (const char c : key) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return std::isalpha(static_cast<unsigned char>(name.front())) != 0 ? name : "axis_" + name;
+}
+
+// As the ends of keys tell (docs/notation.md); 1 for pure numbers.
+std::string unit_of(const std::string& key) {
+  static const std::vector<std::pair<const char*, const char*>> units{
+      {"_mps", "m s-1"},  {"_hz", "Hz"},     {"_bps", "bit s-1"},         {"_deg", "degree"}, {"_db", "dB"},
+      {"_bytes", "byte"}, {"_rpm", "min-1"}, {"_degc", "degree_Celsius"}, {"_s", "s"},        {"_m", "m"}};
+  for (const auto& [ending, unit] : units) {
+    if (key.ends_with(ending)) return unit;
+  }
+  return "1";
+}
+
+// Of an axis all of whose values are numbers.
+std::optional<std::vector<double>> as_numbers(const SweepAxis& axis) {
+  std::vector<double> numbers;
+  for (const std::string& value : axis.values) {
+    const auto number = parse_number(value);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+struct Shape {
+  Dimensions point, seed, fate, pair, bound;  // bound: of the last dimension of an interval
+};
+
+Dimensions operator+(Dimensions a, const Dimensions& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+Shape define_axes(NetcdfFile& file, const SweepResults& results) {
+  Shape shape;
+  for (const SweepAxis& axis : results.plan.axes) {
+    const std::string name = variable_name(axis.key);
+    shape.point.push_back(file.dimension(name, axis.values.size()));
+    if (const auto numbers = as_numbers(axis))
+      file.coordinates(name, shape.point.back(), *numbers, unit_of(axis.key), axis.key);
+    else
+      file.texts(name, shape.point.back(), axis.values, axis.key);
+  }
+  std::vector<double> seeds(results.plan.seeds.begin(), results.plan.seeds.end());
+  shape.seed = {file.dimension("seed", seeds.size())};
+  file.coordinates("seed", shape.seed[0], seeds, "1", "seed of all random draws");
+  shape.fate = {file.dimension("fate", LogStatistics::kFates)};
+  std::vector<std::string> fates;
+  for (std::size_t fate = 0; fate < LogStatistics::kFates; ++fate) fates.emplace_back(fate_name(fate));
+  file.texts("fate", shape.fate[0], fates, "what became of a packet at a receiver");
+  shape.bound = {file.dimension("bound", 2)};
+  file.texts("bound", shape.bound[0], {"low", "high"}, "ends of a confidence interval");
+  return shape;
+}
+
+// One variable for the values, one for their intervals.
+class Estimates {
+ public:
+  void add(double value, const Interval& interval) {
+    values_.push_back(value);
+    intervals_.push_back(interval.low);
+    intervals_.push_back(interval.high);
+  }
+  void write(NetcdfFile& file, const std::string& name, const Dimensions& dimensions, const Dimensions& bound,
+             const std::string& unit, const std::string& meaning, const std::string& kind) const {
+    file.numbers(name, dimensions, values_, unit, meaning);
+    file.numbers(name + "_interval", dimensions + bound, intervals_, unit, meaning + ": " + kind);
+  }
+
+ private:
+  std::vector<double> values_, intervals_;
+};
+
+constexpr const char* kWilson = "Wilson's interval, packets taken as independent";
+constexpr const char* kStudent = "Student's t interval, runs taken as independent";
+
+void write_shares(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
+  Estimates delivery, fates;
+  std::vector<long long> counts, addressed;
+  for (const PointSummary& point : results.points) {
+    delivery.add(point.delivery.value(), point.delivery.interval);
+    addressed.push_back(point.delivery.of);
+    for (const Share& fate : point.fates) {
+      fates.add(fate.value(), fate.interval);
+      counts.push_back(fate.count);
+    }
+  }
+  file.counts("addressed_packets", shape.point, addressed,
+              "packets at receivers they were addressed to, all seeds");
+  delivery.write(file, "delivery_share", shape.point, shape.bound, "1",
+                 "share of addressed packets that were received", kWilson);
+  file.counts("fate_count", shape.point + shape.fate, counts, "packets at receivers by fate, all seeds");
+  fates.write(file, "fate_share", shape.point + shape.fate, shape.bound, "1",
+              "share of packets at receivers by fate", kWilson);
+}
+
+void write_pairs(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
+  const auto pairs = results.pairs();
+  if (pairs.empty()) return;
+  const Dimensions pair{file.dimension("pair", pairs.size())};
+  std::vector<std::string> from, to;
+  for (const auto& [sender, receiver] : pairs) {
+    from.push_back(sender);
+    to.push_back(receiver);
+  }
+  file.texts("pair_from", pair[0], from, "sender");
+  file.texts("pair_to", pair[0], to, "receiver");
+  Estimates delivery;
+  for (const PointSummary& point : results.points) {
+    for (const auto& name : pairs) {
+      const auto found = point.delivery_by_pair.find(name);
+      const Share share =
+          found != point.delivery_by_pair.end() ? found->second : Share{0, 0, wilson_interval(0, 0, 0.95)};
+      delivery.add(share.value(), share.interval);
+    }
+  }
+  delivery.write(file, "pair_delivery_share", shape.point + pair, shape.bound, "1",
+                 "share of addressed packets that were received, by sender and receiver", kWilson);
+}
+
+void write_run_numbers(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
+  std::vector<long long> completed;
+  for (const auto& run : results.runs) completed.push_back(run ? 1 : 0);
+  file.counts("completed", shape.point + shape.seed, completed, "1 where the run has a result");
+  for (std::size_t n = 0; n < kRunNumbers; ++n) {
+    const RunNumberInfo& info = info_of(n);
+    std::vector<double> values;
+    for (const auto& run : results.runs)
+      values.push_back(run ? run->numbers[n] : std::numeric_limits<double>::quiet_NaN());
+    file.numbers(std::string(info.name) + "_of_run", shape.point + shape.seed, values, info.unit,
+                 info.meaning);
+    Estimates means;
+    for (const PointSummary& point : results.points)
+      means.add(point.numbers[n].mean, point.numbers[n].interval);
+    means.write(file, info.name, shape.point, shape.bound, info.unit,
+                std::string("mean over runs of: ") + info.meaning, kStudent);
+  }
+}
+
+}  // namespace
+
+void write_netcdf(const SweepResults& results, const std::string& path) {
+  const std::string unfinished = path + ".unfinished";
+  NetcdfFile file(unfinished);
+  file.attribute("Conventions", "CF-1.8");
+  file.attribute("title", "Halocline sweep of " + results.plan.scenario);
+  file.attribute("source", std::string("halocline ") + bus::kVersion);
+  file.attribute("comment", "confidence level " + format_number(results.plan.level));
+  const Shape shape = define_axes(file, results);
+  write_shares(file, results, shape);
+  write_pairs(file, results, shape);
+  write_run_numbers(file, results, shape);
+  file.close();
+  std::filesystem::rename(unfinished, path);
+}
+
+}  // namespace halocline::clients

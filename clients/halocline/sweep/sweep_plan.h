@@ -1,0 +1,68 @@
+// What a sweep runs: a scenario at every point of a grid of overrides, each with every seed.
+//
+//   [sweep]
+//   scenario = "seamount.toml"            # from this file's folder
+//   seeds = "1..20"
+//   duration_s = 120                      # 0: the scenario's
+//   [[axis]]
+//   key = "environment.wind_mps"
+//   values = "2, 6, 12"                   # as in --set: texts in quotes
+//   [[set]]
+//   override = "modem.source_level_db=170"  # at every point
+//
+// Runs are numbered from 0: the last axis varies fastest but for the seeds, which vary fastest of all.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bus/config/config.h"
+
+namespace halocline::clients {
+
+struct SweepAxis {
+  std::string key;                  // of the scenario: section.key
+  std::vector<std::string> values;  // each as TOML
+};
+
+struct SweepPlan {
+  static constexpr std::size_t kMostRuns = 1'000'000;
+
+  std::string scenario;
+  std::vector<SweepAxis> axes;
+  std::vector<std::int64_t> seeds{1};
+  std::vector<std::string> overrides;  // at every point
+  double duration_s = 0;               // 0: the scenario's
+  double level = 0.95;                 // of confidence
+
+  std::size_t points() const;
+  std::size_t runs() const { return points() * seeds.size(); }
+};
+
+struct SweepRun {
+  std::size_t index = 0, point = 0;
+  std::vector<std::size_t> at;  // which value of each axis
+  std::int64_t seed = 1;
+  std::vector<std::string> overrides;  // all of them, the seed's and the duration's included
+};
+
+// The `index`-th run, below plan.runs().
+SweepRun run_of(const SweepPlan& plan, std::size_t index);
+
+// "environment.wind_mps=2,6,12"; commas within quotes and brackets do not part values. Throws InvalidArgument.
+SweepAxis parse_axis(const std::string& text);
+// "1..20" or "1,5,9..12": ascending, each once, 0 to 9e15. Throws InvalidArgument.
+std::vector<std::int64_t> parse_seeds(const std::string& text);
+std::string to_text(const std::vector<std::int64_t>& seeds);
+
+// Throws InvalidArgument for a plan without runs, with too many, or with an axis twice.
+void check(const SweepPlan& plan);
+
+void visit(bus::ConfigVisitor& v, SweepPlan& plan);
+// The plan in a file; its scenario is found from the file's folder. Throws bus::ConfigErrors.
+SweepPlan load_plan(const std::string& path);
+// As a file that may lie anywhere.
+std::string to_toml(const SweepPlan& plan);
+
+}  // namespace halocline::clients

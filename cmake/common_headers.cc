@@ -1,0 +1,2 @@
+// Compiled for its precompiled headers alone (options.cmake).
+int main() { return 0; }

@@ -1,0 +1,407 @@
+// Rays in water that depends on depth alone: closed forms, symmetries, and completeness against a dense fan.
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/rays/layered_rays.h"
+#include "core/check.h"
+#include "core/random.h"
+#include "tests/acoustics/rays/dense_fan.h"
+#include "tests/acoustics/rays/ray_reference.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using testing::CsvRow;
+using testing::tolerance;
+
+// Waters like those that links run in: a summer thermocline above a duct, two ducts, the deep sea in 101
+// knots.
+const std::vector<SpeedRow> kSummer = {{0, 1522},  {10, 1521.5}, {20, 1512},  {35, 1496},
+                                       {50, 1490}, {70, 1492},   {100, 1488}, {120, 1491}};
+const std::vector<SpeedRow> kDucts = {{0, 1500},  {30, 1503},  {50, 1492}, {60, 1490},
+                                      {90, 1495}, {150, 1490}, {200, 1493}};
+const std::vector<SpeedRow> kThermocline = {{0, 1520}, {50, 1490}, {100, 1490}};
+
+std::vector<SpeedRow> munk_knots() {
+  std::vector<SpeedRow> knots;
+  for (int i = 0; i <= 100; ++i) knots.push_back({50.0 * i, munk_sound_speed_mps(50.0 * i)});
+  return knots;
+}
+
+// ---------------------------------------------------------------------------------------------- closed forms
+
+// Water of constant gradient as deep as speeds stay believable.
+double depth_of_gradient(double g) { return std::min(4000.0, 400 / std::abs(g)); }
+
+TEST(LayeredRays, DirectRayInAConstantGradientIsTheClosedForm) {
+  int compared = 0;
+  for (const CsvRow& row : testing::read_reference_csv("acoustics/eigenray_linear_gradient.csv")) {
+    const double c0 = row.number("c_surface_m_per_s"), g = row.number("gradient_per_s");
+    const double bottom = depth_of_gradient(g), range = row.number("range_m");
+    const double tx = row.number("depth_tx_m"), rx = row.number("depth_rx_m");
+    // Where the closed form's arc (about a parabola of sag g r^2 / 8 c below the chord) leaves the water
+    // there is no such ray.
+    const double sag = g * range * range / (8 * c0), quarter = 0.75 * tx + 0.25 * rx + 0.75 * sag;
+    const double three_quarters = 0.25 * tx + 0.75 * rx + 0.75 * sag, half = 0.5 * (tx + rx) + sag;
+    if (std::min({quarter, half, three_quarters}) < 0) continue;
+    const RaySea sea = sea_of({{0, c0}, {bottom, c0 + bottom * g}}, BottomProfile::flat(bottom));
+    for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
+      double off = 1, length_off = 1;
+      for (const Arrival& path : arrivals(sea, {tx, rx, range}, solver).paths) {
+        if (path.surface_bounces + path.bottom_bounces > 0) continue;
+        off = std::min(off, std::abs(path.delay_s - row.number("travel_time_s")));
+        length_off = std::min(length_off, std::abs(path.path_length_m - row.number("arc_length_m")));
+      }
+      // Ends at the surface are moved by a micrometre, which is 7e-10 s at most.
+      EXPECT_LT(off, tolerance(1e-9)) << "line " << row.line() << " by " << to_name(solver);
+      EXPECT_LT(length_off, tolerance(1e-5)) << "line " << row.line() << " by " << to_name(solver);
+    }
+    ++compared;
+  }
+  EXPECT_GE(compared, 4);
+}
+
+TEST(LayeredRays, FirstEchoesAreThoseOfTheImageMethod) {
+  for (const CsvRow& row : testing::read_reference_csv("acoustics/image_method_delays.csv")) {
+    const RaySea sea =
+        sea_of({{0, row.number("c_m_per_s")}}, BottomProfile::flat(row.number("water_depth_m")));
+    RaySea open = sea;
+    open.options.max_launch_angle_rad = std::numbers::pi / 2;
+    open.options.min_boundary_factor = 0;
+    open.options.max_bounces = 2;
+    for (const RaySolver solver : {RaySolver::kImages, RaySolver::kSnell, RaySolver::kArcs}) {
+      // Arcs stop at 89.9 degrees from the horizontal.
+      if (solver == RaySolver::kArcs && row.number("range_m") < 0.05 * row.number("water_depth_m")) continue;
+      const Arrivals found =
+          arrivals(open, {row.number("depth_tx_m"), row.number("depth_rx_m"), row.number("range_m")}, solver);
+      for (const char* leg :
+           {"t_direct_s", "t_surface_s", "t_bottom_s", "t_surface_bottom_s", "t_bottom_surface_s"}) {
+        const bool is_found = std::any_of(found.paths.begin(), found.paths.end(), [&](const Arrival& path) {
+          return std::abs(path.delay_s - row.number(leg)) < tolerance(1e-10);
+        });
+        EXPECT_TRUE(is_found) << "line " << row.line() << " " << leg << " by " << to_name(solver);
+      }
+    }
+  }
+}
+
+TEST(LayeredRays, AnglesKeepSnellsInvariant) {
+  const RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
+  for (const Arrival& path : arrivals(sea, {15, 90, 3000}).paths) {
+    EXPECT_NEAR(std::cos(path.launch_angle_rad) / sea.water.speed_at(15),
+                std::cos(path.arrival_angle_rad) / sea.water.speed_at(90), tolerance(1e-18));
+  }
+}
+
+TEST(LayeredRays, AmplitudeIsTheWidthOfTheRayTubeByDifferences) {
+  // |dr/dtheta| from two receivers a little apart: the same ray family, ranges +-h.
+  const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
+  constexpr double kStep = 0.5;  // m
+  const Arrivals here = arrivals(sea, {20, 80, 2000}), near = arrivals(sea, {20, 80, 2000 - kStep}),
+                 far = arrivals(sea, {20, 80, 2000 + kStep});
+  int compared = 0;
+  for (const Arrival& path : here.paths) {
+    const auto same = [&path](const Arrival& other) { return other.identity == path.identity; };
+    const auto a = std::find_if(near.paths.begin(), near.paths.end(), same);
+    const auto b = std::find_if(far.paths.begin(), far.paths.end(), same);
+    if (a == near.paths.end() || b == far.paths.end()) continue;
+    const double slope = 2 * kStep / std::abs(b->launch_angle_rad - a->launch_angle_rad);
+    const double tube = 2000 * slope * std::abs(std::sin(path.arrival_angle_rad));
+    const double spread =
+        std::sqrt(sea.water.speed_at(80) * std::cos(path.launch_angle_rad) / (sea.water.speed_at(20) * tube));
+    const double bounces = std::pow(10.0, -path.bottom_loss_db / 20);
+    EXPECT_NEAR(20 * std::log10(path.amplitude / (spread * bounces)), 0, tolerance(0.01)) << describe(path);
+    ++compared;
+  }
+  EXPECT_GT(compared, 15);
+}
+
+// ---------------------------------------------------------------------------------------------- symmetries
+
+class RayReciprocity : public ::testing::TestWithParam<RaySolver> {};
+
+TEST_P(RayReciprocity, SwappedEndsHaveTheSameDelaysAndAmplitudes) {
+  for (const auto& [knots, depth] :
+       {std::pair(kSummer, 120.0), std::pair(kDucts, 200.0), std::pair(kThermocline, 100.0)}) {
+    const RaySea sea = sea_of(knots, BottomProfile::flat(depth));
+    for (const RayLink link :
+         {RayLink{15, 90, 700}, RayLink{40, 55, 2500}, RayLink{30, 31, 4000}, RayLink{5, 99, 50}}) {
+      const Arrivals there = arrivals(sea, link, GetParam());
+      const Arrivals back =
+          arrivals(sea, {link.receiver_depth_m, link.source_depth_m, link.range_m}, GetParam());
+      ASSERT_EQ(there.paths.size(), back.paths.size()) << link.range_m;
+      for (std::size_t i = 0; i < there.paths.size(); ++i) {
+        const Arrival &a = there.paths[i], &b = back.paths[i];
+        EXPECT_NEAR(a.delay_s, b.delay_s, tolerance(1e-10)) << describe(a);
+        EXPECT_NEAR(20 * std::log10(a.amplitude / b.amplitude), 0, tolerance(1e-3))
+            << describe(a) << describe(b);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, RayReciprocity, ::testing::Values(RaySolver::kSnell, RaySolver::kArcs));
+
+TEST(LayeredRays, SumOfImagesAndSnellSolverAgreeInWaterOfOneSpeed) {
+  const RaySea sea = sea_of({{0, 1487}}, BottomProfile::flat(73), [](double z) { return 3 + z / 50; });
+  for (const RayLink link :
+       {RayLink{10, 60, 5}, RayLink{10, 60, 800}, RayLink{36.5, 36.5, 1500}, RayLink{1, 72, 6000}}) {
+    const Arrivals images = arrivals(sea, link, RaySolver::kImages),
+                   snell = arrivals(sea, link, RaySolver::kSnell);
+    ASSERT_EQ(images.paths.size(), snell.paths.size()) << link.range_m;
+    for (std::size_t i = 0; i < images.paths.size(); ++i) {
+      const Arrival& a = images.paths[i];
+      std::vector<bool> used(snell.paths.size());
+      const int j = find_path(snell.paths, used, a.delay_s, a.launch_angle_rad, a.surface_bounces,
+                              a.bottom_bounces, 1e-12);
+      ASSERT_GE(j, 0) << describe(a);
+      const Arrival& b = snell.paths[static_cast<std::size_t>(j)];
+      EXPECT_NEAR(a.amplitude / b.amplitude, 1, tolerance(1e-6)) << describe(a);
+      EXPECT_NEAR(a.absorption_db, b.absorption_db, tolerance(1e-5)) << describe(a);
+      EXPECT_LE(degrees_between(to_degrees(a.phase_rad), to_degrees(b.phase_rad)), tolerance(1e-3))
+          << describe(a);
+    }
+  }
+}
+
+TEST(LayeredRays, AbsorptionIsTheIntegralAlongTheArc) {
+  // alpha = 2 dB/km + 0.1 dB/km per m of depth, down a straight vertical path of 80 m: mean at the middle.
+  RaySea sea = sea_of(kThermocline, BottomProfile::flat(100), [](double z) { return 2 + 0.1 * z; });
+  sea.options.max_launch_angle_rad = 1.57;
+  sea.options.keep_steep_direct = true;
+  const Arrivals found = arrivals(sea, {10, 90, 1e-3}, RaySolver::kSnell);
+  ASSERT_FALSE(found.shadow());
+  EXPECT_NEAR(found.paths.front().absorption_db, 80e-3 * (2 + 0.1 * 50), tolerance(1e-9));
+}
+
+// ---------------------------------------------------------------------------------------------- where it
+// gets hard
+
+TEST(LayeredRays, VerticalLinkHasItsDirectPathAtEveryRangeWhereSteepOnesAreKept) {
+  RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
+  sea.options.keep_steep_direct = true;
+  for (const double range : {0.0, 1e-6, 0.01, 1.0, 10.0}) {
+    for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
+      if (solver == RaySolver::kArcs && range < 1) continue;  // steeper than 89.9 degrees
+      const Arrivals found = arrivals(sea, {5, 110, range}, solver);
+      EXPECT_TRUE(found.has_direct_path()) << range << " by " << to_name(solver);
+    }
+  }
+}
+
+TEST(LayeredRays, NoPathIsSteeperThanTheLimitUnlessSteepOnesAreKept) {
+  for (const auto& knots : {kSummer, std::vector<SpeedRow>{{0, 1500}}}) {
+    const RaySea sea = sea_of(knots, BottomProfile::flat(120));
+    for (const RaySolver solver : {RaySolver::kImages, RaySolver::kSnell, RaySolver::kArcs}) {
+      if (solver == RaySolver::kImages && knots.size() > 1) continue;
+      const Arrivals found = arrivals(sea, {5, 110, 10}, solver);  // the direct path leaves at 84.6 degrees
+      EXPECT_FALSE(found.has_direct_path()) << to_name(solver);
+      for (const Arrival& path : found.paths) EXPECT_LE(std::abs(path.launch_angle_rad), to_radians(80));
+    }
+  }
+}
+
+TEST(LayeredRays, EndsOfOneDepthInALayerOfOneSpeedSeeEachOtherStraight) {
+  const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
+  for (const double depth : {50.0, 75.0, 99.0}) {
+    const Arrivals found = arrivals(sea, {depth, depth, 1200});
+    const auto straight = std::find_if(found.paths.begin(), found.paths.end(),
+                                       [](const Arrival& path) { return path.launch_angle_rad == 0; });
+    ASSERT_NE(straight, found.paths.end()) << depth;
+    EXPECT_NEAR(straight->delay_s, 1200 / 1490.0, tolerance(1e-12));
+    EXPECT_NEAR(straight->amplitude, 1 / 1200.0, tolerance(1e-12));
+  }
+}
+
+TEST(LayeredRays, NearlyLevelRaysInALayerOfOneSpeedAreFound) {
+  const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
+  for (const double step : {1e-6, 1e-4, 1e-2, 1.0}) {
+    const Arrivals found = arrivals(sea, {70, 70 + step, 3000});
+    double best = 1;
+    for (const Arrival& path : found.paths) {
+      best = std::min(best, std::abs(path.delay_s - std::hypot(3000, step) / 1490));
+    }
+    EXPECT_LT(best, tolerance(1e-10)) << step;
+  }
+}
+
+TEST(LayeredRays, EndsAtTheBoundariesHaveRaysOfFiniteAmplitude) {
+  const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
+  for (const RayLink link :
+       {RayLink{0, 50, 500}, RayLink{50, 100, 500}, RayLink{0, 100, 500}, RayLink{0, 0, 500}}) {
+    for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
+      const Arrivals found = arrivals(sea, link, solver);
+      EXPECT_FALSE(found.shadow());
+      for (const Arrival& path : found.paths) EXPECT_TRUE(std::isfinite(path.amplitude)) << describe(path);
+    }
+  }
+}
+
+TEST(LayeredRays, AShadowHasNoDirectPathAndAnAbsorbingBottomLeavesNone) {
+  // Speed falls with depth: the direct ray bends away, beyond its last graze of the surface there is none.
+  RaySea sea = sea_of({{0, 1520}, {100, 1490}}, BottomProfile::flat(100));
+  EXPECT_FALSE(arrivals(sea, {10, 10, 2000}).has_direct_path());
+  EXPECT_FALSE(arrivals(sea, {10, 10, 2000}).shadow());
+  sea.bottom = FluidBottom{1, 1, 0, 0, BottomLoss::kComplexWaveNumber};  // more water: no echo
+  EXPECT_TRUE(arrivals(sea, {10, 10, 2000}).shadow());
+}
+
+TEST(LayeredRays, FoldsHaveFiniteLevels) {
+  // Walk the receiver over the edge of a caustic in centimetres: without a bound the level runs away there.
+  const RaySea sea = sea_of(kSummer, BottomProfile::flat(120));
+  double loudest = 0;
+  for (double range = 900; range < 1500; range += 0.5) {
+    for (const Arrival& path : arrivals(sea, {40, 60, range}).paths)
+      loudest = std::max(loudest, path.amplitude);
+  }
+  EXPECT_LT(loudest, 0.1);  // 20 dB above a free field at 100 m, at ten times the range
+}
+
+TEST(LayeredRays, TheUserSetsBouncesAndLeastAmplitude) {
+  RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
+  const std::size_t all = arrivals(sea, {20, 80, 2000}).paths.size();
+  sea.options.max_bounces = 3;
+  for (const Arrival& path : arrivals(sea, {20, 80, 2000}).paths) {
+    EXPECT_LE(path.surface_bounces + path.bottom_bounces, 3);
+  }
+  sea.options.max_bounces = 400;
+  sea.options.min_amplitude = 1e-4;
+  const Arrivals loud = arrivals(sea, {20, 80, 2000});
+  EXPECT_LT(loud.paths.size(), all);
+  for (const Arrival& path : loud.paths) EXPECT_GE(path.amplitude, 1e-4);
+}
+
+TEST(LayeredRays, RefusesWhatItWouldGetWrong) {
+  const RaySea slope = sea_of({{0, 1500}}, BottomProfile({{0, 100}, {1000, 50}}));
+  EXPECT_THROW(arrivals(slope, {10, 10, 500}, RaySolver::kSnell), InvalidArgument);
+  EXPECT_THROW(arrivals(slope, {10, 90, 900}), InvalidArgument);  // under the bottom
+  const RaySea layered = sea_of(kThermocline, BottomProfile::flat(100));
+  EXPECT_THROW(arrivals(layered, {10, 10, 500}, RaySolver::kImages), InvalidArgument);
+}
+
+// ---------------------------------------------------------------------------------------------- completeness
+
+struct Waters {
+  const char* name;
+  std::vector<SpeedRow> knots;
+  double bottom_m, farthest_m;
+  RaySolver solver;
+  int links, fan;
+};
+
+class RayCompleteness : public ::testing::TestWithParam<Waters> {};
+
+RayLink random_link(const Waters& waters, std::uint32_t index) {
+  const auto draw = [&](std::uint64_t which) {
+    return uniform_at({.seed = 3, .purpose = purpose_of("links"), .who = index, .which = which});
+  };
+  const auto depth = [&](std::uint64_t which) { return (0.01 + 0.98 * draw(which)) * waters.bottom_m; };
+  RayLink link{depth(1), depth(2), 10 * std::pow(waters.farthest_m / 10, draw(3))};
+  const auto knot = [&](std::uint64_t which) {
+    const auto inner = static_cast<double>(waters.knots.size() - 2);
+    return waters.knots[1 + static_cast<std::size_t>(draw(which) * inner)].depth_m;
+  };
+  if (index % 5 == 1) link.receiver_depth_m = link.source_depth_m;
+  if (index % 5 == 2) link.source_depth_m = knot(4);
+  if (index % 7 == 3) link.receiver_depth_m = knot(5);
+  return link;
+}
+
+// The fan may lack a faint pair but invents nothing: every ray of it has to be there. What is there beyond it
+// has to be faint, or horizontal (which a fan that turns in the water does not see).
+TEST_P(RayCompleteness, NoRayOfADenseFanIsMissing) {
+  const Waters& waters = GetParam();
+  const RaySea sea = sea_of(waters.knots, BottomProfile::flat(waters.bottom_m));
+  const double bottom_speed = sea.water.speed_at(waters.bottom_m);
+  for (int i = 0; i < waters.links; ++i) {
+    const RayLink link = random_link(waters, static_cast<std::uint32_t>(i));
+    const Arrivals found = arrivals(sea, link, waters.solver);
+    int most_bounces = 0;
+    double loudest = 0;
+    for (const Arrival& path : found.paths) {
+      most_bounces = std::max(most_bounces, path.bottom_bounces);
+      loudest = std::max(loudest, path.amplitude);
+    }
+    std::vector<bool> used(found.paths.size());
+    DenseFan fan(waters.knots, waters.bottom_m, link);
+    for (const FanArrival& ray : fan.search(to_radians(80), most_bounces, waters.fan)) {
+      const double cosine =
+          std::cos(ray.launch_angle_rad) / sea.water.speed_at(link.source_depth_m) * bottom_speed;
+      const double one =
+          cosine < 1 ? bottom_magnitude_at_sine(sea.bottom, std::sqrt(1 - cosine * cosine), bottom_speed) : 1;
+      if (std::pow(one, ray.bottom_bounces) < 0.005 * 1.001) continue;
+      const int index = find_path(found.paths, used, ray.delay_s, ray.launch_angle_rad, ray.surface_bounces,
+                                  ray.bottom_bounces, tolerance(1e-7));
+      EXPECT_GE(index, 0) << waters.name << " " << link.source_depth_m << " " << link.receiver_depth_m << " "
+                          << link.range_m << ": missing " << ray.delay_s << " s at "
+                          << to_degrees(ray.launch_angle_rad) << " deg";
+      if (index >= 0) used[static_cast<std::size_t>(index)] = true;
+    }
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const Arrival& path = found.paths[k];
+      const bool seen =
+          used[k] || path.launch_angle_rad == 0 || std::abs(path.launch_angle_rad) > to_radians(79.9);
+      EXPECT_TRUE(seen || path.amplitude < 0.03 * loudest)
+          << waters.name << " " << link.source_depth_m << " " << link.receiver_depth_m << " " << link.range_m
+          << ": extra " << describe(path);
+    }
+  }
+}
+
+std::string waters_name(const ::testing::TestParamInfo<Waters>& info) {
+  return std::string(info.param.name) + "_" + std::string(to_name(info.param.solver));
+}
+
+// Numbers of links and rays keep each case below some seconds of a debug build.
+INSTANTIATE_TEST_SUITE_P(
+    Waters, RayCompleteness,
+    ::testing::Values(Waters{"thermocline", kThermocline, 100, 6000, RaySolver::kSnell, 20, 1500},
+                      Waters{"summer", kSummer, 120, 5000, RaySolver::kSnell, 10, 1000},
+                      Waters{"ducts", kDucts, 200, 8000, RaySolver::kSnell, 10, 1000},
+                      Waters{"munk", munk_knots(), 5000, 60000, RaySolver::kSnell, 4, 1000},
+                      Waters{"thermocline", kThermocline, 100, 4000, RaySolver::kArcs, 8, 1000},
+                      Waters{"summer", kSummer, 120, 3000, RaySolver::kArcs, 4, 800}),
+    waters_name);
+
+// ---------------------------------------------------------------------------------------------- moving ends
+
+TEST(FollowedRays, AreThoseOfANewSearchWhenEndsMoveByMetres) {
+  for (const auto& [knots, depth] : {std::pair(kSummer, 120.0), std::pair(kThermocline, 100.0)}) {
+    const RaySea sea = sea_of(knots, BottomProfile::flat(depth));
+    const Arrivals before = arrivals(sea, {25, 60, 1500});
+    for (const RayLink moved : {RayLink{26, 59, 1503}, RayLink{24.5, 62, 1497}, RayLink{25, 60, 1505}}) {
+      const Arrivals now = follow(sea, moved, before), fresh = arrivals(sea, moved);
+      std::size_t same = 0;
+      std::vector<bool> used(now.paths.size());
+      for (const Arrival& path : fresh.paths) {
+        same += find_path(now.paths, used, path.delay_s, path.launch_angle_rad, path.surface_bounces,
+                          path.bottom_bounces, 1e-9) >= 0
+                    ? 1U
+                    : 0U;
+      }
+      EXPECT_LE(now.paths.size(), fresh.paths.size());           // none invented
+      EXPECT_GE(same + 2, fresh.paths.size()) << moved.range_m;  // a pair may have come into being
+    }
+  }
+}
+
+TEST(FollowedRays, KeepTheirIdentity) {
+  const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
+  Arrivals at = arrivals(sea, {20, 80, 2000});
+  for (int step = 0; step < 20; ++step) {
+    const Arrivals next = follow(sea, {20 + 0.2 * step, 80, 2000.0 + step}, at);
+    for (const Arrival& path : next.paths) {
+      const auto same = std::find_if(at.paths.begin(), at.paths.end(), [&path](const Arrival& other) {
+        return other.identity == path.identity;
+      });
+      if (same == at.paths.end()) continue;
+      // A metre of range and 0.2 m of depth move no delay by more than they would straight.
+      EXPECT_LT(std::abs(same->delay_s - path.delay_s), tolerance(1.3 / 1490)) << describe(path);
+    }
+    at = next;
+  }
+}
+
+}  // namespace
+}  // namespace halocline::acoustics

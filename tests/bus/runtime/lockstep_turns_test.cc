@@ -1,0 +1,152 @@
+#include "bus/runtime/lockstep_turns.h"
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/lockstep/lockstep_wire.h"
+#include "tests/bus/messages_for_tests.h"
+#include "tests/bus/runtime/test_nodes.h"
+
+namespace halocline::bus {
+namespace {
+
+using testing::EchoNode;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::TickingNode;
+
+SimTime at_ms(std::int64_t n) { return SimTime() + SimDuration::from_milliseconds(n); }
+
+lockstep_turn_t turn_at(SimTime instant, SimTime horizon = SimTime::at_once()) {
+  lockstep_turn_t turn{};
+  turn.instant_ns = instant.nanoseconds();
+  turn.horizon_ns = horizon.nanoseconds();
+  turn.most_steps = -1;
+  return turn;
+}
+
+lockstep_message_t message_on(const std::string& channel) {
+  lockstep_message_t message{};
+  message.channel_name = channel;
+  message.message_bytes = encoded(testing::valid_message<sim_clock_t>(1));
+  message.num_message_bytes = static_cast<std::int32_t>(message.message_bytes.size());
+  return message;
+}
+
+void add_heard(lockstep_turn_t& turn, const std::string& channel) {
+  turn.heard.push_back(message_on(channel));
+  turn.num_heard = static_cast<std::int32_t>(turn.heard.size());
+}
+
+std::vector<std::string> channels_said(const lockstep_result_t& result) {
+  std::vector<std::string> channels;
+  for (const auto& said : result.said) channels.push_back(said.channel_name);
+  return channels;
+}
+
+class LockstepTurnsTest : public ::testing::Test {
+ protected:
+  lcm::LCM memq_{"memq://"};
+  std::vector<std::string> journal_;
+  TickingNode ticker_{memq_, "a", SimDuration::from_milliseconds(100), journal_};
+  LockstepTurns turns_{memq_, ticker_};
+};
+
+TEST_F(LockstepTurnsTest, AStepIsTakenAtItsInstantAndWhatItSaidIsGivenBack) {
+  const lockstep_result_t result = turns_.take(turn_at(at_ms(0)));
+  EXPECT_EQ(result.num_steps, 1);
+  EXPECT_THAT(channels_said(result), ElementsAre("TICK.a", "STATUS.a"));
+  EXPECT_EQ(result.next_due_ns, at_ms(100).nanoseconds());
+}
+
+TEST_F(LockstepTurnsTest, WhoIsNotDueDoesNotStep) {
+  turns_.take(turn_at(at_ms(0)));
+  const lockstep_result_t result = turns_.take(turn_at(at_ms(50)));
+  EXPECT_EQ(result.num_steps, 0);
+  EXPECT_THAT(result.said, IsEmpty());
+}
+
+TEST_F(LockstepTurnsTest, AWindowHoldsAllInstantsBeforeTheHorizon) {
+  const lockstep_result_t result = turns_.take(turn_at(at_ms(0), at_ms(300)));
+  EXPECT_EQ(result.num_steps, 3);
+  EXPECT_EQ(result.reached_ns, at_ms(200).nanoseconds());
+  EXPECT_EQ(result.said.back().instant_ns, at_ms(200).nanoseconds());
+}
+
+TEST_F(LockstepTurnsTest, AWindowEndsWithTheStepThatSaysWhatSomebodyMustHear) {
+  lockstep_turn_t turn = turn_at(at_ms(0), at_ms(300));
+  turn.stopping_channels = {"TICK\\..*"};
+  turn.num_stopping = 1;
+  EXPECT_EQ(turns_.take(turn).num_steps, 1);
+}
+
+TEST_F(LockstepTurnsTest, ReplayedTurnsTakeAsManyStepsAsTheyDid) {
+  lockstep_turn_t turn = turn_at(at_ms(0), at_ms(300));
+  turn.most_steps = 2;
+  EXPECT_EQ(turns_.take(turn).num_steps, 2);
+  turn.most_steps = 0;
+  EXPECT_EQ(turns_.take(turn).num_steps, 0);
+}
+
+TEST_F(LockstepTurnsTest, AFarewellStopsTheNode) {
+  lockstep_turn_t turn = turn_at(at_ms(0));
+  turn.farewell = 1;
+  EXPECT_THAT(channels_said(turns_.take(turn)), ElementsAre("STATUS.a"));
+  EXPECT_THAT(journal_, ElementsAre("a stopped"));
+}
+
+TEST_F(LockstepTurnsTest, TwoLivesThatHearTheSameHaveTheSameDigest) {
+  lcm::LCM other_memq("memq://");
+  std::vector<std::string> other_journal;
+  TickingNode other(other_memq, "a", SimDuration::from_milliseconds(100), other_journal);
+  LockstepTurns again(other_memq, other);
+  std::int64_t windowed = again.take(turn_at(at_ms(0), at_ms(500))).said_digest;
+  std::int64_t one_by_one = 0;
+  for (int ms = 0; ms < 500; ms += 100) one_by_one = turns_.take(turn_at(at_ms(ms))).said_digest;
+  EXPECT_EQ(windowed, one_by_one);
+}
+
+TEST(LockstepTurnsOfAService, WhatIsHeardIsAnsweredInTheSameTurn) {
+  lcm::LCM memq("memq://");
+  EchoNode echo(memq, "echo", "ASK", "ANSWER");
+  LockstepTurns turns(memq, echo);
+  turns.take(turn_at(at_ms(0)));
+  lockstep_turn_t turn = turn_at(at_ms(20));
+  add_heard(turn, "ASK");
+  add_heard(turn, "NOTHING.to-it");
+  EXPECT_THAT(channels_said(turns.take(turn)), ElementsAre("ANSWER"));
+}
+
+TEST(LockstepTurnsOfAService, TheIntroductionTellsWhatItHears) {
+  lcm::LCM memq("memq://");
+  EchoNode echo(memq, "echo", "ASK.x", "ANSWER");
+  const lockstep_join_t join = LockstepTurns(memq, echo).introduction();
+  EXPECT_EQ(join.participant_name, "echo");
+  EXPECT_THAT(join.subscriptions, ElementsAre("ASK\\.x"));
+  EXPECT_THAT(join.only_stores, ElementsAre(0));
+}
+
+TEST(LockstepTurnsOfAService, ABrokenPromiseOnlyToStoreIsAnError) {
+  class Liar : public EchoNode {
+   public:
+    explicit Liar(lcm::LCM& lcm) : EchoNode(lcm, "liar", "NONE", "ANSWER") {
+      bus().subscribe<sim_clock_t>(
+          "ASK", [this](const sim_clock_t&) { due_ = SimTime::at_once(); }, Hearing::kStores);
+    }
+    Due on_due() const override { return {.sim = due_}; }
+
+   private:
+    SimTime due_ = SimTime::never();
+  };
+  lcm::LCM memq("memq://");
+  Liar liar(memq);
+  LockstepTurns turns(memq, liar);
+  lockstep_turn_t turn = turn_at(at_ms(0));
+  add_heard(turn, "ASK");
+  EXPECT_THROW(turns.take(turn), std::logic_error);
+}
+
+}  // namespace
+}  // namespace halocline::bus

@@ -1,0 +1,163 @@
+// Node programs as processes, on a private loopback bus (scripts/isolated; see tests/CMakeLists.txt).
+#include "bus/runtime/node_process.h"
+
+#include <chrono>
+#include <csignal>
+#include <functional>
+#include <random>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/transport.h"
+#include "tests/bus/messages_for_tests.h"
+#include "tests/support/process.h"
+
+namespace halocline::bus {
+namespace {
+
+using namespace std::chrono_literals;
+using halocline::testing::Process;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kConductor = std::string(HALOCLINE_BIN_DIR) + "/halocline-conductor";
+
+class NodeProcessTest : public ::testing::Test {
+ protected:
+  NodeProcessTest() {
+    ear_.subscribe<sim_clock_t>("ANSWER", [this](const sim_clock_t& m) { answers_.push_back(m.sequence); });
+    ear_.subscribe<sim_clock_t>(channels::kClock, [this](const sim_clock_t& m) { clocks_.push_back(m); });
+    ear_.subscribe<node_status_t>(
+        channels::kStatus, [this](std::string_view, const node_status_t& m) { statuses_.push_back(m); });
+  }
+
+  // Hears the bus until `done`; false when that takes more than `limit`.
+  bool listen_until(const std::function<bool()>& done, std::chrono::milliseconds limit = 10s) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      lcm_->handleTimeout(10);
+    }
+    return true;
+  }
+  bool hears(const std::string& node) {
+    return listen_until([&] {
+      return std::any_of(statuses_.begin(), statuses_.end(),
+                         [&](const node_status_t& status) { return status.node_name == node; });
+    });
+  }
+  void ask(std::int64_t sequence) {
+    sim_clock_t message = testing::valid_message<sim_clock_t>(1);
+    message.sequence = sequence;
+    ear_.publish("ASK", message);
+  }
+
+  std::unique_ptr<lcm::LCM> lcm_ = open_transport(effective_url(""));
+  Bus ear_{*lcm_, {"ear", 1}};
+  std::vector<std::int64_t> answers_;
+  std::vector<sim_clock_t> clocks_;
+  std::vector<node_status_t> statuses_;
+};
+
+TEST_F(NodeProcessTest, StoppedByASignalItHandlesWhatTheBusHasDeliveredAndSaysGoodbye) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    answers_.clear();
+    statuses_.clear();
+    Process echo({HALOCLINE_ECHO_PROGRAM});
+    ASSERT_TRUE(hears("echo")) << echo.output();
+    constexpr std::int64_t kMessages = 400;
+    for (std::int64_t i = 0; i < kMessages; ++i) ask(i);
+    echo.signal(signal);
+    EXPECT_EQ(echo.wait(), 0) << echo.output();
+    EXPECT_TRUE(listen_until([&] { return answers_.size() == kMessages; }, 2s)) << answers_.size();
+    EXPECT_TRUE(listen_until([&] { return statuses_.back().status_text == "stopped; echo"; }, 2s));
+  }
+}
+
+TEST_F(NodeProcessTest, RandomBytesOnItsChannelsDoNotEndIt) {
+  Process echo({HALOCLINE_ECHO_PROGRAM, "--log-level", "silent"});
+  ASSERT_TRUE(hears("echo")) << echo.output();
+  std::mt19937 random(5);
+  for (int round = 0; round < 3000; ++round) {
+    std::vector<std::uint8_t> bytes(random() % 300);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    static const char* const kChannels[] = {"ASK", "CLOCK", "STATE.a", "SEND.a"};
+    lcm_->publish(kChannels[random() % 4], bytes.data(), static_cast<unsigned>(bytes.size()));
+    if (round % 50 == 0) std::this_thread::sleep_for(1ms);
+  }
+  ask(123);
+  EXPECT_TRUE(listen_until([&] { return !answers_.empty(); }));
+  EXPECT_TRUE(echo.running()) << echo.output();
+  EXPECT_TRUE(listen_until([&] { return statuses_.back().messages_refused > 100; }));
+}
+
+TEST_F(NodeProcessTest, AConductorKilledAndStartedAgainTakesUpTheTimeOfTheOthers) {
+  Process echo({HALOCLINE_ECHO_PROGRAM});
+  auto conductor = std::make_unique<Process>(
+      std::vector<std::string>{kConductor, "--set", "time.rate=20", "--set", "time.clock_period_s=0.5"});
+  ASSERT_TRUE(listen_until([&] { return !clocks_.empty() && clocks_.back().utime > 10'000'000; }));
+  conductor->signal(SIGKILL);
+  EXPECT_EQ(conductor->wait(), 128 + SIGKILL);
+  const sim_clock_t last = clocks_.back();
+  conductor = std::make_unique<Process>(
+      std::vector<std::string>{kConductor, "--set", "time.rate=20", "--set", "time.clock_period_s=0.5"});
+  const auto killed = std::chrono::steady_clock::now();
+  ASSERT_TRUE(listen_until([&] { return clocks_.back().session != last.session; }));
+  EXPECT_LT(std::chrono::steady_clock::now() - killed, 2s);  // the promise of service within 2 s
+  EXPECT_GE(clocks_.back().utime, last.utime);
+  EXPECT_LT(clocks_.back().utime, last.utime + 20 * 2'500'000);
+  EXPECT_TRUE(echo.running());
+}
+
+TEST_F(NodeProcessTest, TwoSourcesOfTheSameProgramHaveSessionsOfTheirOwn) {
+  Process one({HALOCLINE_ECHO_PROGRAM, "--name", "one"}), two({HALOCLINE_ECHO_PROGRAM, "--name", "two"});
+  ASSERT_TRUE(hears("one"));
+  ASSERT_TRUE(hears("two"));
+  std::map<std::string, std::int64_t> sessions;
+  for (const node_status_t& status : statuses_) sessions[status.node_name] = status.session;
+  EXPECT_NE(sessions["one"], sessions["two"]);
+}
+
+std::string output_of(const std::vector<std::string>& command, int expected_exit_code) {
+  Process process(command);
+  EXPECT_EQ(process.wait(), expected_exit_code) << process.output();
+  return process.output();
+}
+
+TEST(NodeCommandLine, HelpShowsAnExample) {
+  EXPECT_THAT(output_of({kConductor, "--help"}, 0), HasSubstr("Example:\n  halocline-conductor scenarios/"));
+}
+
+TEST(NodeCommandLine, InterfaceAndVersionArePrinted) {
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--interface"}, 0), HasSubstr("publishes: ANSWER"));
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--version"}, 0), HasSubstr("."));
+}
+
+TEST(NodeCommandLine, TheExampleIsAScenarioThatReads) {
+  const std::string example = output_of({HALOCLINE_ECHO_PROGRAM, "--example"}, 0);
+  EXPECT_THAT(example, HasSubstr("[echo]"));
+  EXPECT_NO_THROW(ConfigFile::parse(example, "example"));
+}
+
+TEST(NodeCommandLine, PrintConfigShowsOverrides) {
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--print-config", "--set", "echo.gain=3"}, 0),
+              HasSubstr("gain = 3.0"));
+}
+
+TEST(NodeCommandLine, EveryMistakeIsToldWithExitCodeTwo) {
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--nonsense"}, 2), HasSubstr("--help"));
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "/nowhere.toml"}, 2), HasSubstr("cannot be read"));
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--set", "echo.gain=11", "--set", "time.rate='x'"}, 2),
+              ::testing::AllOf(HasSubstr("echo.gain is 11"), HasSubstr("time.rate is 'x'")));
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--time-source", "sundial"}, 2),
+              HasSubstr("conductor, messages"));
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--lcm-url", "tcpq://127.0.0.1:7700"}, 2),
+              HasSubstr("udpm://"));
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--name", "Not Valid"}, 2), HasSubstr("node name"));
+  EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--log-level", "loud"}, 2), HasSubstr("debug, info"));
+}
+
+}  // namespace
+}  // namespace halocline::bus

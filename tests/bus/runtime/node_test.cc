@@ -1,0 +1,107 @@
+#include "bus/runtime/node.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/version.h"
+#include "tests/bus/messages_for_tests.h"
+#include "tests/bus/runtime/test_nodes.h"
+
+namespace halocline::bus {
+namespace {
+
+using testing::EchoNode;
+using testing::TickingNode;
+
+SimTime at(double seconds) { return SimTime::from_seconds(seconds); }
+
+class NodeTest : public ::testing::Test {
+ protected:
+  NodeTest() {
+    set_log_level(LogLevel::kSilent);
+    ear_.subscribe<node_status_t>(
+        channels::kStatus, [this](std::string_view, const node_status_t& m) { statuses_.push_back(m); });
+  }
+  ~NodeTest() override { set_log_level(LogLevel::kInfo); }
+  void drain() {
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+  }
+
+  lcm::LCM lcm_{"memq://"};
+  Bus ear_{lcm_, {"ear", 9}};
+  std::vector<node_status_t> statuses_;
+  std::vector<std::string> journal_;
+};
+
+TEST_F(NodeTest, SaysItsStatusOnceASecondOfSteadyTime) {
+  TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
+  for (int step = 0; step <= 30; ++step) node.step({at(100 + 0.1 * step), at(0.1 * step)});
+  drain();
+  ASSERT_EQ(statuses_.size(), 4u);  // at 0, 1, 2 and 3 s
+  EXPECT_EQ(statuses_[3].utime, 103'000'000);
+  EXPECT_EQ(statuses_[3].sequence, 3);
+  EXPECT_EQ(statuses_[3].node_name, "a");
+  EXPECT_EQ(statuses_[3].node_version, kVersion);
+  EXPECT_EQ(statuses_[3].status_text, "ticking");
+}
+
+TEST_F(NodeTest, ItsStatusCarriesItsCounters) {
+  EchoNode node(lcm_, "echo", "ASK", "ANSWER");
+  ear_.publish("ASK", testing::valid_message<sim_clock_t>(1));
+  sim_clock_t impossible = testing::valid_message<sim_clock_t>(1);
+  impossible.clock_rate = -1;
+  ear_.publish("ASK", impossible);
+  drain();
+  node.step({at(1), at(1)});
+  drain();
+  ASSERT_EQ(statuses_.size(), 1u);
+  EXPECT_EQ(statuses_[0].messages_received, 1);
+  EXPECT_EQ(statuses_[0].messages_refused, 1);
+  EXPECT_EQ(statuses_[0].messages_sent, 1);
+}
+
+TEST_F(NodeTest, SaysGoodbye) {
+  TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
+  node.stop({at(5), at(5)});
+  drain();
+  ASSERT_EQ(statuses_.size(), 1u);
+  EXPECT_EQ(statuses_[0].status_text, "stopped; ticking");
+  EXPECT_THAT(journal_, ::testing::ElementsAre("a stopped"));
+}
+
+TEST_F(NodeTest, WithoutSimulationTimeItSpeaksOfItsStateAlone) {
+  TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
+  node.step({SimTime(), at(1), false});
+  drain();
+  EXPECT_TRUE(journal_.empty());
+  EXPECT_EQ(statuses_.size(), 1u);
+}
+
+TEST_F(NodeTest, AnswersQuestionsEvenWithoutSimulationTime) {
+  EchoNode node(lcm_, "echo", "ASK", "ANSWER");
+  ear_.publish("ASK", testing::valid_message<sim_clock_t>(1));
+  drain();
+  EXPECT_EQ(node.due().sim, SimTime::at_once());
+  node.step({SimTime(), at(1), false});
+  EXPECT_EQ(node.answers, 1);
+}
+
+TEST_F(NodeTest, IsToldOfANewRun) {
+  TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
+  node.step({at(500), at(1)});
+  node.restart({at(0), at(2)});
+  EXPECT_EQ(node.restarts, 1);
+  node.step({at(0), at(2)});
+  EXPECT_EQ(journal_.back(), "a@0");
+}
+
+TEST_F(NodeTest, IsDueAtItsNextStatusAtTheLatest) {
+  TickingNode node(lcm_, "a", SimDuration::from_seconds(1000), journal_);
+  node.step({at(0), at(0.25)});
+  EXPECT_EQ(node.due().steady, at(1));
+  EXPECT_EQ(node.due().sim, at(1000));
+}
+
+}  // namespace
+}  // namespace halocline::bus

@@ -1,0 +1,90 @@
+#include "channel_server/links/link_table.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/channel_server/channel_fixtures.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using halocline::testing::tolerance;
+using testing::at_s;
+using testing::even_water;
+using testing::for_s;
+using testing::kSpeedMps;
+using testing::quick_modem;
+using testing::state_at;
+
+const MultipathJudge kUntold = [](const PlacedVehicle&, const PlacedVehicle&) { return Multipath::kUnknown; };
+
+class LinkTableTest : public ::testing::Test {
+ protected:
+  std::vector<LinkTable> tables_at(double time_s, const MultipathJudge& judge = kUntold) {
+    return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, judge);
+  }
+  Fleet fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
+  StraightPropagation propagation_{even_water()};
+};
+
+TEST_F(LinkTableTest, HoldsARowForEveryOtherVehicleById) {
+  for (const VehicleId id : {9, 2, 5})
+    fleet_.hear_state(testing::name_of(id), id, state_at(0, {1.0 * id, 0, 50}));
+  const auto tables = tables_at(1);
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_EQ(tables[1].vehicle_id, 5);
+  ASSERT_EQ(tables[1].rows.size(), 2u);
+  EXPECT_EQ(tables[1].rows[0].receiver_id, 2);
+  EXPECT_EQ(tables[1].rows[1].receiver_id, 9);
+  EXPECT_EQ(tables[1].rows[1].transmitter_id, 5);
+}
+
+TEST_F(LinkTableTest, RangeAndDelayAreThoseOfThePositionsAtTheInstant) {
+  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
+  fleet_.hear_state("v2", 2, state_at(0, {1500, 0, 50}, {10, 0, 0}));
+  const auto row = tables_at(3)[0].rows[0];
+  EXPECT_NEAR(row.budget.range_m, 1530, tolerance(1e-9));
+  EXPECT_NEAR(row.budget.delay_s, 1530 / kSpeedMps, tolerance(1e-12));
+  EXPECT_EQ(row.transmitter_age, for_s(3));
+}
+
+TEST_F(LinkTableTest, AVehicleAloneHasAnEmptyTable) {
+  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
+  const auto tables = tables_at(1);
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_TRUE(tables[0].rows.empty());
+}
+
+TEST_F(LinkTableTest, AVehicleWhoseStateGrewOldLeavesTheTables) {
+  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
+  fleet_.hear_state("v2", 2, state_at(4, {9, 0, 50}));
+  EXPECT_EQ(tables_at(4.9).size(), 2u);
+  const auto tables = tables_at(5.5);
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables[0].vehicle_id, 2);
+}
+
+TEST_F(LinkTableTest, EachDirectionHasTheLevelOfItsTransmitter) {
+  VehicleModem loud = quick_modem();
+  loud.modem.source_level = quick_modem().modem.source_level + Decibels{7};
+  fleet_.hear_modem("v1", at_s(0), loud);
+  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
+  fleet_.hear_state("v2", 2, state_at(0, {500, 0, 50}));
+  const auto tables = tables_at(1);
+  const double there = tables[0].rows[0].budget.received_level.value;
+  const double back = tables[1].rows[0].budget.received_level.value;
+  EXPECT_NEAR(there - back, 7, tolerance(1e-9));
+}
+
+TEST_F(LinkTableTest, RowsTellTheMultipathOfTheirOwnDirection) {
+  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
+  fleet_.hear_state("v2", 2, state_at(0, {500, 0, 50}));
+  const auto tables = tables_at(1, [](const PlacedVehicle& from, const PlacedVehicle&) {
+    return from.id == 1 ? Multipath::kLikely : Multipath::kUnlikely;
+  });
+  EXPECT_EQ(tables[0].rows[0].multipath, Multipath::kLikely);
+  EXPECT_EQ(tables[1].rows[0].multipath, Multipath::kUnlikely);
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

@@ -1,0 +1,163 @@
+// A busy sea: twenty vehicles under way in a box of 6 km, random packets, pings, queues, silences, odd bands and
+// modems that hear badly; every fate occurs. All of it drawn by address, so a run is its seed and its length.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/rays/ray_doppler.h"
+#include "channel_server/packets/packet_medium.h"
+#include "core/random.h"
+#include "tests/channel_server/channel_fixtures.h"
+
+namespace halocline::channel_server::testing {
+
+inline constexpr VehicleId kBusyVehicles = 20;
+inline constexpr double kPacketsPerSecond = 10;
+
+inline double busy_draw(const char* purpose, std::uint32_t who, std::uint64_t which) {
+  return uniform_at({.seed = 5, .purpose = purpose_of(purpose), .who = who, .which = which});
+}
+
+// Three paths a link: the direct one (spherical spreading), and two echoes whose delays follow from the
+// range; some pairs in a shadow, some behind terrain. Cheap, so that a test may ask it millions of times.
+class ThreePaths : public Propagation {
+ public:
+  double delay_s(SimTime, const LinkEnd& from, const LinkEnd& to) override {
+    return (to.position_ned_m - from.position_ned_m).norm() / kSpeedMps;
+  }
+  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    Reception reception;
+    auto& budget = reception.budget;
+    budget.range_m = (to.position_ned_m - from.position_ned_m).norm();
+    budget.delay_s = delay_s(at, from, to);
+    budget.received_level = kSilence;
+    const VehicleId pair = from.id * to.id % 41;
+    if (pair == 1) reception.state = PathState::kShadow;
+    if (pair == 2) reception.state = PathState::kBlocked;
+    if (reception.state != PathState::kOpen) return reception;
+    const Vec3 way = (to.position_ned_m - from.position_ned_m) / std::max(budget.range_m, 1.0);
+    SoundPath path;
+    path.doppler_factor = acoustics::doppler_factor(from.velocity_ned_mps.dot(way), kSpeedMps,
+                                                    to.velocity_ned_mps.dot(way), kSpeedMps);
+    const double level_db = from.modem->source_level.value - 20 * std::log10(std::max(budget.range_m, 1.0));
+    for (const auto& [longer_m, weaker_db] :
+         {std::pair(0.0, 0.0), std::pair(9.0, 5.0), std::pair(60.0, 9.0)}) {
+      path.delay_s = std::sqrt(std::pow(budget.range_m, 2) + std::pow(longer_m, 2) * 30) / kSpeedMps;
+      path.level = {level_db - weaker_db};
+      reception.paths.push_back(path);
+    }
+    budget.received_level = total_level(reception.paths);
+    reception.delay_spread_s = reception.paths.back().delay_s - reception.paths.front().delay_s;
+    return reception;
+  }
+  bool echo_is_receivable(SimTime, const acoustics::Modem&, const acoustics::Modem&, const Vec3&, const Vec3&,
+                          const std::vector<acoustics::BottomPoint>&) override {
+    return false;
+  }
+  const acoustics::Environment& environment(SimTime) const override { return water_; }
+
+ private:
+  acoustics::Environment water_ = even_water();
+};
+
+inline VehicleModem busy_modem(VehicleId id) {
+  VehicleModem modem;
+  modem.modem.source_level = {134};
+  modem.modem.least_receivable_level = {id % 5 == 0 ? 66.0 : -100.0};
+  modem.modem.bit_rate_bps = 5000;
+  modem.modem.preamble = modem.modem.packet_overhead = for_s(0.005);
+  modem.modem.doppler_tolerance = 0.003;
+  modem.modem.guard_time = for_s(0.01);
+  modem.when_busy = id % 2 == 0 ? WhenBusy::kQueue : WhenBusy::kRefuse;
+  if (id == 7) modem.modem.centre_frequency_hz = 28'000;  // half of the others' band
+  if (id == 13) modem.modem.centre_frequency_hz = 40'000;
+  return modem;
+}
+
+inline ConfiguredModems busy_modems() {
+  ConfiguredModems modems{busy_modem(1), {}};
+  for (VehicleId id = 1; id <= kBusyVehicles; ++id) modems.of_vehicle.emplace(name_of(id), busy_modem(id));
+  return modems;
+}
+
+struct HeardState {
+  VehicleId id;
+  StampedState state;
+};
+
+// Circles, once a second; every vehicle falls silent for 8 s of each 400 s, at times of its own.
+inline std::vector<HeardState> busy_states(double until_s) {
+  std::vector<HeardState> states;
+  for (int second = 0; second <= static_cast<int>(until_s); ++second) {
+    for (VehicleId id = 1; id <= kBusyVehicles; ++id) {
+      if ((second + 37 * id) % 400 < 8) continue;
+      const auto who = static_cast<std::uint32_t>(id);
+      const double radius_m = 50 + 300 * busy_draw("radius", who, 0),
+                   speed_mps = 1 + 2.5 * busy_draw("speed", who, 0);
+      const double rate = speed_mps / radius_m, angle = rate * second + id;
+      const Vec3 centre(6000 * busy_draw("north", who, 0), 6000 * busy_draw("east", who, 0), 30.0 + 10 * id);
+      states.push_back({id,
+                        {at_s(second), centre + radius_m * Vec3(std::cos(angle), std::sin(angle), 0),
+                         speed_mps * Vec3(-std::sin(angle), std::cos(angle), 0)}});
+    }
+  }
+  return states;
+}
+
+inline std::vector<SendRequest> busy_requests(std::size_t count) {
+  std::vector<SendRequest> requests;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto source = static_cast<VehicleId>(1 + busy_draw("source", 0, i) * kBusyVehicles);
+    const double start_s = 1 + busy_draw("start", 0, i) * static_cast<double>(count) / kPacketsPerSecond;
+    auto request = request_of(source, start_s, static_cast<std::int64_t>(i),
+                              static_cast<std::size_t>(busy_draw("bytes", 0, i) * 70));
+    request.destination_id = static_cast<VehicleId>(busy_draw("to", 0, i) * (kBusyVehicles + 1));
+    if (i % 16 == 0 && request.destination_id != 0) request.kind = PacketKind::kPing;
+    requests.push_back(request);
+  }
+  return requests;
+}
+
+template <class Item>
+void shuffle(std::vector<Item>& items, std::uint32_t turn) {
+  for (std::size_t i = items.size(); i > 1; --i) {
+    std::swap(items[i - 1],
+              items[static_cast<std::size_t>(busy_draw("shuffle", turn, i) * static_cast<double>(i))]);
+  }
+}
+
+struct BusyRun {
+  std::size_t packets = 1000;
+  std::uint32_t turn = 0;  // decides the order in which states and requests are handed in; 0: by time
+  double step_s = 1;       // of advance_to
+  std::uint64_t seed = 1;
+};
+
+// Runs it, every event given to `visit`, and returns the fleet for questions of who was there. In order of time
+// everything is handed in as it happens; shuffled, all of it before time runs.
+template <class Visitor>
+Fleet run_busy_sea(const BusyRun& run, Visitor&& visit) {
+  const double until_s = static_cast<double>(run.packets) / kPacketsPerSecond + 30;
+  Fleet fleet({for_s(0.05), for_s(5)}, busy_modems());
+  ThreePaths propagation;
+  PacketMedium medium(fleet, propagation, {for_s(10), for_s(until_s), run.seed});
+  auto states = busy_states(until_s);
+  auto requests = busy_requests(run.packets);
+  if (run.turn > 0) shuffle(states, run.turn), shuffle(requests, run.turn);
+  for (const auto& heard : states) fleet.hear_state(name_of(heard.id), heard.id, heard.state);
+  for (const auto& request : requests) medium.transmit(request, SimTime());
+  for (double t = 0; t <= until_s; t += run.step_s) {
+    for (const MediumEvent& event : medium.advance_to(at_s(t))) visit(event);
+    medium.forget_before(at_s(t - 11));
+  }
+  EXPECT_EQ(medium.packets_in_flight(), 0u);
+  return fleet;
+}
+
+}  // namespace halocline::channel_server::testing

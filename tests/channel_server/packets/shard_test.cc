@@ -1,0 +1,132 @@
+// Several media of one water, each following packets only to the receivers it serves: together they say what
+// one says.
+#include "channel_server/vehicles/shard.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/channel_server/packets/busy_sea.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using testing::at_s;
+using testing::for_s;
+using testing::name_of;
+
+constexpr std::size_t kPackets = 3000;
+
+// All that tells one event from another, in full precision.
+std::string text_of(const MediumEvent& event) {
+  std::ostringstream out;
+  out.precision(17);
+  out << event.at.nanoseconds() << ' ' << event.late << ' ';
+  if (const auto* receipt = std::get_if<Receipt>(&event.what)) {
+    out << "receipt " << receipt->vehicle << ' ' << receipt->packet_sequence << ' '
+        << static_cast<int>(receipt->result) << ' ' << receipt->start.nanoseconds();
+  } else if (const auto* end = std::get_if<PacketEnd>(&event.what)) {
+    const PacketName name = end->packet->name();
+    out << "end " << name.source_id << ' ' << name.packet_sequence << ' ' << static_cast<int>(name.kind)
+        << ' ' << end->receiver << ' ' << static_cast<int>(end->fate) << ' ' << end->travel_time_s << ' '
+        << end->two_way_travel_time_s << ' ' << end->budget.snr.value << ' ' << end->judgement.sinr.value
+        << ' ' << end->judgement.success_draw;
+    for (const PacketName& collider : end->judgement.colliders) out << ' ' << collider.packet_sequence;
+  }
+  return out.str();
+}
+
+// A fleet, a propagation and a medium of one server; all hear all.
+struct Server {
+  Server(Shard shard, double until_s)
+      : fleet({for_s(0.05), for_s(5)}, testing::busy_modems()),
+        medium(fleet, propagation, {for_s(10), for_s(until_s), 1, shard}) {
+    for (const auto& heard : testing::busy_states(until_s)) {
+      fleet.hear_state(name_of(heard.id), heard.id, heard.state);
+    }
+    for (const auto& request : testing::busy_requests(kPackets)) medium.transmit(request, SimTime());
+  }
+  Fleet fleet;
+  testing::ThreePaths propagation;
+  PacketMedium medium;
+};
+
+// What `count` servers say together, sorted; they tell each other of answers to pings at the instant these are known.
+std::vector<std::string> said_by(int count) {
+  const double until_s = static_cast<double>(kPackets) / testing::kPacketsPerSecond + 30;
+  std::vector<std::unique_ptr<Server>> servers;
+  for (int i = 0; i < count; ++i) servers.push_back(std::make_unique<Server>(Shard{i, count}, until_s));
+  std::vector<std::string> said;
+  for (;;) {
+    SimTime next = SimTime::never();
+    for (const auto& server : servers) next = std::min(next, server->medium.next_event());
+    if (next == SimTime::never()) break;
+    std::vector<PingAnswer> answers;
+    for (const auto& server : servers) {
+      for (const MediumEvent& event : server->medium.advance_to(next)) {
+        if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
+          answers.push_back(*answer);
+        } else {
+          said.push_back(text_of(event));
+        }
+      }
+    }
+    for (const PingAnswer& answer : answers) {
+      for (const auto& server : servers) server->medium.hear_answer(answer);
+    }
+  }
+  std::sort(said.begin(), said.end());
+  return said;
+}
+
+class Shards : public ::testing::TestWithParam<int> {};
+
+TEST_P(Shards, TogetherSayWhatOneServerSays) {
+  const auto one = said_by(1);
+  EXPECT_GT(one.size(), kPackets * 15);
+  EXPECT_EQ(said_by(GetParam()), one);
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, Shards, ::testing::Values(2, 3, 7, 25));
+
+TEST(Shard, EveryVehicleIsServedByExactlyOne) {
+  for (const int count : {1, 2, 5}) {
+    for (VehicleId id = 1; id <= 100; ++id) {
+      int serving = 0;
+      for (int index = 0; index < count; ++index) serving += Shard{index, count}.serves(id) ? 1 : 0;
+      EXPECT_EQ(serving, 1);
+    }
+  }
+}
+
+TEST(Shard, AnAnswerToldTwiceIsTransmittedOnce) {
+  testing::ThreePaths propagation;
+  Fleet fleet({for_s(0.05), for_s(5)}, testing::busy_modems());
+  for (double t = 0; t < 20; t += 1) {
+    for (const VehicleId id : {3, 4}) {
+      fleet.hear_state(name_of(id), id, {at_s(t), Vec3(100.0 * id, 0, 20), Vec3::Zero()});
+    }
+  }
+  PacketMedium medium(fleet, propagation, {for_s(10), for_s(60), 1, {0, 2}});  // serves 4
+  PingAnswer answer;
+  answer.request.vehicle = name_of(3);
+  answer.request.source_id = 3;
+  answer.request.destination_id = 4;
+  answer.request.packet_sequence = 8;
+  answer.request.kind = PacketKind::kPingReply;
+  answer.request.start = at_s(2);
+  answer.ping_departure = at_s(1);
+  medium.hear_answer(answer);
+  std::size_t ends = medium.advance_to(at_s(10)).size();
+  medium.hear_answer(answer);
+  ends += medium.advance_to(at_s(19)).size();
+  EXPECT_EQ(ends, 1u);
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

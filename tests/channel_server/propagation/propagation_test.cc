@@ -1,0 +1,137 @@
+#include "channel_server/propagation/propagation.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/check.h"
+#include "tests/channel_server/channel_fixtures.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using halocline::testing::relative_error;
+using halocline::testing::tolerance;
+using testing::kSpeedMps;
+
+acoustics::Modem modem_of_level(double level_db) {
+  acoustics::Modem modem;
+  modem.source_level = {level_db};
+  return modem;
+}
+
+LinkEnd end_at(const Vec3& position, const acoustics::Modem& modem, const Vec3& velocity = Vec3::Zero()) {
+  return {0, position, velocity, &modem};
+}
+
+SoundPath path_of(double delay_s, double level_db) {
+  SoundPath path;
+  path.delay_s = delay_s;
+  path.level = {level_db};
+  return path;
+}
+
+TEST(StraightPropagation, AnswersAsTheLinkModelOfTheTwoModems) {
+  const acoustics::Environment water;
+  StraightPropagation propagation(water);
+  const auto quiet = modem_of_level(160), loud = modem_of_level(190);
+  const Vec3 from(0, 0, 40), to(900, -300, 700);
+  for (int turn = 0; turn < 2; ++turn) {  // the second time from what was kept
+    const auto reception = propagation.reception(SimTime(), end_at(from, quiet), end_at(to, loud));
+    const auto expected = link_budget(water, quiet, loud, from, to);
+    EXPECT_EQ(reception.budget.received_level.value, expected.received_level.value);
+    EXPECT_EQ(reception.budget.capacity_bps, expected.capacity_bps);
+  }
+}
+
+TEST(StraightPropagation, GivesOnePathWithTheDelayAndLevelOfTheBudget) {
+  StraightPropagation propagation(acoustics::Environment{});
+  const acoustics::Modem modem;
+  const auto reception =
+      propagation.reception(SimTime(), end_at({0, 0, 40}, modem), end_at({300, 400, 540}, modem));
+  EXPECT_EQ(reception.state, PathState::kOpen);
+  EXPECT_EQ(reception.used, PropagationUsed::kStraight);
+  EXPECT_EQ(reception.delay_spread_s, 0);
+  ASSERT_EQ(reception.paths.size(), 1u);
+  const SoundPath& path = reception.paths[0];
+  EXPECT_EQ(path.delay_s, reception.budget.delay_s);
+  EXPECT_EQ(path.level, reception.budget.received_level);
+  // 500 m across and 500 m down.
+  EXPECT_NEAR(path.launch_angle_rad, std::numbers::pi / 4, tolerance(1e-12));
+  EXPECT_NEAR(path.arrival_angle_rad, std::numbers::pi / 4, tolerance(1e-12));
+}
+
+TEST(StraightPropagation, TheDelayIsThatOfTheBudget) {
+  StraightPropagation propagation(acoustics::Environment{});
+  const acoustics::Modem modem;
+  const auto from = end_at({0, 0, 40}, modem), to = end_at({900, -300, 700}, modem);
+  const double budget_delay_s = propagation.reception(SimTime(), from, to).budget.delay_s;
+  // Both integrate ds / c by the same quadrature.
+  EXPECT_LT(relative_error(propagation.delay_s(SimTime(), from, to), budget_delay_s), tolerance(1e-13));
+}
+
+// f_rx / f_tx = (c - v_rx) / (c - v_tx), velocities along the path.
+TEST(StraightPropagation, TheDopplerFactorIsThatOfTheVelocitiesAlongThePath) {
+  StraightPropagation propagation(testing::even_water());
+  const acoustics::Modem modem;
+  const auto reception = propagation.reception(SimTime(), end_at({0, 0, 50}, modem, {3, 9, 0}),
+                                               end_at({800, 0, 50}, modem, {-2, 0, 1}));
+  EXPECT_NEAR(reception.paths[0].doppler_factor, (kSpeedMps + 2) / (kSpeedMps - 3), tolerance(1e-14));
+}
+
+TEST(StraightPropagation, EqualModemsShareOneModel) {
+  StraightPropagation propagation(acoustics::Environment{});
+  const auto ask = [&](double transmitter_db, double receiver_db) {
+    propagation.reception(SimTime(), end_at({0, 0, 1}, modem_of_level(transmitter_db)),
+                          end_at({9, 0, 1}, modem_of_level(receiver_db)));
+  };
+  for (int i = 0; i < 5; ++i) ask(180, 180);
+  EXPECT_EQ(propagation.models_kept(), 1u);
+  ask(181, 180);
+  EXPECT_EQ(propagation.models_kept(), 2u);
+}
+
+TEST(StraightPropagation, TheModelAskedLongestAgoMakesRoom) {
+  StraightPropagation propagation(acoustics::Environment{}, /*most_models=*/3);
+  const acoustics::Modem receiver;
+  for (int level = 150; level < 170; ++level) {
+    const auto transmitter = modem_of_level(level);
+    const auto reception =
+        propagation.reception(SimTime(), end_at({0, 0, 1}, transmitter), end_at({1, 0, 1}, receiver));
+    // At 1 m, absorption alone is lost.
+    EXPECT_NEAR(reception.budget.received_level.value, level, tolerance(1e-2));
+    EXPECT_LE(propagation.models_kept(), 3u);
+  }
+}
+
+TEST(StraightPropagation, AnImpossibleModemIsRefusedAndNothingKept) {
+  StraightPropagation propagation(acoustics::Environment{});
+  const acoustics::Modem impossible = modem_of_level(900), modem;
+  EXPECT_THROW(propagation.reception(SimTime(), end_at({0, 0, 1}, impossible), end_at({1, 0, 1}, modem)),
+               InvalidArgument);
+  EXPECT_EQ(propagation.models_kept(), 0u);
+}
+
+TEST(Paths, TheFirstSignificantOneLiesWithinTwentyDecibelsOfTheStrongest) {
+  EXPECT_EQ(first_significant({path_of(1, 79.9), path_of(2, 80.1), path_of(3, 100)}), 1u);
+  EXPECT_EQ(first_significant({path_of(1, 80.1), path_of(3, 100), path_of(4, 90)}), 0u);
+  EXPECT_EQ(first_significant({path_of(1, -50)}), 0u);
+}
+
+TEST(Paths, TheDelaySpreadRunsFromTheFirstSignificantPathToTheLast) {
+  EXPECT_NEAR(
+      delay_spread_s({path_of(1, 79), path_of(2, 81), path_of(3, 100), path_of(3.5, 85), path_of(9, 60)}),
+      1.5, tolerance(1e-12));
+  EXPECT_EQ(delay_spread_s({path_of(1, 80)}), 0);
+  EXPECT_EQ(delay_spread_s({}), 0);
+}
+
+TEST(Paths, PowersAddAndNothingIsSilence) {
+  EXPECT_NEAR(total_level({path_of(1, 80), path_of(2, 80)}).value, 80 + 10 * std::log10(2), tolerance(1e-12));
+  EXPECT_EQ(total_level({}), kSilence);
+  EXPECT_EQ(total_level({path_of(1, -4000)}), kSilence);
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

@@ -1,0 +1,146 @@
+#include "clients/halocline/analysis/ledger.h"
+
+#include <numeric>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "core/check.h"
+#include "core/csv_table.h"
+#include "tests/bus/logs/log_fixture.h"
+
+namespace halocline::clients {
+namespace {
+
+using testing::TemporaryLog;
+
+constexpr std::int64_t kMinute = 60'000'000;
+constexpr auto kReceived = static_cast<std::size_t>(packet_outcome_t::RECEIVED);
+constexpr auto kCollided = static_cast<std::size_t>(packet_outcome_t::COLLIDED);
+
+packet_outcome_t outcome(std::int32_t from, std::int32_t to, std::int64_t sequence,
+                         std::int64_t departure_utime, std::int8_t fate) {
+  packet_outcome_t o{};
+  o.utime = departure_utime + 1'500'000;
+  o.source_id = from;
+  o.receiver_id = to;
+  o.packet_sequence = sequence;
+  o.departure_utime = departure_utime;
+  o.packet_fate = fate;
+  o.doppler_factor = 1;
+  return o;
+}
+
+class LedgerOfALog : public ::testing::Test {
+ protected:
+  void add(const packet_outcome_t& o) { file_.add(o.utime, "OUTCOME", o); }
+  Ledger ledger(std::int64_t window_us = kMinute) {
+    LogReader log(file_.path());
+    return ledger_of(log, window_us);
+  }
+  TemporaryLog file_;
+};
+
+TEST_F(LedgerOfALog, SumsByCausePairAndWindowOfDepartureAgree) {
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
+  add(outcome(2, 3, 7, kMinute - 1, packet_outcome_t::COLLIDED));
+  add(outcome(1, 2, 1, kMinute, packet_outcome_t::RECEIVED));
+  const Ledger sums = ledger();
+  EXPECT_EQ(sums.total()[kReceived], 2);
+  EXPECT_EQ(sums.total()[kCollided], 2);
+  EXPECT_EQ((sums.by_pair().at({1, 2})[kReceived]), 2);
+  EXPECT_EQ((sums.by_pair().at({1, 3})[kCollided]), 1);
+  EXPECT_EQ((sums.by_pair().at({2, 3})[kCollided]), 1);
+  EXPECT_EQ(sums.by_window().at(0)[kReceived], 1);
+  EXPECT_EQ(sums.by_window().at(0)[kCollided], 2);
+  EXPECT_EQ(sums.by_window().at(kMinute)[kReceived], 1);
+}
+
+TEST_F(LedgerOfALog, ARepeatedOutcomeCountsOnce) {
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  const Ledger sums = ledger();
+  EXPECT_EQ(sums.total()[kReceived], 1);
+  EXPECT_EQ(sums.repeated(), 1);
+}
+
+TEST_F(LedgerOfALog, VehiclesGoByTheNamesOfTheirStates) {
+  file_.add(0, "STATE.auv-1", testing::state_at(0));
+  add(outcome(1, 9, 0, 0, packet_outcome_t::RECEIVED));
+  const Ledger sums = ledger();
+  EXPECT_EQ(sums.name(1), "auv-1");
+  EXPECT_EQ(sums.name(9), "9");
+}
+
+TEST_F(LedgerOfALog, TimesBeforeZeroFallIntoWindowsOfTheirOwn) {
+  add(outcome(1, 2, 0, -1, packet_outcome_t::RECEIVED));
+  EXPECT_EQ(ledger().by_window().begin()->first, -kMinute);
+}
+
+TEST_F(LedgerOfALog, AWindowOfNothingIsRefused) { EXPECT_THROW(Ledger(0), InvalidArgument); }
+
+TEST_F(LedgerOfALog, JsonAndCsvTellTheSameCounts) {
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
+  const Ledger sums = ledger();
+  const auto json = nlohmann::json::parse(to_json(sums));
+  EXPECT_EQ(json["outcomes"], 2);
+  EXPECT_EQ(json["causes"]["received"], 1);
+  EXPECT_EQ(json["pairs"][1]["causes"]["collided"], 1);
+  std::stringstream csv;
+  print_csv(csv, sums);
+  EXPECT_EQ(csv.str(), "from,to,cause,packets\n1,2,received,1\n1,3,collided,1\n");
+}
+
+TEST_F(LedgerOfALog, EachOutcomeIsARowWithTheCollidersThatDecidedIt) {
+  packet_outcome_t lost = outcome(1, 2, 5, 0, packet_outcome_t::COLLIDED);
+  packet_name_t other{};
+  other.source_id = 3;
+  other.packet_sequence = 8;
+  lost.num_colliders = 1;
+  lost.colliders = {other};
+  lost.interference_level_db = 91.5;
+  add(lost);
+  std::stringstream csv;
+  print_outcomes_csv(csv, ledger());
+  std::vector<std::string> errors;
+  const CsvTable table = read_csv(csv, errors);
+  ASSERT_TRUE(errors.empty());
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(table.rows[0].cells[*table.column("colliders")], "3:8");
+  EXPECT_EQ(table.rows[0].cells[*table.column("interference_level_db")], "91.5");
+}
+
+TEST_F(LedgerOfALog, ThePrintedTableNamesEveryCauseThatOccurred) {
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  add(outcome(1, 3, 0, 0, packet_outcome_t::HALF_DUPLEX));
+  std::ostringstream text;
+  print(text, ledger());
+  EXPECT_THAT(text.str(),
+              ::testing::AllOf(::testing::HasSubstr("2 outcomes"), ::testing::HasSubstr("50.0 %"),
+                               ::testing::HasSubstr("half duplex"), ::testing::HasSubstr("1 -> 3")));
+}
+
+TEST_F(LedgerOfALog, ThePlotHoldsABarACauseAndItsCourseOverTheWindows) {
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
+  add(outcome(1, 3, 1, kMinute, packet_outcome_t::COLLIDED));
+  const Plot plot = ledger_plot(ledger(), "a run");
+  ASSERT_EQ(plot.charts.size(), 2u);
+  EXPECT_THAT(plot.charts[0].categories, ::testing::ElementsAre("received", "collided"));
+  EXPECT_THAT(plot.charts[0].series.at(0).y, ::testing::ElementsAre(1, 2));
+  ASSERT_EQ(plot.charts[1].series.size(), 2u);
+  EXPECT_THAT(plot.charts[1].series[1].x, ::testing::ElementsAre(0, 60));
+  EXPECT_THAT(plot.charts[1].series[1].y, ::testing::ElementsAre(1, 1));
+}
+
+TEST_F(LedgerOfALog, AnEmptyLogHasNoOutcomes) {
+  std::ostringstream text;
+  print(text, ledger());
+  EXPECT_THAT(text.str(), ::testing::HasSubstr("0 outcomes"));
+}
+
+}  // namespace
+}  // namespace halocline::clients

@@ -1,0 +1,123 @@
+#include "clients/halocline/scenario/link_survey.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/check.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::clients {
+namespace {
+
+using ::halocline::testing::tolerance;
+
+ScenarioConfig two_vehicles() {
+  ScenarioConfig config;
+  config.scenario.vehicles.resize(1);
+  config.scenario.vehicles[0].name = "auv-1";
+  config.scenario.vehicles[0].id = 1;
+  config.scenario.vehicles[0].start_ned_m = {-500, 0, 0};
+  config.terrain.flat.depth_m = 1000;
+  return config;
+}
+
+TEST(LinkSurvey, EndIsAVehicleOrAPosition) {
+  const ScenarioConfig config = two_vehicles();
+  EXPECT_EQ(link_end(config, "auv-1").position_ned_m, Vec3(-500, 0, 0));
+  EXPECT_EQ(link_end(config, "1.5,-2,30").position_ned_m, Vec3(1.5, -2, 30));
+}
+
+TEST(LinkSurvey, ImpossibleEndsAreRefused) {
+  const ScenarioConfig config = two_vehicles();
+  for (const char* text : {"auv-9", "1,2", "1,2,3,4", "1,2,x", "1,2,-5", "nan,0,0", ""}) {
+    EXPECT_THROW(link_end(config, text), InvalidArgument) << text;
+  }
+}
+
+// model.md section 8: 1 km at the surface in the global mean profile; 1e-6 is the precision it is stated with.
+TEST(LinkSurvey, DelayOfTheStraightPathIsThatOfThePapersFigure4) {
+  ScenarioConfig config = two_vehicles();
+  config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
+  const LinkAnswer answer = survey_link(config, link_end(config, "auv-1"), link_end(config, "500,0,0"));
+  EXPECT_NEAR(answer.reception.budget.delay_s, 0.660724, tolerance(1e-6));
+}
+
+// The paths are those that the budget sums up.
+TEST(LinkSurvey, PowersOfThePathsAddUpToTheReceivedLevel) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.model = model;
+    const LinkAnswer answer =
+        survey_link(config, link_end(config, "-500,0,40"), link_end(config, "500,0,60"));
+    ASSERT_EQ(answer.arrivals.received.size(), answer.arrivals.arrivals.paths.size());
+    EXPECT_EQ(answer.arrivals.received.size() > 1, model == channel_server::PropagationModel::kRays);
+    double power = 0;
+    for (const ReceivedPath& path : answer.arrivals.received) power += std::pow(10, path.level_db / 10);
+    EXPECT_NEAR(10 * std::log10(power), answer.reception.budget.received_level.value, 1e-9);
+  }
+}
+
+// Spreading, bounces and absorption of the arrival, from the modem's source level, are the level of its path.
+TEST(LinkSurvey, LevelOfAPathIsItsPressureAtTheSourceLevel) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.channel_server.propagation.model = model;
+    const LinkEnd from = link_end(config, "-500,0,40");
+    const LinkAnswer answer = survey_link(config, from, link_end(config, "500,0,60"));
+    for (std::size_t i = 0; i < answer.arrivals.received.size(); ++i) {
+      const double pressure = answer.arrivals.arrivals.paths[i].received_pressure();
+      EXPECT_NEAR(answer.arrivals.received[i].level_db,
+                  from.modem.modem.source_level.value + 20 * std::log10(pressure), 1e-9);
+    }
+  }
+}
+
+// A beam that looks down at one end and one that looks up at the other: the paths' pressures with the beams in them
+// make up the loss of the budget.
+TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.model = model;
+    LinkEnd from = link_end(config, "-500,0,40"), to = link_end(config, "500,0,60");
+    const auto loss_db = [&] {
+      return survey_link(config, from, to).reception.budget.transmission_loss.value;
+    };
+    const double bare_db = loss_db();
+    from.modem.modem.beam = acoustics::BeamPattern({{-0.01, 0}, {0.01, 20}});
+    to.modem.modem.beam = acoustics::BeamPattern({{-0.1, 30}, {0.1, 3}});
+    const LinkAnswer answer = survey_link(config, from, to);
+    const auto field = received_field(answer.arrivals.arrivals, {answer.arrivals.beams, {}});
+    EXPECT_NEAR(-field.level.value, answer.reception.budget.transmission_loss.value, tolerance(1e-9));
+    EXPECT_GT(loss_db(), bare_db + 1);
+  }
+}
+
+// A receiver that comes closer at 2 m/s along a straight horizontal way hears 1 + v / c.
+TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
+  ScenarioConfig config = two_vehicles();
+  config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
+  LinkEnd to = link_end(config, "500,0,50");
+  to.velocity_ned_mps = parse_vector("-2,0,0", "--to-velocity");
+  const LinkAnswer answer = survey_link(config, link_end(config, "-500,0,50"), to);
+  const double speed_mps = answer.reception.budget.mean_sound_speed_mps;
+  EXPECT_NEAR(answer.arrivals.received.at(0).doppler_factor, 1 + 2 / speed_mps, 1e-9);
+}
+
+TEST(LinkSurvey, EchoIsLikelyOverAShallowBottomAndUnknownBeyondTheTerrain) {
+  ScenarioConfig config = two_vehicles();
+  config.terrain.flat.depth_m = 50;
+  const LinkEnd from = link_end(config, "auv-1");
+  EXPECT_EQ(survey_link(config, from, link_end(config, "500,0,0")).multipath,
+            channel_server::Multipath::kLikely);
+  const LinkEnd outside = link_end(config, "90000,0,10"), farther = link_end(config, "91000,0,10");
+  EXPECT_EQ(survey_link(config, outside, farther).multipath, channel_server::Multipath::kUnknown);
+}
+
+}  // namespace
+}  // namespace halocline::clients

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "clients/halocline/analysis/run_files.h"
+#include "clients/halocline/scenario/composition.h"
+
+namespace halocline::clients {
+namespace {
+
+const std::string kScenarios = std::string(HALOCLINE_SOURCE_DIR) + "/scenarios";
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kScenarios)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class ShippedScenario : public ::testing::TestWithParam<std::string> {
+ protected:
+  ScenarioConfig load() { return load_scenario(kScenarios + "/" + GetParam() + ".toml", {}); }
+};
+
+TEST_P(ShippedScenario, HasNoKeyThatNobodyReads) { EXPECT_EQ(load().scenario.name, GetParam()); }
+
+TEST_P(ShippedScenario, ReadsBackFromItsEffectiveConfiguration) {
+  const std::string text = effective_toml(load());
+  const std::string path = ::testing::TempDir() + "effective-" + GetParam() + ".toml";
+  write_text(path, text);
+  EXPECT_EQ(effective_toml(load_scenario(path, {})), text);
+  std::filesystem::remove(path);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped()),
+                         [](const auto& test) { return test.param; });
+
+TEST(ScenarioConfig, EffectiveConfigurationListsEachVehicleOnce) {
+  const std::string text = effective_toml(load_scenario(kScenarios + "/seamount.toml", {}));
+  std::size_t count = 0;
+  for (auto at = text.find("[[vehicle]]"); at != std::string::npos; at = text.find("[[vehicle]]", at + 1))
+    ++count;
+  EXPECT_EQ(count, 3u);
+}
+
+TEST(ScenarioConfig, OverridesReachEverySection) {
+  const ScenarioConfig config = load_scenario(
+      kScenarios + "/seamount.toml",
+      {"scenario.duration_s=12", "modem.source_level_db=170", "vehicle.0.mission.speed_mps=1.1"});
+  EXPECT_EQ(config.scenario.duration, SimDuration::from_seconds(12));
+  EXPECT_EQ(config.channel_server.modem.modem.source_level.value, 170);
+  EXPECT_EQ(config.autopilot.vehicles.at(0).mission.speed_mps, 1.1);
+}
+
+TEST(ScenarioConfig, UnknownKeysOfEverySectionAreErrors) {
+  for (const std::string key :
+       {"terrain.shape=1", "vehicle.0.colour=1", "vehicle.0.mission.speed=1", "weather.x=1"}) {
+    EXPECT_THROW(load_scenario(kScenarios + "/seamount.toml", {key}), bus::ConfigErrors) << key;
+  }
+}
+
+// docs/scenarios.md shows every key with unit, range and meaning as the programs know it.
+TEST(ScenarioConfig, DocumentationListsEveryKey) {
+  std::ifstream in(std::string(HALOCLINE_SOURCE_DIR) + "/docs/scenarios.md");
+  std::ostringstream text;
+  text << in.rdbuf();
+  EXPECT_THAT(text.str(), ::testing::HasSubstr("```toml\n" + commented_toml() + "```\n"))
+      << "put the output of `halocline config` between the ```toml lines of docs/scenarios.md";
+}
+
+}  // namespace
+}  // namespace halocline::clients

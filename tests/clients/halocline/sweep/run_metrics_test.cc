@@ -1,0 +1,84 @@
+#include "clients/halocline/sweep/run_metrics.h"
+
+#include <cmath>
+
+#include "tests/bus/logs/log_fixture.h"
+
+namespace halocline::clients {
+namespace {
+
+using testing::TemporaryLog;
+
+packet_outcome_t outcome(std::int64_t sequence, std::int32_t destination, std::int32_t receiver,
+                         std::int8_t fate, double travel_time_s = 0.1) {
+  packet_outcome_t o{};
+  o.source_id = 1;
+  o.destination_id = destination;
+  o.receiver_id = receiver;
+  o.packet_sequence = sequence;
+  o.packet_fate = fate;
+  o.departure_utime = 1'000'000;
+  o.utime = 1'000'000 + 2 * static_cast<std::int64_t>(travel_time_s * 1e6);
+  o.travel_time_s = travel_time_s;
+  return o;
+}
+
+RunMetrics of(TemporaryLog& file) {
+  LogReader log(file.path());
+  return metrics_of(log);
+}
+
+TEST(RunMetrics, DeliveryCountsThoseAPacketWasFor) {
+  TemporaryLog file;
+  file.add(1, "OUTCOME", outcome(0, 2, 2, packet_outcome_t::RECEIVED));
+  file.add(1, "OUTCOME", outcome(0, 2, 3, packet_outcome_t::RECEIVED));  // overheard
+  file.add(1, "OUTCOME", outcome(1, 0, 2, packet_outcome_t::SHADOW));
+  file.add(1, "OUTCOME", outcome(1, 0, 3, packet_outcome_t::RECEIVED));
+  const RunMetrics metrics = of(file);
+  EXPECT_EQ(metrics.all.packets, 3);
+  EXPECT_EQ(metrics.all.received, 2);
+  EXPECT_DOUBLE_EQ(metrics[RunNumber::kDeliveryRatio], 2.0 / 3);
+  EXPECT_EQ(metrics.fates[packet_outcome_t::RECEIVED], 3);
+  EXPECT_EQ((metrics.by_pair.at({"1", "3"}).packets), 1);
+}
+
+TEST(RunMetrics, DelaysHaveNearestRankPercentiles) {
+  TemporaryLog file;
+  for (int i = 1; i <= 100; ++i)
+    file.add(1, "OUTCOME", outcome(i, 2, 2, packet_outcome_t::RECEIVED, 0.01 * i));
+  const RunMetrics metrics = of(file);
+  EXPECT_NEAR(metrics[RunNumber::kDelayMean], 0.505, 1e-12);
+  EXPECT_NEAR(metrics[RunNumber::kDelayMedian], 0.5, 1e-12);
+  EXPECT_NEAR(metrics[RunNumber::kDelay90], 0.9, 1e-12);
+  EXPECT_NEAR(metrics[RunNumber::kDelay99], 0.99, 1e-12);
+  EXPECT_NEAR(metrics[RunNumber::kLatencyMean], 1.01, 1e-5);
+}
+
+TEST(RunMetrics, ThroughputIsPayloadOverTheRun) {
+  TemporaryLog file;
+  modem_receive_t packet{};
+  packet.receiver_id = 2;
+  packet.source_id = 1;
+  packet.destination_id = 2;
+  packet.payload_size = 100;
+  packet.payload.resize(100);
+  packet.doppler_factor = 1;
+  file.add(1, "RECEIVE.auv-2", packet);
+  file.add(40'000'000, "CLOCK", testing::clock_at(40'000'000));
+  EXPECT_DOUBLE_EQ(of(file)[RunNumber::kThroughput], 20);
+}
+
+TEST(RunMetrics, AreReadAsTheyWereWritten) {
+  TemporaryLog file;
+  file.add(1, "OUTCOME", outcome(0, 2, 2, packet_outcome_t::SHADOW));
+  const RunMetrics metrics = of(file), read = metrics_from_json(to_json(metrics));
+  EXPECT_TRUE(std::isnan(read[RunNumber::kDelayMean]));
+  EXPECT_EQ(read[RunNumber::kDeliveryRatio], 0);
+  EXPECT_EQ(read.fates, metrics.fates);
+  EXPECT_EQ(read.by_pair.size(), 1u);
+  EXPECT_EQ(to_json(read), to_json(metrics));
+  EXPECT_THROW(metrics_from_json("{}"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace halocline::clients

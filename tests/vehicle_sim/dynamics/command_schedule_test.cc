@@ -1,0 +1,85 @@
+#include "vehicle_sim/dynamics/command_schedule.h"
+
+#include <gtest/gtest.h>
+
+#include "core/check.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+constexpr SimDuration kTimeout = SimDuration::from_milliseconds(2000);
+constexpr ActuatorValues kPort{-0.1, 0, 10}, kStarboard{0.1, 0, 20};
+
+SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+
+TEST(CommandSchedule, WithoutACommandTheStateIsSafe) {
+  CommandSchedule schedule(kTimeout);
+  EXPECT_TRUE(schedule.is_safe_state());
+  EXPECT_EQ(schedule.at(at_ms(0)), kSafeState);
+  EXPECT_TRUE(schedule.is_safe_state());
+}
+
+TEST(CommandSchedule, ACommandHoldsFromItsOwnTimeOn) {
+  CommandSchedule schedule(kTimeout);
+  EXPECT_EQ(schedule.add({at_ms(500), kPort}, at_ms(0)), CommandVerdict::kTaken);
+  EXPECT_EQ(schedule.at(at_ms(499)), kSafeState);
+  EXPECT_EQ(schedule.at(at_ms(500)), kPort);
+  EXPECT_FALSE(schedule.is_safe_state());
+}
+
+TEST(CommandSchedule, ACommandIsVoidOnceOlderThanTheTimeout) {
+  CommandSchedule schedule(kTimeout);
+  schedule.add({at_ms(0), kPort}, at_ms(0));
+  EXPECT_EQ(schedule.at(at_ms(2000)), kPort);
+  EXPECT_EQ(schedule.at(at_ms(2001)), kSafeState);
+  EXPECT_TRUE(schedule.is_safe_state());
+}
+
+TEST(CommandSchedule, ANewCommandEndsTheSafeState) {
+  CommandSchedule schedule(kTimeout);
+  schedule.add({at_ms(0), kPort}, at_ms(0));
+  schedule.at(at_ms(5000));
+  schedule.add({at_ms(5000), kStarboard}, at_ms(5000));
+  EXPECT_EQ(schedule.at(at_ms(5000)), kStarboard);
+  EXPECT_FALSE(schedule.is_safe_state());
+}
+
+TEST(CommandSchedule, CommandsTakeTheirTurnHoweverTheyCome) {
+  CommandSchedule schedule(kTimeout);
+  schedule.add({at_ms(200), kStarboard}, at_ms(0));
+  schedule.add({at_ms(100), kPort}, at_ms(0));
+  EXPECT_EQ(schedule.at(at_ms(150)), kPort);
+  EXPECT_EQ(schedule.at(at_ms(250)), kStarboard);
+}
+
+TEST(CommandSchedule, OfTwoForOneInstantTheLaterHeardCounts) {
+  CommandSchedule schedule(kTimeout);
+  schedule.add({at_ms(100), kPort}, at_ms(0));
+  schedule.add({at_ms(100), kStarboard}, at_ms(0));
+  EXPECT_EQ(schedule.at(at_ms(100)), kStarboard);
+}
+
+TEST(CommandSchedule, WhatIsTooOldIsRefused) {
+  CommandSchedule schedule(kTimeout);
+  EXPECT_EQ(schedule.add({at_ms(999), kPort}, at_ms(3000)), CommandVerdict::kTooOld);
+  EXPECT_EQ(schedule.add({at_ms(2900), kPort}, at_ms(3000)), CommandVerdict::kTaken);
+  EXPECT_EQ(schedule.at(at_ms(3000)), kPort);
+  EXPECT_EQ(schedule.add({at_ms(2800), kStarboard}, at_ms(3000)), CommandVerdict::kTooOld);  // overtaken
+  EXPECT_EQ(schedule.at(at_ms(3010)), kPort);
+}
+
+TEST(CommandSchedule, AFloodOfFutureCommandsIsBounded) {
+  CommandSchedule schedule(kTimeout);
+  for (std::size_t i = 0; i < CommandSchedule::kMostWaiting; ++i) {
+    ASSERT_EQ(schedule.add({at_ms(100 + static_cast<std::int64_t>(i)), kPort}, at_ms(0)),
+              CommandVerdict::kTaken);
+  }
+  EXPECT_EQ(schedule.add({at_ms(50), kPort}, at_ms(0)), CommandVerdict::kTooMany);
+}
+
+TEST(CommandSchedule, ATimeoutMustBePositive) {
+  EXPECT_THROW(CommandSchedule{SimDuration()}, InvalidArgument);
+}
+
+}  // namespace
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,35 @@
+#include "vehicle_sim/dynamics/actuator_forces.h"
+
+#include <algorithm>
+
+namespace halocline::vehicle_sim {
+namespace {
+
+double held(double value, double limit) { return std::clamp(value, -limit, limit); }
+
+}  // namespace
+
+ActuatorValues limited(const ModelParameters& p, const ActuatorValues& command) {
+  ActuatorValues held_to;
+  held_to.rudder_rad = held(command.rudder_rad, p.fin_servo.max_angle_rad);
+  held_to.stern_planes_rad = held(command.stern_planes_rad, p.fin_servo.max_angle_rad);
+  held_to.propeller_hz = held(command.propeller_hz, p.propeller.max_hz);
+  for (std::size_t i = 0; i < p.thrusters.size(); ++i) {
+    held_to.thruster_hz[i] = held(command.thruster_hz[i], p.thrusters[i].max_hz);
+  }
+  return held_to;
+}
+
+ActuatorValues actuator_rate(const ModelParameters& p, const ActuatorValues& value,
+                             const ActuatorValues& command) {
+  ActuatorValues rate;
+  rate.rudder_rad = (command.rudder_rad - value.rudder_rad) / p.fin_servo.lag_s;
+  rate.stern_planes_rad = (command.stern_planes_rad - value.stern_planes_rad) / p.fin_servo.lag_s;
+  rate.propeller_hz = (command.propeller_hz - value.propeller_hz) / p.propeller.lag_s;
+  for (std::size_t i = 0; i < p.thrusters.size(); ++i) {
+    rate.thruster_hz[i] = (command.thruster_hz[i] - value.thruster_hz[i]) / p.thrusters[i].lag_s;
+  }
+  return rate;
+}
+
+}  // namespace halocline::vehicle_sim

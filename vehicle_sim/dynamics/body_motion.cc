@@ -1,0 +1,95 @@
+#include "vehicle_sim/dynamics/body_motion.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+// q turned by the rotation vector `angle` of the world frame, radians.
+Quaternion turned(const Quaternion& q, const Vec3& angle) {
+  const double size = angle.norm();
+  if (size == 0) return q;
+  return (Quaternion(Eigen::AngleAxisd(size, angle / size)) * q).normalized();
+}
+
+// Velocity over ground less the water's.
+Vec6 relative_velocity(const VehicleState& state, const Vec3& current_ned) {
+  Vec6 nu = state.velocity_body;
+  nu.head<3>() -= state.orientation.conjugate() * current_ned;
+  return nu;
+}
+
+// The same momentum with its moment about `pivot`.
+Impulse about(const Impulse& impulse, const Vec3& pivot) {
+  return {impulse.linear, impulse.moment - pivot.cross(impulse.linear)};
+}
+
+Impulse momentum_about_origin_of_body(const Model& model, const VehicleState& state,
+                                      const Vec3& current_ned) {
+  const Vec6 momentum = model.mass() * relative_velocity(state, current_ned);
+  return {state.orientation * Vec3(momentum.head<3>()), state.orientation * Vec3(momentum.tail<3>())};
+}
+
+Vec6 in_body_frame(const Quaternion& orientation, const Impulse& impulse) {
+  Vec6 v;
+  v << orientation.conjugate() * impulse.linear, orientation.conjugate() * impulse.moment;
+  return v;
+}
+
+}  // namespace
+
+Motion motion_of_cg(const Model& model, const VehicleState& s) {
+  const Vec3& r = model.parameters().center_of_gravity_m;
+  const Vec3 v = s.linear_velocity_body_mps(), w = s.angular_velocity_body_radps();
+  return {s.position_ned_m + s.orientation * r, s.orientation * Vec3(v + w.cross(r)), s.orientation * w};
+}
+
+void set_motion_of_cg(VehicleState& s, const Model& model, const Motion& cg) {
+  const Vec3& r = model.parameters().center_of_gravity_m;
+  const Quaternion to_body = s.orientation.conjugate();
+  const Vec3 w = to_body * cg.angular_velocity;
+  s.position_ned_m = cg.position - s.orientation * r;
+  s.velocity_body << to_body * cg.velocity - w.cross(r), w;
+}
+
+VehicleState moved(const Model& model, const VehicleState& from, const Motion& cg, double step_s) {
+  VehicleState to = from;
+  to.orientation = turned(from.orientation, step_s * cg.angular_velocity);
+  set_motion_of_cg(to, model, {cg.position + step_s * cg.velocity, cg.velocity, cg.angular_velocity});
+  return to;
+}
+
+Impulse impulse_of(const Vec3& force_n, const Vec3& point_ned_m, double step_s) {
+  return {step_s * force_n, step_s * point_ned_m.cross(force_n)};
+}
+
+Impulse momentum_of(const Model& model, const VehicleState& state, const Vec3& current_ned) {
+  const Impulse own = momentum_about_origin_of_body(model, state, current_ned);
+  return about(own, -state.position_ned_m);
+}
+
+double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,
+                       const Vec3& direction) {
+  const Vec3 arm = point_ned_m - pose.position_ned_m;
+  const Vec6 along = in_body_frame(pose.orientation, {direction, arm.cross(direction)});
+  return along.dot(model.inverse_mass() * along);
+}
+
+VehicleState struck(const Model& model, const VehicleState& from, const VehicleState& free,
+                    const Impulse& impulse, const Vec3& current_ned, double step_s) {
+  const Impulse push = about(impulse, free.position_ned_m);
+  VehicleState estimate = free;
+  estimate.velocity_body += model.inverse_mass() * in_body_frame(free.orientation, push);
+  Motion cg = motion_of_cg(model, estimate);
+  cg.position = motion_of_cg(model, from).position;
+  VehicleState next = moved(model, from, cg, step_s);
+  next.actuators = free.actuators;
+  // The momentum belongs to the pose that was reached: seen from there it gives the velocity.
+  Impulse momentum = momentum_about_origin_of_body(model, free, current_ned);
+  momentum.linear += push.linear;
+  momentum.moment += push.moment;
+  momentum = about(momentum, next.position_ned_m - free.position_ned_m);
+  next.velocity_body = model.inverse_mass() * in_body_frame(next.orientation, momentum);
+  next.velocity_body.head<3>() += next.orientation.conjugate() * current_ned;
+  return next;
+}
+
+}  // namespace halocline::vehicle_sim

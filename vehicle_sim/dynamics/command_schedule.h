@@ -1,0 +1,55 @@
+// Which command a vehicle obeys at an instant: each holds from its own time on, until a later one, or until it is
+// too old; then the vehicle is in its safe state.
+//
+// Safe state: propeller and thrusters stopped and fins amidships, so a vehicle without a pilot slows down and
+// drifts; one that is buoyant (the scenario's buoyancy_over_weight above 1) comes up. A vehicle that was
+// never commanded is in it too. What was asked for an instant does not depend on the order in which commands
+// with different times came.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/sim_time.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+
+namespace halocline::vehicle_sim {
+
+inline constexpr ActuatorValues kSafeState{};
+
+struct TimedCommand {
+  SimTime from;  // holds from this instant on
+  ActuatorValues actuators;
+};
+
+enum class CommandVerdict {
+  kTaken,
+  kTooOld,   // older than the time-out, or than a command already obeyed
+  kTooMany,  // more wait for their time than a pilot needs
+};
+
+class CommandSchedule {
+ public:
+  static constexpr std::size_t kMostWaiting = 1000;
+
+  // `timeout` above 0: the age at which a command is no longer obeyed.
+  explicit CommandSchedule(SimDuration timeout);
+
+  // Takes note of a command heard at `now`. Of two for one instant the one heard later counts.
+  CommandVerdict add(const TimedCommand& command, SimTime now);
+
+  // The command that holds at `now`; calls must not go back in time.
+  ActuatorValues at(SimTime now);
+
+  // True when the last at() gave the safe state for want of a command.
+  bool is_safe_state() const { return safe_; }
+
+ private:
+  SimDuration timeout_;
+  TimedCommand obeyed_{SimTime::at_once(), kSafeState};
+  std::vector<TimedCommand> waiting_;  // ascending in time
+  bool commanded_ = false;             // obeyed_ holds a command
+  bool safe_ = true;
+};
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,226 @@
+#include "vehicle_sim/dynamics/equations_of_motion.h"
+
+#include <array>
+#include <cmath>
+
+#include "vehicle_sim/dynamics/actuator_forces.h"
+#include "vehicle_sim/dynamics/hull_forces.h"
+#include "vehicle_sim/dynamics/submergence.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+// A VehicleState, or its rate, as plain numbers (body_axes.h says why).
+struct Numbers {
+  Axes position;
+  std::array<double, 4> orientation;  // x, y, z, w
+  BodyVelocity velocity;
+  ActuatorValues actuators;
+};
+
+Numbers to_numbers(const VehicleState& s) {
+  const Quaternion& q = s.orientation;
+  return {s.position_ned_m, {q.x(), q.y(), q.z(), q.w()}, s.velocity_body, s.actuators};
+}
+
+// The world's axes in the body frame: rows of the matrix that turns body to world.
+struct WorldAxes {
+  Axes north, east, down;
+};
+
+// Between the stages of a step the quaternion is off unit length by the square of the angle turned.
+WorldAxes world_axes(const std::array<double, 4>& q) {
+  const double length = std::sqrt((q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]));
+  const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
+  const double xx = 2 * x * x, xy = 2 * y * x, xz = 2 * z * x, yy = 2 * y * y, yz = 2 * z * y, zz = 2 * z * z;
+  const double wx = 2 * x * w, wy = 2 * y * w, wz = 2 * z * w;
+  return {{1 - (yy + zz), xy - wz, xz + wy},
+          {xy + wz, 1 - (xx + zz), yz - wx},
+          {xz - wy, yz + wx, 1 - (xx + yy)}};
+}
+
+// u_c = V cos(beta - psi), v_c = V sin(beta - psi), w_c = 0; (cos psi, sin psi) is the heading of the body's
+// x axis.
+Axes turned_by_yaw(const WorldAxes& axes, const Vec3& v) {
+  const double north = axes.north.x, east = axes.east.x, level = std::hypot(north, east);
+  const double cos_yaw = level > 0 ? north / level : 1, sin_yaw = level > 0 ? east / level : 0;
+  return {cos_yaw * v.x() + sin_yaw * v.y(), cos_yaw * v.y() - sin_yaw * v.x(), 0};
+}
+
+Axes turned_to_body(const WorldAxes& axes, const Vec3& v) {
+  return v.x() * axes.north + v.y() * axes.east + v.z() * axes.down;
+}
+
+RelativeFlow relative_flow(const Model& model, const BodyVelocity& nu, const WorldAxes& axes,
+                           const Water& water) {
+  RelativeFlow flow;
+  flow.nu_r = nu;
+  if (!water.current_ned_mps.isZero(0) || !water.current_rate_ned_mps2.isZero(0)) {
+    const bool by_yaw = model.parameters().current_treatment == CurrentTreatment::kUpstream;
+    const auto to_body = [&](const Vec3& v) {
+      return by_yaw ? turned_by_yaw(axes, v) : turned_to_body(axes, v);
+    };
+    const Axes current = to_body(water.current_ned_mps);
+    flow.nu_r = {nu.linear() - current, nu.angular()};
+    flow.current_rate = cross(current, by_yaw ? Axes(0, 0, nu.r) : nu.angular());  // -omega x v_c
+    if (!water.current_rate_ned_mps2.isZero(0))
+      flow.current_rate = flow.current_rate + to_body(water.current_rate_ned_mps2);
+  }
+  flow.speed_mps = length(flow.nu_r.linear());
+  return flow;
+}
+
+Submergence submergence(const ModelParameters& p, const Numbers& s, double sea_surface_z_m) {
+  if (is_wholly_submerged(p.hull, s.position.z - sea_surface_z_m)) return {};
+  VehicleState pose;
+  pose.position_ned_m = {s.position.x, s.position.y, s.position.z};
+  pose.orientation = Quaternion(s.orientation.data());
+  return submergence(p, pose, sea_surface_z_m);
+}
+
+BodyForce thrusters_force(const ModelParameters& p, const Numbers& state, const RelativeFlow& flow) {
+  BodyForce force;
+  for (std::size_t i = 0; i < p.thrusters.size(); ++i) {
+    force = force + thruster_force(p.thrusters[i], p.water_density_kg_m3, flow.nu_r, flow.speed_mps,
+                                   state.actuators.thruster_hz[i]);
+  }
+  return force;
+}
+
+BodyForce hull_force(const ModelParameters& p, const RelativeFlow& flow) {
+  const double rho = p.water_density_kg_m3;
+  BodyForce force = damping_force(p.damping, flow.nu_r, flow.speed_mps) +
+                    cross_flow_force(p.cross_flow, rho, p.hull.diameter_m, flow.nu_r);
+  if (p.lift_drag.reference_area_m2 > 0)
+    force = force + lift_drag_force(p.lift_drag, rho, flow.nu_r, flow.speed_mps);
+  if (p.body_lift.reference_area_m2 > 0) force = force + body_lift_force(p.body_lift, rho, flow.nu_r);
+  return force;
+}
+
+BodyForce stern_force(const ModelParameters& p, const Numbers& state, const RelativeFlow& flow) {
+  const double rho = p.water_density_kg_m3;
+  const double inflow_speed =
+      p.current_treatment == CurrentTreatment::kUpstream ? length(state.velocity.linear()) : flow.speed_mps;
+  return rudder_force(p.rudder, rho, flow.nu_r, state.actuators.rudder_rad) +
+         stern_planes_force(p.stern_planes, rho, flow.nu_r, state.actuators.stern_planes_rad) +
+         thruster_force(p.propeller, rho, flow.nu_r, inflow_speed, state.actuators.propeller_hz);
+}
+
+// Weight at CG, buoyancy at CB; `down` is the world's z axis in the body frame.
+BodyForce restoring_force(const Model& model, const Axes& down, const Submergence& under) {
+  const ModelParameters& p = model.parameters();
+  const double weight = model.weight_n(), buoyancy = p.buoyancy_n * under.hull;
+  const Axes center_of_buoyancy = p.center_of_buoyancy_m + Axes(under.x_shift_m, 0, 0);
+  return {(weight - buoyancy) * down,
+          cross(weight * Axes(p.center_of_gravity_m) - buoyancy * center_of_buoyancy, down)};
+}
+
+BodyForce total_coriolis_force(const Model& model, const BodyVelocity& nu_r) {
+  const ModelParameters& p = model.parameters();
+  if (p.added_mass_coriolis == AddedMassCoriolis::kFull) return coriolis_force(model.mass(), nu_r);
+  return coriolis_force(model.rigid_body_mass(), nu_r) + roll_only_coriolis_force(p.added_mass, nu_r);
+}
+
+BodyVelocity acceleration(const Model& model, const Numbers& state, const WorldAxes& axes,
+                          const Water& water) {
+  const ModelParameters& p = model.parameters();
+  const RelativeFlow flow = relative_flow(model, state.velocity, axes, water);
+  const Submergence under = submergence(p, state, water.sea_surface_z_m);
+  BodyForce of_hull = hull_force(p, flow);
+  if (!p.thrusters.empty()) of_hull = of_hull + thrusters_force(p, state, flow);
+  const BodyForce force = total_coriolis_force(model, flow.nu_r) + under.hull * of_hull +
+                          under.stern * stern_force(p, state, flow) +
+                          restoring_force(model, axes.down, under);
+  const Vec6 a = times(model.inverse_mass(), force);
+  return {flow.current_rate + Axes(a[0], a[1], a[2]), Axes(a[3], a[4], a[5])};
+}
+
+Axes position_rate(const WorldAxes& axes, const Axes& v) {
+  const Axes &n = axes.north, &e = axes.east, &d = axes.down;
+  return {n.x * v.x + n.y * v.y + n.z * v.z, e.x * v.x + e.y * v.y + e.z * v.z,
+          d.x * v.x + (d.y * v.y + d.z * v.z)};
+}
+
+// q_dot = 1/2 q (0, omega), coefficients x, y, z, w.
+std::array<double, 4> quaternion_rate(const std::array<double, 4>& at, const Axes& omega) {
+  const double x = at[0], y = at[1], z = at[2], w = at[3], p = omega.x, q = omega.y, r = omega.z;
+  return {0.5 * (w * p + y * r - z * q), 0.5 * (w * q + (z * p - x * r)), 0.5 * (w * r - y * p + x * q),
+          0.5 * (-(y * q) - (z * r + x * p))};
+}
+
+Numbers rate_of_change(const Model& model, const Numbers& state, const ActuatorValues& limited_command,
+                       const Water& water) {
+  const WorldAxes axes = world_axes(state.orientation);
+  return {position_rate(axes, state.velocity.linear()),
+          quaternion_rate(state.orientation, state.velocity.angular()),
+          acceleration(model, state, axes, water),
+          actuator_rate(model.parameters(), state.actuators, limited_command)};
+}
+
+ActuatorValues advanced(const ActuatorValues& a, const ActuatorValues& rate, double dt) {
+  ActuatorValues next{a.rudder_rad + dt * rate.rudder_rad, a.stern_planes_rad + dt * rate.stern_planes_rad,
+                      a.propeller_hz + dt * rate.propeller_hz, a.thruster_hz};
+  for (std::size_t i = 0; i < next.thruster_hz.size(); ++i) next.thruster_hz[i] += dt * rate.thruster_hz[i];
+  return next;
+}
+
+// s + dt rate
+Numbers advanced(const Numbers& s, const Numbers& rate, double dt) {
+  Numbers next{s.position + dt * rate.position, s.orientation, s.velocity + dt * rate.velocity,
+               advanced(s.actuators, rate.actuators, dt)};
+  for (std::size_t i = 0; i < 4; ++i) next.orientation[i] += dt * rate.orientation[i];
+  return next;
+}
+
+// The water some time into the step.
+Water after(const Water& water, double seconds) {
+  Water later = water;
+  later.current_ned_mps += seconds * water.current_rate_ned_mps2;
+  return later;
+}
+
+}  // namespace
+
+RelativeFlow relative_flow(const Model& model, const VehicleState& state, const Water& water) {
+  const Numbers s = to_numbers(state);
+  return relative_flow(model, s.velocity, world_axes(s.orientation), water);
+}
+
+Vec6 acceleration(const Model& model, const VehicleState& state, const Water& water) {
+  const Numbers s = to_numbers(state);
+  return acceleration(model, s, world_axes(s.orientation), water).vector();
+}
+
+StateRate rate_of_change(const Model& model, const VehicleState& state, const ActuatorValues& limited_command,
+                         const Water& water) {
+  const Numbers rate = rate_of_change(model, to_numbers(state), limited_command, water);
+  return {Vec3(rate.position.x, rate.position.y, rate.position.z), Eigen::Vector4d(rate.orientation.data()),
+          rate.velocity.vector(), rate.actuators};
+}
+
+VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
+                      const Water& water, double step_s) {
+  const ActuatorValues held = limited(model.parameters(), command);
+  const Water halfway = after(water, step_s / 2), at_end = after(water, step_s);
+  const Numbers start = to_numbers(state);
+  const Numbers k1 = rate_of_change(model, start, held, water);
+  const Numbers k2 = rate_of_change(model, advanced(start, k1, step_s / 2), held, halfway);
+  const Numbers k3 = rate_of_change(model, advanced(start, k2, step_s / 2), held, halfway);
+  const Numbers k4 = rate_of_change(model, advanced(start, k3, step_s), held, at_end);
+  const Numbers sum = advanced(advanced(advanced(k1, k2, 2), k3, 2), k4, 1);
+  const Numbers end = advanced(start, sum, step_s / 6);
+  return {Vec3(end.position.x, end.position.y, end.position.z),
+          Quaternion(end.orientation.data()).normalized(), end.velocity.vector(), end.actuators};
+}
+
+double mechanical_energy_j(const Model& model, const VehicleState& state) {
+  const ModelParameters& p = model.parameters();
+  const double kinetic = 0.5 * state.velocity_body.dot(model.mass() * state.velocity_body);
+  const auto depth_of = [&](const Vec3& point) {
+    return (state.position_ned_m + state.orientation * point).z();
+  };
+  return kinetic - model.weight_n() * depth_of(p.center_of_gravity_m) +
+         p.buoyancy_n * depth_of(p.center_of_buoyancy_m);
+}
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,70 @@
+#include "vehicle_sim/dynamics/gauss_markov.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+constexpr int kHalvings = 36;
+constexpr std::int64_t kLast = std::int64_t{1} << kHalvings;  // ms
+constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+
+}  // namespace
+
+GaussMarkovProcess::GaussMarkovProcess(double deviation, double correlation_time_s,
+                                       const DrawAddress& address)
+    : deviation_(deviation), address_(address) {
+  require_in_range(deviation, 0, 1e9, "standard deviation");
+  require_in_range(correlation_time_s, 0.1, 1e6, "correlation time", "s");
+  for (int i = 0; i < kHalvings; ++i) {
+    const double half_s = static_cast<double>(kLast >> (i + 1)) / 1000;
+    const double c = std::exp(-half_s / correlation_time_s);
+    middles_.push_back({c / (1 + c * c),
+                        deviation * std::sqrt(-std::expm1(-2 * half_s / correlation_time_s) / (1 + c * c))});
+  }
+  last_correlation_ = std::exp(-static_cast<double>(kLast) / 1000 / correlation_time_s);
+}
+
+double GaussMarkovProcess::draw(std::int64_t millisecond) const {
+  DrawAddress address = address_;
+  address.which = static_cast<std::uint64_t>(millisecond);
+  return normal_at(address);
+}
+
+double GaussMarkovProcess::at_millisecond(std::int64_t k, Cursor& cursor) const {
+  auto& path = cursor.path_;
+  if (path.empty()) {
+    const double first = deviation_ * draw(0), c = last_correlation_;
+    path.push_back({0, kLast, first, c * first + deviation_ * std::sqrt(1 - c * c) * draw(kLast)});
+  }
+  while (path.size() > 1 && (k < path.back().from || k > path.back().to)) path.pop_back();
+  while (k != path.back().from && k != path.back().to) {
+    const Cursor::Interval in = path.back();
+    const std::int64_t middle = (in.from + in.to) / 2;
+    const Middle& m = middles_[path.size() - 1];
+    const double value = m.weight * (in.at_from + in.at_to) + m.deviation * draw(middle);
+    path.push_back(k <= middle ? Cursor::Interval{in.from, middle, in.at_from, value}
+                               : Cursor::Interval{middle, in.to, value, in.at_to});
+  }
+  return k == path.back().from ? path.back().at_from : path.back().at_to;
+}
+
+double GaussMarkovProcess::at(SimTime time, Cursor& cursor) const {
+  if (deviation_ == 0) return 0;
+  const std::int64_t ns = std::clamp<std::int64_t>(time.nanoseconds(), 0, kLast * kNanosecondsPerMillisecond);
+  const std::int64_t k = ns / kNanosecondsPerMillisecond, rest = ns % kNanosecondsPerMillisecond;
+  const double value = at_millisecond(k, cursor);
+  if (rest == 0) return value;
+  const double share = static_cast<double>(rest) / static_cast<double>(kNanosecondsPerMillisecond);
+  return value + share * (at_millisecond(k + 1, cursor) - value);
+}
+
+double GaussMarkovProcess::at(SimTime time) const {
+  Cursor cursor;
+  return at(time, cursor);
+}
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,43 @@
+#include "vehicle_sim/dynamics/hull_forces.h"
+
+#include <numbers>
+
+namespace halocline::vehicle_sim {
+
+BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
+  const Vec6 momentum = times(mass, nu);
+  const Axes h = {momentum[3], momentum[4], momentum[5]};
+  const double a2 = momentum[1], a3 = momentum[2];
+  // Rows of C: 2: -a3 p, 3: +a2 p, 4: a3 v - a2 w, and w x H in rotation.
+  return {{0, a3 * nu.p, -a2 * nu.p}, cross(h, nu.angular()) + Axes(a2 * nu.w - a3 * nu.v, 0, 0)};
+}
+
+BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity& nu_r,
+                          double relative_speed_mps) {
+  const double u = nu_r.u, w = nu_r.w + 0.0;  // -0 + 0 = +0: one branch of atan2 for both zeros
+  const double alpha = std::atan2(w, u);
+  const double in_plane = std::sqrt(u * u + w * w);
+  const double cos_alpha = in_plane > 0 ? u / in_plane : 1, sin_alpha = in_plane > 0 ? w / in_plane : 0;
+  const double cl = l.lift_slope_per_rad * alpha;
+  const double cd = l.zero_lift_drag + cl * cl / (std::numbers::pi * l.oswald_efficiency * l.aspect_ratio);
+  const double dynamic_force = 0.5 * density * relative_speed_mps * relative_speed_mps * l.reference_area_m2;
+  const double lift = dynamic_force * cl, drag = dynamic_force * cd;
+  return {-cos_alpha * drag + sin_alpha * lift, 0, -sin_alpha * drag - cos_alpha * lift, 0, 0, 0};
+}
+
+BodyForce cross_flow_in_sway(const CrossFlow& c, const BodyVelocity& nu_r) {
+  const double v = nu_r.v, r = nu_r.r;
+  const bool odd = c.strips % 2 == 1;
+  double sway = odd ? std::abs(v) * v : 0, yaw = 0;  // sums of |v + x r| (v + x r) and of x times it
+  const double innermost = odd ? c.strip_length_m : c.strip_length_m / 2;
+  for (int i = 0; i < c.strips / 2; ++i) {  // the strips at x and -x
+    const double x = innermost + i * c.strip_length_m;
+    const double fore = v + x * r, aft = v - x * r;
+    const double fore_square = std::abs(fore) * fore, aft_square = std::abs(aft) * aft;
+    sway += fore_square + aft_square;
+    yaw += x * (fore_square - aft_square);
+  }
+  return {0, sway, 0, 0, 0, yaw};
+}
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,92 @@
+// Forces of the water on a hull that moves through it, one function an effect; all in the body frame about
+// CO.
+//
+// Each takes the velocity relative to the water, nu_r = (u, v, w, p, q, r) in m/s and rad/s, and returns a
+// force and moment in N and N m that stands on the right of M nu_dot = ... (signs as there). Sources at each
+// function; equation numbers are those of Fossen 2021. None does positive work on a hull in water at rest.
+#pragma once
+
+#include <cmath>
+
+#include "vehicle_sim/dynamics/body_axes.h"
+
+namespace halocline::vehicle_sim {
+
+// -C nu by Kirchhoff's equations, (P, H) = mass nu (eq. 3.46): -(w x P, w x H + v x P). Does no work: nu . C
+// nu = 0. `mass` symmetric, about CO.
+inline BodyForce coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
+  const Vec6 momentum = times(mass, nu);
+  const Axes v = nu.linear(), w = nu.angular();
+  const Axes p = {momentum[0], momentum[1], momentum[2]}, h = {momentum[3], momentum[4], momentum[5]};
+  return {cross(p, w), cross(h, w) + cross(p, v)};
+}
+
+// The part of coriolis_force in which translation acts through roll alone (AddedMassCoriolis::kRollOnly): the
+// elements 15, 16, 35, 26 (rows and columns from 1) of C and their mirror images are taken as zero. Does no
+// work.
+BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu);
+
+// -D nu_r with the diagonal D of `damping`; `relative_speed_mps` = |(u, v, w)|.
+inline BodyForce damping_force(const Damping& damping, const BodyVelocity& nu_r, double relative_speed_mps) {
+  const Vec6& d = damping.linear;
+  double share[6] = {1, 1, 1, 1, 1, 1};
+  double last_decay = 0, attenuation = 1;
+  for (int k = 0; k < 6; ++k) {
+    const double decay = damping.decay_s_per_m[k];
+    if (decay == 0) continue;
+    if (decay != last_decay)
+      attenuation = std::exp(-decay * relative_speed_mps);  // degrees of freedom share it
+    last_decay = decay;
+    share[k] = attenuation;
+  }
+  return {-d[0] * nu_r.u * share[0], -d[1] * nu_r.v * share[1], -d[2] * nu_r.w * share[2],
+          -d[3] * nu_r.p * share[3], -d[4] * nu_r.q * share[4], -d[5] * nu_r.r * share[5]};
+}
+
+// Lift across and drag along the flow in the x-z plane (eq. 8.23 to 8.26); no moment. The lift law is linear
+// in alpha = atan2(w, u) in [-pi, pi]; a w of -0 counts as +0. `density` in kg/m^3.
+BodyForce lift_drag_force(const LiftDrag& lift_drag, double density, const BodyVelocity& nu_r,
+                          double relative_speed_mps);
+
+// X = -1/2 rho S C_Da u |u|, and across the hull -1/2 rho S C_L |u| v_l with v_l the velocity across it at the place of
+// the lift, center_aft behind the middle as the hull moves (x_l = -sign(u) center_aft): the sin(alpha)
+// cos(alpha) law of a slender body (Allen and Perkins 1951, NACA 1048; Hoerner 1965, chapter 19, for
+// coefficient and place), which is bounded, and the same for both directions of the flow. Smooth where u changes its sign: |u| x_l = -center_aft u.
+inline BodyForce body_lift_force(const BodyLift& b, double density, const BodyVelocity& nu_r) {
+  const double u = nu_r.u, v = nu_r.v, w = nu_r.w, q = nu_r.q, r = nu_r.r, x = b.center_aft_m;
+  const double scale = -0.5 * density * b.reference_area_m2, lift = scale * b.lift_slope_per_rad;
+  // |u| (v + x_l r) and, times x_l, its moment; x_l |u| = -x u, x_l^2 = x^2.
+  const double speed = std::abs(u);
+  return {scale * b.axial_drag * speed * u,         lift * (speed * v - x * u * r),
+          lift * (speed * w + x * u * q),           0,
+          -lift * (-x * u * w - x * x * speed * q), lift * (-x * u * v + x * x * speed * r)};
+}
+
+// The sums over the strips with CrossFlowPlanes::kSway, without their common factor.
+BodyForce cross_flow_in_sway(const CrossFlow& cross_flow, const BodyVelocity& nu_r);
+
+// The same with CrossFlowPlanes::kBoth. Pairs are (along y, along z).
+inline BodyForce cross_flow_in_both(const CrossFlow& c, const BodyVelocity& nu_r) {
+  using Pair = Eigen::Array2d;
+  const Pair at_co(nu_r.v, nu_r.w), per_metre(nu_r.r, -nu_r.q);
+  Pair force(0, 0), moment(0, 0);
+  for (int i = 0; i < c.strips; ++i) {
+    const double x = (i - 0.5 * (c.strips - 1)) * c.strip_length_m;
+    const Pair flow = at_co + x * per_metre;
+    const double speed = std::sqrt(flow.square().sum());
+    force += speed * flow;
+    moment += x * speed * flow;
+  }
+  return {0, force[0], force[1], 0, -moment[1], moment[0]};
+}
+
+// Force and moment of strips that each meet the cross-flow (v + x r, w - x q) with its own size; with
+// CrossFlowPlanes::kSway of v + x r alone (eq. 6.91, 6.92).
+inline BodyForce cross_flow_force(const CrossFlow& c, double density, double diameter_m,
+                                  const BodyVelocity& nu_r) {
+  const double scale = -0.5 * density * diameter_m * c.drag_coefficient * c.strip_length_m;
+  return scale *
+         (c.planes == CrossFlowPlanes::kSway ? cross_flow_in_sway(c, nu_r) : cross_flow_in_both(c, nu_r));
+}
+
+}  // namespace halocline::vehicle_sim

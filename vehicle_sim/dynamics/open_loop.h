@@ -1,0 +1,44 @@
+// A vehicle run along a schedule of commands and sampled: what the reference trajectories are made of.
+//
+// Solves equations_of_motion.h by steps on the grid of `step` from time 0, cut where a command or a sample
+// falls between. The vehicle is free: no ground. Given the same run the same numbers come out. Pure; any
+// number of threads.
+#pragma once
+
+#include <vector>
+
+#include "core/sim_time.h"
+#include "vehicle_sim/dynamics/equations_of_motion.h"
+
+namespace halocline::vehicle_sim {
+
+// From `from` on, until the next one.
+struct ScheduledCommand {
+  SimTime from;
+  ActuatorValues actuators;
+};
+
+struct OpenLoopRun {
+  VehicleState start;                      // at time 0
+  std::vector<ScheduledCommand> schedule;  // times rising; before the first all actuators are told to be at 0
+  Water water;
+  SimDuration duration;                                              // 0 or above
+  SimDuration step = SimDuration::from_milliseconds(10);             // 0.1 to 20 ms
+  SimDuration sample_period = SimDuration::from_milliseconds(1000);  // above 0
+};
+
+struct OpenLoopSample {
+  SimTime time;
+  VehicleState state;
+  double yaw_unwrapped_rad = 0;  // continuous from the start's yaw in -pi to pi
+  ActuatorValues command;        // that holds from this instant on, as given
+};
+
+// One sample at 0 and one each period to the end of the duration. Commands are held to the model's limits: see
+// without_limits. Throws InvalidArgument where the run breaks what its fields say.
+std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun& run);
+
+// The same vehicle with actuators that go wherever they are told (fins to a right angle).
+ModelParameters without_limits(ModelParameters parameters);
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,64 @@
+// What changes as a vehicle moves: pose, velocity and actuator positions, and what it was told to do.
+//
+// Frames and units: see each field. Plain values, copied freely.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/frames.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+
+namespace halocline::vehicle_sim {
+
+// Fins, propeller and thrusters, as commanded or as they are. Positive rudder turns to starboard (positive yaw rate),
+// positive stern planes push the bow down, a positive propeller drives ahead, a positive thruster pushes the
+// hull along its direction.
+struct ActuatorValues {
+  double rudder_rad = 0;
+  double stern_planes_rad = 0;
+  double propeller_hz = 0;                              // revolutions per second
+  std::array<double, kMostThrusters> thruster_hz = {};  // in the model's order; unused ones 0
+
+  bool operator==(const ActuatorValues&) const = default;
+};
+
+inline bool is_finite(const ActuatorValues& a) {
+  return std::isfinite(a.rudder_rad) && std::isfinite(a.stern_planes_rad) && std::isfinite(a.propeller_hz) &&
+         std::all_of(a.thruster_hz.begin(), a.thruster_hz.end(), [](double n) { return std::isfinite(n); });
+}
+
+struct VehicleState {
+  Vec3 position_ned_m = Vec3::Zero();               // of CO, the body's origin
+  Quaternion orientation = Quaternion::Identity();  // body to world, unit
+  Vec6 velocity_body = Vec6::Zero();                // of CO over ground: (u, v, w) m/s, (p, q, r) rad/s
+  ActuatorValues actuators;                         // where they are
+
+  auto linear_velocity_body_mps() const { return velocity_body.head<3>(); }
+  auto angular_velocity_body_radps() const { return velocity_body.tail<3>(); }
+};
+
+// The water round a vehicle over a step.
+struct Water {
+  Vec3 current_ned_mps = Vec3::Zero();  // at the start of the step, uniform over the hull, finite
+  // z of the sea surface in the world frame, metres; minus infinity is water without a surface.
+  double sea_surface_z_m = -std::numeric_limits<double>::infinity();
+  Vec3 current_rate_ned_mps2 = Vec3::Zero();  // acceleration of the water during the step, finite
+};
+
+// False when any number of the state is NaN or infinite.
+inline bool is_finite(const VehicleState& s) {
+  return s.position_ned_m.allFinite() && s.orientation.coeffs().allFinite() && s.velocity_body.allFinite() &&
+         is_finite(s.actuators);
+}
+
+// Pose and velocity in the project's common form.
+inline KinematicState to_kinematic_state(const VehicleState& s) {
+  return {{s.position_ned_m, s.orientation},
+          s.orientation * Vec3(s.linear_velocity_body_mps()),
+          s.angular_velocity_body_radps()};
+}
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,86 @@
+#include "vehicle_sim/dynamics/waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/check.h"
+#include "core/random.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kGravity = 9.81;              // m/s^2
+constexpr double kLowest = 0.5, kHighest = 4;  // times the peak's frequency: all but 0.5 % of the energy
+constexpr double kNarrowBelow = 0.07, kNarrowAbove = 0.09;  // JONSWAP's sigma
+
+double uniform(std::uint64_t seed, const char* purpose, int component) {
+  return uniform_at({.seed = seed,
+                     .purpose = purpose_of(purpose),
+                     .who = static_cast<std::uint32_t>(component),
+                     .which = 0});
+}
+
+// The spectrum's form over its peak frequency, up to a factor.
+double spectrum(double omega, double peak, double gamma) {
+  const double sigma = omega <= peak ? kNarrowBelow : kNarrowAbove;
+  const double bell = std::exp(-std::pow((omega - peak) / (sigma * peak), 2) / 2);
+  return std::pow(omega, -5) * std::exp(-1.25 * std::pow(peak / omega, 4)) * std::pow(gamma, bell);
+}
+
+WaveField::Component component(double amplitude, double omega, double phase) {
+  return {amplitude, omega, omega * omega / kGravity, phase};
+}
+
+std::vector<WaveField::Component> sea(const WaveSettings& s, double gamma, std::uint64_t seed) {
+  const double peak = 2 * pi / s.period_s, width = (kHighest - kLowest) * peak / s.components;
+  std::vector<WaveField::Component> components;
+  double energy = 0;  // sum of a^2 / 2, to be (height / 4)^2
+  for (int i = 0; i < s.components; ++i) {
+    const double omega = kLowest * peak + (i + uniform(seed, "wave-frequency", i)) * width;
+    const double amplitude = std::sqrt(2 * spectrum(omega, peak, gamma) * width);
+    energy += amplitude * amplitude / 2;
+    components.push_back(component(amplitude, omega, 2 * pi * uniform(seed, "wave-phase", i)));
+  }
+  const double scale = s.height_m / 4 / std::sqrt(energy);
+  for (auto& c : components) c.amplitude_m *= scale;
+  return components;
+}
+
+}  // namespace
+
+WaveField::WaveField(const WaveSettings& s, std::uint64_t seed)
+    : north_(std::cos(s.toward_rad)), east_(std::sin(s.toward_rad)) {
+  require_in_range(s.height_m, 0, 40, "wave height", "m");
+  require_in_range(s.period_s, 1, 30, "wave period", "s");
+  require_in_range(s.peakedness, 1, 10, "peakedness");
+  require_in_range(s.components, 1, 1000, "wave components");
+  require_finite(s.toward_rad, "direction of waves");
+  if (s.height_m == 0 || s.kind == SeaKind::kCalm) return;
+  if (s.kind == SeaKind::kRegular) {
+    components_ = {component(s.height_m / 2, 2 * pi / s.period_s, 2 * pi * uniform(seed, "wave-phase", 0))};
+  } else {
+    components_ = sea(s, s.kind == SeaKind::kJonswap ? s.peakedness : 1, seed);
+  }
+}
+
+WaterMotion WaveField::at(const Vec3& position_ned_m, double depth_m, SimTime now) const {
+  const double along = north_ * position_ned_m.x() + east_ * position_ned_m.y(), t = now.seconds();
+  const double depth = std::max(depth_m, 0.0);
+  double forward = 0, down = 0, forward_rate = 0, down_rate = 0;
+  for (const Component& c : components_) {
+    const double theta = c.wave_number_per_m * along - c.frequency_radps * t + c.phase_rad;
+    const double speed = c.amplitude_m * c.frequency_radps * std::exp(-c.wave_number_per_m * depth);
+    const double cosine = speed * std::cos(theta), sine = speed * std::sin(theta);
+    forward += cosine;
+    down -= sine;
+    forward_rate += c.frequency_radps * sine;  // d theta / dt = -omega
+    down_rate += c.frequency_radps * cosine;
+  }
+  return {{forward * north_, forward * east_, down},
+          {forward_rate * north_, forward_rate * east_, down_rate}};
+}
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,22 @@
+// A terrain as the ground that vehicles touch.
+#pragma once
+
+#include <memory>
+
+#include "bathymetry/terrain/terrain.h"
+#include "vehicle_sim/world/seabed.h"
+
+namespace halocline::vehicle_sim {
+
+// Beyond the terrain, and where it has no data, there is no ground.
+class TerrainSeabed : public Seabed {
+ public:
+  explicit TerrainSeabed(std::shared_ptr<const bathymetry::Terrain> terrain);
+
+  std::optional<SeabedPlane> plane_at(double north_m, double east_m) const override;
+
+ private:
+  std::shared_ptr<const bathymetry::Terrain> terrain_;
+};
+
+}  // namespace halocline::vehicle_sim

@@ -1,0 +1,87 @@
+#include "vehicle_sim/world/vehicle_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace halocline::vehicle_sim {
+namespace {
+
+constexpr int kThirds = 3;
+constexpr double kCoarsest = 0.5, kFinest = 1e-5;  // steps of the search, in distances of the focus
+constexpr double kSameAxis = 1e-6;                 // m, axes this close have no direction between them
+
+struct Interval {
+  double low, high;
+};
+
+// Places along the two axes, -1 at the focus astern, 1 at the focus ahead.
+struct Places {
+  double first, second;
+};
+
+Vec3 center_at(const HullPose& h, double along) {
+  const double a = h.hull.length_m / 2, b = h.hull.diameter_m / 2;
+  return h.position_ned_m + along * std::sqrt(a * a - b * b) * h.axis_ned;
+}
+
+double radius_at(const HullPose& h, double along) {
+  return h.hull.diameter_m / 2 * std::sqrt(std::max(0.0, 1 - along * along));
+}
+
+double gap_at(const HullPose& a, const HullPose& b, const Places& p) {
+  return (center_at(a, p.first) - center_at(b, p.second)).norm() - radius_at(a, p.first) -
+         radius_at(b, p.second);
+}
+
+// Least gap with the first place held to `third`: the best of eight neighbours as long as one is better, then half
+// the step.
+Places closest_places(const HullPose& a, const HullPose& b, const Interval& third) {
+  Places best{(third.low + third.high) / 2, 0};
+  double least = gap_at(a, b, best);
+  for (double step = kCoarsest; step > kFinest;) {
+    Places better = best;
+    for (int i = -1; i <= 1; ++i) {
+      for (int k = -1; k <= 1; ++k) {
+        const Places tried{std::clamp(best.first + i * step, third.low, third.high),
+                           std::clamp(best.second + k * step, -1.0, 1.0)};
+        const double gap = gap_at(a, b, tried);
+        if (gap < least) {
+          least = gap;
+          better = tried;
+        }
+      }
+    }
+    if (better.first == best.first && better.second == best.second) step /= 2;
+    best = better;
+  }
+  return best;
+}
+
+VehicleContact contact_at(const HullPose& a, const HullPose& b, const Places& p) {
+  const Vec3 between = center_at(a, p.first) - center_at(b, p.second);
+  const double distance = between.norm();
+  // Axes that cross have no direction between them: apart, the shorter way, is across both.
+  Vec3 normal = distance > kSameAxis ? Vec3(between / distance) : a.axis_ned.cross(b.axis_ned);
+  if (normal.norm() < kSameAxis) normal = a.axis_ned.unitOrthogonal();
+  normal.normalize();
+  const double gap = distance - radius_at(a, p.first) - radius_at(b, p.second);
+  const Vec3 point = center_at(b, p.second) + (radius_at(b, p.second) + gap / 2) * normal;
+  return {point, normal, gap};
+}
+
+}  // namespace
+
+void find_vehicle_contacts(const HullPose& first, const HullPose& second, double margin_m,
+                           std::vector<VehicleContact>& contacts) {
+  contacts.clear();
+  const double reach = (first.hull.length_m + second.hull.length_m) / 2 + margin_m;
+  if ((first.position_ned_m - second.position_ned_m).squaredNorm() > reach * reach) return;
+  for (int third = 0; third < kThirds; ++third) {
+    const Interval interval{-1 + 2.0 * third / kThirds, -1 + 2.0 * (third + 1) / kThirds};
+    const VehicleContact contact = contact_at(first, second, closest_places(first, second, interval));
+    if (contact.gap_m < margin_m) contacts.push_back(contact);
+  }
+}
+
+}  // namespace halocline::vehicle_sim
