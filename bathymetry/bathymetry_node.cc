@@ -22,7 +22,7 @@ void BathymetryNode::hear(const ray_query_t& query) {
     return other.header.client_name == header.client_name && other.header.request_id == header.request_id;
   });
   if (repeated) return;
-  if (waiting_.size() >= kMostWaiting) return bus().refuse(bus::channels::kRayQuery, "too many queries wait");
+  if (waiting_.size() >= kMaxWaiting) return bus().refuse(bus::channels::kRayQuery, "too many queries wait");
   waiting_.push_back({std::move(header), from_message(query)});
 }
 

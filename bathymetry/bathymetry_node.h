@@ -18,7 +18,7 @@ namespace halocline::bathymetry {
 class BathymetryNode : public bus::Node {
  public:
   // More queries than this between two steps are refused and counted: their clients repeat them.
-  static constexpr std::size_t kMostWaiting = 1024;
+  static constexpr std::size_t kMaxWaiting = 1024;
 
   // `summary`: the terrain in one line, for STATUS.
   BathymetryNode(lcm::LCM& lcm, bus::NodeIdentity identity, std::shared_ptr<const Terrain> terrain,

@@ -37,7 +37,7 @@ void append_depth(const Terrain& terrain, const Ray& ray, RayAnswers& answers) {
 
 RayAnswers too_many_samples(double count) {
   return refused(Refusal::kTooMany, "the profile has " + std::to_string(static_cast<long long>(count)) +
-                                        " samples; allowed are " + std::to_string(kMostRays));
+                                        " samples; allowed are " + std::to_string(kMaxRays));
 }
 
 std::vector<ProfilePoint> spaced_samples(const Terrain& terrain, PlanePoint from, const Vec3& along,
@@ -68,13 +68,13 @@ RayAnswers answer_profile(const Terrain& terrain, const RayBatch& batch) {
     // A range that is a multiple of the spacing but for rounding includes its end.
     constexpr double kRounding = 1e-9;
     const double count = std::floor(ray.max_range_m / batch.sample_spacing_m + kRounding) + 1;
-    if (count > static_cast<double>(kMostRays)) return too_many_samples(count);
+    if (count > static_cast<double>(kMaxRays)) return too_many_samples(count);
     answers.samples =
         spaced_samples(terrain, from, along, batch.sample_spacing_m, static_cast<std::size_t>(count));
   } else {
     answers.samples = exact_profile(
         terrain, from, {from.x_m + ray.max_range_m * along.x(), from.y_m + ray.max_range_m * along.y()});
-    if (answers.samples.size() > kMostRays)
+    if (answers.samples.size() > kMaxRays)
       return too_many_samples(static_cast<double>(answers.samples.size()));
   }
   append(answers, RayStatus::kHit, answers.samples.back().distance_m);
@@ -87,9 +87,9 @@ RayAnswers refusal_of(const std::string& terrain_version, const RayBatch& batch)
   if (batch.mode > QueryMode::kExactProfile)
     return refused(Refusal::kBadQuery, "query_mode is none of the five");
   if (count == 0) return refused(Refusal::kBadQuery, "there is no ray");
-  if (count > kMostRays) {
+  if (count > kMaxRays) {
     return refused(Refusal::kTooMany,
-                   "there are " + std::to_string(count) + " rays; allowed are " + std::to_string(kMostRays));
+                   "there are " + std::to_string(count) + " rays; allowed are " + std::to_string(kMaxRays));
   }
   if (is_profile(batch.mode) && count != 1)
     return refused(Refusal::kBadQuery, "a profile takes exactly one ray");

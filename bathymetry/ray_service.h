@@ -18,7 +18,7 @@ namespace halocline::bathymetry {
 // A message of this many rays is 57 kB: what one should ask at a time.
 inline constexpr std::size_t kUsualRays = 1024;
 // More rays, or more samples of a profile, are refused.
-inline constexpr std::size_t kMostRays = 4096;
+inline constexpr std::size_t kMaxRays = 4096;
 
 enum class QueryMode : std::uint8_t { kClosestHit, kOccluded, kDepth, kUniformProfile, kExactProfile };
 
@@ -26,7 +26,7 @@ struct RayBatch {
   QueryMode mode = QueryMode::kClosestHit;
   std::string expected_terrain = {};  // version_text of the terrain relied upon; empty: any
   double sample_spacing_m = 0;        // uniform_profile: above 0
-  std::vector<Ray> rays = {};         // 1 to kMostRays; exactly 1 for a profile
+  std::vector<Ray> rays = {};         // 1 to kMaxRays; exactly 1 for a profile
 };
 
 enum class Refusal : std::uint8_t { kNone, kTooMany, kOtherTerrain, kBadQuery };

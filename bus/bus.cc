@@ -95,7 +95,7 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
   ++counters_.sent;
 }
 
-void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler, Hearing hearing) {
+void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup) {
   auto subscription = std::make_unique<Subscription>(Subscription{this, std::move(handler)});
   subscription->lcm_subscription =
       lcm_.subscribe("(" + escaped(channels::kRepair.prefix) + ")?" + regular_expression,
@@ -103,10 +103,10 @@ void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handle
   ensure(subscription->lcm_subscription != nullptr, "LCM refuses the channel " + regular_expression);
   subscription->lcm_subscription->setQueueCapacity(kQueueCapacity);
   subscriptions_.push_back(std::move(subscription));
-  subscribed_.push_back({regular_expression, hearing});
+  subscribed_.push_back({regular_expression, wakeup});
 }
 
-void Bus::hear_again(std::string_view channel, const std::vector<std::uint8_t>& bytes) {
+void Bus::replay(std::string_view channel, const std::vector<std::uint8_t>& bytes) {
   answered_ = false;
   for (std::size_t i = 0; i < subscribed_.size(); ++i) {
     if (!ChannelPattern(subscribed_[i].expression).matches(channel)) continue;

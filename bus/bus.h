@@ -47,14 +47,14 @@ struct NodeIdentity {
   Stage stage = Stage::kClients;
 };
 
-// What hearing a message may do to a node. kStores is a promise: its handler only stores, so that the node is due
+// What receiving a message may do to a node. kStoreOnly is a promise: its handler only stores, so that the node is due
 // when it was due before. Lockstep then need not ask the node at once, and others may go further by themselves.
-enum class Hearing { kMayWake, kStores };
+enum class Wakeup { kMayAdvanceDue, kStoreOnly };
 
-// A subscription: an LCM regular expression, and what hearing it may do.
+// A subscription: an LCM regular expression, and what its messages may do to the node.
 struct Subscribed {
   std::string expression;
-  Hearing hearing = Hearing::kMayWake;
+  Wakeup wakeup = Wakeup::kMayAdvanceDue;
 };
 
 // What a node has counted since it started; published in STATUS.
@@ -87,9 +87,10 @@ class Bus {
   void publish(std::string_view channel, const Message& message);
 
   template <class Message>
-  void subscribe(std::string_view channel, Handler<Message> handler, Hearing hearing = Hearing::kMayWake);
+  void subscribe(std::string_view channel, Handler<Message> handler, Wakeup wakeup = Wakeup::kMayAdvanceDue);
   template <class Message>
-  void subscribe(const Family& family, FamilyHandler<Message> handler, Hearing hearing = Hearing::kMayWake);
+  void subscribe(const Family& family, FamilyHandler<Message> handler,
+                 Wakeup wakeup = Wakeup::kMayAdvanceDue);
 
   // From now on what is published goes to `outbox` and nowhere else: who runs the node delivers it.
   using Outbox = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
@@ -100,7 +101,9 @@ class Bus {
   // Messages as bytes, for who passes them on: nothing is decoded, nothing counted as received.
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
-  void subscribe_to_all(RawHandler handler) { subscribe_raw(".*", std::move(handler), Hearing::kMayWake); }
+  void subscribe_to_all(RawHandler handler) {
+    subscribe_raw(".*", std::move(handler), Wakeup::kMayAdvanceDue);
+  }
 
   // The wall time (Unix) at which LCM received the message that is being handled; the kernel's stamp over udpm.
   SimTime received_at() const { return received_at_; }
@@ -109,7 +112,7 @@ class Bus {
   // Handles a message as if LCM had dispatched it, before anything else is heard: what an earlier life of
   // this node heard (message_journal.h). What follows it in its flow is then known to be missing, and
   // repaired.
-  void hear_again(std::string_view channel, const std::vector<std::uint8_t>& bytes);
+  void replay(std::string_view channel, const std::vector<std::uint8_t>& bytes);
   // An earlier life of this node published this: it goes on being repaired. After enable_repair().
   void keep_published(std::string_view channel, std::int64_t session, std::int64_t number,
                       std::vector<std::uint8_t> bytes);
@@ -139,7 +142,7 @@ class Bus {
   struct Subscription;
   // `regular_expression` matches channels; what was lost on them and comes again on REPAIR.<channel> is
   // handled as if heard there.
-  void subscribe_raw(const std::string& regular_expression, RawHandler handler, Hearing hearing);
+  void subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
   template <class Message>
   bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence);
@@ -203,18 +206,18 @@ void Bus::publish(std::string_view channel, const Message& message) {
 }
 
 template <class Message>
-void Bus::subscribe(std::string_view channel, Handler<Message> handler, Hearing hearing) {
+void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup wakeup) {
   heard_.emplace_back(escaped(channel));
   const auto decode_and_handle = [this, handler = std::move(handler)](std::string_view heard_on,
                                                                       const void* data, std::size_t size) {
     Message message;
     if (accept(heard_on, data, size, message)) handler(message);
   };
-  subscribe_raw(escaped(channel), decode_and_handle, hearing);
+  subscribe_raw(escaped(channel), decode_and_handle, wakeup);
 }
 
 template <class Message>
-void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Hearing hearing) {
+void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Wakeup wakeup) {
   const std::string_view prefix = family.prefix;
   heard_.emplace_back(escaped(prefix) + ".*");
   const auto decode_and_handle = [this, prefix, handler = std::move(handler)](
@@ -224,7 +227,7 @@ void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Hearin
     Message message;
     if (accept(heard_on, data, size, message)) handler(name, message);
   };
-  subscribe_raw(escaped(prefix) + ".*", decode_and_handle, hearing);
+  subscribe_raw(escaped(prefix) + ".*", decode_and_handle, wakeup);
 }
 
 template <class Message>

@@ -13,8 +13,8 @@ void FlowHistory::keep(std::string_view channel, std::int64_t session, std::int6
   if (!flow->second.messages.emplace(sequence, std::move(message)).second) return;
   bytes_ += size;
   in_order_.emplace_back(name, sequence);
-  while (bytes_ > most_bytes_ && in_order_.size() > 1) forget_oldest_message();
-  if (is_new && flows_.size() > kMostFlows) forget_oldest_flow();
+  while (bytes_ > max_bytes_ && in_order_.size() > 1) forget_oldest_message();
+  if (is_new && flows_.size() > kMaxFlows) forget_oldest_flow();
 }
 
 void FlowHistory::forget_oldest_message() {

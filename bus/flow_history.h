@@ -16,16 +16,16 @@ namespace halocline::bus {
 
 class FlowHistory {
  public:
-  static constexpr std::size_t kMostFlows = 500;
-  // `most_bytes` of messages are kept, and the last message whatever its size.
-  explicit FlowHistory(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  static constexpr std::size_t kMaxFlows = 500;
+  // `max_bytes` of messages are kept, and the last message whatever its size.
+  explicit FlowHistory(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   // A message of the flow (channel, session) was published. One with a number that is kept already changes nothing.
   void keep(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message);
   // The message, or null when it is not kept (any more).
   const Bytes* find(std::string_view channel, std::int64_t session, std::int64_t sequence) const;
 
-  // The kMostFlows flows published on most recently, each with the greatest number so far.
+  // The kMaxFlows flows published on most recently, each with the greatest number so far.
   struct Flow {
     std::string channel;
     std::int64_t session = 0, last = 0;
@@ -43,7 +43,7 @@ class FlowHistory {
   void forget_oldest_message();
   void forget_oldest_flow();
 
-  std::size_t most_bytes_, bytes_ = 0;
+  std::size_t max_bytes_, bytes_ = 0;
   std::uint64_t turn_ = 0;
   Flows flows_;
   std::deque<std::pair<FlowName, std::int64_t>> in_order_;

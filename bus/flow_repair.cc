@@ -15,7 +15,7 @@ std::vector<const Bytes*> FlowRepair::answers_to(const repair_request_t& request
     const auto* message = history_.find(request.missing_channel, request.publisher_session, sequence);
     if (message == nullptr) continue;
     bytes += message->size();
-    if (bytes > kMostAnswerBytes && !answers.empty()) break;
+    if (bytes > kMaxAnswerBytes && !answers.empty()) break;
     answers.push_back(message);
   }
   return answers;

@@ -27,7 +27,7 @@ class FlowRepair {
   static constexpr SimDuration kHeartbeatPeriod = SimDuration::from_milliseconds(250);
   static constexpr std::size_t kHistoryBytes = 16u << 20;
   // What one request is answered with at most; the rest is asked for again.
-  static constexpr std::size_t kMostAnswerBytes = 256u << 10;
+  static constexpr std::size_t kMaxAnswerBytes = 256u << 10;
 
   // `name` and `session`: of the node whose Bus this is. `watch`: what it hears is told to that, which outlives this.
   FlowRepair(std::string name, std::int64_t session, FlowWatch& watch)

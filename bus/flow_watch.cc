@@ -47,12 +47,12 @@ FlowWatch::Publisher& FlowWatch::add(std::string_view channel, std::int64_t sess
 
 std::int64_t FlowWatch::miss(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end) {
   const std::int64_t count = distance(first, end);
-  const auto kept = static_cast<std::int64_t>(kMostMissing);
+  const auto kept = static_cast<std::int64_t>(kMaxMissing);
   if (count > kept) lost_ += count == std::numeric_limits<std::int64_t>::max() ? kept : count - kept;
   for (std::int64_t sequence = count > kept ? end - kept : first; sequence < end; ++sequence) {
     publisher.missing[sequence] = {steady + kPatience, steady + kGivenUpAfter, kFirstRetry};
   }
-  while (publisher.missing.size() > kMostMissing) {
+  while (publisher.missing.size() > kMaxMissing) {
     publisher.missing.erase(publisher.missing.begin());
     ++lost_;
   }
@@ -106,10 +106,10 @@ std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::i
 }
 
 void FlowWatch::on_all_named(std::int64_t session) {
-  constexpr std::size_t kMostNamed = 200;
+  constexpr std::size_t kMaxNamed = 200;
   if (std::find(named_.begin(), named_.end(), session) != named_.end()) return;
   named_.push_back(session);
-  if (named_.size() > kMostNamed) named_.pop_front();
+  if (named_.size() > kMaxNamed) named_.pop_front();
 }
 
 std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
@@ -122,7 +122,7 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
           publisher.missing, [&](const auto& entry) { return entry.second.given_up <= steady; }));
       Request request{channel, publisher.session, {}};
       for (auto& [sequence, missing] : publisher.missing) {
-        if (missing.next_request <= steady && request.sequences.size() < kMostInARequest) {
+        if (missing.next_request <= steady && request.sequences.size() < kMaxInARequest) {
           request.sequences.push_back(sequence);
           missing.next_request = steady + missing.retry;
           missing.retry = std::min(missing.retry * 2, kLongestRetry);

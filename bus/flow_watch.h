@@ -30,10 +30,10 @@ class FlowWatch {
   // After this a missing message is lost.
   static constexpr SimDuration kGivenUpAfter = SimDuration::from_milliseconds(10'000);
   // What a flow misses at most before the oldest count as lost.
-  static constexpr std::size_t kMostMissing = 2000;
-  static constexpr std::size_t kMostInARequest = 200;
+  static constexpr std::size_t kMaxMissing = 2000;
+  static constexpr std::size_t kMaxInARequest = 200;
   // Channels beyond these are not watched: names made up without end must not grow our memory.
-  static constexpr std::size_t kMostChannels = 5000;
+  static constexpr std::size_t kMaxChannels = 5000;
 
   // What a message that was heard is to its flow.
   struct Arrival {
@@ -57,7 +57,7 @@ class FlowWatch {
   struct Request {
     std::string channel;
     std::int64_t session = 0;
-    std::vector<std::int64_t> sequences;  // ascending, 1 to kMostInARequest
+    std::vector<std::int64_t> sequences;  // ascending, 1 to kMaxInARequest
   };
   // What is to be asked for now; and gives up what has been missing for too long.
   std::vector<Request> take_due(SimTime steady);
@@ -83,7 +83,7 @@ class FlowWatch {
   // A channel remembers few sessions: the one silent for longest makes room, so that a long run does not grow.
   static constexpr std::size_t kSessionsKept = 8;
   bool has_no_room_for(std::string_view channel) const {
-    return heard_.size() >= kMostChannels && !heard_.contains(channel);
+    return heard_.size() >= kMaxChannels && !heard_.contains(channel);
   }
   using Publishers = std::vector<Publisher>;  // ends in the one heard last
 

@@ -16,15 +16,15 @@ namespace halocline::bus {
 
 // Nobody sails further from the scenario's origin, faster or deeper; what is beyond is a unit mixed up.
 inline constexpr double kFarthestM = 1e7, kFastestMps = 100, kFastestTurnRadps = 100;
-inline constexpr double kHighestLevelDb = 400, kHighestFrequencyHz = 1e7, kMostWater = 100;  // kg/s, m^3
+inline constexpr double kHighestLevelDb = 400, kHighestFrequencyHz = 1e7, kMaxWater = 100;  // kg/s, m^3
 inline constexpr double kQuaternionTolerance = 1e-3;  // publishers in single precision stay well within
 // 100 years of microseconds either way, so that sums of times cannot overflow.
 inline constexpr std::int64_t kLatestUtime = 3'155'760'000'000'000;
-inline constexpr double kGreatestDopplerFactor = 10;  // no two ends meet at nine tenths of the speed of sound
+inline constexpr double kMaxDopplerFactor = 10;  // no two ends meet at nine tenths of the speed of sound
 inline constexpr double kPi = std::numbers::pi;
-inline constexpr std::int32_t kLongestPayload = 32768, kMostLayers = 2000, kMostColliders = 16,
-                              kMostBeamRows = 181;
-inline constexpr std::int32_t kMostFlows = 500, kMostMissing = 200;  // of a heartbeat; of a request to repair
+inline constexpr std::int32_t kLongestPayload = 32768, kMaxLayers = 2000, kMaxColliders = 16,
+                              kMaxBeamRows = 181;
+inline constexpr std::int32_t kMaxFlows = 500, kMaxMissing = 200;  // of a heartbeat; of a request to repair
 
 // Collects the first problem found.
 class Checker {

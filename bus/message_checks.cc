@@ -29,7 +29,7 @@ Checker check_modem(const modem_config_t& m) {
       .one_of("error_model", m.error_model, modem_config_t::ERRORS_NONE,
               modem_config_t::ERRORS_BPSK_HAMMING14)
       .one_of("when_busy", m.when_busy, modem_config_t::REFUSE, modem_config_t::QUEUE)
-      .within("num_beam_rows", m.num_beam_rows, 0, kMostBeamRows)
+      .within("num_beam_rows", m.num_beam_rows, 0, kMaxBeamRows)
       .all_within("beam_elevation_rad", m.beam_elevation_rad, -kPi / 2, kPi / 2)
       .all_within("beam_loss_db", m.beam_loss_db, -60, 200);
   for (std::size_t i = 1; i < m.beam_elevation_rad.size(); ++i) {
@@ -74,7 +74,7 @@ std::string problem_in(const sim_clock_t& m) {
 std::string problem_in(const environment_t& m) {
   Checker checker;
   checker.utime(m.utime)
-      .within("num_layers", m.num_layers, 1, kMostLayers)
+      .within("num_layers", m.num_layers, 1, kMaxLayers)
       .all_within("layer_depth_m", m.layer_depth_m, 0, 12000)
       .all_within("layer_sound_speed_mps", m.layer_sound_speed_mps, 1000, 2500)
       .all_within("layer_temperature_degc", m.layer_temperature_degc, -10, 60)
@@ -104,7 +104,7 @@ std::string problem_in(const environment_change_t& m) {
       .within("wind_speed_mps", m.wind_speed_mps, 0, 100)
       .within("shipping_activity", m.shipping_activity, 0, 1)
       .within("sea_surface_z_m", m.sea_surface_z_m, -1000, 1000)
-      .within("num_layers", m.num_layers, sets_profile ? 1 : 0, kMostLayers)
+      .within("num_layers", m.num_layers, sets_profile ? 1 : 0, kMaxLayers)
       .all_within("layer_depth_m", m.layer_depth_m, 0, 12000)
       .all_finite("layer_sound_speed_mps", m.layer_sound_speed_mps)
       .all_within("layer_temperature_degc", m.layer_temperature_degc, -10, 60)
@@ -151,7 +151,7 @@ std::string problem_in(const modem_receive_t& m) {
       .within("two_way_travel_time_s", m.two_way_travel_time_s, 0, 2e6)
       .finite("received_level_db", m.received_level_db)
       .finite("snr_db", m.snr_db)
-      .within("doppler_factor", m.doppler_factor, 0, kGreatestDopplerFactor)
+      .within("doppler_factor", m.doppler_factor, 0, kMaxDopplerFactor)
       .finite("sinr_db", m.sinr_db)
       .within("payload_size", m.payload_size, 0, kLongestPayload)
       .result();
@@ -182,14 +182,14 @@ std::string problem_in(const packet_outcome_t& m) {
               packet_outcome_t::STRAIGHT_WITHOUT_BOTTOM)
       .within("num_paths", m.num_paths, 0, 1e6)
       .within("delay_spread_s", m.delay_spread_s, 0, 1e6)
-      .within("doppler_factor", m.doppler_factor, 0, kGreatestDopplerFactor)
+      .within("doppler_factor", m.doppler_factor, 0, kMaxDopplerFactor)
       .all_within(
           "probabilities and draws",
           std::array{m.acquisition_probability, m.success_probability, m.acquisition_draw, m.success_draw}, 0,
           1)
       .within("arrival_azimuth_rad", m.arrival_azimuth_rad, -2 * kPi, 2 * kPi)
       .within("arrival_elevation_rad", m.arrival_elevation_rad, -kPi, kPi)
-      .within("num_colliders", m.num_colliders, 0, kMostColliders);
+      .within("num_colliders", m.num_colliders, 0, kMaxColliders);
   for (const packet_name_t& name : m.colliders) {
     checker.holds(problem_in(name).empty(), "colliders", problem_in(name));
   }
@@ -277,7 +277,7 @@ std::string problem_in(const flow_heartbeat_t& m) {
   return Checker()
       .utime(m.utime)
       .utime(m.age_us, "age_us")
-      .within("num_flows", m.num_flows, 0, kMostFlows)
+      .within("num_flows", m.num_flows, 0, kMaxFlows)
       .result();
 }
 
@@ -285,7 +285,7 @@ std::string problem_in(const repair_request_t& m) {
   return Checker()
       .utime(m.utime)
       .name("client_name", m.client_name)
-      .within("num_missing", m.num_missing, 1, kMostMissing)
+      .within("num_missing", m.num_missing, 1, kMaxMissing)
       .result();
 }
 

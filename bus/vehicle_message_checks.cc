@@ -9,7 +9,7 @@
 namespace halocline::bus {
 namespace {
 
-constexpr std::int32_t kMostFanRays = 512;
+constexpr std::int32_t kMaxFanRays = 512;
 
 }  // namespace
 
@@ -39,11 +39,11 @@ std::string problem_in(const vehicle_command_t& m) {
 
 std::string problem_in(const current_change_t& m) {
   constexpr double kFastestCurrentMps = 10;
-  constexpr std::int32_t kMostDepths = 1000;
+  constexpr std::int32_t kMaxDepths = 1000;
   return Checker()
       .utime(m.utime)
       .all_within("uniform_ned_mps", m.uniform_ned_mps, -kFastestCurrentMps, kFastestCurrentMps)
-      .within("num_depths", m.num_depths, 0, kMostDepths)
+      .within("num_depths", m.num_depths, 0, kMaxDepths)
       .all_within("depth_m", m.depth_m, 0, kFarthestM)
       .holds(
           std::adjacent_find(m.depth_m.begin(), m.depth_m.end(), std::greater_equal<>()) == m.depth_m.end(),
@@ -104,7 +104,7 @@ std::string problem_in(const vehicle_sonar_t& m) {
   checker.utime(m.utime)
       .within("fan_tilt_rad", m.fan_tilt_rad, -kPi, kPi)
       .within("greatest_range_m", m.greatest_range_m, 0, kFarthestM)
-      .within("num_fan_rays", m.num_fan_rays, 1, kMostFanRays)
+      .within("num_fan_rays", m.num_fan_rays, 1, kMaxFanRays)
       .all_within("fan_azimuth_rad", m.fan_azimuth_rad, -kPi, kPi)
       .all_within("echo_range_m", m.echo_range_m, 0, kFarthestM);
   for (const std::int8_t status : m.echo_status) {
@@ -130,8 +130,8 @@ std::string problem_in(const vehicle_fault_t& m) {
       .utime(m.utime)
       .one_of("fault_kind", m.fault_kind, vehicle_fault_t::STUCK_RUDDER, vehicle_fault_t::DEAD_SENSOR)
       .within("stuck_angle_rad", m.stuck_angle_rad, -kPi, kPi)
-      .within("leak_rate_kg_s", m.leak_rate_kg_s, -kMostWater, kMostWater)
-      .within("leak_volume_m3", m.leak_volume_m3, 0, kMostWater)
+      .within("leak_rate_kg_s", m.leak_rate_kg_s, -kMaxWater, kMaxWater)
+      .within("leak_volume_m3", m.leak_volume_m3, 0, kMaxWater)
       .one_of("dead_sensor", m.dead_sensor, vehicle_fault_t::DEPTH, vehicle_fault_t::USBL)
       .result();
 }

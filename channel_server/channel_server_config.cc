@@ -8,7 +8,7 @@ namespace halocline::channel_server {
 namespace {
 
 // LCM carries more, but a table a minute is no table and 50 Hz of a large fleet is a flood.
-constexpr double kLeastLinkRateHz = 1.0 / 60, kGreatestLinkRateHz = 50;
+constexpr double kMinLinkRateHz = 1.0 / 60, kMaxLinkRateHz = 50;
 
 template <class Count>
 void visit_count(bus::ConfigVisitor& v, std::string_view key, Count& value, const bus::NumberRule& rule) {
@@ -28,16 +28,15 @@ void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicl
 
 void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   double rate_hz = 1 / r.link_period.seconds();
-  v.number("link_rate_hz", rate_hz,
-           {kLeastLinkRateHz, kGreatestLinkRateHz, "Hz", "link tables of each vehicle"});
+  v.number("link_rate_hz", rate_hz, {kMinLinkRateHz, kMaxLinkRateHz, "Hz", "link tables of each vehicle"});
   r.link_period = SimDuration::from_seconds(1 / rate_hz);
   bus::seconds(v, "state_lag_s", r.position.state_lag,
                {0, 10, "s", "how old a state must be to be used; longer than a message takes on the bus"});
   bus::seconds(v, "state_timeout_s", r.position.state_timeout,
                {0.01, 3600, "s", "a vehicle without a younger state leaves the tables"});
-  bus::seconds(v, "greatest_lateness_s", r.medium.greatest_lateness,
+  bus::seconds(v, "max_lateness_s", r.medium.max_lateness,
                {0, 600, "s", "how long after its start a transmission may be heard of"});
-  bus::seconds(v, "greatest_earliness_s", r.medium.greatest_earliness,
+  bus::seconds(v, "max_earliness_s", r.medium.max_earliness,
                {0, 3600, "s", "how long before its start a transmission may be announced"});
   visit_count(v, "bottom_points", r.bottom_points,
               {1, 64, "", "points of the bottom asked about for each link"});
@@ -49,9 +48,9 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
            {1, 1000, "m", "rays: samples of the bottom lie no further apart (16 to 256 of a link)"});
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});
   visit_count(v, "shards", r.medium.shard.count,
-              {1, kMostShards, "", "channel servers that share the vehicles (id mod shards = shard)"});
+              {1, kMaxShards, "", "channel servers that share the vehicles (id mod shards = shard)"});
   visit_count(v, "shard", r.medium.shard.index,
-              {0, kMostShards - 1.0, "", "which of them this one is; in one process all run"});
+              {0, kMaxShards - 1.0, "", "which of them this one is; in one process all run"});
   bus::seconds(v, "echo_deadline_s", r.asking.answer_deadline,
                {0.001, 60, "s", "the bathymetry service is away when it has not answered by then"});
   visit_count(v, "echo_rays_per_message", r.asking.rays_per_batch, {128, 4096, "", "rays in one RAY_QUERY"});

@@ -11,11 +11,11 @@
 #include "acoustics/sea/environment.h"
 #include "bus/config/config.h"
 #include "bus/runtime/scenario.h"
-#include "channel_server/links/terrain_asker.h"
+#include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/ray_propagation.h"
-#include "channel_server/vehicles/fleet.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 
 namespace halocline::channel_server {
 
@@ -63,9 +63,9 @@ struct PropagationConfig {
   std::string surface_loss_model = "apl-bubbles";
   std::string solver = "auto";  // or images, snell, arcs
   acoustics::RayOptions options{.max_bounces = 60};
-  double least_amplitude_db = -120;
-  double greatest_bounce_loss_db = 30;  // of all bounces of a path together
-  double shadow_loss_db = 0;            // 0: none stated
+  double min_amplitude_db = -120;
+  double max_bounce_loss_db = 30;  // of all bounces of a path together
+  double shadow_loss_db = 0;       // 0: none stated
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
   bool coherent = false;
 };
@@ -78,7 +78,7 @@ struct ChangeConfig {
 };
 
 // How the server works; defaults as in the headers of its parts.
-inline constexpr int kMostShards = 64;
+inline constexpr int kMaxShards = 64;
 
 struct ServerRules {
   SimDuration link_period = SimDuration::from_milliseconds(1000);  // between two LINKS of a vehicle

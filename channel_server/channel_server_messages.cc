@@ -32,8 +32,8 @@ acoustics::Modem framed_modem(const modem_config_t& message) {
   return profile_modem(static_cast<acoustics::ModemProfile>(message.modem_profile), message.psk_rate);
 }
 
-AskedEnd to_asked_end(const link_end_t& message) {
-  AskedEnd end{message.vehicle_name, to_vec3(message.position_ned_m)};
+LinkEndRequest to_asked_end(const link_end_t& message) {
+  LinkEndRequest end{message.vehicle_name, to_vec3(message.position_ned_m)};
   if (message.modem_choice == link_end_t::MODEM_SCENARIO) return end;
   if (message.modem_choice != link_end_t::MODEM_GIVEN) {
     end.problem = "modem_choice is no value of its enumeration";
@@ -118,11 +118,11 @@ void tell_judgement(const Judgement& judgement, packet_outcome_t& message) {
 }
 
 constexpr double kFormulaStepM = 100, kFormulaDepthM = 5000;
-constexpr std::size_t kMostLayers = 2000;  // environment_t
+constexpr std::size_t kMaxLayers = 2000;  // environment_t
 
 std::vector<double> depths_to_tell(const acoustics::SoundSpeedProfile& profile) {
   const std::vector<double> rows = profile.row_depths_m();
-  const std::size_t stride = rows.size() / kMostLayers + 1;
+  const std::size_t stride = rows.size() / kMaxLayers + 1;
   std::vector<double> depths;
   for (std::size_t i = 0; i < rows.size(); i += stride) depths.push_back(rows[i]);
   if (!depths.empty()) return depths;
@@ -146,7 +146,7 @@ VehicleModem to_modem(const modem_config_t& message) {
   VehicleModem modem;
   modem.modem = framed_modem(message);
   modem.modem.source_level = {message.source_level_db};
-  modem.modem.least_receivable_level = {message.cutoff_level_db};
+  modem.modem.min_receivable_level = {message.cutoff_level_db};
   modem.modem.centre_frequency_hz = message.center_frequency_hz;
   modem.modem.bandwidth_hz = message.bandwidth_hz;
   modem.modem.directivity_index = {message.directivity_index_db};
@@ -168,7 +168,7 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   modem_config_t message{};
   message.utime = from.to_utime();
   message.source_level_db = modem.modem.source_level.value;
-  message.cutoff_level_db = modem.modem.least_receivable_level.value;
+  message.cutoff_level_db = modem.modem.min_receivable_level.value;
   message.center_frequency_hz = modem.modem.centre_frequency_hz;
   message.bandwidth_hz = modem.modem.bandwidth_hz;
   message.directivity_index_db = modem.modem.directivity_index.value;

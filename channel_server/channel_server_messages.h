@@ -8,12 +8,12 @@
 
 #include "acoustics/sea/boundary_reflection.h"
 #include "bus/messages.h"
-#include "channel_server/links/link_desk.h"
+#include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/links/terrain_asker.h"
+#include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/vehicles/fleet.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 
 namespace halocline::channel_server {
 

@@ -14,17 +14,17 @@ namespace {
 namespace channels = bus::channels;
 
 // What is heard between two steps at most; a second of a thousand vehicles at 50 Hz.
-constexpr std::size_t kMostWaiting = 50'000;
-constexpr std::size_t kMostChangesWaiting = 100;
+constexpr std::size_t kMaxWaiting = 50'000;
+constexpr std::size_t kMaxChangesWaiting = 100;
 // Sound that left before is not under way any more: it has gone 180 km.
 constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 // A state from further in the future than this says nothing of the present: a clock is wrong.
 constexpr SimDuration kFurthestAhead = SimDuration::from_milliseconds(10'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
-constexpr std::int64_t kMostTicksBehind = 100;
+constexpr std::int64_t kMaxTicksBehind = 100;
 // Channels whose messages are numbered: three a vehicle, and one a client that asked.
-constexpr std::size_t kMostNumbered = 4096;
+constexpr std::size_t kMaxNumbered = 4096;
 // How much longer than their rules say states and receipts are kept, so that no instant still asked about lacks
 // them.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
@@ -42,7 +42,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       bottoms_(std::move(water.bottoms)),
       propagation_(std::move(water.propagation)),
       description_(std::move(water.description)),
-      pool_(std::make_unique<bus::WorkerPool>(rules.threads)),
+      pool_(std::make_unique<bus::ThreadPool>(rules.threads)),
       ray_client_(ray_client_name(bus().identity().session)),
       fleet_(rules.position, modems),
       medium_(fleet_, *propagation_, rules.medium),
@@ -61,33 +61,33 @@ void ChannelServerNode::subscribe_all() {
       [this](std::string_view vehicle, const vehicle_state_t& m) {
         keep(inbox_.states, vehicle, m, channels::kState);
       },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
   bus().subscribe<modem_config_t>(
       channels::kModem,
       [this](std::string_view vehicle, const modem_config_t& m) {
         keep(inbox_.modems, vehicle, m, channels::kModem);
       },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
   bus().subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
     keep(inbox_.sends, vehicle, m, channels::kSend);
   });
   bus().subscribe<link_query_t>(channels::kLinkQuery, [this](const link_query_t& m) {
     const Shard& shard = rules_.medium.shard;
     if ((m.request_id % shard.count + shard.count) % shard.count != shard.index) return;
-    if (queries_.size() >= LinkDesk::kMostWaiting) {
+    if (queries_.size() >= LinkQueryService::kMaxWaiting) {
       return bus().refuse(channels::kLinkQuery, "too many questions at once");
     }
     queries_.push_back(m);
   });
   bus().subscribe<environment_change_t>(channels::kSetEnvironment, [this](const environment_change_t& m) {
-    if (inbox_.changes.size() >= kMostChangesWaiting) {
+    if (inbox_.changes.size() >= kMaxChangesWaiting) {
       return bus().refuse(channels::kSetEnvironment, "too many changes at once");
     }
     inbox_.changes.push_back(m);
   });
   if (!rules_.medium.shard.is_alone()) {
     bus().subscribe<ping_answer_t>(channels::kPingAnswer, [this](const ping_answer_t& m) {
-      if (inbox_.ping_answers.size() >= kMostWaiting) {
+      if (inbox_.ping_answers.size() >= kMaxWaiting) {
         return bus().refuse(channels::kPingAnswer, "too many messages at once");
       }
       inbox_.ping_answers.push_back(m);
@@ -100,7 +100,7 @@ void ChannelServerNode::subscribe_all() {
 template <class Message>
 void ChannelServerNode::keep(Heard<Message>& inbox, std::string_view vehicle, const Message& message,
                              const bus::Family& family) {
-  if (inbox.size() >= kMostWaiting) return bus().refuse(family.of(vehicle), "too many messages at once");
+  if (inbox.size() >= kMaxWaiting) return bus().refuse(family.of(vehicle), "too many messages at once");
   inbox.emplace_back(vehicle, message);
 }
 
@@ -205,7 +205,7 @@ void ChannelServerNode::open_instants(SimTime now) {
   if (next_environment_ == kBeforeAll) publish_environment(now);
   const SimDuration period = rules_.link_period;
   if (next_tick_ == kBeforeAll) next_tick_ = on_grid_from(now, period);
-  const SimTime earliest = now - period * kMostTicksBehind;
+  const SimTime earliest = now - period * kMaxTicksBehind;
   if (next_tick_ < earliest) next_tick_ = on_grid_from(earliest, period);
 }
 
@@ -270,7 +270,7 @@ void ChannelServerNode::publish_links(SimTime tick) {
     publish_numbered(channels::kLinks.of(fleet_.name_of(table.vehicle_id)), to_message(table, tick));
     links_published_ += static_cast<std::int64_t>(table.rows.size());
   }
-  for (const TerrainAsker::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
+  for (const RayQueryClient::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
   propagation_->uses_bottom() ? ask_for_profiles(vehicles) : ask_for_echoes(vehicles);
   tell_who_came_and_left(vehicles);
 }
@@ -290,7 +290,7 @@ void ChannelServerNode::tell_who_came_and_left(const std::vector<PlacedVehicle>&
 // The earliest instant that can still be asked about is the start of a transmission heard late; its sender may
 // have been silent for the time-out before.
 void ChannelServerNode::forget_old(SimTime now) {
-  const SimTime horizon = now - rules_.medium.greatest_lateness - kKeptLonger;
+  const SimTime horizon = now - rules_.medium.max_lateness - kKeptLonger;
   medium_.forget_before(horizon);
   waters_->forget_before(horizon - kLongestFlight);
   bottoms_->forget_before(horizon - kLongestFlight);
@@ -315,7 +315,7 @@ void ChannelServerNode::publish_replies(SimTime steady) {
 template <class Message>
 void ChannelServerNode::number(const std::string& channel, Message& message) {
   // Every client that ever asked had a channel of its own. One that asks again after so many others begins anew.
-  if (flows_.size() >= kMostNumbered && !flows_.contains(channel))
+  if (flows_.size() >= kMaxNumbered && !flows_.contains(channel))
     std::erase_if(flows_, [](const auto& one) { return one.first.starts_with(channels::kLinkReply.prefix); });
   Flow& flow = flows_.try_emplace(channel, Flow{bus().identity().session, 0}).first->second;
   message.session = flow.session;

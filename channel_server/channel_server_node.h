@@ -30,13 +30,13 @@
 
 #include "bus/runtime/message_journal.h"
 #include "bus/runtime/node.h"
-#include "bus/runtime/worker_pool.h"
+#include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_messages.h"
-#include "channel_server/links/link_desk.h"
+#include "channel_server/links/link_query_service.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_book.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
 
 namespace halocline::channel_server {
 
@@ -44,7 +44,7 @@ namespace halocline::channel_server {
 // what it hears.
 struct WaterModel {
   std::shared_ptr<EnvironmentTimeline> waters;
-  std::shared_ptr<ProfileBook> bottoms;
+  std::shared_ptr<SeabedProfileCache> bottoms;
   std::unique_ptr<Propagation> propagation;
   WaterDescription description;  // for ENVIRONMENT
 };
@@ -162,16 +162,16 @@ class ChannelServerNode : public bus::Node {
 
   ServerRules rules_;
   std::shared_ptr<EnvironmentTimeline> waters_;
-  std::shared_ptr<ProfileBook> bottoms_;
+  std::shared_ptr<SeabedProfileCache> bottoms_;
   std::unique_ptr<Propagation> propagation_;
   WaterDescription description_;
-  std::unique_ptr<bus::WorkerPool> pool_;
+  std::unique_ptr<bus::ThreadPool> pool_;
   std::string ray_client_;
-  Fleet fleet_;
+  VehicleRegistry fleet_;
   PacketMedium medium_;
-  EchoBook book_;
-  TerrainAsker asker_;
-  LinkDesk desk_;
+  MultipathCache book_;
+  RayQueryClient asker_;
+  LinkQueryService desk_;
 
   Inbox inbox_;
   std::vector<link_query_t> queries_;
@@ -183,7 +183,7 @@ class ChannelServerNode : public bus::Node {
   SimTime now_, said_forgotten_at_ = SimTime::never();
 
   SimTime next_tick_, next_environment_;
-  std::map<TerrainAsker::SurveyId, VehiclePair> surveyed_pairs_;
+  std::map<RayQueryClient::SurveyId, VehiclePair> surveyed_pairs_;
   std::map<std::string, Flow> flows_;  // by channel
   std::string terrain_version_;
   std::set<std::string> present_;

@@ -7,13 +7,16 @@ namespace halocline::channel_server {
 WaterModel straight_model(const acoustics::Environment& environment) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);
   auto propagation = std::make_unique<StraightPropagation>(waters);
-  return {waters, std::make_shared<ProfileBook>(ProfileRule{}), std::move(propagation), {"straight", {}, {}}};
+  return {waters,
+          std::make_shared<SeabedProfileCache>(ProfileRule{}),
+          std::move(propagation),
+          {"straight", {}, {}}};
 }
 
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
                      const ProfileRule& rule) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);
-  auto bottoms = std::make_shared<ProfileBook>(rule);
+  auto bottoms = std::make_shared<SeabedProfileCache>(rule);
   auto propagation = std::make_unique<RayPropagation>(waters, bottoms, rays);
   return {waters, bottoms, std::move(propagation), {"rays", rays.bottom, rays.surface}};
 }

@@ -66,7 +66,7 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   acoustics::Modem& a = m.modem;
   visit_profile(v, m);
   v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "strength"});
-  v.number("cutoff_level_db", a.least_receivable_level.value,
+  v.number("cutoff_level_db", a.min_receivable_level.value,
            {-200, 250, "dB re 1 uPa", "least receivable level"});
   v.number("center_frequency_hz", a.centre_frequency_hz, {10, 1e6, "Hz", "centre of the band"});
   v.number("bandwidth_hz", a.bandwidth_hz, {1e-3, 2e6, "Hz", "width of the band, below twice its centre"});

@@ -51,7 +51,7 @@ void ChannelServerNode::remember_in(const std::string& path) {
     const SimTime at = entry.at;
     after_absence = after_absence || entry.kind == Kind::kHeardAfterAbsence;
     entry.kind == Kind::kSaid ? recovery_->said.push_back(std::move(entry))
-                              : bus().hear_again(entry.channel, entry.bytes);
+                              : bus().replay(entry.channel, entry.bytes);
     if (i + 1 < entries.size() && entries[i + 1].at == at) continue;
     // What was due before a step happened before it heard.
     if (!std::exchange(after_absence, false)) recovery_->steps.push_back({at - kInstant, {}});
@@ -150,7 +150,7 @@ bool ChannelServerNode::take_next_step(const bus::Now& now) {
 
 // In the place of the tables of a tick that has passed.
 void ChannelServerNode::survey(SimTime tick) {
-  for (const TerrainAsker::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
+  for (const RayQueryClient::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
   if (propagation_->uses_bottom()) ask_for_profiles(place_all(fleet_, tick));
 }
 

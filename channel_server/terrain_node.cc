@@ -52,7 +52,7 @@ void ChannelServerNode::forget_echoes() {
 }
 
 void ChannelServerNode::take_finished_surveys() {
-  for (TerrainAsker::Finished& finished : asker_.take_finished()) {
+  for (RayQueryClient::Finished& finished : asker_.take_finished()) {
     if (desk_.finish(finished)) continue;
     const auto pair = surveyed_pairs_.extract(finished.id);
     if (pair.empty()) continue;

@@ -128,9 +128,9 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
                   {0, 10'000, "", "rays: surface and bottom together"});
   bus::degrees(v, "max_launch_angle_deg", p.options.max_launch_angle_rad,
                {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
-  v.number("least_amplitude_db", p.least_amplitude_db,
+  v.number("min_amplitude_db", p.min_amplitude_db,
            {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
-  v.number("greatest_bounce_loss_db", p.greatest_bounce_loss_db,
+  v.number("max_bounce_loss_db", p.max_bounce_loss_db,
            {1, 200, "dB", "rays: of all bounces of a path; paths that lose more are dropped"});
   v.number("speed_tolerance_mps", p.speed_tolerance_mps,
            {0, 1, "m/s", "rays: rows of the water that others say to that are left out"});
@@ -249,8 +249,8 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.surface = *surface;
   rays.options = p.options;
   rays.options.keep_steep_direct = true;
-  rays.options.min_amplitude = std::pow(10.0, p.least_amplitude_db / 20);
-  rays.options.min_boundary_factor = std::pow(10.0, -p.greatest_bounce_loss_db / 20);
+  rays.options.min_amplitude = std::pow(10.0, p.min_amplitude_db / 20);
+  rays.options.min_boundary_factor = std::pow(10.0, -p.max_bounce_loss_db / 20);
   rays.speed_tolerance_mps = p.speed_tolerance_mps;
   rays.reuse_distance_m = p.reuse_distance_m;
   using Solver = acoustics::RaySolver;

@@ -41,8 +41,8 @@ std::vector<bus::ProgramOption> LockstepOptions::options() {
       {"--drop-after",
        "seconds of silence after which a participant is dropped; 0: it is waited for (lockstep)",
        &drop_after_},
-      {"--one-by-one", "exchange every step: nobody goes on alone (lockstep)", nullptr, &one_by_one_},
-      {"--outside", "hear what others say on the ordinary bus, at the next instant (lockstep)", nullptr,
+      {"--no-lookahead", "exchange every step: nobody goes on alone (lockstep)", nullptr, &one_by_one_},
+      {"--bridge-bus", "hear what others say on the ordinary bus, at the next instant (lockstep)", nullptr,
        &outside_},
   };
 }

@@ -10,8 +10,8 @@
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
+#include "conductor/bus_bridge.h"
 #include "conductor/conductor_node.h"
-#include "conductor/outside_ear.h"
 #include "core/check.h"
 
 namespace halocline::conductor {
@@ -169,7 +169,7 @@ class Run {
   lcm::LCM memq_{"memq://"};
   ConductorNode node_;
   bus::LockstepTurns turns_;
-  std::optional<OutsideEar> outside_;
+  std::optional<BusBridge> outside_;
   lcm::LCM log_lcm_{"memq://"};  // what is recorded, and nothing else
   SimTime stamp_;
   std::optional<bus::LogRecorder> recorder_;

@@ -44,9 +44,9 @@ void Fleet::tie(const FleetTether& t) {
 }
 
 bool Fleet::change_current(SimTime from, const CurrentSettings& current) {
-  constexpr std::size_t kMostWaiting = 1000;
+  constexpr std::size_t kMaxWaiting = 1000;
   CurrentChange change{from, OceanCurrent(current, settings_.seed)};
-  if (current_changes_.size() >= kMostWaiting) return false;
+  if (current_changes_.size() >= kMaxWaiting) return false;
   const auto later = [](const CurrentChange& a, const CurrentChange& b) { return a.from < b.from; };
   current_changes_.insert(std::upper_bound(current_changes_.begin(), current_changes_.end(), change, later),
                           std::move(change));
@@ -64,9 +64,9 @@ bool Fleet::take_due_current() {
   return true;
 }
 
-bool Fleet::break_down(std::size_t index, const Fault& fault) {
-  constexpr std::size_t kMostWaiting = 100'000;
-  if (waiting_faults_.size() >= kMostWaiting) return false;
+bool Fleet::apply_fault(std::size_t index, const Fault& fault) {
+  constexpr std::size_t kMaxWaiting = 100'000;
+  if (waiting_faults_.size() >= kMaxWaiting) return false;
   const FaultOf entry{index, fault};
   const auto later = [](const FaultOf& a, const FaultOf& b) { return a.fault.from < b.fault.from; };
   waiting_faults_.insert(std::upper_bound(waiting_faults_.begin(), waiting_faults_.end(), entry, later),
@@ -154,7 +154,7 @@ VehicleState Fleet::state_at(std::size_t index, SimTime when) const {
   const VehicleState& state = world_.state(world_index_[index]);
   const SimDuration ahead = when - time_;
   ensure(ahead >= SimDuration() && ahead < settings_.step, "a state was asked for out of its time");
-  if (ahead == SimDuration() || is_lost(index)) return state;
+  if (ahead == SimDuration() || has_diverged(index)) return state;
   return rk4_step(model_of(index), state, obeyed_[index], water_at(state.position_ned_m), ahead.seconds());
 }
 
@@ -169,7 +169,9 @@ SensorReading Fleet::reading_at(std::size_t index, SimTime when) const {
   return reading;
 }
 
-bool Fleet::is_lost(std::size_t index) const { return moves(index) && world_.is_lost(world_index_[index]); }
+bool Fleet::has_diverged(std::size_t index) const {
+  return moves(index) && world_.has_diverged(world_index_[index]);
+}
 
 bool Fleet::on_seabed(std::size_t index) const {
   return moves(index) && !world_.seabed_force_ned_n(world_index_[index]).isZero(0);

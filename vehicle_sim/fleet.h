@@ -69,7 +69,7 @@ class Fleet {
 
   // Takes note of something that breaks or is mended; of two for one instant the one noted later comes later. Fixed
   // vehicles lose sensors alone. False, and nothing changes, when too many wait.
-  bool break_down(std::size_t index, const Fault& fault);
+  bool apply_fault(std::size_t index, const Fault& fault);
   const VehicleFaults& faults(std::size_t index) const { return faults_[index]; }
 
   // Takes all whole steps that end at or before `until`.
@@ -85,8 +85,8 @@ class Fleet {
 
   double sea_surface_z_m() const { return settings_.sea_surface_z_m; }
 
-  bool is_lost(std::size_t index) const;    // VehicleWorld::is_lost
-  bool on_seabed(std::size_t index) const;  // touched the ground in the last step
+  bool has_diverged(std::size_t index) const;  // VehicleWorld::has_diverged
+  bool on_seabed(std::size_t index) const;     // touched the ground in the last step
 
  private:
   struct CurrentChange {

@@ -13,7 +13,7 @@ namespace {
 using bus::ConfigVisitor;
 using bus::NumberRule;
 
-constexpr double kMost = 1e9;  // of what has no natural bound
+constexpr double kMax = 1e9;  // of what has no natural bound
 
 // Six numbers, surge to yaw.
 void visit_six(ConfigVisitor& v, std::string_view key, Vec6& values, const NumberRule& rule) {
@@ -35,9 +35,9 @@ void visit_symmetric(ConfigVisitor& v, const std::string& key, Matrix& m, double
   }
   const std::size_t full = right.size();
   if (m.isDiagonal(0)) right.clear();
-  v.numbers(key, diagonal, {lowest_on_diagonal, kMost, unit, meaning});
+  v.numbers(key, diagonal, {lowest_on_diagonal, kMax, unit, meaning});
   const std::string right_key = key + "_off_diagonal";
-  v.numbers(right_key, right, {-kMost, kMost, unit, "right of the diagonal, row by row; empty: all 0"});
+  v.numbers(right_key, right, {-kMax, kMax, unit, "right of the diagonal, row by row; empty: all 0"});
   if (diagonal.size() != std::size_t{n})
     return v.problem(key, "as many numbers as degrees of freedom are needed");
   if (!right.empty() && right.size() != full) return v.problem(right_key, "all of them or none are needed");
@@ -53,8 +53,8 @@ void visit_body(ConfigVisitor& v, ModelParameters& p) {
   v.number("length_m", p.hull.length_m,
            {0.01, 1000, "m", "of the hull, a spheroid for contact and at the surface"});
   v.number("diameter_m", p.hull.diameter_m, {0.001, 1000, "m", "of the hull, at most its length"});
-  v.number("mass_kg", p.mass_kg, {1e-3, kMost, "kg", "dry mass"});
-  v.number("buoyancy_n", p.buoyancy_n, {0, kMost, "N", "of the whole hull under water"});
+  v.number("mass_kg", p.mass_kg, {1e-3, kMax, "kg", "dry mass"});
+  v.number("buoyancy_n", p.buoyancy_n, {0, kMax, "N", "of the whole hull under water"});
   v.vector3("center_of_gravity_m", p.center_of_gravity_m, {-1000, 1000, "m", "from the hull's middle"});
   v.vector3("center_of_buoyancy_m", p.center_of_buoyancy_m, {-1000, 1000, "m", "from the hull's middle"});
   v.vector3("leak_offset_m", p.leak_offset_m,
@@ -69,13 +69,13 @@ void visit_body(ConfigVisitor& v, ModelParameters& p) {
 }
 
 void visit_damping(ConfigVisitor& v, Damping& d) {
-  visit_six(v, "linear", d.linear, {0, kMost, "N s/m; N m s", "surge to yaw, at rest"});
+  visit_six(v, "linear", d.linear, {0, kMax, "N s/m; N m s", "surge to yaw, at rest"});
   visit_six(v, "decay_s_per_m", d.decay_s_per_m,
             {0, 1000, "s/m", "each falls with speed U as exp(-decay U)"});
 }
 
 void visit_lift_drag(ConfigVisitor& v, LiftDrag& l) {
-  v.number("reference_area_m2", l.reference_area_m2, {0, kMost, "m^2", "0: the effect is absent"});
+  v.number("reference_area_m2", l.reference_area_m2, {0, kMax, "m^2", "0: the effect is absent"});
   v.number("zero_lift_drag", l.zero_lift_drag, {0, 1000, "", "drag coefficient at no angle"});
   v.number("lift_slope_per_rad", l.lift_slope_per_rad, {0, 1000, "1/rad", "of the angle of attack"});
   v.number("aspect_ratio", l.aspect_ratio, {1e-6, 1000, "", "for the induced drag"});
@@ -83,7 +83,7 @@ void visit_lift_drag(ConfigVisitor& v, LiftDrag& l) {
 }
 
 void visit_body_lift(ConfigVisitor& v, BodyLift& b) {
-  v.number("reference_area_m2", b.reference_area_m2, {0, kMost, "m^2", "0: the effect is absent"});
+  v.number("reference_area_m2", b.reference_area_m2, {0, kMax, "m^2", "0: the effect is absent"});
   v.number("axial_drag", b.axial_drag, {0, 1000, "", "drag coefficient along the hull"});
   v.number("lift_slope_per_rad", b.lift_slope_per_rad, {0, 1000, "1/rad", "of sin(angle) cos(angle)"});
   v.number("center_aft_m", b.center_aft_m,
@@ -98,7 +98,7 @@ void visit_cross_flow(ConfigVisitor& v, CrossFlow& c) {
 }
 
 void visit_fins(ConfigVisitor& v, FinPair& f) {
-  v.number("area_m2", f.area_m2, {0, kMost, "m^2", "of the pair; 0: there is none"});
+  v.number("area_m2", f.area_m2, {0, kMax, "m^2", "of the pair; 0: there is none"});
   v.number("lift_slope_per_rad", f.lift_slope_per_rad, {0, 1000, "1/rad", "of the angle"});
   v.number("x_m", f.x_m, {-1000, 1000, "m", "place on the axis, negative aft of the hull's middle"});
   bus::choice(v, "law", f.law, {"deflection", "local-flow"},

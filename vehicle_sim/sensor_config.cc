@@ -42,9 +42,9 @@ void visit_errors(ConfigVisitor& v, SensorErrors& e, const Unit& unit) {
 }
 
 // 0 Hz in the file is a period of 0.
-void visit_rate(ConfigVisitor& v, SimDuration& period, double greatest_hz, std::string_view meaning) {
+void visit_rate(ConfigVisitor& v, SimDuration& period, double max_hz, std::string_view meaning) {
   double rate_hz = period > SimDuration() ? 1 / period.seconds() : 0;
-  v.number("rate_hz", rate_hz, {0, greatest_hz, "Hz", meaning});
+  v.number("rate_hz", rate_hz, {0, max_hz, "Hz", meaning});
   if (rate_hz > 0 && rate_hz < 0.001) return v.problem("rate_hz", "allowed is 0, or 0.001 Hz and more");
   period = rate_hz > 0 ? SimDuration::from_seconds(1 / rate_hz) : SimDuration();
 }
@@ -70,7 +70,7 @@ void visit_dvl(ConfigVisitor& v, DvlSettings& dvl) {
 
 void visit_gps(ConfigVisitor& v, GpsSettings& gps) {
   visit_rate(v, gps.period, 50, "fixes a second at the surface; 0: it has none");
-  v.number("greatest_depth_m", gps.greatest_depth_m,
+  v.number("max_depth_m", gps.max_depth_m,
            {-10, 10, "m", "of the antenna below the surface where it still has a fix"});
   visit_noise(v, gps.errors, kMetres);
   v.vector3("place_m", gps.place_m, kPlace);

@@ -54,7 +54,7 @@ void SensorStation::find_next() {
   for (const Times& t : times_) next_ = std::min({next_, t.dvl, t.gps, t.sonar});
 }
 
-std::vector<SensorTick> SensorStation::take(const Fleet& fleet, std::size_t most_beams) {
+std::vector<SensorTick> SensorStation::take(const Fleet& fleet, std::size_t max_beams) {
   const SimTime when = next_;
   const bool all_due = is_due(next_all_, when, period_);
   std::vector<Job> jobs;
@@ -65,7 +65,7 @@ std::vector<SensorTick> SensorStation::take(const Fleet& fleet, std::size_t most
   find_next();
   std::vector<SensorTick> ticks;
   for (auto& [job, beams] : jobs) {
-    if (ticks.empty() || ticks.back().beams.size() + beams.size() > most_beams)
+    if (ticks.empty() || ticks.back().beams.size() + beams.size() > max_beams)
       ticks.push_back({when, {}, {}, {}});
     SensorTick& tick = ticks.back();
     job.first_beam = tick.beams.size();
@@ -83,7 +83,7 @@ void SensorStation::measure(const Fleet& fleet, std::size_t i, bool all_due, std
   Times& t = times_[i];
   const bool dvl_due = is_due(t.dvl, when, s.dvl.period), gps_due = is_due(t.gps, when, s.gps.period),
              sonar_due = is_due(t.sonar, when, s.sonar.period);
-  if (fleet.is_lost(i)) return;
+  if (fleet.has_diverged(i)) return;
   const SensorSuite::Dead& dead = fleet.faults(i).dead_sensors();
   const auto works = [&](SensorKind kind) { return !dead[static_cast<std::size_t>(kind)]; };
   const VehicleState state = fleet.state_at(i, when);

@@ -61,8 +61,8 @@ class SensorStation {
   // When the next measurement is due.
   SimTime next() const { return next_; }
 
-  // The measurements of next(), which the fleet must have reached; moves on. In ticks of `most_beams` beams at most.
-  std::vector<SensorTick> take(const Fleet& fleet, std::size_t most_beams);
+  // The measurements of next(), which the fleet must have reached; moves on. In ticks of `max_beams` beams at most.
+  std::vector<SensorTick> take(const Fleet& fleet, std::size_t max_beams);
 
   const SensorSettings& settings(std::size_t vehicle) const { return vehicles_[vehicle].settings; }
 

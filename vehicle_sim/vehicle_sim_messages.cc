@@ -12,15 +12,15 @@ constexpr double kSecondsPerMinute = 60;
 void write(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
 Vec3 read(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
 
-using ThrusterSpeeds = std::array<double, kMostThrusters>;
-static_assert(std::extent_v<decltype(vehicle_command_t::thruster_rpm)> == kMostThrusters);
+using ThrusterSpeeds = std::array<double, kMaxThrusters>;
+static_assert(std::extent_v<decltype(vehicle_command_t::thruster_rpm)> == kMaxThrusters);
 
-void write_rpm(const ThrusterSpeeds& from_hz, double (&to)[kMostThrusters]) {
+void write_rpm(const ThrusterSpeeds& from_hz, double (&to)[kMaxThrusters]) {
   std::transform(from_hz.begin(), from_hz.end(), to, [](double hz) { return hz * kSecondsPerMinute; });
 }
-ThrusterSpeeds read_rpm(const double (&from)[kMostThrusters]) {
+ThrusterSpeeds read_rpm(const double (&from)[kMaxThrusters]) {
   ThrusterSpeeds hz;
-  std::transform(from, from + kMostThrusters, hz.begin(), [](double rpm) { return rpm / kSecondsPerMinute; });
+  std::transform(from, from + kMaxThrusters, hz.begin(), [](double rpm) { return rpm / kSecondsPerMinute; });
   return hz;
 }
 

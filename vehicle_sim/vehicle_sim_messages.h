@@ -12,7 +12,7 @@
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/sensor_station.h"
-#include "vehicle_sim/sensors/usbl_desk.h"
+#include "vehicle_sim/sensors/usbl_fix_assembler.h"
 
 namespace halocline::vehicle_sim {
 

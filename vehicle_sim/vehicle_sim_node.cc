@@ -12,7 +12,7 @@ namespace {
 // as late, and does not publish it: nobody waits for it any more, and the bus would lose the burst.
 constexpr SimDuration kLongestHalt = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kLongestArrear = SimDuration::from_milliseconds(2000);
-constexpr std::size_t kMostBeams = 4096;  // a message, by the service's contract
+constexpr std::size_t kMaxBeams = 4096;  // a message, by the service's contract
 
 SimTime first_on_grid(SimTime from, SimDuration period) {
   return next_on_grid(from - SimDuration::from_nanoseconds(1), period);
@@ -48,12 +48,13 @@ VehicleSimNode::VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const 
     ids_.push_back(scenario.find(members_[i].name)->id);
     subscribe_vehicle(i);
     if (station_.settings(i).usbl.fitted)
-      arrays_.emplace(i, UsblDesk(station_.settings(i).usbl, {scenario.seed, ids_[i], SensorKind::kUsbl}));
+      arrays_.emplace(
+          i, UsblFixAssembler(station_.settings(i).usbl, {scenario.seed, ids_[i], SensorKind::kUsbl}));
   }
   if (!arrays_.empty()) subscribe_arrays();
   bus().subscribe<current_change_t>(
       bus::channels::kSetCurrent, [this](const current_change_t& m) { on_current(m); },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
   bus().subscribe<ray_reply_t>(bus::channels::kRayReply.of(ray_client_),
                                [this](const ray_reply_t& reply) { on_ray_reply(reply); });
 }
@@ -61,7 +62,7 @@ VehicleSimNode::VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const 
 void VehicleSimNode::subscribe_vehicle(std::size_t i) {
   bus().subscribe<vehicle_command_t>(
       bus::channels::kCommand.of(members_[i].name),
-      [this, i](const vehicle_command_t& m) { on_command(i, m); }, bus::Hearing::kStores);
+      [this, i](const vehicle_command_t& m) { on_command(i, m); }, bus::Wakeup::kStoreOnly);
   bus().subscribe<vehicle_fault_t>(bus::channels::kFault.of(members_[i].name),
                                    [this, i](const vehicle_fault_t& m) { on_fault(i, m); });
 }
@@ -93,7 +94,7 @@ void VehicleSimNode::begin(SimTime now) {
                  [this](std::size_t count, const std::function<void(std::size_t)>& body) {
                    pool_.for_each(count, body);
                  });
-  for (const auto& [vehicle, fault] : scenario_faults_) fleet_->break_down(vehicle, fault);
+  for (const auto& [vehicle, fault] : scenario_faults_) fleet_->apply_fault(vehicle, fault);
   next_state_ = first_on_grid(start, config_.state_period);
   station_.begin(start);
   std::fill(reported_lost_.begin(), reported_lost_.end(), false);
@@ -118,7 +119,7 @@ void VehicleSimNode::on_step(const bus::Now& now) {
       const bool state_due = next_state_ == next, sensors_due = station_.next() == next;
       if (state_due) next_state_ = next_on_grid(next, config_.state_period);
       if (state_due && !too_late) publish_states(next);
-      if (sensors_due && too_late) station_.take(*fleet_, kMostBeams);
+      if (sensors_due && too_late) station_.take(*fleet_, kMaxBeams);
       if (sensors_due && !too_late) measure_all(now.steady);
     }
     publish_bearings();
@@ -138,7 +139,7 @@ void VehicleSimNode::publish_numbered(const bus::Family& family, std::size_t veh
 
 void VehicleSimNode::publish_states(SimTime when) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (fleet_->is_lost(i)) continue;  // what does not move as it should has no state to tell
+    if (fleet_->has_diverged(i)) continue;  // what does not move as it should has no state to tell
     publish_numbered(bus::channels::kState, i,
                      to_state_message(when, ids_[i], to_kinematic_state(fleet_->state_at(i, when))),
                      sequences_.state);
@@ -147,7 +148,7 @@ void VehicleSimNode::publish_states(SimTime when) {
 
 // Takes the readings and asks for their echoes, in messages of as many beams as the service takes.
 void VehicleSimNode::measure_all(SimTime steady) {
-  for (SensorTick& tick : station_.take(*fleet_, kMostBeams)) {
+  for (SensorTick& tick : station_.take(*fleet_, kMaxBeams)) {
     const std::int64_t request = ray_request_++;
     std::optional<ray_query_t> query;
     if (!tick.beams.empty()) query = to_ray_query(tick.when, ray_client_, request, tick.beams);
@@ -158,7 +159,7 @@ void VehicleSimNode::measure_all(SimTime steady) {
 
 void VehicleSimNode::note_poses(SimTime when) {
   for (auto& [vehicle, array] : arrays_) {
-    if (!fleet_->is_lost(vehicle)) array.note_pose(when, fleet_->state_at(vehicle, when).orientation);
+    if (!fleet_->has_diverged(vehicle)) array.note_pose(when, fleet_->state_at(vehicle, when).orientation);
   }
 }
 
@@ -214,7 +215,7 @@ void VehicleSimNode::on_command(std::size_t vehicle, const vehicle_command_t& me
 
 void VehicleSimNode::on_fault(std::size_t vehicle, const vehicle_fault_t& message) {
   if (!fleet_) return;
-  if (!fleet_->break_down(vehicle, from_message(message)))
+  if (!fleet_->apply_fault(vehicle, from_message(message)))
     bus().refuse(bus::channels::kFault.of(members_[vehicle].name), "too many faults wait for their time");
 }
 
@@ -235,7 +236,7 @@ void VehicleSimNode::on_ray_reply(const ray_reply_t& reply) {
 
 void VehicleSimNode::report_lost() {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (reported_lost_[i] || !fleet_->is_lost(i)) continue;
+    if (reported_lost_[i] || !fleet_->has_diverged(i)) continue;
     reported_lost_[i] = true;
     bus().log().error("vehicle-lost",
                       "vehicle=" + members_[i].name + " reason=\"its equations gave no number\"");
@@ -246,7 +247,7 @@ std::string VehicleSimNode::status_text() const {
   std::size_t aground = 0, lost = 0;
   for (std::size_t i = 0; fleet_ && i < members_.size(); ++i) {
     aground += fleet_->on_seabed(i);
-    lost += fleet_->is_lost(i);
+    lost += fleet_->has_diverged(i);
   }
   return std::to_string(members_.size()) + " vehicles, " + std::to_string(aground) + " on the seabed, " +
          std::to_string(lost) + " lost; echoes given up: " + std::to_string(desk_.given_up());

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "bus/runtime/node.h"
-#include "bus/runtime/worker_pool.h"
-#include "vehicle_sim/echo_desk.h"
+#include "bus/runtime/thread_pool.h"
 #include "vehicle_sim/fleet.h"
+#include "vehicle_sim/pending_echoes.h"
 #include "vehicle_sim/sensor_station.h"
-#include "vehicle_sim/sensors/usbl_desk.h"
+#include "vehicle_sim/sensors/usbl_fix_assembler.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
 namespace halocline::vehicle_sim {
@@ -64,13 +64,13 @@ class VehicleSimNode : public bus::Node {
   std::shared_ptr<const Seabed> seabed_;
   std::string ray_client_;
 
-  bus::WorkerPool pool_;
+  bus::ThreadPool pool_;
   std::optional<Fleet> fleet_;  // empty until the simulation time is known
   SensorStation station_;
-  std::map<std::size_t, UsblDesk> arrays_;  // of the vehicles that have one
+  std::map<std::size_t, UsblFixAssembler> arrays_;  // of the vehicles that have one
   SimTime next_state_;
   SimTime last_step_;  // steady
-  EchoDesk desk_;
+  PendingEchoes desk_;
   std::int64_t ray_request_ = 0;
   struct Sequences {
     std::vector<std::int64_t> state, sensors, dvl, gps, sonar, usbl;  // of each vehicle, the next

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "acoustics/link/capacity.h"
 #include "acoustics/link/transmission_loss.h"
 #include "acoustics/math/depth_cells.h"
 #include "acoustics/math/frequency_band.h"
@@ -185,7 +186,7 @@ void LinkModel::set_levels(LinkBudget& link, Decibels loss) const {
   const Decibels bandwidth = to_decibels(PowerRatio{transmitter_.bandwidth_hz});
   link.snr_narrowband = link.received_level - centre_noise_ - bandwidth + receiver_.directivity_index;
   link.receivable =
-      link.received_level >= receiver_.least_receivable_level && bands_overlap(transmitter_, receiver_);
+      link.received_level >= receiver_.min_receivable_level && bands_overlap(transmitter_, receiver_);
 }
 
 LinkBudget LinkModel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,

@@ -41,7 +41,7 @@ EchoPath echo_path(const LinkModel& model, const Vec3& from_ned_m, const Vec3& t
   path.level = path.level - model.transmitter().beam.loss(angle_down_rad(from_ned_m, point.position_ned_m)) -
                model.receiver().beam.loss(angle_down_rad(to_ned_m, point.position_ned_m));
   path.blocked = point.blocked_from_transmitter || point.blocked_to_receiver;
-  path.receivable = !path.blocked && path.level > model.receiver().least_receivable_level;
+  path.receivable = !path.blocked && path.level > model.receiver().min_receivable_level;
   return path;
 }
 

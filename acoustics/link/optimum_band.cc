@@ -102,8 +102,8 @@ double water_filling_snr(const Channel& channel, const Band& band, double level_
 }
 
 BandPlan water_filling_plan(const Channel& channel, double optimum_hz, double snr) {
-  const double least_db = channel.loss_and_noise_db(optimum_hz);
-  double low = least_db, high = least_db + 300;  // dB; the SNR grows with the level of the water
+  const double min_db = channel.loss_and_noise_db(optimum_hz);
+  double low = min_db, high = min_db + 300;  // dB; the SNR grows with the level of the water
   while (high - low > 1e-12 * std::abs(high)) {
     const double middle = (low + high) / 2;
     (water_filling_snr(channel, band_below(channel, optimum_hz, middle), middle) < snr ? low : high) = middle;

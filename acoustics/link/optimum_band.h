@@ -35,8 +35,8 @@ struct BandPlan {
 
 struct OptimumBand {
   double optimum_frequency_hz;
-  Decibels least_loss_and_noise;  // A N at the optimum, dB re 1 uPa^2/Hz
-  BandPlan flat;                  // 3 dB band
+  Decibels min_loss_and_noise;  // A N at the optimum, dB re 1 uPa^2/Hz
+  BandPlan flat;                // 3 dB band
   BandPlan water_filling;
 };
 

@@ -11,8 +11,8 @@ namespace halocline::acoustics {
 
 BeamPattern::BeamPattern(std::vector<BeamRow> rows) : rows_(std::move(rows)) {
   require(!rows_.empty(), "a beam pattern needs at least one row; omnidirectional needs no table");
-  require(rows_.size() <= kMostBeamRows, "a beam pattern has " + std::to_string(rows_.size()) +
-                                             " rows; allowed is at most " + std::to_string(kMostBeamRows));
+  require(rows_.size() <= kMaxBeamRows, "a beam pattern has " + std::to_string(rows_.size()) +
+                                            " rows; allowed is at most " + std::to_string(kMaxBeamRows));
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const std::string row = "beam pattern row " + std::to_string(i + 1) + ": ";
     require_in_range(rows_[i].elevation_rad, -std::numbers::pi / 2, std::numbers::pi / 2, row + "elevation",

@@ -14,7 +14,7 @@
 namespace halocline::acoustics {
 
 // A row a degree, from straight up to straight down.
-inline constexpr std::size_t kMostBeamRows = 181;
+inline constexpr std::size_t kMaxBeamRows = 181;
 
 struct BeamRow {
   double elevation_rad;  // -pi/2..pi/2, rising
@@ -25,7 +25,7 @@ struct BeamRow {
 class BeamPattern {
  public:
   BeamPattern() = default;  // omnidirectional
-  // 1..kMostBeamRows rows. Throws InvalidArgument, naming the row, unless rows are in range and rise.
+  // 1..kMaxBeamRows rows. Throws InvalidArgument, naming the row, unless rows are in range and rise.
   explicit BeamPattern(std::vector<BeamRow> rows);
 
   bool is_omnidirectional() const { return rows_.empty(); }

@@ -9,7 +9,7 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr int kGreatestJanusDistance = 28;
+constexpr int kMaxJanusDistance = 28;
 // exp(-x) is 0 in a double beyond this.
 constexpr double kExponentOfZero = 745;
 
@@ -97,14 +97,14 @@ double pairwise_error(int d, Decision decision, Fading fading, PowerRatio chip_s
 
 }  // namespace
 
-std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int greatest_distance) {
+std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int max_distance) {
   require_in_range(code.constraint_length, 2, 16, "constraint length", "");
-  require_in_range(greatest_distance, 1, 60, "greatest distance", "");
+  require_in_range(max_distance, 1, 60, "greatest distance", "");
   const unsigned states = 1u << (code.constraint_length - 1);
   for (const unsigned generator : code.generators) {
     require(generator > 0 && generator < 2 * states, "a generator is longer than the constraint length");
   }
-  const auto distances = static_cast<std::size_t>(greatest_distance) + 1;
+  const auto distances = static_cast<std::size_t>(max_distance) + 1;
   Front front(states, std::vector<Bundle>(distances));
   carry(front, edge_of(code, 0, 1), {1, 0}, 0, 1);
   std::vector<Bundle> back(distances);
@@ -126,7 +126,7 @@ std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int g
 }
 
 const std::vector<SpectrumTerm>& janus_spectrum() {
-  static const std::vector<SpectrumTerm> spectrum = distance_spectrum(kJanusCode, kGreatestJanusDistance);
+  static const std::vector<SpectrumTerm> spectrum = distance_spectrum(kJanusCode, kMaxJanusDistance);
   return spectrum;
 }
 

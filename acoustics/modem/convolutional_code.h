@@ -43,9 +43,9 @@ struct SpectrumTerm {
   bool operator==(const SpectrumTerm&) const = default;
 };
 
-// The terms with at least one path, up to `greatest_distance`, d rising. The code must not be catastrophic
+// The terms with at least one path, up to `max_distance`, d rising. The code must not be catastrophic
 // (InvalidArgument: such a code has endless paths of finite distance).
-std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int greatest_distance);
+std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int max_distance);
 
 // d = 12 .. 28 of JANUS's code.
 const std::vector<SpectrumTerm>& janus_spectrum();

@@ -9,14 +9,14 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr std::int64_t kBitsPerByte = 8;
-constexpr double kMostBits = 1e6;
+constexpr double kMaxBits = 1e6;
 
 void validate(const FrameLayout& layout) {
-  require_in_range(layout.header_bits, 0, kMostBits, "header", "bits");
-  require_in_range(layout.tail_bits, 0, kMostBits, "tail of a coded block", "bits");
+  require_in_range(layout.header_bits, 0, kMaxBits, "header", "bits");
+  require_in_range(layout.tail_bits, 0, kMaxBits, "tail of a coded block", "bits");
   require_in_range(layout.frame_bytes, 0, 32'768, "frame", "bytes");
-  require_in_range(layout.most_bytes, 0, 32'768, "largest payload", "bytes");
-  require_in_range(layout.most_frames, layout.frame_bytes > 0 ? 1 : 0, 1024, "frames of a packet");
+  require_in_range(layout.max_bytes, 0, 32'768, "largest payload", "bytes");
+  require_in_range(layout.max_frames, layout.frame_bytes > 0 ? 1 : 0, 1024, "frames of a packet");
 }
 
 // Bytes that are sent for a payload: whole frames, where there are frames.
@@ -34,7 +34,7 @@ std::int64_t block_bits(const FrameLayout& layout, std::int64_t information_bits
 
 void validate(const Modem& modem) {
   require_in_range(modem.source_level.value, 0, 250, "source level", "dB re 1 uPa at 1 m");
-  require_in_range(modem.least_receivable_level.value, -200, 250, "least receivable level", "dB re 1 uPa");
+  require_in_range(modem.min_receivable_level.value, -200, 250, "least receivable level", "dB re 1 uPa");
   require_in_range(modem.centre_frequency_hz, 10, 1e6, "centre frequency", "Hz");
   require_finite(modem.bandwidth_hz, "bandwidth");
   require(modem.bandwidth_hz > 0 && modem.bandwidth_hz < 2 * modem.centre_frequency_hz,
@@ -55,7 +55,7 @@ void validate(const Modem& modem) {
 Modem generic_modem(Decibels strength, Decibels cut_off, double centre_frequency_hz, double bandwidth_hz) {
   Modem modem;
   modem.source_level = strength;
-  modem.least_receivable_level = cut_off;
+  modem.min_receivable_level = cut_off;
   modem.centre_frequency_hz = centre_frequency_hz;
   modem.bandwidth_hz = bandwidth_hz;
   validate(modem);
@@ -75,8 +75,8 @@ PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes) {
 
 std::size_t max_payload_bytes(const Modem& modem) {
   const FrameLayout& layout = modem.layout;
-  const std::int64_t most = layout.frame_bytes > 0 ? std::int64_t{layout.frame_bytes} * layout.most_frames
-                                                   : std::int64_t{layout.most_bytes};
+  const std::int64_t most = layout.frame_bytes > 0 ? std::int64_t{layout.frame_bytes} * layout.max_frames
+                                                   : std::int64_t{layout.max_bytes};
   return static_cast<std::size_t>(most);
 }
 

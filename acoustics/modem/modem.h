@@ -27,11 +27,11 @@ enum class ModemProfile { kGeneric, kJanus, kMicromodemFsk, kMicromodemPsk };
 
 // How a packet is put together. A frame is sent whole, however few of its bytes are used.
 struct FrameLayout {
-  std::int32_t header_bits = 0;      // a coded block before the payload that has to be right as well
-  std::int32_t tail_bits = 0;        // that end the code, after every coded block; carry nothing
-  std::int32_t frame_bytes = 0;      // 0: the payload is sent as it is, in no frames
-  std::int32_t most_frames = 0;      // in one packet; read only with frame_bytes above 0
-  std::int32_t most_bytes = 32'768;  // largest payload without frames
+  std::int32_t header_bits = 0;     // a coded block before the payload that has to be right as well
+  std::int32_t tail_bits = 0;       // that end the code, after every coded block; carry nothing
+  std::int32_t frame_bytes = 0;     // 0: the payload is sent as it is, in no frames
+  std::int32_t max_frames = 0;      // in one packet; read only with frame_bytes above 0
+  std::int32_t max_bytes = 32'768;  // largest payload without frames
   bool operator==(const FrameLayout&) const = default;
 };
 
@@ -42,7 +42,7 @@ struct Modem {
   Decibels source_level{185};
   // Cut-off: the least level that is received, dB re 1 uPa over the band, -200..250. 70 dB is 10 dB above the
   // noise of a still sea in the default band (59.3 dB).
-  Decibels least_receivable_level{70};
+  Decibels min_receivable_level{70};
   double centre_frequency_hz = 25'000;  // 10..1e6
   double bandwidth_hz = 5'000;          // above 0, below twice the centre frequency
   Decibels directivity_index{0};        // gain of reception over noise from all around, dB, 0..40

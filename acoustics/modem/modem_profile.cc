@@ -17,7 +17,7 @@ constexpr SimDuration kProbeAndSilence = SimDuration::from_milliseconds(300);  /
 
 struct PskRate {
   int number;
-  std::int32_t frame_bytes, most_frames;
+  std::int32_t frame_bytes, max_frames;
   double bit_rate_bps;
   ErrorModel error_model;
 };
@@ -42,7 +42,7 @@ Modem janus() {
   modem.preamble = SimDuration::from_milliseconds(200);
   modem.preamble_pieces = 32;
   modem.packet_overhead = modem.preamble;
-  modem.layout = {.header_bits = 64, .tail_bits = 8, .most_bytes = 4096};
+  modem.layout = {.header_bits = 64, .tail_bits = 8, .max_bytes = 4096};
   modem.error_model = ErrorModel::kJanus;
   modem.guard_time = kHalfChip;
   return modem;
@@ -58,7 +58,7 @@ Modem micromodem(ModemProfile profile, double bandwidth_hz) {
 Modem micromodem_fsk() {
   Modem modem = micromodem(ModemProfile::kMicromodemFsk, 4'000);
   modem.bit_rate_bps = 80;
-  modem.layout = {.frame_bytes = 32, .most_frames = 1};
+  modem.layout = {.frame_bytes = 32, .max_frames = 1};
   modem.error_model = ErrorModel::kJanus;
   modem.guard_time = kHalfChip;
   modem.doppler_tolerance = 80.0 / 25'000;  // [h]
@@ -72,7 +72,7 @@ Modem micromodem_psk(int psk_rate) {
   Modem modem = micromodem(ModemProfile::kMicromodemPsk, 5'000);
   modem.psk_rate = psk_rate;
   modem.bit_rate_bps = rate->bit_rate_bps;
-  modem.layout = {.frame_bytes = rate->frame_bytes, .most_frames = rate->most_frames};
+  modem.layout = {.frame_bytes = rate->frame_bytes, .max_frames = rate->max_frames};
   modem.error_model = rate->error_model;
   modem.guard_time = SimDuration::from_milliseconds(10);  // [g]
   return modem;

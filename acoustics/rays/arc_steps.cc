@@ -119,19 +119,19 @@ FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
     const double grazing = st * bent_cosine - ct * bent_sine;
     const double leaving =
         grazing * tc - (ct * bent_cosine + st * bent_sine) * ts;  // sin(angle - 2 bent + own)
-    if (grazing > kLeastSine && leaving > kLeastSine) {
+    if (grazing > kMinSine && leaving > kMinSine) {
       sine = bent_sine;
       cosine = bent_cosine;
     } else {
       bend = 0;
     }
   }
-  const double sin_g = std::max(st * cosine - ct * sine, kLeastSine), cos_g = ct * cosine + st * sine;
+  const double sin_g = std::max(st * cosine - ct * sine, kMinSine), cos_g = ct * cosine + st * sine;
   return {sin_g,
           cos_g,
           sine * cos_g - cosine * sin_g,
           cosine * cos_g + sine * sin_g,
-          std::max(grazing_facet, kLeastSine),
+          std::max(grazing_facet, kMinSine),
           bend};
 }
 

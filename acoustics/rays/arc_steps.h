@@ -13,8 +13,8 @@
 
 namespace halocline::acoustics {
 
-inline constexpr double kLeastSine = 1e-9;    // where 1 / sin is taken
-inline constexpr double kLeastCosine = 1e-3;  // steeper than 89.94 degrees a ray counts as turned back
+inline constexpr double kMinSine = 1e-9;    // where 1 / sin is taken
+inline constexpr double kMinCosine = 1e-3;  // steeper than 89.94 degrees a ray counts as turned back
 
 // A ray at one point: range and depth, m; sine of its angle, positive down; Snell's xi = cos / c, s/m. Depth,
 // sine and c = cos / xi belong together.

@@ -16,7 +16,7 @@ constexpr double kOffBoundary = 1e-6;  // m, as in acoustics/rays/layered_path.c
 constexpr double kGiveUp = 0.25;       // of the least factor
 constexpr std::size_t kLossSteps = 64;
 constexpr std::size_t kUsualEvents = 48;  // of one ray: its history rarely has to grow
-constexpr int kMostSteps = 200'000;       // crossings of layers: a guard, never met
+constexpr int kMaxSteps = 200'000;        // crossings of layers: a guard, never met
 
 }  // namespace
 
@@ -38,7 +38,7 @@ ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
   source_layer_ = sea.water.layer_at(source_depth_);
   source_facet_ = sea.profile.facet_at(0);
   source_speed_ = sea.water.speed_at(source_depth_);
-  least_factor_ = kGiveUp * sea.options.min_boundary_factor;
+  min_factor_ = kGiveUp * sea.options.min_boundary_factor;
   const double bottom_speed = sea.water.speed_at(sea.profile.deepest_m());
   bottom_factor_.resize(kLossSteps + 1);
   for (std::size_t i = 0; i <= kLossSteps; ++i) {
@@ -92,13 +92,13 @@ void ArcTracer::cross_knot(State& s, bool down) const {
   s.layer = down ? s.layer + 1 : s.layer - 1;
   s.c = sea_.water.speeds_mps()[down ? s.layer : s.layer + 1];
   const double change = (sea_.water.gradients_per_s()[s.layer] - before) * (down ? 1 : -1);
-  const double kink = s.xi * s.xi * change / std::max(std::abs(s.sine), kLeastSine);
+  const double kink = s.xi * s.xi * change / std::max(std::abs(s.sine), kMinSine);
   s.p -= s.q * kink;
   s.px -= s.qx * kink;
 }
 
 bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
-  const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kLeastSine);
+  const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kMinSine);
   s.c = sea_.water.speeds_mps()[0];
   s.p -= 2 * s.q * s.xi * s.xi * g / sine;
   s.px -= 2 * s.qx * s.xi * s.xi * g / sine;
@@ -110,7 +110,7 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
   const double lost_db = surface_loss_.db_at_sine(std::min(sine, 1.0));
   if (lost_db > 0) ray.factor *= std::exp(-std::numbers::ln10 / 20 * lost_db);
   if (details != nullptr) details->surface_loss_db += lost_db;
-  return ray.factor >= least_factor_;
+  return ray.factor >= min_factor_;
 }
 
 bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
@@ -119,7 +119,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   const FacetBounce bounce = bounce_off(facet, s);
   const double sin_g = bounce.sine, cos_g = bounce.cosine, bend = bounce.bend_per_m;
   const double out_sine = bounce.out_sine, out_cosine = bounce.out_cosine;
-  if (out_cosine < kLeastCosine) return false;
+  if (out_cosine < kMinCosine) return false;
   // As the rays are: they meet the facet itself, and leave it at another angle than they came.
   const double in_s = bounce.facet_sine, in_c = ct * facet.cosine + st * facet.sine;
   // One division for all: it takes as long as a dozen products.
@@ -149,7 +149,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
     details->bottom_phase_rad += one.phase_rad;
     details->bottom_loss_db += one.loss_db();
   }
-  return ray.factor >= least_factor_;
+  return ray.factor >= min_factor_;
 }
 
 void ArcTracer::arrive(const State& s, TracedRay& ray) const {
@@ -160,7 +160,7 @@ void ArcTracer::arrive(const State& s, TracedRay& ray) const {
   ray.q = s.q;
   ray.p = s.p;
   ray.zeta = s.orientation * s.z + 2 * bottom_at_receiver_ * s.images;
-  ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kLeastCosine * kLeastCosine));
+  ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
 }
 
 ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
@@ -213,7 +213,7 @@ bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, Traced
 void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
   State s = start(theta, ray);
   const double shallowest = sea_.profile.shallowest_m();
-  for (int steps = 0; steps < kMostSteps; ++steps) {
+  for (int steps = 0; steps < kMaxSteps; ++steps) {
     const ArcStep step = next_step(sea_.water, s);
     const double left = range_ - s.r;
     const bool near_bottom = sea_.water.depths_m()[s.layer + 1] > shallowest;

@@ -86,7 +86,7 @@ class ArcTracer {
   std::size_t source_layer() const { return source_layer_; }
   std::size_t source_facet() const { return source_facet_; }
   // Rays that bounces leave less of are given up.
-  double least_factor() const { return least_factor_; }
+  double min_factor() const { return min_factor_; }
   // Whether the options exclude a ray launched at `theta` after `bounces`.
   bool is_excluded(double theta, int bounces) const {
     return bounces > sea_.options.max_bounces ||
@@ -112,7 +112,7 @@ class ArcTracer {
 
   ProfiledSea sea_;
   SurfaceLoss surface_loss_;
-  double source_depth_, receiver_depth_, range_, bottom_at_receiver_, source_speed_, least_factor_;
+  double source_depth_, receiver_depth_, range_, bottom_at_receiver_, source_speed_, min_factor_;
   std::size_t source_layer_, source_facet_;
   std::vector<double> bottom_factor_;  // at sines 0..1, evenly: enough to give up faint rays by
 };

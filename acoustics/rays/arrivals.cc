@@ -132,8 +132,8 @@ bool Arrivals::has_direct_path() const {
 
 FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
                          const FollowOne& follow_one, const LookAround& look_around) {
-  constexpr double kMostLostPower = 0.01;    // of all
-  constexpr std::size_t kMostLookedFor = 6;  // more, and a search of all is as quick
+  constexpr double kMaxLostPower = 0.01;    // of all
+  constexpr std::size_t kMaxLookedFor = 6;  // more, and a search of all is as quick
   FollowedRays now;
   now.paths.reserve(before.size());
   std::vector<Arrival> lost;
@@ -141,8 +141,8 @@ FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& o
     if (!follow_one(path, now.paths)) lost.push_back(path);
   }
   lost.resize(unexplained(lost));
-  now.complete = lost.empty() || power_of(lost) <= kMostLostPower * power_of(before);
-  if (!now.complete && look_around && lost.size() <= kMostLookedFor) {
+  now.complete = lost.empty() || power_of(lost) <= kMaxLostPower * power_of(before);
+  if (!now.complete && look_around && lost.size() <= kMaxLookedFor) {
     for (const Arrival& path : lost) look_around(path, now.paths);
     now.complete = true;
   }

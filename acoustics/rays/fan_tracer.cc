@@ -7,13 +7,13 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr std::size_t kLossSteps = 64;
-constexpr double kMostLossOfABounceDb = 400;
+constexpr double kMaxLossOfABounceDb = 400;
 constexpr double kGiveUpDb = 6;             // beyond what a path may lose
-constexpr int kMostSteps = 200'000;         // arcs of one ray: a guard, never met
+constexpr int kMaxSteps = 200'000;          // arcs of one ray: a guard, never met
 constexpr std::size_t kUsualEvents = 4096;  // of one search
 
 double away_from_zero(double sine) {
-  return std::abs(sine) > kLeastSine ? sine : std::copysign(kLeastSine, sine);
+  return std::abs(sine) > kMinSine ? sine : std::copysign(kMinSine, sine);
 }
 
 double interpolated(const std::vector<double>& table, double sine) {
@@ -41,7 +41,7 @@ FanTracer::FanTracer(const ArcTracer& exact)
       column_(water_, profile_.shallowest_m(), profile_.deepest_m()),
       range_(exact.range_m()),
       shallowest_(profile_.shallowest_m()),
-      most_loss_db_(kGiveUpDb - 20 * std::log10(exact.sea().options.min_boundary_factor)),
+      max_loss_db_(kGiveUpDb - 20 * std::log10(exact.sea().options.min_boundary_factor)),
       steepest_rise_(0) {
   events_.reserve(kUsualEvents);
   for (const Facet& facet : profile_.facets()) steepest_rise_ = std::max(steepest_rise_, -facet.sine);
@@ -51,7 +51,7 @@ FanTracer::FanTracer(const ArcTracer& exact)
   for (std::size_t i = 0; i <= kLossSteps; ++i) {
     const double sine = std::max(static_cast<double>(i) / static_cast<double>(kLossSteps), 1e-3);
     const double bottom_db = -20 * std::log10(bottom_magnitude_at_sine(sea.bottom, sine, speed));
-    bottom_loss_db_.push_back(std::min(bottom_db, kMostLossOfABounceDb));
+    bottom_loss_db_.push_back(std::min(bottom_db, kMaxLossOfABounceDb));
     surface_loss_db_.push_back(sine *
                                surface_loss_db(sea.surface, std::asin(sine), sea.options.frequency_hz));
   }
@@ -91,7 +91,7 @@ void FanTracer::go_part(State& s, double dr) {
 
 bool FanTracer::bounce(State& s, const Facet& facet) const {
   const FacetBounce one = bounce_off(facet, s);
-  if (one.out_cosine < kLeastCosine) return false;
+  if (one.out_cosine < kMinCosine) return false;
   const double g = water_.gradients_per_s()[s.layer], ct = s.xi * s.c;
   // One division for all: it takes as long as a dozen products.
   const double per_all = 1 / (s.c * one.facet_sine * one.out_cosine), per_in = per_all * one.out_cosine;
@@ -120,14 +120,14 @@ bool FanTracer::go_to_bottom(State& s, ArcHit hit) {
   s.facet = hit.facet;
   s.on_facet = true;
   events_.push_back({RayEvent::kBottom, facet.smooth_group});
-  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= most_loss_db_;
+  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= max_loss_db_;
 }
 
 bool FanTracer::meet_surface(State& s, double sine) {
   s.orientation = -s.orientation;
   events_.push_back({RayEvent::kSurface, 0});
-  s.loss_db += interpolated(surface_loss_db_, sine) / std::max(sine, kLeastSine);
-  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= most_loss_db_;
+  s.loss_db += interpolated(surface_loss_db_, sine) / std::max(sine, kMinSine);
+  return !exact_.is_excluded(s.theta, ++s.bounces) && s.loss_db <= max_loss_db_;
 }
 
 bool FanTracer::go_to_knot(State& s, const ArcStep& step) {
@@ -205,7 +205,7 @@ bool FanTracer::run_through_layers(State& s, std::size_t knot) {
 }
 
 void FanTracer::follow(State& s, FanRay& ray) {
-  for (int steps = 0; steps < kMostSteps; ++steps) {
+  for (int steps = 0; steps < kMaxSteps; ++steps) {
     if (s.hits) {
       if (!go_to_bottom(s, s.hit)) return;
       continue;
@@ -219,7 +219,7 @@ void FanTracer::follow(State& s, FanRay& ray) {
       go_part(s, left);
       ray.arrived = true;
       ray.zeta = s.orientation * s.z + 2 * exact_.bottom_at_receiver_m() * s.images;
-      ray.zeta_slope = s.q / std::sqrt(std::max(1 - s.sine * s.sine, kLeastCosine * kLeastCosine));
+      ray.zeta_slope = s.q / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
       return;
     } else if (!go_to_knot(s, step)) {
       return;

@@ -65,9 +65,9 @@ class FanTracer {
   const RayWater& water_;
   const BottomProfile& profile_;
   RayColumn column_;
-  std::vector<EventCode> events_;                             // of all rays
-  double range_, shallowest_, most_loss_db_, steepest_rise_;  // of the bottom, sine
-  std::vector<double> bottom_loss_db_;                        // at sines 0..1, evenly
+  std::vector<EventCode> events_;                            // of all rays
+  double range_, shallowest_, max_loss_db_, steepest_rise_;  // of the bottom, sine
+  std::vector<double> bottom_loss_db_;                       // at sines 0..1, evenly
   std::vector<double> surface_loss_db_;  // times the sine, which makes an even curve of the bubbles' 1 / sine
 };
 

@@ -40,8 +40,8 @@ class ImageSum {
         up_(std::min(link.source_depth_m, link.receiver_depth_m)),
         between_(std::abs(link.source_depth_m - link.receiver_depth_m)),
         down_(sea.bottom_depth_m - std::max(link.source_depth_m, link.receiver_depth_m)),
-        least_sine_(std::sin(sea.options.max_launch_angle_rad)),
-        steepest_factor_(bottom_magnitude_at_sine(sea.bottom, least_sine_, speed_)),
+        min_sine_(std::sin(sea.options.max_launch_angle_rad)),
+        steepest_factor_(bottom_magnitude_at_sine(sea.bottom, min_sine_, speed_)),
         absorption_up_(mean_absorption_over(0, up_)),
         absorption_between_(mean_absorption_over(up_, up_ + between_)),
         absorption_down_(mean_absorption_over(up_ + between_, sea.bottom_depth_m)),
@@ -83,7 +83,7 @@ class ImageSum {
   const FlatSea& sea_;
   double range_, speed_;
   bool source_is_upper_;
-  double up_, between_, down_, least_sine_, steepest_factor_;
+  double up_, between_, down_, min_sine_, steepest_factor_;
   double absorption_up_, absorption_between_, absorption_down_, absorption_level_;  // dB/m
   std::array<std::array<bool, 2>, 4> order_{};
   std::vector<Arrival> paths_;
@@ -104,7 +104,7 @@ bool ImageSum::add(const Image& image) {
   if (surface + bottom > options.max_bounces) return false;
   const double length = std::max(std::sqrt(range_ * range_ + image.drop_m * image.drop_m), 1e-6);
   const double sine = image.drop_m / length;
-  if (surface + bottom > 0 && sine > least_sine_) return false;
+  if (surface + bottom > 0 && sine > min_sine_) return false;
   const Reflection one = bottom > 0 ? bottom_reflection_at_sine(sea_.bottom, sine, speed_) : Reflection{};
   double factor = power(one.magnitude, bottom);
   if (factor < options.min_boundary_factor) {

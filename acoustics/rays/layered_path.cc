@@ -78,7 +78,7 @@ void set_spreading(const LayeredLink& link, const LayeredSpans& spans, const Lay
   const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
   const double sines =
       spans.sine_at(link.source_speed_mps, ray.sine) * spans.sine_at(link.receiver_speed_mps, ray.sine);
-  const double tube = q * std::max(std::abs(m), ray.least_slope) * sines;
+  const double tube = q * std::max(std::abs(m), ray.min_slope) * sines;
   path.amplitude *= std::sqrt(link.source_speed_mps * link.receiver_speed_mps / tube);
   path.caustics = caustics_of(bounces, m);
   path.phase_rad = std::fmod(path.phase_rad + path.caustics * pi / 2, 2 * pi);

@@ -51,7 +51,7 @@ struct LayeredRay {
   Family family;
   int cycles;
   double sine, cosine;
-  double least_slope = 0;  // of |dr/dxi|, near a fold; 0 elsewhere
+  double min_slope = 0;  // of |dr/dxi|, near a fold; 0 elsewhere
 };
 
 // Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays err

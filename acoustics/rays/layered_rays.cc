@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kNoFold = -1;            // no angle
-constexpr double kLeastAngle = 1e-9;      // rad at the barrier: where tables begin
+constexpr double kMinAngle = 1e-9;        // rad at the barrier: where tables begin
 constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
 constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
 constexpr double kNearFold = 0.2;         // of f: a turn nearer to a whole number is sought out exactly
@@ -73,7 +73,7 @@ class Search {
   // them, or kNoFold.
   void solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta);
   void polish(const Bracket& bracket, std::size_t family, int cycles);
-  bool too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const;
+  bool too_faint(const Node& a, const Node& b, std::size_t family, double min_f) const;
   bool seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const;
   double fold_slope(const Bracket& bracket, double range_slope, double xi) const;
 
@@ -130,11 +130,11 @@ void Search::scan_interval() {
                      : pi / 2;
   double to = next > 0 ? theta_reaching(next) : pi / 2;
   past_steepest_ = next <= 0;
-  const double limit = direct_only_ ? kLeastAngle : std::min(to, steepest);
-  if (limit > kLeastAngle) refine(node_at(kLeastAngle), node_at(limit), 0);
+  const double limit = direct_only_ ? kMinAngle : std::min(to, steepest);
+  if (limit > kMinAngle) refine(node_at(kMinAngle), node_at(limit), 0);
   if (limit >= to) return;
   direct_only_ = true;
-  refine(node_at(std::max(limit, kLeastAngle)), node_at(to), 0);
+  refine(node_at(std::max(limit, kMinAngle)), node_at(to), 0);
 }
 
 Node Search::node_at(double theta) const {
@@ -152,9 +152,9 @@ Node Search::node_at(double theta) const {
   return node;
 }
 
-bool Search::too_faint(const Node& a, const Node& b, std::size_t family, double least_f) const {
+bool Search::too_faint(const Node& a, const Node& b, std::size_t family, double min_f) const {
   if (direct_only_) return family != 0;
-  const int below = std::max(0, static_cast<int>(std::ceil(least_f))) + (kFamilies[family].down ? 1 : 0);
+  const int below = std::max(0, static_cast<int>(std::ceil(min_f))) + (kFamilies[family].down ? 1 : 0);
   const double log_factor = std::max(a.log_factor, b.log_factor);
   return below * log_factor < link_.log_min_factor - kMarginOfFactor;
 }
@@ -272,7 +272,7 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     theta = next > low && next < high ? next : 0.5 * (low + high);
     if (high - low < 1e-15 * high) break;
   }
-  ray.least_slope = fold_slope(bracket, t.bm + cycles * t.xm, sums.xi);
+  ray.min_slope = fold_slope(bracket, t.bm + cycles * t.xm, sums.xi);
   const bool trapped = cycles > 0 && !spans_.meets_surface() && !spans_.meets_bottom();
   const double wavelength = 2 * pi * spans_.barrier_mps() / omega_;
   if (trapped && spans_.height_of_swing_m(sums.xi) < wavelength) return;

@@ -9,15 +9,15 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kThinnestSlab = 1e-9;       // m
-constexpr double kLeastSquaredSine = 1e-28;  // keeps a ray that just grazes finite
+constexpr double kThinnestSlab = 1e-9;     // m
+constexpr double kMinSquaredSine = 1e-28;  // keeps a ray that just grazes finite
 
 // Sine of a ray's angle where the speed is c, from its squared sine at the barrier (see the header).
 struct SineAt {
   double barrier, inverse_barrier_squared, squared_sine;
   double operator()(double c) const {
     const double exact = ((barrier - c) * (barrier + c) + squared_sine * c * c) * inverse_barrier_squared;
-    return std::sqrt(std::max(exact, kLeastSquaredSine));
+    return std::sqrt(std::max(exact, kMinSquaredSine));
   }
 };
 

@@ -18,7 +18,7 @@ constexpr double kPeakPhase = 2.0 / 3 * 0.555 * 0.555 * 0.555 / 4;
 
 // Least |q| of a ray `theta` beside a fold: off it by `off`, zeta = zeta_e + zeta'' off^2 / 2, the two rays differ in
 // time by (2/3) p cos zeta'' off^3.
-double least_tube(const TracedRay& ray, double theta, const Fold& fold, double frequency_hz) {
+double min_tube(const TracedRay& ray, double theta, const Fold& fold, double frequency_hz) {
   if (fold.none() || theta == fold.theta) return 0;
   const double cosine = std::sqrt(1 - ray.sine * ray.sine);
   const double bend = std::min(std::abs(ray.q / (cosine * (theta - fold.theta))), 2 * fold.bend);
@@ -37,7 +37,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
   if (!ray.arrived || ray.factor < options.min_boundary_factor) return;
   if (ray.surface_bounces + ray.bottom_bounces > options.max_bounces) return;
   if (std::abs(ray.zeta - target) > kFarOff) return;
-  const double tube = std::max(std::abs(ray.q), least_tube(ray, theta, fold, options.frequency_hz));
+  const double tube = std::max(std::abs(ray.q), min_tube(ray, theta, fold, options.frequency_hz));
   const double speed = std::sqrt(1 - ray.sine * ray.sine) / ray.xi;
   Arrival path;
   // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.

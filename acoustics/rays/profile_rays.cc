@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounce
-constexpr double kLeastParting = 1e-11;        // rad: between the rays on both sides of a parting
+constexpr double kMinParting = 1e-11;          // rad: between the rays on both sides of a parting
 constexpr double kNextToEachOther = 4e-9;      // rad: the two rays of a fan beside one that grazes a knot
 constexpr int kDeepestHalving = 14;
 constexpr int kDeepestEdgeHalving = 7;    // towards where rays become too faint
@@ -30,8 +30,8 @@ constexpr double kDepthTolerance = 1e-4;     // m before the last step of Newton
 constexpr double kLastStepTolerance = 1e-5;  // m after it, as foreseen
 constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from where it turns
 constexpr double kFoldZone = 0.01;  // of the water depth: further from all images a turn need not be exact
-constexpr int kMostTurnSteps = 40;
-constexpr int kMostTraces = 200'000;  // of one link: a guard against water of endless detail
+constexpr int kMaxTurnSteps = 40;
+constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of endless detail
 
 class Search {
  public:
@@ -135,7 +135,7 @@ void Search::scan(const FanRay& a, const FanRay& b, int depth) {
 
 void Search::look_between(const FanRay& a, const FanRay& b, int depth) {
   if (!a.arrived && !b.arrived) return;
-  if (b.theta - a.theta < 4 * kLeastParting || traces_ > kMostTraces) return;
+  if (b.theta - a.theta < 4 * kMinParting || traces_ > kMaxTraces) return;
   const auto event = parting(a, b);
   if (depth == 0 && b.theta - a.theta < kNextToEachOther) {
     if (!event && a.arrived && b.arrived) solve_monotone(a, b, Fold{});
@@ -158,7 +158,7 @@ void Search::look_between(const FanRay& a, const FanRay& b, int depth) {
 
 void Search::part(const FanRay& a, const FanRay& b, std::size_t event, int depth) {
   FanRay low = a, high = b;
-  while (high.theta - low.theta > kLeastParting && traces_ <= kMostTraces) {
+  while (high.theta - low.theta > kMinParting && traces_ <= kMaxTraces) {
     FanRay middle = traced(0.5 * (low.theta + high.theta));
     std::swap(shares_event(middle, a, event) ? low : high, middle);
   }
@@ -225,7 +225,7 @@ bool Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
   double low = first.theta, high = last.theta, at_low = first.zeta_slope, at_high = last.zeta_slope;
   const bool rises_at_low = rises(first);
   double width = high - low;
-  for (int i = 1; i <= kMostTurnSteps; ++i) {
+  for (int i = 1; i <= kMaxTurnSteps; ++i) {
     const bool slow = i % 3 == 0 && high - low > 0.25 * std::exchange(width, high - low);
     const double share = slow ? 0.5 : std::clamp(at_low / (at_low - at_high), 1e-3, 1 - 1e-3);
     FanRay middle = traced(low + share * (high - low));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFar = 1e9;               // m: where the level pieces at both ends stop
 constexpr double kLongestInDepths = 2;     // of a facet that samples a curve, in depths of the water there
-constexpr double kLeastShareOfBend = 0.5;  // of a bend that the ones beside it have where a curve is sampled
+constexpr double kMinShareOfBend = 0.5;    // of a bend that the ones beside it have where a curve is sampled
 constexpr double kPatienceAmongBends = 3;  // there facets may be that much longer and turn that much more
 
 Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {
@@ -71,7 +71,7 @@ bool BottomProfile::is_bend(std::size_t i) const {
   };
   const auto length = [](const Facet& facet) { return facet.r1 - facet.r0; };
   const double turn = turn_at(i);
-  const bool among_bends = std::min(turn_at(i - 1) / turn, turn_at(i + 1) / turn) >= kLeastShareOfBend;
+  const bool among_bends = std::min(turn_at(i - 1) / turn, turn_at(i + 1) / turn) >= kMinShareOfBend;
   const double patience = among_bends ? kPatienceAmongBends : 1;
   return std::abs(turn) <= patience * crease_ &&
          std::max(length(facets_[i - 1]), length(facets_[i])) <= patience * kLongestInDepths * facets_[i].z0;

@@ -55,8 +55,8 @@ const double kDecibelsPerLossParameter = 40 * pi * std::numbers::log10e;
 constexpr double kGravity = 9.8;          // m/s^2, as the wave spectrum was fitted
 constexpr double kWaveModelSpeed = 1500;  // m/s, of Gamma
 constexpr double kKnotsPerMps = 1.94384;  // as Coates's form is commonly evaluated
-constexpr double kLeastGrazing = 1e-9;    // rad: the bubble law has 1 / sin G
-constexpr double kGreatestLoss = 400;     // dB: beyond it a bounce leaves nothing
+constexpr double kMinGrazing = 1e-9;      // rad: the bubble law has 1 / sin G
+constexpr double kMaxLoss = 400;          // dB: beyond it a bounce leaves nothing
 
 // The square root with a positive imaginary part: the wave in the bottom dies away downward.
 struct Root {
@@ -209,7 +209,7 @@ std::optional<SurfaceModel> surface_model_from_name(std::string_view name) {
 double rms_wave_height_m(double wind_mps) { return 0.22 * wind_mps * wind_mps / (4 * kGravity); }
 
 double surface_loss_db(const RaySurface& surface, double grazing_rad, double frequency_hz) {
-  const double khz = hz_to_khz(frequency_hz), grazing = std::max(grazing_rad, kLeastGrazing);
+  const double khz = hz_to_khz(frequency_hz), grazing = std::max(grazing_rad, kMinGrazing);
   switch (surface.model) {
     case SurfaceModel::kFlat:
       return 0;
@@ -233,15 +233,15 @@ SurfaceLoss::SurfaceLoss(const RaySurface& surface, double frequency_hz)
 double SurfaceLoss::db_at_sine(double sine) const {
   if (surface_.model == SurfaceModel::kFlat) return 0;
   const double loss = surface_.model == SurfaceModel::kAplBubbles
-                          ? bubbles_db_ / std::max(sine, kLeastGrazing)
+                          ? bubbles_db_ / std::max(sine, kMinGrazing)
                           : surface_loss_db(surface_, std::asin(sine), frequency_hz_);
-  return std::min(loss, kGreatestLoss);
+  return std::min(loss, kMaxLoss);
 }
 
 double surface_magnitude(const RaySurface& surface, double grazing_rad, double frequency_hz) {
   if (surface.model == SurfaceModel::kFlat) return 1;
   if (surface.model == SurfaceModel::kAplBubbles && surface.wind_mps <= 0) return 1;
-  return std::pow(10.0, -std::min(surface_loss_db(surface, grazing_rad, frequency_hz), kGreatestLoss) / 20);
+  return std::pow(10.0, -std::min(surface_loss_db(surface, grazing_rad, frequency_hz), kMaxLoss) / 20);
 }
 
 }  // namespace halocline::acoustics

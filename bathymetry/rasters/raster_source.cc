@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kTurnDeg = 360;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kMostPostsRead = std::int64_t{1} << 28;  // 1 GiB of floats
+constexpr std::int64_t kMaxPostsRead = std::int64_t{1} << 28;  // 1 GiB of floats
 
 // x = origin_x + step_x column + skew_x row, y = origin_y + skew_y column + step_y row: at posts, not pixel
 // edges.
@@ -225,19 +225,19 @@ RasterWindow RasterSource::read(const PixelPosition& low, const PixelPosition& h
     return static_cast<int>(std::clamp(value, least, most));
   };
   // A global raster may be entered from either side of its seam, by no more than a turn.
-  const double least_column = s.period > 0 ? -s.period : 0,
-               most_column = s.period > 0 ? 2 * s.period : s.columns - 1;
-  const int first_column = bounded(std::floor(low.column), least_column, most_column);
-  const int last_column = bounded(std::ceil(high.column), least_column, most_column);
+  const double min_column = s.period > 0 ? -s.period : 0,
+               max_column = s.period > 0 ? 2 * s.period : s.columns - 1;
+  const int first_column = bounded(std::floor(low.column), min_column, max_column);
+  const int last_column = bounded(std::ceil(high.column), min_column, max_column);
   const int first_row = bounded(std::floor(low.row), 0, s.rows - 1);
   const int last_row = bounded(std::ceil(high.row), 0, s.rows - 1);
   RasterWindow window{first_column, first_row, last_column - first_column + 1, last_row - first_row + 1, {}};
   const bool apart =
-      high.column < least_column || low.column > most_column || high.row < 0 || low.row > s.rows - 1;
+      high.column < min_column || low.column > max_column || high.row < 0 || low.row > s.rows - 1;
   if (apart || std::isnan(low.column)) return {};
   const std::int64_t posts = std::int64_t{window.columns} * window.rows;
-  require(posts <= kMostPostsRead, s.options.path + ": the scenario covers " + std::to_string(posts) +
-                                       " posts of the raster, more than 2^28; take a smaller domain");
+  require(posts <= kMaxPostsRead, s.options.path + ": the scenario covers " + std::to_string(posts) +
+                                      " posts of the raster, more than 2^28; take a smaller domain");
   window.depths_m.resize(static_cast<std::size_t>(posts));
   for (int column = first_column; column <= last_column;) {
     const int wrapped = s.period > 0 ? ((column % s.period) + s.period) % s.period : column;

@@ -11,14 +11,14 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr double kMostCells = 32'768;  // each way
+constexpr double kMaxCells = 32'768;  // each way
 
 double cells(double size_m, double spacing_m) { return std::round(size_m / spacing_m); }
 
 bool is_whole_multiple(double size_m, double spacing_m) {
   constexpr double kDecimalTolerance = 1e-6;  // of a cell: sizes are written in decimals
   const double count = size_m / spacing_m;
-  return count >= 1 && count <= kMostCells && std::abs(count - std::round(count)) <= kDecimalTolerance;
+  return count >= 1 && count <= kMaxCells && std::abs(count - std::round(count)) <= kDecimalTolerance;
 }
 
 // GDAL's own names ("NETCDF:...", "/vsi...") and absolute paths are taken as they are.

@@ -10,7 +10,7 @@ namespace halocline::bathymetry {
 namespace {
 
 // Deeper than any sea, higher than any mountain.
-constexpr double kGreatestDepthM = 12'000;
+constexpr double kMaxDepthM = 12'000;
 
 double gaussian(double distance_m, double scale_m) {
   const double d = distance_m / scale_m;
@@ -35,9 +35,7 @@ double depth_at(const SeamountShape& mount, double x_m, double y_m) {
   return mount.depth_m - mount.height_m * gaussian(distance, mount.radius_m);
 }
 
-void require_depth(double depth_m) {
-  require_in_range(depth_m, -kGreatestDepthM, kGreatestDepthM, "depth_m", "m");
-}
+void require_depth(double depth_m) { require_in_range(depth_m, -kMaxDepthM, kMaxDepthM, "depth_m", "m"); }
 
 void require_possible(const FlatShape& flat) { require_depth(flat.depth_m); }
 
@@ -49,14 +47,14 @@ void require_possible(const SlopeShape& slope) {
 
 void require_possible(const RidgeShape& ridge) {
   require_depth(ridge.depth_m);
-  require_in_range(ridge.height_m, -kGreatestDepthM, kGreatestDepthM, "height_m of the ridge", "m");
+  require_in_range(ridge.height_m, -kMaxDepthM, kMaxDepthM, "height_m of the ridge", "m");
   require_in_range(ridge.half_width_m, 1e-3, 1e6, "half_width_m of the ridge", "m");
   require_finite(ridge.crest_x_m + ridge.crest_y_m + ridge.azimuth_rad, "crest of the ridge");
 }
 
 void require_possible(const SeamountShape& mount) {
   require_depth(mount.depth_m);
-  require_in_range(mount.height_m, -kGreatestDepthM, kGreatestDepthM, "height_m of the seamount", "m");
+  require_in_range(mount.height_m, -kMaxDepthM, kMaxDepthM, "height_m of the seamount", "m");
   require_in_range(mount.radius_m, 1e-3, 1e6, "radius_m of the seamount", "m");
   require_finite(mount.summit_x_m + mount.summit_y_m, "summit of the seamount");
 }

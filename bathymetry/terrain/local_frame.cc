@@ -8,10 +8,10 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr double kMostLatitudeDeg = 89.9;  // at the poles north has no direction
+constexpr double kMaxLatitudeDeg = 89.9;  // at the poles north has no direction
 
 double checked_latitude(double latitude_rad) {
-  require_in_range(to_degrees(latitude_rad), -kMostLatitudeDeg, kMostLatitudeDeg, "latitude of the origin",
+  require_in_range(to_degrees(latitude_rad), -kMaxLatitudeDeg, kMaxLatitudeDeg, "latitude of the origin",
                    "degrees");
   return latitude_rad;
 }

@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/ray_carry.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 
 namespace halocline::acoustics {
 namespace {

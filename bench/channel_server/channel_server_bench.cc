@@ -4,8 +4,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "channel_server/links/echo_book.h"
 #include "channel_server/links/link_table.h"
+#include "channel_server/links/multipath_cache.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/ray_propagation.h"
 
@@ -17,7 +17,7 @@ constexpr double kSpeedMps = 2;
 Vec3 start_of(VehicleId id) { return {150.0 * id, 70.0 * (id % 5), 20.0 + 7 * id}; }
 
 // States ten times a second over the last ten seconds before `end`.
-void hear_fleet(Fleet& fleet, int vehicles, SimTime end) {
+void hear_fleet(VehicleRegistry& fleet, int vehicles, SimTime end) {
   for (VehicleId id = 1; id <= vehicles; ++id) {
     for (int tick = -100; tick <= 0; ++tick) {
       const SimTime time = end + SimDuration::from_milliseconds(100) * tick;
@@ -31,9 +31,9 @@ void hear_fleet(Fleet& fleet, int vehicles, SimTime end) {
 // All ordered pairs of a fleet, positions and echoes looked up, as for one tick of LINKS.
 void link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
-  Fleet fleet({}, {});
+  VehicleRegistry fleet({}, {});
   StraightPropagation propagation(acoustics::Environment{});
-  EchoBook book(5);
+  MultipathCache book(5);
   const SimTime end = SimTime::from_seconds(100);
   hear_fleet(fleet, vehicles, end);
   SimTime now = end;
@@ -54,7 +54,7 @@ double seamount_z_m(const Vec3& place) {
   return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
 }
 
-void tell_bottoms(ProfileBook& book, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
+void tell_bottoms(SeabedProfileCache& book, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
   for (const VehiclePair& pair : book.take_geometry(vehicles)) {
     ProfileSurvey survey = book.survey_of(pair);
     std::vector<RayAnswer> answers;
@@ -71,7 +71,7 @@ void tell_bottoms(ProfileBook& book, const std::vector<PlacedVehicle>& vehicles,
 // pair's paths are searched. Items are links (both ways of a pair share a search).
 void ray_link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
-  const auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+  const auto bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
   RayPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), bottoms, {});
   const VehicleModem modem;
   std::vector<PlacedVehicle> placed;
@@ -101,7 +101,7 @@ BENCHMARK(ray_link_table)->Arg(3)->Arg(20)->Unit(benchmark::kMillisecond);
 // (vehicles - 1) receivers.
 void packet(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
-  Fleet fleet({}, {});
+  VehicleRegistry fleet({}, {});
   StraightPropagation propagation(acoustics::Environment{});
   PacketMedium medium(fleet, propagation, {});
   SimTime now = SimTime::from_seconds(100);
@@ -133,7 +133,7 @@ BENCHMARK(packet)->Arg(3)->Arg(20)->Arg(100);
 // packets overlap. Items are packets; each ends at (vehicles - 1) receivers.
 void packets_that_overlap(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
-  Fleet fleet({}, {});
+  VehicleRegistry fleet({}, {});
   StraightPropagation propagation(acoustics::Environment{});
   PacketMedium medium(fleet, propagation, {});
   SimTime now = SimTime::from_seconds(100);

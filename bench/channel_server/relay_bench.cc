@@ -133,7 +133,7 @@ void delivery_error(benchmark::State& state) {
   };
   state.counters["p50_us"] = percentile(0.5);
   state.counters["p99_us"] = percentile(0.99);
-  state.counters["greatest_us"] = errors_us.back();
+  state.counters["max_us"] = errors_us.back();
   state.counters["lost"] = static_cast<double>(lost);
 }
 BENCHMARK(delivery_error)->Iterations(400)->UseManualTime()->Unit(benchmark::kMicrosecond);

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "bus/lockstep/answer_timer.h"
 #include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_wire.h"
+#include "bus/lockstep/retransmission_timer.h"
 #include "bus/lockstep/sequencer.h"
 
 namespace halocline::conductor {
@@ -81,7 +81,7 @@ class LockstepConductor {
     lockstep_join_t join;
     TakeTurn take;  // lives in this process
     SimTime last_heard;
-    AnswerTimer timer;
+    RetransmissionTimer timer;
     bus::Bytes body;  // of the turns granted to it and not answered
     std::int32_t turns_in_body = 0;
     bus::SliceCollector answer;

@@ -37,7 +37,7 @@ void LockstepParticipant::take(const std::vector<lockstep_turn_t>& turns, std::i
     result = take_(turn);
     ++turns_taken_;
     reached_ = SimTime::from_nanoseconds(result.reached_ns);
-    if (turn.farewell != 0) state_ = State::kSaidGoodbye;
+    if (turn.farewell != 0) state_ = State::kLeft;
   }
   if (past) {  // known to the conductor, which compares digests
     result.said.clear();
@@ -73,7 +73,7 @@ void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime ste
       return;
     case lockstep_notice_t::PUT_OUT:
       reason_ = notice.reason;
-      state_ = State::kPutOut;
+      state_ = State::kExpelled;
       return;
     default:
       if (join_.run_id == 0 || notice.run_id == join_.run_id) state_ = State::kOver;
@@ -82,7 +82,7 @@ void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime ste
 
 void LockstepParticipant::on_timer(SimTime steady) {
   if (has_ended() || steady < next_join_) return;
-  if (state_ == State::kSaidGoodbye && steady > last_heard_ + kLinger) {
+  if (state_ == State::kLeft && steady > last_heard_ + kLinger) {
     state_ = State::kOver;
     return;
   }

@@ -30,7 +30,7 @@ class LockstepParticipant {
     std::function<void(const lockstep_answer_t&)> answer;
   };
   using TakeTurn = std::function<lockstep_result_t(const lockstep_turn_t&)>;
-  enum class State { kJoining, kTakingPart, kSaidGoodbye, kOver, kPutOut };
+  enum class State { kJoining, kTakingPart, kLeft, kOver, kExpelled };
 
   // `introduction`: LockstepTurns::introduction with a life; `take` throws what ends the participant.
   LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Mouth mouth);
@@ -44,7 +44,7 @@ class LockstepParticipant {
   void ask_to_leave();
 
   State state() const { return state_; }
-  bool has_ended() const { return state_ == State::kOver || state_ == State::kPutOut; }
+  bool has_ended() const { return state_ == State::kOver || state_ == State::kExpelled; }
   // Why it was put out.
   const std::string& reason() const { return reason_; }
   // Simulation time of its last turn.

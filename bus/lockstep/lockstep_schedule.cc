@@ -11,7 +11,7 @@ namespace halocline::bus {
 namespace {
 
 // A chain of answers to answers at one instant is a handful; this many means that it never ends.
-constexpr int kMostPassesPerInstant = 100'000;
+constexpr int kMaxPassesPerInstant = 100'000;
 constexpr int kFirstStage = std::numeric_limits<int>::min();
 
 bool is_due(const LockstepSeat& seat, SimTime now) { return seat.must_hear || seat.due <= now; }
@@ -44,7 +44,7 @@ std::vector<std::size_t> LockstepSchedule::round(std::span<const LockstepSeat> s
   auto first = first_from(next_stage_);
   if (first == seats.end()) {
     first = first_from(kFirstStage);
-    if (++passes_ == kMostPassesPerInstant) {
+    if (++passes_ == kMaxPassesPerInstant) {
       throw std::runtime_error(
           "nodes keep each other busy without end at t=" + std::to_string(now_.seconds()) + " s");
     }

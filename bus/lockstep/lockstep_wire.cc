@@ -8,10 +8,10 @@
 namespace halocline::bus {
 namespace {
 
-constexpr int kMostSlices = 10'000;  // half a gigabyte; a body that says more is corrupt
+constexpr int kMaxSlices = 10'000;  // half a gigabyte; a body that says more is corrupt
 
 std::string problem_in_slices(int number, int count) {
-  if (count < 1 || count > kMostSlices) return "slice_count is impossible";
+  if (count < 1 || count > kMaxSlices) return "slice_count is impossible";
   return number >= 0 && number < count ? "" : "slice_number is impossible";
 }
 
@@ -59,12 +59,12 @@ std::string problem_in(const lockstep_notice_t& m) {
 }
 
 int slice_count(std::size_t body_bytes) {
-  return static_cast<int>(std::max<std::size_t>(1, (body_bytes + kMostSliceBytes - 1) / kMostSliceBytes));
+  return static_cast<int>(std::max<std::size_t>(1, (body_bytes + kMaxSliceBytes - 1) / kMaxSliceBytes));
 }
 
 std::span<const std::uint8_t> slice_of(const Bytes& body, int number) {
-  const std::size_t start = static_cast<std::size_t>(number) * kMostSliceBytes;
-  return std::span(body).subspan(start, std::min(kMostSliceBytes, body.size() - start));
+  const std::size_t start = static_cast<std::size_t>(number) * kMaxSliceBytes;
+  return std::span(body).subspan(start, std::min(kMaxSliceBytes, body.size() - start));
 }
 
 std::optional<Bytes> SliceCollector::add(std::int64_t key, int number, int count, const Bytes& slice) {

@@ -26,7 +26,7 @@ inline constexpr std::string_view kLockstepJoin = "LOCKSTEP_JOIN";
 }  // namespace channels
 
 // Leaves room for the heads of the slice and of LCM below the 65 507 bytes of a UDP datagram.
-inline constexpr std::size_t kMostSliceBytes = 56'000;
+inline constexpr std::size_t kMaxSliceBytes = 56'000;
 
 // How many slices a body takes, one at least, and the bytes of one.
 int slice_count(std::size_t body_bytes);

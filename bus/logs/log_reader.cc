@@ -97,7 +97,7 @@ void LogReader::note(const Damage& damage) {
   const auto bytes = static_cast<std::int64_t>(damage.size);
   truncated_ = truncated_ || damage.cut_short;
   if (!damage.cut_short) bytes_skipped_ += bytes;
-  if (bad_.size() < kMostStretchesKept)
+  if (bad_.size() < kMaxStretchesKept)
     bad_.push_back({next_file_ - 1, static_cast<std::int64_t>(damage.offset), bytes, damage.cut_short});
 }
 

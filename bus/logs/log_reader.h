@@ -35,7 +35,7 @@ struct BadStretch {
 
 class LogReader {
  public:
-  static constexpr std::size_t kMostStretchesKept = 10'000;
+  static constexpr std::size_t kMaxStretchesKept = 10'000;
 
   // Throws InvalidArgument for a file that cannot be read, and for one that is no LCM log.
   explicit LogReader(const std::string& path) : LogReader(std::vector<std::string>{path}) {}
@@ -45,7 +45,7 @@ class LogReader {
   bool next(LoggedEvent& event);
 
   const std::vector<std::string>& files() const { return files_; }
-  // What was met so far, in order; not more than kMostStretchesKept.
+  // What was met so far, in order; not more than kMaxStretchesKept.
   const std::vector<BadStretch>& bad_stretches() const { return bad_; }
   std::int64_t bytes_skipped() const {
     return bytes_skipped_;

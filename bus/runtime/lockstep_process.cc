@@ -87,7 +87,7 @@ void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& syn
     }
     plane.wait_and_dispatch(std::min(participant.next_timer(), patience_ends));
   }
-  if (participant.state() == LockstepParticipant::State::kPutOut)
+  if (participant.state() == LockstepParticipant::State::kExpelled)
     throw std::runtime_error("put out by the conductor: " + participant.reason());
 }
 

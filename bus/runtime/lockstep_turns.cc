@@ -9,8 +9,8 @@ namespace halocline::bus {
 namespace {
 
 // A window ends before its result outgrows a datagram by much.
-constexpr int kMostStepsPerTurn = 1000;
-constexpr std::size_t kMostSaidPerTurn = 200;
+constexpr int kMaxStepsPerTurn = 1000;
+constexpr std::size_t kMaxSaidPerTurn = 200;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ lockstep_join_t LockstepTurns::introduction() const {
   join.next_due_ns = node_.lockstep_due().nanoseconds();
   for (const Subscribed& subscribed : node_.subscribed()) {
     join.subscriptions.push_back(subscribed.expression);
-    join.only_stores.push_back(subscribed.hearing == Hearing::kStores ? 1 : 0);
+    join.only_stores.push_back(subscribed.wakeup == Wakeup::kStoreOnly ? 1 : 0);
   }
   join.num_subscriptions = static_cast<std::int32_t>(join.subscriptions.size());
   return join;
@@ -46,7 +46,7 @@ LockstepTurns::Interest LockstepTurns::interest_in(const std::string& channel) {
   for (const Subscribed& subscribed : node_.subscribed()) {
     if (!ChannelPattern(subscribed.expression).matches(channel)) continue;
     interest.hears = true;
-    interest.may_wake = interest.may_wake || subscribed.hearing == Hearing::kMayWake;
+    interest.may_wake = interest.may_wake || subscribed.wakeup == Wakeup::kMayAdvanceDue;
   }
   return interests_[channel] = interest;
 }
@@ -75,14 +75,14 @@ bool LockstepTurns::must_pause(const lockstep_turn_t& turn, std::size_t said_bef
       if (pattern->second.matches(channel)) return true;
     }
   }
-  return said_.size() >= kMostSaidPerTurn;
+  return said_.size() >= kMaxSaidPerTurn;
 }
 
 lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   said_.clear();
   now_ = SimTime::from_nanoseconds(turn.instant_ns);
   const SimTime horizon = SimTime::from_nanoseconds(turn.horizon_ns);
-  const int most_steps = turn.most_steps >= 0 ? turn.most_steps : kMostStepsPerTurn;
+  const int most_steps = turn.most_steps >= 0 ? turn.most_steps : kMaxStepsPerTurn;
   hear(turn.heard);
   if (turn.farewell != 0) node_.stop({now_, now_});
   int steps = 0;

@@ -27,7 +27,7 @@ class LockstepTurns {
   // The node as a participant, for LOCKSTEP_JOIN: its name, stage, subscriptions and first due instant.
   lockstep_join_t introduction() const;
 
-  // Throws what the node throws, and when the node broke its promise only to store (Hearing::kStores).
+  // Throws what the node throws, and when the node broke its promise only to store (Wakeup::kStoreOnly).
   lockstep_result_t take(const lockstep_turn_t& turn);
 
  private:

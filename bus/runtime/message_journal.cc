@@ -23,7 +23,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kEntryWord = 0x484c4d31;  // "HLM1"
 constexpr std::size_t kHeadBytes = 25;            // word, kind, stamp, two lengths, check sum
-constexpr std::size_t kMostCarried = 1000;
+constexpr std::size_t kMaxCarried = 1000;
 
 void put(std::uint64_t value, int bytes, Bytes& to) {
   for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8)
@@ -161,7 +161,7 @@ void MessageJournal::carry(const JournalledMessage& entry) {
     if (entry.channel == channel && std::none_of(carried_all_.begin(), carried_all_.end(), is_known))
       carried_all_.push_back(entry);
   }
-  if (carried_all_.size() > kMostCarried) carried_all_.pop_front();
+  if (carried_all_.size() > kMaxCarried) carried_all_.pop_front();
 }
 
 std::vector<JournalledMessage> MessageJournal::carried() const {

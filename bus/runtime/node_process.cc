@@ -26,13 +26,13 @@ void on_stop_signal(int) { stop_signal_seen = true; }
 // Longest sleep: a stop wished for by other means than a signal is seen within this.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
 // Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
-constexpr int kMostMessagesPerTurn = 2000;
+constexpr int kMaxMessagesPerTurn = 2000;
 
 // What the bus has delivered when the end is wished for: until it is silent for a moment, since LCM's own
 // thread hands over what the socket holds one by one. A flood does not keep us for ever.
 void dispatch_until_silent(lcm::LCM& lcm) {
-  constexpr int kSilenceMs = 10, kMostMessages = 20'000;
-  for (int i = 0; i < kMostMessages && lcm.handleTimeout(kSilenceMs) > 0; ++i) {
+  constexpr int kSilenceMs = 10, kMaxMessages = 20'000;
+  for (int i = 0; i < kMaxMessages && lcm.handleTimeout(kSilenceMs) > 0; ++i) {
   }
 }
 
@@ -122,11 +122,11 @@ void wait_and_dispatch(lcm::LCM& lcm, SimTime wake) {
   if (!wait_for_bus(lcm, wake)) return;
   lcm.handle();
   pollfd bus{lcm.getFileno(), POLLIN, 0};
-  for (int i = 1; i < kMostMessagesPerTurn && poll(&bus, 1, 0) > 0; ++i) lcm.handle();
+  for (int i = 1; i < kMaxMessagesPerTurn && poll(&bus, 1, 0) > 0; ++i) lcm.handle();
 }
 
 void dispatch_waiting(lcm::LCM& lcm) {
-  for (int i = 0; i < kMostMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
+  for (int i = 0; i < kMaxMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
   }
 }
 

@@ -53,7 +53,7 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
       row.set(*reception);
       row.multipath = reception->used == PropagationUsed::kStraight
                           ? multipath(from, to)
-                          : multipath_of(*reception, to.modem->modem.least_receivable_level);
+                          : multipath_of(*reception, to.modem->modem.min_receivable_level);
       table.rows.push_back(row);
       ++reception;
     }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/vehicles/fleet.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 
 namespace halocline::channel_server {
 

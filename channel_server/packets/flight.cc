@@ -11,8 +11,8 @@ namespace {
 // A fixed point of the arrival is exact enough when a round moves it by less than this; at v/c = 0.07 (100
 // m/s, the fastest a state may tell) that takes 9 rounds.
 constexpr double kSettledS = 1e-10;
-constexpr int kMostRounds = 50;
-constexpr int kMostQuestions = 3;
+constexpr int kMaxRounds = 50;
+constexpr int kMaxQuestions = 3;
 // An answer serves a receiver that came this close to the place it was given for, and moves nearly as fast:
 // 0.01 m/s shift a frequency by 7e-6 of itself.
 constexpr double kSamePlaceM = 0.1, kSameVelocityMps = 0.01;
@@ -25,7 +25,7 @@ bool serves(const Flight& flight, const Placement& place, const acoustics::Modem
   if (flight.times_asked == 0 || !(flight.modem == modem)) return false;
   const bool same = (place.position_ned_m - flight.place.position_ned_m).norm() <= kSamePlaceM &&
                     (place.velocity_ned_mps - flight.place.velocity_ned_mps).norm() <= kSameVelocityMps;
-  return same || flight.times_asked >= kMostQuestions;
+  return same || flight.times_asked >= kMaxQuestions;
 }
 
 void ask(Flight& flight, const Placement& place, const acoustics::Modem& modem, Propagation& propagation) {
@@ -76,14 +76,14 @@ double Flight::doppler_factor() const {
   return strongest == paths.end() ? 1 : strongest->doppler_factor;
 }
 
-void aim(Flight& flight, SimTime decided_at, const Fleet& fleet, Propagation& propagation) {
+void aim(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet, Propagation& propagation) {
   ++flight.times_aimed;
   const auto aimed_at = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
   if (!aimed_at) return;
   const acoustics::Modem& modem = fleet.modem(flight.receiver_id, flight.arrival()).modem;
   if (!serves(flight, *aimed_at, modem)) ask(flight, *aimed_at, modem, propagation);
   const Vec3 slowness = slowness_at(flight, propagation);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const auto receiver = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
     const Vec3 moved = receiver->position_ned_m - flight.place.position_ned_m;
     const double travel_time_s = std::max(solved_delay_s(flight.reception) + slowness.dot(moved), 0.0);

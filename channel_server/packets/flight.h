@@ -16,10 +16,10 @@
 #include <optional>
 #include <string>
 
-#include "channel_server/packets/hearing.h"
 #include "channel_server/packets/packet_judge.h"
+#include "channel_server/packets/receiver_state.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/vehicles/fleet.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 
 namespace halocline::channel_server {
 
@@ -54,7 +54,7 @@ struct Flight {
 
 // Finds travel time and reception, with what is known at `decided_at`. A receiver that is forgotten keeps the
 // last solution. Throws as Propagation::reception.
-void aim(Flight& flight, SimTime decided_at, const Fleet& fleet, Propagation& propagation);
+void aim(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet, Propagation& propagation);
 
 // What the receiver hears of a flight that has come.
 HeardPacket heard_packet(const Flight& flight);

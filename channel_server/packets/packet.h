@@ -10,7 +10,7 @@
 
 #include "acoustics/link/link_budget.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/vehicles/fleet.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {

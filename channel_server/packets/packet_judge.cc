@@ -115,7 +115,7 @@ std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interfe
   std::sort(loud.begin(), loud.end());
   std::vector<PacketName> names;
   for (const auto& [power, name] : loud) {
-    if (names.size() < kMostColliders) names.push_back(name);
+    if (names.size() < kMaxColliders) names.push_back(name);
   }
   return names;
 }

@@ -23,15 +23,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "channel_server/packets/hearing.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/packets/receiver_state.h"
 
 namespace halocline::channel_server {
 
 // Other packets weaker than this below the noise (mean over the reception) are not named as colliders: 20 dB
 // below, one takes 0.04 dB off the ratio.
 inline constexpr Decibels kNegligibleBelowNoise{20};
-inline constexpr std::size_t kMostColliders = 16;
+inline constexpr std::size_t kMaxColliders = 16;
 
 // A packet as one receiver gets it; powers in uPa^2 over the packet's band.
 struct ReceivedSignal {
@@ -54,7 +54,7 @@ double acquisition_probability(const ReceivedSignal& signal, const std::vector<I
 // Of all information bits being right.
 double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& disturbances);
 
-// Loudest first, then by name; kMostColliders at most.
+// Loudest first, then by name; kMaxColliders at most.
 std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interferers& others);
 
 // At the end of the preamble: fills in probability and draw, and says whether the packet is noticed.

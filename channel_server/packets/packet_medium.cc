@@ -12,7 +12,7 @@ namespace {
 // An arrival solved at an instant no further before it than this stands: the receiver moves by micrometres.
 constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
 // Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
-constexpr int kMostAims = 64;
+constexpr int kMaxAims = 64;
 
 // Where the sound comes from, seen by the receiver.
 void tell_direction(const Flight& flight, PacketEnd& end) {
@@ -43,7 +43,7 @@ PacketFate hopeless_fate(const Flight& flight) {
   if (!bands_overlap(flight.packet->modem, flight.modem)) return PacketFate::kOutOfBand;
   if (reception.state == PathState::kBlocked) return PacketFate::kBlocked;
   if (reception.state == PathState::kShadow || reception.paths.empty()) return PacketFate::kShadow;
-  if (reception.budget.received_level < flight.modem.least_receivable_level) return PacketFate::kBelowCutoff;
+  if (reception.budget.received_level < flight.modem.min_receivable_level) return PacketFate::kBelowCutoff;
   return PacketFate::kReceived;
 }
 
@@ -53,10 +53,10 @@ bool is_shifted_too_far(const Flight& flight) {
 
 }  // namespace
 
-PacketMedium::PacketMedium(const Fleet& fleet, Propagation& propagation, MediumRule rule)
+PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule)
     : fleet_(fleet), propagation_(propagation), rule_(rule) {
-  require(rule.greatest_lateness >= SimDuration(), "the greatest lateness must not be negative");
-  require(rule.greatest_earliness >= SimDuration(), "the greatest earliness must not be negative");
+  require(rule.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
+  require(rule.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
 }
 
 std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
@@ -65,7 +65,7 @@ std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTim
     return given && rule_.shard.serves(request.source_id) ? std::optional(*given) : std::nullopt;
   }
   Receipt refusal{request.vehicle, request.session, request.packet_sequence, SendResult::kStale, {}, {}};
-  if (request.start >= now - rule_.greatest_lateness && request.start <= now + rule_.greatest_earliness) {
+  if (request.start >= now - rule_.max_lateness && request.start <= now + rule_.max_earliness) {
     add_departure(request.start, {request, nullptr, nullptr});
     return std::nullopt;
   }
@@ -156,7 +156,7 @@ PacketMedium::Decision PacketMedium::decide(const SendRequest& request, SimDurat
   if (modem.when_busy == WhenBusy::kRefuse || request.kind == PacketKind::kPingReply) {
     return {SendResult::kBusy, start};
   }
-  if (register_.waiting_at(request.vehicle, start) >= kMostQueued) return {SendResult::kQueueFull, start};
+  if (register_.waiting_at(request.vehicle, start) >= kMaxQueued) return {SendResult::kQueueFull, start};
   return {SendResult::kQueued, register_.free_from(request.vehicle, start)};
 }
 
@@ -174,7 +174,7 @@ void PacketMedium::launch(const PacketPointer& packet) {
   const SimTime departure = packet->departure;
   const VehicleId source = packet->request.source_id;
   if (rule_.shard.serves(source)) {
-    hearing_of(source).transmit({packet, departure, departure + packet->timing.duration});
+    state_of(source).transmit({packet, departure, departure + packet->timing.duration});
   }
   for (const VehicleId receiver : fleet_.present(departure)) {
     if (receiver == source || !rule_.shard.serves(receiver)) continue;
@@ -202,7 +202,7 @@ void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector
 void PacketMedium::come(FlightPointer flight, SimTime at) {
   aim(*flight, at, fleet_, propagation_);
   const SimTime first_sound = flight->first_sound();
-  if (first_sound > at + kSolvedInTime && flight->times_aimed < kMostAims) {
+  if (first_sound > at + kSolvedInTime && flight->times_aimed < kMaxAims) {
     return schedule(first_sound, std::move(flight));
   }
   const SimTime arrival = flight->arrival();
@@ -212,24 +212,24 @@ void PacketMedium::come(FlightPointer flight, SimTime at) {
   budget.snr = budget.received_level - noise;
   flight->gone = !fleet_.placement(flight->receiver_id, arrival, at);
   flight->signal = received_signal(*flight, to_power_ratio(noise).value);
-  hearing_of(flight->receiver_id).open(heard_packet(*flight));
+  state_of(flight->receiver_id).open(heard_packet(*flight));
   flight->stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
   schedule(preamble_end, std::move(flight));
 }
 
 void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
-  Hearing& hearing = hearing_of(flight->receiver_id);
+  ReceiverState& receiver = state_of(flight->receiver_id);
   const ReceivedSignal& signal = flight->signal;
   const bool hopeless = hopeless_fate(*flight) != PacketFate::kReceived || is_shifted_too_far(*flight) ||
-                        !hearing.transmitted_during(signal.begin, signal.preamble_end).empty();
-  if (!hopeless) flight->locked_onto = hearing.locked_onto(signal.preamble_end);
+                        !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
+  if (!hopeless) flight->locked_onto = receiver.locked_onto(signal.preamble_end);
   if (!hopeless && !flight->locked_onto) {
-    const auto others = hearing.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
+    const auto others = receiver.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
     const PacketDraws draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
     flight->noticed = notices(signal, others, draws, flight->judgement);
   }
-  if (flight->noticed) hearing.lock({flight->packet, signal.begin, signal.end}, signal.preamble_end);
+  if (flight->noticed) receiver.lock({flight->packet, signal.begin, signal.end}, signal.preamble_end);
   flight->stage = Flight::Stage::kBits;
   const SimTime last_bit = std::max(signal.end, at);
   schedule(last_bit, std::move(flight));
@@ -244,9 +244,9 @@ PacketFate PacketMedium::fate_of(Flight& flight, SimTime at) {
   flight.gone = flight.gone || !fleet_.placement(flight.receiver_id, at, at);
   const PacketFate hopeless = hopeless_fate(flight);
   if (hopeless != PacketFate::kReceived) return hopeless;
-  const Hearing& hearing = hearing_of(flight.receiver_id);
-  for (const PacketPointer& own : hearing.transmitted_during(signal.begin, signal.end)) {
-    if (judgement.colliders.size() < kMostColliders) judgement.colliders.push_back(own->name());
+  const ReceiverState& receiver = state_of(flight.receiver_id);
+  for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
+    if (judgement.colliders.size() < kMaxColliders) judgement.colliders.push_back(own->name());
   }
   if (!judgement.colliders.empty()) return PacketFate::kHalfDuplex;
   if (is_shifted_too_far(flight)) return PacketFate::kDoppler;
@@ -254,7 +254,7 @@ PacketFate PacketMedium::fate_of(Flight& flight, SimTime at) {
     judgement.colliders.push_back(flight.locked_onto->name());
     return PacketFate::kCollided;
   }
-  const auto others = hearing.interferers_of(*flight.packet, signal.begin, signal.end);
+  const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
   return judge(signal, others, draws, flight.noticed, judgement);
 }
 
@@ -267,7 +267,7 @@ void PacketMedium::end(Flight& flight, SimTime at, std::vector<MediumEvent>& eve
     hear_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
   }
-  hearing_of(flight.receiver_id).close(flight.first_sound(), at);
+  state_of(flight.receiver_id).close(flight.first_sound(), at);
 }
 
 PacketEnd PacketMedium::ending_of(Flight& flight, SimTime at) {
@@ -280,7 +280,7 @@ PacketEnd PacketMedium::ending_of(Flight& flight, SimTime at) {
   end.travel_time_s = flight.travel_time_s;
   if (flight.packet->answers) end.two_way_travel_time_s = two_way_travel_time_s(flight);
   end.budget = flight.reception.budget;
-  end.cutoff = flight.modem.least_receivable_level;
+  end.cutoff = flight.modem.min_receivable_level;
   end.propagation = flight.reception.used;
   end.path_count = flight.reception.paths.size();
   end.delay_spread_s = flight.reception.delay_spread_s;
@@ -310,16 +310,16 @@ void PacketMedium::schedule(SimTime at, FlightPointer flight) {
   ensure(fresh, "two flights of one packet to one receiver");
 }
 
-Hearing& PacketMedium::hearing_of(VehicleId id) {
-  return hearings_.try_emplace(id, rule_.greatest_lateness).first->second;
+ReceiverState& PacketMedium::state_of(VehicleId id) {
+  return receivers_.try_emplace(id, rule_.max_lateness).first->second;
 }
 
 void PacketMedium::forget_before(SimTime time) {
   register_.forget_before(time);
   answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));
-  for (auto hearing = hearings_.begin(); hearing != hearings_.end();) {
-    hearing->second.forget(time + rule_.greatest_lateness);
-    hearing = hearing->second.silent() ? hearings_.erase(hearing) : std::next(hearing);
+  for (auto receiver = receivers_.begin(); receiver != receivers_.end();) {
+    receiver->second.forget(time + rule_.max_lateness);
+    receiver = receiver->second.silent() ? receivers_.erase(receiver) : std::next(receiver);
   }
 }
 
@@ -327,7 +327,7 @@ void PacketMedium::clear() {
   register_ = SendRegister();
   departures_.clear();
   flights_.clear();
-  hearings_.clear();
+  receivers_.clear();
   answered_.clear();
   advanced_to_ = SimTime::at_once();
 }

@@ -5,7 +5,7 @@
 // wait at most; each starts when those before it have ended). Every vehicle present at its departure except the
 // sender is a possible receiver, and each gets exactly one PacketEnd.
 //   flight.h        when and how it comes in
-//   hearing.h       what else sounds at the receiver meanwhile
+//   receiver_state.h     what else sounds at the receiver meanwhile
 //   packet_judge.h  whether it is noticed at the end of its preamble, and right at its last bit
 // packet.h lists the possible fates and in which order the first that holds is found. A packet lasts
 // duration / doppler factor at a receiver. A modem that has noticed a packet follows it to its end, even if
@@ -41,29 +41,29 @@
 #include <vector>
 
 #include "channel_server/packets/flight.h"
-#include "channel_server/packets/hearing.h"
-#include "channel_server/packets/noise_book.h"
+#include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/send_register.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/vehicles/fleet.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 
 namespace halocline::channel_server {
 
 struct MediumRule {
-  SimDuration greatest_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
-  SimDuration greatest_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
-  std::uint64_t seed = 1;                                                   // of all draws
+  SimDuration max_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
+  SimDuration max_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
+  std::uint64_t seed = 1;                                              // of all draws
   Shard shard = {};  // of several media of one water, each told of everything
 };
 
 class PacketMedium {
  public:
-  static constexpr std::size_t kMostQueued = 16;  // at one modem
+  static constexpr std::size_t kMaxQueued = 16;  // at one modem
 
-  // Fleet and propagation must outlive the medium; the fleet is told of states by its owner, before advance_to.
-  PacketMedium(const Fleet& fleet, Propagation& propagation, MediumRule rule);
+  // VehicleRegistry and propagation must outlive the medium; the fleet is told of states by its owner, before advance_to.
+  PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule);
 
   // A transmission asked for, heard at `now`. A receipt when it can be given without waiting for the start:
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
@@ -78,7 +78,7 @@ class PacketMedium {
   std::vector<MediumEvent> advance_to(SimTime time);
 
   // Forgets receipts and occupations from before `time`; the owner gives an instant at least
-  // greatest_lateness ago.
+  // max_lateness ago.
   void forget_before(SimTime time);
   // Another run: the water falls silent.
   void clear();
@@ -117,16 +117,16 @@ class PacketMedium {
   PacketFate fate_of(Flight& flight, SimTime at);
   PingAnswer answer_of(const Flight& flight, SimTime at) const;
   void schedule(SimTime at, FlightPointer flight);
-  Hearing& hearing_of(VehicleId id);
+  ReceiverState& state_of(VehicleId id);
 
-  const Fleet& fleet_;
+  const VehicleRegistry& fleet_;
   Propagation& propagation_;
   MediumRule rule_;
   SendRegister register_;
-  NoiseBook noise_;
+  NoiseLevelCache noise_;
   std::map<DepartureKey, Departure> departures_;
   std::map<FlightKey, FlightPointer> flights_;
-  std::map<VehicleId, Hearing> hearings_;
+  std::map<VehicleId, ReceiverState> receivers_;
   std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
       answered_;  // see hear_answer
   SimTime advanced_to_ = SimTime::at_once();

@@ -13,7 +13,7 @@ bool SendRegister::enter(const SendRequest& request) {
   const RequestName name = name_of(request);
   if (!entries_.emplace(name, Entry{request.start, false, {}}).second) return false;
   by_start_.emplace(request.start, name);
-  if (entries_.size() > kMostPackets) forget_earliest();
+  if (entries_.size() > kMaxPackets) forget_earliest();
   return true;
 }
 

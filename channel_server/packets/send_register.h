@@ -33,7 +33,7 @@ RequestName name_of(const SendRequest& request);
 class SendRegister {
  public:
   // Of more packets the earliest starts are forgotten.
-  static constexpr std::size_t kMostPackets = 100'000;
+  static constexpr std::size_t kMaxPackets = 100'000;
 
   // True for a packet never heard of; it is known from now on, its receipt outstanding.
   bool enter(const SendRequest& request);

@@ -35,7 +35,7 @@ std::string EnvironmentTimeline::hear(SimTime announced, SimTime heard, Origin o
   const bool told = std::any_of(spans_.begin(), spans_.end(),
                                 [&](const Span& span) { return span.order.origin == origin; });
   if (told) return {};
-  if (spans_.size() > kMostChanges) return "too many changes of the environment in one run";
+  if (spans_.size() > kMaxChanges) return "too many changes of the environment in one run";
   const SimTime from = std::max(announced, heard);
   try {
     validate(changed(at(from), change));

@@ -28,7 +28,7 @@ struct EnvironmentChange {
 
 class EnvironmentTimeline {
  public:
-  static constexpr std::size_t kMostChanges = 10'000;
+  static constexpr std::size_t kMaxChanges = 10'000;
   static constexpr std::size_t kHeardKept = 1000;
 
   // Who announced a change, and as its how manieth: session 0 is the scenario.

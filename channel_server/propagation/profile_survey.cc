@@ -10,7 +10,7 @@ namespace halocline::channel_server {
 namespace {
 
 // The least water a bottom profile knows, m: what land counts as, and what is left under an end.
-constexpr double kLeastWaterM = 0.1;
+constexpr double kMinWaterM = 0.1;
 
 Vec3 place_of(const LatticeCell& cell, const ProfileRule& rule) {
   return {static_cast<double>(cell.north) * rule.reuse_distance_m,
@@ -19,7 +19,7 @@ Vec3 place_of(const LatticeCell& cell, const ProfileRule& rule) {
 
 int samples_over(double length_m, const ProfileRule& rule) {
   const double wanted = std::ceil(length_m / rule.spacing_m) + 1;
-  const double allowed = std::clamp<double>(wanted, ProfileRule::kFewestSamples, ProfileRule::kMostSamples);
+  const double allowed = std::clamp<double>(wanted, ProfileRule::kMinSamples, ProfileRule::kMaxSamples);
   return static_cast<int>(allowed);
 }
 
@@ -68,11 +68,11 @@ acoustics::BottomProfile bottom_under(const SeabedProfile& seabed, const acousti
   std::vector<acoustics::ProfiledDepth> points;
   const double last = static_cast<double>(seabed.size() - 1);
   for (std::size_t i = 0; i < seabed.size(); ++i) {
-    const double depth = std::clamp(seabed[i] - sea_surface_z_m, kLeastWaterM, acoustics::kDeepestWater);
+    const double depth = std::clamp(seabed[i] - sea_surface_z_m, kMinWaterM, acoustics::kDeepestWater);
     points.push_back({link.range_m * static_cast<double>(i) / last, depth});
   }
-  points.front().depth_m = std::max(points.front().depth_m, link.source_depth_m + kLeastWaterM);
-  points.back().depth_m = std::max(points.back().depth_m, link.receiver_depth_m + kLeastWaterM);
+  points.front().depth_m = std::max(points.front().depth_m, link.source_depth_m + kMinWaterM);
+  points.back().depth_m = std::max(points.back().depth_m, link.receiver_depth_m + kMinWaterM);
   if (points[1].range_m > points[0].range_m) return acoustics::BottomProfile(std::move(points));
   // One right above the other: there is nothing to stretch.
   return acoustics::BottomProfile::flat(std::max(points.front().depth_m, points.back().depth_m));

@@ -26,7 +26,7 @@ namespace halocline::channel_server {
 struct ProfileRule {
   double reuse_distance_m = 10;  // between points of the lattice, 0.1..1000
   double spacing_m = 25;         // between samples at most, 1..1000
-  static constexpr int kFewestSamples = 16, kMostSamples = 256;
+  static constexpr int kMinSamples = 16, kMaxSamples = 256;
 };
 
 struct LatticeCell {

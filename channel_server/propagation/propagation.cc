@@ -67,12 +67,12 @@ Reception Propagation::reception_over(SimTime at, const LinkEnd& from, const Lin
   return reception(at, from, to);
 }
 
-StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t most_models)
-    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)), most_models) {}
+StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_models)
+    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)), max_models) {}
 
 StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                                         std::size_t most_models)
-    : waters_(std::move(waters)), most_models_(most_models) {}
+                                         std::size_t max_models)
+    : waters_(std::move(waters)), max_models_(max_models) {}
 
 // The same integral of ds / c as LinkModel's: it knows no modem, so none is needed.
 double StraightPropagation::delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) {
@@ -102,7 +102,7 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
   for (const acoustics::BeamRow& row : modem.beam.rows()) {
     beam.insert(beam.end(), {row.elevation_rad, row.loss_db});
   }
-  const std::array<double, 5> numbers{modem.source_level.value, modem.least_receivable_level.value,
+  const std::array<double, 5> numbers{modem.source_level.value, modem.min_receivable_level.value,
                                       modem.centre_frequency_hz, modem.bandwidth_hz,
                                       modem.directivity_index.value};
   return {numbers, std::move(beam)};
@@ -115,7 +115,7 @@ std::shared_ptr<const acoustics::LinkModel> StraightPropagation::model_of(SimTim
   auto kept = models_.find(key);
   if (kept == models_.end()) {
     auto model = std::make_shared<const acoustics::LinkModel>(waters_->at(at), transmitter, receiver);
-    if (models_.size() >= most_models_) make_room();
+    if (models_.size() >= max_models_) make_room();
     kept = models_.emplace(key, KeptModel{std::move(model)}).first;
   }
   kept->second.asked_last = ++questions_;

@@ -124,14 +124,14 @@ class Propagation {
 // The straight path of acoustics/link/link_budget.h, in the water of the instant, weighed by both beams.
 //
 // A LinkModel takes a millisecond to make and microseconds to ask, so one is kept for each pair of different
-// modems asked about; of more than `most_models`, the one that was asked longest ago makes room.
+// modems asked about; of more than `max_models`, the one that was asked longest ago makes room.
 class StraightPropagation : public Propagation {
  public:
-  static constexpr std::size_t kMostModels = 1024;
+  static constexpr std::size_t kMaxModels = 1024;
   // Throws InvalidArgument when the environment is out of range.
-  explicit StraightPropagation(acoustics::Environment environment, std::size_t most_models = kMostModels);
+  explicit StraightPropagation(acoustics::Environment environment, std::size_t max_models = kMaxModels);
   explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                               std::size_t most_models = kMostModels);
+                               std::size_t max_models = kMaxModels);
 
   double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
@@ -157,7 +157,7 @@ class StraightPropagation : public Propagation {
   void make_room();
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
-  std::size_t most_models_;
+  std::size_t max_models_;
   std::map<PairKey, KeptModel> models_;
   std::int64_t questions_ = 0;
 };

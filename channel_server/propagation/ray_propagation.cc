@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "acoustics/link/received_field.h"
-#include "acoustics/rays/ray_carry.h"
+#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "core/check.h"
@@ -12,8 +12,8 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr std::size_t kMostKept = 16'384;    // answers of late, 7 kB each
-constexpr std::size_t kMostRayWaters = 256;  // 20 kB each
+constexpr std::size_t kMaxKept = 16'384;    // answers of late, 7 kB each
+constexpr std::size_t kMaxRayWaters = 256;  // 20 kB each
 // The deepest that an end may be, m: there has to be bottom below it.
 constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;
 
@@ -40,7 +40,7 @@ std::optional<acoustics::RaySolver> usable(std::optional<acoustics::RaySolver> w
 }  // namespace
 
 RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                               std::shared_ptr<const ProfileBook> bottoms, const RayModel& model)
+                               std::shared_ptr<const SeabedProfileCache> bottoms, const RayModel& model)
     : waters_(std::move(waters)), bottoms_(std::move(bottoms)), model_(model), straight_(waters_) {
   validate(model.bottom);
   validate(model.options);
@@ -137,7 +137,7 @@ std::shared_ptr<const acoustics::RayWater> RayPropagation::water_of(SimTime at, 
         ray_water(waters_->at(at), frequency_hz, model_.speed_tolerance_mps));
   }
   const auto result = water;
-  if (ray_waters_.size() > kMostRayWaters) ray_waters_.erase(ray_waters_.begin());  // of the oldest water
+  if (ray_waters_.size() > kMaxRayWaters) ray_waters_.erase(ray_waters_.begin());  // of the oldest water
   return result;
 }
 
@@ -208,7 +208,7 @@ RayPropagation::FoundPaths RayPropagation::kept(const Key& key) {
 
 void RayPropagation::keep(const Key& key, const FoundPaths& found) {
   of_late_[key] = found;
-  if (of_late_.size() < kMostKept) return;
+  if (of_late_.size() < kMaxKept) return;
   of_before_ = std::move(of_late_);
   of_late_.clear();
 }

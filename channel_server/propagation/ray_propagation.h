@@ -17,7 +17,7 @@
 // Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
 // the same paths backwards, so the two are reciprocal to the last bit. With a distance of reuse, the search is
 // for the middle of the cell that the link lies in (ray_cells.h), and its paths are carried from there to the link
-// (acoustics/rays/ray_carry.h); not for given bottoms and coherent levels, which a search of their own serves. Answers are
+// (acoustics/rays/extrapolate_arrivals.h); not for given bottoms and coherent levels, which a search of their own serves. Answers are
 // functions of environment, profile and ends alone: what was found is kept for the very same question, and found
 // again when it was forgotten. Ends above the surface are taken at it. Left out: motion of the bottom's slope across
 // the link (acoustics/rays/eigenray.h).
@@ -29,8 +29,8 @@
 #include <tuple>
 
 #include "acoustics/rays/eigenray.h"
-#include "channel_server/propagation/profile_book.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
 
 namespace halocline::channel_server {
 
@@ -49,7 +49,7 @@ class RayPropagation : public Propagation {
  public:
   // Throws InvalidArgument when the model is out of range.
   RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                 std::shared_ptr<const ProfileBook> bottoms, const RayModel& model);
+                 std::shared_ptr<const SeabedProfileCache> bottoms, const RayModel& model);
 
   double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
@@ -119,7 +119,7 @@ class RayPropagation : public Propagation {
   void set_silent(const Task& task, Reception& reception) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
-  std::shared_ptr<const ProfileBook> bottoms_;
+  std::shared_ptr<const SeabedProfileCache> bottoms_;
   RayModel model_;
   StraightPropagation straight_;
   std::map<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>

@@ -7,7 +7,7 @@ namespace halocline::channel_server {
 void ModemSchedule::announce(SimTime from, const VehicleModem& modem) {
   if (at(from) == modem) return;
   announced_.insert_or_assign(from, modem);
-  if (announced_.size() > kMostAnnouncements) announced_.erase(announced_.begin());
+  if (announced_.size() > kMaxAnnouncements) announced_.erase(announced_.begin());
 }
 
 const VehicleModem& ModemSchedule::at(SimTime instant) const {

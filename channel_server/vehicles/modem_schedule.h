@@ -43,7 +43,7 @@ class ModemSchedule {
   void forget_before(SimTime time);
 
  private:
-  static constexpr std::size_t kMostAnnouncements = 64;  // the earliest make room
+  static constexpr std::size_t kMaxAnnouncements = 64;  // the earliest make room
   VehicleModem configured_;
   std::map<SimTime, VehicleModem> announced_;
 };

@@ -26,7 +26,7 @@ bool StateHistory::insert(const StampedState& state) {
   const auto place = std::lower_bound(states_.begin(), states_.end(), state.time, is_earlier);
   if (place != states_.end() && place->time == state.time) return false;
   states_.insert(place, state);
-  if (states_.size() > kMostStates) states_.pop_front();
+  if (states_.size() > kMaxStates) states_.pop_front();
   return true;
 }
 

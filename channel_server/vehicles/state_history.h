@@ -45,7 +45,7 @@ struct Placement {
 class StateHistory {
  public:
   // More than any horizon needs at a kilohertz; the oldest make room.
-  static constexpr std::size_t kMostStates = 16'384;
+  static constexpr std::size_t kMaxStates = 16'384;
 
   // In any order. False, and nothing changed, when a state of that time is held already.
   bool insert(const StampedState& state);

@@ -18,7 +18,7 @@ struct AcousticFixRules {
   double sound_speed_mps = 1500;          // mean along the way, above 0
   double heading_deviation_rad = 0.0175;  // of the compass, 0 or above: 1 degree
   double range_deviation = 0.01;          // of the range, relative: the sound speed is not known
-  double least_deviation_m = 0.5;         // of any fix, above 0
+  double min_deviation_m = 0.5;           // of any fix, above 0
 };
 
 // As an array measures it.

@@ -42,7 +42,7 @@ void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("depth_d_n_s_per_m", g.depth_d_n_s_per_m, {0, 1e6, "N s/m", "push against the vertical speed"});
   v.number("pitch_p_nm", g.pitch_p_nm, {0, 1e6, "N m", "moment per rad of pitch"});
   v.number("pitch_d_nm_s", g.pitch_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of pitch rate"});
-  v.number("least_force_n", g.least_force_n, {0, 1e5, "N", "push below which the heading is kept"});
+  v.number("min_force_n", g.min_force_n, {0, 1e5, "N", "push below which the heading is kept"});
   v.number("beside_axis_m", g.beside_axis_m, {0.01, 100, "m", "of the horizontal thrusters"});
   v.number("from_middle_m", g.from_middle_m, {0.01, 100, "m", "of the vertical thrusters"});
   v.number("full_thrust_n", g.full_thrust_n, {0.01, 1e6, "N", "of a thruster at full_rpm"});
@@ -53,8 +53,7 @@ void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
 void visit_where(ConfigVisitor& v, Behaviour& b) {
   v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
   v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
-  v.number("greatest_depth_m", b.greatest_depth_m,
-           {0, 12000, "m", "z never passed on the way to an altitude"});
+  v.number("max_depth_m", b.max_depth_m, {0, 12000, "m", "z never passed on the way to an altitude"});
   degrees(v, "heading_deg", b.heading_rad, {-360, 360, "deg", "of heading, and of a survey's first track"});
   v.number("center_north_m", b.center_north_m, {-1e6, 1e6, "m", "middle of a loiter or a survey"});
   v.number("center_east_m", b.center_east_m, {-1e6, 1e6, "m", "middle of a loiter or a survey"});
@@ -76,7 +75,7 @@ void visit_formation(ConfigVisitor& v, Formation& f) {
   v.number("keep_course_s", f.keep_course_s, {0, 1e5, "s", "how long the last course is then kept"});
   v.number("safe_depth_m", f.safe_depth_m, {-100, 12000, "m", "z of the circle (radius_m) after that"});
   v.number("safe_speed_mps", f.safe_speed_mps, {0.01, 50, "m/s", "speed on that circle"});
-  v.number("greatest_speed_mps", f.greatest_speed_mps, {0.01, 50, "m/s", "to catch up with"});
+  v.number("max_speed_mps", f.max_speed_mps, {0.01, 50, "m/s", "to catch up with"});
 }
 
 void visit_behaviour(ConfigVisitor& v, Behaviour& b) {

@@ -60,8 +60,8 @@ NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors, const At
 }
 
 void take_in(const vehicle_gps_t& fix, Navigator& navigator) {
-  constexpr double kLeastDeviationM = 0.01;
-  navigator.fix(fix.fix_north_m, fix.fix_east_m, std::max(fix.fix_deviation_m, kLeastDeviationM),
+  constexpr double kMinDeviationM = 0.01;
+  navigator.fix(fix.fix_north_m, fix.fix_east_m, std::max(fix.fix_deviation_m, kMinDeviationM),
                 SimTime::from_utime(fix.utime).seconds());
 }
 

@@ -42,7 +42,7 @@ void AutopilotNode::subscribe(Pilot& pilot) {
   } else {
     bus().subscribe<vehicle_state_t>(
         bus::channels::kState.of(config.vehicle),
-        [&pilot](const vehicle_state_t& state) { pilot.state = state; }, bus::Hearing::kStores);
+        [&pilot](const vehicle_state_t& state) { pilot.state = state; }, bus::Wakeup::kStoreOnly);
   }
   bus().subscribe<vehicle_sensors_t>(
       bus::channels::kSensors.of(config.vehicle),
@@ -51,7 +51,7 @@ void AutopilotNode::subscribe(Pilot& pilot) {
         pilot.looked = false;
         if (pilot.navigator) reckon(pilot, sensors);
       },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
 }
 
 void AutopilotNode::reckon(Pilot& pilot, const vehicle_sensors_t& sensors) {
@@ -64,22 +64,22 @@ void AutopilotNode::subscribe_fixes(Pilot& pilot) {
   bus().subscribe<position_estimate_t>(
       bus::channels::kEstimate.of(name),
       [&pilot](const position_estimate_t& estimate) { take_in(estimate, *pilot.navigator); },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
   bus().subscribe<vehicle_dvl_t>(
       bus::channels::kDvl.of(name),
       [&pilot](const vehicle_dvl_t& ping) {
         if (ping.ground_velocity_valid) pilot.ping = ping;
       },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
   bus().subscribe<vehicle_gps_t>(
       bus::channels::kGps.of(name), [&pilot](const vehicle_gps_t& fix) { take_in(fix, *pilot.navigator); },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
   bus().subscribe<vehicle_usbl_t>(
       bus::channels::kUsbl.of(name),
       [&pilot](const vehicle_usbl_t& bearing) {
         take_in(bearing, pilot.beacons, pilot.config.acoustic_fix, *pilot.navigator);
       },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
 }
 
 std::optional<vehicle_dvl_t> AutopilotNode::Pilot::fresh_ping(std::int64_t utime) const {

@@ -106,9 +106,9 @@ SetPoints Follower::beside_leader(double time_s, const Vec3& position_ned_m) con
   const Vec3 error = place - position_ned_m;
   SetPoints points{.z_ned_m = report_->position_ned_m.z() + formation_.below_m};
   points.course_rad = wrapped(report_->course_rad + std::atan(error.dot(starboard) / kLookaheadM));
-  const double slowest = std::min(kSlowest * report_->speed_mps, formation_.greatest_speed_mps);
-  points.speed_mps = std::clamp(report_->speed_mps + kCatchUpPerS * error.dot(ahead), slowest,
-                                formation_.greatest_speed_mps);
+  const double slowest = std::min(kSlowest * report_->speed_mps, formation_.max_speed_mps);
+  points.speed_mps =
+      std::clamp(report_->speed_mps + kCatchUpPerS * error.dot(ahead), slowest, formation_.max_speed_mps);
   return points;
 }
 
@@ -121,7 +121,7 @@ SetPoints Follower::steer_for(double time_s, const Vec3& position_ned_m) {
   if (phase_ == FollowPhase::kKeepingCourse) {
     return {.course_rad = report_->course_rad,
             .z_ned_m = report_->position_ned_m.z() + formation_.below_m,
-            .speed_mps = std::min(report_->speed_mps, formation_.greatest_speed_mps)};
+            .speed_mps = std::min(report_->speed_mps, formation_.max_speed_mps)};
   }
   if (!safe_center_) safe_center_ = position_ned_m;
   return {.course_rad = course_on_circle(*safe_center_, radius_m_, true, position_ned_m),

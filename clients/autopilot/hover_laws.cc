@@ -44,7 +44,7 @@ double down_force(const HoverGains& g, const StationPoint& point, const HoverMea
 double wanted_heading(const HoverGains& g, const Vec2& force, double heading_rad, HoverIntegrals& integrals) {
   if (!integrals.has_heading) integrals.heading_rad = heading_rad;
   integrals.has_heading = true;
-  if (force.norm() > g.least_force_n) integrals.heading_rad = std::atan2(force.y(), force.x());
+  if (force.norm() > g.min_force_n) integrals.heading_rad = std::atan2(force.y(), force.x());
   return integrals.heading_rad;
 }
 

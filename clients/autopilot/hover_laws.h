@@ -28,7 +28,7 @@ struct HoverGains {
   double depth_d_n_s_per_m = 100;     // N per m/s
   double pitch_p_nm = 20;             // N m per rad
   double pitch_d_nm_s = 30;           // N m per rad/s
-  double least_force_n = 1;           // below which the heading is kept
+  double min_force_n = 1;             // below which the heading is kept
   double beside_axis_m = 0.25;        // of the horizontal thrusters
   double from_middle_m = 0.45;        // of the vertical thrusters
   double full_thrust_n = 51.5;        // of a thruster at full_rpm, ahead

@@ -120,7 +120,7 @@ SetPoints set_points(const Plan& plan, const PlanProgress& progress, const Vec3&
   if (has_route(behaviour)) points.station_ned_m = route.waypoints.at(progress.route.target);
   if (behaviour.altitude_m > 0) {
     points.altitude_m = behaviour.altitude_m;
-    points.greatest_z_ned_m = behaviour.greatest_depth_m;
+    points.max_z_ned_m = behaviour.max_depth_m;
   }
   return points;
 }

@@ -22,15 +22,15 @@ enum class Sense { kClockwise, kCounterclockwise };
 
 // Where a follower keeps from its leader, and what it does without it.
 struct Formation {
-  std::string leader{};           // name of a vehicle that broadcasts its place
-  double along_m = -30;           // ahead of the leader (below 0: astern)
-  double across_m = 0;            // to its starboard
-  double below_m = 0;             // below it
-  double fresh_for_s = 25;        // age up to which a report is followed, above 0
-  double keep_course_s = 30;      // how long the last course is kept after that
-  double safe_depth_m = 10;       // z it then circles at
-  double safe_speed_mps = 1;      // and how fast
-  double greatest_speed_mps = 2;  // to catch up with
+  std::string leader{};       // name of a vehicle that broadcasts its place
+  double along_m = -30;       // ahead of the leader (below 0: astern)
+  double across_m = 0;        // to its starboard
+  double below_m = 0;         // below it
+  double fresh_for_s = 25;    // age up to which a report is followed, above 0
+  double keep_course_s = 30;  // how long the last course is kept after that
+  double safe_depth_m = 10;   // z it then circles at
+  double safe_speed_mps = 1;  // and how fast
+  double max_speed_mps = 2;   // to catch up with
 };
 
 struct Behaviour {
@@ -40,7 +40,7 @@ struct Behaviour {
   double speed_mps = 0;                          // through the water; 0: the mission's
   double depth_m = 10;                           // z, of heading, loiter and survey
   double altitude_m = 0;                         // above the ground, instead of depth; 0: not used
-  double greatest_depth_m = 1000;                // z never passed on the way down to an altitude
+  double max_depth_m = 1000;                     // z never passed on the way down to an altitude
   double heading_rad = 0;                        // of heading; of a survey's first track
   double center_north_m = 0, center_east_m = 0;  // of loiter and survey
   double radius_m = 30;                          // of a loiter, and of a lost follower's circle; above 0

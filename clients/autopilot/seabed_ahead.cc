@@ -57,14 +57,14 @@ SetPoints above_ground(const SeabedRules& rules, const SeabedAhead& seabed, doub
   if (!ground) {
     if (!keeps_height) return points;
     const bool descends = seabed.sees_no_bottom(time_s);
-    points.z_ned_m = std::min(z_ned_m + (descends ? kBlindDescentM : 0), points.greatest_z_ned_m);
+    points.z_ned_m = std::min(z_ned_m + (descends ? kBlindDescentM : 0), points.max_z_ned_m);
     return points;
   }
   const double shallowest = std::min(ground->z_ned_m, ground->z_ned_m + ground->slope * rules.ahead_m);
   if (keeps_height) {
     const double wanted = shallowest - std::max(points.altitude_m, rules.min_altitude_m);
-    points.z_ned_m = std::min(wanted, points.greatest_z_ned_m);
-    if (wanted <= points.greatest_z_ned_m) points.climb_rad = -std::atan(ground->slope);
+    points.z_ned_m = std::min(wanted, points.max_z_ned_m);
+    if (wanted <= points.max_z_ned_m) points.climb_rad = -std::atan(ground->slope);
   }
   const double floor_z = shallowest - rules.min_altitude_m;
   if (points.z_ned_m >= floor_z) {

@@ -6,8 +6,8 @@
 namespace halocline::clients {
 namespace {
 
-constexpr double kCarrotM = 10;         // thrusters steer for a point this far along a course
-constexpr double kLeastSpeedMps = 0.3;  // of a follower through the water: below it fins do not steer
+constexpr double kCarrotM = 10;       // thrusters steer for a point this far along a course
+constexpr double kMinSpeedMps = 0.3;  // of a follower through the water: below it fins do not steer
 
 }  // namespace
 
@@ -36,7 +36,7 @@ SetPoints VehiclePilot::planned(const Situation& situation) {
   // What the current adds on the way, the propeller need not.
   const Vec3 bow(std::cos(situation.attitude.yaw), std::sin(situation.attitude.yaw), 0);
   points.speed_mps += situation.water_speed_mps - situation.velocity_ned_mps.dot(bow);
-  points.speed_mps = std::max(points.speed_mps, kLeastSpeedMps);
+  points.speed_mps = std::max(points.speed_mps, kMinSpeedMps);
   return points;
 }
 

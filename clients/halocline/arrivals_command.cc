@@ -84,9 +84,9 @@ void add_ray_options(CLI::App& command, ArrivalsArguments& arguments) {
   command.add_option("--max-launch-angle-deg", arguments.sea.max_launch_angle_deg, "from the horizontal");
   command.add_flag("--steep-direct", arguments.sea.keep_steep_direct, "keep the direct path however steep");
   command.add_option("--max-bounces", arguments.sea.max_bounces, "surface and bottom together");
-  command.add_option("--least-boundary-factor", arguments.sea.least_boundary_factor,
+  command.add_option("--least-boundary-factor", arguments.sea.min_boundary_factor,
                      "paths whose bounces leave less of the pressure are dropped");
-  command.add_option("--least-amplitude-db", arguments.sea.least_amplitude_db, "paths below are dropped");
+  command.add_option("--least-amplitude-db", arguments.sea.min_amplitude_db, "paths below are dropped");
   command.add_option("--solver", arguments.solver, "auto, images, snell or arcs");
 }
 

@@ -48,7 +48,7 @@ const char* name_of(channel_server::PropagationUsed used) {
 
 void apply(const LinkOptions& options, acoustics::Modem& modem) {
   if (options.source_level_db) modem.source_level = {*options.source_level_db};
-  if (options.cutoff_level_db) modem.least_receivable_level = {*options.cutoff_level_db};
+  if (options.cutoff_level_db) modem.min_receivable_level = {*options.cutoff_level_db};
   if (options.center_frequency_hz) modem.centre_frequency_hz = *options.center_frequency_hz;
   if (options.bandwidth_hz) modem.bandwidth_hz = *options.bandwidth_hz;
 }

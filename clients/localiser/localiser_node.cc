@@ -54,7 +54,7 @@ LocaliserNode::LocaliserNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Lo
   if (vehicles_.empty()) return;
   bus().subscribe<environment_t>(
       bus::channels::kEnvironment, [this](const environment_t& message) { take_environment(message); },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
 }
 
 void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLocaliser& settings) {
@@ -67,10 +67,10 @@ void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLoca
   bus().subscribe<vehicle_sensors_t>(
       bus::channels::kSensors.of(settings.vehicle),
       [vehicle](const vehicle_sensors_t& sensors) { vehicle->sensors.push_back(sensors); },
-      bus::Hearing::kStores);
+      bus::Wakeup::kStoreOnly);
   bus().subscribe<vehicle_state_t>(
       bus::channels::kState.of(settings.vehicle),
-      [vehicle](const vehicle_state_t& state) { vehicle->states.push_back(state); }, bus::Hearing::kStores);
+      [vehicle](const vehicle_state_t& state) { vehicle->states.push_back(state); }, bus::Wakeup::kStoreOnly);
 }
 
 void LocaliserNode::take_environment(const environment_t& message) {

@@ -14,10 +14,10 @@ namespace {
 // An outlier comes by an echo, up to some hundreds of metres late, once in a hundred ranges.
 constexpr double kOutlierShare = 0.01, kOutlierDensityPerM = 1.0 / 500;
 // Ranges whose directions differ by less than 6 degrees fix no position to start from.
-constexpr double kLeastSine = 0.1;
+constexpr double kMinSine = 0.1;
 constexpr double kUnknownM = 1000;  // standard deviation that two ranges then narrow down
 constexpr int kIterations = 4;      // of an update; each squares the error of the linearisation
-constexpr std::size_t kMostWaiting = 16;
+constexpr std::size_t kMaxWaiting = 16;
 
 double gaussian(double normalised_square, double variance) {
   return std::exp(-0.5 * normalised_square) / std::sqrt(2 * std::numbers::pi * variance);
@@ -136,7 +136,7 @@ RangeVerdict PositionEstimator::take(const RangeMeasurement& range) {
   for (Hypothesis& hypothesis : hypotheses_) used = weigh(hypothesis, range) || used;
   drop_unlikely();
   misfits_in_a_row_ = used ? 0 : misfits_in_a_row_ + 1;
-  if (misfits_in_a_row_ >= kMostMisfits) {
+  if (misfits_in_a_row_ >= kMaxMisfits) {
     hypotheses_.clear();
     misfits_in_a_row_ = 0;
   }
@@ -166,7 +166,7 @@ void PositionEstimator::start_from_ranges(const RangeMeasurement& latest) {
     if (other->beacon_m.head<2>() != latest.beacon_m.head<2>()) add_crossings(*other, latest);
   }
   waiting_.push_back(latest);
-  if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
+  if (waiting_.size() > kMaxWaiting) waiting_.erase(waiting_.begin());
   if (!hypotheses_.empty()) waiting_.clear();
 }
 
@@ -195,7 +195,7 @@ void PositionEstimator::add_crossings(const RangeMeasurement& one, const RangeMe
   const double along = (a.radius * a.radius - b.radius * b.radius + apart * apart) / (2 * apart);
   const double across_square = a.radius * a.radius - along * along;
   // sin of the angle between the two directions = twice the triangle's area / (r_a r_b)
-  if (across_square <= 0 || std::sqrt(across_square) * apart < kLeastSine * a.radius * b.radius) return;
+  if (across_square <= 0 || std::sqrt(across_square) * apart < kMinSine * a.radius * b.radius) return;
   const Vec2 unit = line / apart;
   for (const double side : {-1.0, 1.0}) {
     Hypothesis start{State::Zero(), Covariance::Zero(), 0.5};

@@ -14,7 +14,7 @@
 // course along that very line tells nothing; with it, the start has to be stated.
 //
 // A range farther from what a hypothesis expects than `gate` standard deviations is an outlier to it: it does not
-// move it, and costs weight. After kMostMisfits such ranges in a row to all hypotheses the filter starts anew.
+// move it, and costs weight. After kMaxMisfits such ranges in a row to all hypotheses the filter starts anew.
 //
 // Holds where errors of range and dead reckoning are white and ranges are long against the position's error; errors
 // common to all ranges (of sound speed, of a beacon's place) are not in the covariance. Pure and not thread-safe.
@@ -70,7 +70,7 @@ struct PositionEstimate {
 class PositionEstimator {
  public:
   static constexpr double kForgotten = 1e-3;
-  static constexpr int kMostMisfits = 8;
+  static constexpr int kMaxMisfits = 8;
 
   // Throws InvalidArgument when a rule or the start is no number above 0.
   explicit PositionEstimator(EstimatorRules rules, std::optional<StatedStart> start = {});

@@ -100,7 +100,7 @@ void ModemClient::take_receipt(const modem_receipt_t& receipt) {
                         receipt.receipt_result == modem_receipt_t::QUEUED;
   ++(accepted ? counters_.accepted : counters_.refused);
   receipts_[receipt.packet_sequence] = receipt;
-  if (receipts_.size() > kMostReceipts) receipts_.erase(receipts_.begin());
+  if (receipts_.size() > kMaxReceipts) receipts_.erase(receipts_.begin());
   if (receipt_handler_) receipt_handler_(receipt);
 }
 
@@ -112,7 +112,7 @@ void ModemClient::take_packet(const modem_receive_t& packet) {
   ++counters_.received;
   if (receive_handler_) return receive_handler_(packet);
   waiting_.push_back(packet);
-  if (waiting_.size() > kMostWaiting) {
+  if (waiting_.size() > kMaxWaiting) {
     waiting_.pop_front();
     ++counters_.discarded;
   }
@@ -121,7 +121,7 @@ void ModemClient::take_packet(const modem_receive_t& packet) {
 bool ModemClient::is_new(const PacketName& packet) {
   if (!known_.insert(packet).second) return false;
   known_in_order_.push_back(packet);
-  if (known_in_order_.size() > kMostRemembered) {
+  if (known_in_order_.size() > kMaxRemembered) {
     known_.erase(known_in_order_.front());
     known_in_order_.pop_front();
   }

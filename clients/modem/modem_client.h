@@ -60,7 +60,7 @@ struct ModemCounters {
   std::int64_t unanswered = 0;  // given up
   std::int64_t received = 0;    // packets that arrived, each once
   std::int64_t duplicates = 0;  // RECEIVEs that came again
-  std::int64_t discarded = 0;   // arrived, but nobody took them before kMostWaiting others came
+  std::int64_t discarded = 0;   // arrived, but nobody took them before kMaxWaiting others came
 };
 
 class ModemClient {
@@ -70,7 +70,7 @@ class ModemClient {
 
   // What a client keeps at most: packets that nobody has taken, receipts to be asked for, packets remembered
   // in order to know a duplicate.
-  static constexpr std::size_t kMostWaiting = 1000, kMostReceipts = 1000, kMostRemembered = 1000;
+  static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 1000, kMaxRemembered = 1000;
 
   ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {});
   ModemClient(const ModemClient&) = delete;

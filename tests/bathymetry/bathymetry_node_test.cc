@@ -111,7 +111,7 @@ TEST_F(BathymetryNodeTest, AQueryRepeatedAfterItsReplyGetsTheSameReply) {
 }
 
 TEST_F(BathymetryNodeTest, RefusesMoreThanTheCapWhole) {
-  ask_and_step({.rays = std::vector<Ray>(kMostRays + 1, kDown)});
+  ask_and_step({.rays = std::vector<Ray>(kMaxRays + 1, kDown)});
   ASSERT_EQ(replies_.size(), 1u);
   EXPECT_EQ(replies_[0].reply_status, ray_reply_t::REFUSED_TOO_MANY);
   EXPECT_EQ(replies_[0].num_rays, 0);
@@ -147,13 +147,13 @@ TEST_F(BathymetryNodeTest, ACorruptQueryIsCountedAndNotAnswered) {
 }
 
 TEST_F(BathymetryNodeTest, RefusesQueriesBeyondWhatMayWait) {
-  for (std::size_t n = 0; n <= BathymetryNode::kMostWaiting; ++n) {
+  for (std::size_t n = 0; n <= BathymetryNode::kMaxWaiting; ++n) {
     ask({.mode = QueryMode::kDepth, .rays = {kDown}}, static_cast<std::int64_t>(n));
   }
   EXPECT_EQ(node_.counters().refused, 1);
   step();
   drain();
-  EXPECT_EQ(replies_.size(), BathymetryNode::kMostWaiting);
+  EXPECT_EQ(replies_.size(), BathymetryNode::kMaxWaiting);
 }
 
 TEST_F(BathymetryNodeTest, RepliesPassTheChecksOfTheBus) {

@@ -86,8 +86,8 @@ TEST(RayService, AProfileStraightDownIsBadInput) {
 }
 
 TEST(RayService, TakesTheCapAndRefusesOneMore) {
-  RayBatch batch{.rays = std::vector<Ray>(kMostRays, {{0, 0, 40}, {0, 0, 1}, 500})};
-  EXPECT_EQ(ask(batch).statuses.size(), kMostRays);
+  RayBatch batch{.rays = std::vector<Ray>(kMaxRays, {{0, 0, 40}, {0, 0, 1}, 500})};
+  EXPECT_EQ(ask(batch).statuses.size(), kMaxRays);
   batch.rays.push_back(batch.rays.front());
   const RayAnswers answers = ask(batch);
   EXPECT_EQ(answers.refusal, Refusal::kTooMany);

@@ -51,7 +51,7 @@ TEST(FlowHistory, TheFlowsPublishedOnMostRecentlyAreKept) {
     history.keep("FLOW." + std::to_string(i), 1, 0, message_of(1));
     history.keep("BUSY", 1, i, message_of(1));
   }
-  EXPECT_EQ(history.flows().size(), FlowHistory::kMostFlows);
+  EXPECT_EQ(history.flows().size(), FlowHistory::kMaxFlows);
   EXPECT_NE(history.find("BUSY", 1, 0), nullptr);
   EXPECT_EQ(history.find("FLOW.5", 1, 0), nullptr);
   EXPECT_NE(history.find("FLOW.599", 1, 0), nullptr);

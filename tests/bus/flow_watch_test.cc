@@ -95,15 +95,15 @@ TEST_F(FlowWatchTest, HostileNumbersNeitherOverflowNorGrow) {
   EXPECT_GE(missing_before("A", 1, INT64_MAX), 0);
   EXPECT_EQ(missing_before("A", 1, INT64_MIN), 0);
   EXPECT_GT(watch_.lost(), 0);
-  EXPECT_LE(asked_at(at_ms(5)).size(), FlowWatch::kMostInARequest);
+  EXPECT_LE(asked_at(at_ms(5)).size(), FlowWatch::kMaxInARequest);
 }
 
 TEST_F(FlowWatchTest, ChannelsMadeUpWithoutEndAreNotWatchedBeyondABound) {
-  for (std::size_t i = 0; i < FlowWatch::kMostChannels + 10; ++i) {
+  for (std::size_t i = 0; i < FlowWatch::kMaxChannels + 10; ++i) {
     const std::string channel = "C" + std::to_string(i);
     watch_.on_message(SimTime(), channel, 1, 0);
     const auto arrival = watch_.on_message(SimTime(), channel, 1, 2);
-    EXPECT_EQ(arrival.newly_missing, i < FlowWatch::kMostChannels ? 1 : 0);
+    EXPECT_EQ(arrival.newly_missing, i < FlowWatch::kMaxChannels ? 1 : 0);
   }
 }
 

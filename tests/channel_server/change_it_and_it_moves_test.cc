@@ -98,7 +98,7 @@ void add_common(std::vector<Turn>& all, const World& world) {
     all.push_back({(world.rays ? "rays: " : "line: ") + input, world, std::move(turn), moves});
   };
   add(
-      "cut-off", [](World& w) { w.modem.modem.least_receivable_level = {120}; },
+      "cut-off", [](World& w) { w.modem.modem.min_receivable_level = {120}; },
       undecided() +
           Moves{becomes("receivable", 0), becomes("cutoff", 120),
                 becomes("fate", packet_outcome_t::BELOW_CUTOFF)} +

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "channel_server/packets/packet_medium.h"
-#include "channel_server/propagation/profile_book.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/vehicles/fleet.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 
 namespace halocline::channel_server::testing {
 
@@ -39,7 +39,7 @@ inline StampedState state_at(double time_s, const Vec3& position, const Vec3& ve
 inline std::string name_of(VehicleId id) { return "v" + std::to_string(id); }
 
 // States ten times a second over [begin, end], along a straight line.
-inline void move_steadily(Fleet& fleet, VehicleId id, const Vec3& at_zero, const Vec3& velocity,
+inline void move_steadily(VehicleRegistry& fleet, VehicleId id, const Vec3& at_zero, const Vec3& velocity,
                           double begin_s, double end_s) {
   for (int tick = static_cast<int>(begin_s * 10); tick <= static_cast<int>(end_s * 10); ++tick) {
     const double time_s = tick / 10.0;
@@ -77,8 +77,8 @@ inline std::vector<PacketEnd> ends_in(const std::vector<MediumEvent>& events) {
 
 // The bottom between vehicle 1 at `one` and vehicle 2 at `other`, `depth_at(north)` metres deep, known from 1 s on.
 template <class DepthAt>
-std::shared_ptr<ProfileBook> bottoms_between(const Vec3& one, const Vec3& other, DepthAt depth_at) {
-  auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+std::shared_ptr<SeabedProfileCache> bottoms_between(const Vec3& one, const Vec3& other, DepthAt depth_at) {
+  auto bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
   PlacedVehicle low, high;
   low.id = 1, high.id = 2;
   low.placement.position_ned_m = one, high.placement.position_ned_m = other;

@@ -117,7 +117,7 @@ TEST(ChannelServerConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
           .modem;
   acoustics::Modem expected = profile_modem(acoustics::ModemProfile::kMicromodemPsk, 1);
   expected.source_level = {150};
-  expected.least_receivable_level = {30};
+  expected.min_receivable_level = {30};
   expected.centre_frequency_hz = 10'000;
   expected.bandwidth_hz = 2000;
   expected.directivity_index = {3};

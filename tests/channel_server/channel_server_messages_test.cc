@@ -18,7 +18,7 @@ using testing::for_s;
 VehicleModem odd_modem() {
   VehicleModem modem;
   modem.modem.source_level = {171.5};
-  modem.modem.least_receivable_level = {-12.25};
+  modem.modem.min_receivable_level = {-12.25};
   modem.modem.centre_frequency_hz = 11520;
   modem.modem.bandwidth_hz = 4160;
   modem.modem.directivity_index = {3};

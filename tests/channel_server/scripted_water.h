@@ -108,7 +108,7 @@ class ScriptedWater : public ::testing::Test {
   }
   static double power_of(double level_db) { return to_power_ratio(Decibels{level_db}).value; }
 
-  Fleet fleet{{for_s(0.05), for_s(5)}, {big_modem(), {}}};
+  VehicleRegistry fleet{{for_s(0.05), for_s(5)}, {big_modem(), {}}};
   ScriptedPropagation water;
   PacketMedium medium{fleet, water, {for_s(10), for_s(200)}};
   std::vector<MediumEvent> events;

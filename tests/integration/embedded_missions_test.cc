@@ -64,8 +64,8 @@ class EmbeddedMissionsTest : public testing::EmbeddedTest {
   }
 
   // The greatest distance of a follower from its place beside the leader's true pose, between two instants.
-  double greatest_error(const ScenarioConfig& config, const std::string& log, std::size_t follower,
-                        double from_s, double to_s) {
+  double max_error(const ScenarioConfig& config, const std::string& log, std::size_t follower, double from_s,
+                   double to_s) {
     const PilotConfig& pilot = config.autopilot.vehicles.at(follower);
     const Formation& formation = pilot.behaviours.at(0).formation;
     std::map<std::int64_t, vehicle_state_t> leader;
@@ -128,8 +128,8 @@ TEST_F(EmbeddedMissionsTest, FollowersKeepTheirPlacesByWhatTheyHear) {
   const ScenarioConfig config = load("formation", {});
   const std::string log = run(config, "formation");
   for (const std::size_t follower : {1u, 2u}) {
-    EXPECT_LT(greatest_error(config, log, follower, 200, 300), tolerance(0.5));
-    EXPECT_LT(greatest_error(config, log, follower, 500, 600), tolerance(0.5));  // after the turn
+    EXPECT_LT(max_error(config, log, follower, 200, 300), tolerance(0.5));
+    EXPECT_LT(max_error(config, log, follower, 500, 600), tolerance(0.5));  // after the turn
   }
   EXPECT_FALSE(was_on_the_seabed(log));
 }

@@ -44,7 +44,7 @@ TEST(LockstepProcesses, WriteTheLogOfOneProcess) {
 
 TEST(LockstepProcesses, WriteItOneByOneAsWell) {
   LockstepFleet fleet = fleet_of("6");
-  fleet.start_all({"--one-by-one"});
+  fleet.start_all({"--no-lookahead"});
   ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
   expect_the_log_of_one_process(fleet);
 }
@@ -221,7 +221,7 @@ TEST(LockstepProcesses, AConductorThatIsToldToStopSaysGoodbyeToAll) {
 // Two vehicles that know LCM and the message types alone swim among the scenario's; the conductor dies once.
 TEST(LockstepProcesses, VehiclesFromOutsideTakePart) {
   LockstepFleet fleet = fleet_of("30");
-  fleet.start_all({"--outside", "--rate", "2"});
+  fleet.start_all({"--bridge-bus", "--rate", "2"});
   Process visitor({HALOCLINE_BIN_DIR "/foreign-vehicle", "--name", "visitor", "--id", "77", "--depth", "30",
                    "--every", "1.7"});
   Process neighbour({HALOCLINE_BIN_DIR "/foreign-vehicle", "--name", "neighbour", "--id", "78", "--depth",

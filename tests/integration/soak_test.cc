@@ -18,7 +18,7 @@ class SoakTest : public testing::EmbeddedTest {
     return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
   }
   // The most in use at any of the instants looked at, every 60 s, from one to the other.
-  double most_in_use(bus::LockstepRunner& runner, double from_s, double to_s) {
+  double max_in_use(bus::LockstepRunner& runner, double from_s, double to_s) {
     double most = 0;
     for (double t = from_s; t <= to_s; t += 60) {
       runner.run_until(SimTime::from_seconds(t));
@@ -36,10 +36,10 @@ class SoakTest : public testing::EmbeddedTest {
     bus::LockstepRunner runner(lcm, all.nodes());
     bus::LogRecorder recorder(lcm, log_path("soak"), [&] { return runner.now(); },
                               {2'000'000, SimDuration(), 2});
-    most_in_use(runner, 60, settled_s);
+    max_in_use(runner, 60, settled_s);
     Use use;
-    use.first_half = most_in_use(runner, settled_s + 60, settled_s + half_s);
-    use.second_half = most_in_use(runner, settled_s + half_s + 60, settled_s + 2 * half_s);
+    use.first_half = max_in_use(runner, settled_s + 60, settled_s + half_s);
+    use.second_half = max_in_use(runner, settled_s + half_s + 60, settled_s + 2 * half_s);
     EXPECT_GT(recorder.parts(), 10);
     EXPECT_EQ(bus::parts_of_log(log_path("soak")).size(), 2u);
     return use;
@@ -56,17 +56,17 @@ std::vector<std::string> busy(int vehicles) {
 }
 
 // Over 100 messages a simulated second: a byte kept of each would be 0.3 MB a half.
-constexpr double kMostGrowth_bytes = 100'000;
+constexpr double kMaxGrowth_bytes = 100'000;
 
 TEST_F(SoakTest, HoursOfAHarbourNeedNoMoreMemoryInTheirSecondHalf) {
   const Use use = bytes_in_use(load("harbour", busy(5)), 3600, 3600);
-  EXPECT_LT(use.second_half - use.first_half, kMostGrowth_bytes)
+  EXPECT_LT(use.second_half - use.first_half, kMaxGrowth_bytes)
       << use.first_half << " to " << use.second_half;
 }
 
 TEST_F(SoakTest, HoursOfRangesAndPositionsNeedNoMoreMemoryInTheirSecondHalf) {
   const Use use = bytes_in_use(load("ranging", busy(0)), 7200, 7200);
-  EXPECT_LT(use.second_half - use.first_half, kMostGrowth_bytes)
+  EXPECT_LT(use.second_half - use.first_half, kMaxGrowth_bytes)
       << use.first_half << " to " << use.second_half;
 }
 

@@ -51,7 +51,7 @@ byte said_once[PARTS * (LIVES + 1)];
 /* Participants. */
 byte life[PARTS];                   /* 1, 2, ...: greater is later */
 byte taken[PARTS];                  /* turns, in this life */
-byte most_taken[PARTS];             /* turns, in any life */
+byte max_taken[PARTS];             /* turns, in any life */
 
 /* On the conductor's disk. */
 byte journal = 0;                   /* rounds */
@@ -125,7 +125,7 @@ proctype conductor() {
   :: atomic { alive && !over && answered == ALL ->
        p = 0;
        do
-       :: p < PARTS -> assert(most_taken[p] >= round); p++    /* passed */
+       :: p < PARTS -> assert(max_taken[p] >= round); p++    /* passed */
        :: else -> break
        od;
        p = 0;
@@ -168,12 +168,12 @@ proctype participant(byte p) {
        assert(taken[p] <= journal + 1);                       /* early */
        q = 0;
        do
-       :: q < PARTS -> assert(most_taken[q] + 1 >= taken[p]); q++
+       :: q < PARTS -> assert(max_taken[q] + 1 >= taken[p]); q++
        :: else -> break
        od;
        q = 0;
        grant[AT(p, life[p])] = grant[AT(p, life[p])] & ~(BIT(taken[p]) - 1);   /* without effect from here on */
-       most_taken[p] = (taken[p] > most_taken[p] -> taken[p] : most_taken[p]);
+       max_taken[p] = (taken[p] > max_taken[p] -> taken[p] : max_taken[p]);
        answer[AT(p, life[p])] = answer[AT(p, life[p])] | BIT(taken[p]) }
   /* Hears the grant of its last turn again: gives the same answer again. */
   :: atomic { !over && taken[p] > 0 && (grant[AT(p, life[p])] & BIT(taken[p])) &&

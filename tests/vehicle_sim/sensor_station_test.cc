@@ -156,7 +156,7 @@ TEST(SensorStation, DeadSensorsDoNotPing) {
   Fleet fleet = fleet_of(1, 0.1);
   for (const SensorKind kind :
        {SensorKind::kDvl, SensorKind::kGps, SensorKind::kSonar, SensorKind::kAltimeter})
-    fleet.break_down(0, {.from = SimTime(), .kind = FaultKind::kDeadSensor, .sensor = kind});
+    fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kDeadSensor, .sensor = kind});
   SensorStation station = station_of(1);
   const auto ticks = station.take(fleet, 4096);
   ASSERT_EQ(ticks.size(), 1u);

@@ -336,7 +336,7 @@ TEST_F(VehicleSimNodeTest, APingWithoutAnswerGoesOutUnavailable) {
 
 TEST_F(VehicleSimNodeTest, OnlyWhoIsAtTheSurfaceHasAFix) {
   config_.sensors.gps.period = SimDuration::from_milliseconds(500);
-  config_.sensors.gps.greatest_depth_m = 6;  // the buoy's antenna, say, on a mast
+  config_.sensors.gps.max_depth_m = 6;  // the buoy's antenna, say, on a mast
   make_node();
   run_until(at_ms(1000));
   EXPECT_TRUE(fixes_["sub"].empty());

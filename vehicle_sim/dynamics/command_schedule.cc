@@ -13,7 +13,7 @@ CommandSchedule::CommandSchedule(SimDuration timeout) : timeout_(timeout) {
 CommandVerdict CommandSchedule::add(const TimedCommand& command, SimTime now) {
   if (command.from < now - timeout_) return CommandVerdict::kTooOld;
   if (commanded_ && command.from < obeyed_.from) return CommandVerdict::kTooOld;
-  if (waiting_.size() >= kMostWaiting) return CommandVerdict::kTooMany;
+  if (waiting_.size() >= kMaxWaiting) return CommandVerdict::kTooMany;
   const auto later = [](const TimedCommand& a, const TimedCommand& b) { return a.from < b.from; };
   waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), command, later), command);
   return CommandVerdict::kTaken;

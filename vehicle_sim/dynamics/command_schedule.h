@@ -30,7 +30,7 @@ enum class CommandVerdict {
 
 class CommandSchedule {
  public:
-  static constexpr std::size_t kMostWaiting = 1000;
+  static constexpr std::size_t kMaxWaiting = 1000;
 
   // `timeout` above 0: the age at which a command is no longer obeyed.
   explicit CommandSchedule(SimDuration timeout);

@@ -13,10 +13,10 @@ namespace halocline::vehicle_sim {
 namespace {
 
 constexpr double kLargest = 1e12;  // far above any vehicle; refuses infinities
-constexpr double kLeast = 1e-12;   // "above 0"
+constexpr double kMin = 1e-12;     // "above 0"
 
 void require_positive(double value, const char* what, const char* unit) {
-  require_in_range(value, kLeast, kLargest, what, unit);
+  require_in_range(value, kMin, kLargest, what, unit);
 }
 
 void require_not_negative(double value, const char* what, const char* unit) {
@@ -27,7 +27,7 @@ void check_body(const ModelParameters& p) {
   require_positive(p.water_density_kg_m3, "water density", "kg/m^3");
   require_positive(p.gravity_m_s2, "gravity", "m/s^2");
   require_positive(p.hull.length_m, "hull length", "m");
-  require_in_range(p.hull.diameter_m, kLeast, p.hull.length_m, "hull diameter", "m");
+  require_in_range(p.hull.diameter_m, kMin, p.hull.length_m, "hull diameter", "m");
   require_positive(p.mass_kg, "mass", "kg");
   require_not_negative(p.buoyancy_n, "buoyancy", "N");
   require(p.center_of_gravity_m.allFinite(), "the centre of gravity is not finite");
@@ -41,7 +41,7 @@ void check_forces(const ModelParameters& p) {
   require_not_negative(p.lift_drag.reference_area_m2, "lift reference area", "m^2");
   require_not_negative(p.lift_drag.zero_lift_drag, "zero-lift drag coefficient", "");
   require_positive(p.lift_drag.aspect_ratio, "aspect ratio", "");
-  require_in_range(p.lift_drag.oswald_efficiency, kLeast, 1, "Oswald efficiency", "");
+  require_in_range(p.lift_drag.oswald_efficiency, kMin, 1, "Oswald efficiency", "");
   require_not_negative(p.body_lift.reference_area_m2, "body lift reference area", "m^2");
   require_not_negative(p.body_lift.axial_drag, "axial drag coefficient", "");
   require_not_negative(p.body_lift.lift_slope_per_rad, "body lift slope", "1/rad");
@@ -81,7 +81,7 @@ void check_actuators(const ModelParameters& p) {
   require_positive(p.fin_servo.lag_s, "fin lag", "s");
   require_in_range(p.fin_servo.max_angle_rad, 0, std::numbers::pi / 2, "greatest fin angle", "rad");
   check_thruster(p.propeller);
-  require(p.thrusters.size() <= kMostThrusters, "a vehicle has 4 thrusters at most besides its propeller");
+  require(p.thrusters.size() <= kMaxThrusters, "a vehicle has 4 thrusters at most besides its propeller");
   for (const Thruster& thruster : p.thrusters) check_thruster(thruster);
 }
 

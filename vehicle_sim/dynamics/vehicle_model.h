@@ -126,7 +126,7 @@ struct Thruster {
   double max_hz = 0;               // greatest speed either way; 0 or above
 };
 
-inline constexpr std::size_t kMostThrusters = 4;  // besides the propeller
+inline constexpr std::size_t kMaxThrusters = 4;  // besides the propeller
 
 // First-order lag of the fins towards the command, which is first held to the limit.
 struct FinServo {
@@ -157,7 +157,7 @@ struct ModelParameters {
   FinPair stern_planes;
   FinServo fin_servo;
   Thruster propeller;
-  std::vector<Thruster> thrusters;  // kMostThrusters at most
+  std::vector<Thruster> thrusters;  // kMaxThrusters at most
 };
 
 // A model ready for use: the parameters, checked, and the matrices made from them.

@@ -19,8 +19,8 @@ namespace halocline::vehicle_sim {
 struct ActuatorValues {
   double rudder_rad = 0;
   double stern_planes_rad = 0;
-  double propeller_hz = 0;                              // revolutions per second
-  std::array<double, kMostThrusters> thruster_hz = {};  // in the model's order; unused ones 0
+  double propeller_hz = 0;                             // revolutions per second
+  std::array<double, kMaxThrusters> thruster_hz = {};  // in the model's order; unused ones 0
 
   bool operator==(const ActuatorValues&) const = default;
 };

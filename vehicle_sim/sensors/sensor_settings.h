@@ -33,10 +33,10 @@ struct DvlSettings {
 };
 
 struct GpsSettings {
-  SimDuration period = {};        // 0: none
-  double greatest_depth_m = 0.2;  // of the antenna below the surface at which it still has a fix
-  SensorErrors errors = {};       // m, north and east each
-  Vec3 place_m = Vec3::Zero();    // of the antenna
+  SimDuration period = {};      // 0: none
+  double max_depth_m = 0.2;     // of the antenna below the surface at which it still has a fix
+  SensorErrors errors = {};     // m, north and east each
+  Vec3 place_m = Vec3::Zero();  // of the antenna
   bool operator==(const GpsSettings&) const = default;
 };
 

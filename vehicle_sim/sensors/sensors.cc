@@ -112,7 +112,7 @@ Echo SensorSuite::read_altitude(const Echo& echo, SimTime when) {
 
 bool gps_sees_sky(const GpsSettings& gps, const VehicleState& state, double sea_surface_z_m) {
   const Vec3 antenna = state.position_ned_m + state.orientation * gps.place_m;
-  return depth_below_surface_m(antenna, sea_surface_z_m) <= gps.greatest_depth_m;
+  return depth_below_surface_m(antenna, sea_surface_z_m) <= gps.max_depth_m;
 }
 
 Eigen::Vector2d read_gps(const GpsSettings& gps, const SensorIdentity& sensor, std::int64_t sample,

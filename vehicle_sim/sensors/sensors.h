@@ -88,7 +88,7 @@ class SensorSuite {
   SensorReading held_;
 };
 
-// A fix of the antenna's place, north and east, with errors; the antenna at a depth of `greatest_depth_m` at most.
+// A fix of the antenna's place, north and east, with errors; the antenna at a depth of `max_depth_m` at most.
 bool gps_sees_sky(const GpsSettings& gps, const VehicleState& state, double sea_surface_z_m);
 Eigen::Vector2d read_gps(const GpsSettings& gps, const SensorIdentity& sensor, std::int64_t sample,
                          const VehicleState& state);

@@ -7,7 +7,7 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-constexpr double kLeastDistance = 1e-6;  // m: a rope whose ends meet has no direction
+constexpr double kMinDistance = 1e-6;  // m: a rope whose ends meet has no direction
 
 // Velocity of the body's point, world frame; `cg` where the point is.
 Vec3 velocity_at(const Motion& cg, const Vec3& point) {
@@ -143,7 +143,7 @@ void VehicleWorld::find_taut_tethers(double step_s) {
     const Vec3 from = end_of(t.vehicle, t.attached_at_m, true),
                to = end_of(t.to_vehicle, t.to_attached_at_m, true);
     const double distance = (to - from).norm(), slack = t.length_m - distance;
-    if (slack > kContactMargin || distance < kLeastDistance) continue;
+    if (slack > kContactMargin || distance < kMinDistance) continue;
     links_.push_back({t.vehicle, t.to_vehicle, from, (to - from) / distance, slack, 0, i});
   }
 }
@@ -170,8 +170,8 @@ void VehicleWorld::attach_link(Link& link, double step_s) {
   double free_speed = link.normal.dot(free_velocity(link.vehicle));
   if (link.other) free_speed -= link.normal.dot(free_velocity(*link.other));
   const double gap = link.gap_m + link.time_left_s * free_speed;  // at the end of the step
-  const double least_speed = std::min(free_speed - gap / step_s, kFastestPushOut);
-  const dContact contact = ode_contact(link.normal, link.point, -least_speed, 0);
+  const double min_speed = std::min(free_speed - gap / step_s, kFastestPushOut);
+  const dContact contact = ode_contact(link.normal, link.point, -min_speed, 0);
   link.joint = dJointCreateContact(ode_->world(), ode_->contacts(), &contact);
   dJointAttach(link.joint, vehicles_[link.vehicle].body, link.other ? vehicles_[*link.other].body : nullptr);
   dJointSetFeedback(link.joint, &link.feedback);

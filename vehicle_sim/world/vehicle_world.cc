@@ -12,7 +12,7 @@ namespace halocline::vehicle_sim {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;  // of a quaternion's length
-constexpr double kLeastForce = 1e-9;     // N: below is no contact
+constexpr double kMinForce = 1e-9;       // N: below is no contact
 
 }  // namespace
 
@@ -150,9 +150,9 @@ void VehicleWorld::attach_contacts(std::size_t index, double step_s) {
     // After the step the gap is gap + h n . (v - v_rk4) at the point; it is to be 0 or more.
     const Vec3 arm = c.point_ned_m - cg_reached;
     const double free_speed = c.normal_ned.dot(free.velocity + free.angular_velocity.cross(arm));
-    const double least_speed = std::min(free_speed - c.gap_m / step_s, kFastestPushOut);
+    const double min_speed = std::min(free_speed - c.gap_m / step_s, kFastestPushOut);
     const Vec3 body_at = v.linked ? cg_reached : now.position;
-    const dContact contact = ode_contact(c.normal_ned, body_at + arm, -least_speed, friction_);
+    const dContact contact = ode_contact(c.normal_ned, body_at + arm, -min_speed, friction_);
     const dJointID joint = dJointCreateContact(ode_->world(), ode_->contacts(), &contact);
     dJointAttach(joint, v.body, nullptr);
     contacts_.push_back({index, joint});
@@ -162,7 +162,7 @@ void VehicleWorld::attach_contacts(std::size_t index, double step_s) {
 void VehicleWorld::note_what_touches() {
   for (Vehicle& v : vehicles_) v.touches = false;
   for (const Contact& c : contacts_) {
-    if (vector_from(c.feedback.f1).norm() > kLeastForce) vehicles_[c.vehicle].touches = true;
+    if (vector_from(c.feedback.f1).norm() > kMinForce) vehicles_[c.vehicle].touches = true;
   }
 }
 

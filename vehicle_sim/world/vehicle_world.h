@@ -107,7 +107,7 @@ class VehicleWorld {
 
   // True once a vehicle's equations gave a number that is not finite: it stays where it was last and moves no
   // more.
-  bool is_lost(std::size_t index) const { return vehicles_[index].lost; }
+  bool has_diverged(std::size_t index) const { return vehicles_[index].lost; }
 
  private:
   struct Contact;

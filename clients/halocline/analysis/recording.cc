@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kSecond_us = 1'000'000, kDay_us = 86'400 * kSecond_us;
 constexpr std::int64_t kSameClock_us = 30 * kDay_us;
 // Of the CLOCKs of a lockstep run all stand at their stamps, but for those that damage changed.
-constexpr double kLeastShareAtStamp = 0.9;
+constexpr double kMinShareAtStamp = 0.9;
 
 template <class Message>
 inline constexpr bool kIsPlayed =
@@ -228,7 +228,7 @@ Recording read_recording(LogReader& log, const bus::Scenario& scenario) {
   collected.read(log);
   recording.stamped_with_simulation_time =
       collected.clocks > 0 && static_cast<double>(collected.clocks_at_stamp) >=
-                                  kLeastShareAtStamp * static_cast<double>(collected.clocks);
+                                  kMinShareAtStamp * static_cast<double>(collected.clocks);
   if (recording.stamped_with_simulation_time) {
     go_by_stamps(collected, recording);
   } else {

@@ -117,8 +117,8 @@ acoustics::RayOptions options_of(const SeaDescription& sea) {
   options.max_launch_angle_rad = to_radians(sea.max_launch_angle_deg);
   options.keep_steep_direct = sea.keep_steep_direct;
   options.max_bounces = sea.max_bounces;
-  options.min_boundary_factor = sea.least_boundary_factor;
-  if (sea.least_amplitude_db) options.min_amplitude = std::pow(10.0, *sea.least_amplitude_db / 20);
+  options.min_boundary_factor = sea.min_boundary_factor;
+  if (sea.min_amplitude_db) options.min_amplitude = std::pow(10.0, *sea.min_amplitude_db / 20);
   validate(options);
   return options;
 }

@@ -96,7 +96,7 @@ std::vector<double> optimum_row(AbsorptionModel model, const std::vector<double>
                                .absorption = absorption_spectrum(model, to_absorbing_water(v, 5)),
                                .noise = {v[2], v[3]},
                                .target_snr = {v[4]}});
-  std::vector<double> row = {hz_to_khz(best.optimum_frequency_hz), -best.least_loss_and_noise.value};
+  std::vector<double> row = {hz_to_khz(best.optimum_frequency_hz), -best.min_loss_and_noise.value};
   add_plan(row, best.flat);
   add_plan(row, best.water_filling);
   return row;

@@ -55,16 +55,16 @@ Quantity bit_error_rate() {
                  bit_error_row)}};
 }
 
-constexpr int kGreatestDistance = 40;  // its counts are still whole numbers in a double
+constexpr int kMaxDistance = 40;  // its counts are still whole numbers in a double
 
 Quantity code_spectrum() {
   return {"code-spectrum",
           "distance spectrum of the convolutional code (753, 561)",
           {{"janus",
-            {{{"d"}, 1, kGreatestDistance, {}}},
+            {{{"d"}, 1, kMaxDistance, {}}},
             {"a_d_paths", "B_d_total_info_weight"},
             [](const CalcOptions&) -> RowFunction {
-              const auto spectrum = distance_spectrum(acoustics::kJanusCode, kGreatestDistance);
+              const auto spectrum = distance_spectrum(acoustics::kJanusCode, kMaxDistance);
               return [spectrum](const std::vector<double>& v) {
                 for (const acoustics::SpectrumTerm& term : spectrum) {
                   if (term.distance == v[0]) return std::vector{term.paths, term.information_ones};

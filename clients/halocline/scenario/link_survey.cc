@@ -144,9 +144,9 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
   const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
   LinkAnswer answer;
   if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
-    channel_server::RayPropagation propagation(waters,
-                                               std::make_shared<channel_server::ProfileBook>(rules.profile),
-                                               make_rays(config.channel_server));
+    channel_server::RayPropagation propagation(
+        waters, std::make_shared<channel_server::SeabedProfileCache>(rules.profile),
+        make_rays(config.channel_server));
     const auto seabed =
         survey_profile(*terrain, from.position_ned_m, to.position_ned_m, rules.profile).profile();
     answer.reception = propagation.reception_over(SimTime(), here, there, seabed);
@@ -154,7 +154,7 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
     answer.arrivals = told(config, from, to, answer.reception,
                            rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
                                 : straight_arrival(answer.reception, beams));
-    answer.multipath = multipath_of(answer.reception, to.modem.modem.least_receivable_level);
+    answer.multipath = multipath_of(answer.reception, to.modem.modem.min_receivable_level);
     return answer;
   }
   channel_server::StraightPropagation propagation(waters);

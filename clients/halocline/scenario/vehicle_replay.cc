@@ -28,7 +28,7 @@ constexpr double kSecondsPerMinute = 60, kLongestRun_s = 1e6;
 const std::vector<std::string>& command_columns() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list{"t_s", "propeller_rpm", "rudder_deg", "stern_plane_deg"};
-    for (std::size_t i = 1; i <= vehicle_sim::kMostThrusters; ++i)
+    for (std::size_t i = 1; i <= vehicle_sim::kMaxThrusters; ++i)
       list.push_back("thruster_" + std::to_string(i) + "_rpm");
     return list;
   }();
@@ -42,7 +42,7 @@ ScheduledCommand to_command(const std::vector<double>& cells) {
   command.actuators.propeller_hz = cells[1] / kSecondsPerMinute;
   command.actuators.rudder_rad = to_radians(cells[2]);
   command.actuators.stern_planes_rad = to_radians(cells[3]);
-  for (std::size_t i = 0; i < vehicle_sim::kMostThrusters; ++i)
+  for (std::size_t i = 0; i < vehicle_sim::kMaxThrusters; ++i)
     command.actuators.thruster_hz[i] = cells[4 + i] / kSecondsPerMinute;
   return command;
 }

@@ -16,10 +16,10 @@ double normal_below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 // The continued fraction of the incomplete beta function by Lentz' method; converges fast for x < (a+1)/(a+b+2).
 double beta_fraction(double a, double b, double x) {
-  constexpr int kMostTerms = 500;
+  constexpr int kMaxTerms = 500;
   constexpr double kTiny = 1e-300, kEnough = 1e-15;
   double c = 1, d = 1 / std::max(1 - (a + b) * x / (a + 1), kTiny), sum = d;
-  for (int m = 1; m <= kMostTerms; ++m) {
+  for (int m = 1; m <= kMaxTerms; ++m) {
     const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
     const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
     for (const double term : {even, odd}) {

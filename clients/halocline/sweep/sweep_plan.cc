@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kGreatestSeed = 9'000'000'000'000'000;
+constexpr std::int64_t kMaxSeed = 9'000'000'000'000'000;
 
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -57,7 +57,7 @@ std::vector<std::string> values_of(const std::string& key, const std::string& te
 std::optional<std::int64_t> parse_seed(std::string_view text) {
   std::int64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || end != text.data() + text.size() || seed < 0 || seed > kGreatestSeed)
+  if (error != std::errc() || end != text.data() + text.size() || seed < 0 || seed > kMaxSeed)
     return std::nullopt;
   return seed;
 }
@@ -72,7 +72,7 @@ std::string joined(const std::vector<std::string>& values) {
 
 std::size_t SweepPlan::points() const {
   std::size_t count = 1;
-  for (const SweepAxis& axis : axes) count *= std::min(axis.values.size(), kMostRuns + 1);
+  for (const SweepAxis& axis : axes) count *= std::min(axis.values.size(), kMaxRuns + 1);
   return count;
 }
 
@@ -95,7 +95,7 @@ std::vector<std::int64_t> parse_seeds(const std::string& text) {
     const auto first = parse_seed(trimmed(part.substr(0, dots)));
     const auto last = dots == std::string::npos ? first : parse_seed(trimmed(part.substr(dots + 2)));
     require(first && last && *first <= *last, wrong);
-    require(*last - *first < static_cast<std::int64_t>(SweepPlan::kMostRuns), wrong);
+    require(*last - *first < static_cast<std::int64_t>(SweepPlan::kMaxRuns), wrong);
     for (std::int64_t seed = *first; seed <= *last; ++seed) seeds.insert(seed);
   }
   return {seeds.begin(), seeds.end()};
@@ -121,8 +121,8 @@ void check(const SweepPlan& plan) {
     require(!axis.values.empty(), "axis " + axis.key + " has no values");
     require(keys.insert(axis.key).second, "axis " + axis.key + " is given twice");
   }
-  require(plan.points() <= SweepPlan::kMostRuns && plan.runs() <= SweepPlan::kMostRuns,
-          "the sweep has more than " + std::to_string(SweepPlan::kMostRuns) + " runs");
+  require(plan.points() <= SweepPlan::kMaxRuns && plan.runs() <= SweepPlan::kMaxRuns,
+          "the sweep has more than " + std::to_string(SweepPlan::kMaxRuns) + " runs");
 }
 
 SweepRun run_of(const SweepPlan& plan, std::size_t index) {

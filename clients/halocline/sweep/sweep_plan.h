@@ -27,7 +27,7 @@ struct SweepAxis {
 };
 
 struct SweepPlan {
-  static constexpr std::size_t kMostRuns = 1'000'000;
+  static constexpr std::size_t kMaxRuns = 1'000'000;
 
   std::string scenario;
   std::vector<SweepAxis> axes;

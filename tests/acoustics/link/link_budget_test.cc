@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "acoustics/link/capacity.h"
 #include "acoustics/link/transmission_loss.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/sea/pressure.h"
@@ -200,11 +201,11 @@ TEST(LinkBudget, ATideMovesDepthsNotVehicles) {
 TEST(LinkBudget, CutOffDecidesWhatIsReceivable) {
   Case c;
   const double level = c.budget().received_level.value;
-  c.rx.least_receivable_level = {level};
+  c.rx.min_receivable_level = {level};
   EXPECT_TRUE(c.budget().receivable);
-  c.rx.least_receivable_level = {std::nextafter(level, 1e9)};
+  c.rx.min_receivable_level = {std::nextafter(level, 1e9)};
   EXPECT_FALSE(c.budget().receivable);
-  c.rx.least_receivable_level = {0};
+  c.rx.min_receivable_level = {0};
   c.rx.centre_frequency_hz = 100e3;  // listens elsewhere
   EXPECT_FALSE(c.budget().receivable);
 }

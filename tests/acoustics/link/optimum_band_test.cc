@@ -36,7 +36,7 @@ TEST(OptimumBand, OptimumFrequencyMatchesEveryReferenceRow) {
   expect_column(
       kFile, "f_opt_kHz", [](const CsvRow& r) { return hz_to_khz(answer(r).optimum_frequency_hz); }, 1e-7);
   expect_column(
-      kFile, "minus_AN_min_dB", [](const CsvRow& r) { return -answer(r).least_loss_and_noise.value; },
+      kFile, "minus_AN_min_dB", [](const CsvRow& r) { return -answer(r).min_loss_and_noise.value; },
       kPrinted);
 }
 

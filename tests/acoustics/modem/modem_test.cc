@@ -15,7 +15,7 @@ TEST(Modem, DefaultsAreValid) { EXPECT_NO_THROW(validate(Modem{})); }
 TEST(Modem, TakesThePapersFourParameters) {
   const Modem modem = generic_modem({120}, {40}, 10e3, 4e3);
   EXPECT_EQ(modem.source_level.value, 120);
-  EXPECT_EQ(modem.least_receivable_level.value, 40);
+  EXPECT_EQ(modem.min_receivable_level.value, 40);
   EXPECT_EQ(modem.band().low_hz, 8e3);
   EXPECT_EQ(modem.band().high_hz, 12e3);
 }
@@ -35,7 +35,7 @@ TEST(Modem, WithoutFramesSendsJustThePayloadsBits) {
 
 TEST(Modem, SendsWholeFrames) {
   Modem modem;
-  modem.layout = {.frame_bytes = 32, .most_frames = 3};
+  modem.layout = {.frame_bytes = 32, .max_frames = 3};
   modem.bit_rate_bps = 256;
   EXPECT_EQ(packet_timing(modem, 0).duration, SimDuration());
   for (const std::size_t bytes : {1u, 31u, 32u}) {
@@ -48,7 +48,7 @@ TEST(Modem, SendsWholeFrames) {
 
 TEST(Modem, RefusesAPayloadBeyondItsLargest) {
   Modem modem;
-  modem.layout.most_bytes = 100;
+  modem.layout.max_bytes = 100;
   EXPECT_NO_THROW(packet_timing(modem, 100));
   EXPECT_THROW(packet_timing(modem, 101), InvalidArgument);
 }
@@ -101,7 +101,7 @@ TEST(Modem, RefusesImpossibleValues) {
   refuses([](Modem& m) { m.preamble_pieces = 0; });
   refuses([](Modem& m) { m.guard_time = SimDuration::from_seconds(-1); });
   refuses([](Modem& m) { m.doppler_tolerance = -0.1; });
-  refuses([](Modem& m) { m.layout = {.frame_bytes = 32, .most_frames = 0}; });
+  refuses([](Modem& m) { m.layout = {.frame_bytes = 32, .max_frames = 0}; });
   refuses([](Modem& m) { m.layout.header_bits = -1; });
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLeastStep = 1e-12;     // rad: neighbours of different histories
-constexpr double kLeastTurnStep = 1e-6;  // rad: neighbours that turned in different layers
+constexpr double kMinStep = 1e-12;     // rad: neighbours of different histories
+constexpr double kMinTurnStep = 1e-6;  // rad: neighbours that turned in different layers
 
 BruteArrival arrival_of(const BruteTracer& tracer, const RayLink& link, const BruteRay& ray) {
   const double off = link.receiver_depth_m - ray.z;
@@ -68,8 +68,8 @@ class BruteFan {
     const double width = b.theta - a.theta, middle = 0.5 * (a.theta + b.theta);
     if (!a.arrived && !b.arrived) return;
     const bool alike = a.arrived && b.arrived && a.bounces == b.bounces;
-    if (!alike || (a.turns != b.turns && width > kLeastTurnStep)) {
-      if (width < kLeastStep || middle <= a.theta || middle >= b.theta) return;
+    if (!alike || (a.turns != b.turns && width > kMinTurnStep)) {
+      if (width < kMinStep || middle <= a.theta || middle >= b.theta) return;
       const BruteRay between = tracer_.trace(middle);
       search(a, between);
       search(between, b);

@@ -45,9 +45,9 @@ class DenseFan {
     add_level(receiver_);
   }
 
-  // Rays launched within `steepest_rad` with at most `most_bottom_bounces`, from a fan of `count` even steps.
-  std::vector<FanArrival> search(double steepest_rad, int most_bottom_bounces, int count) {
-    most_bottom_ = most_bottom_bounces;
+  // Rays launched within `steepest_rad` with at most `max_bottom_bounces`, from a fan of `count` even steps.
+  std::vector<FanArrival> search(double steepest_rad, int max_bottom_bounces, int count) {
+    max_bottom_ = max_bottom_bounces;
     std::vector<FanArrival> found;
     std::vector<Passage> before, next;
     const std::vector<Real> angles = fan(steepest_rad, count);
@@ -115,7 +115,7 @@ class DenseFan {
     Real r = 0, time = 0;
     int surface = 0, bottom = 0, turns = 0;
     // A ray that hardly leaves the axis of a duct turns without end.
-    for (int step = 0; step < 4000 && r < 1.5L * range_ + 1000 && bottom <= most_bottom_; ++step) {
+    for (int step = 0; step < 4000 && r < 1.5L * range_ + 1000 && bottom <= max_bottom_; ++step) {
       if (down && at + 1 == levels_.size()) {
         ++bottom;
         down = false;
@@ -166,7 +166,7 @@ class DenseFan {
   }
 
   Real bottom_, source_, receiver_, range_;
-  int most_bottom_ = 0;
+  int max_bottom_ = 0;
   std::vector<Level> levels_;
 };
 

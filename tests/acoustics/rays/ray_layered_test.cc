@@ -317,15 +317,15 @@ TEST_P(RayCompleteness, NoRayOfADenseFanIsMissing) {
   for (int i = 0; i < waters.links; ++i) {
     const RayLink link = random_link(waters, static_cast<std::uint32_t>(i));
     const Arrivals found = arrivals(sea, link, waters.solver);
-    int most_bounces = 0;
+    int max_bounces = 0;
     double loudest = 0;
     for (const Arrival& path : found.paths) {
-      most_bounces = std::max(most_bounces, path.bottom_bounces);
+      max_bounces = std::max(max_bounces, path.bottom_bounces);
       loudest = std::max(loudest, path.amplitude);
     }
     std::vector<bool> used(found.paths.size());
     DenseFan fan(waters.knots, waters.bottom_m, link);
-    for (const FanArrival& ray : fan.search(to_radians(80), most_bounces, waters.fan)) {
+    for (const FanArrival& ray : fan.search(to_radians(80), max_bounces, waters.fan)) {
       const double cosine =
           std::cos(ray.launch_angle_rad) / sea.water.speed_at(link.source_depth_m) * bottom_speed;
       const double one =

@@ -33,12 +33,12 @@ struct StraightRay {
 };
 
 StraightRay straight_ray(const BottomProfile& profile, double z0, double range, double theta,
-                         int most_bounces) {
+                         int max_bounces) {
   double r = 0, z = z0, dr = std::cos(theta), dz = std::sin(theta);
   StraightRay ray;
   const std::vector<Facet>& facets = profile.facets();
   std::size_t on = facets.size();
-  while (ray.surface + ray.bottom <= most_bounces) {
+  while (ray.surface + ray.bottom <= max_bounces) {
     double best = (range - r) / dr;
     std::size_t hit = facets.size() + 1;  // the receiver's range
     if (dz < 0 && -z / dz < best) {
@@ -92,10 +92,10 @@ struct FanResult {
 
 // Eigenrays between neighbours of a fan of straight rays with one history.
 std::vector<FanResult> straight_fan(const BottomProfile& profile, const RayLink& link, int count,
-                                    int most_bounces) {
+                                    int max_bounces) {
   std::vector<FanResult> found;
   const auto off = [&](double theta, StraightRay& ray) {
-    ray = straight_ray(profile, link.source_depth_m, link.range_m, theta, most_bounces);
+    ray = straight_ray(profile, link.source_depth_m, link.range_m, theta, max_bounces);
     return ray.z - link.receiver_depth_m;
   };
   StraightRay before, next, middle;

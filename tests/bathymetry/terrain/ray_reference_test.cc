@@ -47,7 +47,7 @@ Vec3 water_point(std::uint64_t n, double low, double high) {
 
 struct Score {
   int rays = 0, hits = 0, missed = 0, false_hits = 0, touching = 0;
-  double greatest_error_m = 0;
+  double max_error_m = 0;
 };
 
 bool agree(const RayHit& actual, const testing::ReferenceHit& expected) {
@@ -81,19 +81,19 @@ void compare(const Ray& ray, Score& score) {
     // Along a tangent the range is ill-conditioned; there the distance between ray and bottom is the measure.
     const double error = std::abs(static_cast<double>(actual.range_m - expected.range_m));
     const double conditioning = std::min(1.0, static_cast<double>(expected.approach) * 1e3);
-    score.greatest_error_m = std::max(score.greatest_error_m, error * conditioning);
+    score.max_error_m = std::max(score.max_error_m, error * conditioning);
   }
 }
 
 void expect_exact(const Score& score) {
   EXPECT_EQ(score.missed, 0);
   EXPECT_EQ(score.false_hits, 0);
-  EXPECT_LT(score.greatest_error_m, tolerance(1e-6));
+  EXPECT_LT(score.max_error_m, tolerance(1e-6));
   EXPECT_GT(score.hits, score.rays / 20) << "the rays must meet the bottom for the test to say something";
   // Aimed rays touch where their target is a summit, about one in a hundred.
   EXPECT_LE(score.touching, score.rays / 40);
   std::printf("%d rays, %d hits, %d only touching, greatest error %.2g m\n", score.rays, score.hits,
-              score.touching, score.greatest_error_m);
+              score.touching, score.max_error_m);
 }
 
 TEST(RayAgainstReference, NearVerticalRaysAreExact) {

@@ -12,8 +12,7 @@ namespace halocline::bathymetry::testing {
 struct ReferenceHit {
   bool hit = false;
   long double range_m = 0;
-  long double least_clearance_m =
-      std::numeric_limits<long double>::infinity();  // before the hit, bottom - ray
+  long double min_clearance_m = std::numeric_limits<long double>::infinity();  // before the hit, bottom - ray
   long double approach = 0;  // |d(clearance)/d(range)| at the hit: below 1e-3 the range is ill-conditioned
 };
 

@@ -19,7 +19,7 @@ class ChattyNode : public bus::Node {
       : Node(lcm, {name, 1, stage}), period_(period), neighbour_(std::move(neighbour)) {
     for (const std::string& other : others) {
       bus().subscribe<sim_clock_t>(
-          "SAY." + other, [this](const sim_clock_t& m) { fold(m.clock_step_us); }, bus::Hearing::kStores);
+          "SAY." + other, [this](const sim_clock_t& m) { fold(m.clock_step_us); }, bus::Wakeup::kStoreOnly);
     }
     bus().subscribe<sim_clock_t>("ASK." + name, [this](const sim_clock_t& m) {
       fold(m.clock_step_us);

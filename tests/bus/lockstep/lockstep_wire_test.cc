@@ -35,7 +35,7 @@ TEST(LockstepWire, AListThatIsCutOffIsRefused) {
 
 TEST(LockstepWire, SlicesMakeTheBodyInWhateverOrderTheyCome) {
   for (const std::size_t size :
-       {std::size_t{0}, kMostSliceBytes, kMostSliceBytes + 1, 3 * kMostSliceBytes - 7}) {
+       {std::size_t{0}, kMaxSliceBytes, kMaxSliceBytes + 1, 3 * kMaxSliceBytes - 7}) {
     const Bytes body = body_of(size);
     const int count = slice_count(size);
     SliceCollector collector;
@@ -48,7 +48,7 @@ TEST(LockstepWire, SlicesMakeTheBodyInWhateverOrderTheyCome) {
 }
 
 TEST(LockstepWire, SlicesOfTwoBodiesDoNotMix) {
-  const Bytes one = body_of(2 * kMostSliceBytes), other = body_of(2 * kMostSliceBytes);
+  const Bytes one = body_of(2 * kMaxSliceBytes), other = body_of(2 * kMaxSliceBytes);
   SliceCollector collector;
   EXPECT_FALSE(collector.add(1, 0, 2, copy(slice_of(one, 0))).has_value());
   EXPECT_FALSE(collector.add(2, 1, 2, copy(slice_of(other, 1))).has_value());

@@ -192,7 +192,7 @@ void SimulatedLockstep::turn_timers() {
     bus::LockstepParticipant* one = participant(i);
     if (one == nullptr) continue;
     one->on_timer(now_);
-    const bool put_out = one->state() == bus::LockstepParticipant::State::kPutOut;
+    const bool put_out = one->state() == bus::LockstepParticipant::State::kExpelled;
     const bool for_good = i == cast_.size() - 1 && rules_.dies_for_good_after >= 0;
     if (for_good && conductor_ != nullptr &&
         conductor_->sequencer().turns_taken(cast_[i].name) >= rules_.dies_for_good_after) {

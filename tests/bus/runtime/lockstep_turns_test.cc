@@ -133,7 +133,7 @@ TEST(LockstepTurnsOfAService, ABrokenPromiseOnlyToStoreIsAnError) {
    public:
     explicit Liar(lcm::LCM& lcm) : EchoNode(lcm, "liar", "NONE", "ANSWER") {
       bus().subscribe<sim_clock_t>(
-          "ASK", [this](const sim_clock_t&) { due_ = SimTime::at_once(); }, Hearing::kStores);
+          "ASK", [this](const sim_clock_t&) { due_ = SimTime::at_once(); }, Wakeup::kStoreOnly);
     }
     Due on_due() const override { return {.sim = due_}; }
 

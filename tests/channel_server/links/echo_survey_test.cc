@@ -27,7 +27,7 @@ EchoSurvey surveyed(double bottom_z_m, RayAnswer ways = {Kind::kMiss, 0}) {
 acoustics::Modem modem_with_cutoff(double cutoff_db) {
   acoustics::Modem modem;
   modem.source_level = {150};
-  modem.least_receivable_level = {cutoff_db};
+  modem.min_receivable_level = {cutoff_db};
   return modem;
 }
 

@@ -23,7 +23,7 @@ class LinkTableTest : public ::testing::Test {
   std::vector<LinkTable> tables_at(double time_s, const MultipathJudge& judge = kUntold) {
     return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, judge);
   }
-  Fleet fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
+  VehicleRegistry fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
   StraightPropagation propagation_{even_water()};
 };
 

@@ -69,7 +69,7 @@ class ThreePaths : public Propagation {
 inline VehicleModem busy_modem(VehicleId id) {
   VehicleModem modem;
   modem.modem.source_level = {134};
-  modem.modem.least_receivable_level = {id % 5 == 0 ? 66.0 : -100.0};
+  modem.modem.min_receivable_level = {id % 5 == 0 ? 66.0 : -100.0};
   modem.modem.bit_rate_bps = 5000;
   modem.modem.preamble = modem.modem.packet_overhead = for_s(0.005);
   modem.modem.doppler_tolerance = 0.003;
@@ -142,9 +142,9 @@ struct BusyRun {
 // Runs it, every event given to `visit`, and returns the fleet for questions of who was there. In order of time
 // everything is handed in as it happens; shuffled, all of it before time runs.
 template <class Visitor>
-Fleet run_busy_sea(const BusyRun& run, Visitor&& visit) {
+VehicleRegistry run_busy_sea(const BusyRun& run, Visitor&& visit) {
   const double until_s = static_cast<double>(run.packets) / kPacketsPerSecond + 30;
-  Fleet fleet({for_s(0.05), for_s(5)}, busy_modems());
+  VehicleRegistry fleet({for_s(0.05), for_s(5)}, busy_modems());
   ThreePaths propagation;
   PacketMedium medium(fleet, propagation, {for_s(10), for_s(until_s), run.seed});
   auto states = busy_states(until_s);

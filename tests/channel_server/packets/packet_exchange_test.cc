@@ -126,7 +126,7 @@ class PingTest : public ::testing::Test {
     return modem;
   }
 
-  Fleet fleet_{{for_s(0.05), for_s(5)}, {modem(), {}}};
+  VehicleRegistry fleet_{{for_s(0.05), for_s(5)}, {modem(), {}}};
   StraightPropagation propagation_{even_water()};
   PacketMedium medium_{fleet_, propagation_, {for_s(10), for_s(60)}};
   std::vector<MediumEvent> events_;
@@ -191,7 +191,7 @@ TEST_F(PingTest, OnlyTheOneAskedAnswersAndOnlyAPing) {
 
 TEST_F(PingTest, APingThatWasLostIsNotAnswered) {
   VehicleModem deaf = modem();
-  deaf.modem.least_receivable_level = {200};
+  deaf.modem.min_receivable_level = {200};
   fleet_.hear_modem("v2", at_s(0), deaf);
   ping(1, 2, 10, 5);
   EXPECT_TRUE(replies_in(run()).empty());

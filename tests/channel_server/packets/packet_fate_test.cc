@@ -135,7 +135,7 @@ TEST_F(PacketFateTest, DopplerStretchesThePacketAtTheReceiver) {
 
 TEST_F(PacketFateTest, InNoiseAloneALostPacketHasBitErrors) {
   VehicleModem deep = big_modem();
-  deep.modem.least_receivable_level = {-100};
+  deep.modem.min_receivable_level = {-100};
   fleet.hear_modem("v2", at_s(0), deep);
   water.set(1, 2, {path(1, level_with_bit_error(0.01, noise_power()))});
   send(1, 10, 0, 1000);
@@ -149,7 +149,7 @@ TEST_F(PacketFateTest, InNoiseAloneALostPacketHasBitErrors) {
 TEST_F(PacketFateTest, APreambleBelowTheNoiseIsNotNoticed) {
   VehicleModem shy = big_modem();
   shy.modem.preamble = shy.modem.packet_overhead = for_s(0.1);
-  shy.modem.least_receivable_level = {-100};
+  shy.modem.min_receivable_level = {-100};
   fleet.hear_modem("v1", at_s(0), shy);
   fleet.hear_modem("v2", at_s(0), shy);
   water.set(1, 2, {path(1, 20)});
@@ -385,7 +385,7 @@ TEST_F(PacketFateTest, AStillReceiverIsAskedAboutOnce) {
 
 // Sender near and far: geometry and straight paths, not a script.
 TEST(NearFar, TheNearSenderComesThroughAndTheFarOneDoesNot) {
-  Fleet fleet({for_s(0.05), for_s(5)}, {quick_modem(), {}});
+  VehicleRegistry fleet({for_s(0.05), for_s(5)}, {quick_modem(), {}});
   testing::move_steadily(fleet, 1, {100, 0, 50}, Vec3::Zero(), 0, 30);
   testing::move_steadily(fleet, 2, {0, 0, 50}, Vec3::Zero(), 0, 30);
   testing::move_steadily(fleet, 3, {3000, 0, 50}, Vec3::Zero(), 0, 30);

@@ -39,7 +39,7 @@ class PacketMediumTest : public ::testing::Test {
     return receipts_in(medium_.advance_to(request.start)).at(0).result;
   }
 
-  Fleet fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
+  VehicleRegistry fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
   StraightPropagation propagation_{even_water()};
   PacketMedium medium_{fleet_, propagation_, {for_s(10), for_s(60)}};
 };
@@ -148,7 +148,7 @@ TEST_F(PacketMediumTest, APacketForOneIsDeliveredToThatOneAndDecidedForAll) {
 
 TEST_F(PacketMediumTest, BelowTheCutoffAPacketIsLost) {
   VehicleModem deaf = quick_modem();
-  deaf.modem.least_receivable_level = {140};
+  deaf.modem.min_receivable_level = {140};
   fleet_.hear_modem("v2", at_s(0), deaf);
   stay(1, {0, 0, 50});
   stay(2, {5000, 0, 50});

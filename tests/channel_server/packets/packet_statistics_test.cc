@@ -81,7 +81,7 @@ struct Tally {
   }
 };
 
-void expect_one_end_at_every_possible_receiver(const Tally& tally, const Fleet& fleet) {
+void expect_one_end_at_every_possible_receiver(const Tally& tally, const VehicleRegistry& fleet) {
   EXPECT_EQ(tally.twice, 0);
   std::int64_t expected_ends = 0, requested = 0, answers = 0;
   for (const auto& [name, mask] : tally.receivers) {
@@ -117,7 +117,7 @@ void expect_every_fate_and_refusal(const Tally& tally) {
   }
 }
 
-void expect_odds_kept(const std::map<int, Trials>& bins, int least_bins) {
+void expect_odds_kept(const std::map<int, Trials>& bins, int min_bins) {
   int told = 0;
   for (const auto& [decibels, trials] : bins) {
     if (!trials.says_anything()) continue;
@@ -125,13 +125,13 @@ void expect_odds_kept(const std::map<int, Trials>& bins, int least_bins) {
     EXPECT_TRUE(trials.agrees()) << decibels << " dB: " << trials.successes << " of " << trials.count
                                  << ", expected " << trials.expected << " +- " << std::sqrt(trials.variance);
   }
-  EXPECT_GE(told, least_bins);
+  EXPECT_GE(told, min_bins);
 }
 
 // One run for all of it, because it takes a quarter of a minute.
 TEST(PacketStatistics, OfAHundredThousandPacketsEachEndsOnceEverywhereWithTheOddsOfTheModel) {
   Tally tally;
-  const Fleet fleet = run_busy_sea({.packets = kManyPackets}, tally);
+  const VehicleRegistry fleet = run_busy_sea({.packets = kManyPackets}, tally);
   expect_one_end_at_every_possible_receiver(tally, fleet);
   expect_counts_that_add_up(tally);
   expect_every_fate_and_refusal(tally);

@@ -83,10 +83,10 @@ TEST(SendRegister, OldPacketsAreForgotten) {
 
 TEST(SendRegister, AFloodDoesNotGrowMemoryWithoutBound) {
   SendRegister sends;
-  for (std::size_t i = 0; i < SendRegister::kMostPackets + 100; ++i) {
+  for (std::size_t i = 0; i < SendRegister::kMaxPackets + 100; ++i) {
     sends.enter(request_of(1, 0.001 * static_cast<double>(i), static_cast<std::int64_t>(i)));
   }
-  EXPECT_EQ(sends.size(), SendRegister::kMostPackets);
+  EXPECT_EQ(sends.size(), SendRegister::kMaxPackets);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ struct Server {
     }
     for (const auto& request : testing::busy_requests(kPackets)) medium.transmit(request, SimTime());
   }
-  Fleet fleet;
+  VehicleRegistry fleet;
   testing::ThreePaths propagation;
   PacketMedium medium;
 };
@@ -106,7 +106,7 @@ TEST(Shard, EveryVehicleIsServedByExactlyOne) {
 
 TEST(Shard, AnAnswerToldTwiceIsTransmittedOnce) {
   testing::ThreePaths propagation;
-  Fleet fleet({for_s(0.05), for_s(5)}, testing::busy_modems());
+  VehicleRegistry fleet({for_s(0.05), for_s(5)}, testing::busy_modems());
   for (double t = 0; t < 20; t += 1) {
     for (const VehicleId id : {3, 4}) {
       fleet.hear_state(name_of(id), id, {at_s(t), Vec3(100.0 * id, 0, 20), Vec3::Zero()});

@@ -42,7 +42,7 @@ struct Sea {
 
 Reception by_rays(const Sea& sea, const LinkEnd& from, const LinkEnd& to) {
   RayPropagation rays(std::make_shared<EnvironmentTimeline>(sea.water),
-                      std::make_shared<ProfileBook>(ProfileRule{}), sea.model);
+                      std::make_shared<SeabedProfileCache>(ProfileRule{}), sea.model);
   return rays.reception_over(at_s(0), from, to, std::make_shared<const SeabedProfile>(41, sea.depth_m));
 }
 
@@ -120,7 +120,7 @@ TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
   const auto bottom = std::make_shared<const SeabedProfile>(41, 5000);
   const Vec3 from(0, 0, 2400), to(19'000, 0, 2500);
   RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()),
-                      std::make_shared<ProfileBook>(ProfileRule{}), {});
+                      std::make_shared<SeabedProfileCache>(ProfileRule{}), {});
   const auto counts = [&](const acoustics::Modem& modem) {
     const LinkEnd here = end_at(from, modem), there = end_at(to, modem);
     return std::pair(rays.reception_over(at_s(0), here, there, bottom).paths.size(),
@@ -145,8 +145,8 @@ TEST(Beams, TheLevelIsTheSumOfWeighedPathsAndTheBudgetFollows) {
 }
 
 // Vehicles 1 and 2 there, with 100 m of water between them known from 1 s on.
-std::shared_ptr<ProfileBook> known_bottom(const Vec3& at_1, const Vec3& at_2) {
-  auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+std::shared_ptr<SeabedProfileCache> known_bottom(const Vec3& at_1, const Vec3& at_2) {
+  auto bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
   PlacedVehicle one, two;
   one.id = 1;
   two.id = 2;

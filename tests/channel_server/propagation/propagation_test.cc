@@ -93,7 +93,7 @@ TEST(StraightPropagation, EqualModemsShareOneModel) {
 }
 
 TEST(StraightPropagation, TheModelAskedLongestAgoMakesRoom) {
-  StraightPropagation propagation(acoustics::Environment{}, /*most_models=*/3);
+  StraightPropagation propagation(acoustics::Environment{}, /*max_models=*/3);
   const acoustics::Modem receiver;
   for (int level = 150; level < 170; ++level) {
     const auto transmitter = modem_of_level(level);

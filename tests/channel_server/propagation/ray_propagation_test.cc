@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "channel_server/links/link_table.h"
 #include "core/random.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
@@ -31,8 +32,8 @@ class RayPropagationTest : public ::testing::Test {
     return {id, position, velocity, &modem};
   }
   static RayPropagation rays(const RayModel& model, const acoustics::Environment& water = even_water(),
-                             std::shared_ptr<ProfileBook> bottoms = nullptr) {
-    if (!bottoms) bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+                             std::shared_ptr<SeabedProfileCache> bottoms = nullptr) {
+    if (!bottoms) bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
     return {std::make_shared<EnvironmentTimeline>(water), bottoms, model};
   }
   Reception over_flat(const RayModel& model, const Vec3& from, const Vec3& to) {
@@ -245,7 +246,7 @@ void on_two_threads(std::size_t count, const std::function<void(std::size_t)>& b
 }
 
 TEST_F(RayPropagationTest, TwoThreadsGiveTheSameBitsAsOneAndAsOneByOne) {
-  auto bottoms = std::make_shared<ProfileBook>(ProfileRule{});
+  auto bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
   std::vector<PlacedVehicle> vehicles(6);
   for (int i = 0; i < 6; ++i) {
     vehicles[i].id = i + 1;

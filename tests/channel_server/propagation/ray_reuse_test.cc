@@ -28,10 +28,10 @@ TEST(RayCells, TheLinkThatIsSearchedLiesWithinTwoAndAHalfPercentOfTheRange) {
     const acoustics::RayLink link{200 * draw(i, 0), 200 * draw(i, 1), std::pow(10, 1 + 3 * draw(i, 2))};
     const auto middle = middle_of_cell(link, kCellM);
     ASSERT_TRUE(middle.has_value());
-    const double most_m = std::min(0.025 * link.range_m, kCellM / 2) * (1 + 1e-12);
-    EXPECT_LE(std::abs(middle->range_m - link.range_m), most_m);
-    EXPECT_LE(std::abs(middle->source_depth_m - link.source_depth_m), 0.1 * most_m);
-    EXPECT_LE(std::abs(middle->receiver_depth_m - link.receiver_depth_m), 0.1 * most_m);
+    const double max_m = std::min(0.025 * link.range_m, kCellM / 2) * (1 + 1e-12);
+    EXPECT_LE(std::abs(middle->range_m - link.range_m), max_m);
+    EXPECT_LE(std::abs(middle->source_depth_m - link.source_depth_m), 0.1 * max_m);
+    EXPECT_LE(std::abs(middle->receiver_depth_m - link.receiver_depth_m), 0.1 * max_m);
     EXPECT_GT(middle->source_depth_m, 0);
   }
 }
@@ -45,7 +45,7 @@ TEST(RayCells, AShortLinkIsSearchedItself) {
 class RayReuseTest : public ::testing::Test {
  protected:
   static double slope(double north_m) { return 150 - north_m / 100; }
-  RayPropagation rays(const std::shared_ptr<ProfileBook>& bottoms, double reuse_distance_m,
+  RayPropagation rays(const std::shared_ptr<SeabedProfileCache>& bottoms, double reuse_distance_m,
                       bool coherent = false) const {
     RayModel model;
     model.reuse_distance_m = reuse_distance_m;
@@ -55,7 +55,7 @@ class RayReuseTest : public ::testing::Test {
   LinkEnd end(VehicleId id, const Vec3& place) const { return {id, place, Vec3::Zero(), &modem_}; }
 
   const Vec3 first_ = Vec3(0, 0, 31), second_ = Vec3(1000, 0, 62);
-  std::shared_ptr<ProfileBook> bottoms_ = testing::bottoms_between(first_, second_, slope);
+  std::shared_ptr<SeabedProfileCache> bottoms_ = testing::bottoms_between(first_, second_, slope);
   acoustics::Modem modem_;
 };
 

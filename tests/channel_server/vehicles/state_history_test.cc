@@ -105,10 +105,10 @@ TEST(StateHistory, OfTwoStatesOfOneTimeTheFirstIsKept) {
 
 TEST(StateHistory, MemoryIsBounded) {
   StateHistory history;
-  for (std::size_t i = 0; i < StateHistory::kMostStates + 500; ++i) {
+  for (std::size_t i = 0; i < StateHistory::kMaxStates + 500; ++i) {
     history.insert({SimTime::from_utime(static_cast<std::int64_t>(i)), Vec3::Zero(), Vec3::Zero()});
   }
-  EXPECT_EQ(history.size(), StateHistory::kMostStates);
+  EXPECT_EQ(history.size(), StateHistory::kMaxStates);
 }
 
 TEST(StateHistory, ForgettingKeepsTheStateThatTheHorizonNeeds) {

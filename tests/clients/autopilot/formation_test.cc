@@ -88,7 +88,7 @@ TEST(Follower, BehindItsPlaceItGoesFasterAndAheadOfItSlower) {
 
 TEST(Follower, NeitherRacesNorTurnsBackForAPlaceFarAway) {
   Follower f = follower();
-  EXPECT_EQ(f.steer_for(110, {-20, -1e4, 55}).speed_mps, Formation{}.greatest_speed_mps);
+  EXPECT_EQ(f.steer_for(110, {-20, -1e4, 55}).speed_mps, Formation{}.max_speed_mps);
   EXPECT_EQ(f.steer_for(110, {-20, 1e4, 55}).speed_mps, 0.75);
   EXPECT_LT(std::abs(wrapped(f.steer_for(110, {1e4, 0, 55}).course_rad - kPi / 2)), kPi / 2);
 }

@@ -111,7 +111,7 @@ TEST(NavigationTest, ADopplerLogWithoutErrorsLeavesTheLagOfItsPings) {
 TEST(NavigationTest, OneFixAtTheEndTakesAwayWhatTheCurrentDid) {
   SensorSettings s;
   s.gps.period = SimDuration::from_seconds(60 * kMinutes);
-  s.gps.greatest_depth_m = 1000;  // an antenna on a float
+  s.gps.max_depth_m = 1000;  // an antenna on a float
   s.gps.errors.noise = 2;
   const Way way = way_with(s);
   EXPECT_LT(way.error_m, 4 * 2 + 0.2);  // 4 standard deviations, and what the gain leaves of 120 m
@@ -119,9 +119,9 @@ TEST(NavigationTest, OneFixAtTheEndTakesAwayWhatTheCurrentDid) {
 }
 
 struct Kept {
-  double heading_off_rad = 0;   // of the true heading at the end from the one steered for
-  double deviation_rad = 0;     // that the vehicle knows of
-  double greatest_off_rad = 0;  // of the reckoned heading from the true one
+  double heading_off_rad = 0;  // of the true heading at the end from the one steered for
+  double deviation_rad = 0;    // that the vehicle knows of
+  double max_off_rad = 0;      // of the reckoned heading from the true one
 };
 
 // The torpedo keeps its heading for ten minutes with the autopilot's fins; the compass dies after one.
@@ -130,9 +130,9 @@ Kept way_without_compass(double gyro_bias_radps) {
   SensorSettings sensors;
   sensors.gyro.errors.bias = gyro_bias_radps;
   SensorStation station({{1, sensors}}, 1, kPeriod, 100);
-  fleet.break_down(0, {.from = SimTime::from_seconds(60),
-                       .kind = vehicle_sim::FaultKind::kDeadSensor,
-                       .sensor = vehicle_sim::SensorKind::kCompass});
+  fleet.apply_fault(0, {.from = SimTime::from_seconds(60),
+                        .kind = vehicle_sim::FaultKind::kDeadSensor,
+                        .sensor = vehicle_sim::SensorKind::kCompass});
   AttitudeKeeper attitude(gyro_bias_radps);
   Integrals integrals;
   const double course = std::numbers::pi / 4;
@@ -154,7 +154,7 @@ Kept way_without_compass(double gyro_bias_radps) {
                                            m.angular_rate_body_radps[2], m.water_speed_mps},
                                           kPeriod.seconds(), integrals);
         fleet.command(0, {now, {c.rudder_rad, c.stern_plane_rad, c.propeller_rpm / 60}});
-        kept.greatest_off_rad = std::max(kept.greatest_off_rad, std::abs(a.yaw - truth));
+        kept.max_off_rad = std::max(kept.max_off_rad, std::abs(a.yaw - truth));
       }
     }
     kept.heading_off_rad = truth - course;
@@ -169,14 +169,14 @@ TEST(NavigationTest, WithADeadCompassTheHeadingIsOffByTheGyrosBiasTimesTheTime) 
   const double bias = std::numbers::pi / 180 * 0.01, drift = bias * 60 * (kMinutes - 1);
   const Kept kept = way_without_compass(bias);
   EXPECT_NEAR(kept.heading_off_rad, -drift, 0.1 * drift);
-  EXPECT_LT(kept.greatest_off_rad, 1.1 * drift);
+  EXPECT_LT(kept.max_off_rad, 1.1 * drift);
   EXPECT_NEAR(kept.deviation_rad, drift, 0.01 * drift);
 }
 
 TEST(NavigationTest, AGyroWithoutBiasReplacesACompass) {
   const Kept kept = way_without_compass(0);
   EXPECT_LT(std::abs(kept.heading_off_rad), std::numbers::pi / 180 * 0.5);
-  EXPECT_LT(kept.greatest_off_rad, std::numbers::pi / 180 * 0.5);
+  EXPECT_LT(kept.max_off_rad, std::numbers::pi / 180 * 0.5);
 }
 
 TEST(NavigationTest, AnUnseenBottomLeavesTheSpeedThroughTheWater) {

@@ -150,10 +150,10 @@ TEST(Plan, LoiterCirclesInItsSense) {
 TEST(Plan, AltitudeOfABehaviourReachesItsSetPoints) {
   Behaviour survey = box(0);
   survey.altitude_m = 5;
-  survey.greatest_depth_m = 300;
+  survey.max_depth_m = 300;
   const SetPoints points = set_points(make_plan({}, {survey}), begin(Vec3::Zero(), 0), Vec3::Zero());
   EXPECT_EQ(points.altitude_m, 5);
-  EXPECT_EQ(points.greatest_z_ned_m, 300);
+  EXPECT_EQ(points.max_z_ned_m, 300);
 }
 
 TEST(Plan, NothingToDoIsRefused) { EXPECT_THROW(make_plan({}, {}), InvalidArgument); }

@@ -54,15 +54,15 @@ TEST(SeabedAhead, OldEchoesAreNoGround) {
 }
 
 TEST(AboveGround, KeepsTheHeightAlongASlopeThatFallsAway) {
-  const SetPoints points = above_ground({3, 4}, over_slope(10, 20, 0.1, 0, 40), 20, 10,
-                                        {.altitude_m = 5, .greatest_z_ned_m = 1e3});
+  const SetPoints points =
+      above_ground({3, 4}, over_slope(10, 20, 0.1, 0, 40), 20, 10, {.altitude_m = 5, .max_z_ned_m = 1e3});
   EXPECT_NEAR(points.z_ned_m, 20 + 4 - 5, kRounding);
   EXPECT_NEAR(points.climb_rad, -std::atan(0.1), kRounding);
 }
 
 TEST(AboveGround, ClimbsBeforeGroundThatRises) {
   const SetPoints points =
-      above_ground({3, 4}, over_slope(0, 20, -0.2, 0, 40), 20, 0, {.altitude_m = 5, .greatest_z_ned_m = 1e3});
+      above_ground({3, 4}, over_slope(0, 20, -0.2, 0, 40), 20, 0, {.altitude_m = 5, .max_z_ned_m = 1e3});
   EXPECT_NEAR(points.z_ned_m, 20 - 0.2 * 44 - 5, kRounding);  // that of the ground 4 m ahead
   EXPECT_NEAR(points.climb_rad, std::atan(0.2), kRounding);
 }
@@ -87,12 +87,12 @@ TEST(AboveGround, BelowTheLeastHeightTheVehicleIsPulledUp) {
 TEST(AboveGround, GoesDownWhereNoBottomIsSeenButNotForEver) {
   SeabedAhead seabed;
   seabed.add({0, {0, 0, 10}, {}, false, 0});
-  EXPECT_GT(above_ground({3, 4}, seabed, 0, 10, {.altitude_m = 5, .greatest_z_ned_m = 1e3}).z_ned_m, 10);
-  EXPECT_EQ(above_ground({3, 4}, seabed, 0, 10, {.altitude_m = 5, .greatest_z_ned_m = 11}).z_ned_m, 11);
+  EXPECT_GT(above_ground({3, 4}, seabed, 0, 10, {.altitude_m = 5, .max_z_ned_m = 1e3}).z_ned_m, 10);
+  EXPECT_EQ(above_ground({3, 4}, seabed, 0, 10, {.altitude_m = 5, .max_z_ned_m = 11}).z_ned_m, 11);
 }
 
 TEST(AboveGround, WithoutAnAltimeterTheHeightIsNotGuessed) {
-  EXPECT_EQ(above_ground({3, 4}, {}, 0, 10, {.altitude_m = 5, .greatest_z_ned_m = 1e3}).z_ned_m, 10);
+  EXPECT_EQ(above_ground({3, 4}, {}, 0, 10, {.altitude_m = 5, .max_z_ned_m = 1e3}).z_ned_m, 10);
 }
 
 }  // namespace

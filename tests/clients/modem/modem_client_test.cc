@@ -205,7 +205,7 @@ TEST_F(ModemClientTest, ReceiveHandlerTakesPacketsInsteadOfTheQueue) {
 }
 
 TEST_F(ModemClientTest, MemoryStaysBoundedWhenNobodyTakesPackets) {
-  const auto count = static_cast<std::int64_t>(ModemClient::kMostWaiting) + 5;
+  const auto count = static_cast<std::int64_t>(ModemClient::kMaxWaiting) + 5;
   for (std::int64_t i = 0; i < count; ++i) {
     server_.deliver(8, 2, i);
     drain();

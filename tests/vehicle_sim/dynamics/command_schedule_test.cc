@@ -70,7 +70,7 @@ TEST(CommandSchedule, WhatIsTooOldIsRefused) {
 
 TEST(CommandSchedule, AFloodOfFutureCommandsIsBounded) {
   CommandSchedule schedule(kTimeout);
-  for (std::size_t i = 0; i < CommandSchedule::kMostWaiting; ++i) {
+  for (std::size_t i = 0; i < CommandSchedule::kMaxWaiting; ++i) {
     ASSERT_EQ(schedule.add({at_ms(100 + static_cast<std::int64_t>(i)), kPort}, at_ms(0)),
               CommandVerdict::kTaken);
   }

@@ -184,7 +184,7 @@ TEST(Torpedo, DivesAndClimbsWithItsSternPlanes) {
 }
 
 // The greatest change of the force from one angle of attack to the next of `parts` round the circle.
-double greatest_change(const Model& model, int parts) {
+double max_change(const Model& model, int parts) {
   VehicleState s;
   s.actuators = {0.1, -0.1, 15, {}};
   Vec6 last = Vec6::Zero();
@@ -202,8 +202,8 @@ double greatest_change(const Model& model, int parts) {
 // Where nothing jumps, half the distance makes half the change; the law of remus100-pvs jumps at 180 degrees.
 TEST(Torpedo, ForcesAreContinuousThroughEveryAngleOfAttack) {
   const Model torpedo = model_named("torpedo"), published = model_named("remus100-pvs");
-  EXPECT_NEAR(greatest_change(torpedo, 5000) / greatest_change(torpedo, 10000), 2, tolerance(0.02));
-  EXPECT_NEAR(greatest_change(published, 5000) / greatest_change(published, 10000), 1, tolerance(0.02));
+  EXPECT_NEAR(max_change(torpedo, 5000) / max_change(torpedo, 10000), 2, tolerance(0.02));
+  EXPECT_NEAR(max_change(published, 5000) / max_change(published, 10000), 1, tolerance(0.02));
 }
 
 TEST(Remus100Pvs, LiftJumpsInReverseFlowAsPublished) {

@@ -22,7 +22,7 @@ namespace {
 
 using halocline::testing::tolerance;
 
-constexpr double kMostPenetration = 0.02;  // m, the project's bound
+constexpr double kMaxPenetration = 0.02;  // m, the project's bound
 
 std::shared_ptr<const Model> torpedo() {
   return std::make_shared<const Model>(built_in_model("torpedo").value());
@@ -54,7 +54,7 @@ HullPose pose(const HullShape& hull, const VehicleState& s) {
   return {hull, s.position_ned_m, s.orientation * Vec3::UnitX()};
 }
 
-double least_gap(const VehicleWorld& world, std::size_t a, std::size_t b) {
+double min_gap(const VehicleWorld& world, std::size_t a, std::size_t b) {
   std::vector<VehicleContact> found;
   find_vehicle_contacts(pose(world.model(a).parameters().hull, world.state(a)),
                         pose(world.model(b).parameters().hull, world.state(b)), 1, found);
@@ -185,8 +185,8 @@ TEST_P(Meeting, TwoThatMeetDoNotPassThroughEachOther) {
       for (long i = 0; i < std::lround(10 / GetParam()); ++i) {
         world.step(GetParam());
         met = met || world.touches_vehicle(0);
-        ASSERT_FALSE(world.is_lost(0) || world.is_lost(1)) << e.name;
-        ASSERT_GT(least_gap(world, 0, 1), -tolerance(kMostPenetration)) << e.name << " at step " << i;
+        ASSERT_FALSE(world.has_diverged(0) || world.has_diverged(1)) << e.name;
+        ASSERT_GT(min_gap(world, 0, 1), -tolerance(kMaxPenetration)) << e.name << " at step " << i;
       }
       EXPECT_TRUE(met) << e.name;
     }
@@ -202,9 +202,9 @@ TEST_P(Meeting, AVehicleThatSinksOntoOneOnTheGroundIsHeldByIt) {
   world.add(model, at({0.05, 0, 9.5}, std::numbers::pi / 2));  // across the first
   for (long i = 0; i < std::lround(20 / GetParam()); ++i) {
     world.step(GetParam());
-    ASSERT_GT(least_gap(world, 0, 1), -tolerance(kMostPenetration));
+    ASSERT_GT(min_gap(world, 0, 1), -tolerance(kMaxPenetration));
   }
-  EXPECT_FALSE(world.is_lost(0) || world.is_lost(1));
+  EXPECT_FALSE(world.has_diverged(0) || world.has_diverged(1));
 }
 
 TEST(VehicleLinks, TheSameEncounterGivesTheSameBytesAmongOthers) {
@@ -292,7 +292,7 @@ TEST_P(Towing, AVehicleOnAMooringStaysWithinItsLength) {
   }
   EXPECT_GT(longest, 5.9);
   EXPECT_LT(longest, 6 + tolerance(0.01));
-  EXPECT_FALSE(world.is_lost(0));
+  EXPECT_FALSE(world.has_diverged(0));
 }
 
 TEST(VehicleLinks, WhatIsImpossibleIsRefused) {

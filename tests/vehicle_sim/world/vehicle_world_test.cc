@@ -26,7 +26,7 @@ using testing::flat;
 using testing::GroundPointer;
 
 constexpr ActuatorValues kFullAhead{0, 0, 1525.0 / 60};
-constexpr double kMostPenetration = 0.02;  // m, the project's bound
+constexpr double kMaxPenetration = 0.02;  // m, the project's bound
 
 std::shared_ptr<const Model> remus(double buoyancy_ratio) {
   ModelParameters p = remus100_pvs_parameters(CurrentTreatment::kGalilean);
@@ -50,7 +50,7 @@ Outcome run(const GroundPointer& ground, double buoyancy_ratio, const VehicleSta
   const long steps = std::lround(duration_s / step_s), last_second = std::lround(1 / step_s);
   for (long i = 0; i < steps; ++i) {
     world.step(step_s);
-    EXPECT_FALSE(world.is_lost(0));
+    EXPECT_FALSE(world.has_diverged(0));
     if (i % std::lround(0.04 / step_s) == 0) {
       const double depth = deepest_in(*ground, world.state(0), world.model(0).parameters().hull);
       result.deepest_m = std::max(result.deepest_m, depth);
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(AtStep, Grounding, ::testing::Values(0.005, 0.01, 0.02)
 
 TEST_P(Grounding, AHeavyVehicleSinksToAFlatBottomAndRestsOnItWithWeightLessBuoyancy) {
   const Outcome r = run(flat(10), 0.98, at({0, 0, 9}), {}, 60, GetParam());
-  EXPECT_LT(r.deepest_m, tolerance(kMostPenetration));
+  EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration));
   const double expected = 0.02 * remus(1)->weight_n();
   EXPECT_NEAR(-r.mean_force.z(), expected, tolerance(0.01) * expected);
   EXPECT_LT(r.end.velocity_body.norm(), tolerance(1e-3));
@@ -78,20 +78,20 @@ TEST_P(Grounding, AHeavyVehicleSinksToAFlatBottomAndRestsOnItWithWeightLessBuoya
 
 TEST_P(Grounding, ADiveIntoAFlatBottomAtFullSpeedIsStopped) {
   const Outcome r = run(flat(10), 1, at({0, 0, 8}, {0, -to_radians(40), 0}, 2.5), kFullAhead, 20, GetParam());
-  EXPECT_LT(r.deepest_m, tolerance(kMostPenetration));
+  EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration));
   EXPECT_LT(r.peak_speed, 3);
 }
 
 TEST_P(Grounding, AVerticalDiveIsStopped) {
   const Outcome r =
       run(flat(10), 0.98, at({0, 0, 8}, {0, -to_radians(89), 0}, 2.5), kFullAhead, 20, GetParam());
-  EXPECT_LT(r.deepest_m, tolerance(kMostPenetration));
+  EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration));
 }
 
 TEST_P(Grounding, AVehicleRunsUpASlopeOfThirtyDegrees) {
   const auto ground = testing::ramp(10, 5, to_radians(30));
   const Outcome r = run(ground, 1, at({0, 0, 9}, {}, 2.5), kFullAhead, 20, GetParam());
-  EXPECT_LT(r.deepest_m, tolerance(kMostPenetration));
+  EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration));
   EXPECT_GT(r.end.position_ned_m.x(), 6);
 }
 
@@ -101,7 +101,7 @@ TEST_P(Grounding, AVehicleRestsOnASlopeOfTenDegrees) {
     const auto ground = testing::slope(10, to_radians(10));
     const Outcome r = run(ground, 0.98, at({0, 0, 9.7}, {0, 0, yaw}), {}, 40, GetParam());
     const double expected = 0.02 * remus(1)->weight_n();
-    EXPECT_LT(r.deepest_m, tolerance(kMostPenetration)) << yaw;
+    EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration)) << yaw;
     EXPECT_NEAR(-r.mean_force.z(), expected, tolerance(0.01) * expected) << yaw;
     EXPECT_LT(r.end.velocity_body.norm(), tolerance(1e-3)) << yaw;
   }
@@ -119,7 +119,7 @@ TEST_P(Grounding, AVehicleDroppedOnASharpRidgeIsNotCutByIt) {
                         {60, std::numbers::pi / 2, 0}}) {
     const auto ground = testing::ridge(10, to_radians(d.angle_deg));
     const Outcome r = run(ground, 0.95, at({d.off_m, 0, 9.5}, {0, 0, d.yaw}), {}, 12, GetParam());
-    EXPECT_LT(r.deepest_m, tolerance(kMostPenetration)) << d.angle_deg << " degrees, yaw " << d.yaw;
+    EXPECT_LT(r.deepest_m, tolerance(kMaxPenetration)) << d.angle_deg << " degrees, yaw " << d.yaw;
   }
 }
 
@@ -129,7 +129,7 @@ TEST_P(Grounding, AVehicleDriftsSidewaysIntoASteepWallAndStops) {
   start.velocity_body[1] = -1;  // to port, which is north
   const Outcome r = run(wall, 0.99, start, {}, 10, GetParam());
   EXPECT_LT(r.deepest_m * std::cos(to_radians(70)),
-            tolerance(kMostPenetration));  // across the wall, not vertical
+            tolerance(kMaxPenetration));  // across the wall, not vertical
 }
 
 TEST(VehicleWorld, FreeFlightIsTheSolutionOfTheEquationsToTheLastBit) {
@@ -205,16 +205,16 @@ TEST(VehicleWorld, AVehicleWhoseEquationsFailIsLostAndTheOthersGoOn) {
   world.add(remus(1), runaway);
   world.add(remus(1), at({0, 9, 10}, {}, 1));
   for (int i = 0; i < 100; ++i) world.step(0.01);
-  EXPECT_TRUE(world.is_lost(0));
+  EXPECT_TRUE(world.has_diverged(0));
   EXPECT_TRUE(is_finite(world.state(0)));
-  EXPECT_FALSE(world.is_lost(1));
+  EXPECT_FALSE(world.has_diverged(1));
   EXPECT_GT(world.state(1).position_ned_m.x(), 0.5);
 }
 
 TEST(VehicleWorld, AVehiclePlacedInTheGroundIsMovedOutSlowly) {
   const Outcome r = run(flat(10), 0.98, at({0, 0, 10.5}), {}, 30, 0.01);
   EXPECT_LT(r.peak_speed, 0.5);
-  EXPECT_LT(deepest_in(*flat(10), r.end, remus(1)->parameters().hull), tolerance(kMostPenetration));
+  EXPECT_LT(deepest_in(*flat(10), r.end, remus(1)->parameters().hull), tolerance(kMaxPenetration));
 }
 
 TEST(VehicleWorld, BeyondTheMapThereIsNoGround) {

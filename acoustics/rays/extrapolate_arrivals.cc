@@ -1,0 +1,54 @@
+#include "acoustics/rays/extrapolate_arrivals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halocline::acoustics {
+namespace {
+
+// How far the ends have moved: apart, and each down, m.
+struct Displacement {
+  double apart, source_down, receiver_down;
+};
+
+// Angle of a ray of `angle_rad` and `length_m` once its end has moved.
+double turned(double angle_rad, double length_m, double apart_m, double down_m) {
+  return std::atan2(length_m * std::sin(angle_rad) + down_m, length_m * std::cos(angle_rad) + apart_m);
+}
+
+Arrival carried(Arrival path, const EndSpeeds& speeds, const Displacement& moved) {
+  const double delay_s = path.delay_s, speed_mps = path.path_length_m / delay_s;
+  const double gradient_s = path.range_slowness_spm * moved.apart +
+                            std::sin(path.arrival_angle_rad) / speeds.receiver_mps * moved.receiver_down -
+                            std::sin(path.launch_angle_rad) / speeds.source_mps * moved.source_down;
+  // Unfolded as the source sees it, the receiver's down is up after an odd number of bounces and turns.
+  const bool flipped = (path.surface_bounces + path.bottom_bounces) % 2 != 0;
+  const double turn = flipped ? -1 : 1, down = turn * moved.receiver_down - moved.source_down;
+  const double along = speed_mps * gradient_s;
+  const double across_squared = std::max(moved.apart * moved.apart + down * down - along * along, 0.0);
+  path.delay_s =
+      std::sqrt((delay_s + gradient_s) * (delay_s + gradient_s) + across_squared / (speed_mps * speed_mps));
+  const double grown = path.delay_s / delay_s;
+  path.launch_angle_rad = turned(path.launch_angle_rad, path.path_length_m, moved.apart, down);
+  path.arrival_angle_rad = turned(path.arrival_angle_rad, path.path_length_m, moved.apart, turn * down);
+  path.path_length_m *= grown;
+  path.absorption_db *= grown;
+  path.amplitude /= grown;
+  return path;
+}
+
+}  // namespace
+
+std::vector<Arrival> carried(const std::vector<Arrival>& found, const RayLink& from, const EndSpeeds& speeds,
+                             const RayLink& to) {
+  const Displacement moved{to.range_m - from.range_m, to.source_depth_m - from.source_depth_m,
+                           to.receiver_depth_m - from.receiver_depth_m};
+  std::vector<Arrival> paths;
+  paths.reserve(found.size());
+  for (const Arrival& path : found) paths.push_back(carried(path, speeds, moved));
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+  return paths;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,190 @@
+#include "channel_server/links/link_query_service.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "core/names.h"
+
+namespace halocline::channel_server {
+namespace {
+
+// Beyond it a position is a unit mixed up (the same bound as for vehicles).
+constexpr double kFarthestM = 1e7;
+
+std::string problem_of_modem(const acoustics::Modem& modem) {
+  try {
+    validate(modem);
+  } catch (const InvalidArgument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+LinkQueryService::LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation,
+                                   MultipathCache& book, RayQueryClient& asker, Rule rule)
+    : fleet_(fleet), propagation_(propagation), book_(book), asker_(asker), rule_(rule) {
+  require(rule.bottom_points >= 1, "at least one bottom point is needed");
+}
+
+void LinkQueryService::ask(const LinkQuestion& question, std::optional<SimTime> sim, SimTime steady) {
+  if (is_waiting(question)) return;
+  Waiting waiting;
+  waiting.reply = {question.client, question.request_id, sim.value_or(SimTime()), refusal_of(question), {}};
+  waiting.deadline = steady + rule_.patience;
+  if (waiting.reply.refusal.empty()) {
+    for (std::size_t i = 0; i < question.transmitters.size(); ++i) {
+      answer(resolve(question.transmitters[i], sim), resolve(question.receivers[i], sim), waiting);
+    }
+  }
+  waiting_.push_back(std::move(waiting));
+}
+
+std::string LinkQueryService::refusal_of(const LinkQuestion& question) const {
+  const std::size_t count = question.transmitters.size();
+  if (count < 1 || count > kMaxLinks) {
+    return "num_links is " + std::to_string(count) + "; allowed is 1 to " + std::to_string(kMaxLinks);
+  }
+  if (waiting_.size() >= kMaxWaiting) return "too many questions are waiting; ask again later";
+  return {};
+}
+
+bool LinkQueryService::is_waiting(const LinkQuestion& question) const {
+  return std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return waiting.reply.client == question.client && waiting.reply.request_id == question.request_id;
+  });
+}
+
+LinkQueryService::ResolvedEnd LinkQueryService::resolve(const LinkEndRequest& end,
+                                                        std::optional<SimTime> sim) const {
+  ResolvedEnd resolved;
+  resolved.problem = end.problem;
+  if (resolved.problem.empty() && end.modem) resolved.problem = problem_of_modem(end.modem->modem);
+  if (resolved.problem.empty() && end.vehicle.empty())
+    resolved.problem = problem_of_place(end.position_ned_m, sim.value_or(SimTime()));
+  if (!resolved.problem.empty()) {
+    resolved.status = LinkAnswer::Status::kBadInput;
+    return resolved;
+  }
+  if (!end.vehicle.empty()) return resolve_vehicle(end, sim);
+  resolved.placement.position_ned_m = end.position_ned_m;
+  resolved.modem = end.modem.value_or(fleet_.configured_modems().standard);
+  return resolved;
+}
+
+LinkQueryService::ResolvedEnd LinkQueryService::resolve_vehicle(const LinkEndRequest& end,
+                                                                std::optional<SimTime> sim) const {
+  ResolvedEnd resolved;
+  if (!is_valid_name(end.vehicle)) {
+    resolved.status = LinkAnswer::Status::kBadInput;
+    resolved.problem = "vehicle_name is no name: " + std::string(kNameRule);
+    return resolved;
+  }
+  const auto id = fleet_.id_of(end.vehicle);
+  const auto placement = id && sim ? fleet_.placement(*id, *sim, *sim) : std::nullopt;
+  if (!placement) {
+    resolved.status = LinkAnswer::Status::kUnknownVehicle;
+    resolved.problem = end.vehicle + " is not heard, or its state is too old";
+    return resolved;
+  }
+  resolved.id = *id;
+  resolved.placement = *placement;
+  resolved.modem = end.modem.value_or(fleet_.modem(*id, *sim));
+  return resolved;
+}
+
+std::string LinkQueryService::problem_of_place(const Vec3& position_ned_m, SimTime at) const {
+  for (const double coordinate : position_ned_m) {
+    if (!(std::abs(coordinate) <= kFarthestM)) return "position_ned_m is no position within 1e7 m";
+  }
+  const double depth_m = depth_below_surface_m(position_ned_m, propagation_.environment(at).sea_surface_z_m);
+  if (depth_m < 0) return "position_ned_m lies above the sea surface (z is down)";
+  if (depth_m > acoustics::kDeepestWater) return "position_ned_m lies deeper than 12000 m";
+  return {};
+}
+
+void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
+  LinkAnswer answer;
+  const ResolvedEnd& worse = from.status != LinkAnswer::Status::kAnswered ? from : to;
+  answer.status = worse.status;
+  if (answer.status != LinkAnswer::Status::kAnswered) {
+    answer.problem = (&worse == &from ? "transmitter: " : "receiver: ") + worse.problem;
+    waiting.reply.answers.push_back(std::move(answer));
+    return;
+  }
+  const Reception reception =
+      propagation_.reception(waiting.reply.at, link_end(from.placed()), link_end(to.placed()));
+  answer.row.transmitter_id = from.id;
+  answer.row.receiver_id = to.id;
+  answer.row.transmitter_age = from.placement.age;
+  answer.row.receiver_age = to.placement.age;
+  answer.row.set(reception);
+  answer.row.multipath = multipath_of(reception, to.modem.modem.min_receivable_level);
+  const bool tables_know = from.id != 0 && to.id != 0 && from.id != to.id && !propagation_.uses_bottom();
+  if (tables_know) {
+    answer.row.multipath = book_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
+  }
+  waiting.reply.answers.push_back(answer);
+  if (answer.row.multipath == Multipath::kUnknown) ask_terrain(from, to, waiting);
+}
+
+void LinkQueryService::ask_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
+  const Vec3 &here = from.placement.position_ned_m, &there = to.placement.position_ned_m;
+  const TerrainSurvey survey =
+      propagation_.uses_bottom()
+          ? TerrainSurvey(ProfileSurvey(cells_of(here, there, rule_.profile), rule_.profile))
+          : TerrainSurvey(EchoSurvey(here, there, rule_.bottom_points));
+  const std::size_t index = waiting.reply.answers.size() - 1;
+  waiting.surveys.emplace(asker_.ask_urgent(survey), index);
+  waiting.ends.emplace(index, std::pair(from, to));
+}
+
+bool LinkQueryService::finish(const RayQueryClient::Finished& finished) {
+  for (Waiting& waiting : waiting_) {
+    const auto survey = waiting.surveys.find(finished.id);
+    if (survey == waiting.surveys.end()) continue;
+    if (finished.answered) take(finished.survey, survey->second, waiting);
+    waiting.surveys.erase(survey);
+    return true;
+  }
+  return false;
+}
+
+void LinkQueryService::take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting) {
+  const auto& [from, to] = waiting.ends.at(index);
+  LinkRow& row = waiting.reply.answers[index].row;
+  if (const auto* echoes = std::get_if<EchoSurvey>(&survey)) {
+    row.multipath = multipath_of(*echoes, /*reversed=*/false, waiting.reply.at, propagation_,
+                                 from.modem.modem, to.modem.modem);
+    return;
+  }
+  const Reception reception =
+      propagation_.reception_over(waiting.reply.at, link_end(from.placed()), link_end(to.placed()),
+                                  std::get<ProfileSurvey>(survey).profile());
+  row.set(reception);
+  row.multipath = multipath_of(reception, to.modem.modem.min_receivable_level);
+}
+
+std::vector<LinkReply> LinkQueryService::take_replies(SimTime steady) {
+  std::vector<LinkReply> replies;
+  std::erase_if(waiting_, [&](Waiting& waiting) {
+    if (!waiting.surveys.empty() && steady < waiting.deadline) return false;
+    replies.push_back(std::move(waiting.reply));
+    return true;
+  });
+  return replies;
+}
+
+SimTime LinkQueryService::due() const {
+  SimTime due = SimTime::never();
+  for (const Waiting& waiting : waiting_) {
+    due = std::min(due, waiting.surveys.empty() ? SimTime::at_once() : waiting.deadline);
+  }
+  return due;
+}
+
+void LinkQueryService::clear() { waiting_.clear(); }
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,112 @@
+// Answers questions about links: between vehicles by name, and between positions and modems that need not
+// exist.
+//
+// Every link is answered or refused on its own. A straight budget is computed at once; whether an echo is likely,
+// and rays, need the terrain, which is asked urgently: a reply waits for it no longer than `patience` of steady
+// time, then says unknown (and tells the straight path). For two vehicles whose echoes or whose bottom the link
+// tables know already, nothing is asked.
+//
+// The position of a named vehicle is that of state_history.h at the simulation time of the question; while no
+// simulation time is known, no vehicle is. Not thread-safe.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "channel_server/links/link_table.h"
+#include "channel_server/links/multipath_cache.h"
+#include "channel_server/links/ray_query_client.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+
+namespace halocline::channel_server {
+
+struct LinkEndRequest {
+  std::string vehicle;                     // empty: the position
+  Vec3 position_ned_m = Vec3::Zero();      // world NED, m
+  std::optional<VehicleModem> modem = {};  // empty: the vehicle's own, or the standard one
+  std::string problem = {};                // not empty: this end could not even be read
+};
+
+struct LinkQuestion {
+  std::string client;
+  std::int64_t request_id = 0;
+  std::vector<LinkEndRequest> transmitters, receivers;  // as many of each
+};
+
+struct LinkAnswer {
+  enum class Status { kAnswered, kUnknownVehicle, kBadInput };
+  Status status = Status::kAnswered;
+  std::string problem;  // empty when answered
+  LinkRow row;          // holds when answered
+};
+
+struct LinkReply {
+  std::string client;
+  std::int64_t request_id = 0;
+  SimTime at;                       // for which the answers hold; 0 while no simulation time is known
+  std::string refusal;              // not empty: the question as a whole is refused
+  std::vector<LinkAnswer> answers;  // in the order of the question
+};
+
+class LinkQueryService {
+ public:
+  static constexpr std::size_t kMaxLinks = 200;   // of one question
+  static constexpr std::size_t kMaxWaiting = 64;  // questions that wait for the terrain
+
+  struct Rule {
+    int bottom_points = 9;  // of an echo survey
+    ProfileRule profile;
+    SimDuration patience = SimDuration::from_milliseconds(250);
+  };
+
+  // All of them must outlive the desk.
+  LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, MultipathCache& book,
+                   RayQueryClient& asker, Rule rule);
+
+  // A repetition of a question that is still waiting is not asked twice. `sim` is empty while unknown.
+  void ask(const LinkQuestion& question, std::optional<SimTime> sim, SimTime steady);
+  // A survey has ended; true when it was one of this desk's.
+  bool finish(const RayQueryClient::Finished& finished);
+  // What is ready at `steady`, or has waited long enough.
+  std::vector<LinkReply> take_replies(SimTime steady);
+  // at_once() while a reply is ready.
+  SimTime due() const;
+  void clear();
+
+ private:
+  struct ResolvedEnd {
+    LinkAnswer::Status status = LinkAnswer::Status::kAnswered;
+    std::string problem;
+    VehicleId id = 0;
+    Placement placement;
+    VehicleModem modem;
+    PlacedVehicle placed() const { return {id, placement, &modem}; }  // lives as long as this end
+  };
+  struct Waiting {
+    LinkReply reply;
+    SimTime deadline;
+    std::map<RayQueryClient::SurveyId, std::size_t> surveys;          // to the index of the answer
+    std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;  // of those answers
+  };
+  std::string refusal_of(const LinkQuestion& question) const;
+  bool is_waiting(const LinkQuestion& question) const;
+  ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
+  ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
+  std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
+  void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  void ask_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  void take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting);
+
+  const VehicleRegistry& fleet_;
+  Propagation& propagation_;
+  MultipathCache& book_;
+  RayQueryClient& asker_;
+  Rule rule_;
+  std::deque<Waiting> waiting_;
+};
+
+}  // namespace halocline::channel_server

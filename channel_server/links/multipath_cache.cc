@@ -1,0 +1,91 @@
+#include "channel_server/links/multipath_cache.h"
+
+#include <algorithm>
+
+namespace halocline::channel_server {
+
+bool MultipathCache::serves(const Entry& entry, const Vec3& low, const Vec3& high) const {
+  return entry.surveyed && (entry.survey.from_ned_m() - low).norm() <= reuse_distance_m_ &&
+         (entry.survey.to_ned_m() - high).norm() <= reuse_distance_m_;
+}
+
+Multipath MultipathCache::at_last_tick(SimTime at, const PlacedVehicle& transmitter,
+                                       const PlacedVehicle& receiver, Propagation& propagation) {
+  const auto from = places_.find(transmitter.id), to = places_.find(receiver.id);
+  if (from == places_.end() || to == places_.end()) return Multipath::kUnknown;
+  return look_up(at, transmitter, receiver, from->second, to->second, propagation);
+}
+
+Multipath MultipathCache::at(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+                             Propagation& propagation) {
+  return look_up(at, transmitter, receiver, transmitter.placement.position_ned_m,
+                 receiver.placement.position_ned_m, propagation);
+}
+
+Multipath MultipathCache::look_up(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
+                                  const Vec3& from, const Vec3& to, Propagation& propagation) {
+  const auto entry = entries_.find(pair_of(transmitter.id, receiver.id));
+  if (entry == entries_.end()) return Multipath::kUnknown;
+  const bool rising = transmitter.id < receiver.id;
+  if (!serves(entry->second, rising ? from : to, rising ? to : from)) return Multipath::kUnknown;
+  return judge(entry->second, at, transmitter, receiver, propagation);
+}
+
+// Judging takes as long as a dozen links; modems change rarely, so each verdict is kept beside its survey.
+Multipath MultipathCache::judge(Entry& entry, SimTime at, const PlacedVehicle& transmitter,
+                                const PlacedVehicle& receiver, Propagation& propagation) {
+  const bool reversed = transmitter.id > receiver.id;
+  Verdict& verdict = entry.verdicts[reversed ? 1 : 0];
+  const acoustics::Modem &from = transmitter.modem->modem, &to = receiver.modem->modem;
+  if (!verdict.known || !(verdict.transmitter == from) || !(verdict.receiver == to)) {
+    verdict = {from, to, multipath_of(entry.survey, reversed, at, propagation, from, to), true};
+  }
+  return verdict.multipath;
+}
+
+std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard) {
+  ++tick_;
+  places_.clear();
+  for (const auto& vehicle : vehicles) places_.emplace(vehicle.id, vehicle.placement.position_ned_m);
+  std::erase_if(entries_, [&](const auto& entry) {
+    return !places_.contains(entry.first.first) || !places_.contains(entry.first.second);
+  });
+  std::vector<std::pair<std::int64_t, VehiclePair>> wanted;
+  for (auto low = places_.begin(); low != places_.end(); ++low) {
+    for (auto high = std::next(low); high != places_.end(); ++high) {
+      if (!shard.serves(low->first) && !shard.serves(high->first)) continue;
+      const Entry& entry = entries_[{low->first, high->first}];
+      if (serves(entry, low->second, high->second)) continue;
+      wanted.push_back({entry.asked_at_tick, {low->first, high->first}});
+    }
+  }
+  std::sort(wanted.begin(), wanted.end());
+  std::vector<VehiclePair> pairs;
+  for (const auto& [asked, pair] : wanted) pairs.push_back(pair);
+  return pairs;
+}
+
+void MultipathCache::note_asked(const VehiclePair& pair) {
+  const auto entry = entries_.find(pair);
+  if (entry != entries_.end()) entry->second.asked_at_tick = tick_;
+}
+
+void MultipathCache::store(const VehiclePair& pair, EchoSurvey survey) {
+  const auto entry = entries_.find(pair);
+  if (entry == entries_.end()) return;  // one of the two has left
+  entry->second.survey = std::move(survey);
+  entry->second.surveyed = true;
+  entry->second.verdicts[0] = entry->second.verdicts[1] = Verdict();
+}
+
+void MultipathCache::forget_verdicts() {
+  for (auto& [pair, entry] : entries_) entry.verdicts[0] = entry.verdicts[1] = Verdict();
+}
+
+void MultipathCache::clear() {
+  tick_ = 0;
+  places_.clear();
+  entries_.clear();
+}
+
+}  // namespace halocline::channel_server

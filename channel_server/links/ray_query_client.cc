@@ -1,0 +1,180 @@
+#include "channel_server/links/ray_query_client.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+SimDuration half(SimDuration duration) { return SimDuration::from_nanoseconds(duration.nanoseconds() / 2); }
+
+}  // namespace
+
+RayQueryClient::RayQueryClient(AskingRule rule) : rule_(rule) {
+  require(rule.rays_per_batch >= 128 && rule.rays_per_batch <= 4096,
+          "rays_per_batch: allowed is 128 to 4096");
+  require(rule.batches_in_flight >= 1 && rule.batches_per_tick >= 1, "at least one batch must be allowed");
+  require(rule.answer_deadline > SimDuration(), "the deadline of answers must be positive");
+}
+
+RayQueryClient::SurveyId RayQueryClient::ask_routine(TerrainSurvey survey) {
+  routine_depths_.push_back({.id = ++last_survey_, .survey = std::move(survey)});
+  return last_survey_;
+}
+
+RayQueryClient::SurveyId RayQueryClient::ask_urgent(TerrainSurvey survey) {
+  Waiting waiting{.id = ++last_survey_, .urgent = true, .survey = std::move(survey)};
+  if (!away_) {
+    urgent_depths_.push_back(std::move(waiting));
+    return last_survey_;
+  }
+  if (in_flight_.empty() && next_queue() == nullptr) {
+    routine_depths_.push_back({.id = 0, .silent = true, .survey = waiting.survey});
+  }
+  finish(std::move(waiting), false);
+  return last_survey_;
+}
+
+std::vector<RayQueryClient::SurveyId> RayQueryClient::begin_tick() {
+  std::vector<SurveyId> dropped;
+  for (Queue* queue : {&routine_depths_, &routine_ways_}) {
+    for (const Waiting& waiting : *queue) {
+      if (!waiting.silent) dropped.push_back(waiting.id);
+    }
+    queue->clear();
+  }
+  counters_.surveys_dropped += static_cast<std::int64_t>(dropped.size());
+  sent_this_tick_ = 0;
+  return dropped;
+}
+
+bool RayQueryClient::may_send(bool urgent) const {
+  if (away_) return in_flight_.empty();
+  return in_flight_.size() < rule_.batches_in_flight && (urgent || sent_this_tick_ < rule_.batches_per_tick);
+}
+
+const RayQueryClient::Queue* RayQueryClient::next_queue() const {
+  for (const Queue* queue : {&urgent_ways_, &urgent_depths_, &routine_ways_, &routine_depths_}) {
+    if (!queue->empty()) return may_send(queue->front().urgent) ? queue : nullptr;
+  }
+  return nullptr;
+}
+
+RayQueryClient::Queue& RayQueryClient::queue_of(const Waiting& waiting) {
+  if (asks(waiting.survey) == RayKind::kWays) return waiting.urgent ? urgent_ways_ : routine_ways_;
+  return waiting.urgent ? urgent_depths_ : routine_depths_;
+}
+
+std::vector<RayBatch> RayQueryClient::take_batches(SimTime steady) {
+  std::vector<RayBatch> batches;
+  repeat_and_give_up(steady, batches);
+  while (const Queue* queue = next_queue()) {
+    batches.push_back(send_from(queue_of(queue->front()), steady));
+  }
+  return batches;
+}
+
+// Surveys are not split: all rays of one stage of one survey go in one batch.
+RayBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
+  InFlight sent{{++last_request_, *asks(queue.front().survey), {}}, {}, steady, false};
+  if (!queue.front().urgent) ++sent_this_tick_;
+  while (!queue.empty()) {
+    const auto rays = rays_of(queue.front().survey);
+    const bool fits = sent.batch.rays.size() + rays.size() <= rule_.rays_per_batch;
+    if (!fits && !sent.surveys.empty()) break;
+    sent.batch.rays.insert(sent.batch.rays.end(), rays.begin(), rays.end());
+    sent.surveys.push_back(std::move(queue.front()));
+    queue.pop_front();
+  }
+  ++counters_.batches_sent;
+  return in_flight_.emplace(last_request_, std::move(sent)).first->second.batch;
+}
+
+SimTime RayQueryClient::next_action(const InFlight& batch) const {
+  return batch.sent + (batch.repeated ? rule_.answer_deadline : half(rule_.answer_deadline));
+}
+
+void RayQueryClient::repeat_and_give_up(SimTime steady, std::vector<RayBatch>& repeated) {
+  for (auto batch = in_flight_.begin(); batch != in_flight_.end();) {
+    if (steady >= batch->second.sent + rule_.answer_deadline) {
+      ++counters_.batches_failed;
+      fail_all(std::move(batch->second.surveys));
+      batch = in_flight_.erase(batch);
+      declare_away();
+      continue;
+    }
+    if (steady >= next_action(batch->second)) {
+      batch->second.repeated = true;
+      ++counters_.batches_repeated;
+      repeated.push_back(batch->second.batch);
+    }
+    ++batch;
+  }
+}
+
+void RayQueryClient::declare_away() {
+  away_ = true;
+  for (Queue* queue : {&urgent_ways_, &urgent_depths_}) {
+    for (Waiting& waiting : *queue) finish(std::move(waiting), false);
+    queue->clear();
+  }
+}
+
+void RayQueryClient::answer(std::int64_t request_id, std::span<const RayAnswer> answers) {
+  if (request_id < 1 || request_id > last_request_) return;
+  away_ = false;
+  auto found = in_flight_.extract(request_id);
+  if (found.empty()) return;
+  InFlight& answered = found.mapped();
+  if (answers.size() != answered.batch.rays.size()) return fail_all(std::move(answered.surveys));
+  for (Waiting& waiting : answered.surveys) {
+    const std::size_t count = rays_of(waiting.survey).size();
+    advance(std::move(waiting), answers.first(count));
+    answers = answers.subspan(count);
+  }
+}
+
+void RayQueryClient::refuse(std::int64_t request_id) {
+  if (request_id < 1 || request_id > last_request_) return;
+  away_ = false;
+  auto found = in_flight_.extract(request_id);
+  if (!found.empty()) fail_all(std::move(found.mapped().surveys));
+}
+
+void RayQueryClient::advance(Waiting waiting, std::span<const RayAnswer> answers) {
+  take(waiting.survey, answers);
+  if (waiting.silent || !asks(waiting.survey)) return finish(std::move(waiting), true);
+  Queue& queue = queue_of(waiting);
+  queue.push_back(std::move(waiting));
+}
+
+void RayQueryClient::finish(Waiting waiting, bool answered) {
+  if (waiting.silent) return;
+  ++(answered ? counters_.surveys_answered : counters_.surveys_failed);
+  finished_.push_back({waiting.id, std::move(waiting.survey), answered});
+}
+
+void RayQueryClient::fail_all(std::vector<Waiting> surveys) {
+  for (Waiting& waiting : surveys) finish(std::move(waiting), false);
+}
+
+std::vector<RayQueryClient::Finished> RayQueryClient::take_finished() { return std::exchange(finished_, {}); }
+
+SimTime RayQueryClient::due() const {
+  if (next_queue() != nullptr || !finished_.empty()) return SimTime::at_once();
+  SimTime due = SimTime::never();
+  for (const auto& [id, batch] : in_flight_) due = std::min(due, next_action(batch));
+  return due;
+}
+
+void RayQueryClient::clear() {
+  for (Queue* queue : {&urgent_ways_, &urgent_depths_, &routine_ways_, &routine_depths_}) queue->clear();
+  in_flight_.clear();
+  finished_.clear();
+  sent_this_tick_ = 0;
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,118 @@
+// Gets surveys of the terrain answered by a service that may be slow, deaf or gone: batches their rays, paces
+// the batches, gives up in time, and finds out when the service is back.
+//
+// Surveys go through their questions (depths; an echo survey then ways), each in batches of one kind of up to
+// `rays_per_batch` rays. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick`
+// are sent between two begin_tick(); routine surveys that have not been sent by the next tick are dropped and
+// counted: their rows say unknown, and their turn comes first then. Urgent surveys go before routine ones and
+// do not count.
+//
+// A batch without an answer is sent again after half of the deadline, and given up at the deadline: the
+// service is away then. While it is away urgent surveys fail at once, and one batch at a time keeps probing;
+// the first answer ends it.
+//
+// Time is steady time, given in. Nothing here sends: the owner takes batches and brings answers. A failed
+// survey is returned as unanswered. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "channel_server/links/terrain_survey.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+struct AskingRule {
+  std::size_t rays_per_batch = 1024;  // 128..4096; a batch of 1024 is a message of 57 kB
+  std::size_t batches_in_flight = 4;  // 1 and up
+  std::size_t batches_per_tick = 64;  // 1 and up
+  SimDuration answer_deadline = SimDuration::from_milliseconds(250);  // above 0
+};
+
+struct RayBatch {
+  std::int64_t request_id = 0;
+  RayKind kind = RayKind::kDepths;
+  std::vector<TerrainRay> rays;
+};
+
+class RayQueryClient {
+ public:
+  // The asker's name of a survey, ascending from 1.
+  using SurveyId = std::int64_t;
+  struct Finished {
+    SurveyId id = 0;
+    TerrainSurvey survey;
+    bool answered = false;
+  };
+  struct Counters {
+    std::int64_t batches_sent = 0, batches_repeated = 0, batches_failed = 0;
+    std::int64_t surveys_answered = 0, surveys_failed = 0, surveys_dropped = 0;
+  };
+
+  explicit RayQueryClient(AskingRule rule);
+
+  SurveyId ask_routine(TerrainSurvey survey);
+  SurveyId ask_urgent(TerrainSurvey survey);
+  // Drops routine surveys not sent yet and opens the allowance of a new tick; returns the dropped.
+  std::vector<SurveyId> begin_tick();
+
+  // What to send at `steady`: new batches and repetitions. Gives up what is overdue.
+  std::vector<RayBatch> take_batches(SimTime steady);
+  // The service answered `request_id`; unknown ids (late answers) only tell that it is there. An answer of
+  // another count than asked is no answer.
+  void answer(std::int64_t request_id, std::span<const RayAnswer> answers);
+  // The service refused: its surveys fail, it is there.
+  void refuse(std::int64_t request_id);
+  // Since the last call, in order of finishing.
+  std::vector<Finished> take_finished();
+
+  // When take_batches is next to be called; at_once() when there is something to send.
+  SimTime due() const;
+  bool is_away() const { return away_; }
+  const Counters& counters() const { return counters_; }
+  // Another run: forgets every survey, without a word.
+  void clear();
+
+ private:
+  struct Waiting {
+    SurveyId id = 0;
+    bool urgent = false;
+    bool silent = false;  // a probe: nobody waits for it
+    TerrainSurvey survey;
+  };
+  struct InFlight {
+    RayBatch batch;
+    std::vector<Waiting> surveys;
+    SimTime sent;
+    bool repeated = false;
+  };
+  using Queue = std::deque<Waiting>;
+  Queue& queue_of(const Waiting& waiting);
+  bool may_send(bool urgent) const;
+  // What goes next; null when nothing may.
+  const Queue* next_queue() const;
+  SimTime next_action(const InFlight& batch) const;
+  RayBatch send_from(Queue& queue, SimTime steady);
+  void repeat_and_give_up(SimTime steady, std::vector<RayBatch>& repeated);
+  void advance(Waiting waiting, std::span<const RayAnswer> answers);
+  void finish(Waiting waiting, bool answered);
+  void fail_all(std::vector<Waiting> surveys);
+  void declare_away();
+
+  AskingRule rule_;
+  bool away_ = false;
+  std::size_t sent_this_tick_ = 0;
+  SurveyId last_survey_ = 0;
+  std::int64_t last_request_ = 0;
+  // What is begun is finished before anything new is; what is urgent goes before all.
+  Queue urgent_ways_, urgent_depths_, routine_ways_, routine_depths_;
+  std::map<std::int64_t, InFlight> in_flight_;
+  std::vector<Finished> finished_;
+  Counters counters_;
+};
+
+}  // namespace halocline::channel_server

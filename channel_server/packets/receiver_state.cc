@@ -1,0 +1,83 @@
+#include "channel_server/packets/receiver_state.h"
+
+#include <algorithm>
+
+namespace halocline::channel_server {
+namespace {
+
+// Forgetting is worth a walk over everything only when there is much new.
+constexpr std::size_t kFewSounds = 64;
+
+// A packet without a duration counts at its instant.
+bool overlap(const Span& span, SimTime begin, SimTime end) {
+  return begin < span.end && (span.begin < end || span.begin == begin);
+}
+
+}  // namespace
+
+double band_share(const acoustics::Band& of, const acoustics::Band& in) {
+  const double shared_hz = std::min(of.high_hz, in.high_hz) - std::max(of.low_hz, in.low_hz);
+  return std::clamp(shared_hz / of.width_hz(), 0.0, 1.0);
+}
+
+void ReceiverState::open(HeardPacket packet) {
+  open_.insert(packet.begin);
+  longest_ = std::max(longest_, packet.end - packet.begin);
+  const auto place = std::upper_bound(heard_.begin(), heard_.end(), packet.begin,
+                                      [](SimTime begin, const HeardPacket& h) { return begin < h.begin; });
+  heard_.insert(place, std::move(packet));
+}
+
+void ReceiverState::close(SimTime begin, SimTime now) {
+  open_.erase(open_.find(begin));
+  if (size() > 2 * size_at_forgetting_ + kFewSounds) forget(now);
+}
+
+std::vector<PacketPointer> ReceiverState::transmitted_during(SimTime begin, SimTime end) const {
+  std::vector<Span> spans;
+  for (const Span& span : transmissions_) {
+    if (overlap(span, begin, end)) spans.push_back(span);
+  }
+  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.begin < b.begin; });
+  std::vector<PacketPointer> packets;
+  for (Span& span : spans) packets.push_back(std::move(span.packet));
+  return packets;
+}
+
+std::shared_ptr<const Packet> ReceiverState::locked_onto(SimTime instant) const {
+  for (const Lock& lock : locks_) {
+    if (lock.noticed > instant || lock.reception.end <= instant) continue;
+    const auto sends = [&](const Span& span) { return overlap(span, lock.reception.begin, instant); };
+    if (std::none_of(transmissions_.begin(), transmissions_.end(), sends)) return lock.reception.packet;
+  }
+  return nullptr;
+}
+
+Interferers ReceiverState::interferers_of(const Packet& packet, SimTime begin, SimTime end) const {
+  Interferers found;
+  const acoustics::Band band = packet.modem.band();
+  auto heard = std::lower_bound(heard_.begin(), heard_.end(), begin - longest_,
+                                [](const HeardPacket& h, SimTime time) { return h.begin < time; });
+  for (; heard != heard_.end() && heard->begin < end; ++heard) {
+    if (heard->end <= begin || heard->packet.get() == &packet) continue;
+    const double share = band_share(heard->packet->modem.band(), band);
+    if (share == 0) continue;
+    for (const HeardPath& path : heard->paths) {
+      if (path.end <= begin || path.begin >= end) continue;
+      found.paths.push_back({path.begin, path.end, path.power * share, found.packets.size()});
+    }
+    found.packets.push_back(heard->packet);
+  }
+  return found;
+}
+
+void ReceiverState::forget(SimTime now) {
+  SimTime horizon = now - kept_longer_;
+  if (!open_.empty()) horizon = std::min(horizon, *open_.begin());
+  std::erase_if(heard_, [&](const HeardPacket& packet) { return packet.end < horizon; });
+  std::erase_if(transmissions_, [&](const Span& span) { return span.end < horizon; });
+  std::erase_if(locks_, [&](const Lock& lock) { return lock.reception.end < horizon; });
+  size_at_forgetting_ = size();
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,62 @@
+#include "bus/lockstep/retransmission_timer.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace halocline::conductor {
+namespace {
+
+SimTime at_us(std::int64_t n) { return SimTime() + SimDuration::from_microseconds(n); }
+
+// Many exchanges, each answered after `us`.
+RetransmissionTimer after_answers_of(std::int64_t us) {
+  RetransmissionTimer timer;
+  for (int i = 0; i < 100; ++i) {
+    timer.say(at_us(1'000'000 * i));
+    timer.answered(at_us(1'000'000 * i + us));
+  }
+  return timer;
+}
+
+TEST(RetransmissionTimer, WaitsForNothingWhenNothingWasSaid) {
+  EXPECT_EQ(RetransmissionTimer().again_at(), SimTime::never());
+}
+
+TEST(RetransmissionTimer, WaitsALittleLongerThanAnswersTake) {
+  RetransmissionTimer timer = after_answers_of(8000);
+  timer.say(at_us(0));
+  EXPECT_GE(timer.again_at(), at_us(8000));
+  EXPECT_LE(timer.again_at(), at_us(9000));
+}
+
+TEST(RetransmissionTimer, NeverWaitsLessThanItsLeast) {
+  RetransmissionTimer timer = after_answers_of(50);
+  timer.say(at_us(0));
+  EXPECT_EQ(timer.again_at(), at_us(0) + RetransmissionTimer::kMin);
+}
+
+TEST(RetransmissionTimer, TheWaitDoublesFromTheThirdRepetitionUpToABound) {
+  RetransmissionTimer timer = after_answers_of(50);
+  std::vector<SimDuration> waits;
+  for (int i = 0; i < 20; ++i) {
+    timer.say(at_us(0));
+    waits.push_back(timer.again_at() - at_us(0));
+  }
+  EXPECT_EQ(waits[0], RetransmissionTimer::kMin);
+  EXPECT_EQ(waits[2], RetransmissionTimer::kMin);
+  EXPECT_EQ(waits[4], RetransmissionTimer::kMin * 4);
+  EXPECT_EQ(waits.back(), RetransmissionTimer::kMax);
+}
+
+TEST(RetransmissionTimer, AnAnswerToARepetitionTeachesNothing) {
+  RetransmissionTimer timer = after_answers_of(8000);
+  timer.say(at_us(0));
+  timer.say(at_us(10'000));
+  timer.answered(at_us(90'000));
+  timer.say(at_us(100'000));
+  EXPECT_LE(timer.again_at(), at_us(109'000));
+}
+
+}  // namespace
+}  // namespace halocline::conductor
