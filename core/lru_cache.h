@@ -1,0 +1,80 @@
+// A map of bounded size: when it is full, the entry that was used least recently makes room.
+//
+//   LruCache<std::string, Spectrum> spectra(/*capacity=*/32);
+//   const Spectrum& spectrum = spectra.find_or_make(name, [&] { return compute_spectrum(name); });
+//
+// An entry is used when it is inserted and when it is found. Which entries are kept depends on the sequence of calls
+// alone, never on addresses. Both operations take O(log size). Keys are ordered by operator<; the cache owns keys
+// and values. What outlives an entry belongs in a shared_ptr value. Not thread-safe: finding an entry moves it.
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <map>
+#include <utility>
+
+#include "core/check.h"
+
+namespace halocline {
+
+template <class Key, class Value>
+class LruCache {
+ public:
+  // Throws InvalidArgument when `capacity`, the greatest number of entries, is 0.
+  explicit LruCache(std::size_t capacity) : capacity_(capacity) {
+    require(capacity > 0, "a cache has room for at least one entry");
+  }
+  LruCache(LruCache&&) = default;
+  LruCache& operator=(LruCache&&) = default;
+
+  // The value of `key`, null when there is none. Valid until its entry is replaced, evicted or cleared.
+  Value* find(const Key& key) {
+    const auto entry = entries_.find(key);
+    if (entry == entries_.end()) return nullptr;
+    by_use_.splice(by_use_.begin(), by_use_, entry->second.place);
+    return &entry->second.value;
+  }
+
+  // Replaces the value of `key` if there is one. Valid as long as what find() returns.
+  Value& insert(Key key, Value value) {
+    if (Value* known = find(key)) return *known = std::move(value);
+    if (entries_.size() == capacity_) evict_least_recently_used();
+    const auto entry = entries_.try_emplace(std::move(key), Entry{std::move(value), {}}).first;
+    by_use_.push_front(&entry->first);
+    entry->second.place = by_use_.begin();
+    return entry->second.value;
+  }
+
+  // The value of `key`, inserted as make() when there is none. The cache is as before when make() throws.
+  template <class Make>
+  Value& find_or_make(const Key& key, Make&& make) {
+    if (Value* known = find(key)) return *known;
+    return insert(key, std::forward<Make>(make)());
+  }
+
+  void clear() {
+    entries_.clear();
+    by_use_.clear();
+  }
+
+  std::size_t size() const { return entries_.size(); }
+  std::size_t capacity() const { return capacity_; }
+
+ private:
+  using Order = std::list<const Key*>;  // of the keys in `entries_`, most recently used first
+  struct Entry {
+    Value value;
+    typename Order::iterator place;
+  };
+
+  void evict_least_recently_used() {
+    entries_.erase(entries_.find(*by_use_.back()));
+    by_use_.pop_back();
+  }
+
+  std::size_t capacity_;
+  std::map<Key, Entry> entries_;
+  Order by_use_;
+};
+
+}  // namespace halocline
