@@ -9,7 +9,7 @@
 // bottom within its reach a vehicle that is to keep a height goes down.
 //
 // Tolerance of a height kept: over ground whose slope changes by s over the window plus the way ahead,
-// about s times that length; measured in docs/autopilot.md. Left out: ground that rises more steeply than
+// about s times that length; measured in docs/validation.md. Left out: ground that rises more steeply than
 // the greatest pitch, walls (the altimeter looks down, there is no sonar forward), the altimeter's beam
 // width.
 #pragma once

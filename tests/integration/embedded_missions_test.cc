@@ -52,7 +52,7 @@ class EmbeddedMissionsTest : public testing::EmbeddedTest {
     return heights;
   }
 
-  // The tolerance that docs/autopilot.md states: 0.5 m either way of 5 m.
+  // The tolerance that docs/vehicles.md states: 0.5 m either way of 5 m.
   static void expect_height_kept(const Heights& heights) {
     EXPECT_GT(heights.count, 5000);
     EXPECT_NEAR(heights.lowest, 5, tolerance(0.5));
@@ -122,7 +122,7 @@ TEST_F(EmbeddedMissionsTest, SurveyKeepsItsHeightOverAFractalRidge) {
   EXPECT_FALSE(was_on_the_seabed(log));
 }
 
-// The bound that docs/autopilot.md states, on straight legs: a report is rounded to 0.1 m and 0.003 degrees,
+// The bound that docs/vehicles.md states, on straight legs: a report is rounded to 0.1 m and 0.003 degrees,
 // the rest is the control's.
 TEST_F(EmbeddedMissionsTest, FollowersKeepTheirPlacesByWhatTheyHear) {
   const ScenarioConfig config = load("formation", {});

@@ -98,7 +98,7 @@ std::string variable_name(const std::string& key) {
   return std::isalpha(static_cast<unsigned char>(name.front())) != 0 ? name : "axis_" + name;
 }
 
-// As the ends of keys tell (docs/notation.md); 1 for pure numbers.
+// As the ends of keys tell (CONTRIBUTING.md); 1 for pure numbers.
 std::string unit_of(const std::string& key) {
   static const std::vector<std::pair<const char*, const char*>> units{
       {"_mps", "m s-1"},  {"_hz", "Hz"},     {"_bps", "bit s-1"},         {"_deg", "degree"}, {"_db", "dB"},
