@@ -261,7 +261,7 @@ TEST(ChannelServerConfig, ABottomIsGivenByNameOrByNumbers) {
 TEST(ChannelServerConfig, WhatRaysLookForIsTaken) {
   const auto rays = make_rays(
       read("[propagation]\nsurface_loss_model = \"eckart\"\nsolver = \"arcs\"\nmax_bounces = 12\n"
-           "max_launch_angle_deg = 60\nleast_amplitude_db = -80\nshadow_loss_db = 110\ncoherent = true"));
+           "max_launch_angle_deg = 60\nmin_amplitude_db = -80\nshadow_loss_db = 110\ncoherent = true"));
   EXPECT_EQ(rays.surface, acoustics::SurfaceModel::kEckart);
   EXPECT_EQ(rays.solver, acoustics::RaySolver::kArcs);
   EXPECT_EQ(rays.options.max_bounces, 12);
