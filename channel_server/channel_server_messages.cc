@@ -130,9 +130,10 @@ std::vector<double> depths_to_tell(const acoustics::SoundSpeedProfile& profile) 
   return depths;
 }
 
-std::string name_of(std::string name, std::initializer_list<std::int64_t> numbers) {
-  for (const std::int64_t number : numbers) name += ' ' + std::to_string(number);
-  return name;
+std::string joined(std::initializer_list<std::int64_t> numbers) {
+  std::string text;
+  for (const std::int64_t number : numbers) text += (text.empty() ? "" : " ") + std::to_string(number);
+  return text;
 }
 
 }  // namespace
@@ -273,22 +274,22 @@ modem_receive_t to_receive(const PacketEnd& end, SimTime at) {
 }
 
 // A sender that keeps no session may number anew: the instant tells its packets apart.
-std::string name_of_said(const std::string& channel, const modem_receipt_t& m) {
-  return name_of(channel, {m.send_session, m.packet_sequence, m.send_session == 0 ? m.start_utime : 0});
+std::string identity_of(const modem_receipt_t& m) {
+  return joined({m.send_session, m.packet_sequence, m.send_session == 0 ? m.start_utime : 0});
 }
 
-std::string name_of_said(const std::string& channel, const modem_receive_t& m) {
-  return name_of(channel, {m.source_id, m.send_session, m.packet_sequence, m.packet_kind,
-                           m.send_session == 0 ? m.utime : 0});
+std::string identity_of(const modem_receive_t& m) {
+  return joined(
+      {m.source_id, m.send_session, m.packet_sequence, m.packet_kind, m.send_session == 0 ? m.utime : 0});
 }
 
-std::string name_of_said(const std::string& channel, const packet_outcome_t& m) {
-  return name_of(channel, {m.source_id, m.send_session, m.packet_sequence, m.packet_kind, m.receiver_id,
-                           m.send_session == 0 ? m.departure_utime : 0});
+std::string identity_of(const packet_outcome_t& m) {
+  return joined({m.source_id, m.send_session, m.packet_sequence, m.packet_kind, m.receiver_id,
+                 m.send_session == 0 ? m.departure_utime : 0});
 }
 
-std::string name_of_said(const std::string& channel, const ping_answer_t& m) {
-  return name_of(channel, {m.answering_id, m.asking_id, m.ping_session, m.ping_sequence, m.answer_start_ns});
+std::string identity_of(const ping_answer_t& m) {
+  return joined({m.answering_id, m.asking_id, m.ping_session, m.ping_sequence, m.answer_start_ns});
 }
 
 link_t to_message(const LinkRow& row) {

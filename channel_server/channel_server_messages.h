@@ -40,11 +40,12 @@ packet_outcome_t to_outcome(const PacketEnd& end, SimTime at);
 // Only for an end that is to be delivered.
 modem_receive_t to_receive(const PacketEnd& end, SimTime at);
 
-// What tells one of these from all others on `channel`, whoever says it, and whenever: for saying it once.
-std::string name_of_said(const std::string& channel, const modem_receipt_t& message);
-std::string name_of_said(const std::string& channel, const modem_receive_t& message);
-std::string name_of_said(const std::string& channel, const packet_outcome_t& message);
-std::string name_of_said(const std::string& channel, const ping_answer_t& message);
+// What tells an output from all others on its channel, whichever incarnation of the server computes it
+// (bus/runtime/crash_journal.h).
+std::string identity_of(const modem_receipt_t& message);
+std::string identity_of(const modem_receive_t& message);
+std::string identity_of(const packet_outcome_t& message);
+std::string identity_of(const ping_answer_t& message);
 
 link_t to_message(const LinkRow& row);
 link_table_t to_message(const LinkTable& table, SimTime at);

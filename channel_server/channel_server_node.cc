@@ -23,8 +23,6 @@ constexpr SimDuration kFurthestAhead = SimDuration::from_milliseconds(10'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
 constexpr std::int64_t kMaxTicksBehind = 100;
-// Channels whose messages are numbered: three a vehicle, and one a client that asked.
-constexpr std::size_t kMaxNumbered = 4096;
 // How much longer than their rules say states and receipts are kept, so that no instant still asked about lacks
 // them.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
@@ -50,6 +48,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       asker_(rules.asking),
       desk_(fleet_, *propagation_, book_, asker_,
             {rules.bottom_points, rules.profile, rules.asking.answer_deadline}),
+      publisher_(bus()),
+      journal_(bus(), publisher_),
       next_tick_(kBeforeAll),
       next_environment_(kBeforeAll) {
   subscribe_all();
@@ -120,10 +120,9 @@ bus::Due ChannelServerNode::on_due() const {
 
 void ChannelServerNode::on_step(const bus::Now& now) {
   take_ray_replies();
-  now_ = now.sim;
   if (recovery_ && !(now.sim_known && recover(now))) return ask_terrain(now);
   if (now.sim_known) {
-    if (journal_) journal_->write_heard(now.sim);
+    journal_.write_inputs(now.sim);
     take_heard(now.sim);
     run_water_to(now.sim);
     forget_old(now.sim);
@@ -232,26 +231,37 @@ void ChannelServerNode::run_instant(SimTime instant) {
 void ChannelServerNode::publish_event(const MediumEvent& event) {
   if (const auto* receipt = std::get_if<Receipt>(&event.what)) return publish_receipt(*receipt, event.at);
   if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
-    return publish_once(std::string(channels::kPingAnswer), to_message(*answer, event.at));
+    publish_once(std::string(channels::kPingAnswer), to_message(*answer, event.at));
+    return;
   }
   if (event.late && !recovery_) ++bus().counters().late;
   publish_end(std::get<PacketEnd>(event.what), event.at);
 }
 
 void ChannelServerNode::publish_receipt(const Receipt& receipt, SimTime at) {
-  publish_once(channels::kReceipt.of(receipt.vehicle), to_message(receipt, at));
+  const std::string channel = channels::kReceipt.of(receipt.vehicle);
+  const modem_receipt_t message = to_message(receipt, at);
+  if (recovery_) {
+    publish_once(channel, message);
+  } else {  // a SEND that comes again is answered again
+    journal_.publish(channel, message);
+  }
 }
 
 void ChannelServerNode::publish_end(const PacketEnd& end, SimTime at) {
   if (end.deliver) publish_once(channels::kReceive.of(end.receiver), to_receive(end, at));
-  publish_once(std::string(channels::kOutcome), to_outcome(end, at));
+  const bool is_new = publish_once(std::string(channels::kOutcome), to_outcome(end, at));
+  if (!is_new || !recovery_) return;
+  ++recovery_->said_late;
+  ++bus().counters().late;
 }
 
 void ChannelServerNode::publish_environment(SimTime instant) {
   book_.forget_verdicts();
   if (rules_.medium.shard.index == 0 && !recovery_) {
-    publish_numbered(std::string(channels::kEnvironment),
-                     to_message(propagation_->environment(instant), description_, instant, terrain_version_));
+    publisher_.publish(
+        std::string(channels::kEnvironment),
+        to_message(propagation_->environment(instant), description_, instant, terrain_version_));
   }
   next_environment_ =
       std::min(next_on_grid(instant, kEnvironmentPeriod), waters_->next_change_after(instant));
@@ -267,7 +277,7 @@ void ChannelServerNode::publish_links(SimTime tick) {
   };
   const auto tables = link_tables(tick, vehicles, *propagation_, judge, for_each, rules_.medium.shard);
   for (const LinkTable& table : tables) {
-    publish_numbered(channels::kLinks.of(fleet_.name_of(table.vehicle_id)), to_message(table, tick));
+    publisher_.publish(channels::kLinks.of(fleet_.name_of(table.vehicle_id)), to_message(table, tick));
     links_published_ += static_cast<std::int64_t>(table.rows.size());
   }
   for (const RayQueryClient::SurveyId dropped : asker_.begin_tick()) surveyed_pairs_.erase(dropped);
@@ -295,7 +305,6 @@ void ChannelServerNode::forget_old(SimTime now) {
   waters_->forget_before(horizon - kLongestFlight);
   bottoms_->forget_before(horizon - kLongestFlight);
   fleet_.forget_before(horizon - rules_.position.state_timeout - rules_.position.state_lag);
-  if (now > said_forgotten_at_) said_.clear();
 }
 
 void ChannelServerNode::take_questions(const bus::Now& now) {
@@ -310,29 +319,6 @@ void ChannelServerNode::publish_replies(SimTime steady) {
     message.session = bus().identity().session;
     bus().publish(channels::kLinkReply.of(reply.client), message);
   }
-}
-
-template <class Message>
-void ChannelServerNode::number(const std::string& channel, Message& message) {
-  // Every client that ever asked had a channel of its own. One that asks again after so many others begins anew.
-  if (flows_.size() >= kMaxNumbered && !flows_.contains(channel))
-    std::erase_if(flows_, [](const auto& one) { return one.first.starts_with(channels::kLinkReply.prefix); });
-  Flow& flow = flows_.try_emplace(channel, Flow{bus().identity().session, 0}).first->second;
-  message.session = flow.session;
-  message.sequence = flow.next++;
-}
-
-template <class Message>
-void ChannelServerNode::publish_once(const std::string& channel, Message message) {
-  if (!journal_) return publish_numbered(channel, std::move(message));
-  const bool may_repeat =
-      std::is_same_v<Message, modem_receipt_t> && !recovery_;  // a SEND heard again is answered again
-  if (!may_repeat && said_.contains(name_of_said(channel, message))) return;
-  if (recovery_) said_.insert(name_of_said(channel, message));
-  if (recovery_ && std::is_same_v<Message, packet_outcome_t>) ++recovery_->said_late, ++bus().counters().late;
-  number(channel, message);
-  journal_->write_said(now_, channel, bus::encoded(message));
-  bus().publish(channel, message);
 }
 
 // What was heard in the same turn as the first message of the new run may belong to it, and stays.
@@ -352,9 +338,8 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   std::erase_if(inbox_.modems, of_old_run);
   std::erase_if(inbox_.sends, of_old_run);
   inbox_.ping_answers.clear();
-  if (journal_) journal_->clear();
+  journal_.clear();
   recovery_.reset();
-  said_.clear();
   std::erase_if(inbox_.changes, [&](const environment_change_t& change) { return change.utime > latest; });
   next_tick_ = next_environment_ = kBeforeAll;
 }

@@ -28,7 +28,8 @@
 #include <utility>
 #include <vector>
 
-#include "bus/runtime/message_journal.h"
+#include "bus/numbered_publisher.h"
+#include "bus/runtime/crash_journal.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
@@ -86,11 +87,6 @@ class ChannelServerNode : public bus::Node {
     std::vector<environment_change_t> changes;
     std::vector<ping_answer_t> ping_answers;  // of other shards
   };
-  // A flow that this server publishes: who it is there, which goes on through its lives where a journal
-  // tells, and the next number.
-  struct Flow {
-    std::int64_t session = 0, next = 0;
-  };
   // What an earlier life knew, until it is told.
   struct Recovery {
     struct Step {
@@ -98,8 +94,6 @@ class ChannelServerNode : public bus::Node {
       Inbox heard;
     };
     std::deque<Step> steps;
-    std::vector<bus::JournalledMessage> said;
-    SimTime last;  // the earlier life's last step
     SimTime reached;
     SimTime hear_until, patience_ends;  // steady
     SimTime wake = SimTime::never();    // steady
@@ -129,7 +123,6 @@ class ChannelServerNode : public bus::Node {
   // True when the earlier life's water has reached the present.
   bool recover(const bus::Now& now);
   void begin_recovery(const bus::Now& now);
-  void take_up_said();
   bool waits_for_terrain(SimTime steady) const;
   bool take_next_step(const bus::Now& now);
   void take_heard(SimTime now);
@@ -148,17 +141,11 @@ class ChannelServerNode : public bus::Node {
   void ask_for_profiles(const std::vector<PlacedVehicle>& vehicles);
   void tell_who_came_and_left(const std::vector<PlacedVehicle>& vehicles);
   void forget_old(SimTime now);
-  // Gives `message` the session and the next number of its channel's flow.
+  // Of what is to be published once in all incarnations. Returns whether it was.
   template <class Message>
-  void number(const std::string& channel, Message& message);
-  template <class Message>
-  void publish_numbered(const std::string& channel, Message message) {
-    number(channel, message);
-    bus().publish(channel, message);
+  bool publish_once(const std::string& channel, const Message& message) {
+    return journal_.publish_once(channel, message, identity_of(message));
   }
-  // The same for what must be said once: unless an earlier life has, and not before the journal knows of it.
-  template <class Message>
-  void publish_once(const std::string& channel, Message message);
 
   ServerRules rules_;
   std::shared_ptr<EnvironmentTimeline> waters_;
@@ -177,14 +164,12 @@ class ChannelServerNode : public bus::Node {
   std::vector<link_query_t> queries_;
   std::vector<ray_reply_t> ray_replies_;
 
-  std::unique_ptr<bus::MessageJournal> journal_;
+  bus::NumberedPublisher publisher_;
+  bus::CrashJournal journal_;
   std::unique_ptr<Recovery> recovery_;
-  std::set<std::string> said_;  // by earlier lives, as name_of_said() has it
-  SimTime now_, said_forgotten_at_ = SimTime::never();
 
   SimTime next_tick_, next_environment_;
   std::map<RayQueryClient::SurveyId, VehiclePair> surveyed_pairs_;
-  std::map<std::string, Flow> flows_;  // by channel
   std::string terrain_version_;
   std::set<std::string> present_;
   std::int64_t links_published_ = 0;

@@ -23,7 +23,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kEntryWord = 0x484c4d31;  // "HLM1"
 constexpr std::size_t kHeadBytes = 25;            // word, kind, stamp, two lengths, check sum
-constexpr std::size_t kMaxCarried = 1000;
+constexpr std::size_t kMaxKept = 1000;
 
 void put(std::uint64_t value, int bytes, Bytes& to) {
   for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8)
@@ -86,6 +86,7 @@ MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   const auto earlier = [](const auto& a, const auto& b) { return a.at < b.at; };
   std::stable_sort(inherited_.begin(), inherited_.end(), earlier);
   for (const JournalledMessage& entry : inherited_) carry(entry);
+  keep_last_state_only();
   const SimTime horizon = inherited_.empty() ? SimTime() : inherited_.back().at - rule_.kept;
   std::erase_if(inherited_, [&](const JournalledMessage& entry) { return entry.at < horizon; });
   std::vector<JournalledMessage> older = carried();
@@ -95,29 +96,48 @@ MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   begin_file(inherited_);
 }
 
-MessageJournal::~MessageJournal() { close(file_); }
-
-void MessageJournal::hear(std::string_view channel, const void* data, std::size_t size) {
-  const auto* bytes = static_cast<const std::uint8_t*>(data);
-  heard_.push_back({Kind::kHeard, {}, std::string(channel), {bytes, bytes + size}});
+// Each file begins with a copy of the state.
+void MessageJournal::keep_last_state_only() {
+  bool found = false;
+  std::erase_if(inherited_, [&](const JournalledMessage& entry) {
+    if (entry.kind != Kind::kState) return false;
+    const bool is_last = !found && entry.at == last_state_->at;
+    found = found || is_last;
+    return !is_last;
+  });
 }
 
-void MessageJournal::write_heard(SimTime now, Kind kind) {
-  for (JournalledMessage& entry : heard_) {
+MessageJournal::~MessageJournal() { close(file_); }
+
+void MessageJournal::add_input(std::string_view channel, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const std::uint8_t*>(data);
+  inputs_.push_back({Kind::kInput, {}, std::string(channel), {bytes, bytes + size}});
+}
+
+void MessageJournal::write_inputs(SimTime now, Kind kind) {
+  for (JournalledMessage& entry : inputs_) {
     entry.kind = kind;
     entry.at = now;
     carry(entry);
   }
-  write(std::exchange(heard_, {}));
+  write(std::exchange(inputs_, {}));
 }
 
-void MessageJournal::write_said(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes) {
-  write({{Kind::kSaid, now, std::string(channel), std::move(bytes)}});
+void MessageJournal::write_output(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes) {
+  write({{Kind::kOutput, now, std::string(channel), std::move(bytes)}});
+}
+
+void MessageJournal::write_state(SimTime now, std::vector<std::uint8_t> bytes) {
+  if (last_state_ && last_state_->at >= now) return;
+  const JournalledMessage state{Kind::kState, now, {}, std::move(bytes)};
+  carry(state);
+  write({state});
 }
 
 void MessageJournal::clear() {
-  carried_last_.clear();
-  carried_all_.clear();
+  last_state_.reset();
+  kept_last_.clear();
+  kept_all_.clear();
   std::remove((rule_.path + ".1").c_str());
   begin_file({});
 }
@@ -149,24 +169,29 @@ void MessageJournal::write(const std::vector<JournalledMessage>& entries) {
 }
 
 void MessageJournal::carry(const JournalledMessage& entry) {
-  if (entry.kind == Kind::kSaid) return;
-  for (const Family& family : rule_.carries_last) {
-    if (entry.channel.starts_with(family.prefix)) carried_last_[entry.channel] = entry;
+  if (entry.kind == Kind::kState) {
+    if (!last_state_ || last_state_->at < entry.at) last_state_ = entry;
+    return;
   }
-  // Each file begins with them, so those of the earlier life are read more than once.
+  if (entry.kind == Kind::kOutput) return;
+  for (const Family& family : rule_.keep_last) {
+    if (entry.channel.starts_with(family.prefix)) kept_last_[entry.channel] = entry;
+  }
+  // Each file begins with them, so those of the earlier incarnation are read more than once.
   const auto is_known = [&](const JournalledMessage& other) {
     return other.at == entry.at && other.channel == entry.channel && other.bytes == entry.bytes;
   };
-  for (const std::string& channel : rule_.carries_all) {
-    if (entry.channel == channel && std::none_of(carried_all_.begin(), carried_all_.end(), is_known))
-      carried_all_.push_back(entry);
+  for (const std::string& channel : rule_.keep_all) {
+    if (entry.channel == channel && std::none_of(kept_all_.begin(), kept_all_.end(), is_known))
+      kept_all_.push_back(entry);
   }
-  if (carried_all_.size() > kMaxCarried) carried_all_.pop_front();
+  if (kept_all_.size() > kMaxKept) kept_all_.pop_front();
 }
 
 std::vector<JournalledMessage> MessageJournal::carried() const {
-  std::vector<JournalledMessage> entries(carried_all_.begin(), carried_all_.end());
-  for (const auto& [channel, entry] : carried_last_) entries.push_back(entry);
+  std::vector<JournalledMessage> entries(kept_all_.begin(), kept_all_.end());
+  for (const auto& [channel, entry] : kept_last_) entries.push_back(entry);
+  if (last_state_) entries.push_back(*last_state_);
   return entries;
 }
 

@@ -1,19 +1,20 @@
-// A node's memory on disk of what it heard and said lately, so that its next life knows what was under way
-// when this one was killed.
+// Write-ahead journal of a node's recent inputs and outputs, and of its state: a file from which the next
+// incarnation of a node that was killed restores what was under way (crash_journal.h).
 //
 // A file of entries: a word that begins each, its kind, stamp, lengths, a check sum, channel and message. What is
-// written is handed to the kernel before anything that follows from it is said, so a killed process forgets nothing
-// that anybody acted upon; a machine that loses power may (nothing is forced to the disk). What a kill cut off at
-// the end is no entry.
+// written is handed to the kernel before anything that follows from it is published, so a killed process loses
+// nothing that anybody acted upon; a machine that loses power may (nothing is forced to the disk). What a kill cut
+// off at the end is no entry.
 //
 // Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
-// and another begins, with what is carried along: the last message of each channel of `carries_last`, and all
-// on `carries_all` (the latest 1000). So at least `kept` is there, and twice that at most.
+// and another begins with what is carried over: the last state, the last input of each channel of `keep_last`,
+// and the inputs on `keep_all` (the latest 1000). So at least `kept` is there, and twice that at most.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,12 +26,13 @@ namespace halocline::bus {
 
 struct JournalledMessage {
   enum class Kind : std::uint8_t {
-    kHeard,
-    kSaid,               // by this node
-    kHeardAfterAbsence,  // after this node's return, perhaps much later than it was said
+    kInput,
+    kOutput,
+    kInputAfterAbsence,  // received after the node's return, perhaps much later than it was published
+    kState,              // of the node; without a channel
   };
-  Kind kind = Kind::kHeard;
-  SimTime at;  // simulation time of the step that took it, or said it
+  Kind kind = Kind::kInput;
+  SimTime at;  // simulation time of the step that took it, or made it
   std::string channel;
   std::vector<std::uint8_t> bytes;
 };
@@ -40,27 +42,30 @@ class MessageJournal {
   struct Rule {
     std::string path;
     SimDuration kept;  // above 0
-    std::vector<Family> carries_last;
-    std::vector<std::string> carries_all;  // channels
+    std::vector<Family> keep_last;
+    std::vector<std::string> keep_all;  // channels
   };
-  // Takes up what an earlier life left at `rule.path`. Throws InvalidArgument when it cannot be written.
+  // Reads what an earlier incarnation left at `rule.path`. Throws InvalidArgument when it cannot be written.
   explicit MessageJournal(Rule rule);
   ~MessageJournal();
   MessageJournal(const MessageJournal&) = delete;
   MessageJournal& operator=(const MessageJournal&) = delete;
 
-  // What the earlier life left, by time; moved out, once.
+  // What the earlier incarnation left, by time; moved out, once.
   std::vector<JournalledMessage> take_inherited() { return std::move(inherited_); }
 
-  // Keeps a message in memory until the step that takes it.
-  void hear(std::string_view channel, const void* data, std::size_t size);
-  // Writes what was heard since, as taken at `now`.
-  void write_heard(SimTime now, JournalledMessage::Kind kind = JournalledMessage::Kind::kHeard);
-  void write_said(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes);
-  // Another run: forgets everything but what was heard since the last step.
+  // Keeps a received message in memory until the step that takes it.
+  void add_input(std::string_view channel, const void* data, std::size_t size);
+  // Writes the inputs added since, as taken at `now`.
+  void write_inputs(SimTime now, JournalledMessage::Kind kind = JournalledMessage::Kind::kInput);
+  void write_output(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes);
+  // Unless a state of that instant, or of a later one, is there.
+  void write_state(SimTime now, std::vector<std::uint8_t> bytes);
+  // Another run: forgets everything but the inputs added since the last step.
   void clear();
 
  private:
+  void keep_last_state_only();
   void begin_file(const std::vector<JournalledMessage>& entries);
   void write(const std::vector<JournalledMessage>& entries);
   void carry(const JournalledMessage& entry);
@@ -69,9 +74,10 @@ class MessageJournal {
   Rule rule_;
   int file_ = -1;
   SimTime file_begins_ = SimTime::never();
-  std::vector<JournalledMessage> inherited_, heard_;
-  std::map<std::string, JournalledMessage> carried_last_;  // by channel
-  std::deque<JournalledMessage> carried_all_;
+  std::vector<JournalledMessage> inherited_, inputs_;
+  std::optional<JournalledMessage> last_state_;
+  std::map<std::string, JournalledMessage> kept_last_;  // by channel
+  std::deque<JournalledMessage> kept_all_;
 };
 
 }  // namespace halocline::bus

@@ -22,15 +22,15 @@ class MessageJournalTest : public ::testing::Test {
     return std::make_unique<MessageJournal>(
         MessageJournal::Rule{path_, SimDuration::from_seconds(10), {channels::kModem}, {"SET_ENVIRONMENT"}});
   }
-  static void hear(MessageJournal& journal, double time_s, const std::string& channel, std::uint8_t byte) {
-    journal.hear(channel, &byte, 1);
-    journal.write_heard(SimTime::from_seconds(time_s));
+  static void receive(MessageJournal& journal, double time_s, const std::string& channel, std::uint8_t byte) {
+    journal.add_input(channel, &byte, 1);
+    journal.write_inputs(SimTime::from_seconds(time_s));
   }
-  // "s12 CHANNEL 5": said or heard, seconds, channel, the only byte.
+  // "o12 CHANNEL 5": output or input, seconds, channel, the only byte.
   static std::vector<std::string> inherited(MessageJournal& journal) {
     std::vector<std::string> all;
     for (const JournalledMessage& m : journal.take_inherited()) {
-      all.push_back((m.kind == Kind::kSaid ? "s" : "h") + std::to_string(m.at.nanoseconds() / 1'000'000'000) +
+      all.push_back((m.kind == Kind::kOutput ? "o" : "i") + std::to_string(m.at.nanoseconds() / 1'000'000'000) +
                     ' ' + m.channel + ' ' + std::to_string(m.bytes.at(0)));
     }
     return all;
@@ -40,21 +40,21 @@ class MessageJournalTest : public ::testing::Test {
   const std::string path_ = ::testing::TempDir() + "halocline-message-journal-" + std::to_string(getpid());
 };
 
-TEST_F(MessageJournalTest, TheNextLifeIsToldWhatWasHeardAndSaid) {
+TEST_F(MessageJournalTest, TheNextIncarnationReadsInputsAndOutputs) {
   {
     const auto journal = open();
-    hear(*journal, 1, "STATE.a", 5);
-    journal->write_said(SimTime::from_seconds(2.0), "OUTCOME", {6});
+    receive(*journal, 1, "STATE.a", 5);
+    journal->write_output(SimTime::from_seconds(2.0), "OUTCOME", {6});
   }
-  EXPECT_EQ(inherited(*open()), (Lines{"h1 STATE.a 5", "s2 OUTCOME 6"}));
-  EXPECT_EQ(inherited(*open()), (Lines{"h1 STATE.a 5", "s2 OUTCOME 6"})) << "and the one after it";
+  EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5", "o2 OUTCOME 6"}));
+  EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5", "o2 OUTCOME 6"})) << "and the one after it";
 }
 
-TEST_F(MessageJournalTest, WhatWasNotTakenByAStepIsNotTold) {
+TEST_F(MessageJournalTest, AnInputThatNoStepTookIsNotKept) {
   {
     const auto journal = open();
     const std::uint8_t byte = 5;
-    journal->hear("STATE.a", &byte, 1);
+    journal->add_input("STATE.a", &byte, 1);
   }
   EXPECT_TRUE(inherited(*open()).empty());
 }
@@ -62,18 +62,18 @@ TEST_F(MessageJournalTest, WhatWasNotTakenByAStepIsNotTold) {
 TEST_F(MessageJournalTest, WhatAKillCutOffIsNoEntry) {
   {
     const auto journal = open();
-    hear(*journal, 1, "STATE.a", 5);
-    hear(*journal, 2, "STATE.a", 6);
+    receive(*journal, 1, "STATE.a", 5);
+    receive(*journal, 2, "STATE.a", 6);
   }
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) - 1);
-  EXPECT_EQ(inherited(*open()), (Lines{"h1 STATE.a 5"}));
+  EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5"}));
 }
 
 TEST_F(MessageJournalTest, AnEntryWhoseBytesChangedEndsWhatIsRead) {
   {
     const auto journal = open();
-    hear(*journal, 1, "STATE.a", 5);
-    hear(*journal, 2, "STATE.a", 6);
+    receive(*journal, 1, "STATE.a", 5);
+    receive(*journal, 2, "STATE.a", 6);
   }
   {
     std::FILE* file = std::fopen(path_.c_str(), "r+");
@@ -81,36 +81,51 @@ TEST_F(MessageJournalTest, AnEntryWhoseBytesChangedEndsWhatIsRead) {
     std::fputc(99, file);
     std::fclose(file);
   }
-  EXPECT_EQ(inherited(*open()), (Lines{"h1 STATE.a 5"}));
+  EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5"}));
 }
 
-TEST_F(MessageJournalTest, ALongRunKeepsTheLastSecondsAndWhatIsCarriedAlong) {
+TEST_F(MessageJournalTest, ALongRunKeepsTheLastSecondsAndWhatIsCarriedOver) {
   {
     const auto journal = open();
-    hear(*journal, 0, "MODEM.a", 1);
-    hear(*journal, 0, "MODEM.b", 2);
-    hear(*journal, 1, "SET_ENVIRONMENT", 3);
-    hear(*journal, 2, "SET_ENVIRONMENT", 4);
-    hear(*journal, 3, "MODEM.a", 5);
-    for (int second = 4; second <= 1000; ++second) hear(*journal, second, "STATE.a", 9);
+    receive(*journal, 0, "MODEM.a", 1);
+    receive(*journal, 0, "MODEM.b", 2);
+    receive(*journal, 1, "SET_ENVIRONMENT", 3);
+    receive(*journal, 2, "SET_ENVIRONMENT", 4);
+    receive(*journal, 3, "MODEM.a", 5);
+    for (int second = 4; second <= 1000; ++second) receive(*journal, second, "STATE.a", 9);
   }
   EXPECT_LT(std::filesystem::file_size(path_) + std::filesystem::file_size(path_ + ".1"), 30u * 40u);
-  const Lines told = inherited(*open());
-  EXPECT_EQ(Lines(told.begin(), told.begin() + 4),
-            (Lines{"h0 MODEM.b 2", "h1 SET_ENVIRONMENT 3", "h2 SET_ENVIRONMENT 4", "h3 MODEM.a 5"}));
-  EXPECT_EQ(told.size(), 4u + 11u);
-  EXPECT_EQ(told[4], "h990 STATE.a 9");
-  EXPECT_EQ(told.back(), "h1000 STATE.a 9");
+  const Lines read = inherited(*open());
+  EXPECT_EQ(Lines(read.begin(), read.begin() + 4),
+            (Lines{"i0 MODEM.b 2", "i1 SET_ENVIRONMENT 3", "i2 SET_ENVIRONMENT 4", "i3 MODEM.a 5"}));
+  EXPECT_EQ(read.size(), 4u + 11u);
+  EXPECT_EQ(read[4], "i990 STATE.a 9");
+  EXPECT_EQ(read.back(), "i1000 STATE.a 9");
+}
+
+TEST_F(MessageJournalTest, ALongRunKeepsTheLatestStateOnce) {
+  {
+    const auto journal = open();
+    for (int second = 0; second <= 100; ++second) {
+      receive(*journal, second, "STATE.a", 9);
+      if (second % 30 == 0) journal->write_state(SimTime::from_seconds(second), {std::uint8_t(second)});
+    }
+  }
+  std::vector<std::uint8_t> states;
+  for (const JournalledMessage& m : open()->take_inherited()) {
+    if (m.kind == Kind::kState) states.push_back(m.bytes.at(0));
+  }
+  EXPECT_EQ(states, (std::vector<std::uint8_t>{90}));
 }
 
 TEST_F(MessageJournalTest, AnotherRunForgetsAll) {
   {
     const auto journal = open();
-    hear(*journal, 1, "MODEM.a", 5);
+    receive(*journal, 1, "MODEM.a", 5);
     journal->clear();
-    hear(*journal, 0, "STATE.a", 6);
+    receive(*journal, 0, "STATE.a", 6);
   }
-  EXPECT_EQ(inherited(*open()), (Lines{"h0 STATE.a 6"}));
+  EXPECT_EQ(inherited(*open()), (Lines{"i0 STATE.a 6"}));
 }
 
 TEST_F(MessageJournalTest, APathThatCannotBeWrittenIsRefused) {

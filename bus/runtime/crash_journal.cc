@@ -1,0 +1,127 @@
+#include "bus/runtime/crash_journal.h"
+
+namespace halocline::bus {
+namespace {
+
+using Kind = JournalledMessage::Kind;
+
+// A time further before the journal's end than this belongs to another run.
+constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
+constexpr std::size_t kHeadBytes = 20;  // of an output: session, sequence, length of the identity
+
+void append_int64(std::int64_t value, Bytes& to) {
+  const auto bits = static_cast<std::uint64_t>(value);
+  append_uint32(static_cast<std::uint32_t>(bits >> 32), to);
+  append_uint32(static_cast<std::uint32_t>(bits), to);
+}
+
+std::int64_t int64_at(const Bytes& bytes, std::size_t at) {
+  return static_cast<std::int64_t>(std::uint64_t{uint32_at(bytes, at)} << 32 | uint32_at(bytes, at + 4));
+}
+
+}  // namespace
+
+Bytes CrashJournal::to_bytes(const Output& output) {
+  Bytes bytes;
+  append_int64(output.session, bytes);
+  append_int64(output.sequence, bytes);
+  append_uint32(static_cast<std::uint32_t>(output.identity.size()), bytes);
+  bytes.insert(bytes.end(), output.identity.begin(), output.identity.end());
+  bytes.insert(bytes.end(), output.message.begin(), output.message.end());
+  return bytes;
+}
+
+std::optional<CrashJournal::Output> CrashJournal::to_output(const JournalledMessage& entry) {
+  const Bytes& bytes = entry.bytes;
+  if (bytes.size() < kHeadBytes || uint32_at(bytes, 16) > bytes.size() - kHeadBytes) return std::nullopt;
+  const auto identity = bytes.begin() + kHeadBytes, message = identity + uint32_at(bytes, 16);
+  return Output{
+      entry.channel, {identity, message}, int64_at(bytes, 0), int64_at(bytes, 8), {message, bytes.end()}};
+}
+
+void CrashJournal::open(Rule rule) {
+  kept_ = rule.kept;
+  journal_ = std::make_unique<MessageJournal>(
+      MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all});
+  for (JournalledMessage& entry : journal_->take_inherited()) {
+    last_step_ = entry.at;
+    if (entry.kind == Kind::kState) {
+      saved_state_ = {entry.at, std::move(entry.bytes)};
+      history_.clear();
+      continue;
+    }
+    const bool is_output = entry.kind == Kind::kOutput;
+    history_.push_back(is_output ? JournalledMessage{Kind::kOutput, entry.at, {}, {}} : entry);
+    if (is_output) outputs_.push_back(std::move(entry));
+  }
+  bus_.set_tap([this, is_input = std::move(rule.is_input)](std::string_view channel, const void* data,
+                                                           std::size_t size) {
+    if (!replays_ && is_input(channel)) journal_->add_input(channel, data, size);
+  });
+}
+
+void CrashJournal::replay_inputs(const std::function<void(const ReplayedStep&)>& end_step) {
+  replays_ = true;
+  ReplayedStep step;
+  const auto history = std::exchange(history_, {});
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const JournalledMessage& entry = history[i];
+    step.at = entry.at;
+    step.after_absence = step.after_absence || entry.kind == Kind::kInputAfterAbsence;
+    if (entry.kind != Kind::kOutput) bus_.replay(entry.channel, entry.bytes);
+    if (i + 1 < history.size() && history[i + 1].at == entry.at) continue;
+    end_step(step);
+    step = {};
+  }
+  replays_ = false;
+}
+
+bool CrashJournal::resume(SimTime now) {
+  const auto outputs = std::exchange(outputs_, {});
+  if (!last_step_) return true;
+  const std::string last = "last_t=" + std::to_string(last_step_->seconds());
+  if (now < *last_step_ - kSameRun || now > *last_step_ + kept_) {
+    bus_.log().info("journal-of-another-run", last);
+    journal_->clear();
+    return false;
+  }
+  bus_.log().info("resuming", last);
+  for (const JournalledMessage& entry : outputs) {
+    if (auto output = to_output(entry)) restore(std::move(*output));
+  }
+  published_forgotten_at_ = *last_step_ + kept_ * 2;
+  recovers_ = was_absent_ = true;
+  return true;
+}
+
+void CrashJournal::restore(Output output) {
+  publisher_.resume(output.channel, output.session, output.sequence);
+  bus_.keep_published(output.channel, output.session, output.sequence, std::move(output.message));
+  if (!output.identity.empty()) published_.emplace(std::move(output.channel), std::move(output.identity));
+}
+
+void CrashJournal::write_inputs(SimTime now) {
+  step_ = now;
+  if (!is_open()) return;
+  journal_->write_inputs(now, was_absent_ ? Kind::kInputAfterAbsence : Kind::kInput);
+  was_absent_ = false;
+  if (now > published_forgotten_at_) published_.clear();
+}
+
+bool CrashJournal::claim(const std::string& channel, const std::string& identity) {
+  if (published_.contains({channel, identity})) return false;
+  if (recovers_) published_.emplace(channel, identity);
+  return true;
+}
+
+void CrashJournal::save_state(SimTime now, Bytes state) {
+  if (is_open()) journal_->write_state(now, std::move(state));
+}
+
+void CrashJournal::clear() {
+  if (is_open()) journal_->clear();
+  published_.clear();
+  recovers_ = was_absent_ = false;
+}
+
+}  // namespace halocline::bus

@@ -1,0 +1,153 @@
+// Lets a node that was killed go on where it was: restores its state, replays its recent inputs, and publishes
+// each output once in all its incarnations together.
+//
+// State machine replication in time (Schneider 1990): the state at an instant, the inputs that followed, and the
+// steps that took them give the same outputs again, of which those that the journal holds are not published again.
+// Inputs and outputs are written before anything that follows from them is published (message_journal.h). For a bus
+// that repairs losses, not for lockstep, where the conductor replays.
+//
+//   CrashJournal journal(bus(), publisher);          // does nothing until it is open: publish_once() publishes
+//
+//   journal.open(rule);                              // when the node is made, before anything is dispatched
+//   if (const auto saved = journal.saved_state()) restore(*saved);
+//   journal.replay_inputs([&](const ReplayedStep& step) { history.push_back({step.at, take_inbox()}); });
+//
+//   on_step:                                         // the first one whose simulation time is known
+//     if (!history.empty() && !journal.resume(now.sim)) forget_all();   // it belongs to another run
+//     for (step : history) { journal.redo_step(step.at); take(step.inbox); run_to(step.at); }
+//     // until kRepairTime has passed nothing more: inputs published meanwhile come by repair
+//   on_step:                                         // each later one
+//     journal.write_inputs(now.sim);                 // before it acts on them
+//     ...
+//     journal.end_recovery();                        // the first time: the present is reached
+//     journal.publish_once(channels::kState.of(name), state, std::to_string(state.utime));
+//     journal.save_state(now.sim, bytes);            // at times: replay begins there
+//   on_restart: journal.clear();
+//
+// The Bus and the NumberedPublisher must outlive it. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/numbered_publisher.h"
+#include "bus/runtime/message_journal.h"
+#include "core/sim_time.h"
+
+namespace halocline::bus {
+
+// A step of an earlier incarnation, whose inputs have been replayed.
+struct ReplayedStep {
+  SimTime at;
+  bool after_absence = false;  // its inputs are those that were published while the node was away
+};
+
+class CrashJournal {
+ public:
+  struct Rule {
+    std::string path;
+    // How far back inputs and outputs reach; above 0. After a longer absence nothing is resumed.
+    SimDuration kept;
+    std::function<bool(std::string_view channel)> is_input;  // selects what is kept of what is received
+    std::vector<Family> keep_last;      // inputs of which the last on each channel is kept for ever
+    std::vector<std::string> keep_all;  // channels whose inputs are all kept (the latest 1000)
+  };
+  struct SavedState {
+    SimTime at;
+    Bytes bytes;
+  };
+  // Steady time, from the first step, within which repair brings what was published while the node was away:
+  // heartbeats come four times a second, the messages within two requests.
+  static constexpr SimDuration kRepairTime = SimDuration::from_milliseconds(500);
+
+  CrashJournal(Bus& bus, NumberedPublisher& publisher) : bus_(bus), publisher_(publisher) {}
+
+  // Once. Throws InvalidArgument when the file cannot be written.
+  void open(Rule rule);
+  bool is_open() const { return journal_ != nullptr; }
+
+  // ---- recovery
+  // The earlier incarnation's last step; empty without one.
+  std::optional<SimTime> last_step() const { return last_step_; }
+  // Empty when none was saved.
+  const std::optional<SavedState>& saved_state() const { return saved_state_; }
+  // Hands the inputs taken after the saved state (all, without one) to the node's own handlers, oldest first, and
+  // calls `end_step` after those of each step. Once, before anything else is dispatched: what follows an input in
+  // its flow is then known to be missing, and is repaired.
+  void replay_inputs(const std::function<void(const ReplayedStep&)>& end_step);
+  // Takes up the outputs: they are not published again, their channels' numbers go on, and they are kept for
+  // repair. False when the journal belongs to another run, or is too old, and is empty now.
+  [[nodiscard]] bool resume(SimTime now);
+  // The outputs that follow belong to this step, which is done again.
+  void redo_step(SimTime at) { step_ = at; }
+  void end_recovery() { recovers_ = false; }
+
+  // ---- each step
+  // Writes what was received since the last one.
+  void write_inputs(SimTime now);
+  // Publishes with the channel's next number.
+  template <class Message>
+  void publish(const std::string& channel, Message message) {
+    publisher_.number(channel, message);
+    write_output(channel, {}, message.session, message.sequence, message);
+    bus_.publish(channel, message);
+  }
+  // The same, unless an earlier incarnation has, or this one between resume() and end_recovery(). `identity` tells the output from
+  // all others on its channel, whichever incarnation computes it. Returns whether it was published.
+  template <class Message>
+  bool publish_once(const std::string& channel, Message message, const std::string& identity) {
+    if (!claim(channel, identity)) return false;
+    publisher_.number(channel, message);
+    write_output(channel, identity, message.session, message.sequence, message);
+    bus_.publish(channel, message);
+    return true;
+  }
+  // What saved_state() gives the next incarnation, as after the step at `now`.
+  void save_state(SimTime now, Bytes state);
+
+  // Another run has begun: forgets everything but what was received since the last step.
+  void clear();
+
+ private:
+  struct Output {
+    std::string channel, identity;
+    std::int64_t session = 0, sequence = 0;
+    Bytes message;
+  };
+  static Bytes to_bytes(const Output& output);
+  static std::optional<Output> to_output(const JournalledMessage& entry);
+  bool claim(const std::string& channel, const std::string& identity);
+  void restore(Output output);
+  template <class Message>
+  void write_output(const std::string& channel, const std::string& identity, std::int64_t session,
+                    std::int64_t sequence, const Message& message) {
+    if (is_open())
+      journal_->write_output(step_, channel,
+                             to_bytes({channel, identity, session, sequence, encoded(message)}));
+  }
+
+  Bus& bus_;
+  NumberedPublisher& publisher_;
+  SimDuration kept_;
+  std::unique_ptr<MessageJournal> journal_;
+  std::vector<JournalledMessage> history_;  // inherited: inputs, and outputs without their bytes
+  std::vector<JournalledMessage> outputs_;  // inherited
+  std::optional<SavedState> saved_state_;
+  std::optional<SimTime> last_step_;
+  std::set<std::pair<std::string, std::string>>
+      published_;  // (channel, identity), while repetition threatens
+  SimTime published_forgotten_at_ = SimTime::never();
+  SimTime step_;
+  bool replays_ = false, recovers_ = false;
+  bool was_absent_ = false;  // what is written next was published while the node was away
+};
+
+}  // namespace halocline::bus
