@@ -44,6 +44,7 @@ struct Incarnation {
     packet_outcome_t outcome{};
     outcome.utime = SimTime::from_seconds(t).to_utime();
     outcome.source_id = static_cast<std::int32_t>(sum);
+    outcome.receiver_id = 1;
     if (journal.publish_once(std::string(channels::kOutcome), outcome, std::to_string(outcome.utime)))
       published.push_back(outcome.source_id);
   }
