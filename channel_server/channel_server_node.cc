@@ -244,7 +244,7 @@ void ChannelServerNode::publish_receipt(const Receipt& receipt, SimTime at) {
   if (recovery_) {
     publish_once(channel, message);
   } else {  // a SEND that comes again is answered again
-    journal_.publish(channel, message);
+    journal_.publish_again(channel, message, identity_of(message));
   }
 }
 

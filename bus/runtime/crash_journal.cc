@@ -97,7 +97,7 @@ bool CrashJournal::resume(SimTime now) {
 void CrashJournal::restore(Output output) {
   publisher_.resume(output.channel, output.session, output.sequence);
   bus_.keep_published(output.channel, output.session, output.sequence, std::move(output.message));
-  if (!output.identity.empty()) published_.emplace(std::move(output.channel), std::move(output.identity));
+  published_.emplace(std::move(output.channel), std::move(output.identity));
 }
 
 void CrashJournal::write_inputs(SimTime now) {

@@ -93,22 +93,21 @@ class CrashJournal {
   // ---- each step
   // Writes what was received since the last one.
   void write_inputs(SimTime now);
-  // Publishes with the channel's next number.
-  template <class Message>
-  void publish(const std::string& channel, Message message) {
-    publisher_.number(channel, message);
-    write_output(channel, {}, message.session, message.sequence, message);
-    bus_.publish(channel, message);
-  }
-  // The same, unless an earlier incarnation has, or this one between resume() and end_recovery(). `identity` tells the output from
-  // all others on its channel, whichever incarnation computes it. Returns whether it was published.
+  // Publishes with the channel's next number, unless an earlier incarnation has published it, or this one between
+  // resume() and end_recovery(). `identity` tells the output from all others on its channel, whichever incarnation
+  // computes it. Returns whether it was published.
   template <class Message>
   bool publish_once(const std::string& channel, Message message, const std::string& identity) {
     if (!claim(channel, identity)) return false;
+    publish_again(channel, std::move(message), identity);
+    return true;
+  }
+  // The same, whether or not it was published before: an answer to who repeats a request.
+  template <class Message>
+  void publish_again(const std::string& channel, Message message, const std::string& identity) {
     publisher_.number(channel, message);
     write_output(channel, identity, message.session, message.sequence, message);
     bus_.publish(channel, message);
-    return true;
   }
   // What saved_state() gives the next incarnation, as after the step at `now`.
   void save_state(SimTime now, Bytes state);
