@@ -89,6 +89,7 @@ class CrashJournal {
   // The outputs that follow belong to this step, which is done again.
   void redo_step(SimTime at) { step_ = at; }
   void end_recovery() { recovers_ = false; }
+  bool is_recovering() const { return recovers_; }
 
   // ---- each step
   // Writes what was received since the last one.

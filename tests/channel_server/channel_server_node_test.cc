@@ -257,16 +257,16 @@ TEST_F(ChannelServerNodeTest, RecordedAnswersOnTheBusAreNotTakenForItsOwn) {
   bench.bus().publish("OUTCOME", packet_outcome_t{});
   ray_reply_t recorded{};
   recorded.request_id = 1;
-  bench.bus().publish(bus::channels::kRayReply.of(ChannelServerNode::ray_client_name(815)), recorded);
+  bench.bus().publish(bus::channels::kRayReply.of(SeabedClient::client_name(815)), recorded);
   bench.drain();
   EXPECT_EQ(bench.node().counters().received, received);
   EXPECT_EQ(bench.node().counters().refused, refused);
 }
 
 TEST_F(ChannelServerNodeTest, TheRayClientNameHoldsEverySessionAndIsAName) {
-  EXPECT_TRUE(is_valid_name(ChannelServerNode::ray_client_name(1)));
-  EXPECT_TRUE(is_valid_name(ChannelServerNode::ray_client_name(std::numeric_limits<std::int64_t>::max())));
-  EXPECT_NE(ChannelServerNode::ray_client_name(1), ChannelServerNode::ray_client_name(2));
+  EXPECT_TRUE(is_valid_name(SeabedClient::client_name(1)));
+  EXPECT_TRUE(is_valid_name(SeabedClient::client_name(std::numeric_limits<std::int64_t>::max())));
+  EXPECT_NE(SeabedClient::client_name(1), SeabedClient::client_name(2));
 }
 
 TEST_F(ChannelServerNodeTest, TheOrderInWhichMessagesArriveChangesNothing) {

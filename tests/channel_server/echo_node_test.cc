@@ -93,8 +93,7 @@ TEST_F(EchoNodeTest, ARecordedReplyIsNotTakenForTheServices) {
   recorded.ray_status.assign(9, ray_reply_t::HIT);
   recorded.result_m.assign(9, 60);
   for (int second = 1; second <= 5; ++second) {
-    bench_.bus().publish("RAY_REPLY." + ChannelServerNode::ray_client_name(NodeBench::kSession + 1),
-                         recorded);
+    bench_.bus().publish("RAY_REPLY." + SeabedClient::client_name(NodeBench::kSession + 1), recorded);
     bench_.run_to(second);
   }
   EXPECT_EQ(multipath(), link_t::MULTIPATH_UNKNOWN);

@@ -10,8 +10,10 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/channels.h"
-#include "channel_server/channel_server_messages.h"
 #include "channel_server/channel_server_node.h"
+#include "channel_server/link_messages.h"
+#include "channel_server/packet_messages.h"
+#include "channel_server/vehicle_messages.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server::testing {

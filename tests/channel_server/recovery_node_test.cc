@@ -36,7 +36,7 @@ struct Life {
       : bench({}, {testing::quick_modem(), {}},
               rays ? ray_model(testing::even_water(), {}, {}) : straight_model(testing::even_water())),
         bottom(bench.lcm(), kBottomM) {
-    if (!journal.empty()) bench.node().remember_in(journal);
+    if (!journal.empty()) bench.node().open_journal(journal);
   }
   // What four vehicles, two to six kilometres apart, say in a tenth of a second: two send at times, of which
   // one pings.

@@ -1,11 +1,14 @@
-#include "channel_server/channel_server_messages.h"
-
+// The messages of the channel server, from the bus to the models and back.
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/modem_profile.h"
 #include "bus/message_checks.h"
+#include "channel_server/environment_messages.h"
+#include "channel_server/link_messages.h"
+#include "channel_server/packet_messages.h"
+#include "channel_server/vehicle_messages.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 

@@ -1,6 +1,4 @@
-// The node as a scenario describes it.
-#include "channel_server/channel_server_node.h"
-#include "core/check.h"
+#include "channel_server/water_model.h"
 
 namespace halocline::channel_server {
 
@@ -21,21 +19,14 @@ WaterModel ray_model(const acoustics::Environment& environment, const RayModel& 
   return {waters, bottoms, std::move(propagation), {"rays", rays.bottom, rays.surface}};
 }
 
-std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus::NodeIdentity& identity,
-                                                       const ChannelServerConfig& config,
-                                                       const bus::Scenario& scenario,
-                                                       const std::string& folder) {
-  const Shard& shard = config.rules.medium.shard;
-  require(shard.index < shard.count, "channel_server.shard is " + std::to_string(shard.index) +
-                                         "; allowed is 0 to shards - 1, " + std::to_string(shard.count - 1));
+WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                            const std::string& folder) {
   const acoustics::Environment environment = make_environment(config.environment, scenario, folder);
   WaterModel water = config.propagation.model == PropagationModel::kRays
                          ? ray_model(environment, make_rays(config), config.rules.profile)
                          : straight_model(environment);
   schedule_changes(config, scenario, folder, *water.waters);
-  ServerRules rules = config.rules;
-  rules.medium.seed = scenario.seed;
-  return std::make_unique<ChannelServerNode>(lcm, identity, std::move(water), make_modems(config), rules);
+  return water;
 }
 
 }  // namespace halocline::channel_server

@@ -1,0 +1,84 @@
+#include "channel_server/inbox.h"
+
+#include <algorithm>
+
+#include "bus/channels.h"
+#include "channel_server/links/link_query_service.h"
+
+namespace halocline::channel_server {
+namespace {
+
+namespace channels = bus::channels;
+
+// Of one kind between two steps; a second of a thousand vehicles at 50 Hz.
+constexpr std::size_t kMaxMessages = 50'000;
+constexpr std::size_t kMaxChanges = 100;
+
+}  // namespace
+
+Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
+  bus_.subscribe<vehicle_state_t>(
+      channels::kState,
+      [this](std::string_view vehicle, const vehicle_state_t& m) {
+        keep(inputs_.states, vehicle, m, channels::kState);
+      },
+      bus::Wakeup::kStoreOnly);
+  bus_.subscribe<modem_config_t>(
+      channels::kModem,
+      [this](std::string_view vehicle, const modem_config_t& m) {
+        keep(inputs_.modems, vehicle, m, channels::kModem);
+      },
+      bus::Wakeup::kStoreOnly);
+  bus_.subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
+    keep(inputs_.sends, vehicle, m, channels::kSend);
+  });
+  bus_.subscribe<link_query_t>(channels::kLinkQuery, [this, shard](const link_query_t& m) {
+    if ((m.request_id % shard.count + shard.count) % shard.count != shard.index) return;
+    if (queries_.size() >= LinkQueryService::kMaxWaiting) {
+      return bus_.refuse(channels::kLinkQuery, "too many questions at once");
+    }
+    queries_.push_back(m);
+  });
+  bus_.subscribe<environment_change_t>(channels::kSetEnvironment, [this](const environment_change_t& m) {
+    if (inputs_.changes.size() >= kMaxChanges) {
+      return bus_.refuse(channels::kSetEnvironment, "too many changes at once");
+    }
+    inputs_.changes.push_back(m);
+  });
+  if (shard.is_alone()) return;
+  bus_.subscribe<ping_answer_t>(channels::kPingAnswer, [this](const ping_answer_t& m) {
+    if (inputs_.ping_answers.size() >= kMaxMessages) {
+      return bus_.refuse(channels::kPingAnswer, "too many messages at once");
+    }
+    inputs_.ping_answers.push_back(m);
+  });
+}
+
+template <class Message>
+void Inbox::keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehicle, const Message& message,
+                 const bus::Family& family) {
+  if (messages.size() >= kMaxMessages) return bus_.refuse(family.of(vehicle), "too many messages at once");
+  messages.emplace_back(vehicle, message);
+}
+
+SimTime Inbox::due() const {
+  if (!queries_.empty() || !inputs_.changes.empty()) return SimTime::at_once();
+  SimTime due = SimTime::never();
+  for (const auto& [vehicle, send] : inputs_.sends) due = std::min(due, SimTime::from_utime(send.utime));
+  for (const ping_answer_t& answer : inputs_.ping_answers) {
+    due = std::min(due, SimTime::from_nanoseconds(answer.answer_start_ns));
+  }
+  return due;
+}
+
+void Inbox::forget_after(SimTime latest) {
+  const std::int64_t utime = latest.to_utime();
+  const auto is_later = [&](const auto& entry) { return entry.second.utime > utime; };
+  std::erase_if(inputs_.states, is_later);
+  std::erase_if(inputs_.modems, is_later);
+  std::erase_if(inputs_.sends, is_later);
+  std::erase_if(inputs_.changes, [&](const environment_change_t& change) { return change.utime > utime; });
+  inputs_.ping_answers.clear();
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,53 @@
+// The messages that the channel server has received and no step has taken yet; bounded.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bus/bus.h"
+#include "channel_server/vehicles/shard.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+// The inputs of one step, in order of arrival.
+struct StepInputs {
+  template <class Message>
+  using ByVehicle = std::vector<std::pair<std::string, Message>>;
+
+  ByVehicle<vehicle_state_t> states;
+  ByVehicle<modem_config_t> modems;
+  ByVehicle<modem_send_t> sends;
+  std::vector<environment_change_t> changes;
+  std::vector<ping_answer_t> ping_answers;  // of other shards
+};
+
+class Inbox {
+ public:
+  // Subscribes to STATE, MODEM, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards PING_ANSWER. The bus must
+  // outlive it.
+  Inbox(bus::Bus& bus, const Shard& shard);
+  Inbox(const Inbox&) = delete;
+  Inbox& operator=(const Inbox&) = delete;
+
+  StepInputs take_inputs() { return std::exchange(inputs_, {}); }
+  std::vector<link_query_t> take_queries() { return std::exchange(queries_, {}); }
+
+  // The simulation time of the next step that they ask for; states and modems wait for any.
+  SimTime due() const;
+  // Another run has begun: forgets what is stamped after `latest`. The rest may belong to the new run.
+  void forget_after(SimTime latest);
+
+ private:
+  template <class Message>
+  void keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehicle, const Message& message,
+            const bus::Family& family);
+
+  bus::Bus& bus_;
+  StepInputs inputs_;
+  std::vector<link_query_t> queries_;
+};
+
+}  // namespace halocline::channel_server

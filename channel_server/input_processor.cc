@@ -1,0 +1,88 @@
+#include "channel_server/input_processor.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "bus/channels.h"
+#include "channel_server/environment_messages.h"
+#include "channel_server/packet_messages.h"
+#include "channel_server/vehicle_messages.h"
+#include "core/check.h"
+
+namespace halocline::channel_server {
+
+namespace channels = bus::channels;
+
+InputProcessor::InputProcessor(bus::Bus& bus, VehicleRegistry& vehicles, EnvironmentTimeline& waters,
+                               const Propagation& propagation, PacketMedium& medium, PacketPublisher& packets)
+    : bus_(bus),
+      vehicles_(vehicles),
+      waters_(waters),
+      propagation_(propagation),
+      medium_(medium),
+      packets_(packets) {}
+
+SimTime InputProcessor::apply(StepInputs inputs, SimTime now) {
+  apply_states(std::move(inputs.states), now);
+  apply_modems(inputs.modems);
+  const SimTime changed_from = apply_changes(inputs.changes, now);
+  apply_sends(std::move(inputs.sends), now);
+  for (const ping_answer_t& message : inputs.ping_answers) medium_.hear_answer(to_answer(message));
+  return changed_from;
+}
+
+void InputProcessor::apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime now) {
+  std::stable_sort(states.begin(), states.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.utime, a.first) < std::tie(b.second.utime, b.first);
+  });
+  for (const auto& [vehicle, message] : states) {
+    const StampedState state = to_state(message);
+    const std::string problem = state.time > now + kMaxAhead
+                                    ? "utime lies more than 10 s ahead of simulation time"
+                                    : vehicles_.hear_state(vehicle, message.vehicle_id, state);
+    if (!problem.empty()) bus_.refuse(channels::kState.of(vehicle), problem);
+  }
+}
+
+void InputProcessor::apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems) {
+  for (const auto& [vehicle, message] : modems) {
+    try {
+      const std::string problem =
+          vehicles_.hear_modem(vehicle, SimTime::from_utime(message.utime), to_modem(message));
+      if (!problem.empty()) bus_.refuse(channels::kModem.of(vehicle), problem);
+    } catch (const InvalidArgument& error) {
+      bus_.refuse(channels::kModem.of(vehicle), error.what());
+    }
+  }
+}
+
+// What was published up to now stays true: a change announced for earlier holds from now on.
+SimTime InputProcessor::apply_changes(const std::vector<environment_change_t>& changes, SimTime now) {
+  SimTime changed_from = SimTime::never();
+  for (const environment_change_t& message : changes) {
+    try {
+      const std::string problem =
+          waters_.hear(SimTime::from_utime(message.utime), now, {message.session, message.sequence},
+                       to_change(message, propagation_.environment(now)));
+      if (!problem.empty()) bus_.refuse(channels::kSetEnvironment, problem);
+    } catch (const InvalidArgument& error) {
+      bus_.refuse(channels::kSetEnvironment, error.what());
+    }
+    changed_from = std::min(changed_from, waters_.next_change_after(now));
+    if (SimTime::from_utime(message.utime) <= now) changed_from = std::min(changed_from, now);
+  }
+  return changed_from;
+}
+
+void InputProcessor::apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now) {
+  std::stable_sort(sends.begin(), sends.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.second.utime, a.first, a.second.session, a.second.packet_sequence) <
+           std::tie(b.second.utime, b.first, b.second.session, b.second.packet_sequence);
+  });
+  for (const auto& [vehicle, message] : sends) {
+    if (const auto receipt = medium_.transmit(to_request(vehicle, message), now))
+      packets_.publish(*receipt, now);
+  }
+}
+
+}  // namespace halocline::channel_server

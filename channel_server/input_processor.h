@@ -1,0 +1,46 @@
+// Applies the inputs of a step to the models of the channel server: states and modems to the registry, changes of
+// the water to the timeline, transmissions and answers to pings to the packet medium.
+//
+// Within a step, states and transmissions are applied by their time and the vehicle's name, not in order of arrival,
+// so that of two vehicles that claim one id at one time the same one gets it in every run. What is impossible is
+// refused on its channel.
+#pragma once
+
+#include "bus/bus.h"
+#include "channel_server/inbox.h"
+#include "channel_server/packet_publisher.h"
+#include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+
+namespace halocline::channel_server {
+
+class InputProcessor {
+ public:
+  // A state stamped later than this after the step comes from a wrong clock.
+  static constexpr SimDuration kMaxAhead = SimDuration::from_milliseconds(10'000);
+
+  // All of them must outlive it.
+  InputProcessor(bus::Bus& bus, VehicleRegistry& vehicles, EnvironmentTimeline& waters,
+                 const Propagation& propagation, PacketMedium& medium, PacketPublisher& packets);
+
+  // Publishes the receipts that need no waiting. Returns the first instant from which the inputs change the water;
+  // never() where none does.
+  SimTime apply(StepInputs inputs, SimTime now);
+
+ private:
+  void apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime now);
+  void apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems);
+  SimTime apply_changes(const std::vector<environment_change_t>& changes, SimTime now);
+  void apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now);
+
+  bus::Bus& bus_;
+  VehicleRegistry& vehicles_;
+  EnvironmentTimeline& waters_;
+  const Propagation& propagation_;
+  PacketMedium& medium_;
+  PacketPublisher& packets_;
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,119 @@
+#include "channel_server/link_messages.h"
+
+#include "bus/message_checks.h"
+#include "channel_server/vehicle_messages.h"
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+Vec3 to_vec3(const double (&values)[3]) { return {values[0], values[1], values[2]}; }
+
+std::vector<double> as_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+LinkEndRequest to_asked_end(const link_end_t& message) {
+  LinkEndRequest end{message.vehicle_name, to_vec3(message.position_ned_m)};
+  if (message.modem_choice == link_end_t::MODEM_SCENARIO) return end;
+  if (message.modem_choice != link_end_t::MODEM_GIVEN) {
+    end.problem = "modem_choice is no value of its enumeration";
+    return end;
+  }
+  end.problem = bus::problem_in(message.modem);
+  if (!end.problem.empty()) return end;
+  try {
+    end.modem = to_modem(message.modem);
+  } catch (const InvalidArgument& error) {
+    end.problem = error.what();
+  }
+  return end;
+}
+
+link_answer_t to_message(const LinkAnswer& answer) {
+  link_answer_t message{};
+  message.answer_status = static_cast<std::int8_t>(answer.status);
+  message.problem = answer.problem;
+  if (answer.status != LinkAnswer::Status::kAnswered) return message;
+  message.link = to_message(answer.row);
+  message.getss_received_strength_db = message.link.received_level_db;
+  message.getpd_propagation_delay_s = message.link.delay_s;
+  message.getbw_capacity_kbps = message.link.capacity_bps / 1000;
+  message.getml_multipath = message.link.multipath;
+  return message;
+}
+
+}  // namespace
+
+link_t to_message(const LinkRow& row) {
+  link_t message{};
+  message.transmitter_id = row.transmitter_id;
+  message.receiver_id = row.receiver_id;
+  message.range_m = row.budget.range_m;
+  message.delay_s = row.budget.delay_s;
+  message.transmission_loss_db = row.budget.transmission_loss.value;
+  message.received_level_db = row.budget.received_level.value;
+  message.noise_level_db = row.budget.noise_level.value;
+  message.snr_db = row.budget.snr.value;
+  message.capacity_bps = row.budget.capacity_bps;
+  message.receivable = row.budget.receivable ? 1 : 0;
+  message.multipath = static_cast<std::int8_t>(row.multipath);
+  message.transmitter_age_s = row.transmitter_age.seconds();
+  message.receiver_age_s = row.receiver_age.seconds();
+  message.path_state = static_cast<std::int8_t>(row.state);
+  message.propagation_used = static_cast<std::int8_t>(row.used);
+  message.num_paths = row.path_count;
+  message.delay_spread_s = row.delay_spread_s;
+  message.doppler_factor = row.doppler_factor;
+  return message;
+}
+
+link_table_t to_message(const LinkTable& table, SimTime at) {
+  link_table_t message{};
+  message.utime = at.to_utime();
+  message.vehicle_id = table.vehicle_id;
+  message.num_peers = static_cast<std::int32_t>(table.rows.size());
+  for (const LinkRow& row : table.rows) message.peers.push_back(to_message(row));
+  return message;
+}
+
+LinkQuestion to_question(const link_query_t& message) {
+  LinkQuestion question{message.client_name, message.request_id, {}, {}};
+  for (const link_end_t& end : message.transmitters) question.transmitters.push_back(to_asked_end(end));
+  for (const link_end_t& end : message.receivers) question.receivers.push_back(to_asked_end(end));
+  return question;
+}
+
+link_reply_t to_message(const LinkReply& reply) {
+  link_reply_t message{};
+  message.utime = reply.at.to_utime();
+  message.request_id = reply.request_id;
+  message.reply_status = reply.refusal.empty() ? link_reply_t::OK : link_reply_t::REFUSED;
+  message.refusal = reply.refusal;
+  message.num_answers = static_cast<std::int32_t>(reply.answers.size());
+  for (const LinkAnswer& answer : reply.answers) message.answers.push_back(to_message(answer));
+  return message;
+}
+
+ray_query_t to_message(const RayBatch& batch, std::string_view client, SimTime asked_at) {
+  ray_query_t message{};
+  message.utime = asked_at.to_utime();
+  message.client_name = client;
+  message.request_id = batch.request_id;
+  message.query_mode = batch.kind == RayKind::kDepths ? ray_query_t::DEPTH : ray_query_t::OCCLUDED;
+  message.num_rays = static_cast<std::int32_t>(batch.rays.size());
+  for (const TerrainRay& ray : batch.rays) {
+    message.offset_m.push_back(as_vector(ray.origin_ned_m));
+    message.direction.push_back(as_vector(ray.direction));
+    message.greatest_range_m.push_back(ray.greatest_range_m);
+  }
+  return message;
+}
+
+std::vector<RayAnswer> to_answers(const ray_reply_t& message) {
+  std::vector<RayAnswer> answers;
+  for (std::size_t i = 0; i < message.ray_status.size(); ++i) {
+    answers.push_back({static_cast<RayAnswer::Kind>(message.ray_status[i]), message.result_m[i]});
+  }
+  return answers;
+}
+
+}  // namespace halocline::channel_server

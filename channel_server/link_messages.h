@@ -1,0 +1,24 @@
+// Link tables, link queries and their replies, ray queries and their answers, from messages and back.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "bus/messages.h"
+#include "channel_server/links/link_query_service.h"
+#include "channel_server/links/link_table.h"
+#include "channel_server/links/ray_query_client.h"
+
+namespace halocline::channel_server {
+
+link_t to_message(const LinkRow& row);
+link_table_t to_message(const LinkTable& table, SimTime at);
+
+// An end that cannot be read (a modem with a NaN) carries the problem.
+LinkQuestion to_question(const link_query_t& message);
+link_reply_t to_message(const LinkReply& reply);
+
+ray_query_t to_message(const RayBatch& batch, std::string_view client, SimTime asked_at);
+std::vector<RayAnswer> to_answers(const ray_reply_t& message);
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,42 @@
+#include "channel_server/link_table_publisher.h"
+
+#include <functional>
+
+#include "bus/channels.h"
+#include "channel_server/link_messages.h"
+
+namespace halocline::channel_server {
+
+LinkTablePublisher::LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models,
+                                       Shard shard, int threads)
+    : publisher_(publisher), log_(log), models_(models), shard_(shard), pool_(threads) {}
+
+void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles) {
+  const auto multipath = [&](const PlacedVehicle& from, const PlacedVehicle& to) {
+    return models_.echoes.at_last_tick(tick, from, to, models_.propagation);
+  };
+  const auto for_each = [this](std::size_t count, const std::function<void(std::size_t)>& body) {
+    pool_.for_each(count, body);
+  };
+  for (const LinkTable& table :
+       link_tables(tick, vehicles, models_.propagation, multipath, for_each, shard_)) {
+    publisher_.publish(bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id)),
+                       to_message(table, tick));
+    links_published_ += static_cast<std::int64_t>(table.rows.size());
+  }
+  report_presence(vehicles);
+}
+
+void LinkTablePublisher::report_presence(const std::vector<PlacedVehicle>& vehicles) {
+  std::set<std::string> present;
+  for (const PlacedVehicle& vehicle : vehicles) present.insert(models_.vehicles.name_of(vehicle.id));
+  for (const std::string& name : present) {
+    if (!present_.contains(name)) log_.info("vehicle-present", "vehicle=" + name);
+  }
+  for (const std::string& name : present_) {
+    if (!present.contains(name)) log_.info("vehicle-gone", "vehicle=" + name);
+  }
+  present_ = std::move(present);
+}
+
+}  // namespace halocline::channel_server

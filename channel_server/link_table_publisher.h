@@ -1,0 +1,50 @@
+// Publishes the link tables of a tick as LINKS.<vehicle>, and reports in the log which vehicles appear and vanish.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bus/event_log.h"
+#include "bus/numbered_publisher.h"
+#include "bus/runtime/thread_pool.h"
+#include "channel_server/links/multipath_cache.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+
+namespace halocline::channel_server {
+
+class LinkTablePublisher {
+ public:
+  // The parts that tables are computed from; all of them must outlive the publisher.
+  struct Models {
+    const VehicleRegistry& vehicles;
+    Propagation& propagation;
+    MultipathCache& echoes;
+  };
+  LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, Shard shard,
+                     int threads);
+
+  // `vehicles`: those present at `tick`.
+  void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles);
+
+  // Another run has begun.
+  void clear() { present_.clear(); }
+  std::size_t vehicles_present() const { return present_.size(); }
+  std::int64_t links_published() const { return links_published_; }
+
+ private:
+  void report_presence(const std::vector<PlacedVehicle>& vehicles);
+
+  bus::NumberedPublisher& publisher_;
+  bus::EventLog& log_;
+  Models models_;
+  Shard shard_;
+  bus::ThreadPool pool_;
+  std::set<std::string> present_;
+  std::int64_t links_published_ = 0;
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,29 @@
+// Transmissions, receipts and outcomes of packets, from messages and back. Session and sequence are the publisher's
+// to fill in.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "bus/messages.h"
+#include "channel_server/packets/packet.h"
+
+namespace halocline::channel_server {
+
+SendRequest to_request(std::string_view vehicle, const modem_send_t& message);
+ping_answer_t to_message(const PingAnswer& answer, SimTime at);
+PingAnswer to_answer(const ping_answer_t& message);
+
+modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);
+packet_outcome_t to_outcome(const PacketEnd& end, SimTime at);
+// Only for an end that is to be delivered.
+modem_receive_t to_receive(const PacketEnd& end, SimTime at);
+
+// What tells an output from all others on its channel, whichever incarnation of the server computes it
+// (bus/runtime/crash_journal.h).
+std::string identity_of(const modem_receipt_t& message);
+std::string identity_of(const modem_receive_t& message);
+std::string identity_of(const packet_outcome_t& message);
+std::string identity_of(const ping_answer_t& message);
+
+}  // namespace halocline::channel_server

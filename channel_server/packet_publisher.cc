@@ -1,0 +1,46 @@
+#include "channel_server/packet_publisher.h"
+
+#include "bus/channels.h"
+#include "channel_server/packet_messages.h"
+
+namespace halocline::channel_server {
+
+namespace channels = bus::channels;
+
+void PacketPublisher::publish(const MediumEvent& event) {
+  if (const auto* receipt = std::get_if<Receipt>(&event.what)) {
+    publish(*receipt, event.at);
+  } else if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
+    const ping_answer_t message = to_message(*answer, event.at);
+    journal_.publish_once(std::string(channels::kPingAnswer), message, identity_of(message));
+  } else {
+    publish(std::get<PacketEnd>(event.what), event.at, event.late);
+  }
+}
+
+// A SEND that is repeated gets its receipt again, but not while inputs are replayed.
+void PacketPublisher::publish(const Receipt& receipt, SimTime at) {
+  const std::string channel = channels::kReceipt.of(receipt.vehicle);
+  const modem_receipt_t message = to_message(receipt, at);
+  if (journal_.is_recovering()) {
+    journal_.publish_once(channel, message, identity_of(message));
+  } else {
+    journal_.publish_again(channel, message, identity_of(message));
+  }
+}
+
+void PacketPublisher::publish(const PacketEnd& end, SimTime at, bool late) {
+  if (end.deliver) {
+    const modem_receive_t message = to_receive(end, at);
+    journal_.publish_once(channels::kReceive.of(end.receiver), message, identity_of(message));
+  }
+  const packet_outcome_t message = to_outcome(end, at);
+  const bool is_new = journal_.publish_once(std::string(channels::kOutcome), message, identity_of(message));
+  if (journal_.is_recovering()) {
+    published_late_ += is_new ? 1 : 0;
+    late = is_new;
+  }
+  if (late) ++bus_.counters().late;
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,150 @@
+#include "channel_server/seabed_client.h"
+
+#include <utility>
+
+#include "bus/channels.h"
+#include "channel_server/link_messages.h"
+
+namespace halocline::channel_server {
+namespace {
+
+namespace channels = bus::channels;
+
+std::string in_base_36(std::uint64_t number) {
+  std::string digits;
+  do {
+    digits += "0123456789abcdefghijklmnopqrstuvwxyz"[number % 36];
+    number /= 36;
+  } while (number != 0);
+  return {digits.rbegin(), digits.rend()};
+}
+
+}  // namespace
+
+SeabedClient::SeabedClient(bus::Bus& bus, Models models, Shard shard, int bottom_points)
+    : bus_(bus),
+      models_(models),
+      shard_(shard),
+      bottom_points_(bottom_points),
+      client_name_(client_name(bus.identity().session)) {
+  bus_.subscribe<ray_reply_t>(channels::kRayReply.of(client_name_),
+                              [this](const ray_reply_t& reply) { replies_.push_back(reply); });
+}
+
+// 13 digits of base 36 hold every session; the name has 24 characters at most.
+std::string SeabedClient::client_name(std::int64_t session) {
+  return "channel-" + in_base_36(static_cast<std::uint64_t>(session));
+}
+
+bool SeabedClient::take_replies() {
+  bool is_other_terrain = false;
+  for (const ray_reply_t& reply : std::exchange(replies_, {})) {
+    if (reply.terrain_version != terrain_version_) {
+      forget_terrain();
+      terrain_version_ = reply.terrain_version;
+      is_other_terrain = true;
+    }
+    if (reply.reply_status == ray_reply_t::OK) {
+      models_.rays.answer(reply.request_id, to_answers(reply));
+    } else {
+      bus_.refuse(channels::kRayReply.of(client_name_), "the service refused: " + reply.refusal);
+      models_.rays.refuse(reply.request_id);
+    }
+  }
+  take_finished_surveys();
+  return is_other_terrain;
+}
+
+// Surveys on their way are answered by a mixture of the two terrains.
+void SeabedClient::forget_terrain() {
+  if (terrain_version_.empty()) return;
+  models_.echoes.clear();
+  models_.profiles.clear();
+  surveyed_pairs_.clear();
+}
+
+void SeabedClient::take_finished_surveys() {
+  for (RayQueryClient::Finished& finished : models_.rays.take_finished()) {
+    if (models_.queries.finish(finished)) continue;
+    const auto pair = surveyed_pairs_.extract(finished.id);
+    if (!pair.empty()) store(pair.mapped(), std::move(finished));
+  }
+}
+
+void SeabedClient::store(const VehiclePair& pair, RayQueryClient::Finished finished) {
+  models_.echoes.note_asked(pair);
+  models_.profiles.note_asked(pair);
+  if (!finished.answered) return;
+  if (auto* echoes = std::get_if<EchoSurvey>(&finished.survey)) {
+    models_.echoes.store(pair, std::move(*echoes));
+  } else {
+    models_.profiles.store(pair, std::get<ProfileSurvey>(finished.survey));
+  }
+}
+
+void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles) {
+  if (models_.propagation.uses_bottom()) return begin_past_tick(vehicles);
+  drop_waiting_surveys();
+  request_echoes(vehicles);
+}
+
+void SeabedClient::begin_past_tick(const std::vector<PlacedVehicle>& vehicles) {
+  drop_waiting_surveys();
+  if (models_.propagation.uses_bottom()) request_profiles(vehicles);
+}
+
+void SeabedClient::drop_waiting_surveys() {
+  for (const RayQueryClient::SurveyId dropped : models_.rays.begin_tick()) surveyed_pairs_.erase(dropped);
+}
+
+void SeabedClient::request_echoes(const std::vector<PlacedVehicle>& vehicles) {
+  for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, shard_)) {
+    const EchoSurvey survey(models_.echoes.place(pair.first), models_.echoes.place(pair.second),
+                            bottom_points_);
+    surveyed_pairs_.emplace(models_.rays.ask_routine(survey), pair);
+  }
+}
+
+void SeabedClient::request_profiles(const std::vector<PlacedVehicle>& vehicles) {
+  for (const VehiclePair& pair : models_.profiles.take_geometry(vehicles, shard_)) {
+    surveyed_pairs_.emplace(models_.rays.ask_routine(models_.profiles.survey_of(pair)), pair);
+  }
+}
+
+void SeabedClient::publish_queries(const bus::Now& now) {
+  for (const RayBatch& batch : models_.rays.take_batches(now.steady)) {
+    bus_.publish(channels::kRayQuery, to_message(batch, client_name_, now.sim));
+  }
+  take_finished_surveys();
+  report_presence();
+}
+
+void SeabedClient::report_presence() {
+  const bool is_away = models_.rays.is_away();
+  if (is_away == std::exchange(reported_away_, is_away)) return;
+  if (is_away) {
+    bus_.log().warning("bathymetry-away", models_.propagation.uses_bottom()
+                                              ? "paths=straight multipath=unknown"
+                                              : "multipath=unknown");
+  } else {
+    bus_.log().info("bathymetry-back");
+  }
+}
+
+void SeabedClient::clear() {
+  models_.rays.clear();
+  models_.echoes.clear();
+  models_.profiles.clear();
+  surveyed_pairs_.clear();
+}
+
+std::string SeabedClient::status_text() const {
+  const RayQueryClient::Counters& counters = models_.rays.counters();
+  const std::string service = models_.rays.is_away()     ? "away"
+                              : terrain_version_.empty() ? "not present"
+                                                         : "answering";
+  return "bathymetry " + service + ", " + std::to_string(counters.surveys_dropped) +
+         " echo surveys dropped, " + std::to_string(counters.surveys_failed) + " failed";
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,71 @@
+#include "channel_server/server_recovery.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "bus/channels.h"
+
+namespace halocline::channel_server {
+namespace {
+
+namespace channels = bus::channels;
+
+// How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not resumed, nor
+// is anything after a longer absence.
+constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
+constexpr SimDuration kSeabedTimeout = SimDuration::from_milliseconds(1500);
+constexpr SimDuration kInstant = SimDuration::from_nanoseconds(1);
+
+bool is_input(std::string_view channel) {
+  const auto in = [&](const bus::Family& family) { return channel.starts_with(family.prefix); };
+  return in(channels::kState) || in(channels::kModem) || in(channels::kSend) ||
+         channel == channels::kSetEnvironment || channel == channels::kPingAnswer;
+}
+
+}  // namespace
+
+ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path)
+    : journal_(journal), inbox_(inbox) {
+  journal_.open({path, kJournalled, is_input, {channels::kModem}, {std::string(channels::kSetEnvironment)}});
+  journal_.replay_inputs([this](const bus::ReplayedStep& step) {
+    // What was due before a step happened before its inputs were taken.
+    if (!step.after_absence) steps_.push_back({step.at - kInstant, {}});
+    steps_.push_back({step.at, inbox_.take_inputs()});
+  });
+}
+
+bool ServerRecovery::begin(const bus::Now& now) {
+  if (!journal_.resume(now.sim)) return false;
+  begun_ = true;
+  repair_ends_ = now.steady + bus::CrashJournal::kRepairTime;
+  seabed_ends_ = now.steady + kSeabedTimeout;
+  reached_ = steps_.front().at;
+  journal_.redo_step(reached_);
+  return true;
+}
+
+std::optional<StepInputs> ServerRecovery::next_step(const bus::Now& now) {
+  if (steps_.empty() && !took_present_) {
+    due_ = repair_ends_;
+    if (now.steady < repair_ends_) return std::nullopt;
+    journal_.write_inputs(now.sim);
+    // Taken before the medium advances: none of it was late when it was published.
+    steps_.push_back({std::max(now.sim, *journal_.last_step()), inbox_.take_inputs()});
+    took_present_ = true;
+  }
+  if (steps_.empty()) return std::nullopt;
+  Step step = std::move(steps_.front());
+  steps_.pop_front();
+  reached_ = step.at;
+  journal_.redo_step(reached_);
+  return std::move(step.inputs);
+}
+
+bool ServerRecovery::may_wait_for_seabed(SimTime steady) {
+  if (steady >= seabed_ends_) return false;
+  due_ = seabed_ends_;
+  return true;
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,31 @@
+// The water of a channel server and how sound propagates in it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bus/runtime/scenario.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/environment_messages.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
+
+namespace halocline::channel_server {
+
+// The propagation reads the waters and the seabed profiles, which the node keeps up to date.
+struct WaterModel {
+  std::shared_ptr<EnvironmentTimeline> waters;
+  std::shared_ptr<SeabedProfileCache> bottoms;
+  std::unique_ptr<Propagation> propagation;
+  WaterDescription description;  // for ENVIRONMENT
+};
+WaterModel straight_model(const acoustics::Environment& environment);
+WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
+                     const ProfileRule& rule);
+
+// As a scenario whose file lies in `folder` describes it. Throws InvalidArgument when that is impossible.
+WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                            const std::string& folder);
+
+}  // namespace halocline::channel_server
