@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   program.node_name = "bathymetry";
   program.stage = halocline::bus::Stage::kTerrain;
   program.interface =
-      "hears:     RAY_QUERY, CLOCK\n"
+      "receives:  RAY_QUERY, CLOCK\n"
       "publishes: RAY_REPLY.<client>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, recipe); };
   program.make_node = [&](const NodeProgram::Context& context) {

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   program.node_name = "channel-server";
   program.stage = halocline::bus::Stage::kChannel;
   program.interface =
-      "hears:     STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
+      "receives:  STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
       "           PING_ANSWER (of other shards),\n"
       "           RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
       "publishes: LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"

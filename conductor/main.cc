@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
       "Publishes simulation time, paced by the wall clock times the scenario's rate; or leads a lockstep.";
   program.node_name = "conductor";
   program.interface =
-      "hears:     STATE.*, STATUS.* (while starting: to take up a running system's time)\n"
+      "receives:  STATE.*, STATUS.* (while starting: to take up a running system's time)\n"
       "publishes: CLOCK, STATUS.<name>\n"
       "with --lockstep, on --sync-url: hears LOCKSTEP_JOIN, LOCKSTEP_ANSWER; publishes "
       "LOCKSTEP_GRANT[.<name>],\n"

@@ -22,7 +22,7 @@ struct AcousticFixRules {
 };
 
 // As an array measures it.
-struct HeardBeacon {
+struct BeaconMeasurement {
   double bearing_rad = 0;    // from the bow by starboard
   double elevation_rad = 0;  // above the plane of forward and starboard
   double angle_deviation_rad = 0;
@@ -34,9 +34,9 @@ struct PlaceFix {
   double deviation_m = 0;
 };
 
-// `attitude` and `own_z_m` of the vehicle when it heard. Empty where the sound came from straight above or below.
+// `attitude` and `own_z_m` of the vehicle at the reception. Empty where the sound came from straight above or below.
 std::optional<PlaceFix> place_by_beacon(const AcousticFixRules& rules, const Vec3& beacon_ned_m,
-                                        const HeardBeacon& heard, const EulerAngles& attitude,
+                                        const BeaconMeasurement& measured, const EulerAngles& attitude,
                                         double own_z_m);
 
 }  // namespace halocline::clients

@@ -1,4 +1,4 @@
-// Heading, pitch and roll by the compass, carried on by the gyro while the compass tells nothing.
+// Heading, pitch and roll by the compass, integrated from the gyro while the compass is unavailable.
 //
 // Model: the compass's reading is taken as it is; until the next one the attitude turns with the angular
 // rates measured, as q' = 1/2 q (0, omega) with the mean of two samples (error of the third order of the turn
@@ -17,8 +17,8 @@ namespace halocline::clients {
 
 struct AttitudeReading {
   double time_s = 0;
-  std::optional<EulerAngles> attitude{};  // empty: the compass tells nothing
-  std::optional<Vec3> rates_radps{};      // about forward, starboard, down; empty: the gyro tells nothing
+  std::optional<EulerAngles> attitude{};  // empty: the compass is unavailable
+  std::optional<Vec3> rates_radps{};      // about forward, starboard, down; empty: the gyro is unavailable
 };
 
 class AttitudeKeeper {
@@ -33,7 +33,7 @@ class AttitudeKeeper {
 
   // Level and northwards before the first reading of the compass.
   const EulerAngles& attitude() const { return attitude_; }
-  // What the heading may be off beyond the compass's own error, radians; 0 while the compass tells it.
+  // What the heading may be off beyond the compass's own error, radians; 0 while the compass measures it.
   double heading_deviation_rad() const { return heading_deviation_rad_; }
   bool by_compass() const { return by_compass_; }
 

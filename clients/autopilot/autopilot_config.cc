@@ -19,14 +19,14 @@ void visit_gains(ConfigVisitor& v, Gains& g) {
   v.number("pitch_p", g.pitch_p, {0, 100, "", "rad of stern plane per rad of pitch"});
   v.number("pitch_d_s", g.pitch_d_s, {0, 100, "s", "rad of stern plane per rad/s of pitch rate"});
   v.number("speed_feed_forward_rpm_s_per_m", g.speed_feed_forward_rpm_s_per_m,
-           {0, 1e5, "rpm s/m", "propeller speed per m/s asked for"});
+           {0, 1e5, "rpm s/m", "propeller speed per m/s of set speed"});
   v.number("speed_p_rpm_s_per_m", g.speed_p_rpm_s_per_m,
            {0, 1e5, "rpm s/m", "propeller speed per m/s of speed error"});
   v.number("speed_i_rpm_per_m", g.speed_i_rpm_per_m,
            {0, 1e5, "rpm/m", "propeller speed per metre of the speed error's integral"});
-  degrees(v, "max_pitch_deg", g.max_pitch_rad, {0, 60, "deg", "greatest pitch asked for"});
-  degrees(v, "max_fin_deg", g.max_fin_rad, {0, 90, "deg", "greatest rudder and stern plane asked for"});
-  v.number("max_rpm", g.max_rpm, {0, 1e5, "rpm", "greatest propeller speed asked for"});
+  degrees(v, "max_pitch_deg", g.max_pitch_rad, {0, 60, "deg", "maximum set pitch"});
+  degrees(v, "max_fin_deg", g.max_fin_rad, {0, 90, "deg", "maximum rudder and stern plane"});
+  v.number("max_rpm", g.max_rpm, {0, 1e5, "rpm", "maximum propeller speed"});
 }
 
 void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
@@ -84,7 +84,7 @@ void visit_behaviour(ConfigVisitor& v, Behaviour& b) {
   v.number("duration_s", b.duration_s, {0, 1e7, "s", "of heading, loiter and follow; 0: for ever"});
   v.number("speed_mps", b.speed_mps, {0, 50, "m/s", "through the water; 0: the mission's"});
   visit_where(v, b);
-  v.section("formation", "kind = follow: the place beside a leader, kept by what it says over sound",
+  v.section("formation", "kind = follow: the place beside a leader, kept by its acoustic reports",
             [&](ConfigVisitor& formation) { visit_formation(formation, b.formation); });
   if (!v.writing() && b.kind == BehaviourKind::kWaypoints && b.waypoints.empty())
     v.problem("waypoints", "at least one point [north, east, down], with kind = waypoints");
@@ -143,10 +143,10 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
   bus::choice(v, "steering", pilot.steering, {"fins", "thrusters"},
               "what steers it: propeller and fins, or four thrusters as hover has them");
   bus::choice(v, "navigate_by", pilot.navigate_by, {"state", "sensors"},
-              "how it knows where it is: the truth, or dead reckoning by its own sensors");
+              "source of its position: the true state, or dead reckoning by its own sensors");
   v.section("navigator", "Uncertainty of dead reckoning, with navigate_by = sensors",
             [&](ConfigVisitor& navigator) { visit_navigator(navigator, pilot); });
-  v.section("broadcast", "Its place, told over sound to those who follow it",
+  v.section("broadcast", "Its position reports, sent by modem to its followers",
             [&](ConfigVisitor& broadcast) { visit_broadcast(broadcast, pilot.broadcast); });
   v.section("gains", "Gains with fins; the defaults suit torpedo and remus100-pvs",
             [&](ConfigVisitor& gains) { visit_gains(gains, pilot.gains); });

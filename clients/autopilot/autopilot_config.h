@@ -19,10 +19,10 @@ namespace halocline::clients {
 // What the vehicle is steered with.
 enum class Steering { kFins, kThrusters };
 
-// Where a pilot knows its vehicle's place from.
+// Source of the vehicle's position.
 enum class NavigateBy { kState, kSensors };
 
-// Its place, told to all over sound.
+// Its position reports, broadcast by modem.
 struct Broadcast {
   SimDuration period;  // 0: none
   SimTime start;

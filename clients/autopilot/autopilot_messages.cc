@@ -71,9 +71,9 @@ void take_in(const vehicle_usbl_t& bearing, const std::map<std::int32_t, Vec3>& 
   const auto beacon = beacons.find(bearing.peer_id);
   const auto then = navigator.at(time_s);
   if (beacon == beacons.end() || !then || !bearing.travel_time_known) return;
-  const HeardBeacon heard{bearing.peer_bearing_rad, bearing.peer_elevation_rad, bearing.angle_deviation_rad,
-                          bearing.one_way_travel_time_s};
-  const auto fix = place_by_beacon(rules, beacon->second, heard, then->attitude, then->position_ned_m.z());
+  const BeaconMeasurement measured{bearing.peer_bearing_rad, bearing.peer_elevation_rad,
+                                   bearing.angle_deviation_rad, bearing.one_way_travel_time_s};
+  const auto fix = place_by_beacon(rules, beacon->second, measured, then->attitude, then->position_ned_m.z());
   if (fix) navigator.fix(fix->north_m, fix->east_m, fix->deviation_m, time_s);
 }
 

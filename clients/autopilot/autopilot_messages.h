@@ -15,7 +15,7 @@
 
 namespace halocline::clients {
 
-// From the state. The speed is the forward component over ground: SENSORS tells that through the water.
+// From the state. The speed is the forward component over ground; SENSORS holds the speed through the water.
 Situation to_situation(const vehicle_state_t& state);
 
 // From the vehicle's own sensors alone; place and attitude by reckoning, at `time_s`.
@@ -28,7 +28,7 @@ AttitudeReading to_attitude_reading(const vehicle_sensors_t& sensors);
 NavigationSample to_navigation_sample(const vehicle_sensors_t& sensors, const AttitudeKeeper& attitude,
                                       const std::optional<vehicle_dvl_t>& ping);
 
-// Fixes of what the navigator remembers; others are ignored.
+// Fixes within the navigator's history; others are ignored.
 void take_in(const vehicle_gps_t& fix, Navigator& navigator);
 // `beacons`: places of those that are known, by id.
 void take_in(const vehicle_usbl_t& bearing, const std::map<std::int32_t, Vec3>& beacons,
@@ -38,7 +38,7 @@ void take_in(const vehicle_usbl_t& bearing, const std::map<std::int32_t, Vec3>& 
 // reckoning goes on from there, through water that it holds to be still.
 void take_in(const position_estimate_t& estimate, Navigator& navigator);
 
-// What a leader tells of itself.
+// The report that a leader broadcasts.
 LeaderReport to_report(const Situation& situation);
 
 // Where a vehicle in this situation saw the ground.

@@ -99,7 +99,7 @@ void AutopilotNode::join_formation(const AutopilotConfig& all, Pilot& pilot) {
   }
   if (leaders.empty() && pilot.config.broadcast.period <= SimDuration()) return;
   const auto listener = [&pilot](const std::string& leader, const LeaderReport& report) {
-    pilot.pilot.hear(leader, report);
+    pilot.pilot.on_leader_report(leader, report);
   };
   pilot.link = std::make_unique<FormationLink>(bus(), pilot.config, std::move(leaders), listener);
 }

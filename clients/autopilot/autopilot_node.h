@@ -1,10 +1,10 @@
-// Hears STATE and SENSORS of the vehicles that have a mission, and publishes their COMMAND on the time grid;
-// leaders of a formation also SEND, followers hear RECEIVE.
+// Steers the vehicles that have a mission: receives their STATE and SENSORS and publishes their COMMAND on the time
+// grid; leaders of a formation also publish SEND, followers receive RECEIVE.
 //
-// Position and attitude come from STATE (the vehicle knows where it is), speed through the water and altitude
+// Position and attitude come from STATE (the true position), speed through the water and altitude
 // from SENSORS where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h),
 // from DVL, GPS and USBL where the vehicle has them, and from ESTIMATE where a localiser publishes it; STATE
-// is not heard, and z is the depth below the sea surface. A vehicle whose state (or sensors) is older than
+// is not used, and z is the depth below the sea surface. A vehicle whose state (or sensors) is older than
 // the time-out gets no commands, and so falls into its safe state.
 #pragma once
 

@@ -26,12 +26,12 @@ struct Gains {
   double speed_feed_forward_rpm_s_per_m = 597.3;  // 1000 rpm drive both at 1.6741 m/s
   double speed_p_rpm_s_per_m = 300;               // rpm per m/s of speed error
   double speed_i_rpm_per_m = 30;                  // and per metre of its integral
-  double max_pitch_rad = 0.3490658503988659;      // of the pitch asked for: 20 degrees
+  double max_pitch_rad = 0.3490658503988659;      // of the set pitch: 20 degrees
   double max_fin_rad = 0.2617993877991494;        // of rudder and stern planes: 15 degrees
   double max_rpm = 1525;                          // of the propeller
 };
 
-// What the vehicle knows of itself. Angles radians, rates about its own axes in rad/s.
+// Measured state of the vehicle. Angles radians, rates about its own axes in rad/s.
 struct Measured {
   double z_ned_m = 0;
   double heading_rad = 0;
@@ -47,7 +47,7 @@ struct ActuatorCommand {
   double stern_plane_rad = 0;  // within +-max_fin
 };
 
-// What the laws remember from step to step.
+// Integrator states.
 struct Integrals {
   double pitch_rad = 0;  // of depth, as pitch
   double speed_rpm = 0;  // of speed, as propeller speed

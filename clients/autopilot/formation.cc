@@ -76,7 +76,7 @@ std::optional<LeaderReport> decode_report(std::span<const std::uint8_t> payload,
 std::string to_text(FollowPhase phase) {
   switch (phase) {
     case FollowPhase::kWaiting:
-      return "leader not heard yet: circles";
+      return "no report of its leader yet: circles";
     case FollowPhase::kFollowing:
       return "follows its leader";
     case FollowPhase::kKeepingCourse:
@@ -87,7 +87,7 @@ std::string to_text(FollowPhase phase) {
   return "";
 }
 
-void Follower::hear(const LeaderReport& report) {
+void Follower::on_report(const LeaderReport& report) {
   if (!report_ || report.time_s > report_->time_s) report_ = report;
 }
 

@@ -1,4 +1,4 @@
-// Keeping a place beside a leader by what the leader says over sound, and going on without it.
+// Formation keeping: follows a place beside a leader by its acoustic reports, with a fallback when they stop.
 //
 // A report is 17 bytes, little-endian, small enough for the slowest modem:
 //
@@ -9,7 +9,7 @@
 //   14-15  instant that all of it holds at, ms modulo 65536 ms of simulation time, unsigned
 //   16     the sum of bytes 0 to 15 modulo 256, inverted
 //
-// The hearer completes the instant: the latest that fits and is not after the reception, so a report may
+// The receiver completes the instant: the latest that fits and is not after the reception, so a report may
 // be up to 65 s on its way; clocks agree. Rounding: 5 cm, 0.003 degrees, 0.5 mm/s.
 //
 // The leader's place is carried on along its course at its speed. A follower steers for its place beside
@@ -17,8 +17,8 @@
 // within half the leader's and the greatest speed, so it neither stops nor turns back for a place behind
 // it. When the youngest report is older than `fresh_for_s` the leader counts as lost: the follower keeps
 // the last course, speed and depth for `keep_course_s`, then circles at the safe depth and speed until a
-// report comes. Before the first report it circles likewise. Left out: others in the formation (they do
-// not hear each other; give them places apart), the leader's turning rate.
+// report comes. Before the first report it circles likewise. Left out: other followers (they do
+// not receive each other; give them places apart), the leader's turning rate.
 #pragma once
 
 #include <cstdint>
@@ -58,7 +58,7 @@ class Follower {
 
   const Formation& formation() const { return formation_; }
   // A report of the past, older than the latest, is ignored.
-  void hear(const LeaderReport& report);
+  void on_report(const LeaderReport& report);
 
   // Where to steer at `time_s`. The speed is that over ground. Calls come in order of time.
   SetPoints steer_for(double time_s, const Vec3& position_ned_m);

@@ -20,7 +20,7 @@ class FormationLink {
  public:
   using Listener = std::function<void(const std::string& leader, const LeaderReport& report)>;
 
-  // `leaders`: id to name of those whose reports are handed on. Bus and listener must outlive the link.
+  // `leaders`: id to name of those whose reports are passed on. Bus and listener must outlive the link.
   FormationLink(bus::Bus& bus, const PilotConfig& pilot, std::map<std::int32_t, std::string> leaders,
                 Listener listener);
 

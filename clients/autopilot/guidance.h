@@ -43,7 +43,7 @@ struct SetPoints {
   double course_rad = 0;  // -pi to pi
   double z_ned_m = 0;
   double speed_mps = 0;
-  double climb_rad = 0;    // slope of the path asked for, up positive: pitch on top of what depth asks for
+  double climb_rad = 0;    // slope of the set path, up positive: added to the pitch of the depth law
   double altitude_m = 0;   // above 0: height above the ground to keep instead of z (seabed_ahead.h)
   double max_z_ned_m = 0;  // with an altitude: never deeper
   std::optional<Vec3> station_ned_m{};  // the point steered for, where there is one

@@ -2,7 +2,7 @@
 //
 // Model: a vehicle that pushes ahead, astern and up and down but not sideways holds a point by turning. The force it
 // wants in the world frame is a PID law of its position, F = P e - D v + integral, with e cut so that it
-// approaches no faster than asked; it heads where F points and pushes its part along the bow (weather-vaning,
+// approaches no faster than the set speed; it heads where F points and pushes its part along the bow (weather-vaning,
 // after Fossen 2021, Handbook, 2nd ed., section 13.3). In a current the integral becomes the drag, so the bow
 // comes to face the current and the vehicle stands still. Below a least force the heading is kept. Depth: PID
 // of z; pitch and heading: PD. Thrust goes with the square of speed; thrusters in the order of

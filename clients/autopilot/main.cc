@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   program.node_name = "autopilot";
   program.stage = halocline::bus::Stage::kPilots;
   program.interface =
-      "hears:     CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, USBL.<vehicle>,\n"
+      "receives:  CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, USBL.<vehicle>,\n"
       "           ESTIMATE.<vehicle>,\n"
       "           RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
       "publishes: COMMAND.<vehicle>, SEND.<vehicle>, STATUS.<name>";

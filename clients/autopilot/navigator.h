@@ -1,6 +1,6 @@
-// Where a vehicle is by its own sensors: dead reckoning between fixes.
+// Position by the vehicle's own sensors: dead reckoning between fixes.
 //
-// Model: position moves by the velocity over ground where a Doppler log tells it, else by the speed
+// Model: position moves by the velocity over ground where a Doppler log measures it, else by the speed
 // through the water along the hull's axis (heading, pitch), as if the water stood still; velocity changes
 // evenly between samples (trapezium). z is the measured depth. Uncertainty: a standard deviation of each
 // horizontal axis that grows with time, by `log_drift_mps` while the speed is that through the water (the
@@ -28,7 +28,7 @@ struct NavigatorRules {
   double gyro_bias_radps = 1.7453292519943296e-4;
 };
 
-// What its sensors tell at an instant.
+// The sensor readings of an instant.
 struct NavigationSample {
   double time_s = 0;
   EulerAngles attitude;
@@ -46,15 +46,15 @@ class Navigator {
   // Samples come in order of time; one that is not later than the last is ignored.
   void add(const NavigationSample& sample);
   // A position measured at the latest sample, or at `time_s`; `deviation_m` of each axis, above 0. One from before
-  // what is remembered is ignored.
+  // the history is ignored.
   void fix(double north_m, double east_m, double deviation_m);
   void fix(double north_m, double east_m, double deviation_m, double time_s);
 
-  // The place by another reckoning that holds all this one knows and more: it replaces this one's.
+  // The position of another estimator that uses all data of this one and more: replaces this one's.
   void replace(double north_m, double east_m, double deviation_m);
 
   // What was measured and reckoned at `time_s`, linear between samples; of the latest sample from that on.
-  // Empty before what is remembered.
+  // Empty before the history.
   struct Past {
     double time_s = 0;
     EulerAngles attitude;

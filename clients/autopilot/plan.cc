@@ -82,7 +82,7 @@ Plan make_plan(const Mission& mission, std::vector<Behaviour> behaviours) {
   Plan plan{std::move(behaviours), {}, mission.at_end, mission.hold_radius_m};
   const std::size_t count = plan.behaviours.size();
   for (std::size_t i = 0; i < count; ++i) {
-    // A route ends and gives way; only the last one knows what comes after it, unless others are begun again.
+    // A route ends and gives way; only the last one applies at_end, unless the plan loops.
     const bool ends_here = is_last(plan, i) && (plan.at_end != AtEnd::kLoop || count == 1);
     plan.routes.push_back(route_of(plan.behaviours[i], mission, ends_here ? plan.at_end : AtEnd::kStop));
   }

@@ -8,7 +8,7 @@ namespace {
 
 // On the way down to a height whose ground is out of the altimeter's reach: this far below the vehicle, always.
 constexpr double kBlindDescentM = 4;
-constexpr double kPullUpRadPerM = 0.3;  // a metre below the least height asks for about the greatest pitch
+constexpr double kPullUpRadPerM = 0.3;  // a metre below the minimum height demands about the maximum pitch
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::optional<GroundLine> SeabedAhead::ground(double time_s) const {
     covariance += (p.way_m - mean_way) * (p.z_ned_m - mean_z);
     variance += (p.way_m - mean_way) * (p.way_m - mean_way);
   }
-  // Points closer together than half a metre tell no slope.
+  // Points within half a metre of each other determine no slope.
   const bool spread = variance > 0.25 * static_cast<double>(points_.size());
   const double slope = spread ? covariance / variance : 0;
   const double z = spread ? mean_z + slope * (way_m_ - mean_way) : points_.back().z_ned_m;

@@ -2,10 +2,10 @@
 // how to keep a height.
 //
 // Model: each echo is a point of the ground, z = z_vehicle + a cos(pitch) cos(roll), at a sin(pitch) ahead
-// along the way. A straight line through the points of the last kWindowM of way (least squares) tells the
+// along the way. A straight line through the points of the last kWindowM of way (least squares) gives the
 // ground now and `ahead_m` on. To keep a height, the shallower of the two sets the depth, and the line's
 // slope the climb. Below the least height the vehicle is pulled up as hard as its gains allow. An echo
-// counts for kOldestS; without one the last depth is kept, and where the altimeter says that there is no
+// counts for kOldestS; without one the last depth is kept, and where the altimeter reports no
 // bottom within its reach a vehicle that is to keep a height goes down.
 //
 // Tolerance of a height kept: over ground whose slope changes by s over the window plus the way ahead,
@@ -63,8 +63,8 @@ struct SeabedRules {
   double ahead_m = 4;         // how far ahead the ground is looked at, 0 or above
 };
 
-// The set points with the ground taken into account: height instead of depth where one is asked for, and the
-// least height always. `z_ned_m`: of the vehicle.
+// The set points with the ground taken into account: height instead of depth where one is set, and the
+// minimum height always. `z_ned_m`: of the vehicle.
 SetPoints above_ground(const SeabedRules& rules, const SeabedAhead& seabed, double time_s, double z_ned_m,
                        SetPoints points);
 

@@ -16,9 +16,9 @@ VehiclePilot::VehiclePilot(Plan plan, SeabedRules seabed_rules)
   restart();
 }
 
-void VehiclePilot::hear(const std::string& leader, const LeaderReport& report) {
+void VehiclePilot::on_leader_report(const std::string& leader, const LeaderReport& report) {
   for (auto& follower : followers_) {
-    if (follower && follower->formation().leader == leader) follower->hear(report);
+    if (follower && follower->formation().leader == leader) follower->on_report(report);
   }
 }
 
@@ -64,7 +64,7 @@ std::array<double, 4> VehiclePilot::with_thrusters(const HoverGains& gains, cons
 }
 
 std::string VehiclePilot::text() const {
-  if (!progress_) return "not heard yet";
+  if (!progress_) return "waiting for its first state";
   if (progress_->ended || progress_->route.at_end) return "mission finished";
   if (const auto phase = follow_phase()) return to_text(*phase);
   const BehaviourKind kind = plan_.behaviours[progress_->index].kind;

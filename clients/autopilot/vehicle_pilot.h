@@ -1,4 +1,4 @@
-// One vehicle's pilot: from what it knows of itself to what it steers for, and on to its actuators.
+// One vehicle's pilot: from its navigation state to set points, and on to actuator commands.
 //
 // It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the
 // ground that its altimeter showed it (seabed_ahead.h), and steers with fins (control_laws.h) or with
@@ -18,7 +18,7 @@
 
 namespace halocline::clients {
 
-// What a vehicle knows of itself at an instant; NED metres, m/s, radians.
+// The navigation state at an instant; NED metres, m/s, radians.
 struct Situation {
   double time_s = 0;
   Vec3 position_ned_m = Vec3::Zero();
@@ -34,8 +34,8 @@ class VehiclePilot {
 
   void look_at_ground(const AltimeterLook& look) { seabed_.add(look); }
 
-  // A report that was heard from the vehicle `leader`.
-  void hear(const std::string& leader, const LeaderReport& report);
+  // A report received from the vehicle `leader`.
+  void on_leader_report(const std::string& leader, const LeaderReport& report);
 
   // What to steer for in this situation. Situations come in order of time.
   SetPoints steer_for(const Situation& situation);

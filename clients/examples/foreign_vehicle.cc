@@ -41,38 +41,38 @@ struct Settings {
   double north_m = 0, east_m = 0, depth_m = 50, radius_m = 100, speed_mps = 1.5, every_s = 10;
 };
 
-volatile std::sig_atomic_t stop_asked = 0;
-void ask_to_stop(int) { stop_asked = 1; }
+volatile std::sig_atomic_t stop_requested = 0;
+void request_stop(int) { stop_requested = 1; }
 
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Simulation time: the conductor's CLOCK, carried on by the wall clock at the rate it tells; the wall clock's
+// Simulation time: the conductor's CLOCK, extrapolated by the wall clock at its rate; the wall clock's
 // Unix time where there is no conductor.
 class Clock {
  public:
   void on_clock(const lcm::ReceiveBuffer*, const std::string&, const halocline::sim_clock_t* clock) {
-    heard_s_ = wall_s();
+    received_s_ = wall_s();
     utime_ = clock->utime;
     rate_ = clock->clock_rate;
     known_ = true;
   }
   bool known() const { return known_; }
   std::int64_t utime() const {
-    return utime_ + static_cast<std::int64_t>((wall_s() - heard_s_) * rate_ * 1e6);
+    return utime_ + static_cast<std::int64_t>((wall_s() - received_s_) * rate_ * 1e6);
   }
   void use_wall_time() {
     const auto unix_time = std::chrono::system_clock::now().time_since_epoch();
     utime_ = std::chrono::duration_cast<std::chrono::microseconds>(unix_time).count();
-    heard_s_ = wall_s();
+    received_s_ = wall_s();
     rate_ = 1;
     known_ = true;
   }
 
  private:
   std::int64_t utime_ = 0;
-  double heard_s_ = 0, rate_ = 1;
+  double received_s_ = 0, rate_ = 1;
   bool known_ = false;
 };
 
@@ -185,7 +185,7 @@ void swim(lcm::LCM& lcm, const Settings& settings) {
   const double started_s = wall_s();
   const auto every_us = static_cast<std::int64_t>(settings.every_s * 1e6);
   std::int64_t next_state = 0, next_send = 0;
-  while (stop_asked == 0) {
+  while (stop_requested == 0) {
     lcm.handleTimeout(10);
     if (!clock.known() && wall_s() - started_s > kMaxWaitForClockS) clock.use_wall_time();
     if (!clock.known()) continue;
@@ -207,8 +207,8 @@ void swim(lcm::LCM& lcm, const Settings& settings) {
 int main(int argc, char** argv) {
   Settings settings;
   if (const int verdict = parse(argc, argv, settings)) return verdict - 1;
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
   const char* from_environment = std::getenv("LCM_DEFAULT_URL");
   if (settings.lcm_url.empty()) {
     settings.lcm_url = from_environment != nullptr ? from_environment : "udpm://239.255.76.67:7667?ttl=0";

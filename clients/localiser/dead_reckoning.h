@@ -38,10 +38,10 @@ class DeadReckoning {
   void take(const OwnMotion& motion);
   bool empty() const { return points_.empty(); }
   SimTime last() const { return points_.back().at; }  // not when empty
-  // Whether `at` is neither forgotten nor before the first measurement.
-  bool knows(SimTime at) const { return !empty() && at >= points_.front().at; }
+  // Whether `at` lies within the history: not dropped yet, not before the first measurement.
+  bool covers(SimTime at) const { return !empty() && at >= points_.front().at; }
 
-  // Gone through the water since the first measurement, m; for an instant that it knows.
+  // Gone through the water since the first measurement, m; for an instant that it covers.
   Vec2 gone_ne_m(SimTime at) const;
   double depth_m(SimTime at) const;
   // The sum of the turns since the first measurement, rad; rises.

@@ -20,7 +20,7 @@ void visit_ranging(ConfigVisitor& v, VehicleLocaliser& l) {
   l.ping_start = SimTime::from_seconds(start_s);
   v.boolean("use_stamps", l.use_stamps, "take ranges from the stamped packets of the beacons, too");
   v.number("start_sigma_m", l.start_sigma_m,
-           {0, 1e5, "m", "how well it knows where it starts, standard deviation; 0: not at all"});
+           {0, 1e5, "m", "standard deviation of its known start; 0: the start is unknown"});
   v.number("timing_sigma_s", l.timing_sigma_s,
            {1e-7, 1, "s", "error of a measured travel time, standard deviation"});
   v.number("sound_speed_sigma", l.sound_speed_sigma,

@@ -20,7 +20,7 @@ struct VehicleLocaliser {
   SimDuration ping_period = {};  // between pings, to one beacon after the other; 0: none are sent
   SimTime ping_start = {};
   bool use_stamps = false;   // ranges by the stamped packets that beacons send, too
-  double start_sigma_m = 0;  // how well the vehicle knows where it starts; 0: not at all
+  double start_sigma_m = 0;  // standard deviation of the known start; 0: the start is unknown
   double timing_sigma_s = 0.0005;
   double sound_speed_sigma = 0.001;  // of one, relative
   EstimatorRules rules = {};

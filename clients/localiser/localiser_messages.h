@@ -12,10 +12,10 @@ OwnMotion to_motion(const vehicle_sensors_t& sensors);
 // Throws InvalidArgument when a sound speed is none of water.
 acoustics::SoundSpeedProfile to_profile(const environment_t& environment);
 
-// Where STATE says the vehicle is at `at`, carried on by its velocity.
+// The position in STATE, extrapolated to `at` by its velocity.
 Vec3 true_position(const vehicle_state_t& state, SimTime at);
 
-// The fields that tell the estimate, of a vehicle at this z; depth errs by depth_sigma_m.
+// The fields of the estimate, of a vehicle at this z; depth errs by depth_sigma_m.
 void set_estimate(position_estimate_t& message, const PositionEstimate& estimate, double z_ned_m,
                   double depth_sigma_m);
 

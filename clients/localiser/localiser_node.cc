@@ -14,12 +14,12 @@ namespace {
 
 constexpr SimDuration kLag = SimDuration::from_milliseconds(100);
 
-// Hands on, in their order, the messages stamped at `latest` or before.
+// Passes on, in their order, the messages stamped at `latest` or before.
 template <class Message, class Function>
-void take_until(std::deque<Message>& heard, SimTime latest, Function&& use) {
-  while (!heard.empty() && SimTime::from_utime(heard.front().utime) <= latest) {
-    use(heard.front());
-    heard.pop_front();
+void take_until(std::deque<Message>& received, SimTime latest, Function&& use) {
+  while (!received.empty() && SimTime::from_utime(received.front().utime) <= latest) {
+    use(received.front());
+    received.pop_front();
   }
 }
 
@@ -157,7 +157,7 @@ std::optional<RangeMeasurement> LocaliserNode::range_of(const Vehicle& vehicle,
     return std::nullopt;
   }
   const DeadReckoning& track = vehicle.estimator.dead_reckoning();
-  if (!track.knows(range.at.front())) return std::nullopt;
+  if (!track.covers(range.at.front())) return std::nullopt;
   range.beacon_m = beacon->position_ned_m - Vec3(0, 0, water_->sea_surface_z_m);
   const double speed_mps =
       water_->profile.mean_sound_speed_mps(range.beacon_m.z(), track.depth_m(range.at.back()));

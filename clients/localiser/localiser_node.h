@@ -1,13 +1,13 @@
-// Finds the places of vehicles by acoustic ranges to beacons, and publishes them as ESTIMATE.<vehicle>.
+// Estimates the positions of vehicles from acoustic ranges to beacons, and publishes them as ESTIMATE.<vehicle>.
 //
-// Of a vehicle it hears what the vehicle itself could know: its SENSORS (depth, heading, pitch, speed through the
-// water) and what its modem hears. It sends pings in its name, to one beacon after the other, and takes ranges from
+// Inputs are those the vehicle itself has: its SENSORS (depth, heading, pitch, speed through the
+// water) and the packets its modem receives. The node sends pings in its name, to one beacon after the other, and takes ranges from
 // the travel times of the answers; with `use_stamps` also from stamped packets of beacons. A travel time becomes
-// a length by the mean sound speed between the two depths, of the profile that ENVIRONMENT tells: a straight way;
+// a length by the mean sound speed between the two depths, of the profile in ENVIRONMENT: a straight path;
 // where the water bends sound, the range is off: by Fermat's principle
 // the bent way is quicker, by (g r)^2 / (24 c^2) of the time for a gradient g (5 cm in 1 km at 0.05 1/s, 4 m
 // at 0.45 1/s). Before the first ENVIRONMENT (the channel server repeats it once a minute) no range is used.
-// STATE serves for one thing: to say by how much the estimate errs.
+// STATE serves only to compute the error of the estimate.
 //
 // Estimates are published on the time grid, and know what was stamped 0.1 s before or earlier: longer than a message
 // takes, so that a run in many processes gives what one in lockstep does. An answer is counted from the
@@ -51,7 +51,7 @@ class LocaliserNode : public bus::Node {
     std::vector<Beacon> beacons;
     ModemClient modem;
     PositionEstimator estimator;
-    std::deque<vehicle_sensors_t> sensors;  // heard, not used yet; likewise the next two
+    std::deque<vehicle_sensors_t> sensors;  // received, not used yet; likewise the next two
     std::deque<vehicle_state_t> states;
     std::deque<modem_receive_t> packets;
     std::optional<vehicle_state_t> truth;

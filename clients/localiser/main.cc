@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
   program.node_name = "localiser";
   program.stage = halocline::bus::Stage::kClients;
   program.interface =
-      "hears:     CLOCK, ENVIRONMENT, SENSORS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>;\n"
-      "           STATE.<vehicle>, to tell its error\n"
+      "receives:  CLOCK, ENVIRONMENT, SENSORS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>;\n"
+      "           STATE.<vehicle>, to compute the error\n"
       "publishes: SEND.<vehicle>, ESTIMATE.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {

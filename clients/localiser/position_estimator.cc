@@ -51,7 +51,7 @@ void PositionEstimator::move(const OwnMotion& motion) {
 }
 
 PositionEstimator::Hypothesis PositionEstimator::carried_on(const Hypothesis& from, SimTime at) const {
-  if (at <= now_ || !track_.knows(now_)) return from;
+  if (at <= now_ || !track_.covers(now_)) return from;
   const double seconds = (at - now_).seconds();
   Covariance step = Covariance::Identity();
   step.topRightCorner<2, 2>() = seconds * Eigen::Matrix2d::Identity();
@@ -121,7 +121,7 @@ bool PositionEstimator::weigh(Hypothesis& hypothesis, const RangeMeasurement& ra
 RangeVerdict PositionEstimator::take(const RangeMeasurement& range) {
   require(!range.at.empty() && range.sigma_m > 0,
           "a range needs an instant and a standard deviation above 0");
-  if (!std::all_of(range.at.begin(), range.at.end(), [&](SimTime at) { return track_.knows(at); }))
+  if (!std::all_of(range.at.begin(), range.at.end(), [&](SimTime at) { return track_.covers(at); }))
     return RangeVerdict::kTooOld;
   const SimTime latest = *std::max_element(range.at.begin(), range.at.end());
   if (latest > now_) {
@@ -160,7 +160,7 @@ void PositionEstimator::drop_unlikely() {
 }
 
 void PositionEstimator::start_from_ranges(const RangeMeasurement& latest) {
-  const auto forgotten = [&](const RangeMeasurement& range) { return !track_.knows(range.at.front()); };
+  const auto forgotten = [&](const RangeMeasurement& range) { return !track_.covers(range.at.front()); };
   waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), forgotten), waiting_.end());
   for (auto other = waiting_.rbegin(); other != waiting_.rend() && hypotheses_.empty(); ++other) {
     if (other->beacon_m.head<2>() != latest.beacon_m.head<2>()) add_crossings(*other, latest);

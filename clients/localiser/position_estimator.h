@@ -1,4 +1,4 @@
-// Where a vehicle is, from ranges to beacons at known places and from its own speed, heading and depth.
+// Position estimator: ranges to beacons at known positions fused with the vehicle's own speed, heading and depth.
 //
 // Model: an extended Kalman filter (Bar-Shalom, Li and Kirubarajan 2001, ch. 10; updates iterated as in 10.5.2)
 // over horizontal position and current, [north, east, current north, current east]. Between ranges the
@@ -11,7 +11,7 @@
 // Two beacons leave a mirror image of the vehicle beyond the line through them. Without a stated start the filter
 // starts from two ranges to two beacons, with one hypothesis on either side; each goes by the same dead
 // reckoning, and each range weighs them by how well it fits, until one has kForgotten of the other's weight. A
-// course along that very line tells nothing; with it, the start has to be stated.
+// course along that very line leaves both sides possible; with it, the start has to be stated.
 //
 // A range farther from what a hypothesis expects than `gate` standard deviations is an outlier to it: it does not
 // move it, and costs weight. After kMaxMisfits such ranges in a row to all hypotheses the filter starts anew.
@@ -56,7 +56,7 @@ enum class RangeVerdict {
   kUsed,     // by at least one hypothesis
   kOutlier,  // by none
   kWaiting,  // there is no estimate yet to judge it by
-  kTooOld,   // of before the dead reckoning remembers, or before its first measurement
+  kTooOld,   // before the history of the dead reckoning
 };
 
 struct PositionEstimate {

@@ -12,7 +12,7 @@ constexpr SimDuration kLongestWaitForClock = SimDuration::from_milliseconds(1000
 // Between two looks at what is to be repeated.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(50);
 
-void sleep_until_heard(lcm::LCM& lcm, SimDuration longest) {
+void sleep_until_readable(lcm::LCM& lcm, SimDuration longest) {
   pollfd bus{lcm.getFileno(), POLLIN, 0};
   poll(&bus, 1, static_cast<int>(longest.nanoseconds() / 1'000'000));
 }
@@ -68,14 +68,14 @@ void BlockingModem::wait(SimDuration timeout, const std::function<bool()>& done)
     const SimTime now = bus::steady_now();
     const SimDuration left = end - now;
     const SimDuration until_repair = std::max(bus_.next_repair(), now) - now;
-    sleep_until_heard(lcm_, std::clamp(std::min(left, until_repair), SimDuration(), kLongestSleep));
+    sleep_until_readable(lcm_, std::clamp(std::min(left, until_repair), SimDuration(), kLongestSleep));
     time_.set_steady(bus::steady_now(), bus::wall_now());
     bus_.set_steady(bus::steady_now());
-    const bool heard = lcm_.handleTimeout(0) > 0;
+    const bool received = lcm_.handleTimeout(0) > 0;
     bus_.rethrow_if_failed();
     client_.resend(bus::steady_now());
     bus_.repair(time_.now(bus::steady_now()).value_or(SimTime()), bus::steady_now());
-    if (left <= SimDuration() && !heard) return;
+    if (left <= SimDuration() && !received) return;
   }
 }
 

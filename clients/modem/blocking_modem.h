@@ -2,9 +2,9 @@
 //
 //   const auto lcm = bus::open_transport(bus::effective_url(""));
 //   BlockingModem modem(*lcm, {.vehicle = "auv-1", .vehicle_id = 1, .session = my_session});
-//   const auto packet = modem.send(kBroadcastId, payload);
-//   if (packet && modem.wait_receipt(*packet, SimDuration::from_seconds(2))) ...
-//   while (const auto heard = modem.wait_receive(SimDuration::from_seconds(60))) ...
+//   const auto sequence = modem.send(kBroadcastId, payload);
+//   if (sequence && modem.wait_receipt(*sequence, SimDuration::from_seconds(2))) ...
+//   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) ...
 //
 // Time-outs are of steady (wall) time. While a call waits, everything on the LCM is dispatched, so other
 // subscriptions made on it are served too. Not thread-safe; the LCM must outlive the modem.
@@ -21,7 +21,7 @@ class BlockingModem {
  public:
   BlockingModem(lcm::LCM& lcm, const ModemAddress& address, ResendPolicy policy = {});
 
-  // The simulation time that the conductor's CLOCK tells; waits for the first CLOCK up to `timeout`. Empty
+  // The simulation time by the conductor's CLOCK; waits for the first CLOCK up to `timeout`. Empty
   // when none came.
   std::optional<SimTime> sim_now(SimDuration timeout);
 

@@ -94,7 +94,7 @@ SimTime ModemClient::next_resend() const {
 }
 
 void ModemClient::take_receipt(const modem_receipt_t& receipt) {
-  // Not pending: a packet of an earlier life, or the answer to a repetition.
+  // Not pending: a packet of an earlier session, or the answer to a repetition.
   if (receipt.send_session != address_.session || pending_.erase(receipt.packet_sequence) == 0) return;
   const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
                         receipt.receipt_result == modem_receipt_t::QUEUED;

@@ -1,8 +1,8 @@
 // A vehicle's side of its modem: send a packet, learn whether it was accepted, take in what arrives.
 //
 // The bus may lose datagrams; the library repairs that and nothing else. A SEND is repeated, with the same
-// (session, packet_sequence), until its RECEIPT is heard; the channel server answers a repetition with the
-// same receipt and transmits once. A RECEIVE that comes twice is handed on once. What the water loses stays
+// (session, packet_sequence), until its RECEIPT is received; the channel server answers a repetition with the
+// same receipt and transmits once. A duplicate RECEIVE is passed on once. What the water loses stays
 // lost.
 //
 // For use within a node: nothing here blocks or reads a clock. Call resend() from the node's step, and take
@@ -15,7 +15,7 @@
 //   while (const auto packet = modem.take_received()) { ... }
 //
 // A program without nodes uses BlockingModem (blocking_modem.h). The Bus must outlive the client, and the
-// client must live as long as the Bus dispatches. Not thread-safe.
+// client must exist as long as the Bus dispatches. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -53,14 +53,14 @@ struct ResendPolicy {
 };
 
 struct ModemCounters {
-  std::int64_t sent = 0;        // packets handed over by send()
+  std::int64_t sent = 0;        // packets given to send()
   std::int64_t resent = 0;      // repetitions of a SEND
   std::int64_t accepted = 0;    // receipts, those of queued packets among them
   std::int64_t refused = 0;     // receipts
   std::int64_t unanswered = 0;  // given up
   std::int64_t received = 0;    // packets that arrived, each once
   std::int64_t duplicates = 0;  // RECEIVEs that came again
-  std::int64_t discarded = 0;   // arrived, but nobody took them before kMaxWaiting others came
+  std::int64_t discarded = 0;   // arrived, but not taken before kMaxWaiting others came
 };
 
 class ModemClient {
@@ -68,8 +68,7 @@ class ModemClient {
   using ReceiptHandler = std::function<void(const modem_receipt_t&)>;
   using ReceiveHandler = std::function<void(const modem_receive_t&)>;
 
-  // What a client keeps at most: packets that nobody has taken, receipts to be asked for, packets remembered
-  // in order to know a duplicate.
+  // Bounds of what a client keeps: packets not taken yet, receipts, and packet identities to detect duplicates.
   static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 1000, kMaxRemembered = 1000;
 
   ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {});
@@ -87,7 +86,7 @@ class ModemClient {
   std::int64_t send(SimTime steady, SimTime start, std::int32_t destination,
                     std::span<const std::uint8_t> payload, SendOptions options = {});
   // A PING without payload. What comes back, if it does, is a RECEIVE of kind PING_REPLY with this
-  // packet_sequence, which tells the travel time out and back.
+  // packet_sequence, which holds the travel time out and back.
   std::int64_t ping(SimTime steady, SimTime start, std::int32_t destination) {
     return send(steady, start, destination, {}, {.kind = modem_send_t::PING});
   }

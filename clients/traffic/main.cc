@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   program.node_name = "traffic";
   program.stage = halocline::bus::Stage::kTraffic;
   program.interface =
-      "hears:     CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
+      "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
       "publishes: SEND.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {

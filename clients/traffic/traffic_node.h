@@ -15,7 +15,7 @@
 
 namespace halocline::clients {
 
-// The payload of a packet: `size` bytes told by its number.
+// The payload of a packet: `size` bytes determined by its number.
 std::vector<std::uint8_t> traffic_payload(std::int64_t number, std::int32_t size);
 
 class TrafficNode : public bus::Node {

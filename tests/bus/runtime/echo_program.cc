@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   program.program = "echo-program";
   program.purpose = "Answers.";
   program.node_name = "echo";
-  program.interface = "hears:     ASK\npublishes: ANSWER, STATUS.<name>";
+  program.interface = "receives:  ASK\npublishes: ANSWER, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) {
     v.section("echo", "The echo", [&](halocline::bus::ConfigVisitor& section) {
       section.number("gain", gain, {0, 10, "", "not used"});

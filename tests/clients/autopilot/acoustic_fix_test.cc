@@ -17,7 +17,7 @@ constexpr double kPi = std::numbers::pi;
 const Vec3 kBeacon(300, -200, 80), kPlace(50, 40, 30);
 
 // What a perfect array measures from `place`.
-HeardBeacon heard_from(const Vec3& place, const EulerAngles& attitude) {
+BeaconMeasurement measured_from(const Vec3& place, const EulerAngles& attitude) {
   const Vec3 towards = to_quaternion(attitude).conjugate() * (kBeacon - place).normalized();
   return {std::atan2(towards.y(), towards.x()), std::asin(-towards.z()), 0.01,
           (kBeacon - place).norm() / 1500};
@@ -26,7 +26,7 @@ HeardBeacon heard_from(const Vec3& place, const EulerAngles& attitude) {
 TEST(AcousticFix, APerfectArrayGivesThePlaceAtEveryAttitude) {
   for (const EulerAngles& attitude :
        {EulerAngles{0, 0, 0}, EulerAngles{0.2, -0.4, 2.5}, EulerAngles{-0.3, 0.5, -1}}) {
-    const auto fix = place_by_beacon({}, kBeacon, heard_from(kPlace, attitude), attitude, kPlace.z());
+    const auto fix = place_by_beacon({}, kBeacon, measured_from(kPlace, attitude), attitude, kPlace.z());
     ASSERT_TRUE(fix);
     EXPECT_NEAR(fix->north_m, 50, tolerance(1e-9));
     EXPECT_NEAR(fix->east_m, 40, tolerance(1e-9));
@@ -37,13 +37,13 @@ TEST(AcousticFix, ItsDeviationIsThatOfAnglesAcrossAndOfTheRangeAlong) {
   const AcousticFixRules rules{
       .sound_speed_mps = 1500, .heading_deviation_rad = 0.02, .range_deviation = 0.005};
   const double horizontal = (kBeacon - kPlace).head<2>().norm(), range = (kBeacon - kPlace).norm();
-  const auto fix = place_by_beacon(rules, kBeacon, heard_from(kPlace, {}), {}, kPlace.z());
+  const auto fix = place_by_beacon(rules, kBeacon, measured_from(kPlace, {}), {}, kPlace.z());
   EXPECT_NEAR(fix->deviation_m, std::hypot(horizontal * std::hypot(0.01, 0.02), 0.005 * range),
               tolerance(1e-9));
 }
 
 TEST(AcousticFix, AHeadingThatIsOffTurnsThePlaceAboutTheBeacon) {
-  const auto fix = place_by_beacon({}, kBeacon, heard_from(kPlace, {}), {0, 0, 0.05}, kPlace.z());
+  const auto fix = place_by_beacon({}, kBeacon, measured_from(kPlace, {}), {0, 0, 0.05}, kPlace.z());
   const double horizontal = (kBeacon - kPlace).head<2>().norm();
   EXPECT_NEAR(std::hypot(fix->north_m - 50, fix->east_m - 40), 2 * horizontal * std::sin(0.025),
               tolerance(1e-6));
@@ -60,7 +60,7 @@ Navigator northwards() {
   return navigator;
 }
 
-TEST(NavigatorPast, IsLinearBetweenSamplesAndKnowsWholeTurns) {
+TEST(NavigatorPast, IsLinearBetweenSamplesAndAcrossWholeTurns) {
   const Navigator navigator = northwards();
   EXPECT_NEAR(navigator.at(7.25)->position_ned_m.x(), 14.5, tolerance(1e-9));
   EXPECT_NEAR(std::abs(navigator.at(7.25)->attitude.yaw), kPi, tolerance(1e-9));  // not half way round
@@ -71,7 +71,7 @@ TEST(NavigatorPast, IsLinearBetweenSamplesAndKnowsWholeTurns) {
 TEST(NavigatorPast, AFixOfThePastMovesThePresent) {
   Navigator now = northwards(), then = northwards();
   now.fix(43, 2, 1);
-  then.fix(23, 2, 1, 10);  // the same error, told of 10 s ago
+  then.fix(23, 2, 1, 10);  // the same error, of 10 s ago
   EXPECT_NEAR(now.position_ned_m(20).x(), then.position_ned_m(20).x(), tolerance(1e-9));
   EXPECT_NEAR(now.position_ned_m(20).y(), then.position_ned_m(20).y(), tolerance(1e-9));
   EXPECT_NEAR(then.at(10)->position_ned_m.x(), then.position_ned_m(20).x() - 20, tolerance(1e-9));

@@ -59,7 +59,7 @@ TEST(AttitudeKeeper, WithoutAGyroTheHeadingStaysAndIsUnknownAfterASecond) {
   EXPECT_NEAR(keeper.heading_deviation_rad(), kUnknown, tolerance(1e-12));
 }
 
-TEST(AttitudeKeeper, KnowsNoHeadingBeforeTheFirstReadingOfTheCompass) {
+TEST(AttitudeKeeper, HeadingIsUnknownBeforeTheFirstCompassReading) {
   EXPECT_NEAR(AttitudeKeeper(kBias).heading_deviation_rad(), kUnknown, tolerance(1e-12));
 }
 

@@ -89,14 +89,15 @@ TEST(AutopilotConfigFile, BehavioursAreReadInTheirOrder) {
   EXPECT_EQ(wing.start_ned_m, Vec3(1, 2, 3));
 }
 
-void expect_error(std::string text, const std::string& from, const std::string& to, const std::string& told) {
+void expect_error(std::string text, const std::string& from, const std::string& to,
+                  const std::string& message) {
   text.replace(text.find(from), from.size(), to);
   try {
     read(text);
     ADD_FAILURE() << "no error";
   } catch (const bus::ConfigErrors& errors) {
     EXPECT_THAT(errors.what(), ::testing::HasSubstr("test.toml:"));
-    EXPECT_THAT(errors.what(), ::testing::HasSubstr(told));
+    EXPECT_THAT(errors.what(), ::testing::HasSubstr(message));
   }
 }
 
@@ -105,7 +106,7 @@ TEST(AutopilotConfigFile, LeaderThatDoesNotBroadcastIsAnError) {
   expect_error(kFormation, "period_s = 8", "start_s = 8", "given is 'lead'");
 }
 
-TEST(AutopilotConfigFile, UnknownBehaviourIsToldWithThoseThereAre) {
+TEST(AutopilotConfigFile, UnknownBehaviourIsRefusedWithAListOfTheAllowedOnes) {
   expect_error(kFormation, "\"survey\"", "\"fly\"", "waypoints, heading, loiter, survey, follow");
 }
 

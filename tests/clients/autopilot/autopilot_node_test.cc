@@ -23,11 +23,11 @@ AutopilotConfig one_mission() {
 class AutopilotNodeTest : public ::testing::Test {
  protected:
   AutopilotNodeTest() {
-    ear_.subscribe<vehicle_command_t>(bus::channels::kCommand,
-                                      [this](std::string_view vehicle, const vehicle_command_t& command) {
-                                        EXPECT_EQ(vehicle, "auv-1");
-                                        commands_.push_back(command);
-                                      });
+    peer_.subscribe<vehicle_command_t>(bus::channels::kCommand,
+                                       [this](std::string_view vehicle, const vehicle_command_t& command) {
+                                         EXPECT_EQ(vehicle, "auv-1");
+                                         commands_.push_back(command);
+                                       });
   }
   // A vehicle at the origin that heads north.
   void publish_state(std::int64_t ms) {
@@ -36,7 +36,7 @@ class AutopilotNodeTest : public ::testing::Test {
     state.vehicle_id = 1;
     state.orientation_wxyz[0] = 1;
     state.velocity_ned_mps[0] = 1.5;
-    ear_.publish(bus::channels::kState.of("auv-1"), state);
+    peer_.publish(bus::channels::kState.of("auv-1"), state);
     drain();
   }
   void publish_sensors(std::int64_t ms, double speed_mps, double altitude_m) {
@@ -45,7 +45,7 @@ class AutopilotNodeTest : public ::testing::Test {
     sensors.water_speed_mps = speed_mps;
     sensors.altitude_status = vehicle_sensors_t::ALTITUDE_MEASURED;
     sensors.altitude_m = altitude_m;
-    ear_.publish(bus::channels::kSensors.of("auv-1"), sensors);
+    peer_.publish(bus::channels::kSensors.of("auv-1"), sensors);
     drain();
   }
   void step(std::int64_t ms) {
@@ -59,7 +59,7 @@ class AutopilotNodeTest : public ::testing::Test {
 
   lcm::LCM lcm_{"memq://"};
   AutopilotNode node_{lcm_, {"autopilot", 11}, one_mission()};
-  bus::Bus ear_{lcm_, {"ear", 1}};
+  bus::Bus peer_{lcm_, {"peer", 1}};
   std::vector<vehicle_command_t> commands_;
 };
 
@@ -118,7 +118,7 @@ TEST_F(AutopilotNodeTest, AnotherRunStartsTheMissionAnew) {
   step(0);
   node_.restart({at_ms(0), at_ms(0)});
   step(0);
-  EXPECT_EQ(commands_.size(), 1u);  // nothing heard of the new run yet
+  EXPECT_EQ(commands_.size(), 1u);  // nothing received in the new run yet
   publish_state(0);
   step(100);
   EXPECT_EQ(commands_.size(), 2u);
@@ -139,15 +139,15 @@ class FormationNodeTest : public ::testing::Test {
     return config;
   }
   FormationNodeTest() {
-    ear_.subscribe<modem_send_t>(bus::channels::kSend,
-                                 [this](std::string_view vehicle, const modem_send_t& packet) {
-                                   EXPECT_EQ(vehicle, "auv-1");
-                                   sent_.push_back(packet);
-                                 });
-    ear_.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-1"),
-                                      [this](const vehicle_command_t& m) { leader_.push_back(m); });
-    ear_.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-2"),
-                                      [this](const vehicle_command_t& m) { follower_.push_back(m); });
+    peer_.subscribe<modem_send_t>(bus::channels::kSend,
+                                  [this](std::string_view vehicle, const modem_send_t& packet) {
+                                    EXPECT_EQ(vehicle, "auv-1");
+                                    sent_.push_back(packet);
+                                  });
+    peer_.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-1"),
+                                       [this](const vehicle_command_t& m) { leader_.push_back(m); });
+    peer_.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-2"),
+                                       [this](const vehicle_command_t& m) { follower_.push_back(m); });
   }
   void drain() {
     while (lcm_.handleTimeout(0) > 0) {
@@ -160,7 +160,7 @@ class FormationNodeTest : public ::testing::Test {
     sensors.depth_m = 20;
     sensors.water_speed_mps = 2;
     sensors.altitude_status = vehicle_sensors_t::ALTITUDE_NO_BOTTOM;
-    ear_.publish(bus::channels::kSensors.of("auv-1"), sensors);
+    peer_.publish(bus::channels::kSensors.of("auv-1"), sensors);
     drain();
   }
   void step(std::int64_t ms) {
@@ -170,7 +170,7 @@ class FormationNodeTest : public ::testing::Test {
 
   lcm::LCM lcm_{"memq://"};
   AutopilotNode node_{lcm_, {"autopilot", 11}, formation()};
-  bus::Bus ear_{lcm_, {"ear", 1}};
+  bus::Bus peer_{lcm_, {"peer", 1}};
   std::vector<modem_send_t> sent_;
   std::vector<vehicle_command_t> leader_, follower_;
 };
@@ -181,12 +181,12 @@ TEST_F(FormationNodeTest, BySensorsNoStateIsNeeded) {
   EXPECT_EQ(leader_.size(), 1u);
 }
 
-TEST_F(FormationNodeTest, LeaderTellsItsReckonedPlace) {
+TEST_F(FormationNodeTest, LeaderReportsItsReckonedPosition) {
   for (int i = 0; i <= 40; ++i) {
     publish_leader(200 * i);
     step(200 * i);
   }
-  // Nobody answers, so the first is repeated beside the second.
+  // No receipt comes, so the first is repeated beside the second.
   const auto second =
       std::find_if(sent_.begin(), sent_.end(), [](const auto& m) { return m.packet_sequence == 1; });
   ASSERT_NE(second, sent_.end());
@@ -208,11 +208,11 @@ TEST_F(FormationNodeTest, LocaliserReplacesTheReckonedPlace) {
   for (const int axis : {0, 4, 8}) estimate.covariance_ned_m2[axis] = 1;
   estimate.estimate_status = position_estimate_t::AMBIGUOUS;
   estimate.position_ned_m[0] = 500;
-  ear_.publish(bus::channels::kEstimate.of("auv-1"), estimate);  // not sure: left out
+  peer_.publish(bus::channels::kEstimate.of("auv-1"), estimate);  // not sure: left out
   estimate.estimate_status = position_estimate_t::UNIQUE;
   estimate.position_ned_m[0] = 100;
   estimate.position_ned_m[1] = -70;
-  ear_.publish(bus::channels::kEstimate.of("auv-1"), estimate);
+  peer_.publish(bus::channels::kEstimate.of("auv-1"), estimate);
   drain();
   step(0);
   ASSERT_FALSE(sent_.empty());
@@ -222,14 +222,14 @@ TEST_F(FormationNodeTest, LocaliserReplacesTheReckonedPlace) {
   EXPECT_NEAR(report->position_ned_m.y(), -70, 0.06);
 }
 
-TEST_F(FormationNodeTest, ADopplerLogTellsTheWayOverGroundWhileItIsFresh) {
+TEST_F(FormationNodeTest, ADopplerLogGivesTheVelocityOverGroundWhileItIsFresh) {
   vehicle_dvl_t ping{};
   ping.ground_velocity_valid = 1;
   ping.ground_velocity_body_mps[0] = 2;
   ping.ground_velocity_body_mps[1] = 0.5;  // a current towards starboard, east
   for (int i = 0; i <= 40; ++i) {
     ping.utime = 200'000 * i;
-    if (i <= 10) ear_.publish(bus::channels::kDvl.of("auv-1"), ping);
+    if (i <= 10) peer_.publish(bus::channels::kDvl.of("auv-1"), ping);
     publish_leader(200 * i);
     step(200 * i);
   }
@@ -243,32 +243,32 @@ TEST_F(FormationNodeTest, ADopplerLogTellsTheWayOverGroundWhileItIsFresh) {
   EXPECT_NEAR(report->position_ned_m.y(), 40 + 0.5 * 3.5, 0.06 + 0.05);
 }
 
-TEST_F(FormationNodeTest, ASatelliteFixMovesTheReckonedPlace) {
+TEST_F(FormationNodeTest, ASatelliteFixMovesTheReckonedPosition) {
   publish_leader(0);
   vehicle_gps_t fix{};
   fix.fix_north_m = 130;
   fix.fix_east_m = 40;
   fix.fix_deviation_m = 1;  // as much as the start's
-  ear_.publish(bus::channels::kGps.of("auv-1"), fix);
+  peer_.publish(bus::channels::kGps.of("auv-1"), fix);
   drain();
   step(0);
   ASSERT_FALSE(sent_.empty());
   EXPECT_NEAR(decode_report(sent_.front().payload, 1)->position_ned_m.x(), 80, 0.06);
 }
 
-TEST_F(FormationNodeTest, FollowerHearsItsLeaderByReceiveAlone) {
+TEST_F(FormationNodeTest, FollowerUsesReportsOfItsLeaderFromReceiveAlone) {
   vehicle_state_t state{};
   state.vehicle_id = 2;
   state.orientation_wxyz[0] = 1;
   state.velocity_ned_mps[0] = 1.5;
-  ear_.publish(bus::channels::kState.of("auv-2"), state);
+  peer_.publish(bus::channels::kState.of("auv-2"), state);
   modem_receive_t packet{};
   packet.utime = 100'000;
   packet.source_id = 1;
   packet.receiver_id = 2;
   packet.payload = encode_report({{-30, 300, 20}, 0, 1.5, 0});  // its place lies east of the follower
   packet.payload_size = static_cast<std::int32_t>(packet.payload.size());
-  ear_.publish(bus::channels::kReceive.of("auv-2"), packet);
+  peer_.publish(bus::channels::kReceive.of("auv-2"), packet);
   drain();
   step(100);
   ASSERT_EQ(follower_.size(), 1u);

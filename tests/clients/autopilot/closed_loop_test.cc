@@ -69,7 +69,7 @@ class FinSteered : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(ClosedLoop, FinSteered, ::testing::Values("torpedo", "remus100-pvs"),
                          [](const auto& test) { return test.param.substr(0, test.param.find('-')); });
 
-// Settled to 2 % of the speed asked for: what one asks of a pilot, not of an equation.
+// Settled to 2 % of the set speed: a requirement on the pilot, not an equation.
 TEST_P(FinSteered, SpeedSettlesAtTheSetPoint) {
   for (const double speed : {0.8, 2.4}) {
     ClosedLoop loop(GetParam(), straight({1e5, 0, 0}, speed));

@@ -60,9 +60,9 @@ TEST(ControlLaws, TooDeepPullsTheNoseUp) {
   EXPECT_LT(c.after().stern_plane_rad, 0);
 }
 
-TEST(ControlLaws, PitchAtTheLimitAskedForNeedsNoStern) {
+TEST(ControlLaws, PitchAtItsSetLimitNeedsNoStern) {
   Case c;
-  c.points.z_ned_m = 1000;  // far below: the greatest pitch down is asked for
+  c.points.z_ned_m = 1000;  // far below: the set pitch is the maximum, down
   c.measured.pitch_rad = -c.gains.max_pitch_rad;
   EXPECT_NEAR(c.after().stern_plane_rad, 0, kRounding);
 }

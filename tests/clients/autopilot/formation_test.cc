@@ -66,7 +66,7 @@ Follower follower() {
   formation.across_m = 20;
   formation.below_m = 5;
   Follower follower(formation, 40);
-  follower.hear({{0, 0, 50}, kPi / 2, 1.5, 100});
+  follower.on_report({{0, 0, 50}, kPi / 2, 1.5, 100});
   return follower;
 }
 
@@ -118,14 +118,14 @@ TEST(Follower, KeepsTheLastCourseThenCirclesAtItsSafeDepth) {
 TEST(Follower, ResumesWhenAReportComes) {
   Follower f = follower();
   f.steer_for(1000, {0, 0, 55});
-  f.hear({{0, 1000, 50}, 0, 1.5, 1001});
+  f.on_report({{0, 1000, 50}, 0, 1.5, 1001});
   f.steer_for(1002, {0, 0, 55});
   EXPECT_EQ(f.phase(), FollowPhase::kFollowing);
 }
 
 TEST(Follower, ReportOvertakenOnItsWayIsIgnored) {
   Follower f = follower();
-  f.hear({{500, 500, 20}, 0, 1, 99});
+  f.on_report({{500, 500, 20}, 0, 1, 99});
   EXPECT_EQ(f.steer_for(110, {-20, -15, 55}).z_ned_m, 55);
 }
 

@@ -1,4 +1,4 @@
-// How well a vehicle knows where it is after minutes by its sensors, from its true motion through messages to
+// Navigation error after minutes by the vehicle's own sensors, from its true motion through messages to
 // its reckoning.
 #include <numbers>
 
@@ -99,7 +99,7 @@ TEST(NavigationTest, ADopplerLogLeavesItsScaleError) {
   const Way way = way_with(with_doppler_log());
   EXPECT_LT(way.error_m, tolerance(3.5));
   EXPECT_GT(way.error_m, 2);
-  EXPECT_GT(way.deviation_m, way.error_m);  // it knows that it is off
+  EXPECT_GT(way.deviation_m, way.error_m);  // the deviation covers the error
 }
 
 TEST(NavigationTest, ADopplerLogWithoutErrorsLeavesTheLagOfItsPings) {
@@ -120,11 +120,11 @@ TEST(NavigationTest, OneFixAtTheEndTakesAwayWhatTheCurrentDid) {
 
 struct Kept {
   double heading_off_rad = 0;  // of the true heading at the end from the one steered for
-  double deviation_rad = 0;    // that the vehicle knows of
+  double deviation_rad = 0;    // as the vehicle estimates it
   double max_off_rad = 0;      // of the reckoned heading from the true one
 };
 
-// The torpedo keeps its heading for ten minutes with the autopilot's fins; the compass dies after one.
+// The torpedo keeps its heading for ten minutes with the autopilot's fins; the compass fails after one.
 Kept way_without_compass(double gyro_bias_radps) {
   Fleet fleet = torpedo();
   SensorSettings sensors;

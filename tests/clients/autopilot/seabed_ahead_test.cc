@@ -40,7 +40,7 @@ TEST(SeabedAhead, RollDoesNotDeepenTheGround) {
   EXPECT_NEAR(seabed.ground(0)->z_ned_m, 20, kRounding);
 }
 
-TEST(SeabedAhead, StandingStillTellsNoSlope) {
+TEST(SeabedAhead, StandingStillDeterminesNoSlope) {
   SeabedAhead seabed;
   for (int i = 0; i < 50; ++i) seabed.add({0.2 * i, {0, 0, 10}, {}, true, 10 + 0.01 * (i % 2)});
   EXPECT_EQ(seabed.ground(10)->slope, 0);

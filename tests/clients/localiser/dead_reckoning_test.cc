@@ -64,11 +64,11 @@ TEST(DeadReckoning, LeavesOutWhatIsNoLater) {
   EXPECT_NEAR(track.gone_ne_m(at(1)).x(), 1, 1e-12);
 }
 
-TEST(DeadReckoning, ForgetsWhatIsLongPastAndKeepsCounting) {
+TEST(DeadReckoning, DropsOldHistoryAndKeepsCounting) {
   DeadReckoning track;
   for (int i = 0; i <= 1000; ++i) track.take({at(i), 1.0, 0, 0, 0});
-  EXPECT_FALSE(track.knows(at(800)));
-  EXPECT_TRUE(track.knows(at(900)));
+  EXPECT_FALSE(track.covers(at(800)));
+  EXPECT_TRUE(track.covers(at(900)));
   EXPECT_NEAR(track.gone_ne_m(at(1000)).x(), 1000, 1e-9);
 }
 

@@ -29,7 +29,7 @@ LocaliserConfig two_beacons() {
   return config;
 }
 
-// Moves the vehicle and answers its pings: both know where everybody is.
+// Moves the vehicle and answers its pings; all positions are known to it.
 class Sea : public bus::Node {
  public:
   Sea(lcm::LCM& lcm, const LocaliserConfig& config) : Node(lcm, {"sea", 9}), config_(config) {
@@ -41,7 +41,7 @@ class Sea : public bus::Node {
 
   std::vector<position_estimate_t> estimates;
   std::vector<modem_send_t> pings;
-  bool tells_water = true, tells_state = true;
+  bool publishes_water = true, tells_state = true;
 
   static Vec3 place(SimTime at) { return {300 + 1.5 * at.seconds(), 200, 50 + kSurfaceZ}; }
 
@@ -49,7 +49,7 @@ class Sea : public bus::Node {
   bus::Due on_due() const override { return {.sim = next_}; }
   void on_step(const bus::Now& now) override {
     if (now.sim < next_) return;
-    if (now.sim == SimTime() && tells_water) tell_water();
+    if (now.sim == SimTime() && publishes_water) publish_water();
     vehicle_sensors_t sensors{};
     sensors.utime = now.sim.to_utime();
     sensors.depth_m = 50;
@@ -67,7 +67,7 @@ class Sea : public bus::Node {
   std::string status_text() const override { return ""; }
 
  private:
-  void tell_water() {
+  void publish_water() {
     environment_t water{};
     water.num_layers = 1;
     water.layer_depth_m = {0};
@@ -146,14 +146,14 @@ TEST_F(LocaliserNodeTest, FindsTheVehicleToAMillimetreScaleWhereNothingErrs) {
   EXPECT_NEAR(last.position_ned_m[2], 50 + kSurfaceZ, 1e-9);
 }
 
-TEST_F(LocaliserNodeTest, SaysNothingOfItsPlaceBeforeItHasHeardBothBeacons) {
+TEST_F(LocaliserNodeTest, PublishesNoPositionBeforeRangesToBothBeacons) {
   run(two_beacons(), 4);
   EXPECT_EQ(sea_.estimates.back().estimate_status, position_estimate_t::NONE);
   EXPECT_EQ(sea_.estimates.back().likelihood, 0);
 }
 
-TEST_F(LocaliserNodeTest, UsesNoRangeBeforeItKnowsTheWater) {
-  sea_.tells_water = false;
+TEST_F(LocaliserNodeTest, UsesNoRangeBeforeTheFirstEnvironment) {
+  sea_.publishes_water = false;
   run(two_beacons(), 60);
   EXPECT_EQ(sea_.estimates.back().estimate_status, position_estimate_t::NONE);
   EXPECT_EQ(sea_.estimates.back().ranges_used, 0);
@@ -178,7 +178,7 @@ TEST_F(LocaliserNodeTest, NumbersItsEstimates) {
 
 TEST(LocaliserConfig, RefusesABeaconThatIsNoOtherVehicle) {
   LocaliserConfig config = two_beacons();
-  config.vehicles[0].beacons = "left nobody";
+  config.vehicles[0].beacons = "left nowhere";
   EXPECT_THROW(beacons_of(config, config.vehicles[0]), InvalidArgument);
   config.vehicles[0].beacons = "left auv";
   EXPECT_THROW(beacons_of(config, config.vehicles[0]), InvalidArgument);

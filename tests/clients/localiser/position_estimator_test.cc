@@ -149,9 +149,9 @@ void expect_honest(Voyage voyage) {
   EXPECT_EQ(unresolved, 0);
 }
 
-TEST(PositionEstimator, ErrsAsItsCovarianceSaysFromAStatedStart) { expect_honest({.start_sigma_m = 10}); }
+TEST(PositionEstimator, ErrorMatchesItsCovarianceFromAStatedStart) { expect_honest({.start_sigma_m = 10}); }
 
-TEST(PositionEstimator, ErrsAsItsCovarianceSaysWithPings) {
+TEST(PositionEstimator, ErrorMatchesItsCovarianceWithPings) {
   expect_honest({.start_sigma_m = 10, .range_sigma_m = 2, .two_way = true});
 }
 
@@ -165,8 +165,8 @@ TEST(PositionEstimator, FindsTheOtherSideLikewise) {
 }
 
 // Along the line through the beacons both images fit every range equally well, and neither is forgotten. The
-// current is known here: an unknown one that sets across the line would tell the sides apart.
-TEST(PositionEstimator, SaysThatTwoPlacesAreLeftOnACourseAlongTheBeacons) {
+// current is known here: an unknown one that sets across the line would distinguish the sides.
+TEST(PositionEstimator, KeepsTwoHypothesesOnACourseAlongTheBeacons) {
   Voyage voyage{.start = {300, 200}, .rules = {.drift_m_per_sqrt_s = 1e-4, .current_sigma_mps = 1e-6}};
   voyage.heading_rad = [](double) { return kPi / 2; };
   const End end = sail(voyage);
@@ -244,7 +244,7 @@ TEST(PositionEstimator, StartsAnewWhenNothingFits) {
   EXPECT_LT((estimate->position_ne_m - truth).norm(), 5);
 }
 
-TEST(PositionEstimator, HasNoEstimateBeforeTwoBeaconsWereHeard) {
+TEST(PositionEstimator, HasNoEstimateBeforeRangesToTwoBeacons) {
   PositionEstimator estimator({});
   EXPECT_EQ(estimator.take({kWest, {SimTime()}, 500, 1}), RangeVerdict::kTooOld);
   estimator.move({SimTime(), 1.5, 0, 0, kDepthM});

@@ -19,11 +19,11 @@ class BlockingModemTest : public ::testing::Test {
     clock.session = 7;
     clock.clock_rate = 1;
     clock.clock_step_us = 100'000;
-    ear_.publish(bus::channels::kClock, clock);
+    peer_.publish(bus::channels::kClock, clock);
   }
 
   lcm::LCM lcm_{"memq://"};
-  bus::Bus ear_{lcm_, {"ear", 1}};
+  bus::Bus peer_{lcm_, {"peer", 1}};
   testing::FakeServer server_{lcm_, "auv-1"};
   BlockingModem modem_{lcm_,
                        {.vehicle = "auv-1", .vehicle_id = 1, .session = 42},

@@ -1,4 +1,4 @@
-// The channel server's side of one modem, as far as a client sees it: what it hears, and answers made by
+// The channel server's side of one modem, as far as a client sees it: what it receives, and answers made by
 // hand.
 #pragma once
 
@@ -65,7 +65,7 @@ class FakeServer {
     bus_.publish(bus::channels::kReceive.of(vehicle_), packet);
   }
 
-  bool answers = false;  // whether each SEND is accepted as it is heard
+  bool answers = false;  // whether each SEND is accepted on receipt
   std::vector<modem_send_t> sends;
 
  private:

@@ -38,20 +38,20 @@ class ModemClientTest : public ::testing::Test {
                       .give_up_after = SimDuration::from_milliseconds(1000)}};
 };
 
-TEST_F(ModemClientTest, SendCarriesWhatWasAskedFor) {
+TEST_F(ModemClientTest, SendCarriesTheRequestedFields) {
   modem_.send(at_ms(1000), at_ms(2500), 7, std::vector<std::uint8_t>{9, 8});
   drain();
   ASSERT_EQ(server_.sends.size(), 1u);
-  const modem_send_t& heard = server_.sends[0];
-  EXPECT_EQ(heard.utime, 2'500'000);
-  EXPECT_EQ(heard.session, 42);
-  EXPECT_EQ(heard.packet_sequence, 0);
-  EXPECT_EQ(heard.source_id, 3);
-  EXPECT_EQ(heard.destination_id, 7);
-  EXPECT_THAT(heard.payload, ElementsAre(9, 8));
+  const modem_send_t& received = server_.sends[0];
+  EXPECT_EQ(received.utime, 2'500'000);
+  EXPECT_EQ(received.session, 42);
+  EXPECT_EQ(received.packet_sequence, 0);
+  EXPECT_EQ(received.source_id, 3);
+  EXPECT_EQ(received.destination_id, 7);
+  EXPECT_THAT(received.payload, ElementsAre(9, 8));
 }
 
-TEST_F(ModemClientTest, APacketCarriesItsDepartureUnlessToldNotTo) {
+TEST_F(ModemClientTest, APacketCarriesItsDepartureUnlessDisabled) {
   send(0);
   modem_.send(at_ms(0), at_ms(0), 7, {}, {.stamped = false});
   drain();
@@ -60,7 +60,7 @@ TEST_F(ModemClientTest, APacketCarriesItsDepartureUnlessToldNotTo) {
   EXPECT_EQ(server_.sends.at(1).stamped, 0);
 }
 
-TEST_F(ModemClientTest, APingsAnswerTellsTheTimeOutAndBack) {
+TEST_F(ModemClientTest, APingReplyHoldsTheTwoWayTravelTime) {
   const std::int64_t ping = modem_.ping(at_ms(0), at_ms(0), 7);
   drain();
   EXPECT_EQ(server_.sends.at(0).packet_kind, modem_send_t::PING);
@@ -135,15 +135,15 @@ TEST_F(ModemClientTest, UnansweredPacketIsGivenUp) {
   EXPECT_EQ(modem_.next_resend(), SimTime::never());
 }
 
-TEST_F(ModemClientTest, ReceiptIsToldOnceHoweverOftenItComes) {
-  int told = 0;
-  modem_.on_receipt([&](const modem_receipt_t&) { ++told; });
+TEST_F(ModemClientTest, HandlerIsCalledOnceForDuplicateReceipts) {
+  int receipts = 0;
+  modem_.on_receipt([&](const modem_receipt_t&) { ++receipts; });
   const auto packet = send(0);
   drain();
   server_.accept(server_.sends[0]);
   server_.accept(server_.sends[0]);
   drain();
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(receipts, 1);
   ASSERT_TRUE(modem_.receipt_of(packet));
   EXPECT_EQ(modem_.receipt_of(packet)->receipt_result, modem_receipt_t::ACCEPTED);
   EXPECT_EQ(modem_.counters().accepted, 1);
@@ -159,7 +159,7 @@ TEST_F(ModemClientTest, RefusalIsAReceiptToo) {
   EXPECT_EQ(modem_.counters().refused, 1);
 }
 
-TEST_F(ModemClientTest, ReceiptOfAnotherLifeIsNotOurs) {
+TEST_F(ModemClientTest, ReceiptOfAnotherSessionIsIgnored) {
   const auto packet = send(0);
   drain();
   modem_send_t recorded = server_.sends[0];
@@ -196,11 +196,11 @@ TEST_F(ModemClientTest, SameNumberFromAnotherSenderOrSessionIsAnotherPacket) {
 }
 
 TEST_F(ModemClientTest, ReceiveHandlerTakesPacketsInsteadOfTheQueue) {
-  std::vector<std::int64_t> heard;
-  modem_.on_receive([&](const modem_receive_t& packet) { heard.push_back(packet.packet_sequence); });
+  std::vector<std::int64_t> received;
+  modem_.on_receive([&](const modem_receive_t& packet) { received.push_back(packet.packet_sequence); });
   server_.deliver(8, 2, 4);
   drain();
-  EXPECT_THAT(heard, ElementsAre(4));
+  EXPECT_THAT(received, ElementsAre(4));
   EXPECT_FALSE(modem_.take_received());
 }
 

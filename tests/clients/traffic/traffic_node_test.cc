@@ -71,7 +71,7 @@ TEST_F(TrafficNodeTest, CountsReceiptsAndPackets) {
   EXPECT_EQ(node_.counters_of(1).sent, 0);
 }
 
-TEST(Traffic, PayloadTellsThePacketsNumber) {
+TEST(Traffic, PayloadBeginsWithThePacketsNumber) {
   EXPECT_THAT(traffic_payload(0x0102, 3), ElementsAre(2, 1, 0));
   EXPECT_THAT(traffic_payload(5, 10), ElementsAre(5, 0, 0, 0, 0, 0, 0, 0, 13, 14));
   EXPECT_TRUE(traffic_payload(5, 0).empty());
