@@ -60,8 +60,8 @@ std::int64_t FlowWatch::miss(Publisher& publisher, SimTime steady, std::int64_t 
   return count;
 }
 
-FlowWatch::Arrival FlowWatch::on_message(SimTime steady, std::string_view channel, std::int64_t session,
-                                         std::int64_t sequence, bool answered) {
+FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view channel,
+                                                std::int64_t session, std::int64_t sequence, bool answered) {
   if ((session == 0 && sequence == 0) || has_no_room_for(channel)) return {};
   Publisher* publisher = find(channel, session);
   if (publisher != nullptr && publisher->missing.erase(sequence) > 0) {
@@ -70,21 +70,21 @@ FlowWatch::Arrival FlowWatch::on_message(SimTime steady, std::string_view channe
   }
   if (answered) return {.is_repeated = true};
   if (publisher == nullptr) publisher = &add(channel, session, sequence);
-  Arrival arrival;
+  Classification result;
   if (sequence > publisher->last) {
-    arrival.newly_missing = miss(*publisher, steady, publisher->last + 1, sequence);
+    result.newly_missing = miss(*publisher, steady, publisher->last + 1, sequence);
     publisher->last = sequence;
   } else if (distance(sequence, publisher->last) >= kRepetitionReach ||
              steady - publisher->heard_at >= kRepetitionAge) {
     publisher->first = publisher->last = sequence;  // it numbers anew
   } else if (sequence < publisher->first) {         // the first heard had overtaken it
-    arrival.newly_missing = miss(*publisher, steady, sequence + 1, publisher->first);
+    result.newly_missing = miss(*publisher, steady, sequence + 1, publisher->first);
     publisher->first = sequence;
   } else {
     return {.is_repeated = true};
   }
   publisher->heard_at = steady;
-  return arrival;
+  return result;
 }
 
 std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::int64_t session,

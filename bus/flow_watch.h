@@ -35,16 +35,16 @@ class FlowWatch {
   // Channels beyond these are not watched: names made up without end must not grow our memory.
   static constexpr std::size_t kMaxChannels = 5000;
 
-  // What a message that was heard is to its flow.
-  struct Arrival {
+  // How a received message fits into its flow.
+  struct Classification {
     std::int64_t newly_missing = 0;  // how many lie between it and the greatest number heard before
     bool fills_gap = false;          // it was missing
     bool is_repeated = false;        // its number was heard a moment ago (of 64 numbers, within a second)
   };
   // `answered`: it came in answer to a request, perhaps of another hearer; then it either fills a gap or is
   // repeated.
-  Arrival on_message(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t sequence,
-                     bool answered = false);
+  Classification on_message(SimTime steady, std::string_view channel, std::int64_t session,
+                            std::int64_t sequence, bool answered = false);
 
   // The publisher says that `last` was the last number of its flow. `from_its_start`: the hearer is older than
   // the publisher, so all numbers from 0 are its own. Returns how many are newly missing.

@@ -93,7 +93,7 @@ link_reply_t to_message(const LinkReply& reply) {
   return message;
 }
 
-ray_query_t to_message(const RayBatch& batch, std::string_view client, SimTime asked_at) {
+ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimTime asked_at) {
   ray_query_t message{};
   message.utime = asked_at.to_utime();
   message.client_name = client;

@@ -18,7 +18,7 @@ link_table_t to_message(const LinkTable& table, SimTime at);
 LinkQuestion to_question(const link_query_t& message);
 link_reply_t to_message(const LinkReply& reply);
 
-ray_query_t to_message(const RayBatch& batch, std::string_view client, SimTime asked_at);
+ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimTime asked_at);
 std::vector<RayAnswer> to_answers(const ray_reply_t& message);
 
 }  // namespace halocline::channel_server

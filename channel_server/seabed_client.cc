@@ -112,7 +112,7 @@ void SeabedClient::request_profiles(const std::vector<PlacedVehicle>& vehicles) 
 }
 
 void SeabedClient::publish_queries(const bus::Now& now) {
-  for (const RayBatch& batch : models_.rays.take_batches(now.steady)) {
+  for (const RayQueryBatch& batch : models_.rays.take_batches(now.steady)) {
     bus_.publish(channels::kRayQuery, to_message(batch, client_name_, now.sim));
   }
   take_finished_surveys();

@@ -11,8 +11,9 @@ void PendingEchoes::wait(std::int64_t request_id, SensorTick tick, SimTime deadl
 }
 
 SensorTick* PendingEchoes::answer(std::int64_t request_id) {
-  const auto entry = std::find_if(waiting_.begin(), waiting_.end(),
-                                  [&](const Entry& e) { return e.request_id == request_id && !e.answered; });
+  const auto entry = std::find_if(waiting_.begin(), waiting_.end(), [&](const PendingQuery& e) {
+    return e.request_id == request_id && !e.answered;
+  });
   if (entry == waiting_.end()) return nullptr;
   entry->answered = true;
   return &entry->tick;
@@ -20,7 +21,7 @@ SensorTick* PendingEchoes::answer(std::int64_t request_id) {
 
 std::optional<SensorTick> PendingEchoes::take(SimTime steady) {
   if (waiting_.empty()) return {};
-  Entry& oldest = waiting_.front();
+  PendingQuery& oldest = waiting_.front();
   if (!oldest.answered && steady < oldest.deadline) return {};
   if (!oldest.answered) ++given_up_;
   SensorTick tick = std::move(oldest.tick);

@@ -33,13 +33,13 @@ class PendingEchoes {
   void clear() { waiting_.clear(); }
 
  private:
-  struct Entry {
+  struct PendingQuery {
     std::int64_t request_id;
     SensorTick tick;
     SimTime deadline;
     bool answered = false;
   };
-  std::deque<Entry> waiting_;
+  std::deque<PendingQuery> waiting_;
   std::int64_t given_up_ = 0;  // ticks that went out unanswered
 };
 

@@ -222,7 +222,7 @@ PacketKey key_of(const modem_receive_t& m) {
   return {m.source_id, m.packet_kind, m.send_session, m.packet_sequence};
 }
 
-Arrival arrival_of(const packet_outcome_t& m) {
+SoundArrival arrival_of(const packet_outcome_t& m) {
   return {SimTime::from_utime(m.departure_utime) + SimDuration::from_seconds(m.travel_time_s),
           m.arrival_azimuth_rad, m.arrival_elevation_rad};
 }

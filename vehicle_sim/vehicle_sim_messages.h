@@ -40,7 +40,7 @@ Fault from_message(const vehicle_fault_t& message);
 // What an array hears of: OUTCOME of a packet received, and RECEIVE.
 PacketKey key_of(const packet_outcome_t& outcome);
 PacketKey key_of(const modem_receive_t& packet);
-Arrival arrival_of(const packet_outcome_t& outcome);
+SoundArrival arrival_of(const packet_outcome_t& outcome);
 // Of a packet that tells it on board: one way.
 std::optional<double> travel_time_of(const modem_receive_t& packet);
 

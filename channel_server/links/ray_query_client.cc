@@ -68,8 +68,8 @@ RayQueryClient::Queue& RayQueryClient::queue_of(const Waiting& waiting) {
   return waiting.urgent ? urgent_depths_ : routine_depths_;
 }
 
-std::vector<RayBatch> RayQueryClient::take_batches(SimTime steady) {
-  std::vector<RayBatch> batches;
+std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
+  std::vector<RayQueryBatch> batches;
   repeat_and_give_up(steady, batches);
   while (const Queue* queue = next_queue()) {
     batches.push_back(send_from(queue_of(queue->front()), steady));
@@ -78,7 +78,7 @@ std::vector<RayBatch> RayQueryClient::take_batches(SimTime steady) {
 }
 
 // Surveys are not split: all rays of one stage of one survey go in one batch.
-RayBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
+RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
   InFlight sent{{++last_request_, *asks(queue.front().survey), {}}, {}, steady, false};
   if (!queue.front().urgent) ++sent_this_tick_;
   while (!queue.empty()) {
@@ -97,7 +97,7 @@ SimTime RayQueryClient::next_action(const InFlight& batch) const {
   return batch.sent + (batch.repeated ? rule_.answer_deadline : half(rule_.answer_deadline));
 }
 
-void RayQueryClient::repeat_and_give_up(SimTime steady, std::vector<RayBatch>& repeated) {
+void RayQueryClient::repeat_and_give_up(SimTime steady, std::vector<RayQueryBatch>& repeated) {
   for (auto batch = in_flight_.begin(); batch != in_flight_.end();) {
     if (steady >= batch->second.sent + rule_.answer_deadline) {
       ++counters_.batches_failed;

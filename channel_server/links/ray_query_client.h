@@ -33,7 +33,7 @@ struct AskingRule {
   SimDuration answer_deadline = SimDuration::from_milliseconds(250);  // above 0
 };
 
-struct RayBatch {
+struct RayQueryBatch {
   std::int64_t request_id = 0;
   RayKind kind = RayKind::kDepths;
   std::vector<TerrainRay> rays;
@@ -61,7 +61,7 @@ class RayQueryClient {
   std::vector<SurveyId> begin_tick();
 
   // What to send at `steady`: new batches and repetitions. Gives up what is overdue.
-  std::vector<RayBatch> take_batches(SimTime steady);
+  std::vector<RayQueryBatch> take_batches(SimTime steady);
   // The service answered `request_id`; unknown ids (late answers) only tell that it is there. An answer of
   // another count than asked is no answer.
   void answer(std::int64_t request_id, std::span<const RayAnswer> answers);
@@ -85,7 +85,7 @@ class RayQueryClient {
     TerrainSurvey survey;
   };
   struct InFlight {
-    RayBatch batch;
+    RayQueryBatch batch;
     std::vector<Waiting> surveys;
     SimTime sent;
     bool repeated = false;
@@ -96,8 +96,8 @@ class RayQueryClient {
   // What goes next; null when nothing may.
   const Queue* next_queue() const;
   SimTime next_action(const InFlight& batch) const;
-  RayBatch send_from(Queue& queue, SimTime steady);
-  void repeat_and_give_up(SimTime steady, std::vector<RayBatch>& repeated);
+  RayQueryBatch send_from(Queue& queue, SimTime steady);
+  void repeat_and_give_up(SimTime steady, std::vector<RayQueryBatch>& repeated);
   void advance(Waiting waiting, std::span<const RayAnswer> answers);
   void finish(Waiting waiting, bool answered);
   void fail_all(std::vector<Waiting> surveys);

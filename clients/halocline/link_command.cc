@@ -53,12 +53,12 @@ void apply(const LinkOptions& options, acoustics::Modem& modem) {
   if (options.bandwidth_hz) modem.bandwidth_hz = *options.bandwidth_hz;
 }
 
-nlohmann::ordered_json to_json(const LinkEnd& end) {
+nlohmann::ordered_json to_json(const LinkSurveyEnd& end) {
   const Vec3& p = end.position_ned_m;
   return {{"name", end.name}, {"position_ned_m", {p.x(), p.y(), p.z()}}};
 }
 
-void print_json(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer) {
+void print_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSurvey& answer) {
   const acoustics::LinkBudget& b = answer.reception.budget;
   nlohmann::ordered_json json;
   json["from"] = to_json(from);
@@ -82,13 +82,13 @@ void print_json(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer
   std::cout << json.dump(2) << "\n";
 }
 
-void print_table(const LinkEnd& from, const LinkEnd& to, const LinkAnswer& answer) {
+void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSurvey& answer) {
   const acoustics::LinkBudget& b = answer.reception.budget;
   const auto line = [](const char* what, double value, int digits, const char* unit) {
     std::cout << std::left << std::setw(22) << what << std::right << std::fixed << std::setprecision(digits)
               << std::setw(14) << value << " " << unit << "\n";
   };
-  const auto place = [](const LinkEnd& end) {
+  const auto place = [](const LinkSurveyEnd& end) {
     std::cout << end.name << " (" << end.position_ned_m.x() << ", " << end.position_ned_m.y() << ", "
               << end.position_ned_m.z() << ")";
   };
@@ -122,7 +122,7 @@ void check(const LinkOptions& options) {
   if (!options.plot.empty()) require_plot_file(options.plot);
 }
 
-void print_paths(const LinkOptions& options, const LinkEnd& from, const LinkArrivals& found) {
+void print_paths(const LinkOptions& options, const LinkSurveyEnd& from, const LinkArrivals& found) {
   if (!options.plot.empty())
     write_plot(arrival_plot({found}, options.from + " to " + options.to), options.plot);
   if (options.impulse_rate_hz > 0) {
@@ -140,13 +140,13 @@ void print_paths(const LinkOptions& options, const LinkEnd& from, const LinkArri
 int link(const LinkOptions& options) {
   check(options);
   const ScenarioConfig config = load_scenario(options.scenario, options.overrides);
-  LinkEnd from = link_end(config, options.from), to = link_end(config, options.to);
+  LinkSurveyEnd from = link_end(config, options.from), to = link_end(config, options.to);
   apply(options, from.modem.modem);
   apply(options, to.modem.modem);
   if (!options.from_velocity.empty())
     from.velocity_ned_mps = parse_vector(options.from_velocity, "--from-velocity");
   if (!options.to_velocity.empty()) to.velocity_ned_mps = parse_vector(options.to_velocity, "--to-velocity");
-  const LinkAnswer answer = survey_link(config, from, to);
+  const LinkSurvey answer = survey_link(config, from, to);
   if (options.arrivals) return print_paths(options, from, answer.arrivals), kDone;
   options.json || options.format == "json" ? print_json(from, to, answer) : print_table(from, to, answer);
   return kDone;

@@ -283,7 +283,7 @@ TEST(ChannelServerMessages, AModemThatCannotBeReadIsTheProblemOfItsEndAlone) {
 }
 
 TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {
-  RayBatch batch{7, RayKind::kWays, std::vector<TerrainRay>(1024, {{1, 2, 3}, {0, 0, 1}, 50})};
+  RayQueryBatch batch{7, RayKind::kWays, std::vector<TerrainRay>(1024, {{1, 2, 3}, {0, 0, 1}, 50})};
   const ray_query_t message = to_message(batch, "channel-xyz", at_s(9));
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.query_mode, ray_query_t::OCCLUDED);

@@ -40,9 +40,9 @@ const std::vector<Service>& services() {
   return all;
 }
 
-class Fleet {
+class ProcessFleet {
  public:
-  Fleet() {
+  ProcessFleet() {
     for (const Service& service : services()) start(service.program);
   }
   void start(const std::string& program) {
@@ -71,7 +71,7 @@ bool whole_fleet_heard(const BusEar& ear) {
 
 TEST(SeparateProcesses, ExchangeAcousticMessages) {
   BusEar ear;
-  Fleet fleet;
+  ProcessFleet fleet;
   ASSERT_TRUE(ear.listen_until(15, [&] { return whole_fleet_heard(ear); }));
   EXPECT_TRUE(ear.listen_until(5, [&] {
     return !ear.tables.empty() && ear.tables.back().num_peers == 1 &&
@@ -81,7 +81,7 @@ TEST(SeparateProcesses, ExchangeAcousticMessages) {
 
 TEST(SeparateProcesses, StopOnSigtermWithAFarewellInStatus) {
   BusEar ear;
-  Fleet fleet;
+  ProcessFleet fleet;
   ASSERT_TRUE(ear.listen_until(15, [&] { return whole_fleet_heard(ear); }));
   for (const Service& service : services()) fleet.at(service.program).signal(SIGTERM);
   for (const Service& service : services())
@@ -104,7 +104,7 @@ class AfterABlow : public ::testing::TestWithParam<Blow> {};
 TEST_P(AfterABlow, ServiceResumesWithinTwoSecondsOfTheReturn) {
   const auto& [program, signal] = GetParam();
   BusEar ear;
-  Fleet fleet;
+  ProcessFleet fleet;
   ASSERT_TRUE(ear.listen_until(15, [&] { return whole_fleet_heard(ear); }));
   fleet.at(program).signal(signal);
   ASSERT_NE(fleet.at(program).wait(kEnd), -1);

@@ -42,12 +42,12 @@ double GaussMarkovProcess::at_millisecond(std::int64_t k, Cursor& cursor) const 
   }
   while (path.size() > 1 && (k < path.back().from || k > path.back().to)) path.pop_back();
   while (k != path.back().from && k != path.back().to) {
-    const Cursor::Interval in = path.back();
+    const Cursor::Bracket in = path.back();
     const std::int64_t middle = (in.from + in.to) / 2;
     const Middle& m = middles_[path.size() - 1];
     const double value = m.weight * (in.at_from + in.at_to) + m.deviation * draw(middle);
-    path.push_back(k <= middle ? Cursor::Interval{in.from, middle, in.at_from, value}
-                               : Cursor::Interval{middle, in.to, value, in.at_to});
+    path.push_back(k <= middle ? Cursor::Bracket{in.from, middle, in.at_from, value}
+                               : Cursor::Bracket{middle, in.to, value, in.at_to});
   }
   return k == path.back().from ? path.back().at_from : path.back().at_to;
 }

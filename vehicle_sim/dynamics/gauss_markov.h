@@ -46,11 +46,11 @@ class GaussMarkovProcess {
 
 class GaussMarkovProcess::Cursor {
   friend class GaussMarkovProcess;
-  struct Interval {
+  struct Bracket {
     std::int64_t from, to;
     double at_from, at_to;
   };
-  std::vector<Interval> path_;  // each within the one before it
+  std::vector<Bracket> path_;  // each within the one before it
 };
 
 }  // namespace halocline::vehicle_sim

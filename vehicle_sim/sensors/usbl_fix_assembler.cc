@@ -25,7 +25,7 @@ UsblFixAssembler::Waiting& UsblFixAssembler::entry_of(const PacketKey& packet) {
   return waiting_.back();
 }
 
-void UsblFixAssembler::hear_arrival(const PacketKey& packet, const Arrival& arrival) {
+void UsblFixAssembler::hear_arrival(const PacketKey& packet, const SoundArrival& arrival) {
   entry_of(packet).arrival = arrival;
 }
 

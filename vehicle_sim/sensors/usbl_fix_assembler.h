@@ -27,7 +27,7 @@ struct PacketKey {
 };
 
 // Where a packet's sound came from, world frame.
-struct Arrival {
+struct SoundArrival {
   SimTime when;              // of the first bit
   double azimuth_rad = 0;    // from north by east
   double elevation_rad = 0;  // above the horizontal
@@ -47,7 +47,7 @@ class UsblFixAssembler {
   UsblFixAssembler(const UsblSettings& settings, const SensorIdentity& identity)
       : settings_(settings), identity_(identity) {}
 
-  void hear_arrival(const PacketKey& packet, const Arrival& arrival);
+  void hear_arrival(const PacketKey& packet, const SoundArrival& arrival);
   // Of a packet for this vehicle; the travel time where it is known on board.
   void hear_packet(const PacketKey& packet, std::optional<double> travel_time_s);
   // Poses come in ascending order.
@@ -61,7 +61,7 @@ class UsblFixAssembler {
  private:
   struct Waiting {
     PacketKey packet;
-    std::optional<Arrival> arrival;
+    std::optional<SoundArrival> arrival;
     bool received = false;
     std::optional<double> travel_time_s;
     SimTime since;

@@ -11,7 +11,7 @@ constexpr int kThirds = 3;
 constexpr double kCoarsest = 0.5, kFinest = 1e-5;  // steps of the search, in distances of the focus
 constexpr double kSameAxis = 1e-6;                 // m, axes this close have no direction between them
 
-struct Interval {
+struct AxisSegment {
   double low, high;
 };
 
@@ -36,7 +36,7 @@ double gap_at(const HullPose& a, const HullPose& b, const Places& p) {
 
 // Least gap with the first place held to `third`: the best of eight neighbours as long as one is better, then half
 // the step.
-Places closest_places(const HullPose& a, const HullPose& b, const Interval& third) {
+Places closest_places(const HullPose& a, const HullPose& b, const AxisSegment& third) {
   Places best{(third.low + third.high) / 2, 0};
   double least = gap_at(a, b, best);
   for (double step = kCoarsest; step > kFinest;) {
@@ -78,7 +78,7 @@ void find_vehicle_contacts(const HullPose& first, const HullPose& second, double
   const double reach = (first.hull.length_m + second.hull.length_m) / 2 + margin_m;
   if ((first.position_ned_m - second.position_ned_m).squaredNorm() > reach * reach) return;
   for (int third = 0; third < kThirds; ++third) {
-    const Interval interval{-1 + 2.0 * third / kThirds, -1 + 2.0 * (third + 1) / kThirds};
+    const AxisSegment interval{-1 + 2.0 * third / kThirds, -1 + 2.0 * (third + 1) / kThirds};
     const VehicleContact contact = contact_at(first, second, closest_places(first, second, interval));
     if (contact.gap_m < margin_m) contacts.push_back(contact);
   }

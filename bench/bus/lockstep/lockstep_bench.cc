@@ -86,9 +86,9 @@ class Weather {
   }
 }
 
-class Fleet {
+class SyntheticFleet {
  public:
-  Fleet(int count, double loss) {
+  SyntheticFleet(int count, double loss) {
     for (int i = 0; i < count; ++i) {
       const std::string name = "mover-" + std::to_string(i);
       names.insert(name);
@@ -97,7 +97,7 @@ class Fleet {
       pids_.push_back(pid);
     }
   }
-  ~Fleet() {
+  ~SyntheticFleet() {
     for (const pid_t pid : pids_) kill(pid, SIGKILL);
     for (const pid_t pid : pids_) waitpid(pid, nullptr, 0);
   }
@@ -110,7 +110,7 @@ class Fleet {
 void lockstep_steps(benchmark::State& bench) {
   const int count = static_cast<int>(bench.range(0));
   const double loss = static_cast<double>(bench.range(1)) / 100;
-  const Fleet fleet(count, loss);
+  const SyntheticFleet fleet(count, loss);
   const std::string url(bus::kDefaultSyncUrl);
   const auto grants_lcm = bus::open_transport(url), answers_lcm = bus::open_transport(bus::next_port(url));
   bus::Bus mouth(*grants_lcm, {"conductor", 0}), ears(*answers_lcm, {"conductor", 0});

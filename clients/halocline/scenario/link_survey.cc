@@ -77,7 +77,7 @@ acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
 }
 
 // What is told of the paths of an answer, whichever propagation found them.
-LinkArrivals told(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to,
+LinkArrivals told(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
                   const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
   const Vec3 way = to.position_ned_m - from.position_ned_m;
   const double surface_z_m = config.scenario.sea_surface_z_m;
@@ -102,9 +102,9 @@ Vec3 parse_vector(const std::string& text, const std::string& what) {
   return vector;
 }
 
-LinkEnd link_end(const ScenarioConfig& config, const std::string& text) {
+LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
   const auto modems = make_modems(config.channel_server);
-  LinkEnd end{.name = text, .modem = modems.standard};
+  LinkSurveyEnd end{.name = text, .modem = modems.standard};
   if (const bus::VehicleEntry* vehicle = config.scenario.find(text)) {
     end.position_ned_m = vehicle->start_ned_m;
     end.modem = modems.of(text);
@@ -134,7 +134,7 @@ channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain,
   return survey;
 }
 
-LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to) {
+LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
   const auto terrain = make_terrain(config).terrain;
   const channel_server::LinkEnd here{0, from.position_ned_m, from.velocity_ned_mps, &from.modem.modem};
   const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &to.modem.modem};
@@ -142,7 +142,7 @@ LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const 
       make_environment(config.channel_server.environment, config.scenario, config.folder));
   const channel_server::ServerRules& rules = config.channel_server.rules;
   const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
-  LinkAnswer answer;
+  LinkSurvey answer;
   if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
     channel_server::RayPropagation propagation(
         waters, std::make_shared<channel_server::SeabedProfileCache>(rules.profile),

@@ -14,14 +14,14 @@
 
 namespace halocline::clients {
 
-struct LinkEnd {
+struct LinkSurveyEnd {
   std::string name;  // of the vehicle, or the position as text
   Vec3 position_ned_m = Vec3::Zero();
   Vec3 velocity_ned_mps = Vec3::Zero();  // for Doppler alone
   channel_server::VehicleModem modem;
 };
 
-struct LinkAnswer {
+struct LinkSurvey {
   channel_server::Reception reception;
   channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
   LinkArrivals arrivals;  // the paths of the reception with all that is known of them
@@ -29,12 +29,12 @@ struct LinkAnswer {
 
 // An end by the name of a vehicle of the scenario (where it starts, with its modem) or by "north,east,down" in metres
 // (with the standard modem). Throws InvalidArgument when `text` is neither, or lies above the surface.
-LinkEnd link_end(const ScenarioConfig& config, const std::string& text);
+LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text);
 
 // "1,2,3" as three numbers; throws InvalidArgument, naming `what`, when `text` is something else.
 Vec3 parse_vector(const std::string& text, const std::string& what);
 
-LinkAnswer survey_link(const ScenarioConfig& config, const LinkEnd& from, const LinkEnd& to);
+LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to);
 
 // Which echoes the bottom can send between two points of a terrain.
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,

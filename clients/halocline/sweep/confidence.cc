@@ -79,7 +79,7 @@ double student_quantile(double p, double degrees) {
   return solve([&](double t) { return student_below(t, degrees); }, p);
 }
 
-Interval wilson_interval(std::int64_t k, std::int64_t n, double level) {
+ConfidenceInterval wilson_interval(std::int64_t k, std::int64_t n, double level) {
   require_level(level);
   require(k >= 0 && k <= n, "a share is k of n trials, 0 <= k <= n");
   if (n == 0) return {kNaN, kNaN};

@@ -12,16 +12,16 @@
 
 namespace halocline::clients {
 
-struct Interval {
+struct ConfidenceInterval {
   double low = 0, high = 0;
 };
 
 // k of n trials, 0 <= k <= n; NaN both where n is 0. `level` in (0, 1), such as 0.95.
-Interval wilson_interval(std::int64_t k, std::int64_t n, double level);
+ConfidenceInterval wilson_interval(std::int64_t k, std::int64_t n, double level);
 
 struct MeanEstimate {
-  double mean = 0;    // NaN without a value
-  Interval interval;  // NaN with fewer than two values
+  double mean = 0;              // NaN without a value
+  ConfidenceInterval interval;  // NaN with fewer than two values
 };
 // NaNs among the values are left out: a run that has no such number.
 MeanEstimate mean_estimate(std::span<const double> values, double level);

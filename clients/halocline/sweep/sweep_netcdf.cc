@@ -154,7 +154,7 @@ Shape define_axes(NetcdfFile& file, const SweepResults& results) {
 // One variable for the values, one for their intervals.
 class Estimates {
  public:
-  void add(double value, const Interval& interval) {
+  void add(double value, const ConfidenceInterval& interval) {
     values_.push_back(value);
     intervals_.push_back(interval.low);
     intervals_.push_back(interval.high);

@@ -20,7 +20,7 @@ namespace halocline::clients {
 
 struct Share {
   std::int64_t count = 0, of = 0;
-  Interval interval;  // Wilson's
+  ConfidenceInterval interval;  // Wilson's
 
   double value() const;  // NaN of none
 };

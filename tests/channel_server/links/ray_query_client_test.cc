@@ -19,7 +19,7 @@ const AskingRule kRule{
 EchoSurvey survey() { return EchoSurvey({0, 0, 50}, {1000, 0, 50}, kPoints); }
 
 // A service that always answers: depth 100 m, every way free.
-void answer(RayQueryClient& asker, const RayBatch& batch) {
+void answer(RayQueryClient& asker, const RayQueryBatch& batch) {
   const RayAnswer one = batch.kind == Kind::kDepths ? RayAnswer{RayAnswer::Kind::kHit, 100}
                                                     : RayAnswer{RayAnswer::Kind::kMiss, 0};
   asker.answer(batch.request_id, std::vector<RayAnswer>(batch.rays.size(), one));

@@ -39,7 +39,7 @@ TEST(LinkSurvey, ImpossibleEndsAreRefused) {
 TEST(LinkSurvey, DelayOfTheStraightPathIsThatOfThePapersFigure4) {
   ScenarioConfig config = two_vehicles();
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
-  const LinkAnswer answer = survey_link(config, link_end(config, "auv-1"), link_end(config, "500,0,0"));
+  const LinkSurvey answer = survey_link(config, link_end(config, "auv-1"), link_end(config, "500,0,0"));
   EXPECT_NEAR(answer.reception.budget.delay_s, 0.660724, tolerance(1e-6));
 }
 
@@ -50,7 +50,7 @@ TEST(LinkSurvey, PowersOfThePathsAddUpToTheReceivedLevel) {
     ScenarioConfig config = two_vehicles();
     config.terrain.flat.depth_m = 100;
     config.channel_server.propagation.model = model;
-    const LinkAnswer answer =
+    const LinkSurvey answer =
         survey_link(config, link_end(config, "-500,0,40"), link_end(config, "500,0,60"));
     ASSERT_EQ(answer.arrivals.received.size(), answer.arrivals.arrivals.paths.size());
     EXPECT_EQ(answer.arrivals.received.size() > 1, model == channel_server::PropagationModel::kRays);
@@ -66,8 +66,8 @@ TEST(LinkSurvey, LevelOfAPathIsItsPressureAtTheSourceLevel) {
        {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
     ScenarioConfig config = two_vehicles();
     config.channel_server.propagation.model = model;
-    const LinkEnd from = link_end(config, "-500,0,40");
-    const LinkAnswer answer = survey_link(config, from, link_end(config, "500,0,60"));
+    const LinkSurveyEnd from = link_end(config, "-500,0,40");
+    const LinkSurvey answer = survey_link(config, from, link_end(config, "500,0,60"));
     for (std::size_t i = 0; i < answer.arrivals.received.size(); ++i) {
       const double pressure = answer.arrivals.arrivals.paths[i].received_pressure();
       EXPECT_NEAR(answer.arrivals.received[i].level_db,
@@ -84,14 +84,14 @@ TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
     ScenarioConfig config = two_vehicles();
     config.terrain.flat.depth_m = 100;
     config.channel_server.propagation.model = model;
-    LinkEnd from = link_end(config, "-500,0,40"), to = link_end(config, "500,0,60");
+    LinkSurveyEnd from = link_end(config, "-500,0,40"), to = link_end(config, "500,0,60");
     const auto loss_db = [&] {
       return survey_link(config, from, to).reception.budget.transmission_loss.value;
     };
     const double bare_db = loss_db();
     from.modem.modem.beam = acoustics::BeamPattern({{-0.01, 0}, {0.01, 20}});
     to.modem.modem.beam = acoustics::BeamPattern({{-0.1, 30}, {0.1, 3}});
-    const LinkAnswer answer = survey_link(config, from, to);
+    const LinkSurvey answer = survey_link(config, from, to);
     const auto field = received_field(answer.arrivals.arrivals, {answer.arrivals.beams, {}});
     EXPECT_NEAR(-field.level.value, answer.reception.budget.transmission_loss.value, tolerance(1e-9));
     EXPECT_GT(loss_db(), bare_db + 1);
@@ -102,9 +102,9 @@ TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
 TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
   ScenarioConfig config = two_vehicles();
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
-  LinkEnd to = link_end(config, "500,0,50");
+  LinkSurveyEnd to = link_end(config, "500,0,50");
   to.velocity_ned_mps = parse_vector("-2,0,0", "--to-velocity");
-  const LinkAnswer answer = survey_link(config, link_end(config, "-500,0,50"), to);
+  const LinkSurvey answer = survey_link(config, link_end(config, "-500,0,50"), to);
   const double speed_mps = answer.reception.budget.mean_sound_speed_mps;
   EXPECT_NEAR(answer.arrivals.received.at(0).doppler_factor, 1 + 2 / speed_mps, 1e-9);
 }
@@ -112,10 +112,10 @@ TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
 TEST(LinkSurvey, EchoIsLikelyOverAShallowBottomAndUnknownBeyondTheTerrain) {
   ScenarioConfig config = two_vehicles();
   config.terrain.flat.depth_m = 50;
-  const LinkEnd from = link_end(config, "auv-1");
+  const LinkSurveyEnd from = link_end(config, "auv-1");
   EXPECT_EQ(survey_link(config, from, link_end(config, "500,0,0")).multipath,
             channel_server::Multipath::kLikely);
-  const LinkEnd outside = link_end(config, "90000,0,10"), farther = link_end(config, "91000,0,10");
+  const LinkSurveyEnd outside = link_end(config, "90000,0,10"), farther = link_end(config, "91000,0,10");
   EXPECT_EQ(survey_link(config, outside, farther).multipath, channel_server::Multipath::kUnknown);
 }
 

@@ -46,7 +46,7 @@ TEST(WilsonInterval, IsThatOfNewcombesExamples) {
   };
   for (const auto& [k, n, low, high] : {Example{81, 263, 0.2553, 0.3662}, Example{15, 148, 0.0624, 0.1605},
                                         Example{0, 20, 0, 0.1611}, Example{1, 29, 0.0061, 0.1718}}) {
-    const Interval interval = wilson_interval(k, n, 0.95);
+    const ConfidenceInterval interval = wilson_interval(k, n, 0.95);
     EXPECT_NEAR(interval.low, low, 5e-5);
     EXPECT_NEAR(interval.high, high, 5e-5);
   }
@@ -87,7 +87,8 @@ TEST(ConfidenceIntervals, HoldTheTruthAsOftenAsTheySay) {
       if (i < 6) values.push_back(7 + 2 * normal_at(address));
       successes += uniform_at(address) < 0.1 ? 1 : 0;
     }
-    const Interval mean = mean_estimate(values, 0.9).interval, share = wilson_interval(successes, 50, 0.95);
+    const ConfidenceInterval mean = mean_estimate(values, 0.9).interval,
+                             share = wilson_interval(successes, 50, 0.95);
     means += mean.low <= 7 && 7 <= mean.high ? 1 : 0;
     shares += share.low <= 0.1 && 0.1 <= share.high ? 1 : 0;
   }
