@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "bus/files/atomic_file.h"
 #include "core/check.h"
 
 namespace halocline::bus {
@@ -142,16 +143,16 @@ void MessageJournal::clear() {
   begin_file({});
 }
 
-// Written aside first, so that a kill meanwhile leaves what there was.
+// Written beside the old file first, so that a crash meanwhile leaves that.
 void MessageJournal::begin_file(const std::vector<JournalledMessage>& entries) {
   if (file_ >= 0) close(file_);
-  const std::string aside = rule_.path + ".new";
-  file_ = open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
+  AtomicFile replacement(rule_.path);
+  file_ =
+      open(replacement.temporary_path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
   require(file_ >= 0, "cannot write the journal " + rule_.path + ": " + std::strerror(errno));
   file_begins_ = SimTime::never();
   write(entries);
-  require(std::rename(aside.c_str(), rule_.path.c_str()) == 0,
-          "cannot write the journal " + rule_.path + ": " + std::strerror(errno));
+  replacement.commit();
 }
 
 void MessageJournal::write(const std::vector<JournalledMessage>& entries) {

@@ -7,7 +7,7 @@
 namespace halocline::bus {
 
 ThreadPool::ThreadPool(int threads) {
-  require_in_range(threads, 1, 64, "threads of a pool");
+  require_in_range(threads, 1, 1024, "threads of a pool");
   for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
 }
 

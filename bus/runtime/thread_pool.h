@@ -19,7 +19,7 @@ namespace halocline::bus {
 
 class ThreadPool {
  public:
-  // `threads` 1..64, the caller's among them. Throws InvalidArgument otherwise.
+  // `threads` 1..1024, the caller's among them. Throws InvalidArgument otherwise.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;

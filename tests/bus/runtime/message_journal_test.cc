@@ -16,7 +16,7 @@ using Kind = JournalledMessage::Kind;
 class MessageJournalTest : public ::testing::Test {
  protected:
   ~MessageJournalTest() override {
-    for (const char* part : {"", ".1", ".new"}) std::filesystem::remove(path_ + part);
+    for (const char* part : {"", ".1", ".unfinished"}) std::filesystem::remove(path_ + part);
   }
   std::unique_ptr<MessageJournal> open() {
     return std::make_unique<MessageJournal>(

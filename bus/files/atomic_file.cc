@@ -1,0 +1,54 @@
+#include "bus/files/atomic_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace halocline::bus {
+namespace {
+
+void check(bool done, const std::string& path) {
+  if (!done) throw std::runtime_error("cannot write " + path + ": " + std::strerror(errno));
+}
+
+// A file or a folder.
+void force_to_disk(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  check(descriptor >= 0, path);
+  const bool done = fsync(descriptor) == 0;
+  const int error = errno;
+  close(descriptor);
+  errno = error;
+  check(done, path);
+}
+
+}  // namespace
+
+AtomicFile::~AtomicFile() {
+  if (!committed_) std::remove(temporary_path().c_str());
+}
+
+void AtomicFile::commit() {
+  force_to_disk(temporary_path());
+  check(std::rename(temporary_path().c_str(), path_.c_str()) == 0, path_);
+  committed_ = true;
+  const std::string folder = std::filesystem::path(path_).parent_path().string();
+  force_to_disk(folder.empty() ? "." : folder);
+}
+
+void replace_file(const std::string& path, std::string_view content) {
+  AtomicFile file(path);
+  std::ofstream out(file.temporary_path(), std::ios::binary);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  check(!out.fail(), path);
+  file.commit();
+}
+
+}  // namespace halocline::bus

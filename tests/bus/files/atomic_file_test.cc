@@ -1,0 +1,68 @@
+#include "bus/files/atomic_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace halocline::bus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFileTest : public ::testing::Test {
+ protected:
+  AtomicFileTest() { fs::create_directories(folder_); }
+  ~AtomicFileTest() override { fs::remove_all(folder_); }
+
+  std::string content() const {
+    std::ostringstream text;
+    text << std::ifstream(path_).rdbuf();
+    return text.str();
+  }
+  std::ptrdiff_t files() const { return std::distance(fs::directory_iterator(folder_), {}); }
+
+  std::string folder_ = ::testing::TempDir() + "halocline-atomic-file-" + std::to_string(getpid()) + "-" +
+                        ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::string path_ = folder_ + "/result.json";
+};
+
+TEST_F(AtomicFileTest, ReplacesAllOfTheOldContent) {
+  replace_file(path_, "a longer first text");
+  replace_file(path_, "second");
+  EXPECT_EQ(content(), "second");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFileTest, KeepsTheOldContentUntilTheCommit) {
+  replace_file(path_, "old");
+  AtomicFile file(path_);
+  std::ofstream(file.temporary_path()) << "new";
+  EXPECT_EQ(content(), "old");
+  file.commit();
+  EXPECT_EQ(content(), "new");
+}
+
+TEST_F(AtomicFileTest, LeavesNothingOfAnAbandonedWrite) {
+  replace_file(path_, "old");
+  {
+    AtomicFile file(path_);
+    std::ofstream(file.temporary_path()) << "half of the n";
+  }
+  EXPECT_EQ(content(), "old");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(AtomicFileTest, AFolderThatDoesNotExistIsReportedWithThePath) {
+  try {
+    replace_file(folder_ + "/none/result.json", "text");
+    FAIL() << "must throw";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("/none/result.json"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace halocline::bus
