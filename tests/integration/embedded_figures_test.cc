@@ -50,7 +50,7 @@ TEST_F(EmbeddedFiguresTest, Figure4DelaysAreThoseOfTheReference) {
 }
 
 // The numbers of model.md section 8, printed to six digits.
-TEST_F(EmbeddedFiguresTest, Figure4PacketsTravelAsLongAsThePaperSays) {
+TEST_F(EmbeddedFiguresTest, Figure4TravelTimesAreThePapers) {
   const ScenarioConfig config = load("figure4", {});
   std::map<std::string, double> travel;
   for (const auto& [channel, packet] : messages_in<modem_receive_t>(run(config, "figure4"))) {

@@ -86,7 +86,7 @@ class EmbeddedMissionsTest : public testing::EmbeddedTest {
     return greatest;
   }
 
-  // What STATUS.autopilot said last before an instant.
+  // The latest STATUS.autopilot before an instant.
   std::string status_at(const std::string& log, double time_s) {
     std::string text;
     for (const auto& [channel, status] : messages_in<node_status_t>(log)) {
@@ -124,7 +124,7 @@ TEST_F(EmbeddedMissionsTest, SurveyKeepsItsHeightOverAFractalRidge) {
 
 // The bound that docs/vehicles.md states, on straight legs: a report is rounded to 0.1 m and 0.003 degrees,
 // the rest is the control's.
-TEST_F(EmbeddedMissionsTest, FollowersKeepTheirPlacesByWhatTheyHear) {
+TEST_F(EmbeddedMissionsTest, FollowersKeepTheirPlacesByReceivedReports) {
   const ScenarioConfig config = load("formation", {});
   const std::string log = run(config, "formation");
   for (const std::size_t follower : {1u, 2u}) {
@@ -158,7 +158,7 @@ TEST_F(EmbeddedMissionsTest, FollowersCutOffForGoodComeToTheirSafeDepth) {
   EXPECT_FALSE(was_on_the_seabed(log));
 }
 
-// In still water the log tells all but the sideslip; the waypoint is 450 m away and reached within 5 m.
+// In still water the log measures all but the sideslip; the waypoint is 450 m away and reached within 5 m.
 TEST_F(EmbeddedMissionsTest, DeadReckoningFindsTheWayInStillWater) {
   const ScenarioConfig config =
       load("formation", {"scenario.duration_s=400", "vehicle.0.mission.navigate_by=\"sensors\""});

@@ -30,7 +30,7 @@ std::string bytes_of_families(const std::string& path, const std::vector<std::st
   return all;
 }
 
-// The messages of a family as a set: channel and bytes without who said it as his how-manieth.
+// The messages of a family as a set: channel and bytes without session and sequence number.
 template <class Message>
 void add_unnumbered(const std::string& path, std::multiset<std::string>& all) {
   for (auto& [channel, message] : EmbeddedRunTest::messages_in<Message>(path)) {
@@ -41,8 +41,8 @@ void add_unnumbered(const std::string& path, std::multiset<std::string>& all) {
   }
 }
 
-// Everything that channel servers tell of the water.
-std::multiset<std::string> told(const std::string& path) {
+// Everything that channel servers publish.
+std::multiset<std::string> published(const std::string& path) {
   std::multiset<std::string> all;
   add_unnumbered<link_table_t>(path, all);
   add_unnumbered<packet_outcome_t>(path, all);
@@ -112,7 +112,7 @@ TEST_F(EmbeddedRunTest, LinksGoAlongRaysOverTheTerrain) {
   const auto tables = messages_in<link_table_t>(run(harbour(), "log"));
   int by_rays = 0, rows = 0;
   for (const auto& [channel, table] : tables) {
-    if (table.utime < 2'000'000) continue;  // the first table asks for the bottom
+    if (table.utime < 2'000'000) continue;  // the bottom is queried after the first table
     for (const link_t& row : table.peers) {
       ++rows;
       by_rays += row.propagation_used == link_t::USED_RAYS ? 1 : 0;
@@ -129,12 +129,12 @@ TEST_F(EmbeddedRunTest, TwoThreadsWriteTheSameBytesAsOne) {
   EXPECT_TRUE(one == bytes_of(run(config, "two")));
 }
 
-TEST_F(EmbeddedRunTest, ShardsTogetherTellWhatOneServerTells) {
+TEST_F(EmbeddedRunTest, ShardsTogetherPublishWhatOneServerPublishes) {
   for (const char* scenario : {"harbour", "ranging"}) {  // the second pings
-    const auto one = told(run(load(scenario, {"scenario.duration_s=25"}), "one"));
+    const auto one = published(run(load(scenario, {"scenario.duration_s=25"}), "one"));
     EXPECT_GT(one.size(), 100u);
     for (const char* shards : {"channel_server.shards=2", "channel_server.shards=3"}) {
-      const auto many = told(run(load(scenario, {"scenario.duration_s=25", shards}), "many"));
+      const auto many = published(run(load(scenario, {"scenario.duration_s=25", shards}), "many"));
       EXPECT_EQ(many.size(), one.size());
       EXPECT_TRUE(many == one) << scenario << ' ' << shards;
     }
@@ -157,14 +157,16 @@ TEST_F(EmbeddedRunTest, AScheduledChangeOfWaterIsReplayedToo) {
   EXPECT_TRUE(bytes_of_families(original, answers) == bytes_of_families(again, answers));
 }
 
-// A client that says at 9 s that the wind rises at 10.4 s.
+// A client that announces at 9 s that the wind rises at 10.4 s.
 class Forecast : public bus::Node {
  public:
   using Node::Node;
-  bus::Due on_due() const override { return {.sim = said_ ? SimTime::never() : SimTime::from_seconds(9)}; }
+  bus::Due on_due() const override {
+    return {.sim = published_ ? SimTime::never() : SimTime::from_seconds(9)};
+  }
   void on_step(const bus::Now& now) override {
-    if (said_ || now.sim < SimTime::from_seconds(9)) return;
-    said_ = true;
+    if (published_ || now.sim < SimTime::from_seconds(9)) return;
+    published_ = true;
     environment_change_t change{};
     change.utime = 10'400'000;
     change.session = 77;
@@ -175,10 +177,10 @@ class Forecast : public bus::Node {
   std::string status_text() const override { return "the wind will rise"; }
 
  private:
-  bool said_ = false;
+  bool published_ = false;
 };
 
-TEST_F(EmbeddedRunTest, AChangeOfWaterHeardOnTheBusIsReplayed) {
+TEST_F(EmbeddedRunTest, AChangeOfWaterReceivedOnTheBusIsReplayed) {
   const std::string original = run(
       harbour(), "original", [] { return false; },
       [](lcm::LCM& lcm) {

@@ -21,12 +21,12 @@ class ReplayTest : public testing::EmbeddedTest {
     overrides.emplace_back(kShort);
     return load("harbour", overrides);
   }
-  static Fates fates(const std::string& path, std::int64_t zero_us = 0) {
+  static LoggedOutcomes outcomes(const std::string& path, std::int64_t zero_us = 0) {
     LogReader log(path);
-    return fates_of(log, zero_us);
+    return outcomes_of(log, zero_us);
   }
   static Comparison compared(const std::string& before, const std::string& after) {
-    return {fates(before), fates(after)};
+    return {outcomes(before), outcomes(after)};
   }
   Comparison replayed_with(const std::vector<std::string>& overrides) {
     const std::string original = run(harbour(), "original");
@@ -124,7 +124,7 @@ TEST_F(ReplayTest, TheSeedMovesTheDrawsAndNothingOfTheWater) {
     EXPECT_FALSE(names.contains(of_water)) << of_water;
 }
 
-TEST_F(ReplayTest, AMissionFromSeaWithUnixTimesAndNothingButStatesAndTransmissionsGivesTheFatesOfTheRun) {
+TEST_F(ReplayTest, AMissionFromSeaWithUnixTimesAndNothingButStatesAndTransmissionsGivesTheOutcomesOfTheRun) {
   // A log as a recorder at sea leaves it: no CLOCK, no answers, Unix stamps in microseconds.
   constexpr std::int64_t kZero_us = 1'700'000'000'000'000;
   const std::string original = run(harbour(), "original");
@@ -144,7 +144,7 @@ TEST_F(ReplayTest, AMissionFromSeaWithUnixTimesAndNothingButStatesAndTransmissio
   EXPECT_GT(comparison.rows().size(), 20u);
   for (const auto& row : comparison.rows()) {
     if (row.any().utime > 44'000'000) continue;  // the recording's end
-    EXPECT_EQ(row.fate_after, row.fate_before);
+    EXPECT_EQ(row.outcome_after, row.outcome_before);
   }
   EXPECT_FALSE(compared(at_sea, again).anything_before());
 }

@@ -46,7 +46,7 @@ class SoakTest : public testing::EmbeddedTest {
   }
 };
 
-// What is kept of the latest thousand packets (modem clients) fills within the time to settle: everybody
+// What is kept of the latest thousand packets (modem clients) fills within the time to settle: every vehicle
 // sends once a second.
 std::vector<std::string> busy(int vehicles) {
   std::vector<std::string> overrides{"propagation.model=\"straight\""};

@@ -1,11 +1,14 @@
-#include "tests/integration/bus_ear.h"
+#include "tests/integration/bus_monitor.h"
 
+#include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <thread>
 
 namespace halocline::testing {
 
-BusEar::BusEar() : lcm_(bus::open_transport(bus::effective_url(""))), bus_(*lcm_, {"ear", 0}) {
-  lcm_->subscribe(".*", &BusEar::on_any, this)->setQueueCapacity(100'000);
+BusMonitor::BusMonitor() : lcm_(bus::open_transport(bus::effective_url(""))), bus_(*lcm_, {"monitor", 0}) {
+  lcm_->subscribe(".*", &BusMonitor::on_any, this)->setQueueCapacity(100'000);
   bus_.subscribe<link_table_t>(bus::channels::kLinks, [this](std::string_view, const link_table_t& table) {
     tables.push_back(table);
   });
@@ -19,7 +22,7 @@ BusEar::BusEar() : lcm_(bus::open_transport(bus::effective_url(""))), bus_(*lcm_
                               [this](const sim_clock_t& clock) { last_clock_utime = clock.utime; });
 }
 
-void BusEar::listen(double seconds) {
+void BusMonitor::dispatch_for(double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -29,7 +32,15 @@ void BusEar::listen(double seconds) {
   }
 }
 
-std::int64_t BusEar::heard(const std::string& channel) const {
+double BusMonitor::processor_share() {
+  // "0.20 0.18 0.12 3/80 11206": the fourth is the number of processes that run or could.
+  std::ifstream file("/proc/loadavg");
+  double one = 0, five = 0, fifteen = 0, runnable = 0;
+  if (!(file >> one >> five >> fifteen >> runnable) || runnable < 1) return 1;
+  return std::min(1.0, static_cast<double>(std::thread::hardware_concurrency()) / runnable);
+}
+
+std::int64_t BusMonitor::received(const std::string& channel) const {
   const auto found = counts_.find(channel);
   return found == counts_.end() ? 0 : found->second;
 }

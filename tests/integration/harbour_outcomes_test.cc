@@ -1,4 +1,4 @@
-// The harbour shows why packets are lost: four causes at least, each with the numbers that decided it, and no outcome
+// The harbour shows why packets are lost: four outcomes at least, each with the numbers that decided it, and no outcome
 // missing or double.
 #include <map>
 #include <set>
@@ -13,38 +13,38 @@ namespace {
 
 constexpr double kLastDepartureS = 145;  // all packets have ended 5 s later
 
-class HarbourLedgerTest : public testing::EmbeddedTest {
+class HarbourOutcomesTest : public testing::EmbeddedTest {
  protected:
   std::string log() { return run(load("harbour", {"scenario.duration_s=150"}), "harbour"); }
 };
 
-std::map<int, std::vector<packet_outcome_t>> by_fate(
+std::map<int, std::vector<packet_outcome_t>> by_outcome(
     const std::vector<std::pair<std::string, packet_outcome_t>>& outcomes) {
-  std::map<int, std::vector<packet_outcome_t>> fates;
-  for (const auto& [channel, outcome] : outcomes) fates[outcome.packet_fate].push_back(outcome);
-  return fates;
+  std::map<int, std::vector<packet_outcome_t>> by_kind;
+  for (const auto& [channel, outcome] : outcomes) by_kind[outcome.packet_fate].push_back(outcome);
+  return by_kind;
 }
 
-TEST_F(HarbourLedgerTest, FourCausesOccurAndEachIsBorneOutByItsNumbers) {
-  auto fates = by_fate(messages_in<packet_outcome_t>(log()));
-  for (const int cause : {packet_outcome_t::RECEIVED, packet_outcome_t::HALF_DUPLEX,
-                          packet_outcome_t::COLLIDED, packet_outcome_t::BIT_ERRORS}) {
-    EXPECT_GE(fates[cause].size(), 5u) << cause;
+TEST_F(HarbourOutcomesTest, FourOutcomesOccurAndTheNumbersConfirmEach) {
+  auto outcomes = by_outcome(messages_in<packet_outcome_t>(log()));
+  for (const int kind : {packet_outcome_t::RECEIVED, packet_outcome_t::HALF_DUPLEX,
+                         packet_outcome_t::COLLIDED, packet_outcome_t::BIT_ERRORS}) {
+    EXPECT_GE(outcomes[kind].size(), 5u) << kind;
   }
-  for (const auto& o : fates[packet_outcome_t::RECEIVED]) {
+  for (const auto& o : outcomes[packet_outcome_t::RECEIVED]) {
     EXPECT_GE(o.received_level_db, o.cutoff_level_db);
     EXPECT_LT(o.acquisition_draw, o.acquisition_probability);
     EXPECT_LT(o.success_draw, o.success_probability);
   }
-  for (const auto& o : fates[packet_outcome_t::HALF_DUPLEX]) {
+  for (const auto& o : outcomes[packet_outcome_t::HALF_DUPLEX]) {
     ASSERT_GE(o.colliders.size(), 1u);
     EXPECT_EQ(o.colliders[0].source_id, o.receiver_id);
   }
-  for (const auto& o : fates[packet_outcome_t::COLLIDED]) {
+  for (const auto& o : outcomes[packet_outcome_t::COLLIDED]) {
     ASSERT_GE(o.colliders.size(), 1u);
     EXPECT_NE(o.colliders[0].source_id, o.receiver_id);
   }
-  for (const auto& o : fates[packet_outcome_t::BIT_ERRORS]) {
+  for (const auto& o : outcomes[packet_outcome_t::BIT_ERRORS]) {
     EXPECT_LT(o.acquisition_draw, o.acquisition_probability);
     EXPECT_GE(o.success_draw, o.success_probability);
     EXPECT_EQ(o.propagation_used, packet_outcome_t::RAYS);
@@ -54,7 +54,7 @@ TEST_F(HarbourLedgerTest, FourCausesOccurAndEachIsBorneOutByItsNumbers) {
 using PacketKey = std::tuple<int, std::int64_t, std::int64_t>;  // source, session, number
 
 // All five are present all along.
-TEST_F(HarbourLedgerTest, EveryAcceptedPacketEndsOnceAtEachOfTheFourOthers) {
+TEST_F(HarbourOutcomesTest, EveryAcceptedPacketEndsOnceAtEachOfTheFourOthers) {
   const std::map<std::string, int> ids{
       {"quay", 1}, {"scout-1", 2}, {"scout-2", 3}, {"gate", 4}, {"visitor", 5}};
   const std::string path = log();

@@ -1,4 +1,4 @@
-// Listens on udpm and keeps what the tests of separate processes ask about.
+// A subscriber on udpm for tests of separate processes: counts messages by channel and keeps those that tests check.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,24 @@
 
 namespace halocline::testing {
 
-class BusEar {
+class BusMonitor {
  public:
-  BusEar();
+  BusMonitor();
 
-  // Handles what comes for so long.
-  void listen(double seconds);
-  // Listens until `condition` holds; false when it did not within `seconds`.
+  // Dispatches messages for so long.
+  void dispatch_for(double seconds);
+  // Dispatches until `condition` holds; false when it did not within `seconds` of processor time: while more processes
+  // want to run than there are processors, the time passes by the share that each gets.
   template <class Condition>
-  bool listen_until(double seconds, Condition condition) {
-    for (double left = seconds; left > 0; left -= kSlice) {
-      listen(kSlice);
+  bool wait_until(double seconds, Condition condition) {
+    for (double left = seconds; left > 0; left -= kSlice * processor_share()) {
+      dispatch_for(kSlice);
       if (condition()) return true;
     }
     return false;
   }
-  // Messages heard on `channel` (exact) since the last clear().
-  std::int64_t heard(const std::string& channel) const;
+  // Messages received on `channel` (exact) since the last clear().
+  std::int64_t received(const std::string& channel) const;
   void clear() { counts_.clear(); }
 
   lcm::LCM& lcm() { return *lcm_; }
@@ -41,6 +42,8 @@ class BusEar {
 
  private:
   static constexpr double kSlice = 0.02;
+  // Of one process at this instant, above 0, at most 1.
+  static double processor_share();
   void on_any(const lcm::ReceiveBuffer*, const std::string& channel) { ++counts_[channel]; }
 
   std::unique_ptr<lcm::LCM> lcm_;
