@@ -1,5 +1,5 @@
-// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv): a quick sum that tells texts and
-// messages apart. Not against an adversary, who finds collisions at will.
+// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv): a non-cryptographic hash:
+// collisions are rare by chance, and easy to construct.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace halocline {
 
-// The sum of nothing, with which one begins.
+// The offset basis: the hash of no bytes.
 inline constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325u;
 
-// The sum over what `sum` covers and then `bytes`.
+// The hash of the bytes that `sum` covers, followed by `bytes`.
 constexpr std::uint64_t fnv1a(std::span<const std::uint8_t> bytes, std::uint64_t sum = kFnvStart) {
   for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3u;
   return sum;

@@ -3,6 +3,8 @@
 #include <memory>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/calc/calc.h"
 #include "clients/halocline/commands.h"
@@ -16,12 +18,6 @@ struct CalcArguments {
   std::string input, output;
 };
 
-std::string names() {
-  std::string text;
-  for (const std::string& name : quantity_names()) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 int calc(CalcArguments& arguments) {
   if (arguments.options.quantity.empty()) arguments.options.list = true;
   std::ifstream file;
@@ -31,10 +27,12 @@ int calc(CalcArguments& arguments) {
   }
   std::ostringstream text;  // so that nothing is written unless all went well
   const int code = run_calc(arguments.options, file.is_open() ? file : std::cin, text, std::cerr);
-  if (arguments.output.empty() || arguments.output == "-") return std::cout << text.str() << std::flush, code;
-  if (code != kDone) return code;
-  write_text(arguments.output, text.str());
-  return kDone;
+  const bool to_stdout = arguments.output.empty() || arguments.output == "-";
+  if (to_stdout)
+    std::cout << text.str() << std::flush;
+  else if (code == kDone)
+    write_text(arguments.output, text.str());
+  return code;
 }
 
 }  // namespace
@@ -42,7 +40,8 @@ int calc(CalcArguments& arguments) {
 void add_calc_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<CalcArguments>();
   CLI::App* command = app.add_subcommand("calc", "Compute a quantity for each row of a table (CSV)");
-  command->add_option("quantity", arguments->options.quantity, "one of: " + names());
+  command->add_option("quantity", arguments->options.quantity,
+                      fmt::format("one of: {}", fmt::join(quantity_names(), ", ")));
   command->add_option("input", arguments->input, "CSV with the columns of the quantity; default or -: stdin");
   command->add_option("--out", arguments->output, "CSV with the results appended; default or -: stdout");
   command->add_option("--model", arguments->options.model, "formula; --list names them");

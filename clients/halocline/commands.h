@@ -1,4 +1,4 @@
-// The subcommands of `halocline`. Each adds itself to the command line; when it was asked for, its callback does the
+// The subcommands of `halocline`. Each adds itself to the command line; when it is chosen, its callback does the
 // work and leaves the exit code: 0 done, 1 failed, 2 the user's error. What it throws is reported by main.
 #pragma once
 
@@ -20,7 +20,7 @@ void add_run_command(CLI::App& app, int& exit_code);
 void add_link_command(CLI::App& app, int& exit_code);
 void add_calc_command(CLI::App& app, int& exit_code);
 void add_arrivals_command(CLI::App& app, int& exit_code);
-void add_ledger_command(CLI::App& app, int& exit_code);
+void add_outcomes_command(CLI::App& app, int& exit_code);
 void add_log_command(CLI::App& app, int& exit_code);
 void add_replay_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, int& exit_code);

@@ -1,17 +1,13 @@
 #include <iostream>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "clients/halocline/calc/calc.h"
 #include "clients/halocline/commands.h"
 
 namespace halocline::clients {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
 
 std::vector<std::string> words_of(const CLI::App& command) {
   std::vector<std::string> words;
@@ -24,8 +20,8 @@ std::vector<std::string> words_of(const CLI::App& command) {
 
 // One case for each command: what may follow it.
 void append_cases(const CLI::App& command, const std::string& path, std::string& text) {
-  std::string words = joined(words_of(command));
-  if (command.get_name() == "calc") words += " " + joined(quantity_names());
+  std::string words = fmt::format("{}", fmt::join(words_of(command), " "));
+  if (command.get_name() == "calc") words += fmt::format(" {}", fmt::join(quantity_names(), " "));
   if (command.get_name() == "completion") words += " bash";
   text += "    '" + path + "') words='" + words + "' ;;\n";
   for (const CLI::App* sub : command.get_subcommands(nullptr)) {
@@ -50,26 +46,26 @@ std::string bash_completion(const CLI::App& app) {
   std::string cases, paths;
   append_cases(app, "", cases);
   append_paths(app, "", paths);
-  return "# bash completion of halocline: eval \"$(halocline completion bash)\"\n"
-         "_halocline() {\n"
-         "  local path='' words='' word i\n"
-         "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
-         "    word=${COMP_WORDS[i]}\n"
-         "    case \"${path:+$path }$word\" in\n"
-         "      " +
-         paths +
-         ") path=\"${path:+$path }$word\" ;;\n"
-         "    esac\n"
-         "  done\n"
-         "  case \"$path\" in\n" +
-         cases +
-         "  esac\n"
-         "  COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n"
-         "  [[ -n $path && ${COMP_WORDS[COMP_CWORD]} != -* ]] &&\n"
-         "    COMPREPLY+=($(compgen -f -- \"${COMP_WORDS[COMP_CWORD]}\"))\n"
-         "  return 0\n"
-         "}\n"
-         "complete -o filenames -F _halocline halocline\n";
+  return R"sh(# bash completion of halocline: eval "$(halocline completion bash)"
+_halocline() {
+  local path='' words='' word i
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    word=${COMP_WORDS[i]}
+    case "${path:+$path }$word" in
+      )sh" +
+         paths + R"sh() path="${path:+$path }$word" ;;
+    esac
+  done
+  case "$path" in
+)sh" + cases +
+         R"sh(  esac
+  COMPREPLY=($(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}"))
+  [[ -n $path && ${COMP_WORDS[COMP_CWORD]} != -* ]] &&
+    COMPREPLY+=($(compgen -f -- "${COMP_WORDS[COMP_CWORD]}"))
+  return 0
+}
+complete -o filenames -F _halocline halocline
+)sh";
 }
 
 void add_completion_command(CLI::App& app, int& exit_code) {

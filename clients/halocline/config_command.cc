@@ -25,9 +25,9 @@ int show(const ConfigArguments& arguments) {
 
 void add_config_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<ConfigArguments>();
-  CLI::App* command = app.add_subcommand(
-      "config",
-      "Check a scenario file and print all it says; without one, every key with its default and meaning");
+  CLI::App* command = app.add_subcommand("config",
+                                         "Check a scenario file and print the effective configuration; "
+                                         "without one, every key with its default and meaning");
   command->add_option("scenario", arguments->scenario, "scenario file (TOML)");
   command->add_option("--set", arguments->overrides, "change a key: section.key=value (repeatable)")
       ->take_all()

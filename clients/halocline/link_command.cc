@@ -1,10 +1,9 @@
 #include <array>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 
+#include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
 #include "clients/halocline/arrivals/arrival_plot.h"
@@ -85,18 +84,13 @@ void print_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSu
 void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSurvey& answer) {
   const acoustics::LinkBudget& b = answer.reception.budget;
   const auto line = [](const char* what, double value, int digits, const char* unit) {
-    std::cout << std::left << std::setw(22) << what << std::right << std::fixed << std::setprecision(digits)
-              << std::setw(14) << value << " " << unit << "\n";
+    fmt::print(std::cout, "{:<22}{:>14.{}f} {}\n", what, value, digits, unit);
   };
   const auto place = [](const LinkSurveyEnd& end) {
-    std::cout << end.name << " (" << end.position_ned_m.x() << ", " << end.position_ned_m.y() << ", "
-              << end.position_ned_m.z() << ")";
+    const Vec3& p = end.position_ned_m;
+    return fmt::format("{} ({:g}, {:g}, {:g})", end.name, p.x(), p.y(), p.z());
   };
-  std::cout << "from ";
-  place(from);
-  std::cout << " to ";
-  place(to);
-  std::cout << ", NED m\n";
+  fmt::print(std::cout, "from {} to {}, NED m\n", place(from), place(to));
   line("range", b.range_m, 3, "m");
   line("delay", b.delay_s, 6, "s");
   line("mean sound speed", b.mean_sound_speed_mps, 3, "m/s");
@@ -106,10 +100,10 @@ void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkS
   line("noise in the band", b.noise_level.value, 3, "dB re 1 uPa");
   line("SNR", b.snr.value, 3, "dB");
   line("capacity", b.capacity_bps, 1, "bit/s");
-  std::cout << "receivable            " << (b.receivable ? "yes" : "no") << "\n"
-            << "bottom echo           " << name_of(answer.multipath) << "\n"
-            << "paths                 " << answer.reception.paths.size() << ", "
-            << name_of(answer.reception.state) << ", " << name_of(answer.reception.used) << "\n";
+  fmt::print(std::cout,
+             "receivable            {}\nbottom echo           {}\npaths                 {}, {}, {}\n",
+             b.receivable ? "yes" : "no", name_of(answer.multipath), answer.reception.paths.size(),
+             name_of(answer.reception.state), name_of(answer.reception.used));
   line("delay spread", answer.reception.delay_spread_s, 6, "s");
 }
 
@@ -147,8 +141,12 @@ int link(const LinkOptions& options) {
     from.velocity_ned_mps = parse_vector(options.from_velocity, "--from-velocity");
   if (!options.to_velocity.empty()) to.velocity_ned_mps = parse_vector(options.to_velocity, "--to-velocity");
   const LinkSurvey answer = survey_link(config, from, to);
-  if (options.arrivals) return print_paths(options, from, answer.arrivals), kDone;
-  options.json || options.format == "json" ? print_json(from, to, answer) : print_table(from, to, answer);
+  if (options.arrivals)
+    print_paths(options, from, answer.arrivals);
+  else if (options.json || options.format == "json")
+    print_json(from, to, answer);
+  else
+    print_table(from, to, answer);
   return kDone;
 }
 

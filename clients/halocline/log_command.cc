@@ -50,10 +50,11 @@ int write_output(const LogArguments& arguments) {
 
 void add_log_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<LogArguments>();
-  CLI::App* command = app.add_subcommand("log", "Look into an LCM log, or turn it into CSV");
+  CLI::App* command = app.add_subcommand("log", "Inspect an LCM log, or export it as CSV");
   command->require_subcommand(1);
   command->footer(footer("  halocline log info runs/seamount/seamount.lcm"));
-  CLI::App* info_command = command->add_subcommand("info", "Say what a log holds");
+  CLI::App* info_command =
+      command->add_subcommand("info", "Print what a log holds: messages, packets, damage");
   info_command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
   info_command->add_flag("--json", arguments->json, "as JSON");
   info_command->footer(footer("  halocline log info runs/seamount/seamount.lcm --json"));

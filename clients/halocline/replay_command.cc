@@ -1,8 +1,9 @@
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
+
+#include <fmt/ostream.h>
 
 #include "bus/event_log.h"
 #include "bus/logs/log_rotation.h"
@@ -32,7 +33,7 @@ std::string scenario_of(const ReplayOptions& options) {
   if (!options.scenario.empty()) return options.scenario;
   const std::string beside = config_beside(options.logs.front());
   require(fs::exists(beside),
-          "there is no " + beside + " that says what the log was made with; name one by --scenario");
+          "there is no " + beside + ", the configuration that the log was made with; name one by --scenario");
   return beside;
 }
 
@@ -64,7 +65,7 @@ std::string beside_log(const std::string& log, const char* ending) {
 
 void compare_with_original(const ReplayOptions& options, const std::string& made, SimDuration zero) {
   LogReader original(options.logs), replayed(made);
-  const Comparison comparison(fates_of(original, zero.nanoseconds() / 1000), fates_of(replayed));
+  const Comparison comparison(outcomes_of(original, zero.nanoseconds() / 1000), outcomes_of(replayed));
   const std::string csv = beside_log(made, ".comparison.csv"), json = beside_log(made, ".comparison.json");
   std::ostringstream table;
   print_csv(table, comparison);
@@ -97,16 +98,15 @@ int replay(const ReplayOptions& options) {
   const ScenarioConfig config = config_of(options);
   Recording recording = read_recording(log, config.scenario);
   tell_damage(std::cerr, log);
-  if (!options.quiet) tell_repairs(std::cerr, recording);
+  if (!options.quiet) print_repairs(std::cerr, recording);
   require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");
   const RunFiles files = run_files("", config.scenario.name, options.out, "");
   write_text(files.config, effective_toml(config));
   const SimDuration zero = recording.zero;
   const RunOutcome outcome = run_replay(options, config, files, std::move(recording));
   if (options.format == "table" && !options.quiet) {
-    std::printf("replayed    %s: %.3f s in %.3f s\nlog         %s\n\n", options.logs.front().c_str(),
-                outcome.reached.seconds(), outcome.wall_s, files.log.c_str());
-    std::fflush(stdout);
+    fmt::print(std::cout, "replayed    {}: {:.3f} s in {:.3f} s\nlog         {}\n\n", options.logs.front(),
+               outcome.reached.seconds(), outcome.wall_s, files.log);
   }
   if (!options.no_comparison) compare_with_original(options, files.log, zero);
   return kDone;
@@ -114,7 +114,7 @@ int replay(const ReplayOptions& options) {
 
 int compare(const ReplayOptions& options) {
   LogReader before(options.logs.at(0)), after(options.logs.at(1));
-  const Fates was = fates_of(before), is = fates_of(after);
+  const LoggedOutcomes was = outcomes_of(before), is = outcomes_of(after);
   tell_damage(std::cerr, before);
   tell_damage(std::cerr, after);
   show(Comparison(was, is), options.format);
@@ -157,7 +157,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
 void add_compare_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Say which packets of one mission changed their fate between two logs, and why");
+      "compare",
+      "List the packets of one mission whose outcome differs between two logs, with the inputs that differ");
   command->add_option("logs", options->logs, "the log before and the log after")->required()->expected(2);
   add_format_option(*command, options->format);
   command->footer(footer("  halocline compare runs/seamount/seamount.lcm calm.lcm"));

@@ -5,6 +5,8 @@
 #include <iostream>
 #include <memory>
 
+#include <fmt/ostream.h>
+
 #include "bus/event_log.h"
 #include "bus/logs/log_rotation.h"
 #include "bus/runtime/node_process.h"
@@ -38,11 +40,10 @@ std::vector<std::string> overrides_of(const RunOptions& options) {
 void print_end(const RunOptions& options, const RunFiles& files, const ScenarioConfig& config,
                const RunOutcome& outcome) {
   LogReader log(files.log);
-  std::cout << "scenario    " << config.scenario.name << ": " << config.scenario.description << "\n";
-  std::printf("simulated   %.3f s%s in %.3f s, %.1f times real time\n", outcome.reached.seconds(),
-              outcome.interrupted ? " (interrupted)" : "", outcome.wall_s,
-              outcome.reached.seconds() / std::max(outcome.wall_s, 1e-9));
-  std::fflush(stdout);
+  fmt::print(std::cout, "scenario    {}: {}\n", config.scenario.name, config.scenario.description);
+  fmt::print(std::cout, "simulated   {:.3f} s{} in {:.3f} s, {:.1f} times real time\n",
+             outcome.reached.seconds(), outcome.interrupted ? " (interrupted)" : "", outcome.wall_s,
+             outcome.reached.seconds() / std::max(outcome.wall_s, 1e-9));
   print(std::cout, statistics_of(log));
   std::cout << "log         " << files.log << "\n";
   std::cout << "config      " << files.config << "\n";

@@ -10,10 +10,11 @@
 
 #include "bus/event_log.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/thread_pool.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
-#include "clients/halocline/sweep/run_pool.h"
+#include "clients/halocline/sweep/child_program.h"
 #include "clients/halocline/sweep/sweep_folder.h"
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/check.h"
@@ -98,7 +99,7 @@ std::vector<std::string> command_of(const SweepPlan& plan, const Job& job) {
 std::string last_line(const std::string& path) {
   const std::string text = text_of(path);
   const auto end = text.find_last_not_of('\n');
-  if (end == std::string::npos) return "it said nothing";
+  if (end == std::string::npos) return "no output";
   const auto start = text.rfind('\n', end);
   return text.substr(start == std::string::npos ? 0 : start + 1,
                      end - (start == std::string::npos ? 0 : start + 1) + 1);
@@ -109,10 +110,10 @@ std::string do_job(const SweepPlan& plan, const Job& job, bool keep_log) {
   std::error_code error;
   fs::create_directories(job.folder, error);
   if (error) return "cannot make the folder " + job.folder + ": " + error.message();
-  const std::string said = job.folder + "/output.txt", log = job.folder + "/run.lcm";
-  const ProgramEnd end = run_program({command_of(plan, job), said}, bus::stop_requested);
+  const std::string output = job.folder + "/output.txt", log = job.folder + "/run.lcm";
+  const ProgramEnd end = run_program({command_of(plan, job), output}, bus::stop_requested);
   if (end.stopped || bus::stop_requested()) return "stopped";
-  if (end.exit_code != 0) return "exit code " + std::to_string(end.exit_code) + ": " + last_line(said);
+  if (end.exit_code != 0) return "exit code " + std::to_string(end.exit_code) + ": " + last_line(output);
   LogReader reader(log);
   const RunMetrics metrics = metrics_of(reader);
   if (metrics.simulated_s < job.duration_s - 1e-6)
@@ -134,6 +135,7 @@ std::size_t do_jobs(const SweepPlan& plan, const std::vector<Job>& jobs, const S
   std::mutex mutex;
   std::size_t done = 0, failed = 0;
   const auto work = [&](std::size_t i) {
+    if (bus::stop_requested()) return;
     std::string problem;
     try {
       problem = do_job(plan, *waiting[i], options.keep_logs);
@@ -148,7 +150,8 @@ std::size_t do_jobs(const SweepPlan& plan, const std::vector<Job>& jobs, const S
     if (!options.quiet) std::fprintf(stderr, "%zu of %zu done, %zu failed\n", done, waiting.size(), failed);
   };
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  for_each_parallel(waiting.size(), options.jobs > 0 ? options.jobs : cores, work, bus::stop_requested);
+  const std::size_t jobs_at_a_time = std::min(options.jobs > 0 ? options.jobs : cores, waiting.size());
+  if (jobs_at_a_time > 0) bus::ThreadPool(static_cast<int>(jobs_at_a_time)).for_each(waiting.size(), work);
   return waiting.size() - done;
 }
 
@@ -229,9 +232,9 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
       "sweep", "Run a scenario over a grid of overrides and seeds, with confidence intervals");
   add_plan_options(*command, *options);
   command->add_option("--jobs", options->jobs, "runs at a time, each a process; default: one a core")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--keep-logs", options->keep_logs, "keep the LCM log of each run");
-  command->add_flag("--list", options->list, "say which runs there are, and which are done");
+  command->add_flag("--list", options->list, "list the runs, and which are done");
   command->add_flag("--gather", options->gather, "only make the tables of what is done");
   CLI::Option* of = command->add_option("--of", options->of, "share the runs among this many tasks")
                         ->check(CLI::PositiveNumber);

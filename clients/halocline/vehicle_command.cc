@@ -39,7 +39,7 @@ void add_water_options(CLI::App* command, VehicleReplay& r) {
                       "where it flows to, clockwise from north");
   command
       ->add_option("--current-treatment", r.current_treatment,
-                   "upstream: as published with remus100-pvs; galilean: exactly; default: as the model says")
+                   "upstream: as published with remus100-pvs; galilean: exactly; default: the model's")
       ->check(CLI::IsMember({"upstream", "galilean"}));
   command
       ->add_option("--buoyancy-over-weight", r.buoyancy_over_weight, "times the model's buoyancy, 0.5 to 2")
@@ -73,8 +73,8 @@ void add_replay(CLI::App* parent, int& exit_code) {
 }  // namespace
 
 void add_vehicle_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("vehicle", "Vehicle models: what there is, their parameters, how they move");
+  CLI::App* command = app.add_subcommand(
+      "vehicle", "Vehicle models: list them, show their parameters, run them along commands");
   command->require_subcommand(1);
   command->footer(footer("  halocline vehicle show torpedo"));
   CLI::App* list = command->add_subcommand("list", "Name the built-in models");

@@ -71,7 +71,7 @@ void read_log(benchmark::State& state) {
 }
 BENCHMARK(read_log)->Unit(benchmark::kMillisecond);
 
-// Every vehicle lies still, says so five times a second and broadcasts once a second for a minute.
+// Every vehicle lies still, publishes its state five times a second and broadcasts once a second for a minute.
 Recording chatter(int vehicles) {
   Recording recording;
   recording.end = SimTime::from_seconds(60);
@@ -112,8 +112,8 @@ void packets_through_a_channel_server(benchmark::State& state) {
     lcm::LCM lcm("memq://");
     ReplayNode node(lcm, {"replay", 1}, recording);
     const auto server = channel_server::make_channel_server(lcm, {"channel-server", 1}, config, {}, ".");
-    bus::Bus ear(lcm, {"ear", 1});
-    ear.subscribe<packet_outcome_t>(bus::channels::kOutcome, [&](const packet_outcome_t&) { ++outcomes; });
+    bus::Bus peer(lcm, {"peer", 1});
+    peer.subscribe<packet_outcome_t>(bus::channels::kOutcome, [&](const packet_outcome_t&) { ++outcomes; });
     bus::LockstepRunner runner(lcm, {&node, server.get()});
     runner.run_until(recording.end);
   }

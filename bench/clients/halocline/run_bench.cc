@@ -14,7 +14,7 @@
 namespace halocline::clients {
 namespace {
 
-// Everybody runs lines of 400 m at some 1.5 m/s within 3 km by 3 km, at 30 to 110 m, and broadcasts once a minute.
+// Every vehicle runs lines of 400 m at some 1.5 m/s within 3 km by 3 km, at 30 to 110 m, and broadcasts once a minute.
 std::string vehicle(int index) {
   const int north = -1500 + (index * 733) % 3000, east = -1500 + (index * 1151) % 3000;
   const int depth = 30 + (index * 17) % 80;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "bus/channels.h"
 #include "bus/logs/channel_types.h"
@@ -21,9 +22,9 @@ PlaceKey key_of(const packet_outcome_t& o) {
 }
 
 using Outcomes = std::vector<const packet_outcome_t*>;
-std::map<PlaceKey, Outcomes> by_place(const Ledger& ledger) {
+std::map<PlaceKey, Outcomes> by_place(const OutcomeSummary& summary) {
   std::map<PlaceKey, Outcomes> places;
-  for (const packet_outcome_t& outcome : ledger.outcomes()) places[key_of(outcome)].push_back(&outcome);
+  for (const packet_outcome_t& outcome : summary.outcomes()) places[key_of(outcome)].push_back(&outcome);
   for (auto& [key, outcomes] : places) {
     std::stable_sort(outcomes.begin(), outcomes.end(),
                      [](auto* a, auto* b) { return a->departure_utime < b->departure_utime; });
@@ -41,29 +42,23 @@ const packet_outcome_t* take_departed_with(Outcomes& others, std::int64_t depart
   return found;
 }
 
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string level_text(double level_db) {
-  return level_db <= kNoInterference_db ? "none" : formatted("%.1f dB", level_db);
+  return level_db <= kNoInterference_db ? "none" : fmt::format("{:.1f} dB", level_db);
 }
 
-// The inputs of a decision, compared and told.
+// The inputs of a decision that differ, as names and as text.
 class Differences {
  public:
   Differences(const packet_outcome_t& before, const packet_outcome_t& after) {
     level("level", before.received_level_db, after.received_level_db);
     level("noise", before.noise_level_db, after.noise_level_db);
     level("interference", before.interference_level_db, after.interference_level_db);
-    number("paths", before.num_paths, after.num_paths, 0, "%.0f");
-    number("propagation", before.propagation_used, after.propagation_used, 0, "%.0f");
+    number("paths", before.num_paths, after.num_paths, 0, "{:.0f}");
+    number("propagation", before.propagation_used, after.propagation_used, 0, "{:.0f}");
     level("cutoff", before.cutoff_level_db, after.cutoff_level_db);
-    number("range", before.range_m, after.range_m, kRangeStep_m, "%.1f m");
-    number("duration", before.duration_s, after.duration_s, kDurationStep_s, "%.3f s");
-    number("doppler", before.doppler_factor, after.doppler_factor, kFactorStep, "%.6f");
+    number("range", before.range_m, after.range_m, kRangeStep_m, "{:.1f} m");
+    number("duration", before.duration_s, after.duration_s, kDurationStep_s, "{:.3f} s");
+    number("doppler", before.doppler_factor, after.doppler_factor, kFactorStep, "{:.6f}");
     if (before.acquisition_draw != after.acquisition_draw || before.success_draw != after.success_draw)
       add("draws", "");
     if (colliders(before) != colliders(after)) add("colliders", "");
@@ -83,7 +78,8 @@ class Differences {
     if (std::abs(is - was) >= kLevelStep_db) add(name, " " + level_text(was) + " -> " + level_text(is));
   }
   void number(const char* name, double was, double is, double step, const char* format) {
-    if (std::abs(is - was) > step) add(name, " " + formatted(format, was) + " -> " + formatted(format, is));
+    const auto text = [&](double value) { return fmt::format(fmt::runtime(format), value); };
+    if (std::abs(is - was) > step) add(name, " " + text(was) + " -> " + text(is));
   }
   void add(const char* name, const std::string& values) {
     names_.emplace_back(name);
@@ -106,8 +102,9 @@ bool are_identical(packet_outcome_t a, packet_outcome_t b) {
 }
 
 // Why a log has no outcome for what the other log has one for.
-std::string absent_fate(const Fates& log, const packet_outcome_t& other, const std::string& sender) {
-  if (log.ledger.outcomes().empty()) return log.receipts.empty() ? "not recorded" : "no outcome";
+std::string absent_outcome(const LoggedOutcomes& log, const packet_outcome_t& other,
+                           const std::string& sender) {
+  if (log.summary.outcomes().empty()) return log.receipts.empty() ? "not recorded" : "no outcome";
   const auto receipt = log.receipts.find({sender, other.send_session, other.packet_sequence});
   if (receipt != log.receipts.end() && receipt->second != modem_receipt_t::ACCEPTED &&
       receipt->second != modem_receipt_t::QUEUED)
@@ -115,43 +112,46 @@ std::string absent_fate(const Fates& log, const packet_outcome_t& other, const s
   return other.utime >= log.end_utime ? "undecided at the end" : "no outcome";
 }
 
-std::string fate_text(const packet_outcome_t& outcome) {
-  return fate_name(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.packet_fate)));
+std::string outcome_text(const packet_outcome_t& outcome) {
+  return outcome_name(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.packet_fate)));
 }
 
 }  // namespace
 
-Fates fates_of(LogReader& log, std::int64_t zero_us) {
-  Fates fates;
+LoggedOutcomes outcomes_of(LogReader& log, std::int64_t zero_us) {
+  LoggedOutcomes logged;
   for (LoggedEvent event; log.next(event);) {
     with_type_of(event.channel, [&]<class Message>() {
       if constexpr (std::is_same_v<Message, modem_receipt_t>) {
         Message message;
         if (!decode_checked(event.data, message)) return;
         const std::string vehicle = event.channel.substr(bus::channels::kReceipt.prefix.size());
-        fates.receipts[{vehicle, message.send_session, message.packet_sequence}] = message.receipt_result;
-        fates.end_utime = std::max(fates.end_utime, message.utime - zero_us);
+        logged.receipts[{vehicle, message.send_session, message.packet_sequence}] = message.receipt_result;
+        logged.end_utime = std::max(logged.end_utime, message.utime - zero_us);
       } else if constexpr (std::is_same_v<Message, modem_send_t>) {
-        ++fates.sends;
+        ++logged.sends;
       }
     });
-    fates.ledger.count(event, zero_us);
+    logged.summary.count(event, zero_us);
   }
-  for (const packet_outcome_t& outcome : fates.ledger.outcomes())
-    fates.end_utime = std::max(fates.end_utime, outcome.utime);
-  return fates;
+  for (const packet_outcome_t& outcome : logged.summary.outcomes())
+    logged.end_utime = std::max(logged.end_utime, outcome.utime);
+  return logged;
 }
 
-Comparison::Comparison(const Fates& before, const Fates& after)
-    : names_(before.ledger.names()), anything_before_(!before.ledger.outcomes().empty()) {
-  names_.insert(after.ledger.names().begin(), after.ledger.names().end());
-  auto was = by_place(before.ledger), is = by_place(after.ledger);
+Comparison::Comparison(const LoggedOutcomes& before, const LoggedOutcomes& after)
+    : names_(before.summary.names()), anything_before_(!before.summary.outcomes().empty()) {
+  names_.insert(after.summary.names().begin(), after.summary.names().end());
+  auto was = by_place(before.summary), is = by_place(after.summary);
   for (auto& [key, outcomes] : was) {
     Outcomes& others = is[key];
     Outcomes moved;
     for (const packet_outcome_t* outcome : outcomes) {
       const packet_outcome_t* other = take_departed_with(others, outcome->departure_utime);
-      other != nullptr ? add(before, after, outcome, other) : moved.push_back(outcome);
+      if (other != nullptr)
+        add(before, after, outcome, other);
+      else
+        moved.push_back(outcome);
     }
     for (std::size_t i = 0; i < std::max(moved.size(), others.size()); ++i)
       add(before, after, i < moved.size() ? moved[i] : nullptr, i < others.size() ? others[i] : nullptr);
@@ -168,15 +168,15 @@ Comparison::Comparison(const Fates& before, const Fates& after)
   });
 }
 
-void Comparison::add(const Fates& before, const Fates& after, const packet_outcome_t* was,
+void Comparison::add(const LoggedOutcomes& before, const LoggedOutcomes& after, const packet_outcome_t* was,
                      const packet_outcome_t* is) {
   const auto named = [this](std::int32_t id) { return name(id); };
   const std::string sender = name((was != nullptr ? was : is)->source_id);
   Row row;
   if (was != nullptr) row.before = *was;
   if (is != nullptr) row.after = *is;
-  row.fate_before = was != nullptr ? fate_text(*was) : absent_fate(before, *is, sender);
-  row.fate_after = is != nullptr ? fate_text(*is) : absent_fate(after, *was, sender);
+  row.outcome_before = was != nullptr ? outcome_text(*was) : absent_outcome(before, *is, sender);
+  row.outcome_after = is != nullptr ? outcome_text(*is) : absent_outcome(after, *was, sender);
   if (row.before && row.after) {
     const Differences differences(*row.before, *row.after);
     row.moved = differences.names();
@@ -186,7 +186,7 @@ void Comparison::add(const Fates& before, const Fates& after, const packet_outco
   } else if (row.after) {
     row.why = deciding_numbers(*row.after, named);
   }
-  ++transitions_[{row.fate_before, row.fate_after}];
+  ++transitions_[{row.outcome_before, row.outcome_after}];
   if (row.changed()) {
     ++changed_;
     for (const std::string& input : row.moved) ++moved_inputs_[input];

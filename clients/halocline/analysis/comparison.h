@@ -1,8 +1,8 @@
-// Two logs of one mission side by side: which packets changed their fate, and the numbers that changed it.
+// Two logs of one mission side by side: which packets changed their outcome, and the inputs that differ.
 //
 // A packet at a receiver is found again in the other log by its name (sender, kind, session, sequence),
 // destination and receiver; where a name was used more than once, by the instant of departure, and by turn
-// where that moved. Where one log has no outcome for it, the receipt of its transmission may say why
+// where that moved. Where one log has no outcome for it, the receipt of its transmission may give the reason
 // (refused), or the log ended before, or the log holds no outcomes at all (a mission recorded at sea).
 //
 // `moved` names the inputs of the decision that differ: level, noise, interference, paths, propagation,
@@ -20,13 +20,13 @@
 #include <utility>
 #include <vector>
 
-#include "clients/halocline/analysis/ledger.h"
+#include "clients/halocline/analysis/outcome_summary.h"
 
 namespace halocline::clients {
 
-// What a log says of its packets.
-struct Fates {
-  Ledger ledger{60'000'000};
+// The outcomes and receipts in a log.
+struct LoggedOutcomes {
+  OutcomeSummary summary{60'000'000};
   // By vehicle's name, session and sequence: the receipt's result.
   std::map<std::tuple<std::string, std::int64_t, std::int64_t>, std::int8_t> receipts;
   std::int64_t sends = 0;      // SENDs in the log
@@ -34,26 +34,26 @@ struct Fates {
 };
 
 // `zero_us` is taken off the times of all messages: where a replay moved them.
-Fates fates_of(LogReader& log, std::int64_t zero_us = 0);
+LoggedOutcomes outcomes_of(LogReader& log, std::int64_t zero_us = 0);
 
 class Comparison {
  public:
   struct Row {
     std::optional<packet_outcome_t> before, after;  // one at least
-    std::string fate_before, fate_after;
+    std::string outcome_before, outcome_after;
     std::vector<std::string> moved;  // inputs that differ; empty unless both are there
-    std::string why;                 // a sentence; empty when the fate is the same
+    std::string why;                 // a sentence; empty when the outcome is the same
 
-    bool changed() const { return fate_before != fate_after; }
+    bool changed() const { return outcome_before != outcome_after; }
     const packet_outcome_t& any() const { return before ? *before : *after; }
   };
 
-  // The ledgers' names of vehicles must agree, which those of one mission do.
-  Comparison(const Fates& before, const Fates& after);
+  // The names of vehicles must agree, as in logs of one mission.
+  Comparison(const LoggedOutcomes& before, const LoggedOutcomes& after);
 
   const std::vector<Row>& rows() const { return rows_; }  // by departure, sender, sequence, receiver
   bool anything_before() const { return anything_before_; }
-  // How many (packet, receiver) went from one fate to another; those that stayed are on the diagonal.
+  // How many (packet, receiver) went from one outcome to another; unchanged ones are on the diagonal.
   const std::map<std::pair<std::string, std::string>, std::int64_t>& transitions() const {
     return transitions_;
   }
@@ -65,7 +65,8 @@ class Comparison {
   std::string name(std::int32_t vehicle_id) const;
 
  private:
-  void add(const Fates& before, const Fates& after, const packet_outcome_t* was, const packet_outcome_t* is);
+  void add(const LoggedOutcomes& before, const LoggedOutcomes& after, const packet_outcome_t* was,
+           const packet_outcome_t* is);
 
   std::vector<Row> rows_;
   std::map<std::pair<std::string, std::string>, std::int64_t> transitions_;

@@ -1,9 +1,7 @@
-// The comparison for people and programs.
+// The comparison as text, JSON and CSV.
 #include <algorithm>
-#include <cstdio>
-#include <iomanip>
-#include <ostream>
 
+#include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
 #include "clients/halocline/analysis/comparison.h"
@@ -16,18 +14,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kRowsShown = 20;
 
-std::string formatted(const char* format, double a, double b, double c) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
-
 std::string colliders_of(const packet_outcome_t& outcome,
                          const std::function<std::string(std::int32_t)>& name) {
-  std::string text;
+  std::vector<std::string> packets;
   for (const packet_name_t& packet : outcome.colliders)
-    text += (text.empty() ? "" : " ") + name(packet.source_id) + ":" + std::to_string(packet.packet_sequence);
-  return text;
+    packets.push_back(fmt::format("{}:{}", name(packet.source_id), packet.packet_sequence));
+  return fmt::format("{}", fmt::join(packets, " "));
 }
 
 // The numbers of an outcome, by name: columns of the table, members of the JSON.
@@ -50,12 +42,6 @@ std::vector<std::pair<const char*, double>> numbers_of(const packet_outcome_t& o
           {"success_draw", o.success_draw}};
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::string addressee(const Comparison& comparison, const packet_outcome_t& outcome) {
   return outcome.destination_id == 0 ? "all" : comparison.name(outcome.destination_id);
 }
@@ -70,10 +56,10 @@ Json to_json(const std::optional<packet_outcome_t>& outcome, const Comparison& c
 
 void print_row(std::ostream& out, const Comparison& comparison, const Comparison::Row& row) {
   const packet_outcome_t& packet = row.any();
-  out << "  " << std::fixed << std::setprecision(3) << std::setw(11)
-      << static_cast<double>(packet.departure_utime) * 1e-6 << " s  " << comparison.name(packet.source_id)
-      << ":" << packet.packet_sequence << " at " << comparison.name(packet.receiver_id) << ": "
-      << row.fate_before << " -> " << row.fate_after << (row.why.empty() ? "" : "; ") << row.why << "\n";
+  fmt::print(out, "  {:>11.3f} s  {}:{} at {}: {} -> {}{}{}\n",
+             static_cast<double>(packet.departure_utime) * 1e-6, comparison.name(packet.source_id),
+             packet.packet_sequence, comparison.name(packet.receiver_id), row.outcome_before,
+             row.outcome_after, row.why.empty() ? "" : "; ", row.why);
 }
 
 }  // namespace
@@ -84,32 +70,33 @@ std::string deciding_numbers(const packet_outcome_t& o,
   const std::string beside = others.empty() ? "" : " with " + others;
   switch (o.packet_fate) {
     case packet_outcome_t::RECEIVED:
-      return formatted("success %.3g above draw %.3g at SINR %.1f dB", o.success_probability, o.success_draw,
-                       o.sinr_db);
+      return fmt::format("success {:.3g} above draw {:.3g} at SINR {:.1f} dB", o.success_probability,
+                         o.success_draw, o.sinr_db);
     case packet_outcome_t::BELOW_CUTOFF:
-      return formatted("level %.1f dB below the cut-off %.1f dB", o.received_level_db, o.cutoff_level_db, 0);
+      return fmt::format("level {:.1f} dB below the cut-off {:.1f} dB", o.received_level_db,
+                         o.cutoff_level_db);
     case packet_outcome_t::RECEIVER_GONE:
       return "the receiver's states had grown too old";
     case packet_outcome_t::SHADOW:
-      return "no path: the water bends all away";
+      return "no path: all rays are refracted away";
     case packet_outcome_t::BLOCKED:
-      return "no path: the terrain stands in all";
+      return "no path: the terrain blocks all";
     case packet_outcome_t::OUT_OF_BAND:
-      return "the bands of the two modems share nothing";
+      return "the bands of the two modems do not overlap";
     case packet_outcome_t::HALF_DUPLEX:
       return "the receiver itself sent " + others;
     case packet_outcome_t::DOPPLER:
-      return formatted("Doppler factor %.6f is beyond what the modem follows", o.doppler_factor, 0, 0);
+      return fmt::format("Doppler factor {:.6f} is beyond the modem's tolerance", o.doppler_factor);
     case packet_outcome_t::COLLIDED:
       if (o.success_probability == 0) return "the receiver followed " + others;
       [[fallthrough]];
     case packet_outcome_t::BIT_ERRORS:
-      return formatted("success %.3g not above draw %.3g at SINR %.1f dB", o.success_probability,
-                       o.success_draw, o.sinr_db) +
+      return fmt::format("success {:.3g} not above draw {:.3g} at SINR {:.1f} dB", o.success_probability,
+                         o.success_draw, o.sinr_db) +
              beside;
     case packet_outcome_t::NOT_ACQUIRED:
-      return formatted("acquisition %.3g not above draw %.3g at SNR %.1f dB", o.acquisition_probability,
-                       o.acquisition_draw, o.snr_db) +
+      return fmt::format("acquisition {:.3g} not above draw {:.3g} at SNR {:.1f} dB",
+                         o.acquisition_probability, o.acquisition_draw, o.snr_db) +
              beside;
   }
   return "";
@@ -122,16 +109,17 @@ void print(std::ostream& out, const Comparison& comparison) {
         << " of the second with.\n";
     return;
   }
-  out << all << " packets at receivers: " << comparison.changed() << " changed their fate, "
-      << static_cast<std::int64_t>(all) - comparison.changed() << " kept it, " << comparison.identical()
-      << " of them with the same numbers\n";
+  fmt::print(
+      out,
+      "{} packets at receivers: {} changed their outcome, {} kept it, {} of them with the same numbers\n",
+      all, comparison.changed(), static_cast<std::int64_t>(all) - comparison.changed(),
+      comparison.identical());
   if (!comparison.transitions().empty()) out << "\nbefore -> after\n";
-  for (const auto& [fates, count] : comparison.transitions())
-    out << "  " << std::left << std::setw(52) << fates.first + " -> " + fates.second << std::right
-        << std::setw(9) << count << "\n";
+  for (const auto& [change, count] : comparison.transitions())
+    fmt::print(out, "  {:<52}{:>9}\n", change.first + " -> " + change.second, count);
   if (!comparison.moved_inputs().empty()) out << "\nof the changed, these differ\n";
   for (const auto& [input, count] : comparison.moved_inputs())
-    out << "  " << std::left << std::setw(52) << input << std::right << std::setw(9) << count << "\n";
+    fmt::print(out, "  {:<52}{:>9}\n", input, count);
   if (comparison.changed() == 0) return;
   out << "\nchanged"
       << (comparison.changed() > static_cast<std::int64_t>(kRowsShown) ? " (the first 20)" : "") << "\n";
@@ -148,8 +136,8 @@ std::string to_json(const Comparison& comparison) {
   json["changed"] = comparison.changed();
   json["identical"] = comparison.identical();
   json["transitions"] = Json::array();
-  for (const auto& [fates, count] : comparison.transitions())
-    json["transitions"].push_back({{"before", fates.first}, {"after", fates.second}, {"packets", count}});
+  for (const auto& [change, count] : comparison.transitions())
+    json["transitions"].push_back({{"before", change.first}, {"after", change.second}, {"packets", count}});
   json["moved"] = comparison.moved_inputs();
   json["rows"] = Json::array();
   for (const Comparison::Row& row : comparison.rows()) {
@@ -160,8 +148,8 @@ std::string to_json(const Comparison& comparison) {
                             {"addressed_to", addressee(comparison, packet)},
                             {"send_session", packet.send_session},
                             {"packet_sequence", packet.packet_sequence},
-                            {"before", row.fate_before},
-                            {"after", row.fate_after},
+                            {"before", row.outcome_before},
+                            {"after", row.outcome_after},
                             {"moved", row.moved},
                             {"why", row.why},
                             {"numbers_before", to_json(row.before, comparison)},
@@ -182,8 +170,8 @@ void print_csv(std::ostream& out, const Comparison& comparison) {
     const packet_outcome_t& packet = row.any();
     out << comparison.name(packet.source_id) << ',' << comparison.name(packet.receiver_id) << ','
         << addressee(comparison, packet) << ',' << packet.send_session << ',' << packet.packet_sequence << ','
-        << row.fate_before << ',' << row.fate_after << ',' << (row.changed() ? 1 : 0) << ','
-        << joined(row.moved) << ",\"" << row.why << '"';
+        << row.outcome_before << ',' << row.outcome_after << ',' << (row.changed() ? 1 : 0) << ','
+        << fmt::format("{}", fmt::join(row.moved, " ")) << ",\"" << row.why << '"';
     for (const auto* side : {&row.before, &row.after}) {
       for (const auto& [name, value] : numbers_of(side->value_or(packet_outcome_t{})))
         out << ',' << (*side ? format_number(value) : "");

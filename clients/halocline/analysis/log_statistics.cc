@@ -1,11 +1,9 @@
 #include "clients/halocline/analysis/log_statistics.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <ostream>
-#include <sstream>
 #include <type_traits>
 
+#include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
 #include "bus/logs/channel_types.h"
@@ -17,7 +15,7 @@ constexpr std::array<const char*, LogStatistics::kReceiptResults> kReceiptNames{
     "accepted",           "refused: busy",  "refused: too large", "refused: unknown vehicle",
     "refused: wrong id",  "refused: stale", "refused: too early", "queued",
     "refused: queue full"};
-constexpr std::array<const char*, LogStatistics::kFates> kFateNames{
+constexpr std::array<const char*, kOutcomes> kOutcomeNames{
     "received", "below cut-off", "receiver gone", "in a shadow", "blocked by terrain", "out of band",
     "collided", "half duplex",   "doppler",       "bit errors",  "not acquired"};
 
@@ -38,14 +36,11 @@ std::tuple<double, double, double> spread(std::vector<double> values) {
 template <std::size_t N>
 void print_named(std::ostream& out, const char* title, const std::array<std::int64_t, N>& counts,
                  const std::array<const char*, N>& names) {
-  out << title;
-  bool any = false;
+  std::vector<std::string> texts;
   for (std::size_t i = 0; i < N; ++i) {
-    if (counts[i] == 0) continue;
-    out << (any ? ", " : "") << counts[i] << " " << names[i];
-    any = true;
+    if (counts[i] > 0) texts.push_back(fmt::format("{} {}", counts[i], names[i]));
   }
-  out << (any ? "\n" : "none\n");
+  fmt::print(out, "{}{}\n", title, texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, ", ")));
 }
 
 }  // namespace
@@ -53,9 +48,11 @@ void print_named(std::ostream& out, const char* title, const std::array<std::int
 const char* receipt_name(std::size_t result) {
   return result < kReceiptNames.size() ? kReceiptNames[result] : "?";
 }
-const char* fate_name(std::size_t fate) { return fate < kFateNames.size() ? kFateNames[fate] : "?"; }
+const char* outcome_name(std::size_t outcome) {
+  return outcome < kOutcomeNames.size() ? kOutcomeNames[outcome] : "?";
+}
 
-// What one sound message adds.
+// Counts one valid message.
 template <class Message>
 void LogStatistics::count_message(const LoggedEvent& event, const Message& message) {
   if constexpr (std::is_same_v<Message, modem_receipt_t>) {
@@ -97,30 +94,25 @@ LogStatistics statistics_of(LogReader& log) {
 }
 
 void print(std::ostream& out, const LogStatistics& s) {
-  out << std::fixed;
-  out << "messages    " << s.events << " (" << std::setprecision(1) << static_cast<double>(s.bytes) / 1e6
-      << " MB), stamps " << std::setprecision(3) << static_cast<double>(s.first_stamp_us) * 1e-6 << " s to "
-      << static_cast<double>(s.last_stamp_us) * 1e-6 << " s\n";
-  for (const auto& [family, count] : by_family(s)) {
-    out << "  " << std::left << std::setw(14) << family << std::right << std::setw(9) << count << "\n";
-  }
-  out << "packets     " << s.packets_sent << " sent, " << s.packets_delivered << " delivered\n";
+  fmt::print(out, "messages    {} ({:.1f} MB), stamps {:.3f} s to {:.3f} s\n", s.events,
+             static_cast<double>(s.bytes) / 1e6, static_cast<double>(s.first_stamp_us) * 1e-6,
+             static_cast<double>(s.last_stamp_us) * 1e-6);
+  for (const auto& [family, count] : by_family(s)) fmt::print(out, "  {:<14}{:>9}\n", family, count);
+  fmt::print(out, "packets     {} sent, {} delivered\n", s.packets_sent, s.packets_delivered);
   print_named(out, "  receipts  ", s.receipts, kReceiptNames);
-  print_named(out, "  outcomes  ", s.outcomes, kFateNames);
+  print_named(out, "  outcomes  ", s.outcomes, kOutcomeNames);
   if (!s.travel_times_s.empty()) {
     const auto [least, median, greatest] = spread(s.travel_times_s);
-    out << "  delay     " << std::setprecision(6) << least << " s least, " << median << " s median, "
-        << greatest << " s greatest\n";
+    fmt::print(out, "  delay     {:.6f} s least, {:.6f} s median, {:.6f} s greatest\n", least, median,
+               greatest);
   }
-  if (s.files.size() > 1)
-    out << "files       " << s.files.size() << ", the first " << s.files.front() << "\n";
-  if (s.foreign > 0) out << "foreign     " << s.foreign << " events on channels that are none of ours\n";
+  if (s.files.size() > 1) fmt::print(out, "files       {}, the first {}\n", s.files.size(), s.files.front());
+  if (s.foreign > 0) fmt::print(out, "foreign     {} events on channels that are none of ours\n", s.foreign);
   for (const auto& [channel, count] : s.foreign_by_channel)
-    out << "  " << std::left << std::setw(14) << channel << std::right << std::setw(9) << count << "\n";
-  for (const auto& [channel, undecodable] : s.undecodable_by_channel) {
-    out << "undecodable " << undecodable.count << " on " << channel << ", the first at "
-        << undecodable.first_at << "\n";
-  }
+    fmt::print(out, "  {:<14}{:>9}\n", channel, count);
+  for (const auto& [channel, undecodable] : s.undecodable_by_channel)
+    fmt::print(out, "undecodable {} on {}, the first at {}\n", undecodable.count, channel,
+               undecodable.first_at);
 }
 
 std::string to_json(const LogStatistics& s) {
@@ -133,7 +125,7 @@ std::string to_json(const LogStatistics& s) {
   json["packets_sent"] = s.packets_sent;
   json["packets_delivered"] = s.packets_delivered;
   for (std::size_t i = 0; i < s.receipts.size(); ++i) json["receipts"][kReceiptNames[i]] = s.receipts[i];
-  for (std::size_t i = 0; i < s.outcomes.size(); ++i) json["outcomes"][kFateNames[i]] = s.outcomes[i];
+  for (std::size_t i = 0; i < s.outcomes.size(); ++i) json["outcomes"][kOutcomeNames[i]] = s.outcomes[i];
   if (!s.travel_times_s.empty()) {
     const auto [least, median, greatest] = spread(s.travel_times_s);
     json["delay_s"] = {{"least", least}, {"median", median}, {"greatest", greatest}};

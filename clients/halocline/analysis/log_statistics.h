@@ -1,4 +1,4 @@
-// What happened in a run, counted from its messages: for the end of `halocline run` and for `halocline log info`.
+// Statistics of a run, counted from its messages: for the end of `halocline run` and for `halocline log info`.
 #pragma once
 
 #include <array>
@@ -15,9 +15,10 @@
 
 namespace halocline::clients {
 
+inline constexpr std::size_t kOutcomes = 11;  // packet_outcome_t.RECEIVED to NOT_ACQUIRED
+
 struct LogStatistics {
   static constexpr std::size_t kReceiptResults = 9;  // modem_receipt_t.ACCEPTED to REFUSED_QUEUE_FULL
-  static constexpr std::size_t kFates = 11;          // packet_outcome_t.RECEIVED to NOT_ACQUIRED
 
   std::int64_t events = 0;
   std::int64_t bytes = 0;        // of payloads
@@ -36,16 +37,16 @@ struct LogStatistics {
   std::int64_t packets_sent = 0;          // that a receipt came for
   std::int64_t packets_delivered = 0;     // RECEIVEs
   std::array<std::int64_t, kReceiptResults> receipts{};
-  std::array<std::int64_t, kFates> outcomes{};
+  std::array<std::int64_t, kOutcomes> outcomes{};
   std::vector<double> travel_times_s;  // of the delivered that carry their departure, as they came
 
-  // `place` as place_of gives it; asked for when the event does not decode.
+  // `place` as place_of gives it; called only when the event does not decode.
   void count(const LoggedEvent& event, const std::function<std::string()>& place);
 
  private:
   template <class Message>
   void count_message(const LoggedEvent& event, const Message& message);
-  // Names of the packets that a receipt was counted for: a receipt that came again is not another packet.
+  // Names of the packets that a receipt was counted for: a duplicate receipt is not another packet.
   std::set<std::tuple<std::string, std::int64_t, std::int64_t>> answered_;
 };
 
@@ -58,8 +59,8 @@ void print(std::ostream& out, const LogStatistics& statistics);
 // As JSON, one object.
 std::string to_json(const LogStatistics& statistics);
 
-// Names of receipt results and fates, by their number; "?" for others.
+// Names of receipt results and packet outcomes, by their number; "?" for others.
 const char* receipt_name(std::size_t result);
-const char* fate_name(std::size_t fate);
+const char* outcome_name(std::size_t outcome);
 
 }  // namespace halocline::clients

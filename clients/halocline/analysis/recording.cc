@@ -142,7 +142,7 @@ void go_by_stamps(const Collector& collected, Recording& recording) {
   recording.end = SimTime::from_utime(stamps.empty() ? 0 : stamps.back());
 }
 
-// The middle of the states' times: of a clock that most vehicles share. Empty where no state tells a time.
+// The middle of the states' times: of a clock that most vehicles share. Empty where no state has a time.
 std::optional<std::int64_t> middle_of_states(const std::vector<Logged>& logged) {
   std::vector<std::int64_t> times;
   for (const Logged& entry : logged) {
@@ -206,7 +206,7 @@ void fill_ids(const bus::Scenario& scenario, Recording& recording) {
       ids.insert_or_assign(vehicle_of(event.channel), *id);
     taken.insert(*id);
   }
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (Recording::Event& event : recording.events) {
     std::int32_t* id = id_in(event);
     if (id == nullptr || *id != 0) continue;
@@ -216,7 +216,7 @@ void fill_ids(const bus::Scenario& scenario, Recording& recording) {
     *id = ids.emplace(vehicle, free).first->second;
     taken.insert(*id);
     ++recording.without_id;
-    if (told.insert(vehicle).second) recording.ids_given.emplace_back(vehicle, *id);
+    if (reported.insert(vehicle).second) recording.ids_given.emplace_back(vehicle, *id);
   }
 }
 
@@ -240,7 +240,7 @@ Recording read_recording(LogReader& log, const bus::Scenario& scenario) {
   return recording;
 }
 
-void tell_repairs(std::ostream& out, const Recording& recording) {
+void print_repairs(std::ostream& out, const Recording& recording) {
   if (recording.zero > SimDuration())
     out << "times       moved: 0 is the recording's " << recording.zero.nanoseconds() / 1'000'000'000
         << " s\n";

@@ -1,22 +1,20 @@
-// What of a recorded log is played again: states, transmissions, modems and changes of the environment, each
+// The messages of a recorded log that are replayed: states, transmissions, modems and changes of the environment, each
 // at its time.
 //
-// What the log holds of answers (LINKS, RECEIPT, OUTCOME, ...) is not played. Times, by who recorded:
+// Answers in the log (LINKS, RECEIPT, OUTCOME, ...) are not replayed. Times depend on the recorder:
 //
 // - A lockstep run stamps its log with simulation time: messages are played at their stamps, in their order. A stamp
 //   that breaks their order was damaged and counts as the one before it.
 // - Any other log (lcm-logger's, one recorded at sea) goes by the messages' own utime: STATE, MODEM and
-// SET_ENVIRONMENT
-//   when they hold, SEND when it starts. A utime more than 30 days from the middle of all states' comes from another clock
-//   (or from none: 0): such a message is played at the latest sound utime that the log had reached. When no state
-//   tells a time, all go by the stamps.
-// - Such a log whose first message is later than a day (Unix time, a machine's uptime) is moved: its first
-// whole second
-//   becomes 0, `zero` tells what it was, and every utime of what is played moves with it.
+//   SET_ENVIRONMENT when they hold, SEND when it starts. A utime more than 30 days from the median of all states' comes
+//   from another clock (or from none: 0): such a message is played at the latest valid utime that the log had reached.
+//   When no state has a time, all go by the stamps.
+// - Such a log whose first message is later than a day (Unix time, a machine's uptime) is shifted: its first whole second
+//   becomes 0, `zero` is what it was, and every utime of what is played shifts with it.
 //
-// What a foreign vehicle leaves out is filled in: a vehicle_id or source_id of 0 is the scenario's for that name,
-// otherwise the least that nobody has; an orientation of all zeros is level and towards north. Modems are the
-// scenario's, its standard one for names it does not know. All of it is counted.
+// Fields that a foreign vehicle leaves out are filled in: a vehicle_id or source_id of 0 is the scenario's for that name,
+// otherwise the least that is free; an orientation of all zeros is level and towards north. Modems are the
+// scenario's, its standard one for other names. All of it is counted.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +37,7 @@ struct Recording {
     std::variant<vehicle_state_t, modem_send_t, modem_config_t, environment_change_t> message;
   };
   std::vector<Event> events;  // by time; of one time, in the log's order
-  SimTime end;                // of the run, as far as the log tells
+  SimTime end;                // of the run, as far as the log shows
   SimDuration zero;           // what was taken off every time
   bool stamped_with_simulation_time = false;
   std::int64_t outcomes = 0;      // that the log holds of its own channel server
@@ -54,6 +52,6 @@ struct Recording {
 Recording read_recording(LogReader& log, const bus::Scenario& scenario = {});
 
 // A line for each thing that had to be filled in or moved; none for a log of our own.
-void tell_repairs(std::ostream& out, const Recording& recording);
+void print_repairs(std::ostream& out, const Recording& recording);
 
 }  // namespace halocline::clients

@@ -38,10 +38,4 @@ void write_text(const std::string& path, const std::string& text) {
   if (!file) throw std::runtime_error("cannot write " + path);
 }
 
-void replace_whole(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".unfinished";
-  write_text(unfinished, text);
-  fs::rename(unfinished, path);
-}
-
 }  // namespace halocline::clients

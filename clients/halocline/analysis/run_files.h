@@ -21,7 +21,5 @@ std::string config_beside(const std::string& log);
 
 // Replaces the file; throws std::runtime_error when it cannot be written.
 void write_text(const std::string& path, const std::string& text);
-// The same for a reader that may look at any instant: it finds the old file or the new one, never a part.
-void replace_whole(const std::string& path, const std::string& text);
 
 }  // namespace halocline::clients

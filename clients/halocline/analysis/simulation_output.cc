@@ -16,7 +16,7 @@ namespace halocline::clients {
 namespace {
 
 using bus::Bytes;
-using Said = std::pair<std::string, Bytes>;  // channel and message
+using Output = std::pair<std::string, Bytes>;  // channel and message
 
 bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -42,7 +42,7 @@ Bytes without_number(const Bytes& bytes) {
 }
 
 // Empty for what is no simulation output.
-std::optional<Said> output_of(const LogReader& log, const LoggedEvent& event) {
+std::optional<Output> output_of(const LogReader& log, const LoggedEvent& event) {
   if (is_between_programs(event.channel)) return std::nullopt;
   Bytes bytes = event.data;
   const bool is_ours = with_type_of(event.channel, [&]<class Message>() {
@@ -50,7 +50,7 @@ std::optional<Said> output_of(const LogReader& log, const LoggedEvent& event) {
   });
   if (!is_ours) return std::nullopt;
   require(!bytes.empty(), place_of(log, event) + ": an event on " + event.channel + " does not decode");
-  return Said{event.channel, std::move(bytes)};
+  return Output{event.channel, std::move(bytes)};
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
   const auto memq = bus::open_transport("memq://");
   std::int64_t stamp_us = 0;
   bus::LogRecorder recorder(*memq, path, [&] { return SimTime::from_utime(stamp_us); });
-  std::vector<Said> at_stamp;
+  std::vector<Output> at_stamp;
   const auto write = [&] {
     std::sort(at_stamp.begin(), at_stamp.end());
     for (const auto& [channel, bytes] : at_stamp) {
@@ -75,7 +75,7 @@ std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
                 "simulation time, as ours are");
     if (event.stamp_us != stamp_us) write();
     stamp_us = event.stamp_us;
-    if (auto said = output_of(log, event)) at_stamp.push_back(std::move(*said));
+    if (auto output = output_of(log, event)) at_stamp.push_back(std::move(*output));
   }
   write();
   recorder.close();

@@ -1,11 +1,11 @@
 // The simulation output of a run, apart from how many programs made it: for comparing runs whose channel server was
 // split (channel_server/vehicles/shard.h) with runs whose was not.
 //
-// Left out is what programs say of themselves and to each other: STATUS, HEARTBEAT, REPAIR_REQUEST, REPAIR,
-// RAY_QUERY, RAY_REPLY, PING_ANSWER, and what is on channels that are none of ours. What a channel server
-// says (ENVIRONMENT, LINKS, RECEIPT, RECEIVE, OUTCOME, LINK_REPLY) loses session and sequence, which tell
-// which of several said it as his how-manieth. What has one stamp is put in order by channel and bytes,
-// because servers speak one after the other. All else stays as it is, byte for byte: two runs of the same
+// Left out are the messages between programs: STATUS, HEARTBEAT, REPAIR_REQUEST, REPAIR,
+// RAY_QUERY, RAY_REPLY, PING_ANSWER, and what is on channels that are none of ours. The messages of a channel server
+// (ENVIRONMENT, LINKS, RECEIPT, RECEIVE, OUTCOME, LINK_REPLY) are written without session and sequence, which
+// depend on the number of servers. Messages of one stamp are put in order by channel and bytes,
+// because servers publish one after the other. All else stays as it is, byte for byte: two runs of the same
 // output write the same file.
 #pragma once
 

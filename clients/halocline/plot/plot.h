@@ -26,7 +26,7 @@ struct Chart {
   std::string x = {}, y = {};  // titles of the axes
   std::vector<Series> series = {};
   std::vector<std::string> categories = {};  // names at x = 0, 1, 2, ...; empty: numbers
-  std::string when_empty = "no data";        // said where no series has a point
+  std::string when_empty = "no data";        // shown where no series has a point
 };
 
 struct Plot {
@@ -38,11 +38,11 @@ struct Plot {
 // Throws InvalidArgument unless the name ends in .png or .svg and is printable.
 void require_plot_file(const std::string& file);
 
-// What gnuplot is told. Throws InvalidArgument when a series has more of one coordinate than of the other or a
+// The gnuplot script. Throws InvalidArgument when a series has more of one coordinate than of the other or a
 // number that is not finite, when there is no chart, or for a file as above.
 std::string gnuplot_script(const Plot& plot, const std::string& file);
 
-// Throws InvalidArgument as above; std::runtime_error when gnuplot is not installed or fails, with what it said.
+// Throws InvalidArgument as above; std::runtime_error when gnuplot is not installed or fails, with its output.
 void write_plot(const Plot& plot, const std::string& file);
 
 }  // namespace halocline::clients

@@ -37,8 +37,8 @@ std::string text_of(std::FILE* file) {
   return text;
 }
 
-// Runs gnuplot with `script` as its standard input; false with what it said when it failed.
-bool run_gnuplot(const std::string& script, std::string& said) {
+// Runs gnuplot with `script` as its standard input; false with its output when it failed.
+bool run_gnuplot(const std::string& script, std::string& output) {
   const File in = nameless_file(), out = nameless_file();
   if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() || std::fflush(in.get()) != 0)
     throw std::runtime_error("cannot write the commands for gnuplot");
@@ -59,7 +59,7 @@ bool run_gnuplot(const std::string& script, std::string& said) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  said = text_of(out.get());
+  output = text_of(out.get());
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
@@ -67,12 +67,12 @@ bool run_gnuplot(const std::string& script, std::string& said) {
 
 void write_plot(const Plot& plot, const std::string& file) {
   const std::string script = gnuplot_script(plot, file);
-  std::string said;
-  const bool done = run_gnuplot(script, said);
+  std::string output;
+  const bool done = run_gnuplot(script, output);
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (!done || error || size == 0)
-    throw std::runtime_error("gnuplot could not make " + file + (said.empty() ? "" : ": " + said));
+    throw std::runtime_error("gnuplot could not make " + file + (output.empty() ? "" : ": " + output));
 }
 
 }  // namespace halocline::clients

@@ -31,7 +31,7 @@ void resolve(channel_server::ProfileConfig& profile, const ScenarioConfig& confi
   profile.longitude_rad = to_radians(config.scenario.origin_longitude_deg);
 }
 
-// What the scenario says by leaving it out, said.
+// Fills in what the scenario implies by leaving it out.
 void resolve(ScenarioConfig& config) {
   make_absolute(config.terrain.raster.path, config.folder);
   for (auto& vehicle : config.scenario.vehicles) make_absolute(vehicle.model, config.folder);

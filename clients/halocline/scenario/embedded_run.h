@@ -17,7 +17,7 @@ struct EmbeddedRun {
   double rate = 0;              // simulated seconds per wall second; 0: as fast as it computes
   std::string mirror_url = {};  // where everything is shown as well (a udpm URL); empty: nowhere
   bool quiet = false;           // no progress line
-  // Asked before each instant; true ends the run there.
+  // Called before each instant; true ends the run there.
   std::function<bool()> should_stop = [] { return false; };
 };
 

@@ -33,8 +33,8 @@ RayAnswer::Kind kind_of(bathymetry::RayStatus status) {
   return RayAnswer::Kind::kBadInput;
 }
 
-std::vector<RayAnswer> ask(const bathymetry::Terrain& terrain, bathymetry::QueryMode mode,
-                           const std::vector<TerrainRay>& rays) {
+std::vector<RayAnswer> query(const bathymetry::Terrain& terrain, bathymetry::QueryMode mode,
+                             const std::vector<TerrainRay>& rays) {
   if (rays.empty()) return {};
   bathymetry::RayBatch batch{.mode = mode};
   for (const TerrainRay& ray : rays)
@@ -76,9 +76,9 @@ acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
   return {.paths = {path}};
 }
 
-// What is told of the paths of an answer, whichever propagation found them.
-LinkArrivals told(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
-                  const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
+// The paths of a reception, whichever propagation found them.
+LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
+                           const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
   const Vec3 way = to.position_ned_m - from.position_ned_m;
   const double surface_z_m = config.scenario.sea_surface_z_m;
   LinkArrivals all{
@@ -122,15 +122,15 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                          const Vec3& to_ned_m, int bottom_points) {
   channel_server::EchoSurvey survey(from_ned_m, to_ned_m, bottom_points);
-  survey.take_depths(ask(terrain, bathymetry::QueryMode::kDepth, survey.depth_rays()));
-  survey.take_ways(ask(terrain, bathymetry::QueryMode::kOccluded, survey.way_rays()));
+  survey.take_depths(query(terrain, bathymetry::QueryMode::kDepth, survey.depth_rays()));
+  survey.take_ways(query(terrain, bathymetry::QueryMode::kOccluded, survey.way_rays()));
   return survey;
 }
 
 channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                              const Vec3& to_ned_m, const channel_server::ProfileRule& rule) {
   channel_server::ProfileSurvey survey(cells_of(from_ned_m, to_ned_m, rule), rule);
-  survey.take(ask(terrain, bathymetry::QueryMode::kDepth, survey.rays()));
+  survey.take(query(terrain, bathymetry::QueryMode::kDepth, survey.rays()));
   return survey;
 }
 
@@ -151,15 +151,16 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
         survey_profile(*terrain, from.position_ned_m, to.position_ned_m, rules.profile).profile();
     answer.reception = propagation.reception_over(SimTime(), here, there, seabed);
     const bool rays = answer.reception.used == channel_server::PropagationUsed::kRays;
-    answer.arrivals = told(config, from, to, answer.reception,
-                           rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
-                                : straight_arrival(answer.reception, beams));
+    answer.arrivals = link_arrivals(config, from, to, answer.reception,
+                                    rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
+                                         : straight_arrival(answer.reception, beams));
     answer.multipath = multipath_of(answer.reception, to.modem.modem.min_receivable_level);
     return answer;
   }
   channel_server::StraightPropagation propagation(waters);
   answer.reception = propagation.reception(SimTime(), here, there);
-  answer.arrivals = told(config, from, to, answer.reception, straight_arrival(answer.reception, beams));
+  answer.arrivals =
+      link_arrivals(config, from, to, answer.reception, straight_arrival(answer.reception, beams));
   const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
   answer.multipath =
       multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);

@@ -1,5 +1,5 @@
-// Tells a person how far a run has come: one line on stderr that is rewritten on a terminal, and is written
-// anew now and then elsewhere.
+// The progress of a run on stderr: one line that is rewritten on a terminal, and a new line every ten seconds
+// elsewhere.
 #pragma once
 
 #include <cstdio>

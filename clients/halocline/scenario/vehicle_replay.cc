@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <sstream>
+
+#include <fmt/ostream.h>
 
 #include "clients/halocline/analysis/run_files.h"
 #include "core/check.h"
@@ -100,9 +101,7 @@ class RowWriter {
  public:
   explicit RowWriter(std::ostream& out) : out_(out) {}
   void number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.12g", value);
-    out_ << (first_ ? "" : ",") << text;
+    fmt::print(out_, "{}{:.12g}", first_ ? "" : ",", value);
     first_ = false;
   }
   void numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {

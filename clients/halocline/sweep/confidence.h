@@ -3,8 +3,7 @@
 // Shares: Wilson's score interval (Wilson 1927, "Probable inference, the law of succession, and statistical
 // inference"), for k of n independent trials; it stays within 0 to 1 and holds for few trials (Newcombe 1998,
 // method 3). Means: Student's t (1908), for independent values that are normal, or many. Quantiles by
-// bisection on the distribution functions (erfc; the incomplete beta function by its continued fraction,
-// Abramowitz and Stegun 26.5.8), to 1e-10.
+// Boost.Math.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +24,5 @@ struct MeanEstimate {
 };
 // NaNs among the values are left out: a run that has no such number.
 MeanEstimate mean_estimate(std::span<const double> values, double level);
-
-// The x that a standard normal variable stays below with probability p in (0, 1).
-double normal_quantile(double p);
-// Likewise Student's t with `degrees` of freedom, 1 and up.
-double student_quantile(double p, double degrees);
 
 }  // namespace halocline::clients

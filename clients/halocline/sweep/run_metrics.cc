@@ -26,7 +26,7 @@ constexpr std::array<RunNumberInfo, kRunNumbers> kInfo{
      {"delay_p90_s", "s", "90th percentile of the travel time of what was delivered"},
      {"delay_p99_s", "s", "99th percentile of the travel time of what was delivered"},
      {"latency_mean_s", "s", "mean time from the first bit sent to the last bit received"},
-     {"throughput_bps", "bit s-1", "payload bits delivered to whom they were for, a second"}}};
+     {"throughput_bps", "bit s-1", "payload bits delivered to their destinations per second"}}};
 
 double mean(const std::vector<double>& values) {
   double sum = 0;
@@ -42,12 +42,12 @@ double nearest_rank(const std::vector<double>& sorted, double share) {
 }
 
 struct Counts {
-  Ledger ledger{3'600'000'000};
+  OutcomeSummary outcomes{3'600'000'000};
   LogStatistics statistics;
   std::int64_t payload_bits = 0;
 
   void count(const LoggedEvent& event) {
-    ledger.count(event);
+    outcomes.count(event);
     statistics.count(event, [] { return std::string(); });
     with_type_of(event.channel, [&]<class Message>() {
       if constexpr (std::is_same_v<Message, modem_receive_t>) {
@@ -58,12 +58,12 @@ struct Counts {
   }
 };
 
-void add_delivery(const Ledger& ledger, RunMetrics& metrics, std::vector<double>& delays,
+void add_delivery(const OutcomeSummary& outcomes, RunMetrics& metrics, std::vector<double>& delays,
                   std::vector<double>& latencies) {
-  for (const packet_outcome_t& o : ledger.outcomes()) {
+  for (const packet_outcome_t& o : outcomes.outcomes()) {
     if (o.destination_id != 0 && o.destination_id != o.receiver_id) continue;
     const bool received = o.packet_fate == packet_outcome_t::RECEIVED;
-    Delivered& pair = metrics.by_pair[{ledger.name(o.source_id), ledger.name(o.receiver_id)}];
+    Delivered& pair = metrics.by_pair[{outcomes.name(o.source_id), outcomes.name(o.receiver_id)}];
     for (Delivered* count : {&metrics.all, &pair}) {
       ++count->packets;
       count->received += received ? 1 : 0;
@@ -86,9 +86,9 @@ RunMetrics metrics_of(LogReader& log) {
   for (LoggedEvent event; log.next(event);) counts.count(event);
   RunMetrics metrics;
   metrics.simulated_s = static_cast<double>(counts.statistics.last_stamp_us) * 1e-6;
-  metrics.fates = counts.ledger.total();
+  metrics.outcomes = counts.outcomes.total();
   std::vector<double> delays, latencies;
-  add_delivery(counts.ledger, metrics, delays, latencies);
+  add_delivery(counts.outcomes, metrics, delays, latencies);
   std::sort(delays.begin(), delays.end());
   const auto& receipts = counts.statistics.receipts;
   const std::int64_t accepted = receipts[modem_receipt_t::ACCEPTED] + receipts[modem_receipt_t::QUEUED];
@@ -118,7 +118,7 @@ std::string to_json(const RunMetrics& metrics) {
   json["pairs"] = Json::array();
   for (const auto& [pair, delivered] : metrics.by_pair)
     json["pairs"].push_back({pair.first, pair.second, to_json(delivered)});
-  json["fates"] = metrics.fates;
+  json["outcomes"] = metrics.outcomes;
   return json.dump(1);
 }
 
@@ -134,7 +134,7 @@ RunMetrics metrics_from_json(const std::string& text) {
     metrics.all = delivered_from(json.at("addressed"));
     for (const Json& pair : json.at("pairs"))
       metrics.by_pair[{pair.at(0), pair.at(1)}] = delivered_from(pair.at(2));
-    metrics.fates = json.at("fates").get<FateCounts>();
+    metrics.outcomes = json.at("outcomes").get<OutcomeCounts>();
     return metrics;
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("no result of a run: ") + error.what());

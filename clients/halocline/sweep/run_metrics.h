@@ -1,9 +1,9 @@
-// What a sweep keeps of one run.
+// The results of one run that a sweep keeps.
 //
 // A packet counts at a receiver that it was addressed to (or sent to all); those merely overheard count among
-// the fates only. Delays are travel times of the first significant path of what was delivered; latency goes
-// from the first bit that left to the last that arrived. Throughput counts the payloads' bits that reached
-// who they were for. Percentiles are the least value that at least that share of the sample does not exceed
+// the outcomes only. Delays are travel times of the first significant path of what was delivered; latency goes
+// from the first bit that left to the last that arrived. Throughput counts the payload bits that reached
+// their destinations. Percentiles are the least value that at least that share of the sample does not exceed
 // (nearest rank).
 #pragma once
 
@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "clients/halocline/analysis/ledger.h"
+#include "clients/halocline/analysis/outcome_summary.h"
 
 namespace halocline::clients {
 
@@ -47,7 +47,7 @@ struct RunMetrics {
   double simulated_s = 0;
   Delivered all;
   std::map<std::pair<std::string, std::string>, Delivered> by_pair;  // sender, receiver
-  FateCounts fates{};  // of all outcomes, addressed and overheard
+  OutcomeCounts outcomes{};                                          // addressed and overheard
 
   double& operator[](RunNumber n) { return numbers[static_cast<std::size_t>(n)]; }
   double operator[](RunNumber n) const { return numbers[static_cast<std::size_t>(n)]; }

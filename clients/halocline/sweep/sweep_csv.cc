@@ -1,10 +1,11 @@
 // The results of a sweep as tables.
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 #include <sstream>
 
-#include "clients/halocline/analysis/run_files.h"
+#include <fmt/ostream.h>
+
+#include "bus/files/atomic_file.h"
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/csv_table.h"
 
@@ -42,8 +43,8 @@ void write_points(std::ostream& out, const SweepResults& results) {
     const std::string name = info_of(i).name;
     out << ',' << name << "_mean," << name << "_t_low," << name << "_t_high";
   }
-  for (std::size_t fate = 0; fate < LogStatistics::kFates; ++fate) {
-    const std::string name = column(fate_name(fate));
+  for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) {
+    const std::string name = column(outcome_name(outcome));
     out << ',' << name << ',' << name << "_share," << name << "_wilson_low," << name << "_wilson_high";
   }
   out << "\n";
@@ -56,9 +57,9 @@ void write_points(std::ostream& out, const SweepResults& results) {
     for (const MeanEstimate& number : point.numbers)
       out << ',' << cell(number.mean) << ',' << cell(number.interval.low) << ','
           << cell(number.interval.high);
-    for (const Share& fate : point.fates)
-      out << ',' << fate.count << ',' << cell(fate.value()) << ',' << cell(fate.interval.low) << ','
-          << cell(fate.interval.high);
+    for (const Share& outcome : point.outcomes)
+      out << ',' << outcome.count << ',' << cell(outcome.value()) << ',' << cell(outcome.interval.low) << ','
+          << cell(outcome.interval.high);
     out << "\n";
   }
 }
@@ -102,18 +103,12 @@ std::string text_of(const SweepResults& results, void (*write)(std::ostream&, co
   return text.str();
 }
 
-std::string formatted(const char* format, double a, double b, double c) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
-
 }  // namespace
 
 void write_csvs(const SweepResults& results, const std::string& folder) {
-  replace_whole(folder + "/points.csv", text_of(results, write_points));
-  replace_whole(folder + "/pairs.csv", text_of(results, write_pairs));
-  replace_whole(folder + "/runs.csv", text_of(results, write_runs));
+  bus::replace_file(folder + "/points.csv", text_of(results, write_points));
+  bus::replace_file(folder + "/pairs.csv", text_of(results, write_pairs));
+  bus::replace_file(folder + "/runs.csv", text_of(results, write_runs));
 }
 
 void print(std::ostream& out, const SweepResults& results) {
@@ -123,13 +118,13 @@ void print(std::ostream& out, const SweepResults& results) {
     for (std::size_t i = 0; i < run.at.size(); ++i)
       out << results.plan.axes[i].key << "=" << results.plan.axes[i].values[run.at[i]] << " ";
     const MeanEstimate& ratio = point.numbers[static_cast<std::size_t>(RunNumber::kDeliveryRatio)];
-    out << "(" << point.completed << " of " << results.plan.seeds.size() << " runs): delivered "
-        << point.delivery.count << " of " << point.delivery.of
-        << formatted(", %.4f (%.4f to %.4f)", point.delivery.value(), point.delivery.interval.low,
-                     point.delivery.interval.high)
-        << formatted("; mean of runs %.4f (%.4f to %.4f)", ratio.mean, ratio.interval.low,
-                     ratio.interval.high)
-        << "\n";
+    const Share& delivery = point.delivery;
+    fmt::print(
+        out,
+        "({} of {} runs): delivered {} of {}, {:.4f} ({:.4f} to {:.4f}); mean of runs {:.4f} ({:.4f} to "
+        "{:.4f})\n",
+        point.completed, results.plan.seeds.size(), delivery.count, delivery.of, delivery.value(),
+        delivery.interval.low, delivery.interval.high, ratio.mean, ratio.interval.low, ratio.interval.high);
   }
 }
 

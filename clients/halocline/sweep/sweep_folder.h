@@ -1,9 +1,9 @@
 // Where a sweep keeps its runs: OUT/plan.toml, OUT/runs/<identity>/, and the gathered tables.
 //
-// A run's folder is named by what it computes: a hash of its effective configuration and of this program's
-// version. So a run that is done stays done when a sweep is started again, or with more values, seeds or
-// axes; and is done anew when the scenario says something else. Files that the scenario names (terrain,
-// profiles) are not looked into. result.json is written last, and moved into place whole: a folder without it
+// A run's folder is named by what it computes: the XXH3 hash (64 bits) of its effective configuration and of this
+// program's version. So a run that is done stays done when a sweep is started again, or with more values, seeds or
+// axes; and is done anew when the scenario changes. Files that the scenario names (terrain,
+// profiles) are not part of the hash. result.json is written last, and moved into place whole: a folder without it
 // is a run that did not finish.
 #pragma once
 
@@ -27,7 +27,7 @@ std::string plan_path(const std::string& out);
 void write_plan(const std::string& out, const SweepPlan& plan);
 
 // A job array for SLURM's sbatch: `tasks` tasks, each of which does its share of the runs by calling
-// `program` (absolute path). Its head says how to submit it and how to gather.
+// `program` (absolute path). Its head comment explains how to submit it and how to gather.
 std::string slurm_script(const std::string& program, const std::string& out, std::size_t tasks);
 
 }  // namespace halocline::clients

@@ -1,12 +1,12 @@
 // The results of a sweep as netCDF-4, through netCDF's C library.
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include <netcdf.h>
 
+#include "bus/files/atomic_file.h"
 #include "bus/version.h"
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/csv_table.h"
@@ -98,7 +98,7 @@ std::string variable_name(const std::string& key) {
   return std::isalpha(static_cast<unsigned char>(name.front())) != 0 ? name : "axis_" + name;
 }
 
-// As the ends of keys tell (CONTRIBUTING.md); 1 for pure numbers.
+// By the suffix of the key (CONTRIBUTING.md); 1 for pure numbers.
 std::string unit_of(const std::string& key) {
   static const std::vector<std::pair<const char*, const char*>> units{
       {"_mps", "m s-1"},  {"_hz", "Hz"},     {"_bps", "bit s-1"},         {"_deg", "degree"}, {"_db", "dB"},
@@ -121,7 +121,7 @@ std::optional<std::vector<double>> as_numbers(const SweepAxis& axis) {
 }
 
 struct Shape {
-  Dimensions point, seed, fate, pair, bound;  // bound: of the last dimension of an interval
+  Dimensions point, seed, outcome, pair, bound;  // bound: of the last dimension of an interval
 };
 
 Dimensions operator+(Dimensions a, const Dimensions& b) {
@@ -142,10 +142,10 @@ Shape define_axes(NetcdfFile& file, const SweepResults& results) {
   std::vector<double> seeds(results.plan.seeds.begin(), results.plan.seeds.end());
   shape.seed = {file.dimension("seed", seeds.size())};
   file.coordinates("seed", shape.seed[0], seeds, "1", "seed of all random draws");
-  shape.fate = {file.dimension("fate", LogStatistics::kFates)};
-  std::vector<std::string> fates;
-  for (std::size_t fate = 0; fate < LogStatistics::kFates; ++fate) fates.emplace_back(fate_name(fate));
-  file.texts("fate", shape.fate[0], fates, "what became of a packet at a receiver");
+  shape.outcome = {file.dimension("outcome", kOutcomes)};
+  std::vector<std::string> outcomes;
+  for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) outcomes.emplace_back(outcome_name(outcome));
+  file.texts("outcome", shape.outcome[0], outcomes, "outcome of a packet at a receiver");
   shape.bound = {file.dimension("bound", 2)};
   file.texts("bound", shape.bound[0], {"low", "high"}, "ends of a confidence interval");
   return shape;
@@ -173,23 +173,24 @@ constexpr const char* kWilson = "Wilson's interval, packets taken as independent
 constexpr const char* kStudent = "Student's t interval, runs taken as independent";
 
 void write_shares(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
-  Estimates delivery, fates;
+  Estimates delivery, outcomes;
   std::vector<long long> counts, addressed;
   for (const PointSummary& point : results.points) {
     delivery.add(point.delivery.value(), point.delivery.interval);
     addressed.push_back(point.delivery.of);
-    for (const Share& fate : point.fates) {
-      fates.add(fate.value(), fate.interval);
-      counts.push_back(fate.count);
+    for (const Share& outcome : point.outcomes) {
+      outcomes.add(outcome.value(), outcome.interval);
+      counts.push_back(outcome.count);
     }
   }
   file.counts("addressed_packets", shape.point, addressed,
               "packets at receivers they were addressed to, all seeds");
   delivery.write(file, "delivery_share", shape.point, shape.bound, "1",
                  "share of addressed packets that were received", kWilson);
-  file.counts("fate_count", shape.point + shape.fate, counts, "packets at receivers by fate, all seeds");
-  fates.write(file, "fate_share", shape.point + shape.fate, shape.bound, "1",
-              "share of packets at receivers by fate", kWilson);
+  file.counts("outcome_count", shape.point + shape.outcome, counts,
+              "packets at receivers by outcome, all seeds");
+  outcomes.write(file, "outcome_share", shape.point + shape.outcome, shape.bound, "1",
+                 "share of packets at receivers by outcome", kWilson);
 }
 
 void write_pairs(NetcdfFile& file, const SweepResults& results, const Shape& shape) {
@@ -238,8 +239,8 @@ void write_run_numbers(NetcdfFile& file, const SweepResults& results, const Shap
 }  // namespace
 
 void write_netcdf(const SweepResults& results, const std::string& path) {
-  const std::string unfinished = path + ".unfinished";
-  NetcdfFile file(unfinished);
+  bus::AtomicFile replacement(path);
+  NetcdfFile file(replacement.temporary_path());
   file.attribute("Conventions", "CF-1.8");
   file.attribute("title", "Halocline sweep of " + results.plan.scenario);
   file.attribute("source", std::string("halocline ") + bus::kVersion);
@@ -249,7 +250,7 @@ void write_netcdf(const SweepResults& results, const std::string& path) {
   write_pairs(file, results, shape);
   write_run_numbers(file, results, shape);
   file.close();
-  std::filesystem::rename(unfinished, path);
+  replacement.commit();
 }
 
 }  // namespace halocline::clients

@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/check.h"
 
 namespace halocline::clients {
@@ -21,7 +23,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-// Parts a text at the commas that stand outside of quotes and brackets.
+// Splits a text at the commas outside of quotes and brackets.
 std::vector<std::string> split(std::string_view text) {
   std::vector<std::string> parts{""};
   int depth = 0;
@@ -60,12 +62,6 @@ std::optional<std::int64_t> parse_seed(std::string_view text) {
   if (error != std::errc() || end != text.data() + text.size() || seed < 0 || seed > kMaxSeed)
     return std::nullopt;
   return seed;
-}
-
-std::string joined(const std::vector<std::string>& values) {
-  std::string text;
-  for (const std::string& value : values) text += (text.empty() ? "" : ", ") + value;
-  return text;
 }
 
 }  // namespace
@@ -156,7 +152,7 @@ void visit(bus::ConfigVisitor& v, SweepPlan& plan) {
       [&](std::size_t n) { plan.axes.resize(n); },
       [&](bus::ConfigVisitor& a, std::size_t i) {
         SweepAxis& axis = plan.axes[i];
-        std::string values = joined(axis.values);
+        std::string values = fmt::format("{}", fmt::join(axis.values, ", "));
         a.text("key", axis.key, {}, "section.key of the scenario");
         a.text("values", values, {}, "in TOML, between commas; texts in quotes");
         bus::report_refusal(a, "values", [&] { axis.values = values_of(axis.key, values); });

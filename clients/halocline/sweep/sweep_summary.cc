@@ -16,15 +16,15 @@ PointSummary summary_of(const std::vector<const RunMetrics*>& runs, double level
   PointSummary point;
   point.completed = runs.size();
   Delivered all;
-  FateCounts fates{};
+  OutcomeCounts outcomes{};
   std::map<std::pair<std::string, std::string>, Delivered> pairs;
-  std::int64_t outcomes = 0;
+  std::int64_t all_outcomes = 0;
   for (const RunMetrics* run : runs) {
     all.packets += run->all.packets;
     all.received += run->all.received;
-    for (std::size_t i = 0; i < fates.size(); ++i) {
-      fates[i] += run->fates[i];
-      outcomes += run->fates[i];
+    for (std::size_t i = 0; i < kOutcomes; ++i) {
+      outcomes[i] += run->outcomes[i];
+      all_outcomes += run->outcomes[i];
     }
     for (const auto& [pair, delivered] : run->by_pair) {
       pairs[pair].packets += delivered.packets;
@@ -32,7 +32,7 @@ PointSummary summary_of(const std::vector<const RunMetrics*>& runs, double level
     }
   }
   point.delivery = share(all.received, all.packets, level);
-  for (std::size_t i = 0; i < fates.size(); ++i) point.fates[i] = share(fates[i], outcomes, level);
+  for (std::size_t i = 0; i < kOutcomes; ++i) point.outcomes[i] = share(outcomes[i], all_outcomes, level);
   for (const auto& [pair, d] : pairs) point.delivery_by_pair[pair] = share(d.received, d.packets, level);
   for (std::size_t i = 0; i < kRunNumbers; ++i) {
     std::vector<double> values;

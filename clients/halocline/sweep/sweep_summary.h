@@ -1,6 +1,6 @@
 // The results of a sweep, point by point, with confidence intervals.
 //
-// Shares of packets (delivery, fates) pool the packets of all seeds and carry Wilson's interval, which takes
+// Shares of packets (delivery, outcomes) pool the packets of all seeds and carry Wilson's interval, which takes
 // packets as independent; packets of one run share water and paths, so it is too narrow where runs differ
 // much. The interval of the mean over runs (Student's t, runs independent by their seeds) does not depend on
 // that: compare the two.
@@ -28,7 +28,7 @@ struct Share {
 struct PointSummary {
   std::size_t completed = 0;  // runs
   Share delivery;
-  std::array<Share, LogStatistics::kFates> fates;
+  std::array<Share, kOutcomes> outcomes;
   std::map<std::pair<std::string, std::string>, Share> delivery_by_pair;
   std::array<MeanEstimate, kRunNumbers> numbers;  // over runs
 };
@@ -39,7 +39,7 @@ struct SweepResults {
   std::vector<std::string> folders;             // likewise
   std::vector<PointSummary> points;
 
-  // Sender and receiver of every pair that any run knows, in order.
+  // Sender and receiver of every pair in any run, in order.
   std::vector<std::pair<std::string, std::string>> pairs() const;
 };
 
@@ -51,7 +51,7 @@ SweepResults summed_up(const SweepPlan& plan, std::vector<std::optional<RunMetri
 // written whole, then moved into place. Throws std::runtime_error when one cannot be.
 void write_csvs(const SweepResults& results, const std::string& folder);
 
-// The same numbers as netCDF-4, by the CF conventions: a dimension an axis, then seed, fate, pair and bound
+// The same numbers as netCDF-4, by the CF conventions: a dimension an axis, then seed, outcome, pair and bound
 // (low, high). A point without results holds NaN. Throws std::runtime_error.
 void write_netcdf(const SweepResults& results, const std::string& path);
 

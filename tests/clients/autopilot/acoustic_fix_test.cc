@@ -77,7 +77,7 @@ TEST(NavigatorPast, AFixOfThePastMovesThePresent) {
   EXPECT_NEAR(then.at(10)->position_ned_m.x(), then.position_ned_m(20).x() - 20, tolerance(1e-9));
 }
 
-TEST(NavigatorPast, AFixOfForgottenTimesIsIgnored) {
+TEST(NavigatorPast, AFixFromBeforeTheHistoryIsIgnored) {
   Navigator navigator = northwards();
   for (int i = 21; i <= 60; ++i) navigator.add({1.0 * i, {}, 5, 2});
   const double before = navigator.position_ned_m(60).x();

@@ -165,7 +165,7 @@ Kept way_without_compass(double gyro_bias_radps) {
 
 // The bias times nine minutes; its part about the other axes tilts the reckoned axes by as much, which is of
 // second order.
-TEST(NavigationTest, WithADeadCompassTheHeadingIsOffByTheGyrosBiasTimesTheTime) {
+TEST(NavigationTest, WithAFailedCompassTheHeadingIsOffByTheGyrosBiasTimesTheTime) {
   const double bias = std::numbers::pi / 180 * 0.01, drift = bias * 60 * (kMinutes - 1);
   const Kept kept = way_without_compass(bias);
   EXPECT_NEAR(kept.heading_off_rad, -drift, 0.1 * drift);

@@ -117,7 +117,7 @@ TEST_F(ModemClientTest, SendIsRepeatedUnchangedUntilItsReceiptComes) {
   EXPECT_EQ(modem_.counters().resent, 2);
 }
 
-TEST_F(ModemClientTest, NextResendIsWhenTheOldestWantsRepeating) {
+TEST_F(ModemClientTest, NextResendIsWhenTheOldestIsDue) {
   EXPECT_EQ(modem_.next_resend(), SimTime::never());
   send(50);
   send(100);
@@ -204,7 +204,7 @@ TEST_F(ModemClientTest, ReceiveHandlerTakesPacketsInsteadOfTheQueue) {
   EXPECT_FALSE(modem_.take_received());
 }
 
-TEST_F(ModemClientTest, MemoryStaysBoundedWhenNobodyTakesPackets) {
+TEST_F(ModemClientTest, MemoryStaysBoundedWhenNoPacketsAreTaken) {
   const auto count = static_cast<std::int64_t>(ModemClient::kMaxWaiting) + 5;
   for (std::int64_t i = 0; i < count; ++i) {
     server_.deliver(8, 2, i);

@@ -13,7 +13,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::TemporaryLog;
 
-packet_outcome_t outcome(std::int64_t sequence, std::int8_t fate, std::int32_t receiver = 2) {
+packet_outcome_t outcome(std::int64_t sequence, std::int8_t result, std::int32_t receiver = 2) {
   packet_outcome_t o{};
   o.utime = 2'000'000;
   o.departure_utime = 1'000'000;
@@ -21,21 +21,21 @@ packet_outcome_t outcome(std::int64_t sequence, std::int8_t fate, std::int32_t r
   o.packet_sequence = sequence;
   o.source_id = 1;
   o.receiver_id = receiver;
-  o.packet_fate = fate;
+  o.packet_fate = result;
   o.received_level_db = 100;
   o.noise_level_db = 80;
   o.interference_level_db = -300;
   o.doppler_factor = 1;
-  o.success_probability = fate == packet_outcome_t::RECEIVED ? 0.9 : 0.1;
+  o.success_probability = result == packet_outcome_t::RECEIVED ? 0.9 : 0.1;
   o.success_draw = 0.5;
   o.acquisition_draw = 0.5;
   o.num_paths = 1;
   return o;
 }
 
-Fates of(TemporaryLog& log, std::int64_t zero_us = 0) {
+LoggedOutcomes of(TemporaryLog& log, std::int64_t zero_us = 0) {
   LogReader reader(log.path());
-  return fates_of(reader, zero_us);
+  return outcomes_of(reader, zero_us);
 }
 
 class ComparisonTest : public ::testing::Test {
@@ -61,7 +61,7 @@ TEST_F(ComparisonTest, TheSameOutcomeIsIdenticalWhoeverPublishedIt) {
   EXPECT_TRUE(comparison.rows()[0].moved.empty());
 }
 
-TEST_F(ComparisonTest, AChangedFateIsToldWithWhatMovedAndWhatDecided) {
+TEST_F(ComparisonTest, AChangedOutcomeIsReportedWithTheDecisionAndTheInputsThatDiffer) {
   before_.add(1, "OUTCOME", outcome(0, packet_outcome_t::RECEIVED));
   packet_outcome_t o = outcome(0, packet_outcome_t::BIT_ERRORS);
   o.noise_level_db = 95;
@@ -75,7 +75,7 @@ TEST_F(ComparisonTest, AChangedFateIsToldWithWhatMovedAndWhatDecided) {
   EXPECT_EQ(comparison.transitions().at({"received", "bit errors"}), 1);
 }
 
-TEST_F(ComparisonTest, WhoInterferedIsNamed) {
+TEST_F(ComparisonTest, InterferersAreNamed) {
   before_.add(1, "OUTCOME", outcome(0, packet_outcome_t::RECEIVED));
   packet_outcome_t o = outcome(0, packet_outcome_t::COLLIDED);
   o.num_colliders = 1;
@@ -91,7 +91,7 @@ TEST_F(ComparisonTest, WhoInterferedIsNamed) {
   EXPECT_THAT(comparison.rows()[0].why, HasSubstr("with scout:12"));
 }
 
-TEST_F(ComparisonTest, PacketsOfOneNameAreToldApartByTheirDeparture) {
+TEST_F(ComparisonTest, PacketsOfOneNameAreDistinguishedByTheirDeparture) {
   for (const std::int64_t departure : {1'000'000, 3'000'000}) {
     packet_outcome_t o =
         outcome(0, departure == 1'000'000 ? packet_outcome_t::RECEIVED : packet_outcome_t::SHADOW);
@@ -124,16 +124,16 @@ TEST_F(ComparisonTest, ARefusalExplainsAMissingOutcome) {
   after_.add(1, "OUTCOME", outcome(5, packet_outcome_t::RECEIVED));
   const Comparison comparison = compared();
   ASSERT_EQ(comparison.rows().size(), 2u);
-  EXPECT_EQ(comparison.rows()[0].fate_after, "refused: too large");
-  EXPECT_EQ(comparison.rows()[1].fate_before, "undecided at the end");
+  EXPECT_EQ(comparison.rows()[0].outcome_after, "refused: too large");
+  EXPECT_EQ(comparison.rows()[1].outcome_before, "undecided at the end");
 }
 
-TEST_F(ComparisonTest, AMissionThatRecordedNoOutcomesSaysSo) {
+TEST_F(ComparisonTest, AMissionWithoutOutcomesIsReportedAsNotRecorded) {
   before_.add(1, "STATE.auv-1", testing::state_at(0));
   after_.add(1, "OUTCOME", outcome(0, packet_outcome_t::RECEIVED));
   const Comparison comparison = compared();
   EXPECT_FALSE(comparison.anything_before());
-  EXPECT_EQ(comparison.rows()[0].fate_before, "not recorded");
+  EXPECT_EQ(comparison.rows()[0].outcome_before, "not recorded");
   std::ostringstream text;
   print(text, comparison);
   EXPECT_THAT(text.str(), HasSubstr("holds no outcomes"));

@@ -29,11 +29,11 @@ modem_receive_t packet(double travel_time_s) {
   return message;
 }
 
-packet_outcome_t outcome(std::int8_t fate) {
+packet_outcome_t outcome(std::int8_t result) {
   packet_outcome_t message{};
   message.source_id = 2;
   message.receiver_id = 1;
-  message.packet_fate = fate;
+  message.packet_fate = result;
   return message;
 }
 
@@ -62,7 +62,7 @@ TEST(LogStatistics, DelaysHaveLeastMedianAndGreatest) {
   EXPECT_THAT(text.str(), HasSubstr("0.100000 s least, 0.300000 s median, 0.500000 s greatest"));
 }
 
-TEST(LogStatistics, OutcomesAreCountedByCause) {
+TEST(LogStatistics, OutcomesAreCounted) {
   TemporaryLog file;
   file.add(1, "OUTCOME", outcome(packet_outcome_t::RECEIVED));
   file.add(1, "OUTCOME", outcome(packet_outcome_t::BELOW_CUTOFF));
@@ -72,7 +72,7 @@ TEST(LogStatistics, OutcomesAreCountedByCause) {
   EXPECT_THAT(text.str(), HasSubstr("1 received, 2 below cut-off"));
 }
 
-TEST(LogStatistics, WhatIsNotOursIsCountedApart) {
+TEST(LogStatistics, ForeignEventsAreCountedApart) {
   TemporaryLog file;
   file.add_bytes(10, "LCM_SELF_TEST", {1});
   file.add_bytes(20, "CLOCK", {1});
@@ -85,7 +85,7 @@ TEST(LogStatistics, WhatIsNotOursIsCountedApart) {
   EXPECT_EQ(statistics.last_stamp_us, 30);
 }
 
-TEST(LogStatistics, WhatDoesNotDecodeIsToldWithItsPlace) {
+TEST(LogStatistics, UndecodableEventsAreCountedWithThePlaceOfTheFirst) {
   TemporaryLog file;
   file.add_bytes(10, "LCM_SELF_TEST", {1});
   file.add_bytes(20, "CLOCK", {1});

@@ -57,7 +57,7 @@ TEST_F(SimulationOutput, KeepsWhatWasSaidAndHowOften) {
   EXPECT_NE(output_of(one_), output_of(twice));
 }
 
-TEST_F(SimulationOutput, KeepsWhenItWasSaid) {
+TEST_F(SimulationOutput, KeepsTheStampOfEachMessage) {
   one_.add(1'000'000, "RECEIPT.a", receipt(1, 7, 0));
   other_.add(1'000'001, "RECEIPT.a", receipt(1, 7, 0));
   EXPECT_NE(output_of(one_), output_of(other_));

@@ -62,7 +62,7 @@ TEST(GnuplotScript, TextsCannotLeaveTheirQuotes) {
 }
 
 TEST(GnuplotScript, BarsOfTwoSeriesStandSideBySideAndOnZero) {
-  Plot plot{.charts = {{.x = "cause", .y = "packets", .categories = {"received", "collided"}}}};
+  Plot plot{.charts = {{.x = "outcome", .y = "packets", .categories = {"received", "collided"}}}};
   plot.charts[0].series.push_back({"a", Series::kBars, {0, 1}, {5, 3}});
   plot.charts[0].series.push_back({"b", Series::kBars, {0, 1}, {2, 4}});
   const std::string script = gnuplot_script(plot, "a.png");
@@ -72,7 +72,7 @@ TEST(GnuplotScript, BarsOfTwoSeriesStandSideBySideAndOnZero) {
   EXPECT_THAT(script, HasSubstr("set yrange [0:5.5]"));
 }
 
-TEST(GnuplotScript, SaysSoWhereThereIsNothingToDraw) {
+TEST(GnuplotScript, ShowsALabelWhereThereIsNothingToDraw) {
   Plot plot = stems();
   plot.charts[0].series.clear();
   plot.charts[0].when_empty = "shadow";
@@ -90,12 +90,12 @@ TEST(GnuplotScript, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(gnuplot_script({}, "a.png"), InvalidArgument);
 }
 
-TEST(GnuplotScript, KnowsPngAndSvgAlone) {
+TEST(GnuplotScript, AcceptsPngAndSvgAlone) {
   for (const std::string file : {"a.pdf", "png", "a.png.txt", "", "a\n.png"})
     EXPECT_THROW(gnuplot_script(stems(), file), InvalidArgument) << file;
 }
 
-TEST_F(PlotFile, IsAPngOfTheSizeAskedFor) {
+TEST_F(PlotFile, IsAPngOfTheGivenSize) {
   Plot plot = stems();
   plot.charts.push_back(plot.charts[0]);
   write_plot(plot, path("a.png"));
@@ -129,11 +129,11 @@ TEST_F(PlotFile, DrawsBarsLinesPointsAndNothing) {
   for (const std::string text : {"bars", "lines", "points", "empty chart"}) EXPECT_THAT(svg, HasSubstr(text));
 }
 
-TEST_F(PlotFile, SaysWhenItCannotBeWritten) {
+TEST_F(PlotFile, IsReportedWhenItCannotBeWritten) {
   EXPECT_THROW(write_plot(stems(), path("no-such-folder/a.png")), std::runtime_error);
 }
 
-TEST_F(PlotFile, SaysWhenGnuplotIsMissing) {
+TEST_F(PlotFile, IsReportedWhenGnuplotIsMissing) {
   const std::string before = std::getenv("PATH") ? std::getenv("PATH") : "";
   setenv("PATH", path("").c_str(), 1);
   try {

@@ -98,7 +98,7 @@ TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
   }
 }
 
-// A receiver that comes closer at 2 m/s along a straight horizontal way hears 1 + v / c.
+// A receiver that comes closer at 2 m/s along a straight horizontal way receives 1 + v / c.
 TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
   ScenarioConfig config = two_vehicles();
   config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;

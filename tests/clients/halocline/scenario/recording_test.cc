@@ -114,7 +114,7 @@ TEST(Recording, TransmissionsWithoutATimeStartWhenTheyWereLogged) {
   EXPECT_EQ(std::get<modem_send_t>(recording.events[2].message).utime, 3'250'000);
 }
 
-TEST(Recording, WhereNoStateTellsATimeAllGoByTheStamps) {
+TEST(Recording, WhereNoStateHasATimeAllGoByTheStamps) {
   TemporaryLog file;
   for (const std::int64_t s : {0, 1, 2}) file.add(kUnix_us + s * 1'000'000, "STATE.auv-1", state_at(0));
   const Recording recording = recording_of(file);
@@ -126,7 +126,7 @@ TEST(Recording, VehiclesWithoutIdsGetTheScenariosOrFreeOnes) {
   TemporaryLog file;
   vehicle_state_t state = state_at(1);
   for (const auto& [vehicle, id] :
-       std::vector<std::pair<std::string, int>>{{"known", 0}, {"told", 1}, {"new", 0}}) {
+       std::vector<std::pair<std::string, int>>{{"known", 0}, {"given", 1}, {"new", 0}}) {
     state.vehicle_id = id;
     file.add(1, "STATE." + vehicle, state);
   }
@@ -140,9 +140,9 @@ TEST(Recording, VehiclesWithoutIdsGetTheScenariosOrFreeOnes) {
   EXPECT_EQ(std::get<vehicle_state_t>(recording.events[0].message).vehicle_id, 2);
   EXPECT_EQ(std::get<vehicle_state_t>(recording.events[2].message).vehicle_id, 3);
   EXPECT_EQ(std::get<modem_send_t>(recording.events[3].message).source_id, 3);
-  std::ostringstream told;
-  tell_repairs(told, recording);
-  EXPECT_NE(told.str().find("known=2 new=3"), std::string::npos) << told.str();
+  std::ostringstream text;
+  print_repairs(text, recording);
+  EXPECT_NE(text.str().find("known=2 new=3"), std::string::npos) << text.str();
 }
 
 TEST(Recording, StatesWithoutAnOrientationAreTakenAsLevel) {

@@ -23,14 +23,14 @@ TEST(ReplayNode, PublishesEachMessageAtItsTime) {
   lcm::LCM lcm("memq://");
   ReplayNode node(lcm, {"replay", 1}, recording_of(file));
   bus::LockstepRunner runner(lcm, {&node});
-  bus::Bus ear(lcm, {"ear", 1});
-  std::vector<SimTime> heard;
-  ear.subscribe<vehicle_state_t>(bus::channels::kState, [&](std::string_view, const vehicle_state_t&) {
-    heard.push_back(runner.now());
+  bus::Bus peer(lcm, {"peer", 1});
+  std::vector<SimTime> received;
+  peer.subscribe<vehicle_state_t>(bus::channels::kState, [&](std::string_view, const vehicle_state_t&) {
+    received.push_back(runner.now());
   });
   runner.run_until(SimTime::from_seconds(1));
-  EXPECT_EQ(heard, (std::vector<SimTime>{SimTime::from_utime(100'000), SimTime::from_utime(100'000),
-                                         SimTime::from_utime(250'000)}));
+  EXPECT_EQ(received, (std::vector<SimTime>{SimTime::from_utime(100'000), SimTime::from_utime(100'000),
+                                            SimTime::from_utime(250'000)}));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class ShippedScenario : public ::testing::TestWithParam<std::string> {
   ScenarioConfig load() { return load_scenario(kScenarios + "/" + GetParam() + ".toml", {}); }
 };
 
-TEST_P(ShippedScenario, HasNoKeyThatNobodyReads) { EXPECT_EQ(load().scenario.name, GetParam()); }
+TEST_P(ShippedScenario, HasNoUnreadKey) { EXPECT_EQ(load().scenario.name, GetParam()); }
 
 TEST_P(ShippedScenario, ReadsBackFromItsEffectiveConfiguration) {
   const std::string text = effective_toml(load());

@@ -10,13 +10,13 @@ namespace {
 using testing::TemporaryLog;
 
 packet_outcome_t outcome(std::int64_t sequence, std::int32_t destination, std::int32_t receiver,
-                         std::int8_t fate, double travel_time_s = 0.1) {
+                         std::int8_t result, double travel_time_s = 0.1) {
   packet_outcome_t o{};
   o.source_id = 1;
   o.destination_id = destination;
   o.receiver_id = receiver;
   o.packet_sequence = sequence;
-  o.packet_fate = fate;
+  o.packet_fate = result;
   o.departure_utime = 1'000'000;
   o.utime = 1'000'000 + 2 * static_cast<std::int64_t>(travel_time_s * 1e6);
   o.travel_time_s = travel_time_s;
@@ -38,7 +38,7 @@ TEST(RunMetrics, DeliveryCountsThoseAPacketWasFor) {
   EXPECT_EQ(metrics.all.packets, 3);
   EXPECT_EQ(metrics.all.received, 2);
   EXPECT_DOUBLE_EQ(metrics[RunNumber::kDeliveryRatio], 2.0 / 3);
-  EXPECT_EQ(metrics.fates[packet_outcome_t::RECEIVED], 3);
+  EXPECT_EQ(metrics.outcomes[packet_outcome_t::RECEIVED], 3);
   EXPECT_EQ((metrics.by_pair.at({"1", "3"}).packets), 1);
 }
 
@@ -74,7 +74,7 @@ TEST(RunMetrics, AreReadAsTheyWereWritten) {
   const RunMetrics metrics = of(file), read = metrics_from_json(to_json(metrics));
   EXPECT_TRUE(std::isnan(read[RunNumber::kDelayMean]));
   EXPECT_EQ(read[RunNumber::kDeliveryRatio], 0);
-  EXPECT_EQ(read.fates, metrics.fates);
+  EXPECT_EQ(read.outcomes, metrics.outcomes);
   EXPECT_EQ(read.by_pair.size(), 1u);
   EXPECT_EQ(to_json(read), to_json(metrics));
   EXPECT_THROW(metrics_from_json("{}"), std::runtime_error);

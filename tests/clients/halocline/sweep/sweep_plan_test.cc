@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-TEST(SweepAxis, ValuesArePartedAtCommasOutsideOfQuotesAndBrackets) {
+TEST(SweepAxis, ValuesAreSplitAtCommasOutsideOfQuotesAndBrackets) {
   const SweepAxis axis = parse_axis("modem.x=1, [2, 3],\"a,b\"");
   EXPECT_EQ(axis.key, "modem.x");
   EXPECT_THAT(axis.values, ElementsAre("1", "[2, 3]", "\"a,b\""));
@@ -67,7 +67,7 @@ TEST(SweepPlan, IsReadAsItWasWritten) {
   EXPECT_THAT(read.scenario, ::testing::EndsWith("/harbour.toml"));
 }
 
-TEST(SweepPlan, AFilesErrorsAreToldTogether) {
+TEST(SweepPlan, AllErrorsOfAFileAreReportedTogether) {
   const std::string path = ::testing::TempDir() + "wrong-" + std::to_string(getpid()) + ".toml";
   std::ofstream(path)
       << "[sweep]\nscenario = \"x\"\nseeds = \"9..1\"\n[[axis]]\nkey = \"a\"\nvalues = \",\"\nextra = 1\n";
@@ -91,7 +91,7 @@ TEST(SweepPlan, WithoutRunsOrWithTooManyIsRefused) {
   EXPECT_NO_THROW(check(plan()));
 }
 
-TEST(SweepFolder, ARunIsKnownByWhatItComputes) {
+TEST(SweepFolder, ARunIsIdentifiedByWhatItComputes) {
   EXPECT_EQ(run_identity("a"), run_identity("a"));
   EXPECT_NE(run_identity("a"), run_identity("b"));
   EXPECT_EQ(run_identity("a").size(), 16u);

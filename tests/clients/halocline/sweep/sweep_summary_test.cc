@@ -22,8 +22,8 @@ class SweepSummaryTest : public ::testing::Test {
     RunMetrics m;
     m.all = {packets, received};
     m.by_pair[{"a", "b"}] = m.all;
-    m.fates[0] = received;
-    m.fates[9] = packets - received;
+    m.outcomes[0] = received;
+    m.outcomes[9] = packets - received;
     m[RunNumber::kDeliveryRatio] = static_cast<double>(received) / static_cast<double>(packets);
     return m;
   }
@@ -50,7 +50,7 @@ TEST_F(SweepSummaryTest, PointsPoolTheirSeeds) {
   EXPECT_EQ(r.points[3].completed, 1u);
   EXPECT_TRUE(std::isnan(r.points[3].numbers[2].interval.low));
   EXPECT_DOUBLE_EQ(r.points[1].numbers[2].mean, 0.25);
-  EXPECT_EQ(r.points[1].fates[9].count, 15);
+  EXPECT_EQ(r.points[1].outcomes[9].count, 15);
 }
 
 TEST_F(SweepSummaryTest, TablesHaveARowAPointPairAndRun) {

@@ -1,4 +1,4 @@
-#include "clients/halocline/analysis/ledger.h"
+#include "clients/halocline/analysis/outcome_summary.h"
 
 #include <numeric>
 
@@ -8,11 +8,11 @@
 
 namespace halocline::clients {
 
-Ledger::Ledger(std::int64_t window_us) : window_us_(window_us) {
+OutcomeSummary::OutcomeSummary(std::int64_t window_us) : window_us_(window_us) {
   require(window_us > 0, "the window must be above 0");
 }
 
-void Ledger::count(const LoggedEvent& event, std::int64_t zero_us) {
+void OutcomeSummary::count(const LoggedEvent& event, std::int64_t zero_us) {
   with_type_of(event.channel, [&]<class Message>() {
     if constexpr (std::is_same_v<Message, packet_outcome_t> || std::is_same_v<Message, vehicle_state_t>) {
       Message message;
@@ -28,7 +28,7 @@ void Ledger::count(const LoggedEvent& event, std::int64_t zero_us) {
   });
 }
 
-void Ledger::count(const packet_outcome_t& outcome) {
+void OutcomeSummary::count(const packet_outcome_t& outcome) {
   const Key key{outcome.source_id,    outcome.receiver_id,     outcome.destination_id,
                 outcome.send_session, outcome.packet_sequence, outcome.departure_utime,
                 outcome.packet_kind};
@@ -36,24 +36,24 @@ void Ledger::count(const packet_outcome_t& outcome) {
     ++repeated_;
     return;
   }
-  const auto fate = static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.packet_fate));
+  const auto number = static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.packet_fate));
   const std::int64_t departure = outcome.departure_utime;
   const std::int64_t into_window = ((departure % window_us_) + window_us_) % window_us_;
-  ++total_.at(fate);
-  ++by_pair_[{outcome.source_id, outcome.receiver_id}].at(fate);
-  ++by_window_[departure - into_window].at(fate);
+  ++total_.at(number);
+  ++by_pair_[{outcome.source_id, outcome.receiver_id}].at(number);
+  ++by_window_[departure - into_window].at(number);
   outcomes_.push_back(outcome);
 }
 
-std::string Ledger::name(std::int32_t vehicle_id) const {
+std::string OutcomeSummary::name(std::int32_t vehicle_id) const {
   const auto found = names_.find(vehicle_id);
   return found != names_.end() ? found->second : std::to_string(vehicle_id);
 }
 
-Ledger ledger_of(LogReader& log, std::int64_t window_us) {
-  Ledger ledger(window_us);
-  for (LoggedEvent event; log.next(event);) ledger.count(event);
-  return ledger;
+OutcomeSummary summary_of(LogReader& log, std::int64_t window_us) {
+  OutcomeSummary summary(window_us);
+  for (LoggedEvent event; log.next(event);) summary.count(event);
+  return summary;
 }
 
 }  // namespace halocline::clients

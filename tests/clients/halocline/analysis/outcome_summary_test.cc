@@ -1,4 +1,4 @@
-#include "clients/halocline/analysis/ledger.h"
+#include "clients/halocline/analysis/outcome_summary.h"
 
 #include <numeric>
 #include <sstream>
@@ -20,34 +20,34 @@ constexpr auto kReceived = static_cast<std::size_t>(packet_outcome_t::RECEIVED);
 constexpr auto kCollided = static_cast<std::size_t>(packet_outcome_t::COLLIDED);
 
 packet_outcome_t outcome(std::int32_t from, std::int32_t to, std::int64_t sequence,
-                         std::int64_t departure_utime, std::int8_t fate) {
+                         std::int64_t departure_utime, std::int8_t result) {
   packet_outcome_t o{};
   o.utime = departure_utime + 1'500'000;
   o.source_id = from;
   o.receiver_id = to;
   o.packet_sequence = sequence;
   o.departure_utime = departure_utime;
-  o.packet_fate = fate;
+  o.packet_fate = result;
   o.doppler_factor = 1;
   return o;
 }
 
-class LedgerOfALog : public ::testing::Test {
+class OutcomeSummaryTest : public ::testing::Test {
  protected:
   void add(const packet_outcome_t& o) { file_.add(o.utime, "OUTCOME", o); }
-  Ledger ledger(std::int64_t window_us = kMinute) {
+  OutcomeSummary summary(std::int64_t window_us = kMinute) {
     LogReader log(file_.path());
-    return ledger_of(log, window_us);
+    return summary_of(log, window_us);
   }
   TemporaryLog file_;
 };
 
-TEST_F(LedgerOfALog, SumsByCausePairAndWindowOfDepartureAgree) {
+TEST_F(OutcomeSummaryTest, CountsByOutcomePairAndWindowOfDepartureAgree) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
   add(outcome(2, 3, 7, kMinute - 1, packet_outcome_t::COLLIDED));
   add(outcome(1, 2, 1, kMinute, packet_outcome_t::RECEIVED));
-  const Ledger sums = ledger();
+  const OutcomeSummary sums = summary();
   EXPECT_EQ(sums.total()[kReceived], 2);
   EXPECT_EQ(sums.total()[kCollided], 2);
   EXPECT_EQ((sums.by_pair().at({1, 2})[kReceived]), 2);
@@ -58,43 +58,43 @@ TEST_F(LedgerOfALog, SumsByCausePairAndWindowOfDepartureAgree) {
   EXPECT_EQ(sums.by_window().at(kMinute)[kReceived], 1);
 }
 
-TEST_F(LedgerOfALog, ARepeatedOutcomeCountsOnce) {
+TEST_F(OutcomeSummaryTest, ARepeatedOutcomeCountsOnce) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
-  const Ledger sums = ledger();
+  const OutcomeSummary sums = summary();
   EXPECT_EQ(sums.total()[kReceived], 1);
   EXPECT_EQ(sums.repeated(), 1);
 }
 
-TEST_F(LedgerOfALog, VehiclesGoByTheNamesOfTheirStates) {
+TEST_F(OutcomeSummaryTest, VehiclesGoByTheNamesOfTheirStates) {
   file_.add(0, "STATE.auv-1", testing::state_at(0));
   add(outcome(1, 9, 0, 0, packet_outcome_t::RECEIVED));
-  const Ledger sums = ledger();
+  const OutcomeSummary sums = summary();
   EXPECT_EQ(sums.name(1), "auv-1");
   EXPECT_EQ(sums.name(9), "9");
 }
 
-TEST_F(LedgerOfALog, TimesBeforeZeroFallIntoWindowsOfTheirOwn) {
+TEST_F(OutcomeSummaryTest, TimesBeforeZeroFallIntoWindowsOfTheirOwn) {
   add(outcome(1, 2, 0, -1, packet_outcome_t::RECEIVED));
-  EXPECT_EQ(ledger().by_window().begin()->first, -kMinute);
+  EXPECT_EQ(summary().by_window().begin()->first, -kMinute);
 }
 
-TEST_F(LedgerOfALog, AWindowOfNothingIsRefused) { EXPECT_THROW(Ledger(0), InvalidArgument); }
+TEST_F(OutcomeSummaryTest, AWindowOfNothingIsRefused) { EXPECT_THROW(OutcomeSummary(0), InvalidArgument); }
 
-TEST_F(LedgerOfALog, JsonAndCsvTellTheSameCounts) {
+TEST_F(OutcomeSummaryTest, JsonAndCsvHoldTheSameCounts) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
-  const Ledger sums = ledger();
+  const OutcomeSummary sums = summary();
   const auto json = nlohmann::json::parse(to_json(sums));
   EXPECT_EQ(json["outcomes"], 2);
-  EXPECT_EQ(json["causes"]["received"], 1);
-  EXPECT_EQ(json["pairs"][1]["causes"]["collided"], 1);
+  EXPECT_EQ(json["by_outcome"]["received"], 1);
+  EXPECT_EQ(json["pairs"][1]["by_outcome"]["collided"], 1);
   std::stringstream csv;
   print_csv(csv, sums);
-  EXPECT_EQ(csv.str(), "from,to,cause,packets\n1,2,received,1\n1,3,collided,1\n");
+  EXPECT_EQ(csv.str(), "from,to,outcome,packets\n1,2,received,1\n1,3,collided,1\n");
 }
 
-TEST_F(LedgerOfALog, EachOutcomeIsARowWithTheCollidersThatDecidedIt) {
+TEST_F(OutcomeSummaryTest, EachOutcomeIsARowWithTheCollidersThatDecidedIt) {
   packet_outcome_t lost = outcome(1, 2, 5, 0, packet_outcome_t::COLLIDED);
   packet_name_t other{};
   other.source_id = 3;
@@ -104,7 +104,7 @@ TEST_F(LedgerOfALog, EachOutcomeIsARowWithTheCollidersThatDecidedIt) {
   lost.interference_level_db = 91.5;
   add(lost);
   std::stringstream csv;
-  print_outcomes_csv(csv, ledger());
+  print_outcomes_csv(csv, summary());
   std::vector<std::string> errors;
   const CsvTable table = read_csv(csv, errors);
   ASSERT_TRUE(errors.empty());
@@ -113,21 +113,21 @@ TEST_F(LedgerOfALog, EachOutcomeIsARowWithTheCollidersThatDecidedIt) {
   EXPECT_EQ(table.rows[0].cells[*table.column("interference_level_db")], "91.5");
 }
 
-TEST_F(LedgerOfALog, ThePrintedTableNamesEveryCauseThatOccurred) {
+TEST_F(OutcomeSummaryTest, ThePrintedTableNamesEveryOutcomeThatOccurred) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 3, 0, 0, packet_outcome_t::HALF_DUPLEX));
   std::ostringstream text;
-  print(text, ledger());
+  print(text, summary());
   EXPECT_THAT(text.str(),
               ::testing::AllOf(::testing::HasSubstr("2 outcomes"), ::testing::HasSubstr("50.0 %"),
                                ::testing::HasSubstr("half duplex"), ::testing::HasSubstr("1 -> 3")));
 }
 
-TEST_F(LedgerOfALog, ThePlotHoldsABarACauseAndItsCourseOverTheWindows) {
+TEST_F(OutcomeSummaryTest, ThePlotHoldsABarAnOutcomeAndItsCourseOverTheWindows) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
   add(outcome(1, 3, 1, kMinute, packet_outcome_t::COLLIDED));
-  const Plot plot = ledger_plot(ledger(), "a run");
+  const Plot plot = outcome_plot(summary(), "a run");
   ASSERT_EQ(plot.charts.size(), 2u);
   EXPECT_THAT(plot.charts[0].categories, ::testing::ElementsAre("received", "collided"));
   EXPECT_THAT(plot.charts[0].series.at(0).y, ::testing::ElementsAre(1, 2));
@@ -136,9 +136,9 @@ TEST_F(LedgerOfALog, ThePlotHoldsABarACauseAndItsCourseOverTheWindows) {
   EXPECT_THAT(plot.charts[1].series[1].y, ::testing::ElementsAre(1, 1));
 }
 
-TEST_F(LedgerOfALog, AnEmptyLogHasNoOutcomes) {
+TEST_F(OutcomeSummaryTest, AnEmptyLogHasNoOutcomes) {
   std::ostringstream text;
-  print(text, ledger());
+  print(text, summary());
   EXPECT_THAT(text.str(), ::testing::HasSubstr("0 outcomes"));
 }
 

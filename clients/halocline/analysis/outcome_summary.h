@@ -1,7 +1,7 @@
-// The ledger of a run: what became of every packet at every possible receiver, summed by cause, pair and time.
+// The packet outcomes of a run: one for every packet at every possible receiver, counted by outcome, pair and time.
 //
 // Counted from the OUTCOMEs of a log; each (packet, receiver) counts once, however often its outcome stands in the
-// log (a recorder may hear a repetition). Vehicles go by the names of their STATE channels, or by their ids where no
+// log (a recorder may receive a repetition). Vehicles go by the names of their STATE channels, or by their ids where no
 // state was recorded.
 #pragma once
 
@@ -22,21 +22,21 @@
 
 namespace halocline::clients {
 
-using FateCounts = std::array<std::int64_t, LogStatistics::kFates>;  // by packet_outcome_t.packet_fate
+using OutcomeCounts = std::array<std::int64_t, kOutcomes>;  // by packet_outcome_t.packet_fate
 
-class Ledger {
+class OutcomeSummary {
  public:
   using Pair = std::pair<std::int32_t, std::int32_t>;  // ids of sender and receiver
 
   // Outcomes are summed over windows of `window_us` > 0 of simulation time, by the instant of departure.
-  explicit Ledger(std::int64_t window_us);
+  explicit OutcomeSummary(std::int64_t window_us);
 
   // `zero_us` is taken off the outcome's times.
   void count(const LoggedEvent& event, std::int64_t zero_us = 0);
 
-  const FateCounts& total() const { return total_; }
-  const std::map<Pair, FateCounts>& by_pair() const { return by_pair_; }
-  const std::map<std::int64_t, FateCounts>& by_window() const { return by_window_; }  // by its start, us
+  const OutcomeCounts& total() const { return total_; }
+  const std::map<Pair, OutcomeCounts>& by_pair() const { return by_pair_; }
+  const std::map<std::int64_t, OutcomeCounts>& by_window() const { return by_window_; }  // by its start, us
   // In the order of the log.
   const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
   std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
@@ -54,27 +54,27 @@ class Ledger {
   void count(const packet_outcome_t& outcome);
 
   std::int64_t window_us_;
-  FateCounts total_{};
-  std::map<Pair, FateCounts> by_pair_;
-  std::map<std::int64_t, FateCounts> by_window_;
+  OutcomeCounts total_{};
+  std::map<Pair, OutcomeCounts> by_pair_;
+  std::map<std::int64_t, OutcomeCounts> by_window_;
   std::vector<packet_outcome_t> outcomes_;
   std::map<std::int32_t, std::string> names_;
   std::set<Key> counted_;
   std::int64_t repeated_ = 0;
 };
 
-Ledger ledger_of(LogReader& log, std::int64_t window_us);
+OutcomeSummary summary_of(LogReader& log, std::int64_t window_us);
 
-// For a person: causes, pairs, windows, each with counts and shares.
-void print(std::ostream& out, const Ledger& ledger);
-// One object: "causes", "pairs", "windows".
-std::string to_json(const Ledger& ledger);
-// One row a pair and cause that occurred: sender, receiver, cause, packets.
-void print_csv(std::ostream& out, const Ledger& ledger);
+// As text: outcomes, pairs, windows, each with counts and shares.
+void print(std::ostream& out, const OutcomeSummary& summary);
+// One object: "by_outcome", "pairs", "windows".
+std::string to_json(const OutcomeSummary& summary);
+// One row a pair and outcome that occurred: sender, receiver, outcome, packets.
+void print_csv(std::ostream& out, const OutcomeSummary& summary);
 // One row an outcome, with the numbers that decided it.
-void print_outcomes_csv(std::ostream& out, const Ledger& ledger);
+void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary);
 
-// Two charts: bars of the causes that occurred; lines of each of these causes over the windows of time.
-Plot ledger_plot(const Ledger& ledger, const std::string& title);
+// Two charts: bars of the outcomes that occurred; lines of each of these over the windows of time.
+Plot outcome_plot(const OutcomeSummary& summary, const std::string& title);
 
 }  // namespace halocline::clients

@@ -1,0 +1,58 @@
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "clients/halocline/analysis/outcome_summary.h"
+#include "clients/halocline/commands.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+struct OutcomesArguments {
+  std::vector<std::string> logs;
+  std::string format = "table", plot;
+  double window_s = 60;
+};
+
+int show_outcomes(const OutcomesArguments& arguments) {
+  if (!arguments.plot.empty()) require_plot_file(arguments.plot);
+  LogReader log(arguments.logs);
+  const OutcomeSummary summary = summary_of(log, std::llround(arguments.window_s * 1e6));
+  if (arguments.format == "json")
+    std::cout << to_json(summary) << "\n";
+  else if (arguments.format == "csv")
+    print_csv(std::cout, summary);
+  else if (arguments.format == "outcomes")
+    print_outcomes_csv(std::cout, summary);
+  else
+    print(std::cout, summary);
+  tell_damage(std::cerr, log);
+  if (!arguments.plot.empty()) write_plot(outcome_plot(summary, arguments.logs.front()), arguments.plot);
+  return kDone;
+}
+
+}  // namespace
+
+void add_outcomes_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<OutcomesArguments>();
+  CLI::App* command =
+      app.add_subcommand("outcomes", "Count the packet outcomes of a log by outcome, pair and time window");
+  command->alias("ledger");
+  command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
+  command
+      ->add_option(
+          "--format", arguments->format,
+          "table; json; csv: a row a pair and outcome; outcomes: CSV, a row an outcome with its numbers")
+      ->check(CLI::IsMember({"table", "json", "csv", "outcomes"}));
+  command->add_option("--window-s", arguments->window_s, "length of the windows of time, seconds")
+      ->check(CLI::Range(1e-3, 1e9));
+  command->add_option("--plot", arguments->plot,
+                      "also draw the outcomes and their course over time: FILE.png or FILE.svg");
+  command->footer(
+      footer("  halocline outcomes runs/harbour/harbour.lcm\n"
+             "  halocline outcomes runs/harbour/harbour.lcm --format outcomes > outcomes.csv"));
+  command->callback([arguments, &exit_code] { exit_code = show_outcomes(*arguments); });
+}
+
+}  // namespace halocline::clients
