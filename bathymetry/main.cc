@@ -1,5 +1,10 @@
+#include <memory>
+#include <utility>
+
 #include "bathymetry/bathymetry_config.h"
 #include "bathymetry/bathymetry_node.h"
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
 
 using halocline::bathymetry::BathymetryNode;
