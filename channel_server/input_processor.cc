@@ -24,10 +24,10 @@ InputProcessor::InputProcessor(bus::Bus& bus, VehicleRegistry& vehicles, Environ
 
 SimTime InputProcessor::apply(StepInputs inputs, SimTime now) {
   apply_states(std::move(inputs.states), now);
-  apply_modems(inputs.modems);
+  apply_modems(inputs.modems, now);
   const SimTime changed_from = apply_changes(inputs.changes, now);
   apply_sends(std::move(inputs.sends), now);
-  for (const ping_answer_t& message : inputs.ping_answers) medium_.hear_answer(to_answer(message));
+  for (const ping_answer_t& message : inputs.ping_answers) medium_.add_answer(to_answer(message));
   return changed_from;
 }
 
@@ -39,17 +39,15 @@ void InputProcessor::apply_states(StepInputs::ByVehicle<vehicle_state_t> states,
     const StampedState state = to_state(message);
     const std::string problem = state.time > now + kMaxAhead
                                     ? "utime lies more than 10 s ahead of simulation time"
-                                    : vehicles_.hear_state(vehicle, message.vehicle_id, state);
+                                    : vehicles_.add_state(vehicle, message.vehicle_id, state);
     if (!problem.empty()) bus_.refuse(channels::kState.of(vehicle), problem);
   }
 }
 
-void InputProcessor::apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems) {
+void InputProcessor::apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems, SimTime now) {
   for (const auto& [vehicle, message] : modems) {
     try {
-      const std::string problem =
-          vehicles_.hear_modem(vehicle, SimTime::from_utime(message.utime), to_modem(message));
-      if (!problem.empty()) bus_.refuse(channels::kModem.of(vehicle), problem);
+      vehicles_.announce_modem(vehicle, SimTime::from_utime(message.utime), to_modem(message), now);
     } catch (const InvalidArgument& error) {
       bus_.refuse(channels::kModem.of(vehicle), error.what());
     }
@@ -62,8 +60,8 @@ SimTime InputProcessor::apply_changes(const std::vector<environment_change_t>& c
   for (const environment_change_t& message : changes) {
     try {
       const std::string problem =
-          waters_.hear(SimTime::from_utime(message.utime), now, {message.session, message.sequence},
-                       to_change(message, propagation_.environment(now)));
+          waters_.announce(SimTime::from_utime(message.utime), now, {message.session, message.sequence},
+                           to_change(message, propagation_.environment(now)));
       if (!problem.empty()) bus_.refuse(channels::kSetEnvironment, problem);
     } catch (const InvalidArgument& error) {
       bus_.refuse(channels::kSetEnvironment, error.what());

@@ -31,7 +31,7 @@ class InputProcessor {
 
  private:
   void apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime now);
-  void apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems);
+  void apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems, SimTime now);
   SimTime apply_changes(const std::vector<environment_change_t>& changes, SimTime now);
   void apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now);
 

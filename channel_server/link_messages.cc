@@ -1,5 +1,8 @@
 #include "channel_server/link_messages.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "bus/message_checks.h"
 #include "channel_server/vehicle_messages.h"
 #include "core/check.h"
@@ -66,13 +69,19 @@ link_t to_message(const LinkRow& row) {
   return message;
 }
 
-link_table_t to_message(const LinkTable& table, SimTime at) {
-  link_table_t message{};
-  message.utime = at.to_utime();
-  message.vehicle_id = table.vehicle_id;
-  message.num_peers = static_cast<std::int32_t>(table.rows.size());
-  for (const LinkRow& row : table.rows) message.peers.push_back(to_message(row));
-  return message;
+std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at) {
+  std::vector<link_table_t> messages;
+  std::size_t row = 0;
+  do {
+    link_table_t message{};
+    message.utime = at.to_utime();
+    message.vehicle_id = table.vehicle_id;
+    const std::size_t end = std::min(row + kMaxPeers, table.rows.size());
+    for (; row < end; ++row) message.peers.push_back(to_message(table.rows[row]));
+    message.num_peers = static_cast<std::int32_t>(message.peers.size());
+    messages.push_back(std::move(message));
+  } while (row < table.rows.size());
+  return messages;
 }
 
 LinkQuestion to_question(const link_query_t& message) {

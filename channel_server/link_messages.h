@@ -1,6 +1,7 @@
 // Link tables, link queries and their replies, ray queries and their answers, from messages and back.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -12,7 +13,9 @@
 namespace halocline::channel_server {
 
 link_t to_message(const LinkRow& row);
-link_table_t to_message(const LinkTable& table, SimTime at);
+// A table of more rows than a message holds comes in parts, by receiver id; one without rows is one message.
+inline constexpr std::size_t kMaxPeers = 400;  // of link_table_t: 43 kB
+std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at);
 
 // An end that cannot be read (a modem with a NaN) carries the problem.
 LinkQuestion to_question(const link_query_t& message);

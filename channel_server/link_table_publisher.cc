@@ -20,8 +20,8 @@ void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>&
   };
   for (const LinkTable& table :
        link_tables(tick, vehicles, models_.propagation, multipath, for_each, shard_)) {
-    publisher_.publish(bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id)),
-                       to_message(table, tick));
+    const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
+    for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());
   }
   report_presence(vehicles);

@@ -8,6 +8,7 @@
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "core/check.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -17,13 +18,14 @@ constexpr double kSpeedMps = 2;
 Vec3 start_of(VehicleId id) { return {150.0 * id, 70.0 * (id % 5), 20.0 + 7 * id}; }
 
 // States ten times a second over the last ten seconds before `end`.
-void hear_fleet(VehicleRegistry& fleet, int vehicles, SimTime end) {
+void add_states(VehicleRegistry& fleet, int vehicles, SimTime end) {
   for (VehicleId id = 1; id <= vehicles; ++id) {
     for (int tick = -100; tick <= 0; ++tick) {
       const SimTime time = end + SimDuration::from_milliseconds(100) * tick;
       const Vec3 velocity(kSpeedMps, 0, 0);
-      fleet.hear_state("v" + std::to_string(id), id,
-                       {time, start_of(id) + time.seconds() * velocity, velocity});
+      const std::string problem = fleet.add_state("v" + std::to_string(id), id,
+                                                  {time, start_of(id) + time.seconds() * velocity, velocity});
+      require(problem.empty(), problem);
     }
   }
 }
@@ -35,7 +37,7 @@ void link_table(benchmark::State& state) {
   StraightPropagation propagation(acoustics::Environment{});
   MultipathCache book(5);
   const SimTime end = SimTime::from_seconds(100);
-  hear_fleet(fleet, vehicles, end);
+  add_states(fleet, vehicles, end);
   SimTime now = end;
   for (auto _ : state) {
     now = now + SimDuration::from_microseconds(1);
@@ -109,7 +111,7 @@ void packet(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     now = now + SimDuration::from_milliseconds(20'000);
-    hear_fleet(fleet, vehicles, now);
+    add_states(fleet, vehicles, now);
     fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
     medium.forget_before(now - SimDuration::from_milliseconds(10'000));
     SendRequest request;
@@ -141,7 +143,7 @@ void packets_that_overlap(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     now = now + SimDuration::from_milliseconds(20'000);
-    hear_fleet(fleet, vehicles, now + SimDuration::from_milliseconds(4'000));
+    add_states(fleet, vehicles, now + SimDuration::from_milliseconds(4'000));
     fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
     medium.forget_before(now - SimDuration::from_milliseconds(11'000));
     state.ResumeTiming();

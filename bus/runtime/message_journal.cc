@@ -24,7 +24,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kEntryWord = 0x484c4d31;  // "HLM1"
 constexpr std::size_t kHeadBytes = 25;            // word, kind, stamp, two lengths, check sum
-constexpr std::size_t kMaxKept = 1000;
+constexpr std::size_t kMaxKept = 1000;            // of keep_all
+constexpr std::size_t kMaxKeptLast = 16'384;      // channels of keep_last
 
 void put(std::uint64_t value, int bytes, Bytes& to) {
   for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8)
@@ -178,6 +179,7 @@ void MessageJournal::carry(const JournalledMessage& entry) {
   for (const Family& family : rule_.keep_last) {
     if (entry.channel.starts_with(family.prefix)) kept_last_[entry.channel] = entry;
   }
+  if (kept_last_.size() > kMaxKeptLast) forget_older_half();
   // Each file begins with them, so those of the earlier incarnation are read more than once.
   const auto is_known = [&](const JournalledMessage& other) {
     return other.at == entry.at && other.channel == entry.channel && other.bytes == entry.bytes;
@@ -187,6 +189,18 @@ void MessageJournal::carry(const JournalledMessage& entry) {
       kept_all_.push_back(entry);
   }
   if (kept_all_.size() > kMaxKept) kept_all_.pop_front();
+}
+
+// By halves, so that names made up without end cost no more than a constant for each.
+void MessageJournal::forget_older_half() {
+  std::vector<SimTime> times;
+  for (const auto& [channel, entry] : kept_last_) times.push_back(entry.at);
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  // Not all, where all are of one instant.
+  std::size_t left = times.size() / 2;
+  std::erase_if(kept_last_,
+                [&](const auto& kept) { return kept.second.at <= *middle && left > 0 && left-- > 0; });
 }
 
 std::vector<JournalledMessage> MessageJournal::carried() const {

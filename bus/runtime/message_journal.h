@@ -7,8 +7,8 @@
 // off at the end is no entry.
 //
 // Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
-// and another begins with what is carried over: the last state, the last input of each channel of `keep_last`,
-// and the inputs on `keep_all` (the latest 1000). So at least `kept` is there, and twice that at most.
+// and another begins with what is carried over: the last state, the last input of each channel of `keep_last` (of
+// 16 384 channels at most), and the inputs on `keep_all` (the latest 1000). So at least `kept` is there, and twice that at most.
 #pragma once
 
 #include <cstdint>
@@ -69,6 +69,7 @@ class MessageJournal {
   void begin_file(const std::vector<JournalledMessage>& entries);
   void write(const std::vector<JournalledMessage>& entries);
   void carry(const JournalledMessage& entry);
+  void forget_older_half();
   std::vector<JournalledMessage> carried() const;
 
   Rule rule_;

@@ -74,7 +74,7 @@ std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTim
   return rule_.shard.serves(request.source_id) ? std::optional(refusal) : std::nullopt;
 }
 
-void PacketMedium::hear_answer(const PingAnswer& answer) {
+void PacketMedium::add_answer(const PingAnswer& answer) {
   const SendRequest& request = answer.request;
   if (!answered_
            .insert({request.start, request.source_id, request.destination_id, request.session,
@@ -264,7 +264,7 @@ void PacketMedium::end(Flight& flight, SimTime at, std::vector<MediumEvent>& eve
   events.push_back({at, at < advanced_to_, std::move(ending)});
   if (is_answered) {
     const PingAnswer answer = answer_of(flight, at);
-    hear_answer(answer);
+    add_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
   }
   state_of(flight.receiver_id).close(flight.first_sound(), at);

@@ -25,7 +25,7 @@
 //
 // Shards. A medium that shares the water with others (rule.shard) is told of all states and requests, decides all
 // of them, and follows packets only to the receivers it serves. Only the answer to a ping depends on what another
-// shard's vehicle received; it leaves kPingTurnaround after that, and hear_answer() tells of it meanwhile.
+// shard's vehicle received; it leaves kPingTurnaround after that, and add_answer() tells of it meanwhile.
 //
 // Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet,
 // fading.
@@ -70,7 +70,7 @@ class PacketMedium {
   std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
 
   // A modem that another shard serves will answer a ping; a repetition changes nothing.
-  void hear_answer(const PingAnswer& answer);
+  void add_answer(const PingAnswer& answer);
 
   // When something next happens; SimTime::never() when the water is silent.
   SimTime next_event() const;
@@ -128,7 +128,7 @@ class PacketMedium {
   std::map<FlightKey, FlightPointer> flights_;
   std::map<VehicleId, ReceiverState> receivers_;
   std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
-      answered_;  // see hear_answer
+      answered_;  // see add_answer
   SimTime advanced_to_ = SimTime::at_once();
 };
 

@@ -30,13 +30,13 @@ void EnvironmentTimeline::schedule(SimTime from, const EnvironmentChange& change
   insert({from, {0, static_cast<std::int64_t>(spans_.size())}}, change);
 }
 
-std::string EnvironmentTimeline::hear(SimTime announced, SimTime heard, Origin origin,
-                                      const EnvironmentChange& change) {
-  const bool told = std::any_of(spans_.begin(), spans_.end(),
-                                [&](const Span& span) { return span.order.origin == origin; });
-  if (told) return {};
+std::string EnvironmentTimeline::announce(SimTime announced_from, SimTime received_at, Origin origin,
+                                          const EnvironmentChange& change) {
+  const bool is_repetition = std::any_of(spans_.begin(), spans_.end(),
+                                         [&](const Span& span) { return span.order.origin == origin; });
+  if (is_repetition) return {};
   if (spans_.size() > kMaxChanges) return "too many changes of the environment in one run";
-  const SimTime from = std::max(announced, heard);
+  const SimTime from = std::max(announced_from, received_at);
   try {
     validate(changed(at(from), change));
   } catch (const InvalidArgument& error) {
@@ -74,9 +74,9 @@ void EnvironmentTimeline::forget_before(SimTime time) {
   auto surplus = changes_kept() - kHeardKept;
   std::vector<Span> kept;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
-    const bool heard = i > 0 && spans_[i].order.origin.session != 0;
+    const bool announced = i > 0 && spans_[i].order.origin.session != 0;
     const bool superseded = i + 1 < spans_.size() && spans_[i + 1].order.from <= time;
-    if (surplus > 0 && heard && superseded) {
+    if (surplus > 0 && announced && superseded) {
       --surplus;
     } else {
       kept.push_back(std::move(spans_[i]));

@@ -44,9 +44,10 @@ class EnvironmentTimeline {
 
   // A change of the scenario: survives clear(). Throws InvalidArgument when it leads out of range.
   void schedule(SimTime from, const EnvironmentChange& change);
-  // One announced by `origin` to hold from `announced`, heard at `heard`. Empty when taken (a repetition is);
+  // One announced by `origin` to hold from `announced_from`, received at `received_at`. Empty when taken (a repetition is);
   // else why not.
-  std::string hear(SimTime announced, SimTime heard, Origin origin, const EnvironmentChange& change);
+  [[nodiscard]] std::string announce(SimTime announced_from, SimTime received_at, Origin origin,
+                                     const EnvironmentChange& change);
 
   // At an instant; a change holds at its very instant. References hold until the next change is told.
   const acoustics::Environment& at(SimTime instant) const { return span_at(instant).environment; }

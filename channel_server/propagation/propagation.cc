@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "acoustics/rays/ray_doppler.h"
+#include "core/check.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -62,9 +63,10 @@ std::vector<Reception> Propagation::receptions(SimTime at, const std::vector<End
   return receptions;
 }
 
-Reception Propagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+Reception Propagation::reception_over(SimTime, const LinkEnd&, const LinkEnd&,
                                       const std::shared_ptr<const SeabedProfile>&) {
-  return reception(at, from, to);
+  ensure(false, "a propagation without a bottom is asked for one over a bottom");
+  return {};
 }
 
 StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_models)
@@ -72,15 +74,7 @@ StraightPropagation::StraightPropagation(acoustics::Environment environment, std
 
 StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
                                          std::size_t max_models)
-    : waters_(std::move(waters)), max_models_(max_models) {}
-
-// The same integral of ds / c as LinkModel's: it knows no modem, so none is needed.
-double StraightPropagation::delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  const acoustics::Environment& water = waters_->at(at);
-  return water.profile.travel_time_s(depth_below_surface_m(from.position_ned_m, water.sea_surface_z_m),
-                                     depth_below_surface_m(to.position_ned_m, water.sea_surface_z_m),
-                                     (to.position_ned_m - from.position_ned_m).norm());
-}
+    : waters_(std::move(waters)), models_(max_models) {}
 
 Reception StraightPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   Reception reception;
@@ -111,21 +105,9 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
 std::shared_ptr<const acoustics::LinkModel> StraightPropagation::model_of(SimTime at,
                                                                           const acoustics::Modem& transmitter,
                                                                           const acoustics::Modem& receiver) {
-  const PairKey key{waters_->water_at(at), key_of(transmitter), key_of(receiver)};
-  auto kept = models_.find(key);
-  if (kept == models_.end()) {
-    auto model = std::make_shared<const acoustics::LinkModel>(waters_->at(at), transmitter, receiver);
-    if (models_.size() >= max_models_) make_room();
-    kept = models_.emplace(key, KeptModel{std::move(model)}).first;
-  }
-  kept->second.asked_last = ++questions_;
-  return kept->second.model;
-}
-
-void StraightPropagation::make_room() {
-  models_.erase(std::min_element(models_.begin(), models_.end(), [](const auto& a, const auto& b) {
-    return a.second.asked_last < b.second.asked_last;
-  }));
+  return models_.find_or_make({waters_->water_at(at), key_of(transmitter), key_of(receiver)}, [&] {
+    return std::make_shared<const acoustics::LinkModel>(waters_->at(at), transmitter, receiver);
+  });
 }
 
 }  // namespace halocline::channel_server

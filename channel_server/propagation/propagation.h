@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -24,6 +23,7 @@
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/for_each.h"
 #include "core/frames.h"
+#include "core/lru_cache.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -98,9 +98,6 @@ class Propagation {
  public:
   virtual ~Propagation() = default;
 
-  // Travel time to the first significant path, s, where a cheap answer serves: as reception(), or an estimate
-  // that is close to it and finite where there is no path.
-  virtual double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
   // Throws InvalidArgument when a modem is out of range.
   virtual Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
   // The same for many links that leave at one instant, shared out by `for_each`; as reception() one by one,
@@ -108,7 +105,8 @@ class Propagation {
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                             const ForEach& for_each);
   // Whether answers depend on the bottom along the link: then reception() uses what is known of it between
-  // vehicles, and reception_over() a bottom that is given, from the one end to the other.
+  // vehicles, and reception_over() the one that is given, from the one end to the other (null: unknown). The latter
+  // is not to be called otherwise.
   virtual bool uses_bottom() const { return false; }
   virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                    const std::shared_ptr<const SeabedProfile>& seabed);
@@ -123,8 +121,8 @@ class Propagation {
 
 // The straight path of acoustics/link/link_budget.h, in the water of the instant, weighed by both beams.
 //
-// A LinkModel takes a millisecond to make and microseconds to ask, so one is kept for each pair of different
-// modems asked about; of more than `max_models`, the one that was asked longest ago makes room.
+// A LinkModel takes a millisecond to make and microseconds to evaluate, so one is kept for each pair of different
+// modems, `max_models` at most.
 class StraightPropagation : public Propagation {
  public:
   static constexpr std::size_t kMaxModels = 1024;
@@ -133,7 +131,6 @@ class StraightPropagation : public Propagation {
   explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
                                std::size_t max_models = kMaxModels);
 
-  double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
@@ -149,17 +146,10 @@ class StraightPropagation : public Propagation {
  private:
   using ModemKey = std::pair<std::array<double, 5>, std::vector<double>>;  // numbers of a budget; beam
   using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
-  struct KeptModel {
-    std::shared_ptr<const acoustics::LinkModel> model;
-    std::int64_t asked_last = 0;
-  };
   static ModemKey key_of(const acoustics::Modem& modem);
-  void make_room();
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
-  std::size_t max_models_;
-  std::map<PairKey, KeptModel> models_;
-  std::int64_t questions_ = 0;
+  LruCache<PairKey, std::shared_ptr<const acoustics::LinkModel>> models_;
 };
 
 }  // namespace halocline::channel_server

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
@@ -12,7 +13,7 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr std::size_t kMaxKept = 16'384;    // answers of late, 7 kB each
+constexpr std::size_t kMaxFound = 32'768;   // searches, 7 kB each
 constexpr std::size_t kMaxRayWaters = 256;  // 20 kB each
 // The deepest that an end may be, m: there has to be bottom below it.
 constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;
@@ -41,19 +42,16 @@ std::optional<acoustics::RaySolver> usable(std::optional<acoustics::RaySolver> w
 
 RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
                                std::shared_ptr<const SeabedProfileCache> bottoms, const RayModel& model)
-    : waters_(std::move(waters)), bottoms_(std::move(bottoms)), model_(model), straight_(waters_) {
+    : waters_(std::move(waters)),
+      bottoms_(std::move(bottoms)),
+      model_(model),
+      straight_(waters_),
+      ray_waters_(kMaxRayWaters),
+      found_(kMaxFound) {
   validate(model.bottom);
   validate(model.options);
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
-}
-
-double RayPropagation::delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  const auto seabed = seabed_between(at, from, to);
-  if (!seabed) return straight_.delay_s(at, from, to);
-  const Task task = shared_task_of(at, from, to, seabed);
-  const std::vector<SoundPath> paths = sound_paths(task, arrivals_at(task, *found(task)));
-  return paths.empty() ? straight_.delay_s(at, from, to) : paths[first_significant(paths)].delay_s;
 }
 
 Reception RayPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
@@ -99,12 +97,13 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
     link_of.push_back(i);
     const Key key = key_of(tasks.back().question);
     if (!place_of.emplace(key, paths.size()).second) continue;
-    paths.push_back(kept(key));
-    if (!paths.back()) to_search.emplace_back(paths.size() - 1, tasks.size() - 1);
+    const FoundPaths* known = found_.find(key);
+    paths.push_back(known == nullptr ? nullptr : *known);
+    if (known == nullptr) to_search.emplace_back(paths.size() - 1, tasks.size() - 1);
   }
   for_each(to_search.size(),
            [&](std::size_t i) { paths[to_search[i].first] = search(tasks[to_search[i].second]); });
-  for (const auto& [place, task] : to_search) keep(key_of(tasks[task].question), paths[place]);
+  for (const auto& [place, task] : to_search) found_.insert(key_of(tasks[task].question), paths[place]);
   searches_ += static_cast<std::int64_t>(to_search.size());
   for_each(tasks.size(), [&](std::size_t i) {
     receptions[link_of[i]] = answer(tasks[i], *paths[place_of.at(key_of(tasks[i].question))]);
@@ -131,14 +130,10 @@ std::shared_ptr<const SeabedProfile> RayPropagation::seabed_between(SimTime at, 
 }
 
 std::shared_ptr<const acoustics::RayWater> RayPropagation::water_of(SimTime at, double frequency_hz) {
-  auto& water = ray_waters_[{waters_->water_at(at), frequency_hz}];
-  if (!water) {
-    water = std::make_shared<const acoustics::RayWater>(
+  return ray_waters_.find_or_make({waters_->water_at(at), frequency_hz}, [&] {
+    return std::make_shared<const acoustics::RayWater>(
         ray_water(waters_->at(at), frequency_hz, model_.speed_tolerance_mps));
-  }
-  const auto result = water;
-  if (ray_waters_.size() > kMaxRayWaters) ray_waters_.erase(ray_waters_.begin());  // of the oldest water
-  return result;
+  });
 }
 
 RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
@@ -187,30 +182,10 @@ RayPropagation::FoundPaths RayPropagation::search(const Task& task) const {
 }
 
 RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
-  const Key key = key_of(task.question);
-  if (FoundPaths known = kept(key)) return known;
-  const FoundPaths fresh = search(task);
-  ++searches_;
-  keep(key, fresh);
-  return fresh;
-}
-
-RayPropagation::FoundPaths RayPropagation::kept(const Key& key) {
-  const auto of_late = of_late_.find(key);
-  if (of_late != of_late_.end()) return of_late->second;
-  const auto of_before = of_before_.find(key);
-  if (of_before == of_before_.end()) return nullptr;
-  const FoundPaths known = of_before->second;
-  of_before_.erase(of_before);
-  keep(key, known);  // it is asked about again: it stays
-  return known;
-}
-
-void RayPropagation::keep(const Key& key, const FoundPaths& found) {
-  of_late_[key] = found;
-  if (of_late_.size() < kMaxKept) return;
-  of_before_ = std::move(of_late_);
-  of_late_.clear();
+  return found_.find_or_make(key_of(task.question), [&] {
+    ++searches_;
+    return search(task);
+  });
 }
 
 Reception RayPropagation::without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to) {

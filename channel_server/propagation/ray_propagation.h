@@ -23,14 +23,17 @@
 // the link (acoustics/rays/eigenray.h).
 #pragma once
 
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "acoustics/rays/eigenray.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_profile_cache.h"
+#include "core/lru_cache.h"
 
 namespace halocline::channel_server {
 
@@ -51,7 +54,6 @@ class RayPropagation : public Propagation {
   RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
                  std::shared_ptr<const SeabedProfileCache> bottoms, const RayModel& model);
 
-  double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
@@ -106,8 +108,6 @@ class RayPropagation : public Propagation {
                       const std::shared_ptr<const SeabedProfile>& seabed);
   FoundPaths search(const Task& task) const;
   FoundPaths found(const Task& task);
-  FoundPaths kept(const Key& key);
-  void keep(const Key& key, const FoundPaths& found);
   Reception without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to);
   Reception answer(const Task& task, const Found& found) const;
   // What was found, at the ends of the task.
@@ -122,10 +122,9 @@ class RayPropagation : public Propagation {
   std::shared_ptr<const SeabedProfileCache> bottoms_;
   RayModel model_;
   StraightPropagation straight_;
-  std::map<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
+  LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
       ray_waters_;
-  // Those asked about of late, and those of before, which go when there are enough of late.
-  std::map<Key, FoundPaths> of_late_, of_before_;
+  LruCache<Key, FoundPaths> found_;
   std::int64_t searches_ = 0;
 };
 

@@ -15,7 +15,7 @@ VehicleRegistry::VehicleRegistry(PositionRule rule, ConfiguredModems modems)
   require(rule.state_timeout > SimDuration(), "state_timeout must be positive");
 }
 
-std::string VehicleRegistry::hear_state(std::string_view name, VehicleId id, const StampedState& state) {
+std::string VehicleRegistry::add_state(std::string_view name, VehicleId id, const StampedState& state) {
   const auto known = ids_.find(name);
   if (known != ids_.end() && known->second != id) {
     return "vehicle_id " + std::to_string(id) + "; this vehicle has the id " + std::to_string(known->second);
@@ -24,23 +24,47 @@ std::string VehicleRegistry::hear_state(std::string_view name, VehicleId id, con
   if (holder != vehicles_.end() && holder->second.name != name) {
     return "vehicle_id " + std::to_string(id) + " belongs to " + holder->second.name;
   }
-  if (holder == vehicles_.end()) {
-    if (vehicles_.size() == kMaxVehicles) return "too many vehicles; at most 401 are followed";
-    ids_.emplace(name, id);
-    vehicles_[id].name = name;
+  if (holder == vehicles_.end() && vehicles_.size() == kMaxVehicles) {
+    return "too many vehicles; at most " + std::to_string(kMaxVehicles) + " are followed";
   }
-  vehicles_[id].states.insert(state);
+  Vehicle& vehicle = holder == vehicles_.end() ? add_vehicle(name, id) : holder->second;
+  vehicle.states.insert(state);
   return {};
 }
 
-std::string VehicleRegistry::hear_modem(std::string_view name, SimTime from, const VehicleModem& modem) {
-  auto schedule = schedules_.find(name);
-  if (schedule == schedules_.end()) {
-    if (schedules_.size() == kMaxVehicles) return "too many vehicles; at most 401 are followed";
-    schedule = schedules_.emplace(name, ModemSchedule(modems_.of(name))).first;
+VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, VehicleId id) {
+  ids_.emplace(name, id);
+  ModemSchedule modems(modems_.of(name));
+  if (const auto announced = announced_.find(name); announced != announced_.end()) {
+    modems = std::move(announced->second.modems);
+    forget_announced(announced);
   }
-  schedule->second.announce(from, modem);
-  return {};
+  return vehicles_.emplace(id, Vehicle{std::string(name), {}, std::move(modems)}).first->second;
+}
+
+void VehicleRegistry::announce_modem(std::string_view name, SimTime from, const VehicleModem& modem,
+                                     SimTime received_at) {
+  if (const auto id = ids_.find(name); id != ids_.end()) {
+    return vehicles_.at(id->second).modems.announce(from, modem);
+  }
+  auto announced = announced_.find(name);
+  if (announced == announced_.end()) {
+    if (announced_.size() == kMaxAnnounced) {
+      forget_announced(announced_.find(announced_by_turn_.begin()->second));
+    }
+    announced = announced_.emplace(name, Announced{ModemSchedule(modems_.of(name)), {}, 0}).first;
+  }
+  Announced& entry = announced->second;
+  entry.modems.announce(from, modem);
+  entry.received_at = received_at;
+  announced_by_turn_.erase(entry.turn);
+  entry.turn = ++turns_;
+  announced_by_turn_.emplace(entry.turn, name);
+}
+
+void VehicleRegistry::forget_announced(std::map<std::string, Announced, std::less<>>::iterator announced) {
+  announced_by_turn_.erase(announced->second.turn);
+  announced_.erase(announced);
 }
 
 std::vector<VehicleId> VehicleRegistry::present(SimTime instant) const {
@@ -76,12 +100,13 @@ std::string VehicleRegistry::name_of(VehicleId id) const {
 
 const VehicleModem& VehicleRegistry::modem(VehicleId id, SimTime instant) const {
   const auto vehicle = vehicles_.find(id);
-  return vehicle == vehicles_.end() ? modems_.standard : modem(vehicle->second.name, instant);
+  return vehicle == vehicles_.end() ? modems_.standard : vehicle->second.modems.at(instant);
 }
 
 const VehicleModem& VehicleRegistry::modem(std::string_view name, SimTime instant) const {
-  const auto schedule = schedules_.find(name);
-  return schedule == schedules_.end() ? modems_.of(name) : schedule->second.at(instant);
+  if (const auto id = ids_.find(name); id != ids_.end()) return modem(id->second, instant);
+  const auto announced = announced_.find(name);
+  return announced == announced_.end() ? modems_.of(name) : announced->second.modems.at(instant);
 }
 
 void VehicleRegistry::forget_before(SimTime time) {
@@ -91,16 +116,22 @@ void VehicleRegistry::forget_before(SimTime time) {
       vehicle = vehicles_.erase(vehicle);
     } else {
       vehicle->second.states.forget_before(time);
+      vehicle->second.modems.forget_before(time);
       ++vehicle;
     }
   }
-  for (auto& [name, schedule] : schedules_) schedule.forget_before(time);
+  while (!announced_.empty()) {
+    const auto oldest = announced_.find(announced_by_turn_.begin()->second);
+    if (oldest->second.received_at >= time) break;
+    forget_announced(oldest);
+  }
 }
 
 void VehicleRegistry::clear() {
   vehicles_.clear();
   ids_.clear();
-  schedules_.clear();
+  announced_.clear();
+  announced_by_turn_.clear();
 }
 
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant) {

@@ -1,15 +1,20 @@
-// Everybody who has been heard: names, ids, states and modems of all vehicles, and who is present at an
-// instant.
+// The vehicles of a run: their names, ids, states and modems, and which of them are present at an instant.
 //
 // A vehicle is present at instant t when its position at t, decided at t, is known from a state no older than
-// the time-out (state_history.h). One id belongs to one name: the first heard keeps it until that vehicle is
-// forgotten. All answers are pure functions of what was heard and the instants asked about, whatever the
-// order it was heard in.
+// the time-out (state_history.h). One id belongs to one name: the first that claims it keeps it until that vehicle
+// is forgotten. All answers are functions of the messages received and of the instants asked for, whatever the
+// order of the messages.
+//
+// Bounded: beyond kMaxVehicles a new vehicle is refused. The modem of a vehicle without a state is forgotten when no
+// state follows in time, and when kMaxAnnounced others were announced after it, so names made up without end keep
+// nobody's modem out.
 //
 // Not thread-safe.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,15 +37,15 @@ struct ConfiguredModems {
 
 class VehicleRegistry {
  public:
-  // A link table holds 400 peers; more vehicles are refused.
-  static constexpr std::size_t kMaxVehicles = 401;
+  static constexpr std::size_t kMaxVehicles = 4096;
+  static constexpr std::size_t kMaxAnnounced = 2 * kMaxVehicles;  // modems of vehicles without a state
 
   VehicleRegistry(PositionRule rule, ConfiguredModems modems);
 
   // Empty when taken (a repetition is); else why not.
-  std::string hear_state(std::string_view name, VehicleId id, const StampedState& state);
-  // A modem may be announced before the vehicle's first state. Empty when taken; else why not.
-  std::string hear_modem(std::string_view name, SimTime from, const VehicleModem& modem);
+  [[nodiscard]] std::string add_state(std::string_view name, VehicleId id, const StampedState& state);
+  // The vehicle carries `modem` from `from` on. A modem may be announced before the vehicle's first state.
+  void announce_modem(std::string_view name, SimTime from, const VehicleModem& modem, SimTime received_at);
 
   // Ascending ids of all present at `instant`.
   std::vector<VehicleId> present(SimTime instant) const;
@@ -52,11 +57,12 @@ class VehicleRegistry {
   std::optional<VehicleId> id_of(std::string_view name) const;
   // Of a vehicle that is not forgotten; empty text otherwise.
   std::string name_of(VehicleId id) const;
-  // The standard one for an id never heard.
+  // The standard one for an unknown id.
   const VehicleModem& modem(VehicleId id, SimTime instant) const;
   const VehicleModem& modem(std::string_view name, SimTime instant) const;
 
-  // Forgets vehicles without a state since `time`, and states and modems that no later instant needs.
+  // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it, and
+  // states and modems that no later instant needs.
   void forget_before(SimTime time);
   // Another run: forgets everybody, keeps rules and configured modems.
   void clear();
@@ -64,25 +70,36 @@ class VehicleRegistry {
   const PositionRule& rule() const { return rule_; }
   const ConfiguredModems& configured_modems() const { return modems_; }
   std::size_t size() const { return vehicles_.size(); }
+  std::size_t announced() const { return announced_.size(); }  // modems of vehicles without a state
 
  private:
   struct Vehicle {
     std::string name;
     StateHistory states;
+    ModemSchedule modems;
   };
+  struct Announced {
+    ModemSchedule modems;
+    SimTime received_at;
+    std::uint64_t turn = 0;  // of the latest announcement, among all
+  };
+  Vehicle& add_vehicle(std::string_view name, VehicleId id);
+  void forget_announced(std::map<std::string, Announced, std::less<>>::iterator announced);
 
   PositionRule rule_;
   ConfiguredModems modems_;
   std::map<VehicleId, Vehicle> vehicles_;
   std::map<std::string, VehicleId, std::less<>> ids_;
-  std::map<std::string, ModemSchedule, std::less<>> schedules_;
+  std::map<std::string, Announced, std::less<>> announced_;
+  std::map<std::uint64_t, std::string> announced_by_turn_;
+  std::uint64_t turns_ = 0;
 };
 
 // A vehicle with its place and modem at one instant.
 struct PlacedVehicle {
   VehicleId id = 0;
   Placement placement;
-  const VehicleModem* modem = nullptr;  // lives as long as the fleet is not changed
+  const VehicleModem* modem = nullptr;  // valid until the registry is changed
 };
 
 // All present at `instant`, by id.

@@ -43,7 +43,7 @@ inline void move_steadily(VehicleRegistry& fleet, VehicleId id, const Vec3& at_z
                           double begin_s, double end_s) {
   for (int tick = static_cast<int>(begin_s * 10); tick <= static_cast<int>(end_s * 10); ++tick) {
     const double time_s = tick / 10.0;
-    fleet.hear_state(name_of(id), id, state_at(time_s, at_zero + time_s * velocity, velocity));
+    EXPECT_EQ(fleet.add_state(name_of(id), id, state_at(time_s, at_zero + time_s * velocity, velocity)), "");
   }
 }
 

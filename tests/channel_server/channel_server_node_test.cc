@@ -220,6 +220,26 @@ TEST_F(ChannelServerNodeTest, AnAnnouncedModemIsUsed) {
   EXPECT_NEAR(bench.last_table(1).peers.at(0).received_level_db - before_db, 6, tolerance(1e-9));
 }
 
+TEST_F(ChannelServerNodeTest, ModemsUnderForgedNamesDoNotKeepANewVehiclesModemOut) {
+  NodeBench bench;
+  two_at_rest(bench);
+  bench.run_to(2);
+  const double before_db = bench.last_table(1).peers.at(0).received_level_db;
+  for (int i = 0; i < 5000; ++i) {
+    bench.bus().publish("MODEM.forged" + std::to_string(i), to_message(testing::quick_modem(), at_s(2)));
+    if (i % 100 == 0) bench.run_to(2 + i / 5000.0);
+  }
+  VehicleModem loud = testing::quick_modem();
+  loud.modem.source_level = loud.modem.source_level + Decibels{6};
+  bench.bus().publish("MODEM.new", to_message(loud, at_s(3)));
+  bench.state_of("new", 9, 3.1, {0, 0, 50});
+  bench.run_to(4);
+  const link_table_t& table = bench.last_table(9);
+  ASSERT_EQ(table.num_peers, 2);
+  EXPECT_NEAR(table.peers.at(1).received_level_db - before_db, 6, tolerance(1e-9));
+  EXPECT_EQ(bench.node().counters().refused, 0);
+}
+
 TEST_F(ChannelServerNodeTest, AnImpossibleModemIsRefused) {
   NodeBench bench;
   VehicleModem modem;

@@ -249,7 +249,9 @@ TEST(ChannelServerMessages, ALinkTableTellsEveryFieldOfItsRows) {
   LinkRow row{
       1,          2,          acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5}), Multipath::kLikely,
       for_s(0.5), for_s(0.25)};
-  const link_table_t message = to_message(LinkTable{1, {row}}, at_s(4));
+  const std::vector<link_table_t> messages = to_messages(LinkTable{1, {row}}, at_s(4));
+  ASSERT_EQ(messages.size(), 1u);
+  const link_table_t& message = messages.front();
   EXPECT_EQ(bus::problem_in(message), "");
   ASSERT_EQ(message.num_peers, 1);
   const link_t& link = message.peers[0];
@@ -266,6 +268,31 @@ TEST(ChannelServerMessages, ALinkTableTellsEveryFieldOfItsRows) {
   EXPECT_EQ(link.multipath, link_t::MULTIPATH_LIKELY);
   EXPECT_EQ(link.transmitter_age_s, 0.5);
   EXPECT_EQ(link.receiver_age_s, 0.25);
+}
+
+TEST(ChannelServerMessages, ALinkTableOf4095PeersComesInPartsBelowSixtyKilobytes) {
+  LinkTable table{1, {}};
+  for (VehicleId id = 2; id <= 4096; ++id) {
+    LinkRow row;
+    row.transmitter_id = 1;
+    row.receiver_id = id;
+    table.rows.push_back(row);
+  }
+  VehicleId expected = 2;
+  for (const link_table_t& message : to_messages(table, at_s(4))) {
+    EXPECT_EQ(bus::problem_in(message), "");
+    EXPECT_LT(message.getEncodedSize(), 60'000);
+    EXPECT_EQ(message.vehicle_id, 1);
+    EXPECT_EQ(message.utime, 4'000'000);
+    for (const link_t& link : message.peers) EXPECT_EQ(link.receiver_id, expected++);
+  }
+  EXPECT_EQ(expected, 4097);
+}
+
+TEST(ChannelServerMessages, ATableUpToFourHundredPeersIsOneMessage) {
+  EXPECT_EQ(to_messages(LinkTable{1, {}}, at_s(4)).size(), 1u);
+  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(400)}, at_s(4)).size(), 1u);
+  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(401)}, at_s(4)).size(), 2u);
 }
 
 TEST(ChannelServerMessages, AModemThatCannotBeReadIsTheProblemOfItsEndAlone) {

@@ -30,9 +30,6 @@ class ScriptedPropagation : public Propagation {
   void set(VehicleId from, VehicleId to, std::vector<SoundPath> paths, PathState state = PathState::kOpen) {
     links_[{from, to}] = {std::move(paths), state};
   }
-  double delay_s(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    return reception(at, from, to).budget.delay_s;
-  }
   // A link that is not written down is in a shadow, one second away.
   Reception reception(SimTime, const LinkEnd& from, const LinkEnd& to) override {
     ++questions;

@@ -29,7 +29,7 @@ class LinkTableTest : public ::testing::Test {
 
 TEST_F(LinkTableTest, HoldsARowForEveryOtherVehicleById) {
   for (const VehicleId id : {9, 2, 5})
-    fleet_.hear_state(testing::name_of(id), id, state_at(0, {1.0 * id, 0, 50}));
+    EXPECT_EQ(fleet_.add_state(testing::name_of(id), id, state_at(0, {1.0 * id, 0, 50})), "");
   const auto tables = tables_at(1);
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(tables[1].vehicle_id, 5);
@@ -40,8 +40,8 @@ TEST_F(LinkTableTest, HoldsARowForEveryOtherVehicleById) {
 }
 
 TEST_F(LinkTableTest, RangeAndDelayAreThoseOfThePositionsAtTheInstant) {
-  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
-  fleet_.hear_state("v2", 2, state_at(0, {1500, 0, 50}, {10, 0, 0}));
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {1500, 0, 50}, {10, 0, 0})), "");
   const auto row = tables_at(3)[0].rows[0];
   EXPECT_NEAR(row.budget.range_m, 1530, tolerance(1e-9));
   EXPECT_NEAR(row.budget.delay_s, 1530 / kSpeedMps, tolerance(1e-12));
@@ -49,15 +49,15 @@ TEST_F(LinkTableTest, RangeAndDelayAreThoseOfThePositionsAtTheInstant) {
 }
 
 TEST_F(LinkTableTest, AVehicleAloneHasAnEmptyTable) {
-  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
   const auto tables = tables_at(1);
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_TRUE(tables[0].rows.empty());
 }
 
 TEST_F(LinkTableTest, AVehicleWhoseStateGrewOldLeavesTheTables) {
-  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
-  fleet_.hear_state("v2", 2, state_at(4, {9, 0, 50}));
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v2", 2, state_at(4, {9, 0, 50})), "");
   EXPECT_EQ(tables_at(4.9).size(), 2u);
   const auto tables = tables_at(5.5);
   ASSERT_EQ(tables.size(), 1u);
@@ -67,9 +67,9 @@ TEST_F(LinkTableTest, AVehicleWhoseStateGrewOldLeavesTheTables) {
 TEST_F(LinkTableTest, EachDirectionHasTheLevelOfItsTransmitter) {
   VehicleModem loud = quick_modem();
   loud.modem.source_level = quick_modem().modem.source_level + Decibels{7};
-  fleet_.hear_modem("v1", at_s(0), loud);
-  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
-  fleet_.hear_state("v2", 2, state_at(0, {500, 0, 50}));
+  fleet_.announce_modem("v1", at_s(0), loud, at_s(0));
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");
   const auto tables = tables_at(1);
   const double there = tables[0].rows[0].budget.received_level.value;
   const double back = tables[1].rows[0].budget.received_level.value;
@@ -77,8 +77,8 @@ TEST_F(LinkTableTest, EachDirectionHasTheLevelOfItsTransmitter) {
 }
 
 TEST_F(LinkTableTest, RowsTellTheMultipathOfTheirOwnDirection) {
-  fleet_.hear_state("v1", 1, state_at(0, {0, 0, 50}));
-  fleet_.hear_state("v2", 2, state_at(0, {500, 0, 50}));
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");
   const auto tables = tables_at(1, [](const PlacedVehicle& from, const PlacedVehicle&) {
     return from.id == 1 ? Multipath::kLikely : Multipath::kUnlikely;
   });

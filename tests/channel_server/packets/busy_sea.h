@@ -25,17 +25,14 @@ inline double busy_draw(const char* purpose, std::uint32_t who, std::uint64_t wh
 }
 
 // Three paths a link: the direct one (spherical spreading), and two echoes whose delays follow from the
-// range; some pairs in a shadow, some behind terrain. Cheap, so that a test may ask it millions of times.
+// range; some pairs in a shadow, some behind terrain. Cheap, so that a test may evaluate it millions of times.
 class ThreePaths : public Propagation {
  public:
-  double delay_s(SimTime, const LinkEnd& from, const LinkEnd& to) override {
-    return (to.position_ned_m - from.position_ned_m).norm() / kSpeedMps;
-  }
-  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+  Reception reception(SimTime, const LinkEnd& from, const LinkEnd& to) override {
     Reception reception;
     auto& budget = reception.budget;
     budget.range_m = (to.position_ned_m - from.position_ned_m).norm();
-    budget.delay_s = delay_s(at, from, to);
+    budget.delay_s = budget.range_m / kSpeedMps;
     budget.received_level = kSilence;
     const VehicleId pair = from.id * to.id % 41;
     if (pair == 1) reception.state = PathState::kShadow;
@@ -150,7 +147,7 @@ VehicleRegistry run_busy_sea(const BusyRun& run, Visitor&& visit) {
   auto states = busy_states(until_s);
   auto requests = busy_requests(run.packets);
   if (run.turn > 0) shuffle(states, run.turn), shuffle(requests, run.turn);
-  for (const auto& heard : states) fleet.hear_state(name_of(heard.id), heard.id, heard.state);
+  for (const auto& heard : states) EXPECT_EQ(fleet.add_state(name_of(heard.id), heard.id, heard.state), "");
   for (const auto& request : requests) medium.transmit(request, SimTime());
   for (double t = 0; t <= until_s; t += run.step_s) {
     for (const MediumEvent& event : medium.advance_to(at_s(t))) visit(event);

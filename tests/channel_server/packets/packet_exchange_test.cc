@@ -26,7 +26,7 @@ class QueueTest : public testing::ScriptedWater {
   QueueTest() {
     VehicleModem patient = big_modem();
     patient.when_busy = WhenBusy::kQueue;
-    fleet.hear_modem("v1", at_s(0), patient);
+    fleet.announce_modem("v1", at_s(0), patient, at_s(0));
     water.set(1, 2, {path(1, 120)});
   }
   Receipt receipt_of(std::int64_t sequence) {
@@ -92,7 +92,7 @@ TEST_F(QueueTest, AQueuedPacketLeavesFromWhereTheVehicleIsByThen) {
   testing::move_steadily(fleet, 7, {0, 0, 50}, {10, 0, 0}, 0, 60);
   VehicleModem patient = big_modem();
   patient.when_busy = WhenBusy::kQueue;
-  fleet.hear_modem("v7", at_s(0), patient);
+  fleet.announce_modem("v7", at_s(0), patient, at_s(0));
   send(7, 10, 0, 500);
   send(7, 11, 1, 100);  // from 15 on
   run();
@@ -192,7 +192,7 @@ TEST_F(PingTest, OnlyTheOneAskedAnswersAndOnlyAPing) {
 TEST_F(PingTest, APingThatWasLostIsNotAnswered) {
   VehicleModem deaf = modem();
   deaf.modem.min_receivable_level = {200};
-  fleet_.hear_modem("v2", at_s(0), deaf);
+  fleet_.announce_modem("v2", at_s(0), deaf, at_s(0));
   ping(1, 2, 10, 5);
   EXPECT_TRUE(replies_in(run()).empty());
 }

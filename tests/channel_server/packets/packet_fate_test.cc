@@ -63,7 +63,7 @@ TEST_F(PacketFateTest, WithoutAPathTheWaterOrTheTerrainIsTheCause) {
 TEST_F(PacketFateTest, BandsThatShareNothingAreOutOfBand) {
   VehicleModem low = big_modem();
   low.modem.centre_frequency_hz = 12'000;
-  fleet.hear_modem("v2", at_s(0), low);
+  fleet.announce_modem("v2", at_s(0), low, at_s(0));
   water.set(1, 2, {path(1, 120)});
   send(1, 10, 0, 10);
   run();
@@ -111,8 +111,8 @@ TEST_F(PacketFateTest, TransmissionsThatTouchAReceptionOnlyAtItsEndsDoNoHarm) {
 TEST_F(PacketFateTest, BeyondTheModemsToleranceDopplerLosesIt) {
   VehicleModem strict = big_modem();
   strict.modem.doppler_tolerance = 0.003;
-  fleet.hear_modem("v2", at_s(0), strict);
-  fleet.hear_modem("v3", at_s(0), strict);
+  fleet.announce_modem("v2", at_s(0), strict, at_s(0));
+  fleet.announce_modem("v3", at_s(0), strict, at_s(0));
   water.set(1, 2, {path(1, 120, 1.0031)});
   water.set(1, 3, {path(1, 120, 0.9971)});
   send(1, 10, 0, 10);
@@ -136,7 +136,7 @@ TEST_F(PacketFateTest, DopplerStretchesThePacketAtTheReceiver) {
 TEST_F(PacketFateTest, InNoiseAloneALostPacketHasBitErrors) {
   VehicleModem deep = big_modem();
   deep.modem.min_receivable_level = {-100};
-  fleet.hear_modem("v2", at_s(0), deep);
+  fleet.announce_modem("v2", at_s(0), deep, at_s(0));
   water.set(1, 2, {path(1, level_with_bit_error(0.01, noise_power()))});
   send(1, 10, 0, 1000);
   run();
@@ -150,8 +150,8 @@ TEST_F(PacketFateTest, APreambleBelowTheNoiseIsNotNoticed) {
   VehicleModem shy = big_modem();
   shy.modem.preamble = shy.modem.packet_overhead = for_s(0.1);
   shy.modem.min_receivable_level = {-100};
-  fleet.hear_modem("v1", at_s(0), shy);
-  fleet.hear_modem("v2", at_s(0), shy);
+  fleet.announce_modem("v1", at_s(0), shy, at_s(0));
+  fleet.announce_modem("v2", at_s(0), shy, at_s(0));
   water.set(1, 2, {path(1, 20)});
   send(1, 10, 0, 10);
   run();
@@ -240,7 +240,7 @@ TEST_F(PacketFateTest, ATransmissionOfItsOwnFreesAModemForTheNextPacket) {
 TEST_F(PacketFateTest, InterferenceCountsByTheShareOfItsBand) {
   VehicleModem shifted = big_modem();
   shifted.modem.centre_frequency_hz = 27'500;  // 25..30 kHz; the packet's band is 22.5..27.5
-  fleet.hear_modem("v3", at_s(0), shifted);
+  fleet.announce_modem("v3", at_s(0), shifted, at_s(0));
   water.set(1, 2, {path(1, 100)});
   water.set(3, 2, {path(1, 95)});
   send(1, 10, 0, 100);
@@ -325,7 +325,7 @@ TEST_F(PacketFateTest, EveryPathOfAnotherPacketInterferesDuringItsOwnInterval) {
 TEST_F(PacketFateTest, DirectivityLowersTheNoise) {
   VehicleModem keen = big_modem();
   keen.modem.directivity_index = {6};
-  fleet.hear_modem("v2", at_s(0), keen);
+  fleet.announce_modem("v2", at_s(0), keen, at_s(0));
   water.set(1, 2, {path(1, 100)});
   water.set(1, 3, {path(1, 100)});
   send(1, 10, 0, 10);

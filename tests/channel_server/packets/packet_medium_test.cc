@@ -78,7 +78,7 @@ TEST_F(PacketMediumTest, NextEventTellsWhenToLookAgain) {
 TEST_F(PacketMediumTest, TheOverheadIsPartOfTheDuration) {
   VehicleModem slow = quick_modem();
   slow.modem.packet_overhead = for_s(1.5);
-  fleet_.hear_modem("v1", at_s(0), slow);
+  fleet_.announce_modem("v1", at_s(0), slow, at_s(0));
   stay(1, {0, 0, 50});
   medium_.transmit(request_of(1, 10, 0, 10), at_s(10));
   EXPECT_EQ(receipts_in(medium_.advance_to(at_s(10))).at(0).duration, for_s(1.6));
@@ -102,7 +102,8 @@ TEST_F(PacketMediumTest, ATurnDuringTheTravelCounts) {
   move_steadily(fleet_, 2, {3000, 0, 50}, Vec3::Zero(), 0, 10);
   for (int tick = 1; tick <= 100; ++tick) {  // from second 10 on away from the sender at 10 m/s
     const double time_s = 10 + tick / 10.0;
-    fleet_.hear_state("v2", 2, state_at(time_s, {3000 + (time_s - 10) * 10, 0, 50}, {10, 0, 0}));
+    EXPECT_EQ(fleet_.add_state("v2", 2, state_at(time_s, {3000 + (time_s - 10) * 10, 0, 50}, {10, 0, 0})),
+              "");
   }
   medium_.transmit(request_of(1, 10, 0), at_s(10));
   const auto end = ends_in(medium_.advance_to(at_s(20))).at(0);
@@ -114,7 +115,8 @@ TEST_F(PacketMediumTest, AReceiverThatCameCloserIsMetAtItsTrueInstant) {
   move_steadily(fleet_, 2, {3000, 0, 50}, Vec3::Zero(), 0, 10);
   for (int tick = 1; tick <= 100; ++tick) {
     const double time_s = 10 + tick / 10.0;
-    fleet_.hear_state("v2", 2, state_at(time_s, {3000 - (time_s - 10) * 10, 0, 50}, {-10, 0, 0}));
+    EXPECT_EQ(fleet_.add_state("v2", 2, state_at(time_s, {3000 - (time_s - 10) * 10, 0, 50}, {-10, 0, 0})),
+              "");
   }
   medium_.transmit(request_of(1, 10, 0, 5), at_s(10));
   const auto events = medium_.advance_to(at_s(20));
@@ -149,7 +151,7 @@ TEST_F(PacketMediumTest, APacketForOneIsDeliveredToThatOneAndDecidedForAll) {
 TEST_F(PacketMediumTest, BelowTheCutoffAPacketIsLost) {
   VehicleModem deaf = quick_modem();
   deaf.modem.min_receivable_level = {140};
-  fleet_.hear_modem("v2", at_s(0), deaf);
+  fleet_.announce_modem("v2", at_s(0), deaf, at_s(0));
   stay(1, {0, 0, 50});
   stay(2, {5000, 0, 50});
   medium_.transmit(request_of(1, 10, 0), at_s(10));

@@ -47,7 +47,7 @@ struct Server {
       : fleet({for_s(0.05), for_s(5)}, testing::busy_modems()),
         medium(fleet, propagation, {for_s(10), for_s(until_s), 1, shard}) {
     for (const auto& heard : testing::busy_states(until_s)) {
-      fleet.hear_state(name_of(heard.id), heard.id, heard.state);
+      EXPECT_EQ(fleet.add_state(name_of(heard.id), heard.id, heard.state), "");
     }
     for (const auto& request : testing::busy_requests(kPackets)) medium.transmit(request, SimTime());
   }
@@ -77,7 +77,7 @@ std::vector<std::string> said_by(int count) {
       }
     }
     for (const PingAnswer& answer : answers) {
-      for (const auto& server : servers) server->medium.hear_answer(answer);
+      for (const auto& server : servers) server->medium.add_answer(answer);
     }
   }
   std::sort(said.begin(), said.end());
@@ -109,7 +109,7 @@ TEST(Shard, AnAnswerToldTwiceIsTransmittedOnce) {
   VehicleRegistry fleet({for_s(0.05), for_s(5)}, testing::busy_modems());
   for (double t = 0; t < 20; t += 1) {
     for (const VehicleId id : {3, 4}) {
-      fleet.hear_state(name_of(id), id, {at_s(t), Vec3(100.0 * id, 0, 20), Vec3::Zero()});
+      EXPECT_EQ(fleet.add_state(name_of(id), id, {at_s(t), Vec3(100.0 * id, 0, 20), Vec3::Zero()}), "");
     }
   }
   PacketMedium medium(fleet, propagation, {for_s(10), for_s(60), 1, {0, 2}});  // serves 4
@@ -121,9 +121,9 @@ TEST(Shard, AnAnswerToldTwiceIsTransmittedOnce) {
   answer.request.kind = PacketKind::kPingReply;
   answer.request.start = at_s(2);
   answer.ping_departure = at_s(1);
-  medium.hear_answer(answer);
+  medium.add_answer(answer);
   std::size_t ends = medium.advance_to(at_s(10)).size();
-  medium.hear_answer(answer);
+  medium.add_answer(answer);
   ends += medium.advance_to(at_s(19)).size();
   EXPECT_EQ(ends, 1u);
 }

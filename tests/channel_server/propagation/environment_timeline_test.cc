@@ -32,7 +32,7 @@ TEST(EnvironmentTimeline, StartsWithItsEnvironmentAndStaysSo) {
 
 TEST(EnvironmentTimeline, AChangeHoldsFromItsVeryInstant) {
   EnvironmentTimeline timeline(even_water());
-  EXPECT_EQ(timeline.hear(at_s(10), at_s(5), {kSession, 0}, wind(7)), "");
+  EXPECT_EQ(timeline.announce(at_s(10), at_s(5), {kSession, 0}, wind(7)), "");
   EXPECT_EQ(timeline.at(at_s(10) - SimDuration::from_nanoseconds(1)).noise.wind_mps, 0);
   EXPECT_EQ(wind_at(timeline, 10), 7);
   EXPECT_EQ(timeline.next_change_after(at_s(9)), at_s(10));
@@ -41,12 +41,12 @@ TEST(EnvironmentTimeline, AChangeHoldsFromItsVeryInstant) {
 
 TEST(EnvironmentTimeline, WhatIsNotSetStaysAsItWas) {
   EnvironmentTimeline timeline(even_water());
-  timeline.hear(at_s(10), at_s(0), {kSession, 0}, wind(7));
+  EXPECT_EQ(timeline.announce(at_s(10), at_s(0), {kSession, 0}, wind(7)), "");
   EnvironmentChange rest;
   rest.shipping = 0.9;
   rest.sea_surface_z_m = -2;
   rest.profile = acoustics::SoundSpeedProfile::isovelocity(1480, {5, 33});
-  timeline.hear(at_s(20), at_s(0), {kSession, 1}, rest);
+  EXPECT_EQ(timeline.announce(at_s(20), at_s(0), {kSession, 1}, rest), "");
   const acoustics::Environment& late = timeline.at(at_s(20));
   EXPECT_EQ(late.noise.wind_mps, 7);
   EXPECT_EQ(late.noise.shipping, 0.9);
@@ -58,7 +58,7 @@ TEST(EnvironmentTimeline, WhatIsNotSetStaysAsItWas) {
 TEST(EnvironmentTimeline, TheOrderOfHearingDoesNotMatter) {
   EnvironmentTimeline one(even_water()), other(even_water());
   const auto tell = [](EnvironmentTimeline& timeline, int n) {
-    timeline.hear(at_s(n < 3 ? 10 : 20), at_s(0), {kSession, n}, wind(n));
+    EXPECT_EQ(timeline.announce(at_s(n < 3 ? 10 : 20), at_s(0), {kSession, n}, wind(n)), "");
   };
   for (const int n : {1, 2, 3, 4}) tell(one, n);
   for (const int n : {4, 2, 1, 3}) tell(other, n);
@@ -71,24 +71,24 @@ TEST(EnvironmentTimeline, TheOrderOfHearingDoesNotMatter) {
 
 TEST(EnvironmentTimeline, ALateChangeHoldsFromWhenItWasHeard) {
   EnvironmentTimeline timeline(even_water());
-  timeline.hear(at_s(10), at_s(12), {kSession, 0}, wind(7));
+  EXPECT_EQ(timeline.announce(at_s(10), at_s(12), {kSession, 0}, wind(7)), "");
   EXPECT_EQ(wind_at(timeline, 11.9), 0);
   EXPECT_EQ(wind_at(timeline, 12), 7);
 }
 
 TEST(EnvironmentTimeline, ARepetitionChangesNothing) {
   EnvironmentTimeline timeline(even_water());
-  timeline.hear(at_s(10), at_s(0), {kSession, 0}, wind(7));
+  EXPECT_EQ(timeline.announce(at_s(10), at_s(0), {kSession, 0}, wind(7)), "");
   const auto water = timeline.water_at(at_s(10));
-  EXPECT_EQ(timeline.hear(at_s(10), at_s(3), {kSession, 0}, wind(7)), "");
+  EXPECT_EQ(timeline.announce(at_s(10), at_s(3), {kSession, 0}, wind(7)), "");
   EXPECT_EQ(timeline.water_at(at_s(10)), water);
 }
 
 TEST(EnvironmentTimeline, WatersBeforeAChangeKeepTheirIdentity) {
   EnvironmentTimeline timeline(even_water());
-  timeline.hear(at_s(10), at_s(0), {kSession, 0}, wind(7));
+  EXPECT_EQ(timeline.announce(at_s(10), at_s(0), {kSession, 0}, wind(7)), "");
   const auto early = timeline.water_at(at_s(5)), middle = timeline.water_at(at_s(15));
-  timeline.hear(at_s(20), at_s(0), {kSession, 1}, wind(9));
+  EXPECT_EQ(timeline.announce(at_s(20), at_s(0), {kSession, 1}, wind(9)), "");
   EXPECT_EQ(timeline.water_at(at_s(5)), early);
   EXPECT_EQ(timeline.water_at(at_s(15)), middle);
   EXPECT_NE(timeline.water_at(at_s(25)), middle);
@@ -96,7 +96,7 @@ TEST(EnvironmentTimeline, WatersBeforeAChangeKeepTheirIdentity) {
 
 TEST(EnvironmentTimeline, ImpossibleChangesAreRefusedWithTheReason) {
   EnvironmentTimeline timeline(even_water());
-  EXPECT_NE(timeline.hear(at_s(10), at_s(0), {kSession, 0}, wind(61)), "");
+  EXPECT_NE(timeline.announce(at_s(10), at_s(0), {kSession, 0}, wind(61)), "");
   EXPECT_EQ(wind_at(timeline, 10), 0);
   EXPECT_THROW(timeline.schedule(at_s(1), wind(-1)), InvalidArgument);
 }
@@ -104,7 +104,7 @@ TEST(EnvironmentTimeline, ImpossibleChangesAreRefusedWithTheReason) {
 TEST(EnvironmentTimeline, AnotherRunKeepsTheScheduleAlone) {
   EnvironmentTimeline timeline(even_water());
   timeline.schedule(at_s(10), wind(3));
-  timeline.hear(at_s(5), at_s(0), {kSession, 0}, wind(7));
+  EXPECT_EQ(timeline.announce(at_s(5), at_s(0), {kSession, 0}, wind(7)), "");
   timeline.clear();
   EXPECT_EQ(wind_at(timeline, 5), 0);
   EXPECT_EQ(wind_at(timeline, 10), 3);
@@ -114,13 +114,13 @@ TEST(EnvironmentTimeline, AnyNumberOfChangesIsTakenWhenTheOldAreForgotten) {
   EnvironmentTimeline timeline(even_water());
   timeline.schedule(at_s(5.5), wind(3));
   for (int i = 0; i < 30'000; ++i) {
-    ASSERT_EQ(timeline.hear(at_s(i), at_s(i), {kSession, i}, wind(i % 20)), "");
+    ASSERT_EQ(timeline.announce(at_s(i), at_s(i), {kSession, i}, wind(i % 20)), "");
     timeline.forget_before(at_s(i - 130));
     ASSERT_LE(timeline.changes_kept(), EnvironmentTimeline::kHeardKept + 200);
   }
   EXPECT_EQ(wind_at(timeline, 29'999), 19);
   EXPECT_EQ(wind_at(timeline, 29'900.5), 0);
-  EXPECT_EQ(timeline.hear(at_s(29'500), at_s(30'000), {kSession, 29'500}, wind(9)), "");  // a repetition
+  EXPECT_EQ(timeline.announce(at_s(29'500), at_s(30'000), {kSession, 29'500}, wind(9)), "");  // a repetition
   EXPECT_EQ(wind_at(timeline, 30'001), 19);
   timeline.clear();
   EXPECT_EQ(wind_at(timeline, 6), 3);
@@ -130,7 +130,7 @@ TEST(EnvironmentTimeline, ForgettingChangesNoInstantThatIsStillAskedAbout) {
   EnvironmentTimeline all(even_water()), forgetting(even_water());
   for (int i = 0; i < 3000; ++i) {
     for (EnvironmentTimeline* timeline : {&all, &forgetting})
-      ASSERT_EQ(timeline->hear(at_s(i), at_s(i), {kSession, i}, wind((i * 7) % 30)), "");
+      ASSERT_EQ(timeline->announce(at_s(i), at_s(i), {kSession, i}, wind((i * 7) % 30)), "");
     forgetting.forget_before(at_s(i - 50));
     ASSERT_EQ(wind_at(forgetting, i - 49.5), wind_at(all, i - 49.5)) << i;
     ASSERT_EQ(wind_at(forgetting, i), wind_at(all, i)) << i;

@@ -62,15 +62,6 @@ TEST(StraightPropagation, GivesOnePathWithTheDelayAndLevelOfTheBudget) {
   EXPECT_NEAR(path.arrival_angle_rad, std::numbers::pi / 4, tolerance(1e-12));
 }
 
-TEST(StraightPropagation, TheDelayIsThatOfTheBudget) {
-  StraightPropagation propagation(acoustics::Environment{});
-  const acoustics::Modem modem;
-  const auto from = end_at({0, 0, 40}, modem), to = end_at({900, -300, 700}, modem);
-  const double budget_delay_s = propagation.reception(SimTime(), from, to).budget.delay_s;
-  // Both integrate ds / c by the same quadrature.
-  EXPECT_LT(relative_error(propagation.delay_s(SimTime(), from, to), budget_delay_s), tolerance(1e-13));
-}
-
 // f_rx / f_tx = (c - v_rx) / (c - v_tx), velocities along the path.
 TEST(StraightPropagation, TheDopplerFactorIsThatOfTheVelocitiesAlongThePath) {
   StraightPropagation propagation(testing::even_water());
@@ -92,7 +83,7 @@ TEST(StraightPropagation, EqualModemsShareOneModel) {
   EXPECT_EQ(propagation.models_kept(), 2u);
 }
 
-TEST(StraightPropagation, TheModelAskedLongestAgoMakesRoom) {
+TEST(StraightPropagation, TheModelUsedLeastRecentlyMakesRoom) {
   StraightPropagation propagation(acoustics::Environment{}, /*max_models=*/3);
   const acoustics::Modem receiver;
   for (int level = 150; level < 170; ++level) {
