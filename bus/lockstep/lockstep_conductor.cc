@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "bus/channels.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

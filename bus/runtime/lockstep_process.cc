@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "bus/channels.h"
 #include "bus/config/config.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_turns.h"

@@ -27,16 +27,9 @@ void put_int32(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_t v
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
 }
 
-template <class Tuple>
-struct TypesOf;
-template <class... Messages>
-struct TypesOf<std::tuple<Messages...>> {
-  using Type = ::testing::Types<Messages...>;
-};
-
 template <class Message>
 class WireLayoutOf : public ::testing::Test {};
-TYPED_TEST_SUITE(WireLayoutOf, TypesOf<testing::AllMessages>::Type);
+TYPED_TEST_SUITE(WireLayoutOf, testing::TypesOf<AllMessages>::Type);
 
 TYPED_TEST(WireLayoutOf, ConsumesExactlyTheBytesOfAnEncodedMessage) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {

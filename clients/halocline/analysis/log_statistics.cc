@@ -9,17 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/logs/channel_types.h"
+#include "bus/message_fields.h"
 
 namespace halocline::clients {
 namespace {
 
-constexpr std::array<const char*, LogStatistics::kReceiptResults> kReceiptNames{
-    "accepted",           "refused: busy",  "refused: too large", "refused: unknown vehicle",
-    "refused: wrong id",  "refused: stale", "refused: too early", "queued",
-    "refused: queue full"};
-constexpr std::array<const char*, LogStatistics::kFates> kFateNames{
-    "received", "below cut-off", "receiver gone", "in a shadow", "blocked by terrain", "out of band",
-    "collided", "half duplex",   "doppler",       "bit errors",  "not acquired"};
+constexpr auto& kReceiptNames = kModemReceiptReceiptResultNames;
+constexpr auto& kFateNames = kPacketOutcomePacketFateNames;
 
 std::map<std::string, std::int64_t> by_family(const LogStatistics& s) {
   std::map<std::string, std::int64_t> families;

@@ -69,7 +69,7 @@ TEST(LogStatistics, OutcomesAreCountedByCause) {
   file.add(1, "OUTCOME", outcome(packet_outcome_t::BELOW_CUTOFF));
   std::ostringstream text;
   print(text, of(file));
-  EXPECT_THAT(text.str(), HasSubstr("1 received, 2 below cut-off"));
+  EXPECT_THAT(text.str(), HasSubstr("1 received, 2 below cutoff"));
 }
 
 TEST(LogStatistics, WhatIsNotOursIsCountedApart) {
