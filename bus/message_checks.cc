@@ -127,7 +127,7 @@ std::string problem_between_fields(const lockstep_grant_t& m) { return problem_o
 std::string problem_between_fields(const lockstep_answer_t& m) { return problem_of_slice(m); }
 
 std::string problem_between_fields(const lockstep_join_t& m) {
-  return m.joining_life != 0 ? "" : "joining_life is 0";
+  return m.incarnation != 0 ? "" : "incarnation is 0";
 }
 
 }  // namespace halocline::bus

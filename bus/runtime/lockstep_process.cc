@@ -71,7 +71,7 @@ void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& syn
   EventLog log(node.name());
   LockstepTurns turns(memq, node);
   lockstep_join_t join = turns.introduction();
-  join.joining_life = draw_life();
+  join.incarnation = draw_life();
   join.scenario_digest = scenario_digest;
   SyncPlane plane(sync_url, node.name());
   LockstepParticipant participant(

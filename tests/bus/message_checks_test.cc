@@ -96,9 +96,9 @@ TEST(MessageChecks, LeaveUncheckedWhatIsAnsweredOneByOne) {
     visit_fields(visitor, message);
   };
   std::apply([&](auto... message) { (collect(message), ...); }, AllMessages());
-  EXPECT_THAT(unchecked, ElementsAre("link_query_t.receivers", "link_query_t.transmitters",
-                                     "ray_query_t.direction", "ray_query_t.greatest_range_m",
-                                     "ray_query_t.offset_m", "ray_query_t.sample_spacing_m"));
+  EXPECT_THAT(unchecked,
+              ElementsAre("link_query_t.receivers", "link_query_t.transmitters", "ray_query_t.direction",
+                          "ray_query_t.max_range_m", "ray_query_t.offset_m", "ray_query_t.sample_spacing_m"));
 }
 
 TEST(MessageChecks, NestedMessagesAreChecked) {
@@ -239,7 +239,7 @@ TEST(MessageChecks, NumbersOfAPacketsEndAreOnesThatCanBe) {
   EXPECT_TRUE(refuses([](auto& m) { m.success_draw = -1; }));
   EXPECT_TRUE(refuses([](auto& m) { m.num_paths = -1; }));
   EXPECT_TRUE(refuses([](auto& m) { m.delay_spread_s = -1e-9; }));
-  EXPECT_TRUE(refuses([](auto& m) { m.doppler_factor = -1; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.strongest_path_doppler_factor = -1; }));
   EXPECT_TRUE(refuses([](auto& m) { m.colliders[0].source_id = 0; }));
   EXPECT_TRUE(refuses([](auto& m) {
     m.num_colliders = 17;
@@ -251,7 +251,7 @@ TEST(MessageChecks, NumbersOfALinkAreOnesThatCanBe) {
   const auto refuses = [](auto change) { return !problem_after<link_t>(change).empty(); };
   EXPECT_TRUE(refuses([](auto& m) { m.num_paths = -1; }));
   EXPECT_TRUE(refuses([](auto& m) { m.delay_spread_s = -1e-9; }));
-  EXPECT_TRUE(refuses([](auto& m) { m.doppler_factor = -1; }));
+  EXPECT_TRUE(refuses([](auto& m) { m.first_path_doppler_factor = -1; }));
 }
 
 TEST(MessageChecks, TheReasonNamesTheFieldAndWhatIsAllowed) {

@@ -21,7 +21,7 @@ class HarbourLedgerTest : public testing::EmbeddedTest {
 std::map<int, std::vector<packet_outcome_t>> by_fate(
     const std::vector<std::pair<std::string, packet_outcome_t>>& outcomes) {
   std::map<int, std::vector<packet_outcome_t>> fates;
-  for (const auto& [channel, outcome] : outcomes) fates[outcome.packet_fate].push_back(outcome);
+  for (const auto& [channel, outcome] : outcomes) fates[outcome.outcome].push_back(outcome);
   return fates;
 }
 

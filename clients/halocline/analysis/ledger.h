@@ -22,7 +22,7 @@
 
 namespace halocline::clients {
 
-using FateCounts = std::array<std::int64_t, LogStatistics::kFates>;  // by packet_outcome_t.packet_fate
+using FateCounts = std::array<std::int64_t, LogStatistics::kFates>;  // by packet_outcome_t.outcome
 
 class Ledger {
  public:

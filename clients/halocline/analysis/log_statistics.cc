@@ -15,7 +15,7 @@ namespace halocline::clients {
 namespace {
 
 constexpr auto& kReceiptNames = kModemReceiptReceiptResultNames;
-constexpr auto& kFateNames = kPacketOutcomePacketFateNames;
+constexpr auto& kFateNames = kPacketOutcomeOutcomeNames;
 
 std::map<std::string, std::int64_t> by_family(const LogStatistics& s) {
   std::map<std::string, std::int64_t> families;
@@ -62,7 +62,7 @@ void LogStatistics::count_message(const LoggedEvent& event, const Message& messa
     ++packets_delivered;
     if (message.stamped != 0) travel_times_s.push_back(message.travel_time_s);
   } else if constexpr (std::is_same_v<Message, packet_outcome_t>) {
-    ++outcomes.at(static_cast<std::size_t>(message.packet_fate));
+    ++outcomes.at(static_cast<std::size_t>(message.outcome));
   }
 }
 

@@ -21,11 +21,11 @@ packet_outcome_t outcome(std::int64_t sequence, std::int8_t fate, std::int32_t r
   o.packet_sequence = sequence;
   o.source_id = 1;
   o.receiver_id = receiver;
-  o.packet_fate = fate;
+  o.outcome = fate;
   o.received_level_db = 100;
   o.noise_level_db = 80;
   o.interference_level_db = -300;
-  o.doppler_factor = 1;
+  o.strongest_path_doppler_factor = 1;
   o.success_probability = fate == packet_outcome_t::RECEIVED ? 0.9 : 0.1;
   o.success_draw = 0.5;
   o.acquisition_draw = 0.5;

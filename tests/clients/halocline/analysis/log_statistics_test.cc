@@ -33,7 +33,7 @@ packet_outcome_t outcome(std::int8_t fate) {
   packet_outcome_t message{};
   message.source_id = 2;
   message.receiver_id = 1;
-  message.packet_fate = fate;
+  message.outcome = fate;
   return message;
 }
 
