@@ -1,4 +1,4 @@
-// What makes a decoded message impossible: numbers that are not finite or beyond the range that lcmtypes/*.lcm gives
+// Validity of a decoded message. It is refused for numbers that are not finite or beyond the range that lcmtypes/*.lcm gives
 // them, enumerations without a meaning, names, lengths and times out of range, fields that contradict each other.
 //
 // A message that fails is counted, reported with channel and reason, and ignored; never repaired, never

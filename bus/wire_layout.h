@@ -1,4 +1,4 @@
-// Whether the bytes of a message can be decoded at all, found out before anything is allocated.
+// Checks, before anything is allocated, that the bytes of a message can be decoded.
 //
 // The decoders that lcm-gen writes trust the counts they read: a corrupt count makes them allocate gigabytes,
 // or throw. A layout lists the fields of a type in order; misfit() walks the bytes along it.

@@ -1,4 +1,4 @@
-// Which type travels on which channel, for programs that read any channel: logs, statistics, tables.
+// The message type of a channel, for programs that read all channels of a log.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ inline bool is_on(std::string_view channel, const bus::Family& family) {
 }
 
 // Calls `f.template operator()<Message>()` with the type of `channel` (of the channel repaired, for REPAIR); returns
-// false for a channel that is none of ours.
+// false for any other channel.
 template <class Function>
 bool with_type_of(std::string_view channel, Function&& f) {
   constexpr std::string_view kRepair = bus::channels::kRepair.prefix;
@@ -32,7 +32,7 @@ bool with_type_of(std::string_view channel, Function&& f) {
 // The channel's family: what comes before the dot of a family's channel, the whole name otherwise.
 inline std::string_view family_of(std::string_view channel) { return channel.substr(0, channel.find('.')); }
 
-// Decodes bytes as bus::Bus does, without counting or reporting; false when they are no sound Message.
+// Decodes bytes as bus::Bus does, without counting or reporting; false when they are not a valid Message.
 template <class Message>
 bool decode_checked(const std::vector<std::uint8_t>& bytes, Message& message) {
   return bus::decode(bytes, message).empty();
