@@ -45,8 +45,8 @@ RayBatch from_message(const ray_query_t& message) {
   const auto count = static_cast<std::size_t>(std::max(message.num_rays, 0));
   batch.rays.reserve(count);
   for (std::size_t n = 0; n < count; ++n) {
-    batch.rays.push_back({base + as_vector(message.offset_m[n]), as_vector(message.direction[n]),
-                          message.greatest_range_m[n]});
+    batch.rays.push_back(
+        {base + as_vector(message.offset_m[n]), as_vector(message.direction[n]), message.max_range_m[n]});
   }
   return batch;
 }
@@ -64,7 +64,7 @@ ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const V
   for (const Ray& ray : batch.rays) {
     message.offset_m.push_back(as_list(ray.origin_ned_m - base_ned_m));
     message.direction.push_back(as_list(ray.direction));
-    message.greatest_range_m.push_back(ray.max_range_m);
+    message.max_range_m.push_back(ray.max_range_m);
   }
   return message;
 }

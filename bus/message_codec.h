@@ -1,7 +1,7 @@
-// Messages of lcm-gen's types as bytes and back, for all who do not leave that to LCM.
+// Encodes and decodes messages of lcm-gen's types where LCM itself does not.
 //
-// What is decoded is sound, or refused with the reason: the bytes fit the type's layout (wire_layout.h) and the
-// message holds nothing that cannot be (message_checks.h).
+// A decoded message is valid, or refused with the reason: its bytes fit the layout of the type (wire_layout.h) and
+// its values lie within the limits of the type (message_checks.h).
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ Bytes encoded(const Message& message) {
   return bytes;
 }
 
-// Both return what is wrong with the bytes: nothing when `message` holds one message, whole. The first leaves
-// unasked whether it holds what cannot be.
+// Both return the problem of the bytes, empty when `message` holds one whole message. decode_unchecked leaves the
+// values unchecked.
 template <class Message>
 std::string decode_unchecked(std::span<const std::uint8_t> bytes, Message& message) {
   std::string problem = misfit(wire_layout<Message>(), bytes.data(), bytes.size());
@@ -48,7 +48,7 @@ std::string decode(std::span<const std::uint8_t> bytes, Message& message) {
   return problem.empty() ? problem_in(message) : problem;
 }
 
-// Empty when the bytes are no sound message of that type, whole.
+// Empty when the bytes are not one whole valid message of that type.
 template <class Message>
 std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
   Message message;
@@ -74,7 +74,7 @@ Bytes encoded_list(std::span<const Message> messages) {
   }
   return bytes;
 }
-// Empty when the bytes are not sound messages of that type and nothing else.
+// Empty when the bytes are not valid messages of that type and nothing else.
 template <class Message>
 std::optional<std::vector<Message>> decoded_list(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kLengthBytes = 4;

@@ -1,21 +1,14 @@
 #include "bus/wire_layout.h"
 
 #include <cstdint>
+#include <type_traits>
+
+#include "bus/message_fields.h"
 
 namespace halocline::bus {
 namespace {
 
 constexpr std::size_t kFingerprintBytes = 8;
-
-WireField fixed(std::size_t bytes) { return {WireField::Kind::kFixed, bytes, {}}; }
-WireField text() { return {WireField::Kind::kString, 0, {}}; }
-WireField count() { return {WireField::Kind::kCount, 0, {}}; }
-WireField array_of(WireLayout element) { return {WireField::Kind::kArray, 0, std::move(element)}; }
-WireField array_of_bytes(std::size_t bytes) { return array_of({fixed(bytes)}); }
-
-void append(WireLayout& layout, const WireLayout& nested) {
-  layout.insert(layout.end(), nested.begin(), nested.end());
-}
 
 class Walk {
  public:
@@ -88,29 +81,61 @@ class Walk {
   std::size_t left_;
 };
 
-// utime, session and sequence, the head of most messages.
-constexpr std::size_t kHead = 3 * 8;
+// Lists the fields of a type, neighbours of fixed length as one.
+class LayoutBuilder {
+ public:
+  template <class T>
+  void operator()(const MessageField& field, const T&) {
+    if (field.is_count) {
+      layout.push_back({WireField::Kind::kCount, 0, {}});
+    } else {
+      append<T>(field, layout);
+    }
+  }
 
-WireLayout modem_layout() {
-  return {fixed(8 + 7 * 8 + 4 + 1 + 4 + 3 * 8 + 2), count(), array_of_bytes(8), array_of_bytes(8)};
-}
-WireLayout link_layout() { return {fixed(2 * 4 + 7 * 8 + 1 + 1 + 2 * 8 + 1 + 1 + 4 + 2 * 8)}; }
-WireLayout packet_name_layout() { return {fixed(4 + 1 + 2 * 8)}; }
+  WireLayout layout;
 
-WireLayout link_end_layout() {
-  WireLayout layout{text(), fixed(3 * 8 + 1)};
-  append(layout, modem_layout());
-  return layout;
-}
+ private:
+  template <class T>
+  static void append(const MessageField& field, WireLayout& to) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      append_fixed(sizeof(T), to);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      to.push_back({WireField::Kind::kString, 0, {}});
+    } else if constexpr (std::is_array_v<T>) {
+      for (std::size_t i = 0; i < std::extent_v<T>; ++i) append<std::remove_extent_t<T>>(field, to);
+    } else if constexpr (kIsList<T>) {
+      to.push_back({WireField::Kind::kArray, 0, element_of<typename T::value_type>(field)});
+    } else {
+      for (const WireField& nested : wire_layout<T>()) append_field(nested, to);
+    }
+  }
 
-WireLayout link_answer_layout() {
-  WireLayout layout{fixed(1), text()};
-  append(layout, link_layout());
-  layout.push_back(fixed(3 * 8 + 1));
-  return layout;
-}
+  template <class Element>
+  static WireLayout element_of(const MessageField& field) {
+    WireLayout element;
+    if constexpr (kIsList<Element>) {
+      for (std::size_t i = 0; i < field.inner; ++i) append<typename Element::value_type>(field, element);
+    } else {
+      append<Element>(field, element);
+    }
+    return element;
+  }
 
-WireLayout lockstep_message_layout() { return {fixed(8), text(), count(), array_of_bytes(1)}; }
+  static void append_fixed(std::size_t bytes, WireLayout& to) {
+    if (to.empty() || to.back().kind != WireField::Kind::kFixed)
+      to.push_back({WireField::Kind::kFixed, 0, {}});
+    to.back().bytes += bytes;
+  }
+
+  static void append_field(const WireField& field, WireLayout& to) {
+    if (field.kind == WireField::Kind::kFixed) {
+      append_fixed(field.bytes, to);
+    } else {
+      to.push_back(field);
+    }
+  }
+};
 
 }  // namespace
 
@@ -122,67 +147,18 @@ std::string misfit(const WireLayout& layout, const void* data, std::size_t size)
   return problem;
 }
 
-#define HALOCLINE_LAYOUT(type, ...)             \
-  template <>                                   \
-  const WireLayout& wire_layout<type>() {       \
-    static const WireLayout layout __VA_ARGS__; \
-    return layout;                              \
-  }
+template <class Message>
+const WireLayout& wire_layout() {
+  static const WireLayout layout = [] {
+    LayoutBuilder builder;
+    visit_fields(builder, Message());
+    return builder.layout;
+  }();
+  return layout;
+}
 
-HALOCLINE_LAYOUT(sim_clock_t, {fixed(kHead + 8 + 8 + 1)})
-HALOCLINE_LAYOUT(vehicle_state_t, {fixed(kHead + 4 + (3 + 4 + 3 + 3) * 8)})
-HALOCLINE_LAYOUT(vehicle_command_t, {fixed(kHead + (3 + 4) * 8)})
-HALOCLINE_LAYOUT(vehicle_sensors_t, {fixed(kHead + 8 + 1 + 5 * 8 + 3 * 8 + (3 + 4) * 8 + 6)})
-HALOCLINE_LAYOUT(vehicle_dvl_t, {fixed(kHead + 4 * (1 + 2 * 8) + 1 + 4 * 8)})
-HALOCLINE_LAYOUT(vehicle_gps_t, {fixed(kHead + 3 * 8)})
-HALOCLINE_LAYOUT(vehicle_sonar_t,
-                 {fixed(kHead + 2 * 8), count(), array_of_bytes(8), array_of_bytes(1), array_of_bytes(8)})
-HALOCLINE_LAYOUT(vehicle_usbl_t, {fixed(kHead + 4 + 1 + 2 * 8 + 3 * 8 + 1 + 8)})
-HALOCLINE_LAYOUT(vehicle_fault_t, {fixed(kHead + 3 + 3 * 8 + 1)})
-HALOCLINE_LAYOUT(current_change_t, {fixed(kHead + 3 * 8), count(), array_of_bytes(8), array_of_bytes(8),
-                                    array_of_bytes(8), fixed(6 * 8)})
-HALOCLINE_LAYOUT(environment_t,
-                 {fixed(kHead), count(), array_of_bytes(8), array_of_bytes(8), array_of_bytes(8),
-                  array_of_bytes(8), fixed(5 * 8), text(), text(), fixed(4 * 8), text(), text(), text()})
-HALOCLINE_LAYOUT(environment_change_t, {fixed(kHead + 4 + 3 * 8), count(), array_of_bytes(8),
-                                        array_of_bytes(8), array_of_bytes(8), array_of_bytes(8)})
-HALOCLINE_LAYOUT(modem_config_t, (modem_layout()))
-HALOCLINE_LAYOUT(modem_send_t, {fixed(kHead + 2 * 4 + 2), count(), array_of_bytes(1)})
-HALOCLINE_LAYOUT(modem_receipt_t, {fixed(kHead + 2 * 8 + 1 + 8 + 8)})
-HALOCLINE_LAYOUT(modem_receive_t, {fixed(kHead + 2 * 8 + 3 * 4 + 2 + 8 + 6 * 8), count(), array_of_bytes(1)})
-HALOCLINE_LAYOUT(packet_name_t, (packet_name_layout()))
-HALOCLINE_LAYOUT(packet_outcome_t, {fixed(kHead + 2 * 8 + 3 * 4 + 2 + 8 + 8 * 8 + 1 + 4 + 10 * 8), count(),
-                                    array_of(packet_name_layout())})
-HALOCLINE_LAYOUT(ping_answer_t, {fixed(kHead), text(), fixed(2 * 4 + 5 * 8)})
-HALOCLINE_LAYOUT(position_estimate_t, {fixed(kHead + 4 + 1 + (3 + 9 + 3 + 1) * 8 + 2 * 8 + 1 + 3 * 8)})
-HALOCLINE_LAYOUT(link_t, (link_layout()))
-HALOCLINE_LAYOUT(link_table_t, {fixed(kHead + 4), count(), array_of(link_layout())})
-HALOCLINE_LAYOUT(link_end_t, (link_end_layout()))
-HALOCLINE_LAYOUT(link_query_t, {fixed(8), text(), fixed(8), count(), array_of(link_end_layout()),
-                                array_of(link_end_layout())})
-HALOCLINE_LAYOUT(link_answer_t, (link_answer_layout()))
-HALOCLINE_LAYOUT(link_reply_t, {fixed(3 * 8 + 1), text(), count(), array_of(link_answer_layout())})
-HALOCLINE_LAYOUT(ray_query_t, {fixed(8), text(), fixed(8), text(), fixed(1 + 8 + 3 * 8), count(),
-                               array_of_bytes(3 * 8), array_of_bytes(3 * 8), array_of_bytes(8)})
-HALOCLINE_LAYOUT(ray_reply_t,
-                 {fixed(3 * 8), text(), fixed(1), text(), count(), array_of_bytes(1), array_of_bytes(8),
-                  count(), array_of_bytes(8), array_of_bytes(8), array_of_bytes(1)})
-HALOCLINE_LAYOUT(node_status_t, {fixed(kHead), text(), text(), fixed(8 * 8), text()})
-HALOCLINE_LAYOUT(flow_heartbeat_t,
-                 {fixed(kHead + 8), count(), array_of({text()}), array_of_bytes(8), array_of_bytes(8)})
-HALOCLINE_LAYOUT(repair_request_t, {fixed(8), text(), text(), fixed(8), count(), array_of_bytes(8)})
-
-HALOCLINE_LAYOUT(lockstep_message_t, (lockstep_message_layout()))
-HALOCLINE_LAYOUT(lockstep_turn_t, {fixed(2 * 8 + 4 + 1), count(), array_of({text()}), count(),
-                                   array_of(lockstep_message_layout())})
-HALOCLINE_LAYOUT(lockstep_result_t, {text(), fixed(4 + 3 * 8), count(), array_of(lockstep_message_layout())})
-HALOCLINE_LAYOUT(lockstep_grant_t, {fixed(8), count(), array_of_bytes(8), array_of_bytes(8),
-                                    fixed(4 + 1 + 2 * 4), count(), array_of_bytes(1)})
-HALOCLINE_LAYOUT(lockstep_answer_t, {fixed(3 * 8 + 1 + 2 * 4), count(), array_of_bytes(1)})
-HALOCLINE_LAYOUT(lockstep_join_t, {fixed(2 * 8), text(), text(), fixed(4 + 2 * 8 + 1), count(),
-                                   array_of({text()}), array_of_bytes(1)})
-HALOCLINE_LAYOUT(lockstep_notice_t, {fixed(2 * 8 + 1), text()})
-
-#undef HALOCLINE_LAYOUT
+#define HALOCLINE_WIRE_LAYOUT(type) template const WireLayout& wire_layout<type>();
+HALOCLINE_EACH_MESSAGE(HALOCLINE_WIRE_LAYOUT)
+#undef HALOCLINE_WIRE_LAYOUT
 
 }  // namespace halocline::bus

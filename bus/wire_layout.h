@@ -1,9 +1,7 @@
-// Whether the bytes of a message can be decoded at all, found out before anything is allocated.
+// Checks, before anything is allocated, that the bytes of a message can be decoded.
 //
 // The decoders that lcm-gen writes trust the counts they read: a corrupt count makes them allocate gigabytes,
-// or throw. A layout lists the fields of a type in order; fits() walks the bytes along it. A test encodes a
-// message of each type and asserts that its layout consumes exactly its bytes, so a layout cannot drift from
-// its type.
+// or throw. A layout lists the fields of a type in order; misfit() walks the bytes along it.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +31,7 @@ struct WireField {
 // otherwise what is wrong with them.
 std::string misfit(const WireLayout& layout, const void* data, std::size_t size);
 
-// The layout of each type of the bus.
+// The layout of each type of the bus, from its fields (bus/message_fields.h).
 template <class Message>
 const WireLayout& wire_layout();
 

@@ -1,5 +1,7 @@
-# halocline_generate_cpp(out_headers FILES...): runs the installed lcm-gen; headers land in the build tree,
-# never in the repository, because generated code belongs to the LCM that generated it.
+# halocline_generate_cpp(out_headers FILES...): runs the installed lcm-gen and lcmtypes/generate.py; headers land in
+# the build tree, never in the repository, because generated code belongs to the LCM that generated it.
+find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
+
 function(halocline_generate_cpp out_headers)
   set(headers)
   foreach(type_file ${ARGN})
@@ -12,5 +14,14 @@ function(halocline_generate_cpp out_headers)
       COMMENT "lcm-gen ${type}")
     list(APPEND headers ${header})
   endforeach()
-  set(${out_headers} ${headers} PARENT_SCOPE)
+  set(made channel_table channels message_fields messages)
+  list(TRANSFORM made PREPEND ${CMAKE_BINARY_DIR}/generated/bus/)
+  list(TRANSFORM made APPEND .h)
+  set(generate ${CMAKE_SOURCE_DIR}/lcmtypes/generate.py)
+  add_custom_command(
+    OUTPUT ${made}
+    COMMAND ${Python3_EXECUTABLE} ${generate} --cpp ${CMAKE_BINARY_DIR}/generated
+    DEPENDS ${generate} ${CMAKE_SOURCE_DIR}/lcmtypes/channels.toml ${ARGN}
+    COMMENT "lcmtypes/generate.py")
+  set(${out_headers} ${headers} ${made} PARENT_SCOPE)
 endfunction()

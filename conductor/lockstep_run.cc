@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "bus/channels.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/logs/log_recorder.h"
 #include "bus/runtime/lockstep_process.h"

@@ -165,7 +165,7 @@ vehicle_sonar_t to_sonar_message(SimTime when, const SonarSettings& sonar, const
   vehicle_sonar_t m{};
   m.utime = when.to_utime();
   m.fan_tilt_rad = sonar.tilt_rad;
-  m.greatest_range_m = sonar.range_m;
+  m.max_range_m = sonar.range_m;
   m.num_fan_rays = static_cast<std::int32_t>(echoes.size());
   m.fan_azimuth_rad = sonar_azimuths_rad(sonar);
   for (const Echo& echo : echoes) {
@@ -244,7 +244,7 @@ ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t r
   for (const EchoBeam& beam : beams) {
     m.offset_m.push_back(list(beam.origin_ned_m));
     m.direction.push_back(list(beam.direction_ned));
-    m.greatest_range_m.push_back(beam.range_m);
+    m.max_range_m.push_back(beam.range_m);
   }
   return m;
 }

@@ -70,7 +70,7 @@ void VehicleSimNode::subscribe_vehicle(std::size_t i) {
 // An array hears what the medium did; what it makes of it is the vehicle's own measurement.
 void VehicleSimNode::subscribe_arrays() {
   bus().subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& outcome) {
-    if (outcome.packet_fate != packet_outcome_t::RECEIVED) return;
+    if (outcome.outcome != packet_outcome_t::RECEIVED) return;
     for (auto& [vehicle, array] : arrays_) {
       if (ids_[vehicle] == outcome.receiver_id) array.hear_arrival(key_of(outcome), arrival_of(outcome));
     }

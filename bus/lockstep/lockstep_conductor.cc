@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "bus/channels.h"
 #include "core/check.h"
 
 namespace halocline::conductor {
@@ -28,7 +29,7 @@ LockstepConductor::LockstepConductor(LockstepRules rules, std::int64_t run_id, M
 void LockstepConductor::add_local(const lockstep_join_t& introduction, TakeTurn take) {
   Link& link = links_[introduction.participant_name];
   link.join = introduction;
-  link.join.joining_life = 1;  // it has no life of its own
+  link.join.incarnation = 1;  // it has no life of its own
   link.take = std::move(take);
   link.up_to_date = true;
   link.wants_in = true;
@@ -156,7 +157,7 @@ void LockstepConductor::finish() {
 // ---- answers
 
 void LockstepConductor::on_answer(const lockstep_answer_t& answer, SimTime steady) {
-  const auto known = link_of_life_.find(answer.answering_life);
+  const auto known = link_of_life_.find(answer.incarnation);
   if (known == link_of_life_.end() || answer.run_id != run_id_) return;
   auto& [name, link] = *known->second;
   link.last_heard = steady;
@@ -230,7 +231,7 @@ void LockstepConductor::say_grant(std::span<NamedLink* const> links) {
   lockstep_grant_t grant{};
   grant.run_id = run_id_;
   for (const NamedLink* named : links) {
-    grant.addressed_lives.push_back(named->second.life);
+    grant.incarnations.push_back(named->second.life);
     grant.first_turns.push_back(first_turn_granted(named->first, named->second));
   }
   grant.num_addressed = static_cast<std::int32_t>(links.size());

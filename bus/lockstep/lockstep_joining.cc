@@ -16,11 +16,11 @@ void LockstepConductor::on_join(const lockstep_join_t& join, SimTime steady) {
   NamedLink& named = *links_.try_emplace(join.participant_name).first;
   auto& [name, link] = named;
   advance(steady);  // after a resume: the round that is under way counts
-  if (link.life == join.joining_life) {
+  if (link.life == join.incarnation) {
     link.last_heard = steady;
     link.wants_to_leave = link.wants_to_leave || join.wants_to_leave != 0;
     const bool done = over_ || link.said_goodbye;
-    notice(join.joining_life, done ? lockstep_notice_t::OVER : lockstep_notice_t::WELCOME);
+    notice(join.incarnation, done ? lockstep_notice_t::OVER : lockstep_notice_t::WELCOME);
     // Further than was thought: what it said of an earlier instant came first.
     if (!link.up_to_date && join.turns_taken > link.taken) {
       link.taken = join.turns_taken;
@@ -28,9 +28,9 @@ void LockstepConductor::on_join(const lockstep_join_t& join, SimTime steady) {
     }
     return advance(steady);
   }
-  if (is_past_taking_part(join)) return notice(join.joining_life, lockstep_notice_t::OVER);
+  if (is_past_taking_part(join)) return notice(join.incarnation, lockstep_notice_t::OVER);
   const std::string objection = objection_to(join, link);
-  if (!objection.empty()) return put_out(join.joining_life, name, objection);
+  if (!objection.empty()) return put_out(join.incarnation, name, objection);
   adopt(join, named, steady);
   advance(steady);
 }
@@ -49,7 +49,7 @@ std::string LockstepConductor::objection_to(const lockstep_join_t& join, const L
   if (link.take) return "its name is taken by the conductor itself";
   if (join.run_id != 0 && join.run_id != run_id_) return "it took part in another run";
   if (join.scenario_digest != rules_.scenario_digest) return "its scenario is not the conductor's";
-  if (join.joining_life < link.life) return "a later life of it takes part";
+  if (join.incarnation < link.life) return "a later life of it takes part";
   const std::int64_t ahead = join.turns_taken - sequencer_.turns_taken(name);
   const auto& round = sequencer_.round();
   const bool in_round = std::find(round.begin(), round.end(), name) != round.end();
@@ -60,8 +60,8 @@ void LockstepConductor::adopt(const lockstep_join_t& join, NamedLink& named, Sim
   auto& [name, link] = named;
   if (link.life != 0 || sequencer_.knows(name)) mouth_.report("returned", "participant=" + name);
   link_of_life_.erase(link.life);
-  link_of_life_[join.joining_life] = &named;
-  link.life = join.joining_life;
+  link_of_life_[join.incarnation] = &named;
+  link.life = join.incarnation;
   link.join = join;
   link.taken = join.turns_taken;
   link.said_goodbye = false;
@@ -96,7 +96,7 @@ void LockstepConductor::on_past_taken(NamedLink& named, const lockstep_result_t&
   auto& [name, link] = named;
   link.timer.answered(steady);
   link.taken += link.turns_in_body;
-  if (link.taken == sequencer_.turns_taken(name) && result.said_digest != sequencer_.digest_of(name)) {
+  if (link.taken == sequencer_.turns_taken(name) && result.outputs_digest != sequencer_.digest_of(name)) {
     const std::int64_t life = std::exchange(link.life, 0);
     return put_out(life, name, "it says otherwise than in its earlier life");
   }
@@ -105,13 +105,13 @@ void LockstepConductor::on_past_taken(NamedLink& named, const lockstep_result_t&
 
 void LockstepConductor::put_out(std::int64_t life, const std::string& name, const std::string& reason) const {
   mouth_.report("put-out", "participant=" + name + " reason=\"" + reason + "\"");
-  notice(life, lockstep_notice_t::PUT_OUT, reason);
+  notice(life, lockstep_notice_t::EXPELLED, reason);
 }
 
 void LockstepConductor::notice(std::int64_t life, std::int8_t kind, const std::string& reason) const {
   lockstep_notice_t notice;
   notice.run_id = run_id_;
-  notice.noticed_life = life;
+  notice.incarnation = life;
   notice.notice_kind = kind;
   notice.reason = reason;
   mouth_.notice(notice);

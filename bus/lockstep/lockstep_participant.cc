@@ -8,12 +8,12 @@ namespace halocline::bus {
 
 LockstepParticipant::LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Mouth mouth)
     : join_(std::move(introduction)), take_(std::move(take)), mouth_(std::move(mouth)) {
-  require(join_.joining_life != 0, "a participant needs a life");
+  require(join_.incarnation != 0, "a participant needs a life");
 }
 
 void LockstepParticipant::on_grant(const lockstep_grant_t& grant, SimTime steady) {
-  const auto& lives = grant.addressed_lives;
-  const auto me = std::find(lives.begin(), lives.end(), join_.joining_life);
+  const auto& lives = grant.incarnations;
+  const auto me = std::find(lives.begin(), lives.end(), join_.incarnation);
   if (me == lives.end() || has_ended() || (join_.run_id != 0 && grant.run_id != join_.run_id)) return;
   join_.run_id = grant.run_id;
   last_heard_ = steady;
@@ -40,8 +40,8 @@ void LockstepParticipant::take(const std::vector<lockstep_turn_t>& turns, std::i
     if (turn.farewell != 0) state_ = State::kLeft;
   }
   if (past) {  // known to the conductor, which compares digests
-    result.said.clear();
-    result.num_said = 0;
+    result.outputs.clear();
+    result.num_outputs = 0;
   }
   last_result_ = encoded(result);
   answer();
@@ -50,7 +50,7 @@ void LockstepParticipant::take(const std::vector<lockstep_turn_t>& turns, std::i
 void LockstepParticipant::answer() {
   lockstep_answer_t answer;
   answer.run_id = join_.run_id;
-  answer.answering_life = join_.joining_life;
+  answer.incarnation = join_.incarnation;
   answer.turn_number = turns_taken_;
   answer.wants_to_leave = join_.wants_to_leave;
   answer.slice_count = slice_count(last_result_.size());
@@ -63,7 +63,7 @@ void LockstepParticipant::answer() {
 }
 
 void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime steady) {
-  if (notice.noticed_life != join_.joining_life || has_ended()) return;
+  if (notice.incarnation != join_.incarnation || has_ended()) return;
   last_heard_ = steady;
   switch (notice.notice_kind) {
     case lockstep_notice_t::WELCOME:
@@ -71,7 +71,7 @@ void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime ste
       if (state_ == State::kJoining) state_ = State::kTakingPart;
       next_join_ = steady + kShowPeriod;
       return;
-    case lockstep_notice_t::PUT_OUT:
+    case lockstep_notice_t::EXPELLED:
       reason_ = notice.reason;
       state_ = State::kExpelled;
       return;

@@ -65,7 +65,7 @@ void LockstepConductor::replay_local(const std::string& name, Link& link) {
   std::int64_t digest = 0;
   if (sequencer_.turns_taken(name) == 0) return;
   for (const lockstep_turn_t& turn : sequencer_.past_turns(name, 1, kAll))
-    digest = link.take(turn).said_digest;
+    digest = link.take(turn).outputs_digest;
   if (digest != sequencer_.digest_of(name))
     throw std::runtime_error(name +
                              " says otherwise than in the journal: another scenario or another version");

@@ -9,21 +9,11 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bus/message_codec.h"
 
 namespace halocline::bus {
-
-namespace channels {
-// From the conductor: to all addressed; to one, on its own channel, which the others' readers pass over.
-inline constexpr std::string_view kLockstepGrant = "LOCKSTEP_GRANT";
-inline constexpr std::string_view kLockstepNotice = "LOCKSTEP_NOTICE";
-// From participants.
-inline constexpr std::string_view kLockstepAnswer = "LOCKSTEP_ANSWER";
-inline constexpr std::string_view kLockstepJoin = "LOCKSTEP_JOIN";
-}  // namespace channels
 
 // Leaves room for the heads of the slice and of LCM below the 65 507 bytes of a UDP datagram.
 inline constexpr std::size_t kMaxSliceBytes = 56'000;

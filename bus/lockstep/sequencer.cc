@@ -101,8 +101,8 @@ bool Sequencer::begin_round() {
 
 lockstep_turn_t Sequencer::bare_turn(const Seat& seat, std::size_t heard_from, std::size_t heard_end) const {
   lockstep_turn_t turn{};
-  for (std::size_t i = heard_from; i < heard_end; ++i) turn.heard.push_back(messages_[seat.heard[i]]);
-  turn.num_heard = static_cast<std::int32_t>(turn.heard.size());
+  for (std::size_t i = heard_from; i < heard_end; ++i) turn.inputs.push_back(messages_[seat.heard[i]]);
+  turn.num_inputs = static_cast<std::int32_t>(turn.inputs.size());
   return turn;
 }
 
@@ -111,7 +111,7 @@ lockstep_turn_t Sequencer::turn_of(const std::string& name) const {
   lockstep_turn_t turn = bare_turn(seat, seat.told, seat.heard.size());
   turn.instant_ns = now().nanoseconds();
   turn.horizon_ns = horizon_.nanoseconds();
-  turn.most_steps = -1;
+  turn.max_steps = -1;
   turn.farewell = farewell_ ? 1 : 0;
   if (horizon_ > now()) turn.stopping_channels = stopping_channels(seat);
   turn.num_stopping = static_cast<std::int32_t>(turn.stopping_channels.size());
@@ -138,7 +138,7 @@ void Sequencer::complete(std::vector<lockstep_result_t> results) {
             [](const auto& a, const auto& b) { return order_of(*a.first) < order_of(*b.first); });
   for (const auto& [seat, result] : in_order) take_result(*seat, *result);
   for (const auto& [seat, result] : in_order) {
-    for (lockstep_message_t& message : result->said) deliver(std::move(message));
+    for (lockstep_message_t& message : result->outputs) deliver(std::move(message));
   }
   const SimTime reached = SimTime::from_nanoseconds(results.front().reached_ns);
   if (results.size() == 1 && reached > now())
@@ -157,7 +157,7 @@ void Sequencer::take_result(Seat& seat, const lockstep_result_t& result) {
   }
   seat.told = seat.heard.size();
   seat.place.due = SimTime::from_nanoseconds(result.next_due_ns);
-  seat.digest = result.said_digest;
+  seat.digest = result.outputs_digest;
   seat.taken.push_back({now().nanoseconds(), result.reached_ns, result.num_steps, seat.told});
   if (!farewell_) return;
   seat.present = false;  // should it come back, it begins anew
@@ -216,7 +216,7 @@ std::vector<lockstep_turn_t> Sequencer::past_turns(const std::string& name, std:
     turns.push_back(bare_turn(seat, i == 0 ? 0 : seat.taken[i - 1].heard_end, taken.heard_end));
     turns.back().instant_ns = taken.instant_ns;
     turns.back().horizon_ns = taken.reached_ns + 1;
-    turns.back().most_steps = taken.steps;
+    turns.back().max_steps = taken.steps;
     size += static_cast<std::size_t>(turns.back().getEncodedSize()) + 4;
   }
   return turns;

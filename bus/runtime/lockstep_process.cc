@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "bus/channels.h"
 #include "bus/config/config.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_turns.h"
@@ -70,7 +71,7 @@ void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& syn
   EventLog log(node.name());
   LockstepTurns turns(memq, node);
   lockstep_join_t join = turns.introduction();
-  join.joining_life = draw_life();
+  join.incarnation = draw_life();
   join.scenario_digest = scenario_digest;
   SyncPlane plane(sync_url, node.name());
   LockstepParticipant participant(

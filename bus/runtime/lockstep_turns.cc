@@ -82,11 +82,11 @@ lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   said_.clear();
   now_ = SimTime::from_nanoseconds(turn.instant_ns);
   const SimTime horizon = SimTime::from_nanoseconds(turn.horizon_ns);
-  const int most_steps = turn.most_steps >= 0 ? turn.most_steps : kMaxStepsPerTurn;
-  hear(turn.heard);
+  const int max_steps = turn.max_steps >= 0 ? turn.max_steps : kMaxStepsPerTurn;
+  hear(turn.inputs);
   if (turn.farewell != 0) node_.stop({now_, now_});
   int steps = 0;
-  for (bool paused = turn.farewell != 0; !paused && steps < most_steps; ++steps) {
+  for (bool paused = turn.farewell != 0; !paused && steps < max_steps; ++steps) {
     const SimTime next = std::max(node_.lockstep_due(), now_);
     const bool at_instant = steps == 0 && next == now_;
     if (!at_instant && next >= horizon) break;
@@ -101,9 +101,9 @@ lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   result.num_steps = steps;
   result.reached_ns = now_.nanoseconds();
   result.next_due_ns = node_.lockstep_due().nanoseconds();
-  result.said_digest = digest_;
-  result.num_said = static_cast<std::int32_t>(said_.size());
-  result.said = said_;
+  result.outputs_digest = digest_;
+  result.num_outputs = static_cast<std::int32_t>(said_.size());
+  result.outputs = said_;
   return result;
 }
 

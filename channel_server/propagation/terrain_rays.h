@@ -15,7 +15,7 @@ enum class RayKind {
 struct TerrainRay {
   Vec3 origin_ned_m;
   Vec3 direction;
-  double greatest_range_m;
+  double max_range_m;
 };
 
 struct RayAnswer {

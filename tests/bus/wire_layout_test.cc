@@ -1,5 +1,4 @@
-// Every type's layout walks exactly the bytes that its encoder writes, and refuses what its decoder must not
-// be shown.
+// The layout of each type consumes exactly the bytes that its encoder writes, and refuses bytes that its decoder cannot read.
 #include "bus/wire_layout.h"
 
 #include <chrono>
@@ -27,16 +26,9 @@ void put_int32(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_t v
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
 }
 
-template <class Tuple>
-struct TypesOf;
-template <class... Messages>
-struct TypesOf<std::tuple<Messages...>> {
-  using Type = ::testing::Types<Messages...>;
-};
-
 template <class Message>
 class WireLayoutOf : public ::testing::Test {};
-TYPED_TEST_SUITE(WireLayoutOf, TypesOf<testing::AllMessages>::Type);
+TYPED_TEST_SUITE(WireLayoutOf, testing::TypesOf<AllMessages>::Type);
 
 TYPED_TEST(WireLayoutOf, ConsumesExactlyTheBytesOfAnEncodedMessage) {
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
@@ -57,8 +49,8 @@ TYPED_TEST(WireLayoutOf, RefusesBytesBeyondTheEnd) {
   EXPECT_EQ(misfit_of<TypeParam>(bytes), "longer than its fields");
 }
 
-// Whatever the layout lets through, the decoder reads without a throw and to the last byte.
-TYPED_TEST(WireLayoutOf, LetsNothingThroughThatTheDecoderChokesOn) {
+// The decoder reads what the layout accepts without an exception and to the last byte.
+TYPED_TEST(WireLayoutOf, AcceptsOnlyBytesThatTheDecoderReads) {
   std::mt19937 random(1);
   int passed = 0;
   for (int round = 0; round < 3000; ++round) {
@@ -76,8 +68,8 @@ TYPED_TEST(WireLayoutOf, LetsNothingThroughThatTheDecoderChokesOn) {
   EXPECT_GT(passed, 0);
 }
 
-// Every aligned or unaligned place in turn holds a huge and a negative number: where a count or a length
-// stands, the walk refuses it, at once and without asking for memory.
+// Each offset in turn holds a huge and a negative number: a count or a length with it is refused before memory is
+// allocated.
 TYPED_TEST(WireLayoutOf, AnyHugeCountIsRefusedOrIsNoCount) {
   const auto good = encoded(valid_message<TypeParam>(4));
   for (const std::uint32_t value : {0x7fffffffu, 0x80000000u, 0xffffffffu, 0x00ffffffu}) {

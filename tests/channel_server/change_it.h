@@ -61,7 +61,7 @@ inline Numbers numbers_of(const link_t& row) {
           {"link snr", row.snr_db},
           {"link paths", row.num_paths},
           {"link spread", row.delay_spread_s},
-          {"link doppler", row.doppler_factor},
+          {"link doppler", row.first_path_doppler_factor},
           {"capacity", row.capacity_bps},
           {"receivable", row.receivable},
           {"path state", row.path_state},
@@ -76,7 +76,7 @@ inline Numbers numbers_of(const packet_outcome_t& packet) {
           {"packet snr", packet.snr_db},
           {"packet paths", packet.num_paths},
           {"packet spread", packet.delay_spread_s},
-          {"packet doppler", packet.doppler_factor},
+          {"packet doppler", packet.strongest_path_doppler_factor},
           {"duration", packet.duration_s},
           {"cutoff", packet.cutoff_level_db},
           {"interference", packet.interference_level_db},
@@ -88,7 +88,7 @@ inline Numbers numbers_of(const packet_outcome_t& packet) {
           {"azimuth", packet.arrival_azimuth_rad},
           {"elevation", packet.arrival_elevation_rad},
           {"colliders", packet.num_colliders},
-          {"fate", packet.packet_fate}};
+          {"fate", packet.outcome}};
 }
 
 inline Numbers numbers_of(const World& world) {

@@ -120,7 +120,7 @@ TEST_F(ChannelServerNodeTest, APacketIsAnsweredDeliveredAndAccountedForAtItsExac
   EXPECT_NEAR(bench.receives[0].message.travel_time_s, 2, tolerance(1e-9));
   EXPECT_EQ(bench.receives[0].message.payload, std::vector<std::uint8_t>(5, 0x42));
   ASSERT_EQ(bench.outcomes.size(), 1u);
-  EXPECT_EQ(bench.outcomes[0].packet_fate, packet_outcome_t::RECEIVED);
+  EXPECT_EQ(bench.outcomes[0].outcome, packet_outcome_t::RECEIVED);
   EXPECT_EQ(bench.outcomes[0].utime, 12'050'000);
   EXPECT_EQ(bench.outcomes[0].send_session, 7);
 }
@@ -320,7 +320,7 @@ TEST_F(ChannelServerNodeTest, TheOrderInWhichMessagesArriveChangesNothing) {
     for (const auto& o : bench.outcomes) {
       lines.push_back(std::to_string(o.utime) + " " + std::to_string(o.sequence) + " " +
                       std::to_string(o.source_id) + " " + std::to_string(o.receiver_id) + " " +
-                      std::to_string(o.travel_time_s) + " " + std::to_string(o.packet_fate));
+                      std::to_string(o.travel_time_s) + " " + std::to_string(o.outcome));
     }
     return lines;
   };

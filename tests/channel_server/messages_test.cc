@@ -197,7 +197,7 @@ TEST(ChannelServerMessages, APacketsEndTellsWhatDecidedIt) {
   EXPECT_EQ(outcome.propagation_used, packet_outcome_t::RAYS);
   EXPECT_EQ(outcome.num_paths, 4);
   EXPECT_EQ(outcome.delay_spread_s, 0.375);
-  EXPECT_EQ(outcome.doppler_factor, 1.0625);
+  EXPECT_EQ(outcome.strongest_path_doppler_factor, 1.0625);
   EXPECT_EQ(outcome.arrival_azimuth_rad, -3);
   EXPECT_EQ(outcome.arrival_elevation_rad, 0.125);
   EXPECT_EQ(outcome.interference_level_db, 81);
@@ -315,7 +315,7 @@ TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.query_mode, ray_query_t::OCCLUDED);
   EXPECT_EQ(message.offset_m.at(1023), (std::vector<double>{1, 2, 3}));
-  EXPECT_EQ(message.greatest_range_m.at(1023), 50);
+  EXPECT_EQ(message.max_range_m.at(1023), 50);
   EXPECT_LT(message.getEncodedSize(), 60'000);
 }
 

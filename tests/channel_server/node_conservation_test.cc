@@ -52,7 +52,7 @@ TEST(NodeConservation, PacketsTimesReceiversAreOutcomes) {
   for (const auto& outcome : bench.outcomes) {
     EXPECT_TRUE(decided[outcome.packet_sequence].insert(outcome.receiver_id).second);
     const bool addressed = outcome.destination_id == 0 || outcome.destination_id == outcome.receiver_id;
-    received += outcome.packet_fate == packet_outcome_t::RECEIVED && addressed ? 1 : 0;
+    received += outcome.outcome == packet_outcome_t::RECEIVED && addressed ? 1 : 0;
   }
   EXPECT_EQ(bench.outcomes.size(), accepted.size() * (kVehicles - 1));
   EXPECT_EQ(bench.receives.size(), static_cast<std::size_t>(received));

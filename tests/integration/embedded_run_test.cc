@@ -81,7 +81,7 @@ TEST_F(EmbeddedRunTest, PacketsArriveWithTheirDelay) {
     EXPECT_GT(packet.travel_time_s, 0.02);  // the nearest two are 50 m apart
     const double last_bit_s =
         static_cast<double>(packet.departure_utime) * 1e-6 + packet.travel_time_s +
-        durations.at({packet.send_session, packet.packet_sequence}) / packet.doppler_factor;
+        durations.at({packet.send_session, packet.packet_sequence}) / packet.strongest_path_doppler_factor;
     EXPECT_NEAR(static_cast<double>(packet.utime) * 1e-6, last_bit_s, 2e-6);  // utime is rounded
   }
 }

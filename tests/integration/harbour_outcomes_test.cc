@@ -21,7 +21,7 @@ class HarbourOutcomesTest : public testing::EmbeddedTest {
 std::map<int, std::vector<packet_outcome_t>> by_outcome(
     const std::vector<std::pair<std::string, packet_outcome_t>>& outcomes) {
   std::map<int, std::vector<packet_outcome_t>> by_kind;
-  for (const auto& [channel, outcome] : outcomes) by_kind[outcome.packet_fate].push_back(outcome);
+  for (const auto& [channel, outcome] : outcomes) by_kind[outcome.outcome].push_back(outcome);
   return by_kind;
 }
 

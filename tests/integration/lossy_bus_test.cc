@@ -65,7 +65,7 @@ class Auditor {
       servers.insert(outcome.session);
       const bool for_receiver =
           outcome.destination_id == outcome.receiver_id || outcome.destination_id == kBroadcastId;
-      if (outcome.packet_fate != packet_outcome_t::RECEIVED || !for_receiver) return;
+      if (outcome.outcome != packet_outcome_t::RECEIVED || !for_receiver) return;
       delivered.emplace(outcome.source_id, outcome.send_session, outcome.packet_sequence,
                         outcome.receiver_id);
     });

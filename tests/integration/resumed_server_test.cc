@@ -47,7 +47,7 @@ class Auditor {
     bus_.subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& m) {
       ++outcomes[{m.source_id, m.send_session, m.packet_sequence, m.receiver_id}];
       const bool addressed = m.destination_id == m.receiver_id || m.destination_id == kBroadcastId;
-      if (m.packet_fate == packet_outcome_t::RECEIVED && addressed)
+      if (m.outcome == packet_outcome_t::RECEIVED && addressed)
         named.emplace(m.source_id, m.send_session, m.packet_sequence, m.receiver_id);
     });
     bus_.subscribe<modem_receive_t>(bus::channels::kReceive, [this](std::string_view, const auto& m) {

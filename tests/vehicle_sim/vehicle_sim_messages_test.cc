@@ -101,7 +101,7 @@ TEST(VehicleSimMessages, ARayQueryAsksForTheFirstHitOfEachBeam) {
   EXPECT_EQ(query.query_mode, ray_query_t::CLOSEST_HIT);
   EXPECT_EQ(query.offset_m[1], (std::vector<double>{4, 5, 6}));
   EXPECT_EQ(query.direction[1], (std::vector<double>{0, 1, 0}));
-  EXPECT_EQ(query.greatest_range_m, (std::vector<double>{80, 50}));
+  EXPECT_EQ(query.max_range_m, (std::vector<double>{80, 50}));
 }
 
 ray_reply_t reply_of(std::vector<std::int8_t> statuses, std::vector<double> results) {

@@ -88,7 +88,7 @@ class VehicleSimNodeTest : public ::testing::Test {
     reply.num_rays = q.num_rays;
     for (int i = 0; i < q.num_rays; ++i) {
       const double altitude = (bottom_z_ - q.offset_m[i][2]) / q.direction[i][2];
-      const bool hit = altitude <= q.greatest_range_m[i];
+      const bool hit = altitude <= q.max_range_m[i];
       reply.ray_status.push_back(hit ? ray_reply_t::HIT : ray_reply_t::MISS);
       reply.result_m.push_back(hit ? altitude : 0);
     }

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bus/channels.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_process.h"
@@ -64,7 +65,7 @@ class Weather {
   Mover mover(memq, name);
   bus::LockstepTurns turns(memq, mover);
   lockstep_join_t join = turns.introduction();
-  join.joining_life = bus::draw_life() * 1000 + seed;
+  join.incarnation = bus::draw_life() * 1000 + seed;
   const std::string url(bus::kDefaultSyncUrl);
   const auto grants_lcm = bus::open_transport(url), answers_lcm = bus::open_transport(bus::next_port(url));
   bus::Bus ears(*grants_lcm, {name, 0}), mouth(*answers_lcm, {name, 0});

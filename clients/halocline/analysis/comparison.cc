@@ -58,7 +58,7 @@ class Differences {
     level("cutoff", before.cutoff_level_db, after.cutoff_level_db);
     number("range", before.range_m, after.range_m, kRangeStep_m, "{:.1f} m");
     number("duration", before.duration_s, after.duration_s, kDurationStep_s, "{:.3f} s");
-    number("doppler", before.doppler_factor, after.doppler_factor, kFactorStep, "{:.6f}");
+    number("doppler", before.strongest_path_doppler_factor, after.strongest_path_doppler_factor, kFactorStep, "{:.6f}");
     if (before.acquisition_draw != after.acquisition_draw || before.success_draw != after.success_draw)
       add("draws", "");
     if (colliders(before) != colliders(after)) add("colliders", "");
@@ -113,7 +113,7 @@ std::string absent_outcome(const LoggedOutcomes& log, const packet_outcome_t& ot
 }
 
 std::string outcome_text(const packet_outcome_t& outcome) {
-  return outcome_name(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.packet_fate)));
+  return outcome_name(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.outcome)));
 }
 
 }  // namespace

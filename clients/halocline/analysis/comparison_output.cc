@@ -35,7 +35,7 @@ std::vector<std::pair<const char*, double>> numbers_of(const packet_outcome_t& o
           {"snr_db", o.snr_db},
           {"interference_level_db", o.interference_level_db},
           {"sinr_db", o.sinr_db},
-          {"doppler_factor", o.doppler_factor},
+          {"doppler_factor", o.strongest_path_doppler_factor},
           {"acquisition_probability", o.acquisition_probability},
           {"acquisition_draw", o.acquisition_draw},
           {"success_probability", o.success_probability},
@@ -68,7 +68,7 @@ std::string deciding_numbers(const packet_outcome_t& o,
                              const std::function<std::string(std::int32_t)>& name) {
   const std::string others = colliders_of(o, name);
   const std::string beside = others.empty() ? "" : " with " + others;
-  switch (o.packet_fate) {
+  switch (o.outcome) {
     case packet_outcome_t::RECEIVED:
       return fmt::format("success {:.3g} above draw {:.3g} at SINR {:.1f} dB", o.success_probability,
                          o.success_draw, o.sinr_db);
@@ -86,7 +86,7 @@ std::string deciding_numbers(const packet_outcome_t& o,
     case packet_outcome_t::HALF_DUPLEX:
       return "the receiver itself sent " + others;
     case packet_outcome_t::DOPPLER:
-      return fmt::format("Doppler factor {:.6f} is beyond the modem's tolerance", o.doppler_factor);
+      return fmt::format("Doppler factor {:.6f} is beyond the modem's tolerance", o.strongest_path_doppler_factor);
     case packet_outcome_t::COLLIDED:
       if (o.success_probability == 0) return "the receiver followed " + others;
       [[fallthrough]];

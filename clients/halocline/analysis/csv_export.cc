@@ -12,19 +12,12 @@
 #include <utility>
 
 #include "bus/logs/channel_types.h"
-#include "clients/halocline/analysis/message_fields.h"
+#include "bus/message_fields.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 
 namespace halocline::clients {
 namespace {
-
-template <class T>
-struct IsVector : std::false_type {};
-template <class T>
-struct IsVector<std::vector<T>> : std::true_type {};
-template <class T>
-inline constexpr bool kIsVector = IsVector<T>::value;
 
 template <class T>
 inline constexpr bool kIsBytes = std::is_same_v<T, std::vector<std::uint8_t>>;
@@ -33,8 +26,8 @@ inline constexpr bool kIsBytes = std::is_same_v<T, std::vector<std::uint8_t>>;
 struct RowCounter {
   std::size_t rows = 1;
   template <class T>
-  void operator()(const char*, const T& value) {
-    if constexpr (kIsVector<T> && !kIsBytes<T>) rows = std::max(rows, value.size());
+  void operator()(const MessageField&, const T& value) {
+    if constexpr (kIsList<T> && !kIsBytes<T>) rows = std::max(rows, value.size());
   }
 };
 
@@ -63,8 +56,9 @@ class RowWriter {
   RowWriter(std::string& line, What what, std::size_t row) : line_(line), what_(what), row_(row) {}
 
   template <class T>
-  void operator()(const char* name, const T& value) {
-    write(prefix_ + name, value);
+  void operator()(const MessageField& field, const T& value) {
+    inner_ = field.inner;
+    write(prefix_ + std::string(field.name), value);
   }
 
  private:
@@ -78,7 +72,7 @@ class RowWriter {
       cell(name, [&] { return hexadecimal(value); });
     } else if constexpr (std::is_array_v<T>) {
       for (std::size_t i = 0; i < std::extent_v<T>; ++i) write(name + "_" + std::to_string(i), value[i]);
-    } else if constexpr (kIsVector<T>) {
+    } else if constexpr (kIsList<T>) {
       write_element(name, value);
     } else {
       const std::string outer = std::exchange(prefix_, name + ".");
@@ -87,13 +81,13 @@ class RowWriter {
     }
   }
 
-  // The element of this row; empty cells where the list has ended. Points within lists have three elements.
+  // The element of this row; empty cells where the list has ended.
   template <class Element>
   void write_element(const std::string& name, const std::vector<Element>& list) {
     const bool ended = row_ >= list.size();
     const bool outer_blank = std::exchange(blank_, blank_ || ended);
-    if constexpr (kIsVector<Element>) {
-      for (std::size_t i = 0; i < 3; ++i)
+    if constexpr (kIsList<Element>) {
+      for (std::size_t i = 0; i < inner_; ++i)
         write(name + "_" + std::to_string(i), ended ? 0.0 : list[row_].at(i));
     } else {
       write(name, ended ? Element{} : list[row_]);
@@ -115,6 +109,7 @@ class RowWriter {
   What what_;
   std::size_t row_;
   std::string prefix_;
+  std::size_t inner_ = 1;  // of the field that is written
   bool blank_ = false;
 };
 

@@ -7,17 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/logs/channel_types.h"
+#include "bus/message_fields.h"
 
 namespace halocline::clients {
 namespace {
 
-constexpr std::array<const char*, LogStatistics::kReceiptResults> kReceiptNames{
-    "accepted",           "refused: busy",  "refused: too large", "refused: unknown vehicle",
-    "refused: wrong id",  "refused: stale", "refused: too early", "queued",
-    "refused: queue full"};
-constexpr std::array<const char*, kOutcomes> kOutcomeNames{
-    "received", "below cut-off", "receiver gone", "in a shadow", "blocked by terrain", "out of band",
-    "collided", "half duplex",   "doppler",       "bit errors",  "not acquired"};
+constexpr auto& kReceiptNames = kModemReceiptReceiptResultNames;
+constexpr auto& kOutcomeNames = kPacketOutcomeOutcomeNames;
 
 std::map<std::string, std::int64_t> by_family(const LogStatistics& s) {
   std::map<std::string, std::int64_t> families;
@@ -63,7 +59,7 @@ void LogStatistics::count_message(const LoggedEvent& event, const Message& messa
     ++packets_delivered;
     if (message.stamped != 0) travel_times_s.push_back(message.travel_time_s);
   } else if constexpr (std::is_same_v<Message, packet_outcome_t>) {
-    ++outcomes.at(static_cast<std::size_t>(message.packet_fate));
+    ++outcomes.at(static_cast<std::size_t>(message.outcome));
   }
 }
 

@@ -36,7 +36,7 @@ void OutcomeSummary::count(const packet_outcome_t& outcome) {
     ++repeated_;
     return;
   }
-  const auto number = static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.packet_fate));
+  const auto number = static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.outcome));
   const std::int64_t departure = outcome.departure_utime;
   const std::int64_t into_window = ((departure % window_us_) + window_us_) % window_us_;
   ++total_.at(number);

@@ -22,7 +22,7 @@
 
 namespace halocline::clients {
 
-using OutcomeCounts = std::array<std::int64_t, kOutcomes>;  // by packet_outcome_t.packet_fate
+using OutcomeCounts = std::array<std::int64_t, kOutcomes>;  // by packet_outcome_t.outcome
 
 class OutcomeSummary {
  public:

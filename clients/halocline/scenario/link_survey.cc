@@ -37,8 +37,7 @@ std::vector<RayAnswer> query(const bathymetry::Terrain& terrain, bathymetry::Que
                              const std::vector<TerrainRay>& rays) {
   if (rays.empty()) return {};
   bathymetry::RayBatch batch{.mode = mode};
-  for (const TerrainRay& ray : rays)
-    batch.rays.push_back({ray.origin_ned_m, ray.direction, ray.greatest_range_m});
+  for (const TerrainRay& ray : rays) batch.rays.push_back({ray.origin_ned_m, ray.direction, ray.max_range_m});
   const auto answers = bathymetry::answer(terrain, bathymetry::version_text(terrain.version()), batch);
   std::vector<RayAnswer> out;
   for (std::size_t i = 0; i < answers.statuses.size(); ++i) {

@@ -62,7 +62,7 @@ void add_delivery(const OutcomeSummary& outcomes, RunMetrics& metrics, std::vect
                   std::vector<double>& latencies) {
   for (const packet_outcome_t& o : outcomes.outcomes()) {
     if (o.destination_id != 0 && o.destination_id != o.receiver_id) continue;
-    const bool received = o.packet_fate == packet_outcome_t::RECEIVED;
+    const bool received = o.outcome == packet_outcome_t::RECEIVED;
     Delivered& pair = metrics.by_pair[{outcomes.name(o.source_id), outcomes.name(o.receiver_id)}];
     for (Delivered* count : {&metrics.all, &pair}) {
       ++count->packets;

@@ -208,12 +208,12 @@ TEST(LockstepConductor, AParticipantOfAnotherScenarioIsPutOut) {
   LockstepConductor conductor({.expected = {"a"}, .end = kEnd, .scenario_digest = "this"}, 5, mouth);
   conductor.start();
   lockstep_join_t join{};
-  join.joining_life = 9;
+  join.incarnation = 9;
   join.participant_name = "a";
   join.scenario_digest = "that";
   conductor.on_join(join, SimTime());
   ASSERT_EQ(notices.size(), 1u);
-  EXPECT_EQ(notices[0].notice_kind, lockstep_notice_t::PUT_OUT);
+  EXPECT_EQ(notices[0].notice_kind, lockstep_notice_t::EXPELLED);
   EXPECT_THAT(conductor.waiting_for(), Contains("a"));
 }
 

@@ -154,7 +154,7 @@ void SimulatedLockstep::start_participant(std::size_t index) {
   process->node = make_node(process->memq, cast_, index);
   process->turns = std::make_unique<bus::LockstepTurns>(process->memq, *process->node);
   lockstep_join_t join = process->turns->introduction();
-  join.joining_life = next_life_++;
+  join.incarnation = next_life_++;
   bus::LockstepTurns* turns = process->turns.get();
   bus::LockstepParticipant::Mouth mouth;
   mouth.join = [this](const lockstep_join_t& m) {

@@ -23,7 +23,7 @@ lockstep_turn_t turn_at(SimTime instant, SimTime horizon = SimTime::at_once()) {
   lockstep_turn_t turn{};
   turn.instant_ns = instant.nanoseconds();
   turn.horizon_ns = horizon.nanoseconds();
-  turn.most_steps = -1;
+  turn.max_steps = -1;
   return turn;
 }
 
@@ -36,13 +36,13 @@ lockstep_message_t message_on(const std::string& channel) {
 }
 
 void add_heard(lockstep_turn_t& turn, const std::string& channel) {
-  turn.heard.push_back(message_on(channel));
-  turn.num_heard = static_cast<std::int32_t>(turn.heard.size());
+  turn.inputs.push_back(message_on(channel));
+  turn.num_inputs = static_cast<std::int32_t>(turn.inputs.size());
 }
 
 std::vector<std::string> channels_said(const lockstep_result_t& result) {
   std::vector<std::string> channels;
-  for (const auto& said : result.said) channels.push_back(said.channel_name);
+  for (const auto& said : result.outputs) channels.push_back(said.channel_name);
   return channels;
 }
 
@@ -65,14 +65,14 @@ TEST_F(LockstepTurnsTest, WhoIsNotDueDoesNotStep) {
   turns_.take(turn_at(at_ms(0)));
   const lockstep_result_t result = turns_.take(turn_at(at_ms(50)));
   EXPECT_EQ(result.num_steps, 0);
-  EXPECT_THAT(result.said, IsEmpty());
+  EXPECT_THAT(result.outputs, IsEmpty());
 }
 
 TEST_F(LockstepTurnsTest, AWindowHoldsAllInstantsBeforeTheHorizon) {
   const lockstep_result_t result = turns_.take(turn_at(at_ms(0), at_ms(300)));
   EXPECT_EQ(result.num_steps, 3);
   EXPECT_EQ(result.reached_ns, at_ms(200).nanoseconds());
-  EXPECT_EQ(result.said.back().instant_ns, at_ms(200).nanoseconds());
+  EXPECT_EQ(result.outputs.back().instant_ns, at_ms(200).nanoseconds());
 }
 
 TEST_F(LockstepTurnsTest, AWindowEndsWithTheStepThatSaysWhatSomebodyMustHear) {
@@ -84,9 +84,9 @@ TEST_F(LockstepTurnsTest, AWindowEndsWithTheStepThatSaysWhatSomebodyMustHear) {
 
 TEST_F(LockstepTurnsTest, ReplayedTurnsTakeAsManyStepsAsTheyDid) {
   lockstep_turn_t turn = turn_at(at_ms(0), at_ms(300));
-  turn.most_steps = 2;
+  turn.max_steps = 2;
   EXPECT_EQ(turns_.take(turn).num_steps, 2);
-  turn.most_steps = 0;
+  turn.max_steps = 0;
   EXPECT_EQ(turns_.take(turn).num_steps, 0);
 }
 
@@ -102,9 +102,9 @@ TEST_F(LockstepTurnsTest, TwoLivesThatHearTheSameHaveTheSameDigest) {
   std::vector<std::string> other_journal;
   TickingNode other(other_memq, "a", SimDuration::from_milliseconds(100), other_journal);
   LockstepTurns again(other_memq, other);
-  std::int64_t windowed = again.take(turn_at(at_ms(0), at_ms(500))).said_digest;
+  std::int64_t windowed = again.take(turn_at(at_ms(0), at_ms(500))).outputs_digest;
   std::int64_t one_by_one = 0;
-  for (int ms = 0; ms < 500; ms += 100) one_by_one = turns_.take(turn_at(at_ms(ms))).said_digest;
+  for (int ms = 0; ms < 500; ms += 100) one_by_one = turns_.take(turn_at(at_ms(ms))).outputs_digest;
   EXPECT_EQ(windowed, one_by_one);
 }
 

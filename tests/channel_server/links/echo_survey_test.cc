@@ -49,7 +49,7 @@ TEST(EchoSurvey, AsksForBothWaysFromTheEndsDownAndStopsShortOfTheBottom) {
   EXPECT_EQ(rays[1].origin_ned_m, kTo);
   const Vec3 first_point(150, 0, 200);
   EXPECT_LT((rays[0].direction - (first_point - kFrom)).norm(), tolerance(1e-9));
-  EXPECT_NEAR(rays[0].greatest_range_m, (first_point - kFrom).norm() - EchoSurvey::kShortOfBottomM,
+  EXPECT_NEAR(rays[0].max_range_m, (first_point - kFrom).norm() - EchoSurvey::kShortOfBottomM,
               tolerance(1e-9));
 }
 
@@ -58,7 +58,7 @@ TEST(EchoSurvey, AnEndOnTheBottomAsksNoImpossibleRay) {
   survey.take_depths(same_answer(1, {Kind::kHit, 100}));
   for (const TerrainRay& ray : survey.way_rays()) {
     EXPECT_GT(ray.direction.norm(), 0);
-    EXPECT_GT(ray.greatest_range_m, 0);
+    EXPECT_GT(ray.max_range_m, 0);
   }
 }
 

@@ -103,7 +103,7 @@ class Sea : public bus::Node {
     reply.destination_id = reply.receiver_id = 1;
     reply.packet_kind = modem_receive_t::PING_REPLY;
     reply.two_way_travel_time_s = out_s + back_s;
-    reply.doppler_factor = 1;
+    reply.strongest_path_doppler_factor = 1;
     bus().publish(bus::channels::kReceive.of("auv"), reply);
   }
 

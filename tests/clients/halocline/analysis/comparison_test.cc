@@ -21,11 +21,11 @@ packet_outcome_t outcome(std::int64_t sequence, std::int8_t result, std::int32_t
   o.packet_sequence = sequence;
   o.source_id = 1;
   o.receiver_id = receiver;
-  o.packet_fate = result;
+  o.outcome = result;
   o.received_level_db = 100;
   o.noise_level_db = 80;
   o.interference_level_db = -300;
-  o.doppler_factor = 1;
+  o.strongest_path_doppler_factor = 1;
   o.success_probability = result == packet_outcome_t::RECEIVED ? 0.9 : 0.1;
   o.success_draw = 0.5;
   o.acquisition_draw = 0.5;
@@ -124,7 +124,7 @@ TEST_F(ComparisonTest, ARefusalExplainsAMissingOutcome) {
   after_.add(1, "OUTCOME", outcome(5, packet_outcome_t::RECEIVED));
   const Comparison comparison = compared();
   ASSERT_EQ(comparison.rows().size(), 2u);
-  EXPECT_EQ(comparison.rows()[0].outcome_after, "refused: too large");
+  EXPECT_EQ(comparison.rows()[0].outcome_after, "refused too large");
   EXPECT_EQ(comparison.rows()[1].outcome_before, "undecided at the end");
 }
 
@@ -159,9 +159,9 @@ TEST_F(ComparisonTest, TablesHoldARowAPacketAndReceiverAndJsonTheChanged) {
   print_csv(csv, comparison);
   const std::string text = csv.str();
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
-  EXPECT_THAT(text, HasSubstr("1,2,all,7,0,received,in a shadow,1,,"));
+  EXPECT_THAT(text, HasSubstr("1,2,all,7,0,received,shadow,1,,"));
   const std::string json = to_json(comparison);
-  EXPECT_THAT(json, HasSubstr("\"after\": \"in a shadow\""));
+  EXPECT_THAT(json, HasSubstr("\"after\": \"shadow\""));
   EXPECT_THAT(json, HasSubstr("\"changed\": 1"));
 }
 

@@ -33,7 +33,7 @@ packet_outcome_t outcome(std::int8_t result) {
   packet_outcome_t message{};
   message.source_id = 2;
   message.receiver_id = 1;
-  message.packet_fate = result;
+  message.outcome = result;
   return message;
 }
 
@@ -69,7 +69,7 @@ TEST(LogStatistics, OutcomesAreCounted) {
   file.add(1, "OUTCOME", outcome(packet_outcome_t::BELOW_CUTOFF));
   std::ostringstream text;
   print(text, of(file));
-  EXPECT_THAT(text.str(), HasSubstr("1 received, 2 below cut-off"));
+  EXPECT_THAT(text.str(), HasSubstr("1 received, 2 below cutoff"));
 }
 
 TEST(LogStatistics, ForeignEventsAreCountedApart) {

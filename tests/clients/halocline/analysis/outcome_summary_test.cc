@@ -27,8 +27,8 @@ packet_outcome_t outcome(std::int32_t from, std::int32_t to, std::int64_t sequen
   o.receiver_id = to;
   o.packet_sequence = sequence;
   o.departure_utime = departure_utime;
-  o.packet_fate = result;
-  o.doppler_factor = 1;
+  o.outcome = result;
+  o.strongest_path_doppler_factor = 1;
   return o;
 }
 

@@ -16,7 +16,7 @@ packet_outcome_t outcome(std::int64_t sequence, std::int32_t destination, std::i
   o.destination_id = destination;
   o.receiver_id = receiver;
   o.packet_sequence = sequence;
-  o.packet_fate = result;
+  o.outcome = result;
   o.departure_utime = 1'000'000;
   o.utime = 1'000'000 + 2 * static_cast<std::int64_t>(travel_time_s * 1e6);
   o.travel_time_s = travel_time_s;
@@ -62,7 +62,7 @@ TEST(RunMetrics, ThroughputIsPayloadOverTheRun) {
   packet.destination_id = 2;
   packet.payload_size = 100;
   packet.payload.resize(100);
-  packet.doppler_factor = 1;
+  packet.strongest_path_doppler_factor = 1;
   file.add(1, "RECEIVE.auv-2", packet);
   file.add(40'000'000, "CLOCK", testing::clock_at(40'000'000));
   EXPECT_DOUBLE_EQ(of(file)[RunNumber::kThroughput], 20);
