@@ -65,7 +65,7 @@ link_t to_message(const LinkRow& row) {
   message.propagation_used = static_cast<std::int8_t>(row.used);
   message.num_paths = row.path_count;
   message.delay_spread_s = row.delay_spread_s;
-  message.doppler_factor = row.doppler_factor;
+  message.first_path_doppler_factor = row.doppler_factor;
   return message;
 }
 
@@ -112,7 +112,7 @@ ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimT
   for (const TerrainRay& ray : batch.rays) {
     message.offset_m.push_back(as_vector(ray.origin_ned_m));
     message.direction.push_back(as_vector(ray.direction));
-    message.greatest_range_m.push_back(ray.greatest_range_m);
+    message.max_range_m.push_back(ray.max_range_m);
   }
   return message;
 }

@@ -21,7 +21,7 @@ Message of_packet_end(const PacketEnd& end, SimTime at) {
   message.travel_time_s = end.travel_time_s;
   message.received_level_db = end.budget.received_level.value;
   message.snr_db = end.budget.snr.value;
-  message.doppler_factor = end.doppler_factor;
+  message.strongest_path_doppler_factor = end.doppler_factor;
   message.sinr_db = end.judgement.sinr.value;
   return message;
 }
@@ -72,7 +72,7 @@ ping_answer_t to_message(const PingAnswer& answer, SimTime at) {
   message.utime = at.to_utime();
   message.answering_vehicle = answer.request.vehicle;
   message.answering_id = answer.request.source_id;
-  message.asking_id = answer.request.destination_id;
+  message.ping_source_id = answer.request.destination_id;
   message.ping_session = answer.request.session;
   message.ping_sequence = answer.request.packet_sequence;
   message.answer_start_ns = answer.request.start.nanoseconds();
@@ -85,7 +85,7 @@ PingAnswer to_answer(const ping_answer_t& message) {
   PingAnswer answer;
   answer.request.vehicle = message.answering_vehicle;
   answer.request.source_id = message.answering_id;
-  answer.request.destination_id = message.asking_id;
+  answer.request.destination_id = message.ping_source_id;
   answer.request.session = message.ping_session;
   answer.request.packet_sequence = message.ping_sequence;
   answer.request.start = SimTime::from_nanoseconds(message.answer_start_ns);
@@ -109,7 +109,7 @@ modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at) {
 
 packet_outcome_t to_outcome(const PacketEnd& end, SimTime at) {
   auto message = of_packet_end<packet_outcome_t>(end, at);
-  message.packet_fate = static_cast<std::int8_t>(end.fate);
+  message.outcome = static_cast<std::int8_t>(end.fate);
   message.duration_s = end.packet->timing.duration.seconds();
   message.range_m = end.budget.range_m;
   message.transmission_loss_db = end.budget.transmission_loss.value;
@@ -151,7 +151,7 @@ std::string identity_of(const packet_outcome_t& m) {
 }
 
 std::string identity_of(const ping_answer_t& m) {
-  return joined({m.answering_id, m.asking_id, m.ping_session, m.ping_sequence, m.answer_start_ns});
+  return joined({m.answering_id, m.ping_source_id, m.ping_session, m.ping_sequence, m.answer_start_ns});
 }
 
 }  // namespace halocline::channel_server

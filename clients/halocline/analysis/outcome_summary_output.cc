@@ -124,10 +124,10 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
     fmt::print(out, "{:.3f},{:.3f},{},{},{},{},{}", in_seconds(o.departure_utime), in_seconds(o.utime),
                summary.name(o.source_id), summary.name(o.receiver_id),
                o.destination_id == 0 ? "all" : summary.name(o.destination_id), o.packet_sequence,
-               outcome_name(static_cast<std::size_t>(o.packet_fate)));
+               outcome_name(static_cast<std::size_t>(o.outcome)));
     for (const double number :
          {o.travel_time_s, o.range_m, o.received_level_db, o.cutoff_level_db, o.noise_level_db, o.snr_db,
-          o.interference_level_db, o.sinr_db, o.doppler_factor, static_cast<double>(o.num_paths),
+          o.interference_level_db, o.sinr_db, o.strongest_path_doppler_factor, static_cast<double>(o.num_paths),
           o.delay_spread_s, o.acquisition_probability, o.acquisition_draw, o.success_probability,
           o.success_draw}) {
       out << ',' << format_number(number);
