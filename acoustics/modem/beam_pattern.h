@@ -28,7 +28,6 @@ class BeamPattern {
   // 1..kMaxBeamRows rows. Throws InvalidArgument, naming the row, unless rows are in range and rise.
   explicit BeamPattern(std::vector<BeamRow> rows);
 
-  bool is_omnidirectional() const { return rows_.empty(); }
   Decibels loss(double elevation_rad) const;
   // On pressure: 10^(-loss/20).
   double factor(double elevation_rad) const;

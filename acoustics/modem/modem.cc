@@ -66,6 +66,7 @@ PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes) {
   require(payload_bytes <= max_payload_bytes(modem), "a payload of " + std::to_string(payload_bytes) +
                                                          " bytes; allowed is at most " +
                                                          std::to_string(max_payload_bytes(modem)));
+  // Duration = overhead + (coded header + coded body, each with its tail) / bit rate.
   const FrameLayout& layout = modem.layout;
   const std::int64_t body_bits = kBitsPerByte * sent_bytes(layout, static_cast<std::int64_t>(payload_bytes));
   const std::int64_t bits = block_bits(layout, layout.header_bits) + block_bits(layout, body_bits);
@@ -83,11 +84,13 @@ std::size_t max_payload_bytes(const Modem& modem) {
 double acquisition_probability(const Modem& modem, PowerRatio sinr) {
   require(sinr.value >= 0, "a signal-to-noise ratio must not be negative or NaN");
   if (modem.preamble == SimDuration()) return 1;
+  // Energy of the preamble over the noise density: T B SNR.
   const double time_bandwidth = modem.preamble.seconds() * modem.bandwidth_hz;
   return detection_probability(modem.preamble_pieces, kFalseAlarmProbability, {time_bandwidth * sinr.value});
 }
 
 double bit_error_rate(const Modem& modem, PowerRatio sinr) {
+  // Eb / N0 = SNR B / R.
   return bit_error_rate(modem.error_model, PowerRatio{sinr.value * modem.bandwidth_hz / modem.bit_rate_bps});
 }
 

@@ -1,4 +1,4 @@
-// The quick follower of rays against the one that says everything.
+// The fast fan tracer against the tracer of eigenrays.
 #include "acoustics/rays/fan_tracer.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ TEST_P(FanOverSeas, RaysArriveWhereTheExactTracerSaysByTheSameEvents) {
   const auto& [name, knots, bottom, link] = GetParam();
   const RayWater water = water_of(knots);
   RayOptions options;
-  options.min_boundary_factor = 0;  // when faint rays are given up the two say for themselves
+  options.min_boundary_factor = 0;  // the two give up faint rays each by its own rule
   const ProfiledSea sea{water, bottom, fluid_bottom(1.9, 1650, 0.8), RaySurface{}, options};
   const ArcTracer exact(sea, link);
   FanTracer quick(exact);
