@@ -1,4 +1,4 @@
-// How often a modem decides an information bit wrongly, by the name of its modulation and code.
+// Bit error rate of an information bit, by the name of modulation and code.
 //
 // Eb is always the energy of an information bit, so a model with a code (bits of the air carry less each) and
 // one without compare fairly. Each model's formula, source and limits: bit_error.h, convolutional_code.h,

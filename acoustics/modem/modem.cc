@@ -14,8 +14,7 @@ constexpr double kMaxBits = 1e6;
 void validate(const FrameLayout& layout) {
   require_in_range(layout.header_bits, 0, kMaxBits, "header", "bits");
   require_in_range(layout.tail_bits, 0, kMaxBits, "tail of a coded block", "bits");
-  require_in_range(layout.frame_bytes, 0, 32'768, "frame", "bytes");
-  require_in_range(layout.max_bytes, 0, 32'768, "largest payload", "bytes");
+  require_in_range(layout.frame_bytes, 0, kMaxPayloadBytes, "frame", "bytes");
   require_in_range(layout.max_frames, layout.frame_bytes > 0 ? 1 : 0, 1024, "frames of a packet");
 }
 
@@ -77,7 +76,7 @@ PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes) {
 std::size_t max_payload_bytes(const Modem& modem) {
   const FrameLayout& layout = modem.layout;
   const std::int64_t most = layout.frame_bytes > 0 ? std::int64_t{layout.frame_bytes} * layout.max_frames
-                                                   : std::int64_t{layout.max_bytes};
+                                                   : std::int64_t{kMaxPayloadBytes};
   return static_cast<std::size_t>(most);
 }
 

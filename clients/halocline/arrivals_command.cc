@@ -51,7 +51,10 @@ int find_arrivals(const ArrivalsArguments& arguments) {
   if (!arguments.plot.empty()) write_plot(arrival_plot(found, "Arrivals"), arguments.plot);
   std::ostringstream text;  // so that nothing is written unless all went well
   print_arrivals(text, found, format_of(arguments.format));
-  if (arguments.output.empty()) return std::cout << text.str() << std::flush, kDone;
+  if (arguments.output.empty()) {
+    std::cout << text.str() << std::flush;
+    return kDone;
+  }
   write_text(arguments.output, text.str());
   return kDone;
 }
@@ -84,9 +87,9 @@ void add_ray_options(CLI::App& command, ArrivalsArguments& arguments) {
   command.add_option("--max-launch-angle-deg", arguments.sea.max_launch_angle_deg, "from the horizontal");
   command.add_flag("--steep-direct", arguments.sea.keep_steep_direct, "keep the direct path however steep");
   command.add_option("--max-bounces", arguments.sea.max_bounces, "surface and bottom together");
-  command.add_option("--least-boundary-factor", arguments.sea.min_boundary_factor,
+  command.add_option("--min-boundary-factor", arguments.sea.min_boundary_factor,
                      "paths whose bounces leave less of the pressure are dropped");
-  command.add_option("--least-amplitude-db", arguments.sea.min_amplitude_db, "paths below are dropped");
+  command.add_option("--min-amplitude-db", arguments.sea.min_amplitude_db, "paths below are dropped");
   command.add_option("--solver", arguments.solver, "auto, images, snell or arcs");
 }
 

@@ -65,7 +65,7 @@ TEST(BitError, RayleighIsTheMeanOverExponentialPowers) {
   }
 }
 
-TEST(BitError, GuessesWithoutSignalAndIsSureWithoutNoise) {
+TEST(BitError, IsOneHalfWithoutSignalAndZeroWithoutNoise) {
   for (const ErrorModel model : kErrorModels) {
     if (model == ErrorModel::kNone) continue;
     EXPECT_DOUBLE_EQ(bit_error_rate(model, {0}), 0.5) << to_name(model);

@@ -57,7 +57,7 @@ TEST(ExtrapolateArrivals, IsExactInWaterOfOneSpeedOverALevelBottom) {
   EXPECT_GT(compared, 15);
 }
 
-TEST(ExtrapolateArrivals, TheWayBackIsCarriedAlike) {
+TEST(ExtrapolateArrivals, TheReverseLinkIsExtrapolatedAlike) {
   const RaySea sea = layered_sea();
   const RayLink from{30, 55, 800}, to{33, 52, 830};
   const auto there = extrapolate(sea, from, to),
@@ -130,7 +130,7 @@ TEST(ExtrapolateArrivals, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStr
   EXPECT_GT(std::log2(half / quarter), 1.6);
 }
 
-TEST(ExtrapolateArrivals, PathsComeByTheirDelays) {
+TEST(ExtrapolateArrivals, PathsAreInTheOrderOfTheirDelays) {
   const auto paths = extrapolate(layered_sea(), {30, 55, 800}, {31, 58, 700});
   ASSERT_GT(paths.size(), 5u);
   EXPECT_TRUE(std::is_sorted(paths.begin(), paths.end(),

@@ -46,7 +46,7 @@ class FanOverSeas : public ::testing::TestWithParam<Sea> {};
 
 // Both follow the same arcs and add in another order: 1e-7 m and 1e-7 of the slope is what rounding can do over some
 // kilometres, 1000 times what was seen (2.5e-11 m, 2e-12).
-TEST_P(FanOverSeas, RaysArriveWhereTheExactTracerSaysByTheSameEvents) {
+TEST_P(FanOverSeas, RaysArriveAsByTheExactTracerWithTheSameEvents) {
   const auto& [name, knots, bottom, link] = GetParam();
   const RayWater water = water_of(knots);
   RayOptions options;

@@ -202,7 +202,7 @@ TEST(LayeredRays, NoPathIsSteeperThanTheLimitUnlessSteepOnesAreKept) {
   }
 }
 
-TEST(LayeredRays, EndsOfOneDepthInALayerOfOneSpeedSeeEachOtherStraight) {
+TEST(LayeredRays, EndsOfOneDepthInALayerOfOneSpeedHaveAStraightHorizontalRay) {
   const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
   for (const double depth : {50.0, 75.0, 99.0}) {
     const Arrivals found = arrivals(sea, {depth, depth, 1200});
@@ -258,7 +258,7 @@ TEST(LayeredRays, FoldsHaveFiniteLevels) {
   EXPECT_LT(loudest, 0.1);  // 20 dB above a free field at 100 m, at ten times the range
 }
 
-TEST(LayeredRays, TheUserSetsBouncesAndLeastAmplitude) {
+TEST(LayeredRays, OptionsLimitBouncesAndAmplitude) {
   RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
   const std::size_t all = arrivals(sea, {20, 80, 2000}).paths.size();
   sea.options.max_bounces = 3;
