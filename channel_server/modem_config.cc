@@ -1,40 +1,65 @@
 #include "channel_server/modem_config.h"
 
-#include "acoustics/modem/modem_profile.h"
+#include <filesystem>
+
+#include "channel_server/built_in_modems.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
 namespace {
 
-// A profile or rate other than the modem's starts anew from the profile's numbers.
+// A profile other than the modem's starts anew from the profile's numbers.
 void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
-  const acoustics::Modem& a = m.modem;
-  acoustics::ModemProfile profile = a.profile;
-  bus::choice(v, "profile", profile, bus::names_of(acoustics::kModemProfiles),
-              "whose numbers hold where the keys below are not given");
-  std::int32_t rate = a.psk_rate;
-  if (profile != a.profile) {
-    rate = profile == acoustics::ModemProfile::kMicromodemPsk ? acoustics::kDefaultPskRate : 0;
-  }
-  bus::integer_as(v, "psk_rate", rate,
-                  {0, 5, "", "packet type of micromodem-psk: 1, 2, 4 or 5; 0 elsewhere"});
-  if (profile == a.profile && rate == a.psk_rate) return;
-  bus::report_refusal(v, "psk_rate", [&] {
-    m.modem = acoustics::profile_modem(profile, rate);
-    require(m.modem.psk_rate == rate, "psk_rate is of micromodem-psk alone; allowed is 0");
+  std::string profile = m.profile;
+  v.text("profile", profile, {},
+         "whose numbers hold where the keys below are not given: a file of models/modems by its name, or the "
+         "path of one");
+  if (v.writing() || profile == m.profile) return;
+  bus::report_refusal(v, "profile", [&] {
+    const WhenBusy when_busy = m.when_busy;
+    m = load_modem(profile, v.folder());
+    m.when_busy = when_busy;
   });
-  m.max_payload_bytes = static_cast<std::int32_t>(largest_payload_bytes({.modem = m.modem}));
+}
+
+// Levels, band and rate.
+void visit_signal(bus::ConfigVisitor& v, acoustics::Modem& a) {
+  v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "strength"});
+  v.number("cutoff_level_db", a.min_receivable_level.value,
+           {-200, 250, "dB re 1 uPa", "least receivable level"});
+  v.number("center_frequency_hz", a.centre_frequency_hz, {10, 1e6, "Hz", "centre of the band"});
+  v.number("bandwidth_hz", a.bandwidth_hz, {1e-3, 2e6, "Hz", "width of the band, below twice its centre"});
+  v.number("directivity_index_db", a.directivity_index.value, {0, 40, "dB", "gain of reception over noise"});
+  v.number("bit_rate_bps", a.bit_rate_bps, {1e-3, 1e7, "bit/s", "of the payload; generic alone"});
+  bus::seconds(v, "packet_overhead_s", a.packet_overhead,
+               {0, 60, "s", "preamble and header of a packet; generic alone"});
+}
+
+// How a packet is put together: of a profile's file alone.
+void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
+  acoustics::FrameLayout& layout = a.layout;
+  bus::integer_as(v, "preamble_pieces", a.preamble_pieces,
+                  {1, 256, "", "of the preamble, matched each and added without phase"});
+  bus::integer_as(v, "header_bits", layout.header_bits, {0, 1e6, "bits", "a coded block before the payload"});
+  bus::integer_as(v, "tail_bits", layout.tail_bits, {0, 1e6, "bits", "that end each coded block"});
+  bus::integer_as(v, "frame_bytes", layout.frame_bytes, {0, 32768, "bytes", "sent whole; 0: no frames"});
+  bus::integer_as(v, "max_frames", layout.max_frames, {0, 1024, "", "of a packet with frames"});
 }
 
 // How a packet is received, once it is strong enough.
 void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::seconds(v, "preamble_s", a.preamble,
-               {0, 60, "s", "first part of the overhead, by which a packet is noticed; 0: always noticed"});
+               {0, 60, "s", "first part of the overhead, by which a packet is detected; 0: always detected"});
   bus::seconds(v, "guard_time_s", a.guard_time,
                {0, 10, "s", "echoes up to this late add to the signal, later ones interfere"});
   v.number("doppler_tolerance", a.doppler_tolerance, {0, 1, "", "greatest |f_rx / f_tx - 1| received"});
   bus::choice(v, "error_model", a.error_model, bus::names_of(acoustics::kErrorModels),
               "how often bits are wrong");
+}
+
+void visit_max_payload(bus::ConfigVisitor& v, VehicleModem& m) {
+  bus::integer_as(v, "max_payload_bytes", m.max_payload_bytes,
+                  {0, acoustics::kMaxPayloadBytes, "bytes", "largest payload of a packet"});
 }
 
 void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
@@ -46,7 +71,7 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
   bus::degrees(v, "beam_elevation_deg", elevations_rad,
                {-90, 90, "deg", "of beam_loss_db, positive down, rising; none: omnidirectional"});
   v.numbers("beam_loss_db", losses_db,
-            {-60, 200, "dB", "of the transducer re source and cut-off level, sending and hearing"});
+            {-60, 200, "dB", "of the transducer re source and cut-off level, in transmission and reception"});
   if (!v.given("beam_elevation_deg") && !v.given("beam_loss_db")) return;
   if (elevations_rad.size() != losses_db.size()) {
     return v.problem("beam_loss_db", "as many numbers as beam_elevation_deg has");
@@ -60,31 +85,83 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
   });
 }
 
-}  // namespace
-
-void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
-  acoustics::Modem& a = m.modem;
-  visit_profile(v, m);
-  v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "strength"});
-  v.number("cutoff_level_db", a.min_receivable_level.value,
-           {-200, 250, "dB re 1 uPa", "least receivable level"});
-  v.number("center_frequency_hz", a.centre_frequency_hz, {10, 1e6, "Hz", "centre of the band"});
-  v.number("bandwidth_hz", a.bandwidth_hz, {1e-3, 2e6, "Hz", "width of the band, below twice its centre"});
-  v.number("directivity_index_db", a.directivity_index.value, {0, 40, "dB", "gain of reception over noise"});
-  v.number("bit_rate_bps", a.bit_rate_bps, {1e-3, 1e7, "bit/s", "of the payload; generic alone"});
-  bus::seconds(v, "packet_overhead_s", a.packet_overhead,
-               {0, 60, "s", "preamble and header of a packet; generic alone"});
-  bus::integer_as(v, "max_payload_bytes", m.max_payload_bytes,
-                  {0, 32768, "bytes", "largest payload of a packet"});
-  visit_reception(v, a);
-  visit_beam(v, a.beam);
-  bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "asked to send while sending");
-  bus::report_refusal(v, "profile", [&] { validate_profile(a); });
+// The values that rules on single keys cannot see.
+void check_as_a_whole(bus::ConfigVisitor& v, const acoustics::Modem& a) {
   if (a.preamble > a.packet_overhead)
     v.problem("preamble_s", "at most packet_overhead_s, whose first part it is");
   if (a.bandwidth_hz >= 2 * a.centre_frequency_hz) {
     v.problem("bandwidth_hz", "the band reaches below 0 Hz; allowed is below twice center_frequency_hz");
   }
+}
+
+VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile) {
+  VehicleModem m;
+  m.profile = profile;
+  file.read([&](bus::ConfigVisitor& v) {
+    visit_signal(v, m.modem);
+    visit_max_payload(v, m);
+    visit_reception(v, m.modem);
+    visit_framing(v, m.modem);
+    visit_beam(v, m.modem.beam);
+    check_as_a_whole(v, m.modem);
+  });
+  file.check(/*whole_file=*/true);
+  validate(m.modem);
+  m.max_payload_bytes = static_cast<std::int32_t>(largest_payload_bytes(m));
+  return m;
+}
+
+}  // namespace
+
+void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
+  acoustics::Modem& a = m.modem;
+  visit_profile(v, m);
+  visit_signal(v, a);
+  visit_max_payload(v, m);
+  visit_reception(v, a);
+  visit_beam(v, a.beam);
+  bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "asked to send while sending");
+  if (!v.writing() && m.profile != kGenericProfile) {
+    bus::report_refusal(v, "profile", [&] { require_packets_of(load_modem(m.profile, v.folder()), a); });
+  }
+  check_as_a_whole(v, a);
+}
+
+void require_packets_of(const VehicleModem& profile, const acoustics::Modem& modem) {
+  const auto fixed = [&](bool same, const std::string& what) {
+    require(same,
+            what + " of profile " + profile.profile + " is its own; only the generic profile has another");
+  };
+  fixed(modem.bit_rate_bps == profile.modem.bit_rate_bps, "bit rate");
+  fixed(modem.packet_overhead == profile.modem.packet_overhead, "packet overhead");
+  fixed(modem.preamble == profile.modem.preamble, "preamble");
+}
+
+const std::vector<std::string>& built_in_modems() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const ModemText& text : built_in_modem_texts()) list.emplace_back(text.name);
+    return list;
+  }();
+  return names;
+}
+
+VehicleModem load_modem(const std::string& profile, const std::string& folder) {
+  if (profile.ends_with(".toml")) {
+    auto file = bus::ConfigFile::load((std::filesystem::path(folder) / profile).string());
+    return read_modem(file, profile);
+  }
+  std::string names;
+  for (const ModemText& text : built_in_modem_texts()) {
+    if (profile == text.name) return parse_modem(text.toml, profile);
+    names += std::string(text.name) + ", ";
+  }
+  throw InvalidArgument("unknown modem profile '" + profile + "'; there are " + names + "or a file .toml");
+}
+
+VehicleModem parse_modem(const std::string& text, const std::string& name_for_errors) {
+  auto file = bus::ConfigFile::parse(text, name_for_errors);
+  return read_modem(file, name_for_errors);
 }
 
 }  // namespace halocline::channel_server

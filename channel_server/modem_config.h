@@ -1,8 +1,15 @@
-// What a scenario file says of a modem: [modem], and [vehicle.modem] where it differs.
+// Modems in TOML: [modem] and [vehicle.modem] of a scenario, and the files of models/modems.
 //
-// `profile` sets the numbers of a modem that exists (acoustics/modem/modem_profile.h); every other key then changes one
-// of them. A vehicle's table starts from the scenario's modem, or from the profile it names where that is another.
+// `profile` names a modem whose numbers hold where a scenario gives no others; every other key then changes one of
+// them. A vehicle's table starts from the scenario's modem, or from the profile it names where that is another. A
+// profile is a file: one of models/modems by its name ("janus"), any other by its path ("my_modem.toml"). It holds the
+// keys of [modem] but `profile` and `when_busy`, and those of the framing, which a scenario leaves as they are; a key
+// that is left out is the generic modem's. Unknown keys, wrong types and impossible values are
+// errors with file, line, key and what is allowed. docs/packets.md explains the parameters.
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "bus/config/config.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -10,5 +17,19 @@
 namespace halocline::channel_server {
 
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& modem);
+
+// Throws InvalidArgument, naming the field, where `modem` differs from its profile in the form of packets. Levels, band,
+// guard time, Doppler tolerance and error model are free.
+void require_packets_of(const VehicleModem& profile, const acoustics::Modem& modem);
+
+// The names of the files of models/modems, in alphabetical order: they are known wherever a program runs.
+const std::vector<std::string>& built_in_modems();
+
+// A modem of models/modems by name, or the file of that path (ending in .toml), relative to `folder`. Throws
+// bus::ConfigErrors with what is wrong in the file, InvalidArgument for a name that is none.
+VehicleModem load_modem(const std::string& profile, const std::string& folder = ".");
+
+// The same from text; `name_for_errors` stands for the file and is the profile's name.
+VehicleModem parse_modem(const std::string& text, const std::string& name_for_errors);
 
 }  // namespace halocline::channel_server

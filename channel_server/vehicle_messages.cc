@@ -1,6 +1,8 @@
 #include "channel_server/vehicle_messages.h"
 
-#include "acoustics/modem/modem_profile.h"
+#include <string>
+
+#include "channel_server/modem_config.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -16,15 +18,32 @@ acoustics::BeamPattern beam_in(const modem_config_t& message) {
   return rows.empty() ? acoustics::BeamPattern() : acoustics::BeamPattern(std::move(rows));
 }
 
-// The modem whose way of framing packets the message names.
-acoustics::Modem framed_modem(const modem_config_t& message) {
-  require(message.modem_profile >= 0 &&
-              static_cast<std::size_t>(message.modem_profile) < acoustics::kModemProfiles.size(),
-          "modem_profile is no value of its enumeration");
-  require(message.error_model >= 0 &&
-              static_cast<std::size_t>(message.error_model) < acoustics::kErrorModels.size(),
-          "error_model is no value of its enumeration");
-  return profile_modem(static_cast<acoustics::ModemProfile>(message.modem_profile), message.psk_rate);
+// The profile that the message names.
+std::string profile_in(const modem_config_t& message) {
+  switch (message.modem_profile) {
+    case modem_config_t::PROFILE_GENERIC:
+      return kGenericProfile;
+    case modem_config_t::PROFILE_JANUS:
+      return "janus";
+    case modem_config_t::PROFILE_MICROMODEM_FSK:
+      return "micromodem-fsk";
+    case modem_config_t::PROFILE_MICROMODEM_PSK:
+      return "micromodem-psk-" + std::to_string(message.psk_rate);
+  }
+  throw InvalidArgument("modem_profile is no value of its enumeration");
+}
+
+void set_profile(const std::string& profile, modem_config_t& message) {
+  for (const std::int8_t number :
+       {modem_config_t::PROFILE_GENERIC, modem_config_t::PROFILE_JANUS,
+        modem_config_t::PROFILE_MICROMODEM_FSK, modem_config_t::PROFILE_MICROMODEM_PSK}) {
+    message.modem_profile = number;
+    const bool has_rates = number == modem_config_t::PROFILE_MICROMODEM_PSK;
+    for (message.psk_rate = has_rates ? 1 : 0; message.psk_rate <= (has_rates ? 5 : 0); ++message.psk_rate) {
+      if (profile_in(message) == profile) return;
+    }
+  }
+  throw InvalidArgument("modem profile '" + profile + "' has no number in modem_config_t");
 }
 
 }  // namespace
@@ -35,8 +54,11 @@ StampedState to_state(const vehicle_state_t& message) {
 }
 
 VehicleModem to_modem(const modem_config_t& message) {
-  VehicleModem modem;
-  modem.modem = framed_modem(message);
+  require(message.error_model >= 0 &&
+              static_cast<std::size_t>(message.error_model) < acoustics::kErrorModels.size(),
+          "error_model is no value of its enumeration");
+  const VehicleModem profile = load_modem(profile_in(message));
+  VehicleModem modem = profile;
   modem.modem.source_level = {message.source_level_db};
   modem.modem.min_receivable_level = {message.cutoff_level_db};
   modem.modem.centre_frequency_hz = message.center_frequency_hz;
@@ -52,7 +74,7 @@ VehicleModem to_modem(const modem_config_t& message) {
   modem.max_payload_bytes = message.max_payload_bytes;
   modem.when_busy = static_cast<WhenBusy>(message.when_busy);
   validate(modem.modem);
-  validate_profile(modem.modem);
+  if (profile.profile != kGenericProfile) require_packets_of(profile, modem.modem);
   return modem;
 }
 
@@ -67,8 +89,7 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   message.bit_rate_bps = modem.modem.bit_rate_bps;
   message.packet_overhead_s = modem.modem.packet_overhead.seconds();
   message.max_payload_bytes = modem.max_payload_bytes;
-  message.modem_profile = static_cast<std::int8_t>(modem.modem.profile);
-  message.psk_rate = modem.modem.psk_rate;
+  set_profile(modem.profile, message);
   message.preamble_s = modem.modem.preamble.seconds();
   message.guard_time_s = modem.modem.guard_time.seconds();
   message.doppler_tolerance = modem.modem.doppler_tolerance;

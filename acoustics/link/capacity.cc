@@ -23,6 +23,8 @@ double density_ratio(const UniformLink& link, const Band& band, double frequency
 double log2_of_1_plus(double x) { return std::log1p(x) * std::numbers::log2e; }
 
 double capacity_bps(const UniformLink& link, const Band& band) {
+  // Shannon's capacity over frequency (Stojanovic 2006; equation 8 of the 2010 IEEE SMC paper):
+  // C = integral of log2(1 + (P / B) / (A(l, f) N(f))) df.
   double bits = 0;
   for (const FrequencyNode& node : frequency_nodes(band.low_hz, band.high_hz)) {
     bits += node.weight_hz * log2_of_1_plus(density_ratio(link, band, node.frequency_hz));

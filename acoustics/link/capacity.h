@@ -1,4 +1,4 @@
-// Capacity of a straight link: how many bits a second its band could carry at best.
+// Shannon capacity of a straight link, bit/s.
 //
 // Model: C(l) = integral over the band of log2(1 + (P/B) / (A(l, f) N(f))) df (Stojanovic 2006; equation 8 of
 // the 2010 IEEE SMC paper), P spread evenly over the bandwidth B, A the loss l^k 10^(alpha l / 10^4), N the

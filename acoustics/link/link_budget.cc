@@ -119,6 +119,7 @@ double LinkModel::mean_absorption(const Samples& samples, std::size_t frequency)
 }
 
 double LinkModel::capacity(const Samples& samples, double range_m, Decibels beams) const {
+  // C = integral of log2(1 + DI (P / B) / (A N)) df, A = l^k e^(alpha l), with the beams' loss.
   const bool lossless = range_m < kReferenceRange;
   const double spread = lossless ? 1 : std::pow(range_m, -environment_.spreading_exponent);
   const double gain = spread * to_power_ratio(-beams).value;
@@ -178,6 +179,8 @@ LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const
 }
 
 void LinkModel::set_levels(LinkBudget& link, Decibels loss) const {
+  // RL = SL - TL; SNR = RL - NL + DI (Urick 1983, sonar equation; equation 7 of the 2010 IEEE SMC paper has
+  // NL = N(fc) + 10 log B).
   link.transmission_loss = loss;
   link.received_level = transmitter_.source_level - link.transmission_loss;
   link.noise_level = noise_level_;

@@ -5,12 +5,12 @@
 //   delay       integral of ds / c(z) along the path
 //   absorption  integral of alpha(z, f) ds: at the centre frequency for the levels, over the band for the
 //               capacity
-//   loss        TL = k 10 log l + that integral (0 below 1 m) + what both beams take off in the line's direction
+//   loss        TL = k 10 log l + that integral (0 below 1 m) + the loss of both beams along the line
 //   level       RL = SL - TL
 //   noise       NL = 10 log of the integral of N(f) df over the transmitter's band
 //   ratio       SNR = SL - TL - NL + DI; `snr_narrowband` with NL = N(fc) + 10 log B, the paper's equation 7
 //   capacity    integral of log2(1 + DI (P/B) / (A N)) df over the band; equation 8 where DI is 0 dB
-// Signal and noise are taken in the transmitter's band; the receiver lends its directivity index and its
+// Signal and noise are taken in the transmitter's band; the receiver adds its directivity index and its
 // cut-off. Path integrals err by less than 1e-12, capacity by less than 1e-9 (relative).
 //
 //   const LinkModel model(environment, transmitter, receiver);  // once for a pair of modems
@@ -60,7 +60,7 @@ class LinkModel {
   LinkModel(const Environment& environment, const Modem& transmitter, const Modem& receiver);
 
   // Positions in the NED world frame, m. Depths follow from the environment's sea_surface_z_m; above the
-  // surface the water of the surface is used (whether such a link exists is for the caller to say).
+  // surface the water of the surface is used (whether such a link exists is for the caller to decide).
   LinkBudget budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
 
   // The same for a path that some other model found: its loss at the centre frequency as given, and elsewhere in

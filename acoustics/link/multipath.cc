@@ -23,6 +23,7 @@ EchoPath echo_path(const LinkModel& model, const Vec3& from_ned_m, const Vec3& t
   const double down = (point.position_ned_m - from_ned_m).norm(),
                up = (to_ned_m - point.position_ned_m).norm();
 
+  // One bounce that loses nothing: TL over the length of both legs, alpha their mean weighted by length.
   EchoPath path;
   path.length_m = down + up;
   path.delay_s =

@@ -26,7 +26,7 @@ class Channel {
     return to_power_ratio(transmission_loss(q_.range_m, q_.spreading_exponent, alpha).total).value;
   }
   double noise(double frequency_hz) const { return noise_power_density(frequency_hz, q_.noise).value; }
-  // In decibels, because the loss overflows where the sea swallows all.
+  // In decibels, because the loss overflows where absorption leaves nothing.
   double loss_and_noise_db(double frequency_hz) const {
     const double f = hz_to_khz(frequency_hz);
     const double alpha = q_.absorption.db_per_km(f * f);
@@ -84,6 +84,7 @@ double integrate_over(const Band& band, const Function& function) {
   return sum;
 }
 
+// Stojanovic 2006: with S(f) = P / B over the band, SNR = (P / B) integral(1 / A) / integral(N).
 BandPlan flat_plan(const Channel& channel, const Band& band, double snr) {
   const double noise = integrate_over(band, [&](double f) { return channel.noise(f); });
   const double gain = integrate_over(band, [&](double f) { return 1 / channel.loss(f); });
@@ -93,7 +94,7 @@ BandPlan flat_plan(const Channel& channel, const Band& band, double snr) {
   return {band, to_decibels(PowerRatio{density * band.width_hz()}), bits};
 }
 
-// Received signal over received noise when the water stands at `level_db`.
+// Water-filling, S(f) = K - A N: SNR = integral(K / A - N) / integral(N) for the level K of `level_db`.
 double water_filling_snr(const Channel& channel, const Band& band, double level_db) {
   const double level = to_power_ratio(Decibels{level_db}).value;
   const double signal =

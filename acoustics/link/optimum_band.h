@@ -17,7 +17,7 @@
 
 namespace halocline::acoustics {
 
-// What is sent over which distance in which water.
+// Distance, water and the signal-to-noise ratio to reach.
 struct OptimumBandQuestion {
   double range_m;  // 1..1e6
   double spreading_exponent;

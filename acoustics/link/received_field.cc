@@ -37,6 +37,7 @@ std::vector<WeightedDelay> weighted_delays(const Arrivals& arrivals, const Trans
 }
 
 void set_moments(const std::vector<WeightedDelay>& delays, double power, ReceivedField& field) {
+  // Power-weighted moments of the delay profile: mean = sum w t / sum w, spread^2 = sum w (t - mean)^2 / sum w.
   double first_moment = 0, second_moment = 0;
   for (const auto& [delay, weight] : delays) first_moment += weight * (delay - field.first_delay_s);
   const double mean = first_moment / power;
@@ -85,7 +86,8 @@ ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& optio
 
 Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options) {
   require_in_range(frequency_hz, 10, 1e6, "frequency of a coherent level", "Hz");
-  std::complex<double> sum = 0;
+  std::complex<double> sum =
+      0;  // Jensen and others 2011, section 3.3: p = sum over eigenrays of their phasors
   for (const Arrival& path : arrivals.paths) {
     sum += phasor(path, weighted_pressure(path, options.transducers), frequency_hz);
   }

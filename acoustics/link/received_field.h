@@ -1,4 +1,4 @@
-// What a receiver makes of the paths of a link: level, spread of delays, impulse response.
+// Level, delay spread and impulse response at a receiver from the paths of a link.
 //
 // Model: pressures add. Incoherently their powers add, which is the mean over any small change of place (at
 // 25 kHz a centimetre moves the coherent level by 3 dB): the default. Coherently they add as phasors at one
@@ -31,11 +31,11 @@ double weighted_pressure(const Arrival& path, const Transducers& transducers);
 
 struct FieldOptions {
   Transducers transducers;
-  // Level below which nothing is believed: reported levels are no less. Empty: a shadow is -infinity.
+  // Least level reported, where diffraction and scattering are expected to fill shadows. Empty: a shadow is -infinity.
   std::optional<Decibels> floor;
 };
 
-// The whole of what the paths say.
+// Level and delays of all paths together.
 struct ReceivedField {
   bool shadow = true;         // no path at all
   Decibels level{-1e300};     // sum of powers, dB re the source level

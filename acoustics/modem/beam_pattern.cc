@@ -35,6 +35,7 @@ Decibels BeamPattern::loss(double elevation_rad) const {
 }
 
 double BeamPattern::factor(double elevation_rad) const {
+  // On pressure, 10^(-loss / 20).
   return rows_.empty() ? 1 : std::pow(10.0, -loss(elevation_rad).value / 20);
 }
 

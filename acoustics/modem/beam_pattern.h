@@ -1,4 +1,4 @@
-// How much of its sound a transducer sends or hears in each direction of the vertical plane.
+// Beam pattern of a transducer in the vertical plane, the same in transmission and reception.
 //
 // Model: a table of loss against elevation, linear in decibels between rows, constant beyond the ends; no
 // table is omnidirectional. Elevation is the angle from the horizontal, positive down (as launch angles are);
@@ -28,7 +28,6 @@ class BeamPattern {
   // 1..kMaxBeamRows rows. Throws InvalidArgument, naming the row, unless rows are in range and rise.
   explicit BeamPattern(std::vector<BeamRow> rows);
 
-  bool is_omnidirectional() const { return rows_.empty(); }
   Decibels loss(double elevation_rad) const;
   // On pressure: 10^(-loss/20).
   double factor(double elevation_rad) const;

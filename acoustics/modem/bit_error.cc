@@ -16,6 +16,8 @@ double coherent_in_rayleigh(double k, double g) {
   return k / (k + g) / (2 * (1 + std::sqrt(1 / (1 + k / g))));
 }
 
+// Proakis, 4th edition, section 5.2: BPSK Q(sqrt(2 g)), DBPSK e^-g / 2, coherent BFSK Q(sqrt(g)), non-coherent
+// BFSK e^(-g/2) / 2.
 double error_without_fading(Modulation modulation, double g) {
   switch (modulation) {
     case Modulation::kBpsk:
@@ -30,6 +32,8 @@ double error_without_fading(Modulation modulation, double g) {
   return std::exp(-g / 2) / 2;
 }
 
+// Their means over exponentially distributed g (section 14.3): BPSK (1 - sqrt(g / (1 + g))) / 2, DBPSK 1 / (2 (1 + g)),
+// coherent BFSK (1 - sqrt(g / (2 + g))) / 2, non-coherent BFSK 1 / (2 + g).
 double error_in_rayleigh(Modulation modulation, double g) {
   switch (modulation) {
     case Modulation::kBpsk:
@@ -56,6 +60,7 @@ double packet_error_rate(double bit_error_rate, std::int64_t bits) {
   require_in_range(bit_error_rate, 0, 1, "bit error rate", "");
   require(bits >= 0, "a packet has no negative number of bits");
   if (bits == 0) return 0;
+  // 1 - (1 - p)^n
   return -std::expm1(static_cast<double>(bits) * std::log1p(-bit_error_rate));
 }
 

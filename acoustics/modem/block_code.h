@@ -1,4 +1,4 @@
-// Error correction by a linear block code on phase-shift keying: how often a bit is wrong after decoding.
+// Bit error rate after decoding a linear block code on phase-shift keying.
 //
 // Model: union bound of maximum-likelihood soft decoding (Proakis, Digital Communications, 4th edition, section
 // 8.1), P_b <= sum over weights w of (w / n) A_w Q(sqrt(2 w (k / n) Eb/N0)), A_w the number of code words of

@@ -31,7 +31,7 @@ Edge edge_of(const ConvolutionalCode& code, unsigned state, unsigned bit) {
   return {word >> 1, parity(code.generators[0]) + parity(code.generators[1])};
 }
 
-void carry(Front& to, const Edge& edge, const Bundle& bundle, int distance, unsigned bit) {
+void extend(Front& to, const Edge& edge, const Bundle& bundle, int distance, unsigned bit) {
   const auto reached = static_cast<std::size_t>(distance + edge.ones);
   if (bundle.paths == 0 || reached >= to[edge.to].size()) return;
   Bundle& sum = to[edge.to][reached];
@@ -45,7 +45,7 @@ Front step(const ConvolutionalCode& code, const Front& now) {
   for (unsigned state = 1; state < now.size(); ++state) {
     for (int distance = 0; distance < static_cast<int>(now[state].size()); ++distance) {
       const Bundle& bundle = now[state][static_cast<std::size_t>(distance)];
-      for (const unsigned bit : {0u, 1u}) carry(next, edge_of(code, state, bit), bundle, distance, bit);
+      for (const unsigned bit : {0u, 1u}) extend(next, edge_of(code, state, bit), bundle, distance, bit);
     }
   }
   return next;
@@ -63,6 +63,8 @@ double binomial(int n, int k) {
   return value;
 }
 
+// Square-law sum of d chips (Proakis, 4th edition, section 12.1), half = d g / 2:
+// P2 = 2^(1-2d) e^-half sum_{k<d} half^k / k! sum_{n<d-k} C(2d-1, n).
 double soft_without_fading(int d, double g) {
   const double half = d * g / 2;
   if (half > kExponentOfZero) return 0;
@@ -76,19 +78,21 @@ double soft_without_fading(int d, double g) {
   return std::ldexp(std::exp(-half) * sum, 1 - 2 * d);
 }
 
+// d independent fades (section 14.4): P2 = p^d sum_{k<d} C(d-1+k, k) (1-p)^k.
 double soft_in_rayleigh(int d, double p) {
   double sum = 0, power = 1;
   for (int k = 0; k < d; ++k, power *= 1 - p) sum += binomial(d - 1 + k, k) * power;
   return std::pow(p, d) * sum;
 }
 
+// More than half of d chips wrong, a tie by a coin (section 8.2): P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k) + tie / 2.
 double hard(int d, double p) {
   double sum = d % 2 == 0 ? binomial(d, d / 2) * std::pow(p * (1 - p), d / 2) / 2 : 0;
   for (int k = d / 2 + 1; k <= d; ++k) sum += binomial(d, k) * std::pow(p, k) * std::pow(1 - p, d - k);
   return sum;
 }
 
-// P2(d) of the header.
+// The probability that a path at distance d is preferred to the right one, P2(d).
 double pairwise_error(int d, Decision decision, Fading fading, PowerRatio chip_snr) {
   const double p = bit_error_rate(Modulation::kNoncoherentBfsk, fading, chip_snr);
   if (decision == Decision::kHard) return hard(d, p);
@@ -106,7 +110,7 @@ std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int m
   }
   const auto distances = static_cast<std::size_t>(max_distance) + 1;
   Front front(states, std::vector<Bundle>(distances));
-  carry(front, edge_of(code, 0, 1), {1, 0}, 0, 1);
+  extend(front, edge_of(code, 0, 1), {1, 0}, 0, 1);
   std::vector<Bundle> back(distances);
   // A path that adds nothing for as many bits as there are states has gone round a loop of distance 0.
   const std::size_t longest = (distances + 1) * states;
@@ -132,6 +136,7 @@ const std::vector<SpectrumTerm>& janus_spectrum() {
 
 double union_bound(const std::vector<SpectrumTerm>& spectrum, Decision decision, Fading fading,
                    PowerRatio chip_snr) {
+  // P_b <= sum over d of B_d P2(d) (Proakis, 4th edition, section 8.2).
   double sum = 0;
   for (const SpectrumTerm& term : spectrum) {
     sum += term.information_ones * pairwise_error(term.distance, decision, fading, chip_snr);

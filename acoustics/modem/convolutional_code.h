@@ -1,5 +1,4 @@
-// Error correction by a convolutional code of rate 1/2: how its code words lie apart, and how often a bit is
-// wrong after decoding.
+// Convolutional codes of rate 1/2: distance spectrum, and bit error rate after Viterbi decoding.
 //
 // Distance spectrum: every path of the trellis that leaves the all-zero path once and comes back, counted by
 // its distance d (ones sent) and the ones of information it carries; a_d paths, B_d ones in all. Computed from

@@ -55,13 +55,6 @@ const Known& known(ErrorModel model) {
 
 std::string_view to_name(ErrorModel model) { return known(model).name; }
 
-std::optional<ErrorModel> error_model_from_name(std::string_view name) {
-  for (const Known& each : kKnown) {
-    if (each.name == name) return each.model;
-  }
-  return std::nullopt;
-}
-
 double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0) {
   return known(model).bit_error_rate(eb_over_n0);
 }

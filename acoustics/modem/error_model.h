@@ -1,4 +1,4 @@
-// How often a modem decides an information bit wrongly, by the name of its modulation and code.
+// Bit error rate of an information bit, by the name of modulation and code.
 //
 // Eb is always the energy of an information bit, so a model with a code (bits of the air carry less each) and
 // one without compare fairly. Each model's formula, source and limits: bit_error.h, convolutional_code.h,
@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string_view>
 
 #include "core/units.h"
@@ -35,7 +34,6 @@ inline constexpr std::array kErrorModels = {
 // "none", "bfsk", "bfsk-rayleigh", "bpsk", "bpsk-rayleigh", "dbpsk", "dbpsk-rayleigh", "janus",
 // "janus-rayleigh", "bpsk-bch64", "bpsk-hamming14".
 std::string_view to_name(ErrorModel model);
-std::optional<ErrorModel> error_model_from_name(std::string_view name);
 
 // 0..0.5, never rising as eb_over_n0 (>= 0) rises.
 double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0);

@@ -14,8 +14,7 @@ constexpr double kMaxBits = 1e6;
 void validate(const FrameLayout& layout) {
   require_in_range(layout.header_bits, 0, kMaxBits, "header", "bits");
   require_in_range(layout.tail_bits, 0, kMaxBits, "tail of a coded block", "bits");
-  require_in_range(layout.frame_bytes, 0, 32'768, "frame", "bytes");
-  require_in_range(layout.max_bytes, 0, 32'768, "largest payload", "bytes");
+  require_in_range(layout.frame_bytes, 0, kMaxPayloadBytes, "frame", "bytes");
   require_in_range(layout.max_frames, layout.frame_bytes > 0 ? 1 : 0, 1024, "frames of a packet");
 }
 
@@ -66,6 +65,7 @@ PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes) {
   require(payload_bytes <= max_payload_bytes(modem), "a payload of " + std::to_string(payload_bytes) +
                                                          " bytes; allowed is at most " +
                                                          std::to_string(max_payload_bytes(modem)));
+  // Duration = overhead + (coded header + coded body, each with its tail) / bit rate.
   const FrameLayout& layout = modem.layout;
   const std::int64_t body_bits = kBitsPerByte * sent_bytes(layout, static_cast<std::int64_t>(payload_bytes));
   const std::int64_t bits = block_bits(layout, layout.header_bits) + block_bits(layout, body_bits);
@@ -76,18 +76,20 @@ PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes) {
 std::size_t max_payload_bytes(const Modem& modem) {
   const FrameLayout& layout = modem.layout;
   const std::int64_t most = layout.frame_bytes > 0 ? std::int64_t{layout.frame_bytes} * layout.max_frames
-                                                   : std::int64_t{layout.max_bytes};
+                                                   : std::int64_t{kMaxPayloadBytes};
   return static_cast<std::size_t>(most);
 }
 
 double acquisition_probability(const Modem& modem, PowerRatio sinr) {
   require(sinr.value >= 0, "a signal-to-noise ratio must not be negative or NaN");
   if (modem.preamble == SimDuration()) return 1;
+  // Energy of the preamble over the noise density: T B SNR.
   const double time_bandwidth = modem.preamble.seconds() * modem.bandwidth_hz;
   return detection_probability(modem.preamble_pieces, kFalseAlarmProbability, {time_bandwidth * sinr.value});
 }
 
 double bit_error_rate(const Modem& modem, PowerRatio sinr) {
+  // Eb / N0 = SNR B / R.
   return bit_error_rate(modem.error_model, PowerRatio{sinr.value * modem.bandwidth_hz / modem.bit_rate_bps});
 }
 

@@ -1,15 +1,15 @@
-// An acoustic modem as the water sees it: how loud it is, in which band, what it can still hear, how it puts
-// bytes into a packet, and how well it gets them out again.
+// An acoustic modem: source level, band, least receivable level, framing of packets, detection and bit errors.
 //
 // The generic profile takes the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),
-// cut-off (least receivable level), bandwidth and centre frequency. Those of real modems are in modem_profile.h.
+// cut-off (least receivable level), bandwidth and centre frequency. Those of real modems are data:
+// models/modems/*.toml, read by channel_server/modem_config.h.
 // A value; nothing here knows a bus or a clock. The transducer's pattern in elevation weighs the paths of sound
 // at both ends; noise comes from all around and is weighed by the directivity index alone. Left out: patterns in
 // bearing.
 //
-//   const Modem modem = profile_modem(ModemProfile::kJanus);
-//   packet_timing(modem, 16).duration;                            // 2.8 s
-//   bit_error_rate(modem, to_power_ratio(Decibels{-8}));          // noise and interference, whole band
+//   const Modem modem = generic_modem(Decibels{185}, Decibels{70}, 25'000, 5'000);
+//   const SimDuration duration = packet_timing(modem, 16).duration;  // 1.6 s
+//   const double bit_errors = bit_error_rate(modem, to_power_ratio(Decibels{-8}));  // SINR over the band
 #pragma once
 
 #include <cstddef>
@@ -23,15 +23,15 @@
 
 namespace halocline::acoustics {
 
-enum class ModemProfile { kGeneric, kJanus, kMicromodemFsk, kMicromodemPsk };
+// The largest payload of any packet, bytes.
+inline constexpr std::int32_t kMaxPayloadBytes = 32'768;
 
 // How a packet is put together. A frame is sent whole, however few of its bytes are used.
 struct FrameLayout {
-  std::int32_t header_bits = 0;     // a coded block before the payload that has to be right as well
-  std::int32_t tail_bits = 0;       // that end the code, after every coded block; carry nothing
-  std::int32_t frame_bytes = 0;     // 0: the payload is sent as it is, in no frames
-  std::int32_t max_frames = 0;      // in one packet; read only with frame_bytes above 0
-  std::int32_t max_bytes = 32'768;  // largest payload without frames
+  std::int32_t header_bits = 0;  // a coded block before the payload that has to be right as well
+  std::int32_t tail_bits = 0;    // that end the code, after every coded block; carry nothing
+  std::int32_t frame_bytes = 0;  // 0: the payload is sent as it is, in no frames
+  std::int32_t max_frames = 0;   // in one packet; read only with frame_bytes above 0
   bool operator==(const FrameLayout&) const = default;
 };
 
@@ -50,21 +50,18 @@ struct Modem {
   // Everything a packet takes besides its coded bits (preamble, header, check), 0..60 s.
   SimDuration packet_overhead;
 
-  // The first part of the overhead, by which the packet is noticed, 0..60 s. 0: it is always noticed.
+  // The first part of the overhead, by which the packet is detected, 0..60 s. 0: it is always detected.
   SimDuration preamble;
   std::int32_t preamble_pieces = 1;  // 1..256, matched each, added without phase (preamble_detection.h)
   // An echo this much later than the first arrival, or less, adds to the signal; a later one interferes.
   // 0..10 s; 10 ms is our choice, near a bit of 80 bit/s.
   SimDuration guard_time = SimDuration::from_milliseconds(10);
   // Greatest |f_rx / f_tx - 1| at which a packet can be received, 0..1. 0.1 is 150 m/s: of no effect on
-  // submarines, because the generic modem's Doppler correction is nobody's.
+  // submarines, because the generic modem stands for no Doppler correction in particular.
   double doppler_tolerance = 0.1;
   ErrorModel error_model = ErrorModel::kBfsk;
   FrameLayout layout;
-  BeamPattern beam;  // for sending and hearing alike; source and cut-off level are those of its 0 dB
-
-  ModemProfile profile = ModemProfile::kGeneric;  // where the numbers come from
-  std::int32_t psk_rate = 0;                      // of the Micromodem's PSK, else 0
+  BeamPattern beam;  // in transmission and reception; source and cut-off level are those of its 0 dB
 
   Band band() const {
     return {centre_frequency_hz - bandwidth_hz / 2, centre_frequency_hz + bandwidth_hz / 2};
@@ -88,14 +85,14 @@ struct PacketTiming {
 // (InvalidArgument).
 PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes);
 
-// Largest payload of one packet, bytes.
+// Largest payload of one packet, bytes: its frames, or kMaxPayloadBytes without frames.
 std::size_t max_payload_bytes(const Modem& modem);
 
 // The chance that each instant's noise alone looks like a preamble. A band of some kHz is tested some thousand
 // times a second: one false alarm in several hours. Our choice; no modem's own number is public.
 inline constexpr double kFalseAlarmProbability = 1e-8;
 
-// The probability that a receiver notices the packet; `sinr` is the ratio of its power to that of noise and
+// The probability that a receiver detects the packet; `sinr` is the ratio of its power to that of noise and
 // interference over the modem's band (>= 0), during the preamble. 1 without a preamble.
 double acquisition_probability(const Modem& modem, PowerRatio sinr);
 
@@ -103,7 +100,7 @@ double acquisition_probability(const Modem& modem, PowerRatio sinr);
 // during the bits). Eb/N0 = sinr bandwidth / bit rate: noise and interference are taken as white over the band.
 double bit_error_rate(const Modem& modem, PowerRatio sinr);
 
-// True when the two bands share frequencies: only then can one modem hear the other.
+// True when the two bands share frequencies: only then can one modem receive the other.
 bool bands_overlap(const Modem& one, const Modem& other);
 
 }  // namespace halocline::acoustics

@@ -7,7 +7,8 @@
 namespace halocline::acoustics {
 namespace {
 
-// P(a Poisson number of mean `mean` is below `pieces`): the chance that noise stays above `mean`.
+// False alarm of half the threshold T = `mean` for M = `pieces`: P(chi-square of 2 M degrees > 2 T) = e^-T sum_{n<M}
+// T^n / n! (Kay 1998, section 7.6).
 double noise_above(double mean, int pieces) {
   double sum = 0, term = std::exp(-mean);
   for (int n = 0; n < pieces; ++n) {
@@ -36,6 +37,7 @@ double detection_probability(int pieces, double false_alarm, PowerRatio energy_o
   const double h = energy_over_noise_density.value;
   require(h >= 0, "an energy over a noise density must not be negative or NaN");
   const double threshold = detection_threshold(pieces, false_alarm);
+  // Marcum 1960: P_detect = Q_M(sqrt(2 h), sqrt(2 T)) = 1 - sum_{n>=M} e^-T T^n / n! P(Poisson(h) <= n - M).
   // Terms beyond the mean by 12 deviations and more (Chernoff: below 1e-20) add nothing.
   const int last = static_cast<int>(threshold + 12 * std::sqrt(threshold) + 60) + pieces;
   double noise_term = std::exp(-threshold), missed = 0;

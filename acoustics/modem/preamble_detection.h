@@ -1,4 +1,4 @@
-// Whether a receiver notices that a packet begins: detection of a preamble in noise.
+// Probability of detection of a packet's preamble in noise.
 //
 // Model: the receiver filters the preamble in M pieces, each with a filter matched to it, squares and adds
 // (M = 1: a sweep matched as a whole, phase unknown; M > 1: chips added without phase). In noise alone the sum

@@ -25,13 +25,14 @@ double deepest_slope(const RayWater& water, const ArcPoint& s, const ArcStep& st
   return g == 0 && step.z == s.z ? 0 : s.sine * s.per_xi / s.c;
 }
 
-// Circle through the ray's point against the facet's line, x along r: A x^2 + B x + C = 0, see below.
+// Where the ray's circle meets the facet's line y = d + b x, x and y from the ray along r and down. With kappa = -xi g
+// the curvature, kappa (x^2 + y^2) / 2 = cos y - sin x, so A x^2 + B x + C = 0:
+//   A = kappa (1 + b^2) / 2,  B = kappa d b + sin - b cos,  C = kappa d^2 / 2 - d cos.
 bool solve_facet(const RayWater& water, const Facet& facet, const ArcPoint& s, bool on_it, double until,
                  double& dr) {
   const double st = s.sine, ct = s.xi * s.c, b = facet.slope;
   const double curvature = -s.xi * water.gradients_per_s()[s.layer];  // d angle / d length
   double d = facet.z0 + b * (s.r - facet.r0) - s.z;                   // how far the line is below the ray
-  // The ray is curvature (x^2 + y^2) / 2 = ct y - st x; on the line y = d + b x.
   double x;
   if (on_it) {
     const double a2 = curvature * (1 + b * b) / 2, b2 = st - ct * b;
@@ -59,6 +60,8 @@ ArcStep next_step(const RayWater& water, const ArcPoint& s) {
   const bool down = s.sine > 0 || (s.sine == 0 && g <= 0);
   const std::size_t knot = down ? s.layer + 1 : s.layer;
   const double c = water.speeds_mps()[knot], z = water.depths_m()[knot];
+  // Snell: cos = xi c at the knot. To it dr = |dz| xi (c1 + c2) / (s1 + s2); through a turn dr = 2 s1 / (xi |g|)
+  // (arc of a circle of radius 1 / (xi |g|)).
   const double cosine = s.xi * c, steep = std::abs(s.sine);
   if (cosine < 1 && (steep > 0 || g != 0)) {
     const double sine = std::sqrt((1 - cosine) * (1 + cosine));
@@ -126,6 +129,7 @@ FacetBounce bounce_off(const Facet& facet, const ArcPoint& s) {
       bend = 0;
     }
   }
+  // G = angle - slope; mirrored, the ray leaves at the angle slope - G.
   const double sin_g = std::max(st * cosine - ct * sine, kMinSine), cos_g = ct * cosine + st * sine;
   return {sin_g,
           cos_g,

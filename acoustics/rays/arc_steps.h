@@ -1,7 +1,7 @@
-// One step of a ray within layered water, and where it meets a bottom profile: what all followers of arcs share.
+// One step of a ray within layered water, and where it meets a bottom profile: what both ray tracers share.
 //
-// Model: acoustics/rays/arc_tracer.h. A step goes to the next knot of the water or through a turn back to the same depth;
-// before that the ray may meet the bottom. Nothing here knows of ray tubes.
+// Model: acoustics/rays/arc_tracer.h. A step goes to the next knot of the water or through a turn back to the same
+// depth; before that the ray may meet the bottom. Nothing here knows of ray tubes.
 //
 // Free functions on values: calls may overlap between threads.
 #pragma once

@@ -54,6 +54,8 @@ double ArcTracer::rough_bottom_factor(double sine) const {
 }
 
 void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
+  // The arc is part of a circle of radius 1 / (xi g). With ds/dr = -xi g of the sine, delay = integral of xi dr / cos^2
+  // = atanh(xi g dr / (1 - s1 s2)) / g, and length = 2 R asin(chord / 2 R).
   const double g = sea_.water.gradients_per_s()[s.layer], mix = 1 - s.sine * sine;
   const double chord = std::sqrt(dr * dr + (z - s.z) * (z - s.z));
   const double length = chord * asin_over(s.xi * g * chord / 2);
@@ -76,6 +78,8 @@ void ArcTracer::add_details(const State& s, double dr, double z, double sine, Tr
 }
 
 void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
+  // Dynamic ray tracing (Cerveny 2001; Jensen and others 2011, section 3.3): dq/ds = c p, dp/ds = -q c_nn / c^2. Where
+  // c is linear c_nn = 0: p stays and dq = p dr / xi.
   const double way = dr * s.per_xi, q = s.q + s.p * way;
   if (q * s.q < 0) ++ray.caustics;
   s.q = q;
@@ -91,6 +95,7 @@ void ArcTracer::cross_knot(State& s, bool down) const {
   const double before = sea_.water.gradients_per_s()[s.layer];
   s.layer = down ? s.layer + 1 : s.layer - 1;
   s.c = sea_.water.speeds_mps()[down ? s.layer : s.layer + 1];
+  // p loses q xi^2 (g2 - g1) / sin where the gradient jumps.
   const double change = (sea_.water.gradients_per_s()[s.layer] - before) * (down ? 1 : -1);
   const double kink = s.xi * s.xi * change / std::max(std::abs(s.sine), kMinSine);
   s.p -= s.q * kink;
@@ -100,6 +105,7 @@ void ArcTracer::cross_knot(State& s, bool down) const {
 bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
   const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kMinSine);
   s.c = sea_.water.speeds_mps()[0];
+  // Pressure release, V = -1. The mirrored water has the gradient -g: a jump of 2 g.
   s.p -= 2 * s.q * s.xi * s.xi * g / sine;
   s.px -= 2 * s.qx * s.xi * s.xi * g / sine;
   s.sine = -s.sine;
@@ -114,6 +120,10 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
 }
 
 bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
+  // The direction is mirrored at the reflecting slope (bounce_off), which gives xi' = cos(out) / c. The tube:
+  //   p' = p + q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle, k the bend of the bottom per metre
+  // (Cerveny 2001, reflection at a curved boundary, in the plane of the ray). Pressure: Rayleigh's V
+  // (acoustics/sea/boundary_reflection.h).
   const Facet& facet = sea_.profile.facets()[index];
   const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
   const FacetBounce bounce = bounce_off(facet, s);
@@ -159,6 +169,7 @@ void ArcTracer::arrive(const State& s, TracedRay& ray) const {
   ray.xi = s.xi;
   ray.q = s.q;
   ray.p = s.p;
+  // zeta = o z + 2 H k; its slope is the tube's width along the vertical, q / cos, of rays as the facets reflect them.
   ray.zeta = s.orientation * s.z + 2 * bottom_at_receiver_ * s.images;
   ray.zeta_slope = s.qx / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
 }
@@ -184,6 +195,7 @@ void ArcTracer::note_turn(bool lower, TracedRay& ray) {
 }
 
 void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const {
+  // ds/dr = -xi g; z2 - z1 = dr (s1 + s2) / (xi (c1 + c2)), c = cos / xi.
   const double sine = s.sine - s.xi * sea_.water.gradients_per_s()[s.layer] * dr;
   const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) * s.per_xi;
   if (s.sine * sine < 0) note_turn(s.sine > 0, ray);

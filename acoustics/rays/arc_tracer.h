@@ -1,4 +1,4 @@
-// Follows one ray through layered water over a bottom that changes with range, arc by arc, without step
+// Traces one ray through layered water over a bottom that changes with range, arc by arc, without step
 // error.
 //
 // Model: within a layer of gradient g the sine s of the ray's angle falls evenly with range, ds/dr = -xi g,
@@ -61,7 +61,7 @@ struct TracedRay {
   std::vector<EventCode> events;
 };
 
-// What a kept ray needs besides.
+// Sums that an eigenray needs besides.
 struct TracedDetails {
   double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
          surface_loss_db = 0;
@@ -73,7 +73,7 @@ class ArcTracer {
   // Link as RayLink; depths are moved a micrometre off the boundaries.
   ArcTracer(const ProfiledSea& sea, const RayLink& link);
 
-  // Follows the ray of `theta` to the receiver's range into `ray` (whose buffers are used again). Rays that
+  // Traces the ray of `theta` to the receiver's range into `ray` (whose buffers are used again). Rays that
   // bounces leave less than a quarter of the least factor are given up. With `details`, all sums are taken,
   // and exactly.
   void trace(double theta, TracedRay& ray, TracedDetails* details = nullptr) const;
@@ -85,8 +85,6 @@ class ArcTracer {
   double source_speed_mps() const { return source_speed_; }
   std::size_t source_layer() const { return source_layer_; }
   std::size_t source_facet() const { return source_facet_; }
-  // Rays that bounces leave less of are given up.
-  double min_factor() const { return min_factor_; }
   // Whether the options exclude a ray launched at `theta` after `bounces`.
   bool is_excluded(double theta, int bounces) const {
     return bounces > sea_.options.max_bounces ||

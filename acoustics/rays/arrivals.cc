@@ -5,7 +5,6 @@
 #include <complex>
 #include <cstdint>
 #include <numbers>
-#include <numeric>
 
 #include "core/check.h"
 
@@ -14,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Nearer in both, two paths of one kind are the two sides of a fold that no receiver can tell apart.
+// Nearer in both, two paths of one kind are the two sides of a fold that no receiver can resolve.
 constexpr double kMergedDelay = 1e-6;  // s
 const double kMergedAngle = to_radians(0.02);
 
@@ -83,31 +82,6 @@ void number_branches(const std::vector<Key>& keys, std::vector<Arrival>& paths) 
   }
 }
 
-// Whether two paths that were lost are the two sides of one fold, which end together as the receiver leaves
-// them.
-bool were_one_fold(const Arrival& a, const Arrival& b) {
-  constexpr double kFoldWidth = 0.02;  // rad
-  return a.surface_bounces == b.surface_bounces && a.bottom_bounces == b.bottom_bounces &&
-         std::abs(a.caustics - b.caustics) == 1 &&
-         std::abs(a.launch_angle_rad - b.launch_angle_rad) < kFoldWidth;
-}
-
-// Moves those of the lost that ended otherwise to the front and counts them.
-std::size_t unexplained(std::vector<Arrival>& lost) {
-  const std::vector<Arrival> all = lost;
-  const auto folded = std::partition(lost.begin(), lost.end(), [&all](const Arrival& path) {
-    return std::none_of(all.begin(), all.end(),
-                        [&path](const Arrival& other) { return were_one_fold(path, other); });
-  });
-  return static_cast<std::size_t>(folded - lost.begin());
-}
-
-double power_of(const std::vector<Arrival>& paths) {
-  return std::accumulate(paths.begin(), paths.end(), 0.0, [](double power, const Arrival& path) {
-    return power + path.amplitude * path.amplitude;
-  });
-}
-
 }  // namespace
 
 double Arrival::received_pressure() const { return amplitude * std::pow(10.0, -absorption_db / 20); }
@@ -122,45 +96,6 @@ std::string_view to_name(RaySolver solver) {
       return "arcs";
   }
   return "";
-}
-
-bool Arrivals::has_direct_path() const {
-  return std::any_of(paths.begin(), paths.end(), [](const Arrival& path) {
-    return path.surface_bounces == 0 && path.bottom_bounces == 0;
-  });
-}
-
-FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
-                         const FollowOne& follow_one, const LookAround& look_around) {
-  constexpr double kMaxLostPower = 0.01;    // of all
-  constexpr std::size_t kMaxLookedFor = 6;  // more, and a search of all is as quick
-  FollowedRays now;
-  now.paths.reserve(before.size());
-  std::vector<Arrival> lost;
-  for (const Arrival& path : before) {
-    if (!follow_one(path, now.paths)) lost.push_back(path);
-  }
-  lost.resize(unexplained(lost));
-  now.complete = lost.empty() || power_of(lost) <= kMaxLostPower * power_of(before);
-  if (!now.complete && look_around && lost.size() <= kMaxLookedFor) {
-    for (const Arrival& path : lost) look_around(path, now.paths);
-    now.complete = true;
-  }
-  finish(now.paths, options);
-  return now;
-}
-
-bool is_followed(const std::vector<Arrival>& paths, const Arrival& before) {
-  constexpr double kSameRay = 1e-8;  // rad
-  const Arrival& now = paths.back();
-  const bool same = now.surface_bounces == before.surface_bounces &&
-                    now.bottom_bounces == before.bottom_bounces && now.caustics == before.caustics &&
-                    now.identity.launched_up == before.identity.launched_up;
-  return same && std::none_of(paths.begin(), paths.end() - 1, [&now](const Arrival& other) {
-           return std::abs(other.launch_angle_rad - now.launch_angle_rad) < kSameRay &&
-                  other.identity.surface_bounces == now.identity.surface_bounces &&
-                  other.identity.bottom_bounces == now.identity.bottom_bounces;
-         });
 }
 
 void validate(const RayOptions& options) {

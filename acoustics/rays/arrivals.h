@@ -8,7 +8,6 @@
 #pragma once
 
 #include <compare>
-#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -16,8 +15,8 @@
 
 namespace halocline::acoustics {
 
-// What a path is, as long as its ends move only little: the same from step to step, so that delay and Doppler
-// of a path can be followed. Two paths of one link never have the same identity.
+// Identity of a path, the same from step to step as long as its ends move only little, so that its delay and Doppler
+// can be tracked. Two paths of one link never have the same identity.
 struct PathIdentity {
   bool launched_up = false;
   int surface_bounces = 0, bottom_bounces = 0;
@@ -34,7 +33,7 @@ struct Arrival {
   double arrival_angle_rad = 0;
   double launch_slowness_spm = 0;  // cos(launch angle) / sound speed at the source, s/m: Snell's invariant
   // Mean over the range of cos(angle) / sound speed, s/m: by how much the delay grows with the range when the bottom
-  // stretches along. The launch slowness over a level bottom.
+  // legs along. The launch slowness over a level bottom.
   double range_slowness_spm = 0;
   double path_length_m = 0;    // along the arcs
   double absorption_db = 0;    // along the arcs, at RayOptions::frequency_hz
@@ -58,14 +57,12 @@ struct Arrivals {
   RaySolver solver = RaySolver::kImages;  // the one that found them
   std::vector<Arrival> paths;
 
-  // No ray at all: the receiver lies in a shadow. That is no proof of silence: sound leaks into shadows by
-  // diffraction and scattering, which rays do not know. Whoever wants a floor adds one and says so.
+  // No ray at all: the receiver lies in a shadow zone. Diffraction and scattering, which ray theory leaves out, still
+  // bring some sound there; FieldOptions::floor stands for it.
   bool shadow() const { return paths.empty(); }
-  // Whether any path meets neither surface nor bottom.
-  bool has_direct_path() const;
 };
 
-// What to look for. The defaults keep what can matter to a modem.
+// Limits of the search. The defaults keep what can matter to a modem.
 struct RayOptions {
   double frequency_hz = 25'000;  // for absorption and reflection, 10..1e6
   // Paths are kept when launched within this of the horizontal, (0, pi/2].
@@ -84,25 +81,6 @@ void validate(const RayOptions& options);
 struct RayLink {
   double source_depth_m = 0, receiver_depth_m = 0, range_m = 0;
 };
-
-// Paths of a link whose ends moved, found by following those it had before.
-struct FollowedRays {
-  std::vector<Arrival> paths;
-  // False: more than 1 % of the power was lost otherwise than by the two rays of a fold meeting and ending, and
-  // nobody looked where it went.
-  bool complete = false;
-};
-
-// Follows each of `before` by `follow_one`, which appends the path as it is now and says whether it could.
-using FollowOne = std::function<bool(const Arrival& before, std::vector<Arrival>& paths)>;
-// Appends the paths that are now about where a lost one was and not among `paths`; may be empty.
-using LookAround = std::function<void(const Arrival& lost, std::vector<Arrival>& paths)>;
-FollowedRays follow_each(const std::vector<Arrival>& before, const RayOptions& options,
-                         const FollowOne& follow_one, const LookAround& look_around = nullptr);
-
-// Whether a path that was followed is the one it was before: as many bounces and caustics, launched to the
-// same side, and not one that another path has come to already (all but the last of `paths`).
-bool is_followed(const std::vector<Arrival>& paths, const Arrival& before);
 
 // Last touches common to the solvers: drops what the options exclude, merges folds (paths alike, launched
 // within 0.02 degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the

@@ -52,15 +52,6 @@ RayWater ray_water(const Environment& environment, double frequency_hz, double t
   return RayWater(thinned(knots_of(water), thinning_tolerance_mps), absorption);
 }
 
-RaySea ray_sea(const Environment& environment, BottomProfile bottom_profile, const FluidBottom& bottom,
-               SurfaceModel surface, const RayOptions& options) {
-  validate(environment);
-  validate(bottom);
-  validate(options);
-  return {ray_water(environment, options.frequency_hz), std::move(bottom_profile), bottom,
-          RaySurface{surface, environment.noise.wind_mps}, options};
-}
-
 RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
   if (!sea.bottom_profile.is_flat_until(link.range_m)) return RaySolver::kArcs;
   const bool one_speed = sea.water.is_isovelocity_above(sea.bottom_profile.depth_at(link.range_m));
@@ -72,27 +63,6 @@ Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolve
           "the ray solvers 'images' and 'snell' need a flat bottom");
   const RaySolver chosen = solver.value_or(choose_solver(sea, link));
   return {chosen, within_launch_limit(search(sea, link, chosen), sea.options)};
-}
-
-RayLink ray_link(const Vec3& source_ned_m, const Vec3& receiver_ned_m, double sea_surface_z_m) {
-  return {source_ned_m.z() - sea_surface_z_m, receiver_ned_m.z() - sea_surface_z_m,
-          std::hypot(receiver_ned_m.x() - source_ned_m.x(), receiver_ned_m.y() - source_ned_m.y())};
-}
-
-Arrivals arrivals(const RaySea& sea, const Vec3& source_ned_m, const Vec3& receiver_ned_m,
-                  double sea_surface_z_m) {
-  return arrivals(sea, ray_link(source_ned_m, receiver_ned_m, sea_surface_z_m));
-}
-
-Arrivals follow(const RaySea& sea, const RayLink& link, const Arrivals& before) {
-  const bool flat = sea.bottom_profile.is_flat_until(link.range_m);
-  if (before.solver == RaySolver::kImages || (!flat && before.solver == RaySolver::kSnell))
-    return arrivals(sea, link);
-  FollowedRays now = before.solver == RaySolver::kSnell
-                         ? follow_layered_rays(flat_sea(sea, link), link, before.paths)
-                         : follow_profile_rays(profiled_sea(sea), link, before.paths);
-  if (!now.complete) return arrivals(sea, link, before.solver);
-  return {before.solver, within_launch_limit(std::move(now.paths), sea.options)};
 }
 
 }  // namespace halocline::acoustics

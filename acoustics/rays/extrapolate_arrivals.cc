@@ -11,12 +11,13 @@ struct Displacement {
   double apart, source_down, receiver_down;
 };
 
-// Angle of a ray of `angle_rad` and `length_m` once its end has moved.
+// Angle of a straight ray of `angle_rad` and `length_m` once its end has moved: the direction of the moved end.
 double turned(double angle_rad, double length_m, double apart_m, double down_m) {
   return std::atan2(length_m * std::sin(angle_rad) + down_m, length_m * std::cos(angle_rad) + apart_m);
 }
 
-Arrival carried(Arrival path, const EndSpeeds& speeds, const Displacement& moved) {
+Arrival extrapolated(Arrival path, const EndSpeeds& speeds, const Displacement& moved) {
+  // Fermat: d tau = <cos / c> dr + sin(arrival) / c_r dz_r - sin(launch) / c_s dz_s.
   const double delay_s = path.delay_s, speed_mps = path.path_length_m / delay_s;
   const double gradient_s = path.range_slowness_spm * moved.apart +
                             std::sin(path.arrival_angle_rad) / speeds.receiver_mps * moved.receiver_down -
@@ -24,6 +25,8 @@ Arrival carried(Arrival path, const EndSpeeds& speeds, const Displacement& moved
   // Unfolded as the source sees it, the receiver's down is up after an odd number of bounces and turns.
   const bool flipped = (path.surface_bounces + path.bottom_bounces) % 2 != 0;
   const double turn = flipped ? -1 : 1, down = turn * moved.receiver_down - moved.source_down;
+  // A spherical front of radius L about the source, c = L / tau, d the displacement:
+  // tau'^2 = (tau + d tau)^2 + (w / c)^2, w^2 = |d|^2 - (c d tau)^2.
   const double along = speed_mps * gradient_s;
   const double across_squared = std::max(moved.apart * moved.apart + down * down - along * along, 0.0);
   path.delay_s =
@@ -39,13 +42,13 @@ Arrival carried(Arrival path, const EndSpeeds& speeds, const Displacement& moved
 
 }  // namespace
 
-std::vector<Arrival> carried(const std::vector<Arrival>& found, const RayLink& from, const EndSpeeds& speeds,
-                             const RayLink& to) {
+std::vector<Arrival> extrapolate_arrivals(const std::vector<Arrival>& found, const RayLink& from,
+                                          const EndSpeeds& speeds, const RayLink& to) {
   const Displacement moved{to.range_m - from.range_m, to.source_depth_m - from.source_depth_m,
                            to.receiver_depth_m - from.receiver_depth_m};
   std::vector<Arrival> paths;
   paths.reserve(found.size());
-  for (const Arrival& path : found) paths.push_back(carried(path, speeds, moved));
+  for (const Arrival& path : found) paths.push_back(extrapolated(path, speeds, moved));
   std::stable_sort(paths.begin(), paths.end(),
                    [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
   return paths;

@@ -92,6 +92,7 @@ void FanTracer::go_part(State& s, double dr) {
 bool FanTracer::bounce(State& s, const Facet& facet) const {
   const FacetBounce one = bounce_off(facet, s);
   if (one.out_cosine < kMinCosine) return false;
+  // The tube of rays as the facets reflect them: as qx and px of acoustics/rays/arc_tracer.cc.
   const double g = water_.gradients_per_s()[s.layer], ct = s.xi * s.c;
   // One division for all: it takes as long as a dozen products.
   const double per_all = 1 / (s.c * one.facet_sine * one.out_cosine), per_in = per_all * one.out_cosine;
@@ -168,6 +169,8 @@ bool FanTracer::next_layer_is_whole(State& s, std::size_t knot, bool down) const
 }
 
 bool FanTracer::run_through_layers(State& s, std::size_t knot) {
+  // Between bounces at the bottom E = d xi / d theta = -(sin p + g xi^2 q) stays, and X = -q / sin grows by
+  // E d(dr)/dxi a layer (acoustics/rays/ray_column.h).
   if (column_.xi() != s.xi) column_.set(s.xi);
   const double xi2 = s.xi * s.xi, sine_before = away_from_zero(s.sine);
   double turning = -(sine_before * s.p + water_.gradients_per_s()[s.layer] * xi2 * s.q);  // E
@@ -204,7 +207,7 @@ bool FanTracer::run_through_layers(State& s, std::size_t knot) {
   return true;
 }
 
-void FanTracer::follow(State& s, FanRay& ray) {
+void FanTracer::trace_from(State& s, FanRay& ray) {
   for (int steps = 0; steps < kMaxSteps; ++steps) {
     if (s.hits) {
       if (!go_to_bottom(s, s.hit)) return;
@@ -230,7 +233,7 @@ void FanTracer::follow(State& s, FanRay& ray) {
 FanRay FanTracer::trace(double theta) {
   FanRay ray{.theta = theta, .first_event = events_.size()};
   State s = start(theta);
-  follow(s, ray);
+  trace_from(s, ray);
   ray.events = events_.size() - ray.first_event;
   return ray;
 }

@@ -1,9 +1,8 @@
-// Follows the many rays among which a search looks for the few that arrive: as acoustics/rays/arc_tracer.h does, without
-// what only a kept ray needs.
+// Traces the fan of rays among which a search brackets its eigenrays: fast, depth and its slope only.
 //
-// Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers of one stretch between two
-// bounces at the bottom come from a column (acoustics/rays/ray_column.h), whatever lies above the shallowest bottom as one
-// excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope
+// Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers between two
+// bounces at the bottom come from a column (acoustics/rays/ray_column.h), all that lies above the shallowest bottom
+// as one excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope
 // over links of kilometres; more within a microradian of a ray that grazes). Rays that lose 6 dB more than
 // paths may are given up, by interpolated losses.
 //
@@ -31,20 +30,20 @@ class FanTracer {
   // Refers to the tracer, which has to outlive this.
   explicit FanTracer(const ArcTracer& exact);
 
-  // Follows the ray of `theta` to the receiver's range.
+  // Traces the ray of `theta` to the receiver's range.
   FanRay trace(double theta);
-  // What happened to a ray of this tracer, in order.
+  // The events of a ray of this tracer, in order.
   std::span<const EventCode> events_of(const FanRay& ray) const {
     return std::span(events_).subspan(ray.first_event, ray.events);
   }
-  // What has been kept so far; and to forget the rays traced since then.
+  // Number of events stored so far; forget_since() drops those of the rays traced since then.
   std::size_t kept_events() const { return events_.size(); }
   void forget_since(std::size_t kept_events) { events_.resize(kept_events); }
 
  private:
   struct State;
   State start(double theta) const;
-  void follow(State& s, FanRay& ray);
+  void trace_from(State& s, FanRay& ray);
   void go(State& s, double dr, double z, double sine) const;
   void go_part(State& s, double dr);
   bool go_to_bottom(State& s, ArcHit hit);

@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-// One image: how often its path runs u, and d, more than its n cycles say.
+// One image: its whole cycles n, and i and j of acoustics/rays/image_rays.h.
 struct Image {
   int cycles;
   bool up, down;
@@ -62,6 +62,7 @@ class ImageSum {
   }
 
  private:
+  // Vertical distance to the image: 2 (n + i) u + (2 n + 1) s + 2 (n + j) d (Jensen and others 2011, section 2.4).
   Image image(int n, bool up, bool down) const {
     return {n, up, down,
             2.0 * (n + (up ? 1 : 0)) * up_ + (2.0 * n + 1) * between_ + 2.0 * (n + (down ? 1 : 0)) * down_};
@@ -102,6 +103,7 @@ bool ImageSum::add(const Image& image) {
   const int surface = image.cycles + (image.up ? 1 : 0), bottom = image.cycles + (image.down ? 1 : 0);
   const RayOptions& options = sea_.options;
   if (surface + bottom > options.max_bounces) return false;
+  // A straight line of length L = sqrt(r^2 + drop^2): delay L / c, pressure (-1)^surface V^bottom / L.
   const double length = std::max(std::sqrt(range_ * range_ + image.drop_m * image.drop_m), 1e-6);
   const double sine = image.drop_m / length;
   if (surface + bottom > 0 && sine > min_sine_) return false;

@@ -20,13 +20,13 @@ struct Bounces {
   int surface, bottom, upper_turns, lower_turns;
 };
 
-Bounces bounces_of(const LayeredSpans& spans, const LayeredRay& ray) {
+Bounces bounces_of(const LayeredLegs& legs, const LayeredRay& ray) {
   const int above = ray.cycles + (ray.family.up ? 1 : 0), below = ray.cycles + (ray.family.down ? 1 : 0);
-  return {spans.meets_surface() ? above : 0, spans.meets_bottom() ? below : 0,
-          spans.meets_surface() ? 0 : above, spans.meets_bottom() ? 0 : below};
+  return {legs.meets_surface() ? above : 0, legs.meets_bottom() ? below : 0, legs.meets_surface() ? 0 : above,
+          legs.meets_bottom() ? 0 : below};
 }
 
-// See the header of layered_rays.h.
+// A ray of m turns has touched m - 1 caustics, and one more when dr/dxi > 0.
 int caustics_of(const Bounces& bounces, double range_slope) {
   const int turns = bounces.upper_turns + bounces.lower_turns;
   return turns == 0 ? 0 : turns - 1 + (range_slope > 0 ? 1 : 0);
@@ -37,21 +37,21 @@ double angle(bool down, double sine, double speed, double xi) {
   return (down ? 1 : -1) * angle_of(sine, xi * speed);
 }
 
-void set_directions(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, double xi,
+void set_directions(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,
                     Arrival& path) {
   // A ray from the upper end leaves downward unless it runs U first; from the lower end the other way round.
   const bool leaves_down = link.source_is_upper ? !ray.family.up : ray.family.down;
   const bool comes_down = link.source_is_upper ? !ray.family.down : ray.family.up;
   path.launch_angle_rad =
-      angle(leaves_down, spans.sine_at(link.source_speed_mps, ray.sine), link.source_speed_mps, xi);
+      angle(leaves_down, legs.sine_at(link.source_speed_mps, ray.sine), link.source_speed_mps, xi);
   path.arrival_angle_rad =
-      angle(comes_down, spans.sine_at(link.receiver_speed_mps, ray.sine), link.receiver_speed_mps, xi);
+      angle(comes_down, legs.sine_at(link.receiver_speed_mps, ray.sine), link.receiver_speed_mps, xi);
   path.launch_slowness_spm = path.range_slowness_spm = xi;
   path.identity.launched_up = !leaves_down;
 }
 
 // False when the bounces leave too little.
-bool set_boundaries(const LayeredLink& link, const SpanSums& sums, const Bounces& bounces, Arrival& path) {
+bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces& bounces, Arrival& path) {
   const RayOptions& options = link.sea.options;
   double factor = 1, phase = pi * (bounces.surface % 2);
   if (bounces.bottom > 0) {
@@ -72,23 +72,26 @@ bool set_boundaries(const LayeredLink& link, const SpanSums& sums, const Bounces
   return factor >= options.min_boundary_factor;
 }
 
-void set_spreading(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
-                   const SpanSums& sums, const Bounces& bounces, Arrival& path) {
+void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
+                   const LegSums& sums, const Bounces& bounces, Arrival& path) {
+  // Conservation of energy in the ray tube: A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r)
+  // (Jensen and others 2011, section 3.3, with dr/dtheta = dr/dxi dxi/dtheta); each caustic turns the phase by pi / 2.
   const RangeTerms terms = range_terms(sums, ray.family);
   const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
   const double sines =
-      spans.sine_at(link.source_speed_mps, ray.sine) * spans.sine_at(link.receiver_speed_mps, ray.sine);
+      legs.sine_at(link.source_speed_mps, ray.sine) * legs.sine_at(link.receiver_speed_mps, ray.sine);
   const double tube = q * std::max(std::abs(m), ray.min_slope) * sines;
   path.amplitude *= std::sqrt(link.source_speed_mps * link.receiver_speed_mps / tube);
   path.caustics = caustics_of(bounces, m);
   path.phase_rad = std::fmod(path.phase_rad + path.caustics * pi / 2, 2 * pi);
 }
 
-void set_lengths(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray, double xi,
+void set_lengths(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,
                  Arrival& path) {
-  const SpanDetails one_way = spans.details(ray.sine, ray.cosine);
+  const LegDetails one_way = legs.details(ray.sine, ray.cosine);
   const std::array<double, 3> times = {2.0 * (ray.cycles + (ray.family.up ? 1 : 0)), 2.0 * ray.cycles + 1,
                                        2.0 * (ray.cycles + (ray.family.down ? 1 : 0))};
+  // tau = xi r + sum of (tau - xi r) over the legs.
   path.delay_s = xi * link.range_m;
   for (std::size_t i = 0; i < times.size(); ++i) {
     path.delay_s += times[i] * one_way.intercept_s[i];
@@ -125,15 +128,15 @@ LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link)
                                                        : -std::numeric_limits<double>::infinity();
 }
 
-void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
-                    const SpanSums& sums, std::vector<Arrival>& paths) {
-  const Bounces bounces = bounces_of(spans, ray);
+void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
+                    const LegSums& sums, std::vector<Arrival>& paths) {
+  const Bounces bounces = bounces_of(legs, ray);
   if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return;
   Arrival path;
   if (!set_boundaries(link, sums, bounces, path)) return;
-  set_spreading(link, spans, ray, sums, bounces, path);
-  set_directions(link, spans, ray, sums.xi, path);
-  set_lengths(link, spans, ray, sums.xi, path);
+  set_spreading(link, legs, ray, sums, bounces, path);
+  set_directions(link, legs, ray, sums.xi, path);
+  set_lengths(link, legs, ray, sums.xi, path);
   path.surface_bounces = path.identity.surface_bounces = bounces.surface;
   path.bottom_bounces = path.identity.bottom_bounces = bounces.bottom;
   path.identity.upper_turns = bounces.upper_turns;

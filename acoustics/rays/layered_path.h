@@ -1,18 +1,18 @@
 // Turns one Snell ray of a flat sea, named by family and number of cycles, into an arrival.
 //
-// Shared by the search for rays and by the following of rays found before (acoustics/rays/layered_rays.h).
+// Equations: acoustics/rays/layered_rays.h.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/layered_legs.h"
 #include "acoustics/rays/layered_rays.h"
-#include "acoustics/rays/layered_spans.h"
 
 namespace halocline::acoustics {
 
-// A family is whether the ray runs U and D once more than its n whole cycles say.
+// A family is whether the ray runs U and D once more than its n whole cycles.
 struct Family {
   bool up, down;
 };
@@ -24,7 +24,7 @@ struct RangeTerms {
   double bq, bm, xq, xm;
 };
 
-inline RangeTerms range_terms(const SpanSums& s, Family family) {
+inline RangeTerms range_terms(const LegSums& s, Family family) {
   const double u = family.up ? 2 : 0, d = family.down ? 2 : 0;
   return {u * s.q[0] + s.q[1] + d * s.q[2], u * s.m[0] + s.m[1] + d * s.m[2], 2 * (s.q[0] + s.q[1] + s.q[2]),
           2 * (s.m[0] + s.m[1] + s.m[2])};
@@ -35,7 +35,7 @@ struct LayeredLink {
   LayeredLink(const FlatSea& flat_sea, const RayLink& ray_link);
 
   // Factor that all bounces leave of the pressure: the bottom's alone, an upper bound.
-  double bottom_factor(const SpanSums& sums) const {
+  double bottom_factor(const LegSums& sums) const {
     return bottom_magnitude_at_sine(sea.bottom, sums.sine_bottom, bottom_speed_mps);
   }
 
@@ -46,7 +46,7 @@ struct LayeredLink {
   double log_min_factor;  // ln of RayOptions::min_boundary_factor, -infinity for 0
 };
 
-// A ray: where it is in the spans, by sine and cosine of the angle at the barrier.
+// A ray: where it is in the legs, by sine and cosine of the angle at the barrier.
 struct LayeredRay {
   Family family;
   int cycles;
@@ -64,7 +64,7 @@ inline bool is_settled(double off, double off_before) {
 }
 
 // Appends the arrival unless the options exclude it; `sums` are those of the ray.
-void append_arrival(const LayeredLink& link, const LayeredSpans& spans, const LayeredRay& ray,
-                    const SpanSums& sums, std::vector<Arrival>& paths);
+void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
+                    const LegSums& sums, std::vector<Arrival>& paths);
 
 }  // namespace halocline::acoustics

@@ -27,7 +27,7 @@ constexpr std::size_t kUsualPaths = 64;  // of one link
 // f = (r - b)/X of the four families and its slope, at one angle of one interval.
 struct Node {
   double theta = 0;
-  SpanSums sums;
+  LegSums sums;
   std::array<double, 4> f{}, slope{};
   double log_factor = 0;  // ln of the bottom's factor a bounce
 };
@@ -45,7 +45,7 @@ class Search {
  public:
   Search(const FlatSea& sea, const RayLink& link)
       : link_(sea, link),
-        spans_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m),
+        legs_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m),
         omega_(2 * pi * sea.options.frequency_hz) {}
 
   std::vector<Arrival> run() {
@@ -53,7 +53,7 @@ class Search {
     add_horizontal();
     do {
       scan_interval();
-    } while (!past_steepest_ && spans_.advance());
+    } while (!past_steepest_ && legs_.advance());
     finish(paths_, link_.sea.options);
     return std::move(paths_);
   }
@@ -78,7 +78,7 @@ class Search {
   double fold_slope(const Bracket& bracket, double range_slope, double xi) const;
 
   LayeredLink link_;
-  LayeredSpans spans_;
+  LayeredLegs legs_;
   double omega_;
   std::vector<Arrival> paths_;
   bool direct_only_ = false, past_steepest_ = false;
@@ -117,17 +117,17 @@ void Search::add_horizontal() {
 }
 
 double Search::theta_reaching(double c) const {
-  const double barrier = spans_.barrier_mps();
+  const double barrier = legs_.barrier_mps();
   return std::atan2(std::sqrt(std::max(0.0, (c - barrier) * (c + barrier))), barrier);
 }
 
 void Search::scan_interval() {
   // Launched at the greatest angle a ray reaches speed c_source / cos(angle) where it is horizontal.
   const double cosine = std::cos(link_.sea.options.max_launch_angle_rad);
-  const double next = spans_.next_barrier_mps();
-  const double steepest =
-      cosine > 1e-12 ? theta_reaching(std::max(link_.source_speed_mps / cosine, spans_.barrier_mps()))
-                     : pi / 2;
+  const double next = legs_.next_barrier_mps();
+  const double steepest = cosine > 1e-12
+                              ? theta_reaching(std::max(link_.source_speed_mps / cosine, legs_.barrier_mps()))
+                              : pi / 2;
   double to = next > 0 ? theta_reaching(next) : pi / 2;
   past_steepest_ = next <= 0;
   const double limit = direct_only_ ? kMinAngle : std::min(to, steepest);
@@ -141,14 +141,14 @@ Node Search::node_at(double theta) const {
   Node node;
   node.theta = theta;
   const double sine = std::sin(theta), cosine = std::cos(theta), r = link_.range_m;
-  node.sums = spans_.sums(sine, cosine);
+  node.sums = legs_.sums(sine, cosine);
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
     const RangeTerms t = range_terms(node.sums, kFamilies[k]);
     // f = (r / xi - b_q) / X_q; dxi/dtheta = -sin / c*. Vertical rays (xi = 0) go nowhere: f = -b / X.
     node.f[k] = (r - node.sums.xi * t.bq) / (node.sums.xi * t.xq);
     node.slope[k] = (t.bm + node.f[k] * t.xm) * sine / (cosine * t.xq);
   }
-  node.log_factor = spans_.meets_bottom() ? std::log(link_.bottom_factor(node.sums)) : 0;
+  node.log_factor = legs_.meets_bottom() ? std::log(link_.bottom_factor(node.sums)) : 0;
   return node;
 }
 
@@ -255,13 +255,14 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, do
 void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
   double low = bracket.from, high = bracket.to, theta = bracket.guess, off_before = kNotYet;
   LayeredRay ray{kFamilies[family], cycles, 0, 1};
-  SpanSums sums;
+  LegSums sums;
   RangeTerms t{};
   for (int i = 0; i < 60; ++i) {
     ray.sine = std::sin(theta);
     ray.cosine = std::cos(theta);
-    sums = spans_.sums(ray.sine, ray.cosine);
+    sums = legs_.sums(ray.sine, ray.cosine);
     t = range_terms(sums, ray.family);
+    // Newton on f: f - n = (r - b - n X) / X, all of it in units of xi.
     const double off = link_.range_m - sums.xi * (t.bq + cycles * t.xq);  // (f - n) X
     if (is_settled(off, off_before)) break;
     off_before = off;
@@ -273,17 +274,19 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     if (high - low < 1e-15 * high) break;
   }
   ray.min_slope = fold_slope(bracket, t.bm + cycles * t.xm, sums.xi);
-  const bool trapped = cycles > 0 && !spans_.meets_surface() && !spans_.meets_bottom();
-  const double wavelength = 2 * pi * spans_.barrier_mps() / omega_;
-  if (trapped && spans_.height_of_swing_m(sums.xi) < wavelength) return;
-  append_arrival(link_, spans_, ray, sums, paths_);
+  const bool trapped = cycles > 0 && !legs_.meets_surface() && !legs_.meets_bottom();
+  const double wavelength = 2 * pi * legs_.barrier_mps() / omega_;
+  if (trapped && legs_.height_of_swing_m(sums.xi) < wavelength) return;
+  append_arrival(link_, legs_, ray, sums, paths_);
 }
 
+// Least |dr/dxi| beside a fold, 0.555 omega^(-1/3) (|r''| / 2)^(2/3): where the amplitude of ray theory meets the peak
+// of the Airy function, Ai'(-1.0188) = 0, shared between the two rays.
 // A turn of f beside a ray need not be a fold of its r = b + n X: near a barrier X' is so large that f may turn
 // where r does not. There |r'| / off is far above the mean curvature of the cell.
 double Search::fold_slope(const Bracket& bracket, double range_slope, double xi) const {
   if (bracket.fold_theta == kNoFold) return 0;
-  const double off_fold = xi - std::cos(bracket.fold_theta) / spans_.barrier_mps();
+  const double off_fold = xi - std::cos(bracket.fold_theta) / legs_.barrier_mps();
   if (off_fold == 0) return 0;
   const double curvature = std::min(std::abs(range_slope / off_fold), 2 * bracket.mean_curvature);
   return 0.555 * std::cbrt(curvature * curvature / (4 * omega_));

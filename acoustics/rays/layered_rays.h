@@ -1,6 +1,6 @@
 // Every ray between two points of water that depends on depth alone, over a flat bottom.
 //
-// Method: the four families of acoustics/rays/layered_spans.h each ask for b(xi) + n X(xi) = r, X one whole cycle.
+// Method: the four families of acoustics/rays/layered_legs.h each solve b(xi) + n X(xi) = r, X one whole cycle.
 // So f = (r - b)/X is tabulated between consecutive barriers against the grazing angle at the barrier, in
 // which it is smooth; wherever f crosses a whole number n >= 0 there is a ray of n cycles, and a turn of f (a
 // fold, the caustic of two rays) is found first and split at. The table is refined until a cubic through
@@ -36,10 +36,5 @@ struct FlatSea {
 
 // All rays of `link`, whose depths are within 0..bottom_depth_m (at a boundary: a micrometre off it).
 std::vector<Arrival> layered_rays(const FlatSea& sea, const RayLink& link);
-
-// The same from paths found before, for ends that moved little: each is followed to where it is now. Those
-// that could not be (they ended at a fold or an edge) are dropped, and where they carried 1 % of the power
-// the answer is not complete: search again. Paths that came into being are not found.
-FollowedRays follow_layered_rays(const FlatSea& sea, const RayLink& link, const std::vector<Arrival>& before);
 
 }  // namespace halocline::acoustics

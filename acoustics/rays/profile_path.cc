@@ -37,6 +37,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
   if (!ray.arrived || ray.factor < options.min_boundary_factor) return;
   if (ray.surface_bounces + ray.bottom_bounces > options.max_bounces) return;
   if (std::abs(ray.zeta - target) > kFarOff) return;
+  // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
   const double tube = std::max(std::abs(ray.q), min_tube(ray, theta, fold, options.frequency_hz));
   const double speed = std::sqrt(1 - ray.sine * ray.sine) / ray.xi;
   Arrival path;

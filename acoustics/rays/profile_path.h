@@ -1,6 +1,6 @@
-// Turns one traced ray over a bottom profile into an arrival, and says which rays a search begins with.
+// Turns one traced ray over a bottom profile into an arrival, and gives the launch angles that a search begins with.
 //
-// Shared by the search for rays (acoustics/rays/profile_rays.h) and by the following of rays found before.
+// Equations: acoustics/rays/profile_rays.h.
 #pragma once
 
 #include <vector>
@@ -27,8 +27,5 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
 // many and far apart in range; and just on both sides of the angles at which rays graze a knot of the water
 // on their first leg.
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
-
-// Every ray launched between two angles, rad, in the order they are found and not finished.
-std::vector<Arrival> profile_rays_between(const ArcTracer& tracer, double from, double to);
 
 }  // namespace halocline::acoustics

@@ -59,7 +59,7 @@ class Search {
   void polish(const FanRay& a, const FanRay& b, double target, const Fold& fold);
   bool seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
   double off_nearest_image(double zeta) const;
-  bool is_foretold(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const;
+  bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const;
 
   const ArcTracer& tracer_;
   FanTracer fan_;
@@ -108,19 +108,23 @@ std::vector<Arrival> Search::run(const std::vector<double>& angles) {
   std::vector<FanRay> fan;
   fan.reserve(angles.size());
   for (const double theta : angles) fan.push_back(traced(theta));
-  std::vector<bool> foretold;  // by the rays on both sides
+  std::vector<bool> predicted;  // by the rays on both sides
   for (std::size_t i = 0; i < fan.size(); ++i) {
-    foretold.push_back(i > 0 && i + 1 < fan.size() &&
-                       is_foretold(fan[i - 1], fan[i], fan[i + 1], kShareBeforehand));
+    predicted.push_back(i > 0 && i + 1 < fan.size() &&
+                        is_predicted(fan[i - 1], fan[i], fan[i + 1], kShareBeforehand));
   }
   for (std::size_t i = 1; i < fan.size(); ++i) {
-    foretold[i - 1] && foretold[i] ? solve(fan[i - 1], fan[i]) : scan(fan[i - 1], fan[i], 0);
+    if (predicted[i - 1] && predicted[i]) {
+      solve(fan[i - 1], fan[i]);
+    } else {
+      scan(fan[i - 1], fan[i], 0);
+    }
   }
   return std::move(paths_);
 }
 
-// Whether a cubic through two rays says where one between them arrives, to a share of the tolerance.
-bool Search::is_foretold(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const {
+// Whether a cubic through two rays predicts where one between them arrives, to a share of the tolerance.
+bool Search::is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const {
   if (!(a.arrived && b.arrived && middle.arrived) || parting(a, middle) || parting(middle, b)) return false;
   const double width = b.theta - a.theta, t = (middle.theta - a.theta) / width;
   const double error = cubic_of(a, b).error_at(t, middle.zeta, middle.zeta_slope, width);
@@ -147,7 +151,7 @@ void Search::look_between(const FanRay& a, const FanRay& b, int depth) {
     return;
   }
   const FanRay middle = traced(0.5 * (a.theta + b.theta));
-  if (is_foretold(a, middle, b, 1)) {
+  if (is_predicted(a, middle, b, 1)) {
     solve(a, middle);
     solve(middle, b);
   } else {
@@ -171,7 +175,11 @@ void Search::part(const FanRay& a, const FanRay& b, std::size_t event, int depth
 void Search::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth) {
   FanRay last = from;
   const auto scan_last = [&](const FanRay& next) {
-    last.theta < next.theta ? scan(last, next, depth) : scan(next, last, depth);
+    if (last.theta < next.theta) {
+      scan(last, next, depth);
+    } else {
+      scan(next, last, depth);
+    }
   };
   if (grazing) {
     for (double off = kGrazeStep * (from.theta - edge.theta); std::abs(off) > kFinestGraze;
@@ -203,7 +211,7 @@ void Search::solve(const FanRay& a, const FanRay& b) {
       turn = traced(theta);
       if (!turn.arrived) continue;
       folds = off_nearest_image(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn);
-    } else {  // whichever images lie on either side, this ray tells them apart as well as the one that turns
+    } else {  // this ray separates the images on both sides as well as the one that turns
       turn.theta = theta;
       turn.zeta = cubic(t);
     }
@@ -282,18 +290,14 @@ void Search::polish(const FanRay& a, const FanRay& b, double target, const Fold&
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
   validate(sea.options);
   const ArcTracer tracer(sea, link);
-  std::vector<Arrival> paths = profile_rays_between(tracer, -kSteepest, kSteepest);
+  std::vector<double> angles = {-kSteepest};
+  for (const double theta : fan_angles(tracer, kSteepest)) {
+    if (theta < kSteepest) angles.push_back(theta);
+  }
+  angles.push_back(kSteepest);
+  std::vector<Arrival> paths = Search(tracer).run(angles);
   finish(paths, sea.options);
   return paths;
-}
-
-std::vector<Arrival> profile_rays_between(const ArcTracer& tracer, double from, double to) {
-  std::vector<double> angles = {std::max(from, -kSteepest)};
-  for (const double theta : fan_angles(tracer, kSteepest)) {
-    if (theta > from && theta < to) angles.push_back(theta);
-  }
-  angles.push_back(std::min(to, kSteepest));
-  return Search(tracer).run(angles);
 }
 
 }  // namespace halocline::acoustics

@@ -24,9 +24,4 @@ namespace halocline::acoustics {
 // it).
 std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link);
 
-// The same from paths found before, for ends that moved little (acoustics/rays/layered_rays.h says what that
-// means).
-FollowedRays follow_profile_rays(const ProfiledSea& sea, const RayLink& link,
-                                 const std::vector<Arrival>& before);
-
 }  // namespace halocline::acoustics

@@ -3,7 +3,7 @@
 // Model: acoustics/math/arc_math.h, dr = K xi / (s1 + s2), K = h (c1 + c2), s the sines of the ray's angle at the
 // knots, and d(dr)/dxi = K / ((s1 + s2) s1 s2). A ray keeps its xi from one bounce at the bottom to the next,
 // so one column serves all layers between them; each is independent of the others, which compilers turn into
-// vector instructions. Within such a stretch a ray tube is two numbers that are as simple: E = d xi/d theta
+// vector instructions. Within such a leg a ray tube is two numbers that are as simple: E = d xi/d theta
 // stays, and X, by how far the neighbouring ray of launch angle 1 rad more is off in range at the same depth,
 // grows by E d(dr)/dxi a layer. Both follow from q and p of acoustics/rays/arc_tracer.h: q = -sin X, E = -(sin p +
 // g xi^2 q).

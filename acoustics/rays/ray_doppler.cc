@@ -33,6 +33,7 @@ double doppler_factor(const Arrival& path, const MovingEnds& ends) {
 double doppler_factor(double source_mps, double source_sound_speed_mps, double receiver_mps,
                       double receiver_sound_speed_mps) {
   require_slower_than_sound(source_mps, source_sound_speed_mps, receiver_mps, receiver_sound_speed_mps);
+  // f_rx / f_tx = (1 - v_r / c_r) / (1 - v_s / c_s), both velocities along the ray.
   return (1 - receiver_mps / receiver_sound_speed_mps) / (1 - source_mps / source_sound_speed_mps);
 }
 
@@ -41,7 +42,8 @@ double doppler_shift(double source_mps, double source_sound_speed_mps, double re
   require_slower_than_sound(source_mps, source_sound_speed_mps, receiver_mps, receiver_sound_speed_mps);
   const double source = source_mps / source_sound_speed_mps,
                receiver = receiver_mps / receiver_sound_speed_mps;
-  return (source - receiver) / (1 - source);
+  return (source - receiver) /
+         (1 - source);  // the same factor less 1, without the difference of equal numbers
 }
 
 }  // namespace halocline::acoustics

@@ -13,6 +13,7 @@ constexpr double kTallestSample =
     250.0;  // m: nor coarser, so that a bump between two probes is not passed over
 constexpr double kTallestProbe = 5000.0;  // m: below it formulas and tables are taken as constant
 
+// a0 + a1 u + a2 u^2 through the values at u = 0, 1/2 and 1.
 LayerAbsorption parabola(double top, double middle, double bottom) {
   return {top, 4 * middle - 3 * top - bottom, 2 * (top + bottom) - 4 * middle};
 }

@@ -32,7 +32,7 @@ inline double mean_absorption(const LayerAbsorption& layer, double s1, double s2
   return layer.a0 + layer.a1 * (1 + p) / 3 + layer.a2 * (2 * p * p + 3 * p + 3) / 15;
 }
 
-// `layer` seen from the share `from` to the share `to` of its thickness: a new u runs 0..1 over that stretch.
+// `layer` seen from the share `from` to the share `to` of its thickness: a new u runs 0..1 over that part.
 inline LayerAbsorption restricted(const LayerAbsorption& layer, double from, double to) {
   const double d = to - from;
   return {layer.a0 + from * (layer.a1 + from * layer.a2), d * (layer.a1 + 2 * from * layer.a2),
@@ -72,8 +72,8 @@ class RayWater {
   std::vector<LayerAbsorption> absorption_;
 };
 
-// The fewest of the given knots (first and last among them) that stay within `tolerance_mps` of all of them:
-// what 101 knots of a deep profile say takes 20 to say to 0.1 m/s. Throws when tolerance_mps < 0.
+// The fewest of the given knots, first and last among them, between which linear interpolation stays within
+// `tolerance_mps` of all of them: a deep profile of 101 knots needs 20 for 0.1 m/s. Throws when tolerance_mps < 0.
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps);
 // The knots of a water.
 std::vector<SpeedRow> knots_of(const RayWater& water);

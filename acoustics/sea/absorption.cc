@@ -26,7 +26,8 @@ constexpr NamedModel kNames[] = {
     {AbsorptionModel::kThorpJensen, "thorp-jensen"},
 };
 
-// Table II of the 2010 IEEE SMC paper, in the units Fisher and Simmons give: f in Hz, P in atm, Np/m.
+// Fisher and Simmons 1977, equations as in table II of the 2010 IEEE SMC paper; f in Hz, P in atm, T in degC, Np/m:
+//   alpha = A1 f1 f^2 / (f1^2 + f^2) + A2 P2 f2 f^2 / (f2^2 + f^2) + A3 P3 f^2 (boric acid, MgSO4, water).
 AbsorptionSpectrum fisher_simmons(const AbsorbingWater& water) {
   const double t = water.temperature_degc, p = water.pressure_atm, kelvin = t + 273.1;
   const double a1 = 1.03e-8 + 2.36e-10 * t - 5.22e-12 * t * t;
@@ -52,6 +53,8 @@ double francois_garrison_a3(double t) {
                  : 3.964e-4 - 1.146e-5 * t + 1.45e-7 * t * t - 6.5e-10 * t * t * t;
 }
 
+// Francois and Garrison 1982, part II; f in kHz, D in m, dB/km; P1 = 1:
+//   alpha = A1 f1 f^2 / (f1^2 + f^2) + A2 P2 f2 f^2 / (f2^2 + f^2) + A3 P3 f^2.
 AbsorptionSpectrum francois_garrison(const AbsorbingWater& water) {
   const double t = water.temperature_degc, s = water.salinity_psu, d = water.depth_m;
   const double c = 1412 + 3.21 * t + 1.19 * s + 0.0167 * d;  // their own estimate of sound speed
@@ -70,6 +73,9 @@ AbsorptionSpectrum francois_garrison(const AbsorbingWater& water) {
           .low_below_400_hz = false};
 }
 
+// Ainslie and McColm 1998; f in kHz, z in km, dB/km:
+//   alpha = 0.106 f1 f^2 / (f1^2 + f^2) e^((pH - 8) / 0.56)
+//         + 0.52 (1 + T / 43) (S / 35) f2 f^2 / (f2^2 + f^2) e^(-z / 6) + 0.00049 f^2 e^(-(T / 27 + z / 17)).
 AbsorptionSpectrum ainslie_mccolm(const AbsorbingWater& water) {
   const double t = water.temperature_degc, s = water.salinity_psu, z_km = water.depth_m / 1000;
   const double f1 = 0.78 * std::sqrt(s / 35) * std::exp(t / 26);
@@ -83,7 +89,7 @@ AbsorptionSpectrum ainslie_mccolm(const AbsorbingWater& water) {
           .low_below_400_hz = false};
 }
 
-// Thorp's two relaxations, at 1 kHz and sqrt(4100) kHz, in the constants of each author.
+// Thorp 1967: alpha = a + b f^2 / (1 + f^2) + c f^2 / (4100 + f^2) + d f^2, f in kHz, in the constants of each author.
 constexpr AbsorptionSpectrum thorp(double constant, double first, double second, double quadratic) {
   return {constant, first, 1, second, 4100, quadratic, false};
 }

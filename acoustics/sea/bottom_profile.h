@@ -27,7 +27,7 @@ struct ProfiledDepth {
   bool operator==(const ProfiledDepth&) const = default;
 };
 
-// Above it two facets by themselves meet in a corner, below in a bend: 5 degrees tells crests from samples of
+// Above it two facets by themselves meet in a corner, below in a bend: 5 degrees separates crests from samples of
 // a curve.
 inline const double kDefaultCreaseAngle = to_radians(5);
 

@@ -79,6 +79,8 @@ struct Quotient {
   }
 };
 
+// Rayleigh reflection at a fluid half-space (Jensen and others 2011, equation 1.60), G the grazing angle:
+//   V = (m sin G - sqrt(n^2 - cos^2 G)) / (m sin G + sqrt(n^2 - cos^2 G)).
 Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps) {
   const double ratio =
       bottom.sound_speed_ratio > 0 ? bottom.sound_speed_ratio : bottom.sound_speed_mps / water_speed_mps;
@@ -92,6 +94,8 @@ Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps
   return {above - below.re, -below.im, above + below.re, below.im};
 }
 
+// APL-UW TR 9407 (1994), part II: SBL = 1.26e-3 w^1.57 f^0.85 / sin G dB for w >= 6 m/s; below, the value at 6 m/s
+// times e^(1.2 (w - 6)). f in kHz.
 double apl_bubble_loss_db(double wind_mps, double grazing_rad, double khz) {
   constexpr double kJoin = 6;  // m/s
   const double steady =
@@ -100,12 +104,16 @@ double apl_bubble_loss_db(double wind_mps, double grazing_rad, double khz) {
   return wind_mps >= kJoin ? steady : steady * std::exp(1.2 * (wind_mps - kJoin));
 }
 
+// Eckart 1953: the coherent part is e^(-Gamma^2 / 2), Gamma = 2 k h sin G.
 double eckart_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double wavenumber = 2 * pi * khz_to_hz(khz) / kWaveModelSpeed;
   const double gamma = 2 * wavenumber * rms_wave_height_m(wind_mps) * std::sin(grazing_rad);
   return 10 * std::numbers::log10e * gamma * gamma;  // -20 log10 e^(-Gamma^2 / 2)
 }
 
+// Coates 1988, after Beckmann and Spizzichino 1963; f in kHz, w in knots, G in degrees:
+//   loss = -10 log((1 + (f / f1)^2) / (1 + (f / f2)^2)) + (1 + (90 - w) / 60) (G / 30)^2,
+//   f2 = 378 / w^2, f1 = sqrt(10) f2.
 double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double knots = wind_mps * kKnotsPerMps;
   const double f2 = knots > 0 ? 378 / (knots * knots) : 1e30, f1 = std::sqrt(10.0) * f2;  // kHz
@@ -114,6 +122,9 @@ double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
   return -(low - (1 + (90 - knots) / 60) * tilt * tilt);
 }
 
+// Jones, Duncan and others 2009, after Beckmann and Spizzichino 1963; f in Hz, w in m/s, G in rad:
+//   loss = -20 log(0.3 + 0.7 / (1 + 6e-11 w^4 f^2)) - 10 log(1 - V3), a = 1 / (2 (0.003 + 5.1e-3 w)),
+//   V3 = max(sin(G) / 2, (1 - e^(-a G^2 / 4) / sqrt(pi a G^2)) sin G), at most 0.99.
 double jones_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double a = 1 / (2 * (0.003 + 5.1e-3 * wind_mps)), theta = grazing_rad;
   const double sine = std::sin(theta), hz = khz_to_hz(khz), spread = a * theta * theta;
@@ -206,6 +217,7 @@ std::optional<SurfaceModel> surface_model_from_name(std::string_view name) {
   return std::nullopt;
 }
 
+// Pierson and Moskowitz 1964: h = 0.22 w^2 / (4 g).
 double rms_wave_height_m(double wind_mps) { return 0.22 * wind_mps * wind_mps / (4 * kGravity); }
 
 double surface_loss_db(const RaySurface& surface, double grazing_rad, double frequency_hz) {

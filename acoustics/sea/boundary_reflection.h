@@ -1,4 +1,4 @@
-// What the bottom and the surface do to a ray that meets them: loss and turn of phase at one bounce.
+// Reflection of a ray at the bottom and the surface: loss and phase of one bounce.
 //
 // Bottom: Rayleigh reflection of a plane wave at a fluid half-space (Jensen, Kuperman, Porter and Schmidt
 // 2011, equation 1.60), with m the density ratio, n the index of refraction and G the grazing angle:

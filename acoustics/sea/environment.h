@@ -1,4 +1,4 @@
-// The water a link runs through: everything about the sea that the acoustics ask for, as one value.
+// The sea of a link as one value: everything that the acoustic models depend on.
 //
 // Immutable by convention: build one, `validate` it, share it by const reference between threads. Horizontal
 // position does not enter: one profile, one sea state for the whole scenario.

@@ -7,6 +7,9 @@
 namespace halocline::acoustics {
 
 NoiseComponents noise_components(double frequency_hz, const NoiseSources& sources) {
+  // Coates 1990 as in Stojanovic 2006 (WUWNet); f in kHz, s shipping, w wind; dB re 1 uPa^2/Hz:
+  //   turbulence 17 - 30 log f, shipping 40 + 20 (s - 0.5) + 26 log f - 60 log(f + 0.03),
+  //   wind 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4), thermal -15 + 20 log f. Powers add.
   const double f = hz_to_khz(frequency_hz), log_f = std::log10(f);
   NoiseComponents n;
   n.turbulence = {17 - 30 * log_f};

@@ -13,7 +13,7 @@
 
 namespace halocline::acoustics {
 
-// What makes the sea loud.
+// Sources of ambient noise.
 struct NoiseSources {
   double shipping = 0.5;  // activity, 0 (none) to 1 (heavy)
   double wind_mps = 0;    // 10 m above the sea, 0 to 60

@@ -31,6 +31,8 @@ double common_oceans_pressure_dbar(double depth_m, double latitude_rad) {
 }
 
 double unesco_depth_m(double pressure_dbar, double latitude_rad) {
+  // UNESCO 1983, Technical Paper 44, algorithm 3 (Saunders and Fofonoff 1976): depth = (specific volume integrated over
+  // pressure) / gravity.
   const double p = pressure_dbar;
   const double x = squared_sine(latitude_rad);
   // Gravity at the surface plus half of its growth down to p.

@@ -27,7 +27,7 @@ double common_oceans_pressure_dbar(double depth_m, double latitude_rad);
 // Depth, m, where the gauge pressure is `pressure_dbar` (0..10 000) at `latitude_rad`.
 double unesco_depth_m(double pressure_dbar, double latitude_rad);
 
-// What the absorption of Fisher and Simmons asks for: 1 + (gauge pressure of the standard ocean) / 10.1325
+// The pressure of Fisher and Simmons's absorption: 1 + (gauge pressure of the standard ocean) / 10.1325
 // dbar. At 100 m and 45 degrees it is 10.952 atm: the reference figures 6 and 7 use this number.
 double pressure_atm_absolute(double depth_m, double latitude_rad);
 

@@ -108,7 +108,7 @@ class Grid {
       bands_.push_back(b);
       depths_m_.push_back(depth);
     }
-    require(!bands_.empty(), path_ + ": has " + std::to_string(time + 1) + " times; asked was number " +
+    require(!bands_.empty(), path_ + ": has " + std::to_string(time + 1) + " times; given is number " +
                                  std::to_string(time_index) + " (from 0)");
   }
 

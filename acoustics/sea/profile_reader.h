@@ -48,7 +48,7 @@ struct GridProfile {
   SoundSpeedProfile profile;
   double column_latitude_rad;   // of the column used
   double column_longitude_rad;  // -pi..pi
-  double distance_m;            // from where was asked, on a sphere
+  double distance_m;            // from the place given, on a sphere
   int levels;                   // rows of the profile
   std::string description;      // one line that states all this
 };
@@ -60,7 +60,7 @@ GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model);
 // What the module halocline_profile_grids.so exports as halocline_read_grid_profile; the caller owns the result.
 using GridProfileReader = GridProfile*(const GridQuery& query, SoundSpeedModel model);
 
-inline constexpr double kFarthestColumn = 300'000;  // m; farther water says nothing about this place
+inline constexpr double kFarthestColumn = 300'000;  // m; farther water does not stand for this place
 
 // By the ending of `path`: .csv and .txt as a table, anything else as netCDF at the position (then the
 // latitude of `reading` is the query's). Throws InvalidArgument when the file cannot be read.

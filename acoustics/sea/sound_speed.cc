@@ -24,7 +24,7 @@ constexpr NamedModel kNames[] = {
     {SoundSpeedModel::kHarrisZorzi2007, "harris-zorzi"},
 };
 
-// Chen and Millero's c = Cw(T,P) + A(T,P) S + B(T,P) S^(3/2) + D(P) S^2; rows are powers of P in bar,
+// Chen and Millero 1977: c = Cw(T,P) + A(T,P) S + B(T,P) S^(3/2) + D(P) S^2; rows are powers of P in bar,
 // columns powers of T. The two fits share the shape and differ in the numbers.
 struct ChenMilleroCoefficients {
   double c[4][6];
@@ -80,6 +80,8 @@ double chen_millero(const ChenMilleroCoefficients& k, double t, double s, double
 }  // namespace
 
 double mackenzie_1981(double temperature_degc, double salinity_psu, double depth_m) {
+  // Mackenzie 1981, nine terms: c = 1448.96 + 4.591 T - 5.304e-2 T^2 + 2.374e-4 T^3 + 1.340 (S - 35) + 1.630e-2 D
+  //   + 1.675e-7 D^2 - 1.025e-2 T (S - 35) - 7.139e-13 T D^3.
   const double t = temperature_degc, s = salinity_psu - 35, d = depth_m;
   return 1448.96 + ((2.374e-4 * t - 5.304e-2) * t + 4.591) * t + 1.340 * s + (1.630e-2 + 1.675e-7 * d) * d -
          1.025e-2 * t * s - 7.139e-13 * t * d * d * d;

@@ -154,6 +154,7 @@ double SoundSpeedProfile::slowness_integral(double from_depth_m, double to_depth
 double SoundSpeedProfile::travel_time_s(double from_depth_m, double to_depth_m, double path_length_m) const {
   const double z1 = std::clamp(std::min(from_depth_m, to_depth_m), 0.0, kDeepestWater);
   const double z2 = std::clamp(std::max(from_depth_m, to_depth_m), 0.0, kDeepestWater);
+  // Along a straight line ds / dz = L / (z2 - z1): t = L / (z2 - z1) integral of dz / c(z) from z1 to z2.
   if (z1 == z2) return path_length_m / sound_speed_mps(z1);
   return path_length_m * (slowness_integral(z1, z2) / (z2 - z1));
 }
@@ -163,6 +164,7 @@ double SoundSpeedProfile::mean_sound_speed_mps(double from_depth_m, double to_de
 }
 
 double munk_sound_speed_mps(double depth_m) {
+  // Munk 1974 (JASA 55, 220): c = c1 (1 + eps (n - 1 + e^-n)), n = 2 (z - z1) / B.
   constexpr double kAxisSpeed = 1500, kAxisDepth = 1300, kScale = 1300, kPerturbation = 0.00737;
   const double n = 2 * (depth_m - kAxisDepth) / kScale;
   return kAxisSpeed * (1 + kPerturbation * (n - 1 + std::exp(-n)));

@@ -51,7 +51,7 @@ class SoundSpeedProfile {
   // `latitude_rad`
   // (-pi/2..pi/2) matters to the models of pressure only.
   static SoundSpeedProfile from_water(std::vector<WaterRow> rows, SoundSpeedModel model, double latitude_rad);
-  // A table of speeds says nothing of the water's warmth and salt, which absorption needs: `assumed`
+  // A table of speeds has no temperature and salinity, which absorption needs: `assumed`
   // everywhere.
   static SoundSpeedProfile from_speeds(std::vector<SpeedRow> rows, WaterSample assumed);
 
@@ -101,7 +101,7 @@ class SoundSpeedProfile {
 };
 
 // A profile that ships, by name: "global-mean", "global-mean-s35", "harris-zorzi", "munk". Empty for any other name.
-// `model` overrides the formula that a profile prefers; `assumed` is the water of those that tell speed alone.
+// `model` overrides the formula that a profile prefers; `assumed` is the water of those that hold speeds alone.
 std::optional<SoundSpeedProfile> built_in_profile(std::string_view name, std::optional<SoundSpeedModel> model,
                                                   WaterSample assumed);
 

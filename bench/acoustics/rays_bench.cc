@@ -1,8 +1,7 @@
-// What the eigenrays of one link cost on one core, cold (searched for) and warm (followed after the ends
-// moved).
+// What the eigenrays of one link cost on one core: searched for, and extrapolated from a search near by.
 //
-// Claims (microseconds, cold): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots
-// 80, a slope 150, a bottom of many facets 1500; warm at most half of cold.
+// Claims (microseconds, searched for): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots
+// 80, a slope 150, a bottom of many facets 1500.
 #include <cmath>
 #include <numbers>
 
@@ -87,27 +86,8 @@ void cold(benchmark::State& state) {
 }
 BENCHMARK(cold)->DenseRange(0, 7)->Unit(benchmark::kMicrosecond);
 
-// Ends wander within 5 m of where the rays were searched for.
-void warm(benchmark::State& state) {
-  const auto which = static_cast<int>(state.range(0));
-  const Situation at = situation(which);
-  const Arrivals before = arrivals(at.sea, at.link);
-  double step = 0;
-  for (auto _ : state) {
-    RayLink moved = at.link;
-    step += 1;
-    moved.range_m += 3 * std::sin(1.7 * step);
-    moved.source_depth_m += 2 * std::sin(2.3 * step);
-    moved.receiver_depth_m += 2 * std::cos(1.1 * step);
-    benchmark::DoNotOptimize(follow(at.sea, moved, before));
-  }
-  state.SetLabel(kNames[which]);
-  state.counters["paths"] = static_cast<double>(before.paths.size());
-}
-BENCHMARK(warm)->DenseRange(1, 7)->Unit(benchmark::kMicrosecond);
-
 // To first order, as the channel server does within a cell. Items are paths.
-void carry(benchmark::State& state) {
+void extrapolate(benchmark::State& state) {
   const Situation at = situation(2);
   const std::vector<Arrival> before = arrivals(at.sea, at.link).paths;
   const EndSpeeds speeds{at.sea.water.speed_at(at.link.source_depth_m),
@@ -115,11 +95,11 @@ void carry(benchmark::State& state) {
   RayLink moved = at.link;
   for (auto _ : state) {
     moved.range_m += 1e-3;
-    benchmark::DoNotOptimize(carried(before, at.link, speeds, moved));
+    benchmark::DoNotOptimize(extrapolate_arrivals(before, at.link, speeds, moved));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(before.size()));
 }
-BENCHMARK(carry);
+BENCHMARK(extrapolate);
 
 }  // namespace
 }  // namespace halocline::acoustics

@@ -216,7 +216,7 @@ acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const Found& f
   if (itself) return found.arrivals;
   const acoustics::EndSpeeds speeds{task.water->speed_at(searched.source_depth_m),
                                     task.water->speed_at(searched.receiver_depth_m)};
-  return {found.arrivals.solver, carried(found.arrivals.paths, searched, speeds, link)};
+  return {found.arrivals.solver, extrapolate_arrivals(found.arrivals.paths, searched, speeds, link)};
 }
 
 std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "acoustics/modem/modem.h"
@@ -19,10 +20,14 @@ enum class WhenBusy {
   kQueue,   // it starts when those before it have ended
 };
 
+// The profile whose packets may be of any form.
+inline const std::string kGenericProfile = "generic";
+
 struct VehicleModem {
   acoustics::Modem modem;
   std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768; the modem's own limit holds as well
   WhenBusy when_busy = WhenBusy::kRefuse;
+  std::string profile = kGenericProfile;  // where the numbers come from: a name, or the path of a file
   bool operator==(const VehicleModem&) const = default;
 };
 

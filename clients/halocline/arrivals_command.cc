@@ -51,10 +51,11 @@ int find_arrivals(const ArrivalsArguments& arguments) {
   if (!arguments.plot.empty()) write_plot(arrival_plot(found, "Arrivals"), arguments.plot);
   std::ostringstream text;  // so that nothing is written unless all went well
   print_arrivals(text, found, format_of(arguments.format));
-  if (arguments.output.empty())
+  if (arguments.output.empty()) {
     std::cout << text.str() << std::flush;
-  else
-    write_text(arguments.output, text.str());
+    return kDone;
+  }
+  write_text(arguments.output, text.str());
   return kDone;
 }
 

@@ -27,12 +27,13 @@ int calc(CalcArguments& arguments) {
   }
   std::ostringstream text;  // so that nothing is written unless all went well
   const int code = run_calc(arguments.options, file.is_open() ? file : std::cin, text, std::cerr);
-  const bool to_stdout = arguments.output.empty() || arguments.output == "-";
-  if (to_stdout)
+  if (arguments.output.empty() || arguments.output == "-") {
     std::cout << text.str() << std::flush;
-  else if (code == kDone)
-    write_text(arguments.output, text.str());
-  return code;
+    return code;
+  }
+  if (code != kDone) return code;
+  write_text(arguments.output, text.str());
+  return kDone;
 }
 
 }  // namespace
@@ -44,7 +45,8 @@ void add_calc_command(CLI::App& app, int& exit_code) {
                       fmt::format("one of: {}", fmt::join(quantity_names(), ", ")));
   command->add_option("input", arguments->input, "CSV with the columns of the quantity; default or -: stdin");
   command->add_option("--out", arguments->output, "CSV with the results appended; default or -: stdout");
-  command->add_option("--model", arguments->options.model, "formula; --list names them");
+  command->add_option("--model", arguments->options.model,
+                      "formula, or a modem's name or file; --list names them");
   command->add_option("--profile", arguments->options.profile, "sound-speed profile: built-in name or file");
   command->add_option("--latitude", arguments->options.latitude_deg, "degrees, -90 to 90")
       ->check(CLI::Range(-90.0, 90.0));

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/modem/modem_profile.h"
+#include "channel_server/modem_config.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {
@@ -100,7 +100,7 @@ TEST(ChannelServerConfig, AVehiclesModemDiffersFromTheStandardOneInWhatItSays) {
 TEST(ChannelServerConfig, AProfileSetsWhatTheOtherKeysThenChange) {
   const VehicleModem modem =
       read("[modem]\nsource_level_db = 170\nguard_time_s = 0.02\nprofile = \"janus\"\n").modem;
-  acoustics::Modem expected = profile_modem(acoustics::ModemProfile::kJanus);
+  acoustics::Modem expected = load_modem("janus").modem;
   expected.source_level = {170};
   expected.guard_time = for_s(0.02);
   EXPECT_EQ(modem.modem, expected);
@@ -110,12 +110,12 @@ TEST(ChannelServerConfig, AProfileSetsWhatTheOtherKeysThenChange) {
 TEST(ChannelServerConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
   const auto modem =
       read(
-          "[modem]\nprofile = \"micromodem-psk\"\nsource_level_db = 150\ncutoff_level_db = 30\n"
+          "[modem]\nprofile = \"micromodem-psk-1\"\nsource_level_db = 150\ncutoff_level_db = 30\n"
           "center_frequency_hz = 10000\nbandwidth_hz = 2000\ndirectivity_index_db = 3\n"
           "guard_time_s = 0.5\ndoppler_tolerance = 0.01\nerror_model = \"dbpsk-rayleigh\"\n"
           "max_payload_bytes = 10\nwhen_busy = \"queue\"\n")
           .modem;
-  acoustics::Modem expected = profile_modem(acoustics::ModemProfile::kMicromodemPsk, 1);
+  acoustics::Modem expected = load_modem("micromodem-psk-1").modem;
   expected.source_level = {150};
   expected.min_receivable_level = {30};
   expected.centre_frequency_hz = 10'000;
@@ -124,17 +124,17 @@ TEST(ChannelServerConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
   expected.guard_time = for_s(0.5);
   expected.doppler_tolerance = 0.01;
   expected.error_model = acoustics::ErrorModel::kDbpskRayleigh;
-  EXPECT_EQ(modem, (VehicleModem{expected, 10, WhenBusy::kQueue}));
+  EXPECT_EQ(modem, (VehicleModem{expected, 10, WhenBusy::kQueue, "micromodem-psk-1"}));
 }
 
 TEST(ChannelServerConfig, AVehiclesProfileStartsFromItsOwnNumbers) {
   const auto config = read(
       "[modem]\nsource_level_db = 170\nwhen_busy = \"queue\"\n"
-      "[[vehicle]]\nname = \"a\"\nid = 1\n[vehicle.modem]\nprofile = \"micromodem-psk\"\npsk_rate = 5\n"
+      "[[vehicle]]\nname = \"a\"\nid = 1\n[vehicle.modem]\nprofile = \"micromodem-psk-5\"\n"
       "[[vehicle]]\nname = \"b\"\nid = 2\n[vehicle.modem]\nprofile = \"generic\"\npreamble_s = 0.5\n"
       "packet_overhead_s = 0.5\n");
   const auto modems = make_modems(config);
-  EXPECT_EQ(modems.of("a").modem, profile_modem(acoustics::ModemProfile::kMicromodemPsk, 5));
+  EXPECT_EQ(modems.of("a").modem, load_modem("micromodem-psk-5").modem);
   EXPECT_EQ(modems.of("a").max_payload_bytes, 2048);
   EXPECT_EQ(modems.of("a").when_busy, WhenBusy::kQueue);
   EXPECT_EQ(modems.of("b").modem.source_level.value,
@@ -145,8 +145,8 @@ TEST(ChannelServerConfig, AVehiclesProfileStartsFromItsOwnNumbers) {
 TEST(ChannelServerConfig, AProfileKeepsItsOwnPackets) {
   EXPECT_THAT(errors_of("[modem]\nprofile = \"janus\"\nbit_rate_bps = 300\n"), HasSubstr("bit rate"));
   EXPECT_THAT(errors_of("[modem]\nprofile = \"janus\"\npacket_overhead_s = 3\n"), HasSubstr("overhead"));
-  EXPECT_THAT(errors_of("[modem]\nprofile = \"janus\"\npsk_rate = 1\n"), HasSubstr("psk_rate"));
-  EXPECT_THAT(errors_of("[modem]\nprofile = \"micromodem-psk\"\npsk_rate = 3\n"), HasSubstr("1, 2, 4 and 5"));
+  EXPECT_THAT(errors_of("[modem]\nprofile = \"janus\"\nframe_bytes = 32\n"), HasSubstr("frame_bytes"));
+  EXPECT_THAT(errors_of("[modem]\nprofile = \"semaphore\"\n"), HasSubstr("janus, micromodem-fsk"));
   EXPECT_THAT(errors_of("[modem]\npreamble_s = 0.1\n"), HasSubstr("packet_overhead_s"));
   EXPECT_EQ(errors_of("[modem]\nprofile = \"janus\"\nbit_rate_bps = 80\n"), "");
 }
@@ -163,7 +163,7 @@ TEST(ChannelServerConfig, ABeamIsATableInDegreesThatAVehicleInheritsOrReplaces) 
   const auto modems = make_modems(config);
   EXPECT_EQ(modems.of("a").modem.beam, scenarios);
   EXPECT_EQ(modems.of("b").modem.beam, acoustics::BeamPattern({{-edge, 3}, {0, 2}, {edge, 1}}));
-  EXPECT_TRUE(modems.of("c").modem.beam.is_omnidirectional());
+  EXPECT_EQ(modems.of("c").modem.beam, acoustics::BeamPattern());
 }
 
 TEST(ChannelServerConfig, AnImpossibleBeamIsRefusedWithFileLineAndKey) {
@@ -229,16 +229,14 @@ TEST(ChannelServerConfig, WhatIsPrintedReadsBackTheSame) {
 }
 
 TEST(ChannelServerConfig, EveryProfilePrintedReadsBackTheSame) {
-  for (const acoustics::ModemProfile profile : acoustics::kModemProfiles) {
-    for (const int rate : acoustics::kPskRates) {
-      ChannelServerConfig config;
-      config.modem.modem = profile_modem(profile, rate);
-      config.modem.modem.directivity_index = {6};
-      config.modem.max_payload_bytes = 20;
-      config.modem.when_busy = WhenBusy::kQueue;
-      const std::string printed = bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, true);
-      EXPECT_EQ(read(printed).modem, config.modem) << printed;
-    }
+  for (const std::string& profile : built_in_modems()) {
+    ChannelServerConfig config;
+    config.modem = load_modem(profile);
+    config.modem.modem.directivity_index = {6};
+    config.modem.max_payload_bytes = 20;
+    config.modem.when_busy = WhenBusy::kQueue;
+    const std::string printed = bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, true);
+    EXPECT_EQ(read(printed).modem, config.modem) << printed;
   }
 }
 

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "acoustics/modem/modem_profile.h"
 #include "bus/message_checks.h"
 #include "channel_server/environment_messages.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/modem_config.h"
 #include "channel_server/packet_messages.h"
 #include "channel_server/vehicle_messages.h"
 #include "core/check.h"
@@ -67,14 +67,12 @@ TEST(ChannelServerMessages, AModemSurvivesTheRoundTrip) {
 }
 
 TEST(ChannelServerMessages, EveryProfileSurvivesTheRoundTrip) {
-  for (const acoustics::ModemProfile profile : acoustics::kModemProfiles) {
-    for (const int rate : acoustics::kPskRates) {
-      VehicleModem modem{.modem = profile_modem(profile, rate)};
-      modem.modem.source_level = {190};  // one of the numbers that are free
-      const modem_config_t message = to_message(modem, at_s(3));
-      EXPECT_EQ(bus::problem_in(message), "");
-      EXPECT_EQ(to_modem(message), modem);
-    }
+  for (const std::string& profile : built_in_modems()) {
+    VehicleModem modem = load_modem(profile);
+    modem.modem.source_level = {190};  // one of the numbers that are free
+    const modem_config_t message = to_message(modem, at_s(3));
+    EXPECT_EQ(bus::problem_in(message), "");
+    EXPECT_EQ(to_modem(message), modem);
   }
 }
 
@@ -89,14 +87,14 @@ TEST(ChannelServerMessages, EveryErrorModelSurvivesTheRoundTrip) {
 }
 
 TEST(ChannelServerMessages, AProfilesOwnNumbersMayNotBeOthers) {
-  const VehicleModem janus{.modem = profile_modem(acoustics::ModemProfile::kJanus)};
+  const VehicleModem janus = load_modem("janus");
   modem_config_t message = to_message(janus, at_s(3));
   message.bit_rate_bps = 300;
   EXPECT_THROW(to_modem(message), InvalidArgument);
   message = to_message(janus, at_s(3));
   message.preamble_s = 0.1;
   EXPECT_THROW(to_modem(message), InvalidArgument);
-  message = to_message({.modem = profile_modem(acoustics::ModemProfile::kMicromodemPsk)}, at_s(3));
+  message = to_message(load_modem("micromodem-psk-1"), at_s(3));
   message.psk_rate = 3;
   EXPECT_THROW(to_modem(message), InvalidArgument);
 }

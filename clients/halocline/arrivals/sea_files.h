@@ -1,4 +1,4 @@
-// A sea for ray questions from what a command line says and from tables (CSV): water, bottom, surface, links.
+// The sea of a search for eigenrays, from options of the command line and tables (CSV): water, bottom, surface, links.
 //
 // Files, with the column names of the reference arrivals (other columns are ignored):
 //   water   depth_m, sound_speed_mps (linear between rows, taken as it is), or temperature and salinity, or a grid:

@@ -193,6 +193,11 @@ int run_calc(const CalcOptions& options, std::istream& in, std::ostream& out, st
   }
   if (options.list) return list_quantities(quantity, out);
   const QuantityForm* form = find_form(*quantity, options.model);
+  QuantityForm of_file;
+  if (quantity->form_of_file && options.model.ends_with(".toml")) {
+    of_file = quantity->form_of_file(options.model);
+    form = &of_file;
+  }
   if (form == nullptr && !options.model.empty()) {
     return report({"no model '" + options.model + "' of " + quantity->name + "; there are " +
                    joined(model_names(quantity->name))},

@@ -6,7 +6,7 @@
 // nothing is written.
 //
 //   std::istringstream in("T_degC,S_ppt,depth_m\n25,35,1000\n");
-//   run_calc({.quantity = "sound-speed"}, in, std::cout, std::cerr);
+//   const int code = run_calc({.quantity = "sound-speed"}, in, std::cout, std::cerr);
 //   // T_degC,S_ppt,depth_m,c_m_per_s
 //   // 25,35,1000,1550.7440275
 #pragma once
@@ -23,7 +23,8 @@ inline constexpr int kCalcBadRequest = 2;  // the options: no such quantity, mod
 
 // Computes options.quantity for every row of `in`. With options.list describes the quantities instead (all,
 // or the one named) and does not read. Messages go to `err`, one a line. Returns one of the codes above.
-int run_calc(const CalcOptions& options, std::istream& in, std::ostream& out, std::ostream& err);
+[[nodiscard]] int run_calc(const CalcOptions& options, std::istream& in, std::ostream& out,
+                           std::ostream& err);
 
 // Names of all quantities, and the models of one (empty when there is no such quantity): for help and completion.
 std::vector<std::string> quantity_names();

@@ -3,8 +3,8 @@
 
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/convolutional_code.h"
-#include "acoustics/modem/modem_profile.h"
 #include "acoustics/rays/ray_doppler.h"
+#include "channel_server/modem_config.h"
 #include "clients/halocline/calc/columns.h"
 #include "core/check.h"
 #include "core/units.h"
@@ -15,7 +15,6 @@ namespace {
 using acoustics::Decision;
 using acoustics::Fading;
 using acoustics::Modem;
-using acoustics::ModemProfile;
 using acoustics::Modulation;
 
 QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
@@ -109,7 +108,7 @@ std::size_t whole_bytes(double bytes) {
 
 // `payload_bits` counts the 64 of the baseline packet, as the reference does; the rest is cargo.
 std::vector<double> janus_row(const std::vector<double>& v) {
-  const Modem modem = profile_modem(ModemProfile::kJanus);
+  const Modem modem = channel_server::load_modem("janus").modem;
   const double chips_a_second = 2 * modem.bit_rate_bps;
   const auto timing = packet_timing(modem, whole_bytes((v[0] - modem.layout.header_bits) / 8));
   return {modem.centre_frequency_hz,
@@ -126,32 +125,43 @@ std::vector<double> duration_row(const Modem& modem, double payload_bytes) {
   return {timing.preamble.seconds(), timing.duration.seconds(), static_cast<double>(timing.information_bits)};
 }
 
+// Of a modem by the name or path of its profile.
+QuantityForm duration_form(const std::string& profile) {
+  return {profile,
+          {{{"payload_bytes"}, 0, 32'768, {}}},
+          {"preamble_s", "duration_s", "information_bits"},
+          [profile](const CalcOptions&) -> RowFunction {
+            const Modem modem = channel_server::load_modem(profile).modem;
+            return [modem](const std::vector<double>& v) { return duration_row(modem, v[0]); };
+          }};
+}
+
+QuantityForm generic_duration_form() {
+  QuantityForm form = duration_form(channel_server::kGenericProfile);
+  form.inputs.push_back({{"bit_rate_bps"}, 1e-3, 1e7, 80});
+  form.inputs.push_back({{"packet_overhead_s"}, 0, 60, 0});
+  form.prepare = [](const CalcOptions&) -> RowFunction {
+    return [](const std::vector<double>& v) {
+      Modem modem;
+      modem.bit_rate_bps = v[1];
+      modem.packet_overhead = SimDuration::from_seconds(v[2]);
+      return duration_row(modem, v[0]);
+    };
+  };
+  return form;
+}
+
 Quantity packet_duration() {
-  const InputColumn payload{{"payload_bytes"}, 0, 32'768, {}};
-  const std::vector<std::string> outputs{"preamble_s", "duration_s", "information_bits"};
-  return {"packet-duration",
-          "how long a packet takes, by the modem's profile",
-          {plain("janus", {{{"payload_bits"}, 64, 1e6, {}}},
-                 {"fc_Hz", "bandwidth_Hz", "chip_duration_s", "preamble_chips", "coded_chips", "total_chips",
-                  "duration_s"},
-                 janus_row),
-           plain("generic", {payload, {{"bit_rate_bps"}, 1e-3, 1e7, 80}, {{"packet_overhead_s"}, 0, 60, 0}},
-                 outputs,
-                 [](const std::vector<double>& v) {
-                   Modem modem;
-                   modem.bit_rate_bps = v[1];
-                   modem.packet_overhead = SimDuration::from_seconds(v[2]);
-                   return duration_row(modem, v[0]);
-                 }),
-           plain("micromodem-fsk", {payload}, outputs,
-                 [](const std::vector<double>& v) {
-                   return duration_row(profile_modem(ModemProfile::kMicromodemFsk), v[0]);
-                 }),
-           plain("micromodem-psk", {payload, {{"psk_rate"}, 1, 5, acoustics::kDefaultPskRate}}, outputs,
-                 [](const std::vector<double>& v) {
-                   const int rate = static_cast<int>(v[1]);
-                   return duration_row(profile_modem(ModemProfile::kMicromodemPsk, rate), v[0]);
-                 })}};
+  std::vector<QuantityForm> forms{plain("janus", {{{"payload_bits"}, 64, 1e6, {}}},
+                                        {"fc_Hz", "bandwidth_Hz", "chip_duration_s", "preamble_chips",
+                                         "coded_chips", "total_chips", "duration_s"},
+                                        janus_row),
+                                  generic_duration_form()};
+  for (const std::string& name : channel_server::built_in_modems()) {
+    if (name != "janus" && name != channel_server::kGenericProfile) forms.push_back(duration_form(name));
+  }
+  return {"packet-duration", "how long a packet takes, by the modem's profile (name or file)",
+          std::move(forms), duration_form};
 }
 
 // Columns: source towards the receiver, receiver away from the source, frequency, sound speed.

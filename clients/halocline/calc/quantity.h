@@ -12,10 +12,11 @@
 
 namespace halocline::clients {
 
-// What the command line says.
+// Options of the command line.
 struct CalcOptions {
   std::string quantity = "";
-  std::string model = "";    // of the quantity's forms; empty: its first, or the one whose columns are there
+  std::string model =
+      "";  // of the quantity's forms, or a file; empty: its first, or the one whose columns are there
   std::string profile = "";  // built-in name or file, for delays and links; empty: global-mean
   double latitude_deg = 45;  // of the place, for files on a grid and models of pressure, -90..90
   double longitude_deg = 0;  // likewise
@@ -44,6 +45,8 @@ struct Quantity {
   std::string name;
   std::string summary;
   std::vector<QuantityForm> forms;  // at least one; the first is the default
+  // Makes a form of a model that is the path of a file (.toml); empty where models are formulas.
+  std::function<QuantityForm(const std::string& path)> form_of_file = nullptr;
 };
 
 // Every quantity, in the order of the list.

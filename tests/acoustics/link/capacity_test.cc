@@ -11,7 +11,7 @@ namespace {
 using testing::CsvRow;
 using testing::tolerance;
 
-constexpr double kCapacityTolerance = 1e-9;  // what the model page asks of equation 8
+constexpr double kCapacityTolerance = 1e-9;  // required of equation 8
 
 UniformLink link_of(const CsvRow& row) {
   const AbsorbingWater water{row.number("T_degC"), 35, 0, row.number("P_atm"), 8};

@@ -19,7 +19,7 @@ OptimumBandQuestion question(double range_m) {
           .target_snr = {20}};
 }
 
-// Answers of the table's few ranges, kept: many columns ask for the same one.
+// Results of the table's few ranges, kept: many columns need the same one.
 const OptimumBand& answer(const CsvRow& row) {
   static std::map<double, OptimumBand> known;
   const double range_m = 1000 * row.number("range_km");

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -63,7 +65,7 @@ TEST(BitError, RayleighIsTheMeanOverExponentialPowers) {
   }
 }
 
-TEST(BitError, GuessesWithoutSignalAndIsSureWithoutNoise) {
+TEST(BitError, IsOneHalfWithoutSignalAndZeroWithoutNoise) {
   for (const ErrorModel model : kErrorModels) {
     if (model == ErrorModel::kNone) continue;
     EXPECT_DOUBLE_EQ(bit_error_rate(model, {0}), 0.5) << to_name(model);
@@ -87,9 +89,10 @@ TEST(BitError, FallsAsTheRatioRises) {
   }
 }
 
-TEST(BitError, NamesAndModelsAreOneToOne) {
-  for (const ErrorModel model : kErrorModels) EXPECT_EQ(error_model_from_name(to_name(model)), model);
-  EXPECT_FALSE(error_model_from_name("qam").has_value());
+TEST(BitError, EveryErrorModelHasItsOwnName) {
+  std::set<std::string_view> names;
+  for (const ErrorModel model : kErrorModels) names.insert(to_name(model));
+  EXPECT_EQ(names.size(), kErrorModels.size());
 }
 
 TEST(BitError, RefusesWhatIsNoRatioAndNoProbability) {

@@ -1,42 +1,104 @@
-#include "acoustics/modem/modem_profile.h"
-
+// The modems of models/modems.
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/bit_error.h"
+#include "acoustics/modem/modem.h"
+#include "channel_server/modem_config.h"
 #include "core/check.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {
 
-std::vector<Modem> all_modems() {
-  std::vector<Modem> modems;
-  for (const ModemProfile profile : kModemProfiles) {
-    if (profile != ModemProfile::kMicromodemPsk) modems.push_back(profile_modem(profile));
+using channel_server::built_in_modems;
+using channel_server::load_modem;
+using channel_server::parse_modem;
+using ::testing::HasSubstr;
+
+Modem modem_of(const std::string& profile) { return load_modem(profile).modem; }
+
+const std::filesystem::path kFolder = std::filesystem::path(HALOCLINE_SOURCE_DIR) / "models/modems";
+
+std::string error_of(const std::string& toml) {
+  try {
+    parse_modem(toml, "a.toml");
+  } catch (const InvalidArgument& error) {
+    return error.what();
   }
-  for (const int rate : kPskRates) modems.push_back(profile_modem(ModemProfile::kMicromodemPsk, rate));
-  return modems;
+  return "";
 }
 
-std::string name_of(const Modem& modem) {
-  return std::string(to_name(modem.profile)) + " " + std::to_string(modem.psk_rate);
-}
-
-TEST(ModemProfile, EveryProfileIsValidAndKnowsItsName) {
-  for (const Modem& modem : all_modems()) {
-    EXPECT_NO_THROW(validate(modem)) << name_of(modem);
-    EXPECT_EQ(modem_profile_from_name(to_name(modem.profile)), modem.profile);
-    EXPECT_EQ(profile_modem(modem.profile, modem.psk_rate == 0 ? 1 : modem.psk_rate), modem);
+TEST(ModemProfile, EveryFileOfTheFolderIsKnownByItsName) {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(kFolder))
+    names.push_back(file.path().stem().string());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(built_in_modems(), names);
+  for (const std::string& name : names) {
+    channel_server::VehicleModem by_path = load_modem(name + ".toml", kFolder.string());
+    EXPECT_EQ(by_path.profile, name + ".toml");
+    by_path.profile = name;
+    EXPECT_EQ(by_path, load_modem(name));
   }
-  EXPECT_FALSE(modem_profile_from_name("semaphore").has_value());
 }
 
-TEST(ModemProfile, GenericIsTheDefaultModem) { EXPECT_EQ(profile_modem(ModemProfile::kGeneric), Modem{}); }
+// Every key with its value, a note of unit and range, and a source that the head of the file explains.
+TEST(ModemProfile, EveryFileGivesEveryNumberWithItsSource) {
+  for (const std::string& name : built_in_modems()) {
+    std::ifstream file(kFolder / (name + ".toml"));
+    std::string line, head;
+    int keys = 0;
+    while (std::getline(file, line)) {
+      if (line.starts_with("#")) {
+        head += line + "\n";
+        continue;
+      }
+      ++keys;
+      const std::size_t note = line.find('#'), source = line.rfind('[');
+      ASSERT_NE(note, std::string::npos) << name << ": " << line;
+      ASSERT_NE(source, std::string::npos) << name << ": " << line;
+      EXPECT_THAT(head, HasSubstr("# " + line.substr(source))) << name << ": " << line;
+    }
+    EXPECT_EQ(keys, 17) << name;
+  }
+}
+
+TEST(ModemProfile, GenericIsTheDefaultModem) {
+  EXPECT_EQ(load_modem("generic"), channel_server::VehicleModem{});
+}
+
+TEST(ModemProfile, WhatAFileLeavesOutIsTheGenericModems) {
+  const Modem modem = parse_modem("bit_rate_bps = 160", "a.toml").modem;
+  Modem expected;
+  expected.bit_rate_bps = 160;
+  EXPECT_EQ(modem, expected);
+}
+
+TEST(ModemProfile, AFileMayHoldABeamPattern) {
+  const Modem modem = parse_modem("beam_elevation_deg = [-90, 0]\nbeam_loss_db = [20, 0]", "a.toml").modem;
+  EXPECT_EQ(modem.beam.rows().size(), 2U);
+}
+
+TEST(ModemProfile, ErrorsOfAFileNameFileKeyAndWhatIsAllowed) {
+  EXPECT_THAT(error_of("bandwith_hz = 1"), HasSubstr("bandwith_hz"));
+  EXPECT_THAT(error_of("preamble_pieces = 0"), HasSubstr("preamble_pieces"));
+  EXPECT_THAT(error_of("frame_bytes = 32"), HasSubstr("frames of a packet"));
+  EXPECT_THAT(error_of("preamble_s = 0.1"), HasSubstr("packet_overhead_s"));
+  EXPECT_THAT(error_of("bandwidth_hz = 60000"), HasSubstr("twice center_frequency_hz"));
+  EXPECT_THAT(error_of("when_busy = \"queue\""), HasSubstr("a.toml:1"));
+  EXPECT_THROW(load_modem("semaphore"), InvalidArgument);
+  EXPECT_THROW(load_modem("missing.toml", kFolder.string()), InvalidArgument);
+}
 
 TEST(ModemProfile, JanusPacketsLastAsInTheReference) {
-  const Modem janus = profile_modem(ModemProfile::kJanus);
+  const Modem janus = modem_of("janus");
   for (const testing::CsvRow& row : testing::read_reference_csv("acoustics/janus_frame_durations.csv")) {
     const auto bits = static_cast<std::int64_t>(row.number("payload_bits"));
     const PacketTiming timing = packet_timing(janus, static_cast<std::size_t>((bits - 64) / 8));
@@ -55,11 +117,11 @@ TEST(ModemProfile, MicromodemPacketsHoldTheFramesOfTheirType) {
     Modem modem;
     std::size_t frame, most;
   };
-  const Type types[] = {{profile_modem(ModemProfile::kMicromodemFsk), 32, 32},
-                        {profile_modem(ModemProfile::kMicromodemPsk, 1), 64, 192},
-                        {profile_modem(ModemProfile::kMicromodemPsk, 2), 64, 192},
-                        {profile_modem(ModemProfile::kMicromodemPsk, 4), 256, 512},
-                        {profile_modem(ModemProfile::kMicromodemPsk, 5), 256, 2048}};
+  const Type types[] = {{modem_of("micromodem-fsk"), 32, 32},
+                        {modem_of("micromodem-psk-1"), 64, 192},
+                        {modem_of("micromodem-psk-2"), 64, 192},
+                        {modem_of("micromodem-psk-4"), 256, 512},
+                        {modem_of("micromodem-psk-5"), 256, 2048}};
   for (const Type& type : types) {
     EXPECT_EQ(max_payload_bytes(type.modem), type.most);
     EXPECT_EQ(packet_timing(type.modem, 1).information_bits, static_cast<std::int64_t>(8 * type.frame));
@@ -70,36 +132,33 @@ TEST(ModemProfile, MicromodemPacketsHoldTheFramesOfTheirType) {
 
 // WHOI calls the burst rate of a full packet of rate 5 about 5000 bit/s, preamble and all.
 TEST(ModemProfile, AFullPacketOfRateFiveBurstsAtAboutFiveThousandBitsASecond) {
-  const Modem modem = profile_modem(ModemProfile::kMicromodemPsk, 5);
+  const Modem modem = modem_of("micromodem-psk-5");
   const double rate_bps = 8 * 2048 / packet_timing(modem, 2048).duration.seconds();
   EXPECT_NEAR(rate_bps, 5000, 250);
 }
 
-TEST(ModemProfile, ThereIsNoOtherPskRate) {
-  EXPECT_THROW(profile_modem(ModemProfile::kMicromodemPsk, 3), InvalidArgument);
-}
-
 TEST(ModemProfile, ErrorsFallAsTheRatioRisesForEveryProfile) {
-  for (const Modem& modem : all_modems()) {
+  for (const std::string& name : built_in_modems()) {
+    const Modem modem = modem_of(name);
     double before = bit_error_rate(modem, {0});
-    EXPECT_DOUBLE_EQ(before, 0.5) << name_of(modem);
+    EXPECT_DOUBLE_EQ(before, 0.5) << name;
     for (int step = -400; step <= 400; ++step) {
       const double now = bit_error_rate(modem, to_power_ratio(Decibels{step * 0.1}));
-      ASSERT_LE(now, before) << name_of(modem) << " at " << step * 0.1 << " dB";
+      ASSERT_LE(now, before) << name << " at " << step * 0.1 << " dB";
       before = now;
     }
-    EXPECT_LT(before, 1e-12) << name_of(modem);
+    EXPECT_LT(before, 1e-12) << name;
   }
 }
 
-// What a packet is not noticed for should not be what loses it: where half the packets decode, nearly all are
-// noticed.
-TEST(ModemProfile, PacketsAreNoticedWhereTheyDecode) {
-  for (const Modem& modem : all_modems()) {
+// Detection should not limit reception: where half the packets decode, nearly all are detected.
+TEST(ModemProfile, PacketsAreDetectedWhereTheyDecode) {
+  for (const std::string& name : built_in_modems()) {
+    const Modem modem = modem_of(name);
     const std::int64_t bits = packet_timing(modem, 32).information_bits;
     double db = -40;
     while (packet_error_rate(bit_error_rate(modem, to_power_ratio(Decibels{db})), bits) > 0.5) db += 0.1;
-    EXPECT_GT(acquisition_probability(modem, to_power_ratio(Decibels{db})), 0.99) << name_of(modem);
+    EXPECT_GT(acquisition_probability(modem, to_power_ratio(Decibels{db})), 0.99) << name;
   }
 }
 
@@ -114,19 +173,19 @@ double half_of_frames_db(const Modem& modem, std::int64_t frame_bits) {
   return low;
 }
 
-// WHOI's public simulation package (ros_acomms, packet performance) tells frame errors against the ratio: half of
+// WHOI's public simulation package (ros_acomms, packet performance) gives frame errors against the ratio: half of
 // the frames at -7.05 dB for rate 1 (between 72.7 % at -7.23 and 17 % at -6.85 dB) and at 3.87 dB for rate 5
-// (between 100 % at 3.10 and 13.5 % at 4.44 dB). 2 dB: whether its ratio is over 4 or 5 kHz (1 dB) is not told,
+// (between 100 % at 3.10 and 13.5 % at 4.44 dB). 2 dB: whether its ratio is over 4 or 5 kHz (1 dB) is not stated,
 // and bits that err in clumps spoil fewer frames than as many single ones (0.4 dB at rate 5).
 TEST(ModemProfile, PskFramesFailWhereThePublishedCurvesSay) {
-  EXPECT_NEAR(half_of_frames_db(profile_modem(ModemProfile::kMicromodemPsk, 1), 512), -7.05, 2);
-  EXPECT_NEAR(half_of_frames_db(profile_modem(ModemProfile::kMicromodemPsk, 5), 2048), 3.87, 2);
+  EXPECT_NEAR(half_of_frames_db(modem_of("micromodem-psk-1"), 512), -7.05, 2);
+  EXPECT_NEAR(half_of_frames_db(modem_of("micromodem-psk-5"), 2048), 3.87, 2);
 }
 
 TEST(ModemProfile, FasterRatesNeedMore) {
   double before = -40;
-  for (const int rate : kPskRates) {
-    const double now = half_of_frames_db(profile_modem(ModemProfile::kMicromodemPsk, rate), 512);
+  for (const std::string rate : {"1", "2", "4", "5"}) {
+    const double now = half_of_frames_db(modem_of("micromodem-psk-" + rate), 512);
     EXPECT_GT(now, before) << rate;
     before = now;
   }
@@ -134,10 +193,11 @@ TEST(ModemProfile, FasterRatesNeedMore) {
 
 // A vehicle may meet another at 2 m/s each in every profile; the reference receivers correct no more than 5 m/s.
 TEST(ModemProfile, SubmarinesAreWithinTheDopplerTolerance) {
-  for (const Modem& modem : all_modems()) {
-    EXPECT_GT(modem.doppler_tolerance, 4.0 / 1500) << name_of(modem);
-    if (modem.profile != ModemProfile::kGeneric) {
-      EXPECT_LT(modem.doppler_tolerance, 6.0 / 1500) << name_of(modem);
+  for (const std::string& name : built_in_modems()) {
+    const Modem modem = modem_of(name);
+    EXPECT_GT(modem.doppler_tolerance, 4.0 / 1500) << name;
+    if (name != channel_server::kGenericProfile) {
+      EXPECT_LT(modem.doppler_tolerance, 6.0 / 1500) << name;
     }
   }
 }

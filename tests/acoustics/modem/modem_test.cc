@@ -48,14 +48,16 @@ TEST(Modem, SendsWholeFrames) {
 
 TEST(Modem, RefusesAPayloadBeyondItsLargest) {
   Modem modem;
-  modem.layout.max_bytes = 100;
+  EXPECT_NO_THROW(packet_timing(modem, kMaxPayloadBytes));
+  EXPECT_THROW(packet_timing(modem, kMaxPayloadBytes + 1), InvalidArgument);
+  modem.layout = {.frame_bytes = 50, .max_frames = 2};
   EXPECT_NO_THROW(packet_timing(modem, 100));
   EXPECT_THROW(packet_timing(modem, 101), InvalidArgument);
 }
 
-TEST(Modem, NoticesEveryPacketWithoutAPreamble) { EXPECT_EQ(acquisition_probability(Modem{}, {0}), 1); }
+TEST(Modem, EveryPacketIsDetectedWithoutAPreamble) { EXPECT_EQ(acquisition_probability(Modem{}, {0}), 1); }
 
-TEST(Modem, ALongerPreambleIsNoticedAtLowerRatios) {
+TEST(Modem, ALongerPreambleIsDetectedAtLowerRatios) {
   Modem brief, lengthy;
   brief.packet_overhead = lengthy.packet_overhead = SimDuration::from_milliseconds(400);
   brief.preamble = SimDuration::from_milliseconds(100);

@@ -50,7 +50,7 @@ TEST(PreambleDetection, ManyPiecesMatchSimulatedReceivers) {
     noticed += energy > 2 * half_threshold;
   }
   const double expected = detection_probability(kPieces, 1e-4, {h});
-  EXPECT_GT(expected, 0.2);  // neither always nor never, or the comparison would say nothing
+  EXPECT_GT(expected, 0.2);  // neither always nor never, or the comparison would prove nothing
   EXPECT_LT(expected, 0.8);
   EXPECT_NEAR(noticed / double{kTrials}, expected, 4 * std::sqrt(expected * (1 - expected) / kTrials));
 }

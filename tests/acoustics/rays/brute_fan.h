@@ -4,7 +4,7 @@
 // Neighbours of the fan with one history of bounces whose depths at the receiver's range lie on both sides of
 // the receiver bracket a ray, which bisection finds. Between neighbours of different histories the fan is
 // halved down to rounding; between neighbours that turned in different layers, to a microradian. Where
-// the slopes of depth against launch angle at two neighbours say that depth turns towards the receiver
+// the slopes of depth against launch angle at two neighbours show that depth turns towards the receiver
 // between them, the turn is sought and split at. The fan is denser about the angles that graze a knot.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Paths carried from one link to another near by, against those that are searched for there.
+// Arrivals extrapolated from one link to another near by, against those that are searched for there.
 #include "acoustics/rays/extrapolate_arrivals.h"
 
 #include <algorithm>
@@ -25,9 +25,9 @@ RaySea sea_of(const std::vector<SpeedRow>& knots, BottomProfile bottom) {
 RaySea even_sea() { return sea_of({{0, 1500}}, BottomProfile::flat(100)); }
 RaySea layered_sea() { return sea_of({{0, 1520}, {50, 1490}, {100, 1492}}, BottomProfile::flat(100)); }
 
-std::vector<Arrival> carry(const RaySea& sea, const RayLink& from, const RayLink& to) {
+std::vector<Arrival> extrapolate(const RaySea& sea, const RayLink& from, const RayLink& to) {
   const EndSpeeds speeds{sea.water.speed_at(from.source_depth_m), sea.water.speed_at(from.receiver_depth_m)};
-  return carried(arrivals(sea, from).paths, from, speeds, to);
+  return extrapolate_arrivals(arrivals(sea, from).paths, from, speeds, to);
 }
 
 // The path of `all` that is `path`; null where there is none.
@@ -37,12 +37,12 @@ const Arrival* same_in(const std::vector<Arrival>& all, const Arrival& path) {
   return found == all.end() ? nullptr : &*found;
 }
 
-TEST(RayCarry, IsExactInWaterOfOneSpeedOverALevelBottom) {
+TEST(ExtrapolateArrivals, IsExactInWaterOfOneSpeedOverALevelBottom) {
   const RaySea sea = even_sea();
   const RayLink from{30, 55, 800}, to{37, 49, 861};
-  const auto searched = arrivals(sea, to).paths, carried = carry(sea, from, to);
+  const auto searched = arrivals(sea, to).paths, extrapolated = extrapolate(sea, from, to);
   int compared = 0;
-  for (const Arrival& path : carried) {
+  for (const Arrival& path : extrapolated) {
     const Arrival* exact = same_in(searched, path);
     if (exact == nullptr) continue;  // its bounces take a little more or less than the limit
     ++compared;
@@ -57,12 +57,12 @@ TEST(RayCarry, IsExactInWaterOfOneSpeedOverALevelBottom) {
   EXPECT_GT(compared, 15);
 }
 
-TEST(RayCarry, TheWayBackIsCarriedAlike) {
+TEST(ExtrapolateArrivals, TheReverseLinkIsExtrapolatedAlike) {
   const RaySea sea = layered_sea();
   const RayLink from{30, 55, 800}, to{33, 52, 830};
-  const auto there = carry(sea, from, to),
-             back = carry(sea, {from.receiver_depth_m, from.source_depth_m, from.range_m},
-                          {to.receiver_depth_m, to.source_depth_m, to.range_m});
+  const auto there = extrapolate(sea, from, to),
+             back = extrapolate(sea, {from.receiver_depth_m, from.source_depth_m, from.range_m},
+                                {to.receiver_depth_m, to.source_depth_m, to.range_m});
   ASSERT_EQ(there.size(), back.size());
   for (std::size_t i = 0; i < there.size(); ++i) {
     EXPECT_NEAR(there[i].delay_s, back[i].delay_s, tolerance(1e-9)) << i;
@@ -82,7 +82,7 @@ double worst_delay_s(const RaySea& sea, double size_m) {
                      from.receiver_depth_m + 0.1 * size_m * (2 * draw(i, 4) - 1),
                      from.range_m + size_m * (2 * draw(i, 5) - 1)};
     const auto searched = arrivals(sea, to).paths;
-    for (const Arrival& path : carry(sea, from, to)) {
+    for (const Arrival& path : extrapolate(sea, from, to)) {
       if (path.caustics > 0 || path.surface_bounces + path.bottom_bounces > 3) continue;
       if (const Arrival* exact = same_in(searched, path)) {
         worst = std::max(worst, std::abs(path.delay_s - exact->delay_s));
@@ -100,10 +100,12 @@ void expect_second_order(const RaySea& sea) {
   EXPECT_GT(std::log2(half / quarter), 1.6);
 }
 
-TEST(RayCarry, DelaysErrByTheSquareOfTheDisplacementInLayeredWater) { expect_second_order(layered_sea()); }
+TEST(ExtrapolateArrivals, DelaysErrByTheSquareOfTheDisplacementInLayeredWater) {
+  expect_second_order(layered_sea());
+}
 
 // The bottom stretches with the range, as the channel server's profiles do: a straight slope of 20 m.
-TEST(RayCarry, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStretchesAlong) {
+TEST(ExtrapolateArrivals, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStretchesAlong) {
   const auto sloping = [](double range_m) {
     return sea_of({{0, 1520}, {50, 1490}, {200, 1492}}, BottomProfile({{0, 120}, {range_m, 100}}, 0));
   };
@@ -113,7 +115,7 @@ TEST(RayCarry, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStretchesAlong
     const auto searched = arrivals(sloping(to.range_m), to).paths;
     double error = 0;
     int compared = 0;
-    for (const Arrival& path : carry(sea, from, to)) {
+    for (const Arrival& path : extrapolate(sea, from, to)) {
       const Arrival* exact = same_in(searched, path);
       if (exact == nullptr || path.caustics > 0) continue;
       ++compared;
@@ -128,8 +130,8 @@ TEST(RayCarry, DelaysErrByTheSquareOfTheDisplacementOverASlopeThatStretchesAlong
   EXPECT_GT(std::log2(half / quarter), 1.6);
 }
 
-TEST(RayCarry, PathsComeByTheirDelays) {
-  const auto paths = carry(layered_sea(), {30, 55, 800}, {31, 58, 700});
+TEST(ExtrapolateArrivals, PathsAreInTheOrderOfTheirDelays) {
+  const auto paths = extrapolate(layered_sea(), {30, 55, 800}, {31, 58, 700});
   ASSERT_GT(paths.size(), 5u);
   EXPECT_TRUE(std::is_sorted(paths.begin(), paths.end(),
                              [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; }));

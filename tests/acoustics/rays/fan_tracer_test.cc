@@ -1,4 +1,4 @@
-// The quick follower of rays against the one that says everything.
+// The fast fan tracer against the tracer of eigenrays.
 #include "acoustics/rays/fan_tracer.h"
 
 #include <algorithm>
@@ -46,11 +46,11 @@ class FanOverSeas : public ::testing::TestWithParam<Sea> {};
 
 // Both follow the same arcs and add in another order: 1e-7 m and 1e-7 of the slope is what rounding can do over some
 // kilometres, 1000 times what was seen (2.5e-11 m, 2e-12).
-TEST_P(FanOverSeas, RaysArriveWhereTheExactTracerSaysByTheSameEvents) {
+TEST_P(FanOverSeas, RaysArriveAsByTheExactTracerWithTheSameEvents) {
   const auto& [name, knots, bottom, link] = GetParam();
   const RayWater water = water_of(knots);
   RayOptions options;
-  options.min_boundary_factor = 0;  // when faint rays are given up the two say for themselves
+  options.min_boundary_factor = 0;  // the two give up faint rays each by its own rule
   const ProfiledSea sea{water, bottom, fluid_bottom(1.9, 1650, 0.8), RaySurface{}, options};
   const ArcTracer exact(sea, link);
   FanTracer quick(exact);

@@ -48,7 +48,7 @@ TEST(ReceivedField, AbsorptionCounts) {
   EXPECT_NEAR(received_field(of({path})).level.value, -46, tolerance(1e-12));
 }
 
-TEST(ReceivedField, AShadowSaysSoAndHasNoFloorUnlessOneIsStated) {
+TEST(ReceivedField, AShadowIsMarkedAndHasNoFloorUnlessOneIsStated) {
   EXPECT_TRUE(received_field(of({})).shadow);
   EXPECT_TRUE(std::isinf(received_field(of({})).level.value));
   FieldOptions options;
@@ -93,7 +93,7 @@ TEST(ImpulseResponse, LeavesOutWhatFallsOutside) {
 
 TEST(BeamPattern, IsOmnidirectionalWithoutATable) {
   EXPECT_EQ(BeamPattern{}.factor(1.0), 1);
-  EXPECT_TRUE(BeamPattern{}.is_omnidirectional());
+  EXPECT_EQ(BeamPattern{}.loss(-1.0).value, 0);
 }
 
 TEST(BeamPattern, IsLinearInDecibelsBetweenRowsAndConstantBeyond) {

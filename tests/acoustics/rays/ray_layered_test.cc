@@ -185,7 +185,7 @@ TEST(LayeredRays, VerticalLinkHasItsDirectPathAtEveryRangeWhereSteepOnesAreKept)
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
       if (solver == RaySolver::kArcs && range < 1) continue;  // steeper than 89.9 degrees
       const Arrivals found = arrivals(sea, {5, 110, range}, solver);
-      EXPECT_TRUE(found.has_direct_path()) << range << " by " << to_name(solver);
+      EXPECT_TRUE(has_direct_path(found)) << range << " by " << to_name(solver);
     }
   }
 }
@@ -196,13 +196,13 @@ TEST(LayeredRays, NoPathIsSteeperThanTheLimitUnlessSteepOnesAreKept) {
     for (const RaySolver solver : {RaySolver::kImages, RaySolver::kSnell, RaySolver::kArcs}) {
       if (solver == RaySolver::kImages && knots.size() > 1) continue;
       const Arrivals found = arrivals(sea, {5, 110, 10}, solver);  // the direct path leaves at 84.6 degrees
-      EXPECT_FALSE(found.has_direct_path()) << to_name(solver);
+      EXPECT_FALSE(has_direct_path(found)) << to_name(solver);
       for (const Arrival& path : found.paths) EXPECT_LE(std::abs(path.launch_angle_rad), to_radians(80));
     }
   }
 }
 
-TEST(LayeredRays, EndsOfOneDepthInALayerOfOneSpeedSeeEachOtherStraight) {
+TEST(LayeredRays, EndsOfOneDepthInALayerOfOneSpeedHaveAStraightHorizontalRay) {
   const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
   for (const double depth : {50.0, 75.0, 99.0}) {
     const Arrivals found = arrivals(sea, {depth, depth, 1200});
@@ -241,7 +241,7 @@ TEST(LayeredRays, EndsAtTheBoundariesHaveRaysOfFiniteAmplitude) {
 TEST(LayeredRays, AShadowHasNoDirectPathAndAnAbsorbingBottomLeavesNone) {
   // Speed falls with depth: the direct ray bends away, beyond its last graze of the surface there is none.
   RaySea sea = sea_of({{0, 1520}, {100, 1490}}, BottomProfile::flat(100));
-  EXPECT_FALSE(arrivals(sea, {10, 10, 2000}).has_direct_path());
+  EXPECT_FALSE(has_direct_path(arrivals(sea, {10, 10, 2000})));
   EXPECT_FALSE(arrivals(sea, {10, 10, 2000}).shadow());
   sea.bottom = FluidBottom{1, 1, 0, 0, BottomLoss::kComplexWaveNumber};  // more water: no echo
   EXPECT_TRUE(arrivals(sea, {10, 10, 2000}).shadow());
@@ -258,7 +258,7 @@ TEST(LayeredRays, FoldsHaveFiniteLevels) {
   EXPECT_LT(loudest, 0.1);  // 20 dB above a free field at 100 m, at ten times the range
 }
 
-TEST(LayeredRays, TheUserSetsBouncesAndLeastAmplitude) {
+TEST(LayeredRays, OptionsLimitBouncesAndAmplitude) {
   RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
   const std::size_t all = arrivals(sea, {20, 80, 2000}).paths.size();
   sea.options.max_bounces = 3;
@@ -363,45 +363,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Waters{"thermocline", kThermocline, 100, 4000, RaySolver::kArcs, 8, 1000},
                       Waters{"summer", kSummer, 120, 3000, RaySolver::kArcs, 4, 800}),
     waters_name);
-
-// ---------------------------------------------------------------------------------------------- moving ends
-
-TEST(FollowedRays, AreThoseOfANewSearchWhenEndsMoveByMetres) {
-  for (const auto& [knots, depth] : {std::pair(kSummer, 120.0), std::pair(kThermocline, 100.0)}) {
-    const RaySea sea = sea_of(knots, BottomProfile::flat(depth));
-    const Arrivals before = arrivals(sea, {25, 60, 1500});
-    for (const RayLink moved : {RayLink{26, 59, 1503}, RayLink{24.5, 62, 1497}, RayLink{25, 60, 1505}}) {
-      const Arrivals now = follow(sea, moved, before), fresh = arrivals(sea, moved);
-      std::size_t same = 0;
-      std::vector<bool> used(now.paths.size());
-      for (const Arrival& path : fresh.paths) {
-        same += find_path(now.paths, used, path.delay_s, path.launch_angle_rad, path.surface_bounces,
-                          path.bottom_bounces, 1e-9) >= 0
-                    ? 1U
-                    : 0U;
-      }
-      EXPECT_LE(now.paths.size(), fresh.paths.size());           // none invented
-      EXPECT_GE(same + 2, fresh.paths.size()) << moved.range_m;  // a pair may have come into being
-    }
-  }
-}
-
-TEST(FollowedRays, KeepTheirIdentity) {
-  const RaySea sea = sea_of(kThermocline, BottomProfile::flat(100));
-  Arrivals at = arrivals(sea, {20, 80, 2000});
-  for (int step = 0; step < 20; ++step) {
-    const Arrivals next = follow(sea, {20 + 0.2 * step, 80, 2000.0 + step}, at);
-    for (const Arrival& path : next.paths) {
-      const auto same = std::find_if(at.paths.begin(), at.paths.end(), [&path](const Arrival& other) {
-        return other.identity == path.identity;
-      });
-      if (same == at.paths.end()) continue;
-      // A metre of range and 0.2 m of depth move no delay by more than they would straight.
-      EXPECT_LT(std::abs(same->delay_s - path.delay_s), tolerance(1.3 / 1490)) << describe(path);
-    }
-    at = next;
-  }
-}
 
 }  // namespace
 }  // namespace halocline::acoustics

@@ -107,7 +107,7 @@ int number_near(const std::vector<BruteArrival>& all, const BruteArrival& at) {
       std::count_if(all.begin(), all.end(), [&](const BruteArrival& one) { return near(one, at, 0.02); }));
 }
 
-std::string say(const BruteArrival& a) {
+std::string describe(const BruteArrival& a) {
   char text[160];
   std::snprintf(text, sizeof text, "%.9f s %.2f dB phase %.2f launch %.6f arrival %.5f %d+%d caustics %d",
                 a.delay_s, 20 * std::log10(a.amplitude), to_degrees(a.phase_rad), to_degrees(a.launch_rad),
@@ -166,7 +166,7 @@ void compare(const std::string& where, const std::vector<BruteArrival>& found,
     ++count.expected;
     if (has(found, expected, one, count)) continue;
     ++count.missing;
-    ADD_FAILURE() << where << "\n  missing " << say(one);
+    ADD_FAILURE() << where << "\n  missing " << describe(one);
   }
   Count ignored;
   for (const BruteArrival& one : found) {
@@ -179,7 +179,7 @@ void compare(const std::string& where, const std::vector<BruteArrival>& found,
       continue;
     }
     ++count.extra;
-    ADD_FAILURE() << where << "\n  extra   " << say(one);
+    ADD_FAILURE() << where << "\n  extra   " << describe(one);
   }
 }
 

@@ -1,6 +1,7 @@
 // The waters of tests/data/rays, and the comparison of arrivals with reference rows.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -58,6 +59,13 @@ inline std::string describe(const Arrival& path) {
          std::to_string(to_degrees(path.launch_angle_rad)) + " deg, " + std::to_string(path.surface_bounces) +
          "+" + std::to_string(path.bottom_bounces) + " bounces, " +
          std::to_string(20 * std::log10(path.amplitude)) + " dB";
+}
+
+// Whether any path meets neither surface nor bottom.
+inline bool has_direct_path(const Arrivals& found) {
+  return std::any_of(found.paths.begin(), found.paths.end(), [](const Arrival& path) {
+    return path.surface_bounces == 0 && path.bottom_bounces == 0;
+  });
 }
 
 inline double degrees_between(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }

@@ -18,7 +18,7 @@ std::string case_name(const ::testing::TestParamInfo<Case>& info) {
 }
 
 // The references carry 12 digits of delay, 8 of amplitude and 5 to 7 decimals of angles: the tolerances below
-// are those of the last digits, a thousand times tighter than what was asked for (1e-6 s, 0.05 dB, 1 degree,
+// are those of the last digits, a thousand times tighter than what is required (1e-6 s, 0.05 dB, 1 degree,
 // 0.01 degree).
 void expect_row(const testing::CsvRow& row, const Arrival& path) {
   const std::string where = "line " + std::to_string(row.line()) + ": " + describe(path);

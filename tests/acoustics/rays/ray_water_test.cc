@@ -25,7 +25,7 @@ TEST(RayWater, ATableOfSpeedsIsTakenAsItIs) {
   EXPECT_NEAR(water.speed_at(25), 1505, tolerance(1e-12));
 }
 
-TEST(RayWater, AFormulaIsSampledToTheToleranceAsked) {
+TEST(RayWater, AFormulaIsSampledToTheTolerance) {
   for (const auto& profile : {SoundSpeedProfile::munk({4, 35}), SoundSpeedProfile::global_mean()}) {
     const RayWater coarse = RayWater::from_profile(profile, nothing, 0.1),
                    fine = RayWater::from_profile(profile, nothing, 0.01);

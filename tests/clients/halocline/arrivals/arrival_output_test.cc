@@ -67,7 +67,7 @@ LinkArrivals with_modems() {
   return found;
 }
 
-TEST(ArrivalOutput, CsvTellsWhatModemsReceiveOfEachPath) {
+TEST(ArrivalOutput, CsvHoldsLevelAndDopplerOfEachPathForKnownModems) {
   std::stringstream text;
   print_arrivals(text, {with_modems()}, OutputFormat::kCsv);
   std::vector<std::string> errors;
@@ -78,7 +78,7 @@ TEST(ArrivalOutput, CsvTellsWhatModemsReceiveOfEachPath) {
   EXPECT_EQ(parse_number(table.rows[2].cells[*table.column("doppler_factor")]), 1.000002);
 }
 
-TEST(ArrivalOutput, JsonTellsWhatModemsReceiveOfEachPath) {
+TEST(ArrivalOutput, JsonHoldsLevelAndDopplerOfEachPathForKnownModems) {
   std::stringstream text;
   print_arrivals(text, {with_modems()}, OutputFormat::kJson);
   const auto path = nlohmann::json::parse(text).at(0).at("paths").at(1);
@@ -86,7 +86,7 @@ TEST(ArrivalOutput, JsonTellsWhatModemsReceiveOfEachPath) {
   EXPECT_EQ(path.at("doppler_factor"), 1.000001);
 }
 
-TEST(ArrivalOutput, TellsABottomInTheWayFromAShadow) {
+TEST(ArrivalOutput, DistinguishesABlockedLinkFromAShadow) {
   LinkArrivals silent;
   for (const bool blocked : {false, true}) {
     silent.blocked = blocked;
@@ -124,7 +124,7 @@ TEST(ArrivalOutput, ImpulseResponseHoldsThePowerOfAllPaths) {
 // 6 dB at either end, in every direction: a quarter of the pressure.
 TEST(ArrivalOutput, BeamsOfTheModemsWeighTheImpulseResponseAndTheSummary) {
   LinkArrivals found = pekeris().front();
-  const auto tell = [&found](double& greatest, double& loss_db) {
+  const auto summarize = [&found](double& greatest, double& loss_db) {
     std::stringstream taps, json;
     print_impulse_response(taps, found, 25'000, 1e6);
     std::vector<std::string> errors;
@@ -136,10 +136,10 @@ TEST(ArrivalOutput, BeamsOfTheModemsWeighTheImpulseResponseAndTheSummary) {
     loss_db = nlohmann::json::parse(json).at(0).at("transmission_loss_db");
   };
   double plain = 0, weighed = 0, plain_loss_db = 0, weighed_loss_db = 0;
-  tell(plain, plain_loss_db);
+  summarize(plain, plain_loss_db);
   const acoustics::BeamPattern half({{0, 20 * std::log10(2)}});
   found.beams = {half, half};
-  tell(weighed, weighed_loss_db);
+  summarize(weighed, weighed_loss_db);
   EXPECT_NEAR(weighed / plain, 0.25, 1e-9);
   EXPECT_NEAR(weighed_loss_db - plain_loss_db, 40 * std::log10(2), 1e-9);
 }
@@ -162,12 +162,12 @@ TEST(ArrivalOutput, PlotHoldsAStemForEachPathAndItsTwoAngles) {
   EXPECT_EQ(plot.charts[1].series[1].y.at(1), to_degrees(found.arrivals.paths.at(1).arrival_angle_rad));
 }
 
-TEST(ArrivalOutput, PlotOfAShadowSaysSo) {
+TEST(ArrivalOutput, PlotOfAShadowIsLabelled) {
   const Plot plot = arrival_plot({LinkArrivals{}}, "title");
   EXPECT_EQ(plot.charts[0].when_empty, "shadow: no ray gets there");
 }
 
-TEST(ArrivalOutput, JsonTellsALinkInAShadowFromOneWithPaths) {
+TEST(ArrivalOutput, JsonDistinguishesAShadowFromALinkWithPaths) {
   auto links = pekeris();
   links[1].arrivals.paths.clear();
   std::ostringstream text;
@@ -181,7 +181,7 @@ TEST(ArrivalOutput, JsonTellsALinkInAShadowFromOneWithPaths) {
   EXPECT_FALSE(json[1].contains("first_delay_s"));
 }
 
-TEST(ArrivalOutput, TheTableSaysShadow) {
+TEST(ArrivalOutput, TheTableNamesAShadow) {
   std::ostringstream text;
   print_arrivals(text, {{{30, 10, 1000}, {}}}, OutputFormat::kTable);
   EXPECT_THAT(text.str(), ::testing::HasSubstr("shadow"));

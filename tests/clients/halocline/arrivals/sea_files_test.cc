@@ -68,7 +68,7 @@ TEST(SeaFiles, ThePathLossOfAbsorptionIsThatOfTheFormula) {
       1e-9);
 }
 
-TEST(SeaFiles, WhatCannotBeSaysWhatIsAllowed) {
+TEST(SeaFiles, ImpossibleOptionsAreRefusedWithWhatIsAllowed) {
   SeaDescription sea = still_water();
   sea.water = "munk";
   EXPECT_THAT(what_is_wrong([&] { make_sea(sea); }), HasSubstr("give the water"));

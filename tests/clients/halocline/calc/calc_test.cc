@@ -128,6 +128,18 @@ TEST(Calc, ListNamesEveryQuantityWithItsColumns) {
   EXPECT_THAT(run({.quantity = "pressure", .list = true}, "").out, HasSubstr("may have lat_deg (45)"));
 }
 
+TEST(Calc, AModemIsFoundByNameAndByTheFileOfItsProfile) {
+  const std::string table = "payload_bytes\n100\n";
+  const std::string file = HALOCLINE_SOURCE_DIR "/models/modems/micromodem-psk-4.toml";
+  const Outcome by_name = run({.quantity = "packet-duration", .model = "micromodem-psk-4"}, table);
+  EXPECT_EQ(by_name.code, kCalcDone) << by_name.err;
+  EXPECT_EQ(run({.quantity = "packet-duration", .model = file}, table).out, by_name.out);
+  EXPECT_NE(run({.quantity = "packet-duration", .model = "micromodem-fsk"}, "payload_bytes\n30\n").out,
+            run({.quantity = "packet-duration", .model = "micromodem-psk-4"}, "payload_bytes\n30\n").out);
+  EXPECT_EQ(run({.quantity = "packet-duration", .model = "/nowhere.toml"}, table).code, kCalcBadRequest);
+  EXPECT_EQ(run({.quantity = "absorption", .model = file}, table).code, kCalcBadRequest);
+}
+
 TEST(Calc, ModelNamesAreThoseOfTheForms) {
   EXPECT_THAT(model_names("sound-speed"), Contains("teos10"));
   EXPECT_THAT(model_names("nothing"), IsEmpty());

@@ -1,0 +1,143 @@
+// The examples in the comments of the headers of acoustics/, compiled and run; one test per header. An example is a run
+// of comment lines indented by three spaces whose first line begins with `const`.
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/link/link_budget.h"
+#include "acoustics/math/gauss_legendre.h"
+#include "acoustics/modem/bit_error.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/sound_speed.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "tests/support/csv.h"
+
+namespace halocline::acoustics {
+namespace {
+
+TEST(HeaderExamples, GaussLegendre) {
+  const double area = integrate(gauss_legendre_5(), 0.0, 1.0, [](double x) { return x * x; });
+  EXPECT_NEAR(area, 1.0 / 3, 1e-15);
+}
+
+TEST(HeaderExamples, Modem) {
+  const Modem modem = generic_modem(Decibels{185}, Decibels{70}, 25'000, 5'000);
+  const SimDuration duration = packet_timing(modem, 16).duration;
+  const double bit_errors = bit_error_rate(modem, to_power_ratio(Decibels{-8}));
+  EXPECT_NEAR(duration.seconds(), 1.6, 1e-9);
+  EXPECT_NEAR(bit_errors, 0.5 * std::exp(-0.5 * std::pow(10, -0.8) * 5000 / 80), 1e-12);
+}
+
+TEST(HeaderExamples, BitError) {
+  const double errors = bit_error_rate(Modulation::kBpsk, Fading::kNone, to_power_ratio(Decibels{9.6}));
+  EXPECT_NEAR(errors, 9.7e-6, 1e-7);
+}
+
+TEST(HeaderExamples, Eigenray) {
+  const Environment environment;
+  std::ostringstream printed;
+  std::streambuf* const to_console = std::cout.rdbuf(printed.rdbuf());
+  const RayOptions options{.frequency_hz = 11'520};
+  const RaySea sea{ray_water(environment, options.frequency_hz), BottomProfile::flat(100),
+                   *sediment("MediumSand"), RaySurface{.wind_mps = 5}, options};
+  const Arrivals found = arrivals(sea, {.source_depth_m = 30, .receiver_depth_m = 50, .range_m = 2000});
+  for (const Arrival& path : found.paths)
+    std::cout << path.delay_s << ' ' << path.received_pressure() << '\n';
+  if (found.shadow()) std::cout << "no ray gets there\n";
+  std::cout.rdbuf(to_console);
+  EXPECT_FALSE(found.shadow());
+  EXPECT_NE(printed.str(), "");
+}
+
+TEST(HeaderExamples, LinkBudget) {
+  const Environment environment;
+  const Modem transmitter, receiver;
+  const Vec3 from_ned_m(0, 0, 10), to_ned_m(1000, 0, 20);
+  const LinkModel model(environment, transmitter, receiver);
+  const LinkBudget link = model.budget(from_ned_m, to_ned_m);
+  EXPECT_NEAR(link.range_m, std::hypot(1000, 10), 1e-9);
+}
+
+TEST(HeaderExamples, Absorption) {
+  const double a = absorption_spectrum(
+                       AbsorptionModel::kFisherSimmons1977,
+                       {.temperature_degc = 4, .salinity_psu = 35, .depth_m = 0, .pressure_atm = 1, .ph = 8})
+                       .components_at(10e3)
+                       .total_db_per_km;
+  EXPECT_NEAR(a, 0.83, 0.005);
+}
+
+TEST(HeaderExamples, BoundaryReflection) {
+  const FluidBottom sand = sediment("MediumSand").value();
+  const double lost_db = bottom_reflection(sand, to_radians(15), 1500).loss_db();
+  EXPECT_GT(lost_db, 0);
+}
+
+TEST(HeaderExamples, SoundSpeed) {
+  const double c = mackenzie_1981(25, 35, 1000);
+  EXPECT_NEAR(c, 1550.744, 5e-4);
+}
+
+TEST(HeaderExamples, SoundSpeedProfile) {
+  const auto water = SoundSpeedProfile::global_mean();
+  const double delay_s = water.travel_time_s(100, 900, std::hypot(2000, 800));
+  EXPECT_NEAR(delay_s, std::hypot(2000, 800) / 1490, 0.02);
+}
+
+std::string without_spaces(const std::string& text) {
+  std::string packed;
+  for (const char c : text) {
+    if (std::isspace(static_cast<unsigned char>(c)) == 0) packed += c;
+  }
+  return packed;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+// The examples of a header, each without spaces and comments.
+std::vector<std::string> examples_in(const std::filesystem::path& header) {
+  const std::string indent = "//   ";
+  std::vector<std::string> examples;
+  std::istringstream lines(text_of(header));
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool indented = line.starts_with(indent);
+    if (indented && !inside && line.starts_with(indent + "const ")) examples.emplace_back();
+    inside = indented && (inside || line.starts_with(indent + "const "));
+    if (!inside) continue;
+    const std::string code = line.substr(indent.size());
+    examples.back() += without_spaces(code.substr(0, code.find("//")));
+  }
+  return examples;
+}
+
+TEST(HeaderExamples, EveryExampleOfAHeaderIsInThisFile) {
+  const std::filesystem::path root = HALOCLINE_SOURCE_DIR;
+  const std::string compiled = without_spaces(text_of(root / "tests/acoustics/header_examples_test.cc"));
+  int examples = 0;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(root / "acoustics")) {
+    if (file.path().extension() != ".h") continue;
+    for (const std::string& example : examples_in(file.path())) {
+      ++examples;
+      EXPECT_NE(compiled.find(example), std::string::npos) << file.path() << ": " << example;
+    }
+  }
+  EXPECT_EQ(examples, 9);
+}
+
+}  // namespace
+}  // namespace halocline::acoustics
