@@ -116,6 +116,10 @@ class Bus {
   // An earlier life of this node published this: it goes on being repaired. After enable_repair().
   void keep_published(std::string_view channel, std::int64_t session, std::int64_t number,
                       std::vector<std::uint8_t> bytes);
+  // The last message of each flow that is repaired.
+  std::vector<FlowHistory::LastMessage> last_published() const {
+    return repair_ ? repair_->history().last_messages() : std::vector<FlowHistory::LastMessage>();
+  }
 
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();

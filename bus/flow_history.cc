@@ -50,4 +50,13 @@ std::vector<FlowHistory::Flow> FlowHistory::flows() const {
   return all;
 }
 
+std::vector<FlowHistory::LastMessage> FlowHistory::last_messages() const {
+  std::vector<LastMessage> all;
+  for (const auto& [name, kept] : flows_) {
+    const auto last = kept.messages.find(kept.last);
+    if (last != kept.messages.end()) all.push_back({{name.first, name.second, kept.last}, &last->second});
+  }
+  return all;
+}
+
 }  // namespace halocline::bus

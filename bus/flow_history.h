@@ -31,6 +31,12 @@ class FlowHistory {
     std::int64_t session = 0, last = 0;
   };
   std::vector<Flow> flows() const;
+  // The same, each with its last message; without those that are not kept any more.
+  struct LastMessage {
+    Flow flow;
+    const Bytes* message = nullptr;
+  };
+  std::vector<LastMessage> last_messages() const;
 
  private:
   using FlowName = std::pair<std::string, std::int64_t>;  // channel, session

@@ -45,6 +45,7 @@ class FlowRepair {
   }
   // The messages asked for that are still kept.
   std::vector<const Bytes*> answers_to(const repair_request_t& request) const;
+  const FlowHistory& history() const { return history_; }
   // The heartbeat when it is due at `steady`, which it then is a period later again.
   bool heartbeat_is_due(SimTime steady) const { return steady >= next_heartbeat_; }
   flow_heartbeat_t take_heartbeat(SimTime sim, SimTime steady);

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "bus/bus.h"
+#include "core/archive.h"
 
 namespace halocline::bus {
 
@@ -41,6 +42,7 @@ class NumberedPublisher {
 
   // An earlier incarnation of the node published this number last: the channel goes on behind it, in its session.
   void resume(std::string_view channel, std::int64_t session, std::int64_t sequence);
+  void archive(Archive& a) { a(channels_, uses_); }
 
  private:
   struct Number {

@@ -44,8 +44,8 @@ bool VehicleFaults::is_filling(double water_density_kg_m3) const {
 
 void VehicleFaults::leak(double seconds, double water_density_kg_m3) {
   if (!is_filling(water_density_kg_m3)) return;
-  const double most = leak_rate_kg_s_ > 0 ? leak_volume_m3_ * water_density_kg_m3 : water_kg_;
-  water_kg_ = std::clamp(water_kg_ + leak_rate_kg_s_ * seconds, 0.0, most);
+  const double max_water_kg = leak_rate_kg_s_ > 0 ? leak_volume_m3_ * water_density_kg_m3 : water_kg_;
+  water_kg_ = std::clamp(water_kg_ + leak_rate_kg_s_ * seconds, 0.0, max_water_kg);
 }
 
 ModelParameters VehicleFaults::broken(ModelParameters sound) const {

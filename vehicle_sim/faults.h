@@ -1,4 +1,4 @@
-// What breaks on a vehicle, and what that does to its commands, its model and its sensors.
+// Faults of a vehicle: their effect on its commands, its model and its sensors.
 //
 // Stuck rudder or stern planes: the servo holds its angle, or drives to a given one within its limits,
 // whatever is commanded. Lost propeller: no thrust, no torque on the hull, no drag; its motor turns on as

@@ -82,14 +82,20 @@ void Fleet::take_due_faults() {
     const std::size_t index = world_index_[member];
     faults_[member].take(fault, moves(member) ? world_.state(index).actuators : ActuatorValues{});
     if (!moves(member)) continue;
-    const auto broken =
-        std::make_shared<const Model>(faults_[member].broken(members_[member].model->parameters()));
-    world_.set_model(index, faults_[member].changes_model() ? broken : members_[member].model);
+    set_broken_model(member);
     const auto place = std::lower_bound(leaking_.begin(), leaking_.end(), member);
     const bool is_known = place != leaking_.end() && *place == member;
     if (fault.kind == FaultKind::kLeak && !is_known) leaking_.insert(place, member);
   }
   waiting_faults_.erase(waiting_faults_.begin(), waiting_faults_.begin() + static_cast<std::ptrdiff_t>(due));
+}
+
+void Fleet::set_broken_model(std::size_t member) {
+  const auto& sound = members_[member].model;
+  const VehicleFaults& faults = faults_[member];
+  const bool is_sound = !faults.changes_model();
+  world_.set_model(world_index_[member],
+                   is_sound ? sound : std::make_shared<const Model>(faults.broken(sound->parameters())));
 }
 
 // The step is made with the water that is inside half way through it.
@@ -130,6 +136,32 @@ void Fleet::move_water() {
   }
 }
 
+void Fleet::archive(Archive& a) {
+  for (CommandSchedule& schedule : commands_) schedule.archive(a);
+  world_.archive(a);
+  archive_currents(a);
+  a(time_, obeyed_, faults_, waiting_faults_, leaking_);
+  if (!a.is_loading()) return;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (moves(i)) set_broken_model(i);
+  }
+  move_water();
+}
+
+// A current is a function of its settings, the seed and time.
+void Fleet::archive_currents(Archive& a) {
+  CurrentSettings current = current_.settings();
+  std::vector<std::pair<SimTime, CurrentSettings>> changes;
+  for (const CurrentChange& change : current_changes_)
+    changes.emplace_back(change.from, change.current.settings());
+  a(current, changes);
+  if (!a.is_loading()) return;
+  current_ = OceanCurrent(current, settings_.seed);
+  current_changes_.clear();
+  for (const auto& [from, settings] : changes)
+    current_changes_.push_back({from, OceanCurrent(settings, settings_.seed)});
+}
+
 CommandVerdict Fleet::command(std::size_t index, const TimedCommand& command) {
   return moves(index) ? commands_[index].add(command, time_) : CommandVerdict::kTaken;
 }
@@ -153,7 +185,8 @@ VehicleState Fleet::state_at(std::size_t index, SimTime when) const {
   if (!moves(index)) return members_[index].start;
   const VehicleState& state = world_.state(world_index_[index]);
   const SimDuration ahead = when - time_;
-  ensure(ahead >= SimDuration() && ahead < settings_.step, "a state was asked for out of its time");
+  ensure(ahead >= SimDuration() && ahead < settings_.step,
+         "a state is known from time() to less than a step later");
   if (ahead == SimDuration() || has_diverged(index)) return state;
   return rk4_step(model_of(index), state, obeyed_[index], water_at(state.position_ned_m), ahead.seconds());
 }

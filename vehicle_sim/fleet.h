@@ -1,8 +1,8 @@
 // The vehicles of a scenario that we move, on a grid of physics steps, with their commands and sensors.
 //
-// Time runs in whole steps from the start; what is asked for between two steps is a look ahead from the earlier one
-// that changes nothing, so the motion does not depend on how often anyone looks. Given the same commands (with
-// their times) the same fleet moves the same, bit by bit.
+// Time runs in whole steps from the start; a state between two steps is a look ahead from the earlier one
+// that changes nothing, so the motion does not depend on how often anyone looks. The same
+// commands with the same times give the same motion, bit by bit.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/for_each.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
@@ -58,19 +59,22 @@ class Fleet {
   const FleetMember& member(std::size_t index) const { return members_[index]; }
   SimTime time() const { return time_; }  // reached in whole steps
 
-  // Takes note of a command for a vehicle; fixed ones refuse none and obey none. It is obeyed from the first physics
-  // step at or after its time.
+  // Schedules a command for a vehicle; it holds from the first physics step at or after its time. Fixed vehicles
+  // ignore commands.
   CommandVerdict command(std::size_t index, const TimedCommand& command);
 
-  // Takes note of another current; it holds from the first physics step at or after `from`, of two for one
-  // instant the one noted later. Throws InvalidArgument where it is impossible; false, and no change, when
+  // Schedules another current; it holds from the first physics step at or after `from`, of two for one
+  // instant the one scheduled later. Throws InvalidArgument where it is impossible; false, and no change, when
   // too many wait.
-  bool change_current(SimTime from, const CurrentSettings& current);
+  [[nodiscard]] bool change_current(SimTime from, const CurrentSettings& current);
 
-  // Takes note of something that breaks or is mended; of two for one instant the one noted later comes later. Fixed
-  // vehicles lose sensors alone. False, and nothing changes, when too many wait.
-  bool apply_fault(std::size_t index, const Fault& fault);
+  // Schedules a fault or its end; of two for one instant the one scheduled later comes later. Of fixed vehicles only
+  // sensors fail. False, and no change, when too many wait.
+  [[nodiscard]] bool apply_fault(std::size_t index, const Fault& fault);
   const VehicleFaults& faults(std::size_t index) const { return faults_[index]; }
+
+  // All that changes as time goes on. Loads into a fleet made of the same settings and members.
+  void archive(Archive& a);
 
   // Takes all whole steps that end at or before `until`.
   void advance(SimTime until);
@@ -103,12 +107,14 @@ class Fleet {
   void tie(const FleetTether& tether);
   bool take_due_current();  // true when one was due
   void take_due_faults();
+  void archive_currents(Archive& a);
+  void set_broken_model(std::size_t member);
   void fill_leaks();  // over the step from time() on
   const Model& model_of(std::size_t index) const { return world_.model(world_index_[index]); }
   bool water_varies() const;
   // The water at a vehicle for the step from time() on.
   Water water_at(const Vec3& position_ned_m) const;
-  // Tells every vehicle what its water does from time() on.
+  // Sets the water of every vehicle for the step from time() on.
   void move_water();
 
   FleetSettings settings_;

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   program.purpose = "Moves the scenario's vehicles and publishes their states and sensors.";
   program.node_name = "vehicle-sim";
   program.stage = halocline::bus::Stage::kVehicles;
+  program.keeps_state = true;
   program.interface =
       "receives:  COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<client>, CLOCK; with a USBL "
       "array OUTCOME,\n"

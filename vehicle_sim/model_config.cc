@@ -143,7 +143,7 @@ void visit_whole(ConfigVisitor& v, ModelFile& model) {
   visit(v, model.parameters);
   if (v.writing() ? !model.sensors.has_value() : !v.given("sensors")) return;
   if (!model.sensors) model.sensors.emplace();
-  v.section("sensors", "What it carries, where no scenario says otherwise",
+  v.section("sensors", "What it carries, where no scenario sets it",
             [&](ConfigVisitor& section) { visit(section, *model.sensors); });
 }
 

@@ -1,7 +1,7 @@
-// Measurements that wait for their echoes: kept in order of time until answered or given up.
+// Queue of measurements that wait for their echoes, in order of time, until answered or timed out.
 //
 // One entry a sensor tick, all vehicles in it. An entry is complete when its echoes are known (at once when
-// it has asked for none) or its deadline has passed; entries leave in the order in which they came, so
+// it has no beams) or its deadline has passed; entries leave in the order in which they came, so
 // messages go out in order of time.
 #pragma once
 

@@ -109,7 +109,7 @@ void visit_fault(ConfigVisitor& v, FaultEntry& entry) {
   }
   v.number("leak_kg_per_s", f.leak_rate_kg_s, {-100, 100, "kg/s", "of a leak; below 0 pumps out"});
   v.number("leak_volume_m3", f.leak_volume_m3, {0, 100, "m^3", "water inside at most"});
-  bus::choice(v, "sensor", f.sensor, bus::names_of(kSensorKinds), "that is dead");
+  bus::choice(v, "sensor", f.sensor, bus::names_of(kSensorKinds), "that fails");
 }
 
 }  // namespace

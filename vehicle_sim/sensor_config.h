@@ -1,4 +1,4 @@
-// Tables of a scenario that say what sensors vehicles carry, and what breaks.
+// Tables of a scenario: the sensors that vehicles carry, and faults.
 //
 //   [sensors.dvl]                # of every vehicle
 //   rate_hz = 5

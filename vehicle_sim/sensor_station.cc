@@ -49,6 +49,11 @@ void SensorStation::begin(SimTime start) {
   find_next();
 }
 
+void SensorStation::archive(Archive& a) {
+  for (SensorSuite& suite : suites_) suite.archive(a);
+  a(times_, next_all_, next_);
+}
+
 void SensorStation::find_next() {
   next_ = next_all_;
   for (const Times& t : times_) next_ = std::min({next_, t.dvl, t.gps, t.sonar});

@@ -1,7 +1,7 @@
-// All sensors of all vehicles: which measure when, what they ask of the seabed, and what they say once that is known.
+// All sensors of all vehicles: sampling times, rays to the seabed, and readings once their echoes are known.
 //
 // Each sensor measures at multiples of its period since time 0. take() notes what holds at the next of these
-// instants and lists the beams to be asked for; finish() makes readings of what came back. What was noted is
+// instants and lists the beams to be traced; finish() makes readings of what came back. What was noted is
 // not touched by anything that happens between the two. Threads: one at a time.
 #pragma once
 
@@ -37,7 +37,7 @@ struct SensorJob {
 struct SensorTick {
   SimTime when;
   std::vector<SensorJob> jobs;
-  std::vector<EchoBeam> beams;  // to be asked for
+  std::vector<EchoBeam> beams;  // to be traced
   std::vector<Echo> echoes;     // of the beams, unavailable until answered
 
   std::span<const Echo> echoes_of(const SensorJob& job) const {
@@ -63,6 +63,8 @@ class SensorStation {
 
   // The measurements of next(), which the fleet must have reached; moves on. In ticks of `max_beams` beams at most.
   std::vector<SensorTick> take(const Fleet& fleet, std::size_t max_beams);
+
+  void archive(Archive& a);
 
   const SensorSettings& settings(std::size_t vehicle) const { return vehicles_[vehicle].settings; }
 

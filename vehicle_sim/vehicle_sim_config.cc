@@ -74,13 +74,12 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c) {
   bus::seconds(v, "command_timeout_s", c.command_timeout,
                {0.05, 3600, "s", "age at which a command is void: propeller stops, fins amidships"});
   v.number("altimeter_range_m", c.altimeter_range_m, {0.1, 10'000, "m", "greatest altitude measured"});
-  bus::seconds(v, "altimeter_patience_s", c.altimeter_patience,
+  bus::seconds(v, "echo_timeout_s", c.echo_timeout,
                {0.01, 5, "s", "how long sensors wait for the bathymetry service"});
   v.vector3("current_ned_mps", c.current.uniform_ned_mps,
             {-kFastestCurrent, kFastestCurrent, "m/s", "steady current everywhere: north, east, down"});
-  bus::choice(
-      v, "current_treatment", c.current_treatment, {"model", "upstream", "galilean"},
-      "how a current acts: as each model says, or for all as published with remus100-pvs, or exactly");
+  bus::choice(v, "current_treatment", c.current_treatment, {"model", "upstream", "galilean"},
+              "how a current acts: as in each model, or for all as published with remus100-pvs, or exactly");
   v.number("buoyancy_over_weight", c.buoyancy_over_weight,
            {0.5, 2, "", "of every vehicle; above 1 they rise"});
   bus::integer_as(v, "threads", c.threads, {1, 64, "", "that move vehicles; results are the same"});
@@ -112,7 +111,7 @@ void visit_common_sensors(ConfigVisitor& v, SensorSettings& sensors) {
             [&](ConfigVisitor& section) { visit(section, sensors); });
 }
 
-// What the file of the vehicle's model says of sensors.
+// The sensors of the file of the vehicle's model.
 std::optional<SensorSettings> sensors_of_model(ConfigVisitor& v) {
   std::string model = built_in_models().front();
   v.text("model", model, {}, "what moves it");
@@ -122,7 +121,7 @@ std::optional<SensorSettings> sensors_of_model(ConfigVisitor& v) {
   return sensors;
 }
 
-// Where two say something of a key: the [[vehicle]] before the scenario's [sensors], and that before the
+// Precedence of a key that is set twice: the [[vehicle]] before the scenario's [sensors], and that before the
 // model's file.
 void visit_vehicle_sensors(ConfigVisitor& root, ConfigVisitor& v, VehicleSensors& vehicle,
                            const SensorSettings& common) {

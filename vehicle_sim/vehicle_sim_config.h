@@ -1,4 +1,4 @@
-// What a scenario tells the vehicle simulator: its section [vehicle_sim], and the vehicles that it moves.
+// Configuration of the vehicle simulator: section [vehicle_sim] of a scenario, and the vehicles that it moves.
 //
 //   [vehicle_sim]
 //   state_rate_hz = 10
@@ -45,7 +45,7 @@ struct VehicleSimConfig {
   SimDuration sensor_period = SimDuration::from_milliseconds(200);     // between SENSORS
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // age at which a command is void
   double altimeter_range_m = 100;
-  SimDuration altimeter_patience = SimDuration::from_milliseconds(250);  // wait for the bathymetry service
+  SimDuration echo_timeout = SimDuration::from_milliseconds(250);  // wait for the bathymetry service
   CurrentSettings current;
   WaveSettings waves;
   TreatmentChoice current_treatment = TreatmentChoice::kModel;

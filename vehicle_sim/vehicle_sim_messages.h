@@ -37,14 +37,14 @@ vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad);
 vehicle_fault_t to_fault_message(const Fault& fault);
 Fault from_message(const vehicle_fault_t& message);
 
-// What an array hears of: OUTCOME of a packet received, and RECEIVE.
+// For an array: OUTCOME of a packet received, and RECEIVE.
 PacketKey key_of(const packet_outcome_t& outcome);
 PacketKey key_of(const modem_receive_t& packet);
 SoundArrival arrival_of(const packet_outcome_t& outcome);
-// Of a packet that tells it on board: one way.
+// One way, where it is known on board.
 std::optional<double> travel_time_of(const modem_receive_t& packet);
 
-// Asks for the first hit of each beam; 1 to 4096 beams, their ranges above 0.
+// Query of the first hit of each beam; 1 to 4096 beams, their ranges above 0.
 ray_query_t to_ray_query(SimTime when, const std::string& client, std::int64_t request_id,
                          const std::vector<EchoBeam>& beams);
 

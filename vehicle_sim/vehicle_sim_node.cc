@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/check.h"
 #include "vehicle_sim/vehicle_sim_messages.h"
 
 namespace halocline::vehicle_sim {
 namespace {
 
-// A process that was not run for this long (steady time) counts what lies further back than this (simulation time)
-// as late, and does not publish it: nobody waits for it any more, and the bus would lose the burst.
+// A process that was halted for this long (steady time) counts what lies further back than this (simulation time) as
+// late, and does not publish it: it is out of date, and the bus would lose the burst.
 constexpr SimDuration kLongestHalt = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kLongestArrear = SimDuration::from_milliseconds(2000);
 constexpr std::size_t kMaxBeams = 4096;  // a message, by the service's contract
@@ -20,7 +21,7 @@ SimTime first_on_grid(SimTime from, SimDuration period) {
 
 SimTime last_on_grid(SimTime until, SimDuration period) { return next_on_grid(until, period) - period; }
 
-// Unlike any earlier life's, so that the recorded answers of one are not taken for this one's.
+// With the session, so that recorded answers to another run are not taken for its own.
 std::string client_name(const bus::NodeIdentity& identity) {
   char session[17];
   std::snprintf(session, sizeof session, "%016llx", static_cast<unsigned long long>(identity.session));
@@ -41,9 +42,7 @@ VehicleSimNode::VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const 
       pool_(config.threads),
       station_(stations_of(scenario, members_, config), scenario.seed, config.sensor_period,
                config.altimeter_range_m),
-      reported_lost_(members_.size()) {
-  const std::vector<std::int64_t> first(members_.size());
-  sequences_ = {first, first, first, first, first, first};
+      reported_diverged_(members_.size()) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     ids_.push_back(scenario.find(members_[i].name)->id);
     subscribe_vehicle(i);
@@ -67,43 +66,61 @@ void VehicleSimNode::subscribe_vehicle(std::size_t i) {
                                    [this, i](const vehicle_fault_t& m) { on_fault(i, m); });
 }
 
-// An array hears what the medium did; what it makes of it is the vehicle's own measurement.
+// OUTCOME has the true direction of an arrival; the fix is the vehicle's own measurement of it.
 void VehicleSimNode::subscribe_arrays() {
   bus().subscribe<packet_outcome_t>(bus::channels::kOutcome, [this](const packet_outcome_t& outcome) {
     if (outcome.outcome != packet_outcome_t::RECEIVED) return;
     for (auto& [vehicle, array] : arrays_) {
-      if (ids_[vehicle] == outcome.receiver_id) array.hear_arrival(key_of(outcome), arrival_of(outcome));
+      if (ids_[vehicle] == outcome.receiver_id) array.on_arrival(key_of(outcome), arrival_of(outcome));
     }
   });
   for (auto& [vehicle, array] : arrays_) {
     bus().subscribe<modem_receive_t>(bus::channels::kReceive.of(members_[vehicle].name),
                                      [&array = array](const modem_receive_t& packet) {
-                                       array.hear_packet(key_of(packet), travel_time_of(packet));
+                                       array.on_packet(key_of(packet), travel_time_of(packet));
                                      });
   }
 }
 
 bus::Due VehicleSimNode::on_due() const {
-  if (desk_.has_complete()) return {.sim = SimTime::at_once()};
-  return {.sim = std::min(next_state_, station_.next()), .steady = desk_.next_deadline()};
+  if (echoes_.has_complete()) return {.sim = SimTime::at_once()};
+  return {.sim = std::min(next_state_, station_.next()), .steady = echoes_.next_deadline()};
 }
 
-void VehicleSimNode::begin(SimTime now) {
-  const SimTime start = last_on_grid(now, settings_.step);
+void VehicleSimNode::make_fleet(SimTime start) {
   fleet_.emplace(settings_, members_, seabed_, start,
                  [this](std::size_t count, const std::function<void(std::size_t)>& body) {
                    pool_.for_each(count, body);
                  });
-  for (const auto& [vehicle, fault] : scenario_faults_) fleet_->apply_fault(vehicle, fault);
+}
+
+void VehicleSimNode::begin(SimTime now) {
+  const SimTime start = last_on_grid(now, settings_.step);
+  make_fleet(start);
+  for (const auto& [vehicle, fault] : scenario_faults_)
+    require(fleet_->apply_fault(vehicle, fault), "a scenario has at most 100000 faults");
   next_state_ = first_on_grid(start, config_.state_period);
   station_.begin(start);
-  std::fill(reported_lost_.begin(), reported_lost_.end(), false);
+  std::fill(reported_diverged_.begin(), reported_diverged_.end(), false);
+}
+
+// Measurements that wait for their echoes are lost.
+void VehicleSimNode::on_archive(Archive& a) {
+  bool has_begun = fleet_.has_value();
+  a(has_begun, publisher_, ray_request_);
+  if (!has_begun) return;
+  if (a.is_loading()) {
+    make_fleet(SimTime());
+    last_step_ = SimTime() - kLongestHalt * 2;  // the step to come is the first after a halt
+  }
+  a(*fleet_, station_, next_state_);
+  for (auto& [vehicle, array] : arrays_) a(array);
 }
 
 void VehicleSimNode::on_restart(const bus::Now&) {
   fleet_.reset();
   for (auto& [vehicle, array] : arrays_) array.clear();
-  desk_.clear();
+  echoes_.clear();
 }
 
 void VehicleSimNode::on_step(const bus::Now& now) {
@@ -123,36 +140,27 @@ void VehicleSimNode::on_step(const bus::Now& now) {
       if (sensors_due && !too_late) measure_all(now.steady);
     }
     publish_bearings();
-    report_lost();
+    report_diverged();
   }
   last_step_ = now.steady;
   publish_measured(now.steady);
 }
 
-template <class Message>
-void VehicleSimNode::publish_numbered(const bus::Family& family, std::size_t vehicle, Message message,
-                                      std::vector<std::int64_t>& sequence) {
-  message.session = bus().identity().session;
-  message.sequence = sequence[vehicle]++;
-  bus().publish(family.of(members_[vehicle].name), message);
-}
-
 void VehicleSimNode::publish_states(SimTime when) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (fleet_->has_diverged(i)) continue;  // what does not move as it should has no state to tell
-    publish_numbered(bus::channels::kState, i,
-                     to_state_message(when, ids_[i], to_kinematic_state(fleet_->state_at(i, when))),
-                     sequences_.state);
+    if (fleet_->has_diverged(i)) continue;  // its state is not known
+    publish(bus::channels::kState, i,
+            to_state_message(when, ids_[i], to_kinematic_state(fleet_->state_at(i, when))));
   }
 }
 
-// Takes the readings and asks for their echoes, in messages of as many beams as the service takes.
+// Takes the readings and queries their echoes, in messages of as many beams as the service takes.
 void VehicleSimNode::measure_all(SimTime steady) {
   for (SensorTick& tick : station_.take(*fleet_, kMaxBeams)) {
     const std::int64_t request = ray_request_++;
     std::optional<ray_query_t> query;
     if (!tick.beams.empty()) query = to_ray_query(tick.when, ray_client_, request, tick.beams);
-    desk_.wait(request, std::move(tick), steady + config_.altimeter_patience);
+    echoes_.wait(request, std::move(tick), steady + config_.echo_timeout);
     if (query) bus().publish(bus::channels::kRayQuery, *query);
   }
 }
@@ -167,14 +175,14 @@ void VehicleSimNode::publish_bearings() {
   for (auto& [vehicle, array] : arrays_) {
     const bool is_dead = fleet_->faults(vehicle).dead_sensors()[static_cast<std::size_t>(SensorKind::kUsbl)];
     for (const UsblFix& fix : array.take(is_dead)) {
-      publish_numbered(bus::channels::kUsbl, vehicle,
-                       to_usbl_message(fix, station_.settings(vehicle).usbl.errors.noise), sequences_.usbl);
+      publish(bus::channels::kUsbl, vehicle,
+              to_usbl_message(fix, station_.settings(vehicle).usbl.errors.noise));
     }
   }
 }
 
 void VehicleSimNode::publish_measured(SimTime steady) {
-  while (const auto tick = desk_.take(steady)) {
+  while (const auto tick = echoes_.take(steady)) {
     for (const SensorJob& job : tick->jobs) publish(*tick, job);
   }
 }
@@ -183,19 +191,14 @@ void VehicleSimNode::publish(const SensorTick& tick, const SensorJob& job) {
   const std::size_t i = job.vehicle;
   const SensorSettings& s = station_.settings(i);
   if (const auto* reading = std::get_if<SensorReading>(&job.sample)) {
-    publish_numbered(bus::channels::kSensors, i,
-                     to_sensors_message(tick.when, station_.finish(tick, job, *reading)), sequences_.sensors);
+    publish(bus::channels::kSensors, i, to_sensors_message(tick.when, station_.finish(tick, job, *reading)));
   } else if (const auto* fix = std::get_if<GpsFix>(&job.sample)) {
-    publish_numbered(bus::channels::kGps, i, to_gps_message(tick.when, *fix, s.gps.errors.noise),
-                     sequences_.gps);
+    publish(bus::channels::kGps, i, to_gps_message(tick.when, *fix, s.gps.errors.noise));
   } else if (const auto* ping = std::get_if<DvlPing>(&job.sample)) {
-    publish_numbered(bus::channels::kDvl, i,
-                     to_dvl_message(tick.when, station_.finish(tick, job, *ping), s.dvl.errors.noise),
-                     sequences_.dvl);
+    publish(bus::channels::kDvl, i,
+            to_dvl_message(tick.when, station_.finish(tick, job, *ping), s.dvl.errors.noise));
   } else if (const auto* fan = std::get_if<SonarPing>(&job.sample)) {
-    publish_numbered(bus::channels::kSonar, i,
-                     to_sonar_message(tick.when, s.sonar, station_.finish(tick, job, *fan)),
-                     sequences_.sonar);
+    publish(bus::channels::kSonar, i, to_sonar_message(tick.when, s.sonar, station_.finish(tick, job, *fan)));
   }
 }
 
@@ -226,7 +229,7 @@ void VehicleSimNode::on_current(const current_change_t& message) {
 }
 
 void VehicleSimNode::on_ray_reply(const ray_reply_t& reply) {
-  SensorTick* tick = desk_.answer(reply.request_id);
+  SensorTick* tick = echoes_.answer(reply.request_id);
   if (tick == nullptr) {
     ++bus().counters().late;
     return;
@@ -234,11 +237,11 @@ void VehicleSimNode::on_ray_reply(const ray_reply_t& reply) {
   tick->echoes = echoes_from(reply, tick->beams.size());
 }
 
-void VehicleSimNode::report_lost() {
+void VehicleSimNode::report_diverged() {
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (reported_lost_[i] || !fleet_->has_diverged(i)) continue;
-    reported_lost_[i] = true;
-    bus().log().error("vehicle-lost",
+    if (reported_diverged_[i] || !fleet_->has_diverged(i)) continue;
+    reported_diverged_[i] = true;
+    bus().log().error("vehicle-diverged",
                       "vehicle=" + members_[i].name + " reason=\"its equations gave no number\"");
   }
 }
@@ -250,7 +253,7 @@ std::string VehicleSimNode::status_text() const {
     lost += fleet_->has_diverged(i);
   }
   return std::to_string(members_.size()) + " vehicles, " + std::to_string(aground) + " on the seabed, " +
-         std::to_string(lost) + " lost; echoes given up: " + std::to_string(desk_.given_up());
+         std::to_string(lost) + " lost; echoes given up: " + std::to_string(echoes_.given_up());
 }
 
 }  // namespace halocline::vehicle_sim

@@ -1,11 +1,14 @@
-// Moves the vehicles of a scenario and speaks for them on the bus.
+// The vehicle simulator on the bus: moves the vehicles of a scenario and publishes their states and sensors.
 //
-// Hears COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles
-// with a USBL array OUTCOME and RECEIVE.<vehicle>; publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS,
-// SONAR.<vehicle> at multiples of their periods since time 0, stamped with that instant, USBL.<vehicle> when
-// a packet was received, and RAY_QUERY for what lies below. A measurement waits for its echoes until the
-// service answers or the node's patience (steady time) ends; then they are unavailable. A node that is
-// started into a running simulation puts its vehicles where they start, at that time.
+// Receives COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles with a USBL
+// array OUTCOME and RECEIVE.<vehicle>. Publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS, SONAR.<vehicle> at
+// multiples of their periods since time 0, stamped with that instant; USBL.<vehicle> when a packet was received; and
+// RAY_QUERY for the seabed below. A measurement waits for its echoes until the service answers or the time-out
+// (echo_timeout, steady time) ends; then they are unavailable.
+//
+// A node that is started into a running simulation puts its vehicles where they start, at that time. One that was
+// killed and has a journal (Node::keep_state_in) goes on from the state it published last: it integrates the time of
+// its absence, with the last commands until they time out, and publishes what lies at most two seconds back.
 #pragma once
 
 #include <map>
@@ -14,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/thread_pool.h"
 #include "vehicle_sim/fleet.h"
@@ -34,6 +38,7 @@ class VehicleSimNode : public bus::Node {
   bus::Due on_due() const override;
   void on_step(const bus::Now& now) override;
   void on_restart(const bus::Now& now) override;
+  void on_archive(Archive& a) override;
   std::string status_text() const override;
 
  private:
@@ -42,6 +47,7 @@ class VehicleSimNode : public bus::Node {
   void on_current(const current_change_t& message);
   void on_ray_reply(const ray_reply_t& reply);
   void begin(SimTime now);
+  void make_fleet(SimTime start);
   void subscribe_vehicle(std::size_t vehicle);
   void subscribe_arrays();
   void publish_states(SimTime when);
@@ -50,11 +56,11 @@ class VehicleSimNode : public bus::Node {
   void publish_bearings();
   void publish_measured(SimTime steady);
   void publish(const SensorTick& tick, const SensorJob& job);
-  // With session and the vehicle's next number on this family.
   template <class Message>
-  void publish_numbered(const bus::Family& family, std::size_t vehicle, Message message,
-                        std::vector<std::int64_t>& sequence);
-  void report_lost();
+  void publish(const bus::Family& family, std::size_t vehicle, const Message& message) {
+    publisher_.publish(family.of(members_[vehicle].name), message);
+  }
+  void report_diverged();
 
   VehicleSimConfig config_;
   FleetSettings settings_;
@@ -70,13 +76,10 @@ class VehicleSimNode : public bus::Node {
   std::map<std::size_t, UsblFixAssembler> arrays_;  // of the vehicles that have one
   SimTime next_state_;
   SimTime last_step_;  // steady
-  PendingEchoes desk_;
+  PendingEchoes echoes_;
   std::int64_t ray_request_ = 0;
-  struct Sequences {
-    std::vector<std::int64_t> state, sensors, dvl, gps, sonar, usbl;  // of each vehicle, the next
-  };
-  Sequences sequences_;
-  std::vector<bool> reported_lost_;
+  bus::NumberedPublisher publisher_{bus()};
+  std::vector<bool> reported_diverged_;
 };
 
 }  // namespace halocline::vehicle_sim

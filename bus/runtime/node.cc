@@ -1,13 +1,21 @@
 #include "bus/runtime/node.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "bus/version.h"
+#include "core/check.h"
 
 namespace halocline::bus {
 namespace {
 constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
-}
+// A time further before the journal's than this belongs to another run.
+constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
+
+// A message that was published, and its place in its flow.
+using Published = std::tuple<std::string, std::int64_t, std::int64_t, Bytes>;
+}  // namespace
 
 Due Node::due() const {
   Due due = on_due();
@@ -23,13 +31,61 @@ SimTime Node::lockstep_due() const {
 void Node::step(const Now& now) {
   bus_.log().set_time(now.sim);
   bus_.rethrow_if_failed();
+  if (resumed_from_ && now.sim_known) check_run(now);
   const Due due = on_due();
-  if (now.sim_known || due.sim == SimTime::at_once() || due.steady <= now.steady) on_step(now);
-  if (now.steady >= next_status_) {
-    publish_status(now, status_text());
-    next_status_ = next_on_grid(now.steady, kStatusPeriod);
-  }
+  commit(now, [&] {
+    if (now.sim_known || due.sim == SimTime::at_once() || due.steady <= now.steady) on_step(now);
+    if (now.steady >= next_status_) {
+      publish_status(now, status_text());
+      next_status_ = next_on_grid(now.steady, kStatusPeriod);
+    }
+  });
   bus_.repair(now.sim, now.steady);
+}
+
+void Node::keep_state_in(std::unique_ptr<StateJournal> journal) {
+  journal_ = std::move(journal);
+  if (journal_->inherited()) load(*journal_->inherited());
+}
+
+void Node::load(const StateJournal::Saved& saved) {
+  require(saved.session == bus_.identity().session, "the journal is of another session");
+  Archive a(saved.state);
+  std::vector<Published> last_published;
+  a(status_sequence_, last_published);
+  for (Published& p : last_published)
+    bus_.keep_published(std::get<0>(p), std::get<1>(p), std::get<2>(p), std::move(std::get<3>(p)));
+  on_archive(a);
+  a.require_end();
+  resumed_from_ = saved.at;
+}
+
+void Node::check_run(const Now& now) {
+  const SimTime from = *std::exchange(resumed_from_, std::nullopt);
+  if (now.sim < from - kSameRun) return restart(now);
+  bus_.log().info("resumed", "from_t=" + std::to_string(from.seconds()));
+}
+
+// Publishes what `publish_all` does, after the state that follows from it is on disk.
+void Node::commit(const Now& now, const std::function<void()>& publish_all) {
+  if (!journal_ || !now.sim_known) return publish_all();
+  std::vector<std::pair<std::string, Bytes>> outputs;
+  bus_.set_outbox([&outputs](std::string_view channel, const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    outputs.emplace_back(channel, Bytes(bytes, bytes + size));
+  });
+  publish_all();
+  bus_.set_outbox(nullptr);
+  if (outputs.empty()) return;
+  std::vector<Published> last_published;
+  for (const auto& [flow, message] : bus_.last_published())
+    last_published.emplace_back(flow.channel, flow.session, flow.last, *message);
+  Archive a;
+  a(status_sequence_, last_published);
+  on_archive(a);
+  journal_->write({bus_.identity().session, now.sim, a.bytes()});
+  bus_.counters().sent -= static_cast<std::int64_t>(outputs.size());  // counted when they were collected
+  for (const auto& [channel, bytes] : outputs) bus_.publish_bytes(channel, bytes.data(), bytes.size());
 }
 
 void Node::restart(const Now& now) {
@@ -42,8 +98,10 @@ void Node::restart(const Now& now) {
 void Node::stop(const Now& now) {
   bus_.log().set_time(now.sim);
   bus_.rethrow_if_failed();
-  on_stop(now);
-  publish_status(now, "stopped; " + status_text());
+  commit(now, [&] {
+    on_stop(now);
+    publish_status(now, "stopped; " + status_text());
+  });
 }
 
 void Node::publish_status(const Now& now, const std::string& text) {

@@ -6,10 +6,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/runtime/state_journal.h"
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
@@ -42,6 +47,15 @@ class Node {
 
   // For a node on a bus that loses datagrams, once, before its first step (Bus::enable_repair).
   void enable_repair() { bus_.enable_repair(); }
+  // Keeps its state in `journal` from now on, and first takes up what an earlier incarnation left there: it goes on from
+  // that state, with its numbers. Once, after enable_repair(), before anything is received; of a node that was made
+  // with the session in the journal. Throws InvalidArgument when the state is another node's.
+  //
+  // What a step publishes goes out once the state that follows from it is on disk (output commit: Elnozahy, Alvisi,
+  // Wang and Johnson 2002, "A survey of rollback-recovery protocols in message-passing systems", section 2.4). So the
+  // next incarnation contradicts nothing that was received of this one; what this one received since its last step is
+  // lost, as if it had been killed before.
+  void keep_state_in(std::unique_ptr<StateJournal> journal);
   // What is handled from now on was heard at this steady time.
   void set_steady(SimTime steady) { bus_.set_steady(steady); }
   Stage stage() const { return bus_.identity().stage; }
@@ -66,6 +80,9 @@ class Node {
   virtual void on_stop(const Now& /*now*/) {}
   // Simulation time jumped back: another run has begun. Forget what was heard of the old one.
   virtual void on_restart(const Now& /*now*/) {}
+  // What the next incarnation needs in order to go on from here, saved and loaded. After loading the first step may be
+  // any time later.
+  virtual void on_archive(Archive& /*a*/) {}
   // One line for a person, for STATUS.
   virtual std::string status_text() const = 0;
 
@@ -74,10 +91,15 @@ class Node {
 
  private:
   void publish_status(const Now& now, const std::string& text);
+  void commit(const Now& now, const std::function<void()>& publish_all);
+  void load(const StateJournal::Saved& saved);
+  void check_run(const Now& now);
 
   Bus bus_;
   SimTime next_status_;  // steady
   std::int64_t status_sequence_ = 0;
+  std::unique_ptr<StateJournal> journal_;
+  std::optional<SimTime> resumed_from_;  // until the first step
 };
 
 }  // namespace halocline::bus

@@ -8,6 +8,8 @@
 
 #include "bus/transport.h"
 #include "bus/version.h"
+#include "core/check.h"
+#include "core/hash.h"
 
 namespace halocline::bus {
 namespace {
@@ -15,7 +17,7 @@ namespace {
 struct Arguments {
   std::string scenario_path;
   std::vector<std::string> overrides;
-  std::string name, lcm_url, sync_url, time_source, log_level = "info";
+  std::string name, lcm_url, sync_url, time_source, journal, log_level = "info";
   bool example = false, interface = false, print_config = false;
 };
 
@@ -34,6 +36,13 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.add_option("--sync-url", arguments.sync_url,
                  "LCM URL of lockstep's own plane; it takes the next port, too")
       ->default_val(std::string(kDefaultSyncUrl));
+  if (program.keeps_state) {
+    app.add_option("--journal", arguments.journal,
+                   "files (FILE.0, FILE.1) of its state, from which a program that was killed goes on where "
+                   "it was; of one "
+                   "run, not in lockstep")
+        ->type_name("FILE");
+  }
   for (const ProgramOption& option : program.options) {
     option.flag != nullptr ? app.add_flag(option.name, *option.flag, option.help)
                            : app.add_option(option.name, *option.value, option.help);
@@ -110,6 +119,10 @@ std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const Node
   run.time_source =
       arguments.time_source.empty() ? program.time_source : time_source_from_name(arguments.time_source);
   run.log_level = log_level_from_name(arguments.log_level);
+  run.journal = arguments.journal;
+  require(run.journal.empty() || run.time_source != TimeSourceKind::kLockstep,
+          "--journal is " + run.journal + "; in lockstep the conductor keeps the journal of all");
+  run.config_digest = fnv1a(config_text(program, run.scenario, false), fnv1a(kVersion));
   return run;
 }
 

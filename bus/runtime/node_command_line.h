@@ -17,6 +17,8 @@ struct NodeRun {
   std::string sync_url;
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   LogLevel log_level = LogLevel::kInfo;
+  std::string journal;              // where the node keeps its state; empty: nowhere
+  std::uint64_t config_digest = 0;  // of the version and the effective configuration
 };
 
 // Empty when the command line asked only for something to be printed (--help, --example, --interface,

@@ -70,12 +70,19 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
   if (const std::string warning = receive_buffer_warning(url); !warning.empty()) {
     log.warning("small-receive-buffer", warning);
   }
-  const NodeProgram::Context context{*lcm, run.identity, run.scenario, run.folder, run.sync_url};
+  std::unique_ptr<StateJournal> journal;
+  NodeIdentity identity = run.identity;
+  if (!run.journal.empty()) {
+    journal = std::make_unique<StateJournal>(run.journal, run.config_digest);
+    if (journal->inherited()) identity.session = journal->inherited()->session;  // its flows go on
+  }
+  const NodeProgram::Context context{*lcm, identity, run.scenario, run.folder, run.sync_url};
   if (program.run_otherwise && program.run_otherwise(context)) return;
   const auto time = program.make_time_source ? program.make_time_source(context)
                                              : make_time_source(run.time_source, *lcm, run.identity.name);
   const auto node = program.make_node(context);
   node->enable_repair();
+  if (journal) node->keep_state_in(std::move(journal));
   log.info("started", "url=" + url);
   run_node(*lcm, *node, *time, stop_requested);
 }

@@ -38,6 +38,7 @@ struct NodeProgram {
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   Stage stage = Stage::kClients;  // its place in lockstep
   std::vector<ProgramOption> options = {};
+  bool keeps_state = false;  // takes --journal: its node describes its state (Node::on_archive)
   // The name of the node when the command line gives none, asked once the configuration is read; default: node_name.
   std::function<std::string()> default_name = nullptr;
 

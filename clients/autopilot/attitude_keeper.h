@@ -11,6 +11,7 @@
 
 #include <optional>
 
+#include "core/archive.h"
 #include "core/frames.h"
 
 namespace halocline::clients {
@@ -36,6 +37,10 @@ class AttitudeKeeper {
   // What the heading may be off beyond the compass's own error, radians; 0 while the compass measures it.
   double heading_deviation_rad() const { return heading_deviation_rad_; }
   bool by_compass() const { return by_compass_; }
+
+  void archive(Archive& a) {
+    a(attitude_, heading_deviation_rad_, by_compass_, last_s_, rates_s_, rates_radps_);
+  }
 
  private:
   void carry_on(const AttitudeReading& reading);

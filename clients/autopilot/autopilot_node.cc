@@ -203,6 +203,17 @@ void AutopilotNode::on_restart(const bus::Now& now) {
   }
 }
 
+void AutopilotNode::on_archive(Archive& a) {
+  a(next_command_);
+  for (const auto& pilot : pilots_) a(*pilot);
+}
+
+void AutopilotNode::Pilot::archive(Archive& a) {
+  a(state, sensors, looked, pilot, sequence, situation, ping);
+  if (navigator) a(*navigator, *attitude);
+  if (link) a(*link);
+}
+
 std::string AutopilotNode::status_text() const {
   std::string text = pilots_.empty() ? "no vehicle has a mission" : "";
   for (const auto& pilot : pilots_) {

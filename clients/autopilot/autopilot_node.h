@@ -33,6 +33,7 @@ class AutopilotNode : public bus::Node {
   bus::Due on_due() const override;
   void on_step(const bus::Now& now) override;
   void on_restart(const bus::Now& now) override;
+  void on_archive(Archive& a) override;
   std::string status_text() const override;
 
  private:
@@ -51,6 +52,7 @@ class AutopilotNode : public bus::Node {
     std::map<std::int32_t, Vec3> beacons{};
 
     std::optional<vehicle_dvl_t> fresh_ping(std::int64_t utime) const;
+    void archive(Archive& a);
   };
 
   void add_pilot(const AutopilotConfig& all, const PilotConfig& config);

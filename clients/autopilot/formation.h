@@ -37,6 +37,8 @@ struct LeaderReport {
   double course_rad = 0;
   double speed_mps = 0;  // 0 to 65 m/s
   double time_s = 0;     // simulation time, 0 or above
+
+  void archive(Archive& a) { a(position_ned_m, course_rad, speed_mps, time_s); }
 };
 
 // Throws InvalidArgument for a place or a speed that does not fit.
@@ -63,6 +65,7 @@ class Follower {
   // Where to steer at `time_s`. The speed is that over ground. Calls come in order of time.
   SetPoints steer_for(double time_s, const Vec3& position_ned_m);
   FollowPhase phase() const { return phase_; }
+  void archive(Archive& a) { a(phase_, report_, safe_center_); }
 
  private:
   FollowPhase phase_at(double time_s) const;

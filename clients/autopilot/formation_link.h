@@ -28,6 +28,7 @@ class FormationLink {
   void step(const bus::Now& now, const std::optional<Situation>& situation);
   bus::Due due() const { return {.sim = next_report_, .steady = modem_.next_resend()}; }
   void restart(SimTime now);
+  void archive(Archive& a) { a(modem_, next_report_); }
 
  private:
   void take(const modem_receive_t& packet) const;

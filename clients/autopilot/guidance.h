@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/frames.h"
 
 namespace halocline::clients {
@@ -35,6 +36,8 @@ struct Progress {
   std::size_t target = 0;  // index of the waypoint ahead
   Vec3 leg_start_ned_m = Vec3::Zero();
   bool at_end = false;  // the last waypoint was reached, and the mission does not loop
+
+  void archive(Archive& a) { a(target, leg_start_ned_m, at_end); }
 };
 
 // What to steer for.

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   program.purpose = "Steers the vehicles that have a [vehicle.mission] through their behaviours.";
   program.node_name = "autopilot";
   program.stage = halocline::bus::Stage::kPilots;
+  program.keeps_state = true;
   program.interface =
       "receives:  CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, USBL.<vehicle>,\n"
       "           ESTIMATE.<vehicle>,\n"

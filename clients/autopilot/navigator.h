@@ -16,6 +16,7 @@
 #include <deque>
 #include <optional>
 
+#include "core/archive.h"
 #include "core/frames.h"
 
 namespace halocline::clients {
@@ -36,6 +37,10 @@ struct NavigationSample {
   double water_speed_mps = 0;                      // forward through the water
   std::optional<Vec3> ground_velocity_body_mps{};  // of a Doppler log
   double heading_deviation_rad = 0;                // without a compass, see attitude_keeper.h
+
+  void archive(Archive& a) {
+    a(time_s, attitude, depth_m, water_speed_mps, ground_velocity_body_mps, heading_deviation_rad);
+  }
 };
 
 class Navigator {
@@ -59,6 +64,7 @@ class Navigator {
     double time_s = 0;
     EulerAngles attitude;
     Vec3 position_ned_m = Vec3::Zero();
+    void archive(Archive& a) { a(time_s, attitude, position_ned_m); }
   };
   static constexpr double kMemory_s = 30;
   std::optional<Past> at(double time_s) const;
@@ -70,6 +76,8 @@ class Navigator {
   Vec3 velocity_ned_mps() const { return velocity_ned_mps_; }
   // Standard deviation of north and of east.
   double deviation_m() const { return deviation_m_; }
+
+  void archive(Archive& a) { a(position_ned_m_, velocity_ned_mps_, deviation_m_, last_, past_); }
 
  private:
   void move_to(const Eigen::Vector2d& north_east_m);

@@ -74,6 +74,8 @@ struct PlanProgress {
   Progress route;
   bool ended = false;  // the last one's duration is over, and the plan does not loop
   Vec3 end_ned_m = Vec3::Zero();
+
+  void archive(Archive& a) { a(index, since_s, route, ended, end_ned_m); }
 };
 
 PlanProgress begin(const Vec3& position_ned_m, double time_s);

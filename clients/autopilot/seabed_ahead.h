@@ -28,6 +28,8 @@ struct AltimeterLook {
   EulerAngles attitude;
   bool has_echo = false;  // false: no bottom within its reach
   double altitude_m = 0;  // along the vehicle's down axis
+
+  void archive(Archive& a) { a(time_s, position_ned_m, attitude, has_echo, altitude_m); }
 };
 
 // The ground as a line along the way.
@@ -47,6 +49,7 @@ class SeabedAhead {
   // Whether the latest look, not older than kOldestS, saw no bottom.
   bool sees_no_bottom(double time_s) const;
   void clear() { *this = {}; }
+  void archive(Archive& a) { a(points_, last_, way_m_); }
 
  private:
   struct Point {

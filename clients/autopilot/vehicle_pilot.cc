@@ -74,6 +74,13 @@ std::string VehiclePilot::text() const {
   return kind == BehaviourKind::kSurvey ? "surveys, " + to_waypoint : to_waypoint;
 }
 
+void VehiclePilot::archive(Archive& a) {
+  a(seabed_, progress_, integrals_, hover_integrals_);
+  for (auto& follower : followers_) {
+    if (follower) a(*follower);
+  }
+}
+
 void VehiclePilot::restart() {
   seabed_.clear();
   followers_.clear();

@@ -26,6 +26,10 @@ struct Situation {
   EulerAngles attitude;
   double pitch_rate_radps = 0, yaw_rate_radps = 0;
   double water_speed_mps = 0;  // forward through the water
+
+  void archive(Archive& a) {
+    a(time_s, position_ned_m, velocity_ned_mps, attitude, pitch_rate_radps, yaw_rate_radps, water_speed_mps);
+  }
 };
 
 class VehiclePilot {
@@ -54,6 +58,7 @@ class VehiclePilot {
   std::string text() const;
   // As if nothing had happened yet.
   void restart();
+  void archive(Archive& a);
 
  private:
   SetPoints planned(const Situation& situation);

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -47,6 +48,8 @@ class DeadReckoning {
   // The sum of the turns since the first measurement, rad; rises.
   double turned_rad(SimTime at) const;
 
+  void archive(Archive& a) { a(points_); }
+
  private:
   struct Point {
     SimTime at;
@@ -54,6 +57,8 @@ class DeadReckoning {
     double depth_m;
     double heading_rad;
     double turned_rad;
+
+    void archive(Archive& a) { a(at, gone_ne_m, velocity_ne_mps, depth_m, heading_rad, turned_rad); }
   };
   // The point before `at` and how far `at` lies on the way to the next: 0..1; 0 after the last.
   std::pair<std::size_t, double> place_of(SimTime at) const;

@@ -76,6 +76,7 @@ void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLoca
 void LocaliserNode::take_environment(const environment_t& message) {
   try {
     water_ = Water{to_profile(message), message.sea_surface_z_m};
+    environment_ = message;
   } catch (const InvalidArgument& error) {
     bus().refuse(bus::channels::kEnvironment, error.what());
   }
@@ -205,6 +206,7 @@ void LocaliserNode::report(const Vehicle& vehicle, const position_estimate_t& me
 void LocaliserNode::on_restart(const bus::Now& now) {
   next_estimate_ = SimTime();
   water_.reset();
+  environment_.reset();
   for (const auto& vehicle : vehicles_) {
     vehicle->estimator = PositionEstimator(vehicle->config.rules, stated_start(vehicle->config));
     vehicle->sensors.clear();
@@ -214,6 +216,16 @@ void LocaliserNode::on_restart(const bus::Now& now) {
     vehicle->used = vehicle->refused = 0;
     vehicle->next_ping = next_ping_at(vehicle->config, now.sim);
   }
+}
+
+void LocaliserNode::on_archive(Archive& a) {
+  a(next_estimate_, environment_);
+  for (const auto& vehicle : vehicles_) a(*vehicle);
+  if (a.is_loading() && environment_) take_environment(environment_t(*environment_));
+}
+
+void LocaliserNode::Vehicle::archive(Archive& a) {
+  a(modem, estimator, sensors, states, packets, truth, last, pings, used, refused, next_ping);
 }
 
 std::string LocaliserNode::status_text() const {

@@ -36,6 +36,7 @@ class LocaliserNode : public bus::Node {
   bus::Due on_due() const override;
   void on_step(const bus::Now& now) override;
   void on_restart(const bus::Now& now) override;
+  void on_archive(Archive& a) override;
   std::string status_text() const override;
 
  private:
@@ -58,6 +59,8 @@ class LocaliserNode : public bus::Node {
     position_estimate_t last{};  // published
     std::int64_t pings = 0, used = 0, refused = 0;
     SimTime next_ping;
+
+    void archive(Archive& a);
   };
 
   void add_vehicle(const LocaliserConfig& config, const VehicleLocaliser& settings);
@@ -71,6 +74,7 @@ class LocaliserNode : public bus::Node {
 
   SimDuration period_;
   SimTime next_estimate_;
+  std::optional<environment_t> environment_;  // the latest, from which water_ is made
   std::optional<Water> water_;
   std::vector<std::unique_ptr<Vehicle>> vehicles_;  // handlers hold their addresses
 };

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   program.purpose = "Finds the places of the vehicles that have a [vehicle.localiser], by ranges to beacons.";
   program.node_name = "localiser";
   program.stage = halocline::bus::Stage::kClients;
+  program.keeps_state = true;
   program.interface =
       "receives:  CLOCK, ENVIRONMENT, SENSORS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>;\n"
       "           STATE.<vehicle>, to compute the error\n"

@@ -50,6 +50,8 @@ struct RangeMeasurement {
   std::vector<SimTime> at;       // when the vehicle was at the end of each way: one or two instants
   double length_m = 0;           // of the ways together
   double sigma_m = 1;            // likewise, above 0
+
+  void archive(Archive& a) { a(beacon_m, at, length_m, sigma_m); }
 };
 
 enum class RangeVerdict {
@@ -84,6 +86,8 @@ class PositionEstimator {
 
   const DeadReckoning& dead_reckoning() const { return track_; }
 
+  void archive(Archive& a) { a(track_, now_, hypotheses_, waiting_, misfits_in_a_row_); }
+
  private:
   using State = Eigen::Vector4d;
   using Covariance = Eigen::Matrix4d;
@@ -91,6 +95,7 @@ class PositionEstimator {
     State mean;
     Covariance covariance;
     double weight;
+    void archive(Archive& a) { a(mean, covariance, weight); }
   };
   struct Expected {
     double length_m;

@@ -93,6 +93,15 @@ SimTime ModemClient::next_resend() const {
   return next;
 }
 
+void ModemClient::archive(Archive& a) {
+  a(next_sequence_, counters_, pending_, receipts_, waiting_, known_, known_in_order_);
+  if (!a.is_loading()) return;
+  for (auto& [sequence, pending] : pending_) {
+    pending.next_try = SimTime();
+    pending.last_try = SimTime() + policy_.give_up_after;
+  }
+}
+
 void ModemClient::take_receipt(const modem_receipt_t& receipt) {
   // Not pending: a packet of an earlier session, or the answer to a repetition.
   if (receipt.send_session != address_.session || pending_.erase(receipt.packet_sequence) == 0) return;

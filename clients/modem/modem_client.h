@@ -29,6 +29,7 @@
 #include <tuple>
 
 #include "bus/bus.h"
+#include "core/archive.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -106,6 +107,9 @@ class ModemClient {
   // The steady time at which resend() has something to do; never() while every packet is answered.
   SimTime next_resend() const;
 
+  // Packets whose receipt is missing are sent again at once after loading.
+  void archive(Archive& a);
+
   const ModemAddress& address() const { return address_; }
   const ModemCounters& counters() const { return counters_; }
 
@@ -113,6 +117,7 @@ class ModemClient {
   struct Pending {
     modem_send_t message;
     SimTime next_try, last_try;  // steady
+    void archive(Archive& a) { a(message); }
   };
   // Session, source, kind, sequence: a PING_REPLY has session and sequence of its ping.
   using PacketName = std::tuple<std::int64_t, std::int32_t, std::int8_t, std::int64_t>;

@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   program.purpose = "Sends packets for the vehicles that have a [vehicle.traffic], and counts what arrives.";
   program.node_name = "traffic";
   program.stage = halocline::bus::Stage::kTraffic;
+  program.keeps_state = true;
   program.interface =
       "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
       "publishes: SEND.<vehicle>, STATUS.<name>";

@@ -79,6 +79,10 @@ void TrafficNode::on_restart(const bus::Now& now) {
   for (const auto& sender : senders_) sender->next_packet = next_packet_at(sender->traffic, now.sim);
 }
 
+void TrafficNode::on_archive(Archive& a) {
+  for (const auto& sender : senders_) a(sender->modem, sender->next_packet);
+}
+
 std::string TrafficNode::status_text() const {
   ModemCounters sum;
   for (const auto& sender : senders_) {

@@ -30,6 +30,7 @@ class TrafficNode : public bus::Node {
   bus::Due on_due() const override;
   void on_step(const bus::Now& now) override;
   void on_restart(const bus::Now& now) override;
+  void on_archive(Archive& a) override;
   std::string status_text() const override;
 
  private:

@@ -46,12 +46,12 @@ Fault leak(double rate_kg_s, double volume_m3) {
 
 // M w' = g k t - D w with M = M0 + k t. With s = M and a = D / k:
 // w = g / k (s / (a + 1) - M0 / a + M0 (M0 / s)^a (1 / a - 1 / (a + 1))).
-TEST(Faults, ALeakingVehicleSinksAsItsGrowingWeightAndMassSay) {
+TEST(Faults, ALeakingVehicleSinksByItsGrowingWeightAndMass) {
   ModelParameters p = plain_body();
   p.damping.linear << 40, 40, 40, 1, 1, 1;
   Fleet fleet = fleet_of(p);
   const double k = 0.05, first = 70, a = 40 / k;
-  fleet.apply_fault(0, leak(k, 1));
+  EXPECT_TRUE(fleet.apply_fault(0, leak(k, 1)));
   for (const double t : {5.0, 20.0, 60.0}) {
     fleet.advance(at_s(t));
     const double s = first + k * t;
@@ -66,7 +66,7 @@ TEST(Faults, AFullHullSinksAtTheRateThatLinearDampingLeaves) {
   ModelParameters p = plain_body();
   p.damping.linear << 40, 40, 40, 1, 1, 1;
   Fleet fleet = fleet_of(p);
-  fleet.apply_fault(0, leak(0.05, 0.002));
+  EXPECT_TRUE(fleet.apply_fault(0, leak(0.05, 0.002)));
   fleet.advance(at_s(200));
   const double inside = 0.002 * kDensity;
   EXPECT_NEAR(fleet.faults(0).water_inside_kg(), inside, tolerance(1e-12));
@@ -79,7 +79,7 @@ TEST(Faults, AFullHullSinksAtTheRateThatCrossFlowLeaves) {
   p.cross_flow = {
       .drag_coefficient = 1.1, .strip_length_m = 1.5 / 20, .strips = 20, .planes = CrossFlowPlanes::kBoth};
   Fleet fleet = fleet_of(p);
-  fleet.apply_fault(0, leak(0.05, 0.002));
+  EXPECT_TRUE(fleet.apply_fault(0, leak(0.05, 0.002)));
   fleet.advance(at_s(300));
   const double pull = kGravity * 0.002 * kDensity;
   EXPECT_NEAR(fleet.state_at(0, at_s(300)).velocity_body[2],
@@ -98,7 +98,7 @@ TEST(Faults, WaterInTheBowTrimsAHullUntilTheCommonCentreOfGravityIsBelowThatOfBu
     p.leak_offset_m = {ahead, 0, below};
     p.buoyancy_n = (50 + water) * kGravity;
     Fleet fleet = fleet_of(p);
-    fleet.apply_fault(0, leak(0.1, 0.002));
+    EXPECT_TRUE(fleet.apply_fault(0, leak(0.1, 0.002)));
     fleet.advance(at_s(200));
     const VehicleState end = fleet.state_at(0, at_s(200));
     const double z = z_g + below;
@@ -123,26 +123,26 @@ TEST(Faults, AVehicleWithWaterInsideHasTheMassMatrixOfBothBodies) {
 
 TEST(Faults, AMendedLeakKeepsItsWaterAndANegativeRatePumpsItOut) {
   Fleet fleet = fleet_of(plain_body());
-  fleet.apply_fault(0, leak(0.1, 0.01));
+  EXPECT_TRUE(fleet.apply_fault(0, leak(0.1, 0.01)));
   Fault mended = leak(0.1, 0.01);
   mended.from = at_s(10);
   mended.mended = true;
-  fleet.apply_fault(0, mended);
+  EXPECT_TRUE(fleet.apply_fault(0, mended));
   fleet.advance(at_s(20));
   EXPECT_NEAR(fleet.faults(0).water_inside_kg(), 1, tolerance(1e-9));
-  fleet.apply_fault(0, leak(-0.5, 0));
+  EXPECT_TRUE(fleet.apply_fault(0, leak(-0.5, 0)));
   fleet.advance(at_s(30));
   EXPECT_EQ(fleet.faults(0).water_inside_kg(), 0);
   EXPECT_FALSE(fleet.faults(0).changes_model());
 }
 
 // u' = -c u^2 / M: u = u0 / (1 + c u0 t / M), c = 1/2 rho S C_D, M = 55 kg.
-TEST(Faults, WithoutItsPropellerAVehicleCoastsAsItsDragSays) {
+TEST(Faults, WithoutItsPropellerAVehicleCoastsAgainstItsDrag) {
   ModelParameters p = plain_body();
   p.body_lift = {.reference_area_m2 = 0.1, .axial_drag = 0.2};
   p.propeller = remus100_pvs_parameters(CurrentTreatment::kGalilean).propeller;
   Fleet fleet = fleet_of(p, 2);
-  fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kLostPropeller});
+  EXPECT_TRUE(fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kLostPropeller}));
   fleet.command(0, {SimTime(), {.propeller_hz = 20}});
   const double c = 0.5 * kDensity * 0.1 * 0.2;
   for (const double t : {0.5, 1.0, 1.9}) {
@@ -156,8 +156,10 @@ TEST(Faults, WithoutItsPropellerAVehicleCoastsAsItsDragSays) {
 TEST(Faults, AMendedPropellerDrivesAgain) {
   const auto speed_after_a_minute = [](bool mend) {
     Fleet fleet = fleet_of(*built_in_model("torpedo"));
-    fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kLostPropeller});
-    if (mend) fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kLostPropeller, .mended = true});
+    EXPECT_TRUE(fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kLostPropeller}));
+    if (mend) {
+      EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kLostPropeller, .mended = true}));
+    }
     for (int s = 0; s < 30; ++s) {
       fleet.command(0, {at_s(s), {.propeller_hz = 20}});
       fleet.advance(at_s(s + 1));
@@ -179,7 +181,8 @@ void run(Fleet& fleet, double from_s, double seconds, double rudder_rad) {
 TEST(Faults, AStuckRudderTurnsACircleWhateverIsCommanded) {
   const ModelParameters p = remus100_pvs_parameters(CurrentTreatment::kGalilean);
   Fleet stuck = fleet_of(p), steered = fleet_of(p);
-  stuck.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kStuckRudder, .angle_rad = 10 * kDegree});
+  EXPECT_TRUE(
+      stuck.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kStuckRudder, .angle_rad = 10 * kDegree}));
   run(stuck, 0, 180, -10 * kDegree);
   run(steered, 0, 180, 10 * kDegree);
   const VehicleState state = stuck.state_at(0, at_s(180));
@@ -193,10 +196,10 @@ TEST(Faults, WithoutAnAngleARudderSticksWhereItIs) {
   run(fleet, 0, 5, 5 * kDegree);
   const double there = fleet.state_at(0, at_s(5)).actuators.rudder_rad;
   EXPECT_NEAR(there, 5 * kDegree, 1e-3);
-  fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kStuckRudder});
+  EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kStuckRudder}));
   run(fleet, 5, 5, -5 * kDegree);
   EXPECT_EQ(fleet.state_at(0, at_s(10)).actuators.rudder_rad, there);
-  fleet.apply_fault(0, {.from = at_s(10), .kind = FaultKind::kStuckRudder, .mended = true});
+  EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(10), .kind = FaultKind::kStuckRudder, .mended = true}));
   run(fleet, 10, 5, -5 * kDegree);
   EXPECT_NEAR(fleet.state_at(0, at_s(15)).actuators.rudder_rad, -5 * kDegree, 1e-3);
 }
@@ -213,14 +216,14 @@ TEST(Faults, HoldFromTheirTimeOn) {
   Fleet fleet = fleet_of(plain_body());
   Fault later = leak(1, 1);
   later.from = at_s(3);
-  fleet.apply_fault(0, later);
+  EXPECT_TRUE(fleet.apply_fault(0, later));
   fleet.advance(at_s(3));
   EXPECT_EQ(fleet.faults(0).water_inside_kg(), 0);
   fleet.advance(at_s(4));
   EXPECT_NEAR(fleet.faults(0).water_inside_kg(), 1, tolerance(1e-9));
 }
 
-TEST(Faults, EachSensorDiesAndLivesByItself) {
+TEST(Faults, EachSensorFailsAndIsMendedByItself) {
   VehicleFaults faults;
   Fault dead{.from = SimTime(), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kDvl};
   faults.take(dead, {});
@@ -236,7 +239,7 @@ TEST(Faults, EachSensorDiesAndLivesByItself) {
 TEST(Faults, BetweenStepsABrokenVehicleMovesAsItIs) {
   ModelParameters p = plain_body();
   Fleet fleet = fleet_of(p);
-  fleet.apply_fault(0, leak(10, 0.02));
+  EXPECT_TRUE(fleet.apply_fault(0, leak(10, 0.02)));
   fleet.advance(at_s(5));
   const double speed = fleet.state_at(0, at_s(5)).velocity_body[2];
   const double later = fleet.state_at(0, at_s(5.009)).velocity_body[2];

@@ -156,7 +156,7 @@ TEST(Fleet, AnImpossibleCurrentIsRefused) {
   CurrentSettings fast;
   fast.uniform_ned_mps = {99, 0, 0};
   Fleet fleet = fleet_of_one();
-  EXPECT_THROW(fleet.change_current(at_ms(0), fast), InvalidArgument);
+  EXPECT_THROW(static_cast<void>(fleet.change_current(at_ms(0), fast)), InvalidArgument);
 }
 
 TEST(Fleet, WavesMoveAShallowVehicleAndLeaveADeepOneAlone) {

@@ -70,7 +70,7 @@ TEST(ModelConfig, AFileChangesWhatItNamesOfItsBase) {
   EXPECT_FALSE(file.sensors.has_value());
 }
 
-TEST(ModelConfig, AFileMaySayWhatSensorsTheVehicleCarries) {
+TEST(ModelConfig, AFileMaySetTheSensorsThatTheVehicleCarries) {
   const ModelFile file = parse_model("based_on = \"torpedo\"\n[sensors.dvl]\nrate_hz = 4\n", "mine.toml");
   ASSERT_TRUE(file.sensors.has_value());
   EXPECT_EQ(file.sensors->dvl.period, SimDuration::from_milliseconds(250));

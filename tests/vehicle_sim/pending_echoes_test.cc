@@ -54,7 +54,7 @@ TEST(PendingEchoes, AnAnswerCountsOnce) {
   EXPECT_EQ(desk.answer(9), nullptr);
 }
 
-TEST(PendingEchoes, ATickThatAskedForNothingIsComplete) {
+TEST(PendingEchoes, ATickWithoutBeamsIsComplete) {
   PendingEchoes desk;
   desk.wait(1, {at_ms(100), {SensorJob{}}, {}, {}}, at_ms(350));
   EXPECT_TRUE(desk.has_complete());

@@ -93,7 +93,7 @@ TEST(SensorStation, EachSensorMeasuresAtItsRate) {
   EXPECT_EQ(r.jobs[3], 2 * 4);
 }
 
-TEST(SensorStation, GpsIsSilentUnderWater) {
+TEST(SensorStation, GpsHasNoFixUnderWater) {
   Fleet fleet = fleet_of(1, 5);
   SensorStation station = station_of(1);
   EXPECT_EQ(record(station, fleet, at_ms(5000)).jobs[1], 0);
@@ -156,7 +156,7 @@ TEST(SensorStation, DeadSensorsDoNotPing) {
   Fleet fleet = fleet_of(1, 0.1);
   for (const SensorKind kind :
        {SensorKind::kDvl, SensorKind::kGps, SensorKind::kSonar, SensorKind::kAltimeter})
-    fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kDeadSensor, .sensor = kind});
+    EXPECT_TRUE(fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kDeadSensor, .sensor = kind}));
   SensorStation station = station_of(1);
   const auto ticks = station.take(fleet, 4096);
   ASSERT_EQ(ticks.size(), 1u);

@@ -82,7 +82,7 @@ height_m = 1.5
   EXPECT_EQ(r.config.waves.height_m, 1.5);
 }
 
-TEST(VehicleSimConfig, EverythingWrongIsSaidAtOnce) {
+TEST(VehicleSimConfig, AllErrorsAreReportedAtOnce) {
   const std::string errors = errors_of(R"([vehicle_sim]
 step_s = 0.5
 state_rate_hz = 0
@@ -178,7 +178,7 @@ TEST(VehicleSimConfig, ATetherTiesVehiclesByName) {
   EXPECT_EQ(settings.tethers[0].length_m, 20);
 }
 
-TEST(VehicleSimConfig, ATetherToNobodyIsRefused) {
+TEST(VehicleSimConfig, ATetherToAnUnknownVehicleIsRefused) {
   for (const char* wrong :
        {"vehicle = \"nobody\"", "vehicle = \"post\"", "vehicle = \"tug\"\nto_vehicle = \"nobody\"",
         "vehicle = \"tug\"\nto_vehicle = \"tug\""}) {
@@ -262,7 +262,7 @@ TEST(VehicleSimConfig, SensorsAreThoseOfAllUnlessAVehicleHasItsOwn) {
   EXPECT_EQ(common.gps.period, SimDuration());  // none
 }
 
-TEST(VehicleSimConfig, TheVehicleSaysOfSensorsBeforeTheScenarioAndThatBeforeTheModelsFile) {
+TEST(VehicleSimConfig, SensorsOfTheVehicleComeBeforeTheScenariosAndThoseBeforeTheModelFiles) {
   const std::string path = ::testing::TempDir() + "/fitted.toml";
   std::ofstream(path) << "based_on = \"torpedo\"\n[sensors.dvl]\nrate_hz = 2\nnoise_mps = 0.1\nrange_m = 33\n"
                          "[sensors.gps]\nrate_hz = 1\n";
@@ -293,7 +293,7 @@ TEST(VehicleSimConfig, AFaultHasItsTimesAndItsEnd) {
   EXPECT_EQ(faults[2].second.angle_rad, std::nullopt);
 }
 
-TEST(VehicleSimConfig, ImpossibleSensorsAndFaultsAreSaidWithLineAndRange) {
+TEST(VehicleSimConfig, ImpossibleSensorsAndFaultsAreReportedWithLineAndRange) {
   const std::string errors = errors_of(
       "[sensors.dvl]\nrate_hz = -1\nbeam_angle_deg = 90\nnoise = 1\n[sensors.sonar]\nrays = 600\n"
       "[sensors.gps]\ndropout_probability = 1.5\n[sensors.echo]\nrate_hz = 1\n[[fault]]\nvehicle = \"a\"\n"
@@ -310,7 +310,7 @@ TEST(VehicleSimConfig, ImpossibleSensorsAndFaultsAreSaidWithLineAndRange) {
   EXPECT_THAT(errors, HasSubstr("depth, altimeter, log, compass, gyro, dvl, gps, sonar, usbl"));
 }
 
-TEST(VehicleSimConfig, AFaultOfNobodyIsRefused) {
+TEST(VehicleSimConfig, AFaultOfAnUnknownVehicleIsRefused) {
   const Read r = read("[[vehicle]]\nname = \"a\"\nid = 1\n[[fault]]\nvehicle = \"b\"\n");
   EXPECT_THROW(faults_of(members_of(r.scenario, r.config), r.config), InvalidArgument);
 }

@@ -92,7 +92,7 @@ TEST(VehicleSimMessages, AltitudeStatusesAreThoseOfTheWire) {
   EXPECT_EQ(static_cast<int>(AltitudeStatus::kUnavailable), vehicle_sensors_t::ALTITUDE_UNAVAILABLE);
 }
 
-TEST(VehicleSimMessages, ARayQueryAsksForTheFirstHitOfEachBeam) {
+TEST(VehicleSimMessages, ARayQueryIsForTheFirstHitOfEachBeam) {
   const ray_query_t query =
       to_ray_query(kWhen, "sim-1", 42, {{{1, 2, 3}, {0, 0, 1}, 80}, {{4, 5, 6}, {0, 1, 0}, 50}});
   EXPECT_EQ(bus::problem_in(query), "");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/runtime/lockstep_runner.h"
+#include "tests/bus/runtime/journal_files.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/vehicle_sim_messages.h"
@@ -23,7 +24,7 @@ bus::Scenario scenario_of_two() {
   return scenario;
 }
 
-// The bus, the node and what was heard of it.
+// The bus, the node and what it published.
 class VehicleSimNodeTest : public ::testing::Test {
  protected:
   VehicleSimNodeTest() {
@@ -52,7 +53,7 @@ class VehicleSimNodeTest : public ::testing::Test {
                                              config_, std::move(seabed));
   }
 
-  // As the runner of a process does it: dispatch, then step at the instants the node asks for.
+  // As the runner of a process does it: dispatch, then step at the instants at which the node is due.
   void run_until(SimTime end) {
     drain();
     for (;;) {
@@ -124,7 +125,7 @@ TEST_F(VehicleSimNodeTest, StatesComeExactlyOnTheGridFromTimeZero) {
   }
 }
 
-TEST_F(VehicleSimNodeTest, FixedVehiclesSpeakAndExternalOnesDoNot) {
+TEST_F(VehicleSimNodeTest, FixedVehiclesArePublishedAndExternalOnesAreNot) {
   make_node();
   run_until(at_ms(500));
   ASSERT_EQ(states_["buoy"].size(), 6u);
@@ -193,7 +194,7 @@ TEST_F(VehicleSimNodeTest, AnImpossibleCommandIsRefused) {
   EXPECT_EQ(states_["sub"].back().velocity_ned_mps[0], 0);
 }
 
-TEST_F(VehicleSimNodeTest, ACurrentHeardOnTheBusMovesTheVehicles) {
+TEST_F(VehicleSimNodeTest, ACurrentReceivedOnTheBusMovesTheVehicles) {
   make_node();
   run_until(at_ms(500));
   CurrentSettings east;
@@ -251,7 +252,7 @@ TEST_F(VehicleSimNodeTest, AnsweredOrNotSensorsAreSentOnceAndInOrder) {
   }
 }
 
-TEST_F(VehicleSimNodeTest, TheRayClientNamesThisLife) {
+TEST_F(VehicleSimNodeTest, TheRayClientNameHoldsTheSession) {
   make_node();
   run_until(at_ms(0));
   const std::string first = last_client_;
@@ -334,9 +335,9 @@ TEST_F(VehicleSimNodeTest, APingWithoutAnswerGoesOutUnavailable) {
   EXPECT_FALSE(pings_[0].ground_velocity_valid);
 }
 
-TEST_F(VehicleSimNodeTest, OnlyWhoIsAtTheSurfaceHasAFix) {
+TEST_F(VehicleSimNodeTest, OnlyVehiclesAtTheSurfaceHaveAFix) {
   config_.sensors.gps.period = SimDuration::from_milliseconds(500);
-  config_.sensors.gps.max_depth_m = 6;  // the buoy's antenna, say, on a mast
+  config_.sensors.gps.max_depth_m = 6;  // the buoy's antenna on a mast
   make_node();
   run_until(at_ms(1000));
   EXPECT_TRUE(fixes_["sub"].empty());
@@ -380,7 +381,7 @@ TEST_F(VehicleSimNodeTest, ABearingComesOfOutcomeAndReceive) {
   ear_.publish(std::string(bus::channels::kOutcome), outcome);
   drain();
   node_->step({now_, now_});
-  EXPECT_TRUE(bearings_.empty());  // nobody on board has heard of it
+  EXPECT_TRUE(bearings_.empty());  // the packet was not received on board
   ear_.publish(bus::channels::kReceive.of("sub"), packet);
   drain();
   node_->step({now_, now_});
@@ -397,17 +398,17 @@ TEST_F(VehicleSimNodeTest, AFaultOnTheBusBreaksAndMends) {
   make_node();
   run_until(at_ms(0));
   command(at_ms(0), {0.1, 0, 20});
-  const auto say = [&](Fault fault) {
+  const auto publish_fault = [&](Fault fault) {
     ear_.publish(bus::channels::kFault.of("sub"), to_fault_message(fault));
     drain();
   };
-  say({.from = SimTime(), .kind = FaultKind::kStuckRudder, .angle_rad = -0.05});
-  say({.from = at_ms(500), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kDepth});
+  publish_fault({.from = SimTime(), .kind = FaultKind::kStuckRudder, .angle_rad = -0.05});
+  publish_fault({.from = at_ms(500), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kDepth});
   run_until(at_ms(1000));
   EXPECT_NEAR(sensors_["sub"].back().rudder_angle_rad, -0.05, tolerance(1e-4));
   EXPECT_TRUE(sensors_["sub"][2].depth_fresh);
   EXPECT_FALSE(sensors_["sub"].back().depth_fresh);
-  say({.from = SimTime(), .kind = FaultKind::kStuckRudder, .mended = true});
+  publish_fault({.from = SimTime(), .kind = FaultKind::kStuckRudder, .mended = true});
   command(at_ms(1000), {0.1, 0, 20});
   run_until(at_ms(2000));
   EXPECT_NEAR(sensors_["sub"].back().rudder_angle_rad, 0.1, tolerance(1e-4));
@@ -478,6 +479,91 @@ TEST_F(VehicleSimNodeTest, TwoRunsInLockstepPublishTheSame) {
   for (std::size_t k = 0; k < first.size(); ++k) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(first[k].position_ned_m[c], second[k].position_ned_m[c]);
   }
+}
+
+// Turns in a changed current with a leak, is killed after 3 s and comes back after `gap_ms`; 0: is never killed.
+class KilledVehicleSim : public VehicleSimNodeTest {
+ protected:
+  void run(std::int64_t gap_ms) {
+    states_.clear();
+    now_ = SimTime();
+    const bus::testing::JournalFiles files;
+    start(files);
+    run_until(at_ms(100));
+    current_change_t current{};
+    current.utime = 1'000'000;
+    current.uniform_ned_mps[1] = 0.3;
+    current.tide_period_s = 40'000;
+    current.random_time_s = 600;
+    ear_.publish(std::string(bus::channels::kSetCurrent), current);
+    vehicle_fault_t leak{};
+    leak.utime = 3'500'000;
+    leak.fault_kind = vehicle_fault_t::LEAK;
+    leak.leak_rate_kg_s = 0.5;
+    leak.leak_volume_m3 = 0.01;
+    ear_.publish(bus::channels::kFault.of("sub"), leak);
+    for (const int ms : {100, 2900}) {
+      run_until(at_ms(ms));
+      command(at_ms(ms), {0.1, 0.05, 20});
+    }
+    run_until(at_ms(3000));
+    if (gap_ms > 0) {
+      node_.reset();
+      now_ = at_ms(3000 + gap_ms);
+      start(files);
+    }
+    run_until(at_ms(9000));
+  }
+  void start(const bus::testing::JournalFiles& files) {
+    make_node();
+    node_->enable_repair();
+    node_->keep_state_in(files.open());
+  }
+};
+
+// To the last bit: the time of its absence is integrated as if it had been there.
+TEST_F(KilledVehicleSim, MovesAsOneThatWasNotKilled) {
+  run(0);
+  const auto whole = states_["sub"];
+  ASSERT_EQ(whole.size(), 91u);
+  EXPECT_EQ(node_->counters().refused, 0);
+  run(1500);
+  const auto& killed = states_["sub"];
+  ASSERT_EQ(killed.size(), whole.size());
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    EXPECT_EQ(killed[k].utime, whole[k].utime);
+    EXPECT_EQ(killed[k].sequence, whole[k].sequence);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(killed[k].position_ned_m[axis], whole[k].position_ned_m[axis]) << k;
+      EXPECT_EQ(killed[k].velocity_ned_mps[axis], whole[k].velocity_ned_mps[axis]) << k;
+    }
+  }
+}
+
+TEST_F(KilledVehicleSim, PublishesOnlyTheLatestOfALongAbsence) {
+  run(4000);
+  const auto& states = states_["sub"];
+  const auto after =
+      std::find_if(states.begin(), states.end(), [](const auto& s) { return s.utime > 3'000'000; });
+  ASSERT_NE(after, states.end());
+  EXPECT_EQ(after->utime, 5'000'000);
+  EXPECT_EQ(after->sequence, (after - 1)->sequence + 1);
+}
+
+TEST_F(KilledVehicleSim, ItsSensorsMeasureOnWithTheSameErrors) {
+  config_.sensors.depth.errors = {.noise = 0.1, .walk = 0.1};
+  const auto depths_after = [&](std::int64_t gap_ms) {
+    sensors_.clear();
+    run(gap_ms);
+    std::vector<std::pair<std::int64_t, double>> depths;
+    for (const auto& s : sensors_["sub"]) {
+      if (s.utime > 5'000'000) depths.emplace_back(s.utime, s.depth_m);
+    }
+    return depths;
+  };
+  const auto whole = depths_after(0);
+  EXPECT_EQ(whole.size(), 20u);
+  EXPECT_EQ(depths_after(1500), whole);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ double held(double value, double limit) { return std::clamp(value, -limit, limit
 
 }  // namespace
 
+// Saturation: -max <= command <= max.
 ActuatorValues limited(const ModelParameters& p, const ActuatorValues& command) {
   ActuatorValues held_to;
   held_to.rudder_rad = held(command.rudder_rad, p.fin_servo.max_angle_rad);
@@ -20,6 +21,8 @@ ActuatorValues limited(const ModelParameters& p, const ActuatorValues& command) 
   return held_to;
 }
 
+// First-order lag: d delta / dt = (delta_c - delta) / T, of fins, propeller and thrusters alike (Fossen 2021,
+// section 9.4).
 ActuatorValues actuator_rate(const ModelParameters& p, const ActuatorValues& value,
                              const ActuatorValues& command) {
   ActuatorValues rate;

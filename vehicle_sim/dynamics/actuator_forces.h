@@ -54,8 +54,8 @@ inline BodyForce stern_planes_force(const FinPair& fins, double density, const B
 }
 
 // The thrust on the hull and the part of the shaft's torque that turns it, with the shares of Thruster applied.
-// `nu_r` as above; `speed_mps` for ThrusterInflow::kSpeed, 0 or above, over ground or relative as the model's
-// CurrentTreatment says. `turn_rate_hz` of any sign.
+// `nu_r` as above; `speed_mps` for ThrusterInflow::kSpeed, 0 or above, over ground or relative by the model's
+// CurrentTreatment. `turn_rate_hz` of any sign.
 inline BodyForce thruster_force(const Thruster& t, double density, const BodyVelocity& nu_r, double speed_mps,
                                 double turn_rate_hz) {
   const double n = turn_rate_hz, d = t.diameter_m;

@@ -3,25 +3,26 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// q turned by the rotation vector `angle` of the world frame, radians.
+// exp(theta / 2) q: q turned by the rotation vector `angle` = theta of the world frame, radians.
 Quaternion turned(const Quaternion& q, const Vec3& angle) {
   const double size = angle.norm();
   if (size == 0) return q;
   return (Quaternion(Eigen::AngleAxisd(size, angle / size)) * q).normalized();
 }
 
-// Velocity over ground less the water's.
+// nu_r = nu - (R^T v_c, 0): velocity over ground less the water's.
 Vec6 relative_velocity(const VehicleState& state, const Vec3& current_ned) {
   Vec6 nu = state.velocity_body;
   nu.head<3>() -= state.orientation.conjugate() * current_ned;
   return nu;
 }
 
-// The same momentum with its moment about `pivot`.
+// The same momentum with its moment about `pivot` r: L_r = L - r x P.
 Impulse about(const Impulse& impulse, const Vec3& pivot) {
   return {impulse.linear, impulse.moment - pivot.cross(impulse.linear)};
 }
 
+// (P, L) = M nu_r, turned to the world frame (Fossen 2021, eq. 6.42 and 6.48).
 Impulse momentum_about_origin_of_body(const Model& model, const VehicleState& state,
                                       const Vec3& current_ned) {
   const Vec6 momentum = model.mass() * relative_velocity(state, current_ned);
@@ -36,6 +37,12 @@ Vec6 in_body_frame(const Quaternion& orientation, const Impulse& impulse) {
 
 }  // namespace
 
+// v + omega x r (rigid body kinematics, Fossen 2021, chapter 2)
+Vec3 velocity_at(const Motion& cg, const Vec3& point_ned_m) {
+  return cg.velocity + cg.angular_velocity.cross(point_ned_m - cg.position);
+}
+
+// p_g = p + R r_g, v_g = R (v + omega x r_g).
 Motion motion_of_cg(const Model& model, const VehicleState& s) {
   const Vec3& r = model.parameters().center_of_gravity_m;
   const Vec3 v = s.linear_velocity_body_mps(), w = s.angular_velocity_body_radps();
@@ -50,6 +57,7 @@ void set_motion_of_cg(VehicleState& s, const Model& model, const Motion& cg) {
   s.velocity_body << to_body * cg.velocity - w.cross(r), w;
 }
 
+// Semi-implicit Euler: p_g + h v_g, exp(h omega / 2) q.
 VehicleState moved(const Model& model, const VehicleState& from, const Motion& cg, double step_s) {
   VehicleState to = from;
   to.orientation = turned(from.orientation, step_s * cg.angular_velocity);
@@ -57,6 +65,14 @@ VehicleState moved(const Model& model, const VehicleState& from, const Motion& c
   return to;
 }
 
+VehicleState moved_freely(const Model& model, const VehicleState& from, const VehicleState& free,
+                          double step_s) {
+  Motion cg = motion_of_cg(model, free);
+  cg.position = motion_of_cg(model, from).position;
+  return moved(model, from, cg, step_s);
+}
+
+// J = h f, and its moment p x J.
 Impulse impulse_of(const Vec3& force_n, const Vec3& point_ned_m, double step_s) {
   return {step_s * force_n, step_s * point_ned_m.cross(force_n)};
 }
@@ -66,6 +82,7 @@ Impulse momentum_of(const Model& model, const VehicleState& state, const Vec3& c
   return about(own, -state.position_ned_m);
 }
 
+// a^T M^-1 a with a = (n, r x n), the unit impulse along n at r from CO, body frame.
 double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,
                        const Vec3& direction) {
   const Vec3 arm = point_ned_m - pose.position_ned_m;
@@ -73,6 +90,8 @@ double inverse_mass_at(const Model& model, const VehicleState& pose, const Vec3&
   return along.dot(model.inverse_mass() * along);
 }
 
+// nu = nu_free + M^-1 J moves the vehicle to its pose; there the momentum M nu_free + J gives its velocity, with the
+// moment taken about the pose that was reached.
 VehicleState struck(const Model& model, const VehicleState& from, const VehicleState& free,
                     const Impulse& impulse, const Vec3& current_ned, double step_s) {
   const Impulse push = about(impulse, free.position_ned_m);
@@ -82,7 +101,6 @@ VehicleState struck(const Model& model, const VehicleState& from, const VehicleS
   cg.position = motion_of_cg(model, from).position;
   VehicleState next = moved(model, from, cg, step_s);
   next.actuators = free.actuators;
-  // The momentum belongs to the pose that was reached: seen from there it gives the velocity.
   Impulse momentum = momentum_about_origin_of_body(model, free, current_ned);
   momentum.linear += push.linear;
   momentum.moment += push.moment;

@@ -15,6 +15,9 @@ struct Motion {
   Vec3 position, velocity, angular_velocity;
 };
 
+// Of the point of the body that is at `point_ned_m`.
+Vec3 velocity_at(const Motion& cg, const Vec3& point_ned_m);
+
 Motion motion_of_cg(const Model& model, const VehicleState& state);
 
 // Writes a motion of the centre of gravity into the state, whose orientation is already set.
@@ -22,6 +25,10 @@ void set_motion_of_cg(VehicleState& state, const Model& model, const Motion& cg)
 
 // The state after a step of `step_s` at the velocities of `cg`, from its position and the state's orientation.
 VehicleState moved(const Model& model, const VehicleState& from, const Motion& cg, double step_s);
+
+// The same at the velocity of `free`, the solution of the step without contacts.
+VehicleState moved_freely(const Model& model, const VehicleState& from, const VehicleState& free,
+                          double step_s);
 
 // An impulse on a body, world frame, N s; `moment` (N m s) is about the world's origin.
 struct Impulse {

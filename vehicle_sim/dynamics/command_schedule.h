@@ -1,15 +1,16 @@
-// Which command a vehicle obeys at an instant: each holds from its own time on, until a later one, or until it is
-// too old; then the vehicle is in its safe state.
+// Schedule of a vehicle's commands: each holds from its own time on, until a later one, or until the time-out; then the
+// vehicle is in its safe state.
 //
 // Safe state: propeller and thrusters stopped and fins amidships, so a vehicle without a pilot slows down and
 // drifts; one that is buoyant (the scenario's buoyancy_over_weight above 1) comes up. A vehicle that was
-// never commanded is in it too. What was asked for an instant does not depend on the order in which commands
+// never commanded is in it too. The command at an instant does not depend on the order in which commands
 // with different times came.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 
@@ -35,14 +36,16 @@ class CommandSchedule {
   // `timeout` above 0: the age at which a command is no longer obeyed.
   explicit CommandSchedule(SimDuration timeout);
 
-  // Takes note of a command heard at `now`. Of two for one instant the one heard later counts.
-  CommandVerdict add(const TimedCommand& command, SimTime now);
+  // Schedules a command received at `now`. Of two for one instant the one received later counts.
+  [[nodiscard]] CommandVerdict add(const TimedCommand& command, SimTime now);
 
   // The command that holds at `now`; calls must not go back in time.
   ActuatorValues at(SimTime now);
 
   // True when the last at() gave the safe state for want of a command.
   bool is_safe_state() const { return safe_; }
+
+  void archive(Archive& a) { a(obeyed_, waiting_, commanded_, safe_); }
 
  private:
   SimDuration timeout_;

@@ -41,6 +41,8 @@ OceanCurrent::OceanCurrent(const CurrentSettings& settings, std::uint64_t seed)
   check(settings_);
 }
 
+// A cos(2 pi t / T + phi) toward the azimuth, one tidal constituent; and a first-order Gauss-Markov process in north and
+// in east (Fossen 2021, section 10.3).
 Vec3 OceanCurrent::changing_part(SimTime now) {
   const TidalCurrent& tide = settings_.tide;
   const double along =
@@ -49,12 +51,14 @@ Vec3 OceanCurrent::changing_part(SimTime now) {
           along * std::sin(tide.toward_rad) + east_.at(now, east_cursor_), 0};
 }
 
+// The acceleration is (v(t + h) - v(t)) / h, so that the velocity is exact at both ends of the step.
 WaterMotion OceanCurrent::everywhere(SimTime now, SimDuration step) {
   if (!depends_on_time()) return {settings_.uniform_ned_mps, Vec3::Zero()};
   const Vec3 here = changing_part(now), then = changing_part(now + step);
   return {settings_.uniform_ned_mps + here, (then - here) / step.seconds()};
 }
 
+// Linear between the depths of the table, constant beyond.
 Vec3 OceanCurrent::at_depth(double depth_m) const {
   const auto& table = settings_.by_depth;
   if (table.empty()) return Vec3::Zero();

@@ -4,9 +4,8 @@
 // - uniform: steady, the same everywhere;
 // - by depth: a table of horizontal velocities, linear between its depths, constant beyond;
 // - tide: amplitude cos(2 pi t / period + phase) toward an azimuth (one constituent, rectilinear);
-// - random: a Gauss-Markov process in north and in east (gauss_markov.h), the same everywhere; its value at
-// an instant
-//   depends on neither the step nor who asks.
+// - random: a Gauss-Markov process in north and in east (gauss_markov.h), the same everywhere; its value at an
+//   instant depends on neither the step nor the order of evaluation.
 // What acts on a vehicle within a step: the velocity where it is at the start of the step, changed evenly by the
 // acceleration. Uniform, tide and random carry a neutrally buoyant vehicle along exactly: the path is that in still
 // water plus the integral of the velocity. The part by depth acts as relative velocity at the depth of CO;
@@ -17,6 +16,7 @@
 
 #include <vector>
 
+#include "core/archive.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/dynamics/gauss_markov.h"
@@ -46,6 +46,8 @@ struct CurrentSettings {
   std::vector<DepthCurrent> by_depth;  // depths rising; empty: none
   TidalCurrent tide;
   RandomCurrent random;
+
+  void archive(Archive& a) { a(uniform_ned_mps, by_depth, tide, random); }
 };
 
 class OceanCurrent {
@@ -58,6 +60,7 @@ class OceanCurrent {
   // What depends on depth alone; `depth_m` below the surface, of any sign.
   Vec3 at_depth(double depth_m) const;
 
+  const CurrentSettings& settings() const { return settings_; }
   bool depends_on_depth() const { return !settings_.by_depth.empty(); }
   bool depends_on_time() const {
     return settings_.tide.amplitude_mps > 0 || settings_.random.deviation_mps > 0;

@@ -10,7 +10,7 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// A VehicleState, or its rate, as plain numbers (body_axes.h says why).
+// A VehicleState, or its rate, as plain numbers (why: body_axes.h).
 struct Numbers {
   Axes position;
   std::array<double, 4> orientation;  // x, y, z, w
@@ -51,6 +51,8 @@ Axes turned_to_body(const WorldAxes& axes, const Vec3& v) {
   return v.x() * axes.north + v.y() * axes.east + v.z() * axes.down;
 }
 
+// nu_r = nu - (R^T v_c, 0), and the rate of the current in the turning body frame, R^T dv_c/dt - omega x v_c (Fossen 2021,
+// section 10.3).
 RelativeFlow relative_flow(const Model& model, const BodyVelocity& nu, const WorldAxes& axes,
                            const Water& water) {
   RelativeFlow flow;
@@ -106,7 +108,7 @@ BodyForce stern_force(const ModelParameters& p, const Numbers& state, const Rela
          thruster_force(p.propeller, rho, flow.nu_r, inflow_speed, state.actuators.propeller_hz);
 }
 
-// Weight at CG, buoyancy at CB; `down` is the world's z axis in the body frame.
+// -g(eta) = ((W - B) d, (W r_g - B r_b) x d) (Fossen 2021, section 4.1): weight at CG, buoyancy at CB; `down` = d is the world's z axis in the body frame.
 BodyForce restoring_force(const Model& model, const Axes& down, const Submergence& under) {
   const ModelParameters& p = model.parameters();
   const double weight = model.weight_n(), buoyancy = p.buoyancy_n * under.hull;
@@ -121,6 +123,8 @@ BodyForce total_coriolis_force(const Model& model, const BodyVelocity& nu_r) {
   return coriolis_force(model.rigid_body_mass(), nu_r) + roll_only_coriolis_force(p.added_mass, nu_r);
 }
 
+// M nu_r_dot = tau - C(nu_r) nu_r - D nu_r - g, nu_dot = nu_r_dot + the rate of the current (Fossen 2021, section 10.3; the
+// forces: hull_forces.h and actuator_forces.h). Forces of the water go with the share of the hull under it.
 BodyVelocity acceleration(const Model& model, const Numbers& state, const WorldAxes& axes,
                           const Water& water) {
   const ModelParameters& p = model.parameters();
@@ -135,6 +139,7 @@ BodyVelocity acceleration(const Model& model, const Numbers& state, const WorldA
   return {flow.current_rate + Axes(a[0], a[1], a[2]), Axes(a[3], a[4], a[5])};
 }
 
+// p_dot = R v.
 Axes position_rate(const WorldAxes& axes, const Axes& v) {
   const Axes &n = axes.north, &e = axes.east, &d = axes.down;
   return {n.x * v.x + n.y * v.y + n.z * v.z, e.x * v.x + e.y * v.y + e.z * v.z,
@@ -198,6 +203,8 @@ StateRate rate_of_change(const Model& model, const VehicleState& state, const Ac
           rate.velocity.vector(), rate.actuators};
 }
 
+// y + h / 6 (k_1 + 2 k_2 + 2 k_3 + k_4), the classical method of Runge and Kutta; the quaternion is then brought back to
+// unit length.
 VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
                       const Water& water, double step_s) {
   const ActuatorValues held = limited(model.parameters(), command);
@@ -213,6 +220,7 @@ VehicleState rk4_step(const Model& model, const VehicleState& state, const Actua
           Quaternion(end.orientation.data()).normalized(), end.velocity.vector(), end.actuators};
 }
 
+// 1/2 nu^T M nu - W z_g + B z_b.
 double mechanical_energy_j(const Model& model, const VehicleState& state) {
   const ModelParameters& p = model.parameters();
   const double kinetic = 0.5 * state.velocity_body.dot(model.mass() * state.velocity_body);

@@ -1,7 +1,7 @@
 // A Gauss-Markov (Ornstein-Uhlenbeck) process as a function of time: stationary, variance sigma^2, correlation
 // exp(-|t| / T).
 //
-// The value at an instant is one fixed number, whatever the step and whoever asks: the process is built from its ends
+// The value at an instant is one fixed number, whatever the step and the order of evaluation: the process is built from its ends
 // inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants hold that value), it is
 // drawn at the middle of each interval given both ends, which for a Gauss-Markov process is exact: with h
 // half the interval and c = exp(-h / T), mean (a + b) c / (1 + c^2), variance sigma^2 (1 - c^2) / (1 + c^2)

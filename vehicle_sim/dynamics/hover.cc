@@ -30,6 +30,7 @@ Thruster thruster_at(const Vec3& position, const Vec3& direction) {
   t.diameter_m = 0.076;
   t.advance_speed_ratio = 1;
   t.max_hz = 60;
+  // T = K_T0 rho n^2 D^4 at the bollard: 51.5 N at 60 Hz
   t.thrust_at_rest = 51.5 / (kDensity * std::pow(t.max_hz, 2) * std::pow(t.diameter_m, 4));
   t.thrust_at_max = 0.3 * t.thrust_at_rest;  // of ducted propellers of unit pitch: Oosterveld 1970
   t.advance_max = 0.6;
@@ -40,6 +41,7 @@ Thruster thruster_at(const Vec3& position, const Vec3& direction) {
   return t;
 }
 
+// X_u = -k_1 m, Y_v = Z_w = -k_2 m, M_q = N_r = -k' I (Lamb 1932, sections 114 and 115); K_p by its share of I_x.
 Vec6 added_mass_diagonal(double mass, const Vec3& inertia) {
   const LambFactors k = lamb_factors(kSemiAxial, kSemiTransverse);
   Vec6 diagonal;
@@ -48,6 +50,8 @@ Vec6 added_mass_diagonal(double mass, const Vec3& inertia) {
   return diagonal;
 }
 
+// D_kk = M_kk / T_k in surge, sway, heave and yaw; 2 zeta_k sqrt(W z_g M_kk) in roll and pitch (Fossen 2021, section 6.4:
+// damping from time constants and damping ratios).
 Damping damping(const Vec6& m, double weight) {
   Damping d;
   d.linear << m[0] / kSpeedTime, m[1] / kSpeedTime, m[2] / kSpeedTime,
@@ -66,6 +70,7 @@ ModelParameters hover_parameters() {
   p.water_density_kg_m3 = kDensity;
   p.gravity_m_s2 = kGravity;
   p.hull = {kLength, kDiameter};
+  // A solid spheroid as heavy as its water: m = 4/3 pi rho a b^2, I_x = 2/5 m b^2, I_y = I_z = m (a^2 + b^2) / 5.
   p.mass_kg = 4.0 / 3 * pi * kDensity * a * b * b;
   p.buoyancy_n = p.mass_kg * kGravity;
   p.center_of_gravity_m = {0, 0, kMetacentre};
@@ -76,6 +81,7 @@ ModelParameters hover_parameters() {
   p.added_mass = added.asDiagonal();
   const Mat6 rigid = rigid_body_mass_matrix(p.mass_kg, p.inertia_kg_m2, p.center_of_gravity_m);
   p.damping = damping(rigid.diagonal() + added, p.mass_kg * kGravity);
+  // The slope on the diameter squared, C_L,d d^2 = C_L S.
   p.body_lift = {.reference_area_m2 = pi * b * b,
                  .axial_drag = kFrontalDrag,
                  .lift_slope_per_rad = kBodyLiftOnDiameter * kDiameter * kDiameter / (pi * b * b),

@@ -4,6 +4,8 @@
 
 namespace halocline::vehicle_sim {
 
+// Kirchhoff's equations (Fossen 2021, eq. 3.46) with a = M_11 v + M_12 omega, h = M_21 v + M_22 omega, less the elements
+// of C that couple translation with pitch and yaw.
 BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
   const Vec6 momentum = times(mass, nu);
   const Axes h = {momentum[3], momentum[4], momentum[5]};
@@ -12,6 +14,8 @@ BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
   return {{0, a3 * nu.p, -a2 * nu.p}, cross(h, nu.angular()) + Axes(a2 * nu.w - a3 * nu.v, 0, 0)};
 }
 
+// L = 1/2 rho V_r^2 S C_L, C_L = C_La alpha; D = 1/2 rho V_r^2 S C_D, C_D = C_D0 + C_L^2 / (pi e A) (Fossen 2021, eq. 8.23
+// to 8.26); X = -D cos(alpha) + L sin(alpha), Z = -D sin(alpha) - L cos(alpha).
 BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity& nu_r,
                           double relative_speed_mps) {
   const double u = nu_r.u, w = nu_r.w + 0.0;  // -0 + 0 = +0: one branch of atan2 for both zeros
@@ -25,6 +29,8 @@ BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity&
   return {-cos_alpha * drag + sin_alpha * lift, 0, -sin_alpha * drag - cos_alpha * lift, 0, 0, 0};
 }
 
+// Y = -1/2 rho D C_d int |v + x r| (v + x r) dx, N likewise with x in the integral (Fossen 2021, eq. 6.91 and 6.92), as a
+// sum over strips; their common factor is applied in cross_flow_force.
 BodyForce cross_flow_in_sway(const CrossFlow& c, const BodyVelocity& nu_r) {
   const double v = nu_r.v, r = nu_r.r;
   const bool odd = c.strips % 2 == 1;

@@ -20,7 +20,7 @@ struct ScheduledCommand {
 
 struct OpenLoopRun {
   VehicleState start;                      // at time 0
-  std::vector<ScheduledCommand> schedule;  // times rising; before the first all actuators are told to be at 0
+  std::vector<ScheduledCommand> schedule;  // times rising; before the first all commands are 0
   Water water;
   SimDuration duration;                                              // 0 or above
   SimDuration step = SimDuration::from_milliseconds(10);             // 0.1 to 20 ms
@@ -35,10 +35,10 @@ struct OpenLoopSample {
 };
 
 // One sample at 0 and one each period to the end of the duration. Commands are held to the model's limits: see
-// without_limits. Throws InvalidArgument where the run breaks what its fields say.
+// without_limits. Throws InvalidArgument where a field is out of its range.
 std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun& run);
 
-// The same vehicle with actuators that go wherever they are told (fins to a right angle).
+// The same vehicle with actuators without limits (fins to a right angle).
 ModelParameters without_limits(ModelParameters parameters);
 
 }  // namespace halocline::vehicle_sim

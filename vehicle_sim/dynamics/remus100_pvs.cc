@@ -30,6 +30,7 @@ constexpr double kFinPlace = -0.8;                     // m
 constexpr double kRudderLift = 0.5, kSternLift = 0.7;  // 1/rad
 constexpr double kMaxFinDegrees = 15, kMaxRpm = 1525;
 
+// X_u = -k_1 m, Y_v = Z_w = -k_2 m, M_q = N_r = -k' I (Fossen 2021, section 8.1.5); K_p = -0.3 I_x.
 Mat6 added_mass(double mass, const Vec3& inertia) {
   const LambFactors k = lamb_factors(kSemiAxial, kSemiTransverse);
   Vec6 diagonal;
@@ -38,8 +39,9 @@ Mat6 added_mass(double mass, const Vec3& inertia) {
   return diagonal.asDiagonal();
 }
 
-// Surge, sway, heave and yaw by time constants; roll and pitch by their damping ratios at the natural
-// frequencies w = sqrt(W zg / M_kk).
+// D_kk = M_kk / T_k: surge, sway, heave and yaw by time constants. D_kk = 2 zeta_k w_k M_kk: roll and pitch by their
+// damping ratios at the natural frequencies w_k = sqrt(W z_g / M_kk) (the published program, after Fossen 2021,
+// section 6.4).
 Damping damping(const Mat6& m, double weight) {
   const double roll_frequency = std::sqrt(weight * kMetacentre / m(3, 3));
   const double pitch_frequency = std::sqrt(weight * kMetacentre / m(4, 4));
@@ -51,6 +53,8 @@ Damping damping(const Mat6& m, double weight) {
   return d;
 }
 
+// C_La = pi A / (1 + sqrt(1 + (A / 2)^2)), A = b^2 / S: Helmbold's wing of low aspect ratio; C_D0 from the frontal to the
+// reference area.
 LiftDrag lift_drag() {
   LiftDrag l;
   l.reference_area_m2 = kPlanformShare * kLength * kDiameter;
@@ -82,6 +86,12 @@ Thruster propeller() {
 
 }  // namespace
 
+// With the eccentricity e = sqrt(1 - (b / a)^2):
+//   alpha_0 = 2 (1 - e^2) / e^3 (1/2 ln((1 + e) / (1 - e)) - e)
+//   beta_0 = 1 / e^2 - (1 - e^2) / (2 e^3) ln((1 + e) / (1 - e))
+//   k_1 = alpha_0 / (2 - alpha_0), k_2 = beta_0 / (2 - beta_0),
+//   k' = e^4 (beta_0 - alpha_0) / ((2 - e^2) (2 e^2 - (2 - e^2) (beta_0 - alpha_0)))
+// (Lamb 1932, sections 114 and 115; Fossen 2021, section 8.1.5).
 LambFactors lamb_factors(double a, double b) {
   require(b > 0 && a > b, "Lamb's factors need 0 < transverse < axial semi-axis");
   const double e2 = 1 - (b / a) * (b / a), e = std::sqrt(e2);
@@ -99,7 +109,8 @@ ModelParameters remus100_pvs_parameters(CurrentTreatment treatment) {
   p.water_density_kg_m3 = kDensity;
   p.gravity_m_s2 = kGravity;
   p.hull = {kLength, kDiameter};
-  p.mass_kg = 4.0 / 3 * pi * kDensity * a * b * b;  // neutrally buoyant spheroid
+  // A neutrally buoyant solid spheroid: m = 4/3 pi rho a b^2, I_x = 2/5 m b^2, I_y = I_z = m (a^2 + b^2) / 5.
+  p.mass_kg = 4.0 / 3 * pi * kDensity * a * b * b;
   p.buoyancy_n = p.mass_kg * kGravity;
   p.center_of_gravity_m = {0, 0, kMetacentre};
   const Vec3 inertia(0.4 * p.mass_kg * b * b, p.mass_kg * (a * a + b * b) / 5,

@@ -21,7 +21,7 @@ namespace halocline::vehicle_sim {
 
 inline constexpr const char* kRemus100PvsName = "remus100-pvs";
 
-// The parameters, to be changed before a Model is made from them (a heavier or lighter one, say).
+// The parameters, to be changed before a Model is made from them (to a heavier or lighter one).
 // `treatment`: kUpstream is the published one, kGalilean handles the current exactly.
 ModelParameters remus100_pvs_parameters(CurrentTreatment treatment);
 

@@ -15,6 +15,7 @@ double share_of_disc(double depth_m, double radius_m) {
 
 }  // namespace
 
+// Area of a segment of the unit circle over pi, its chord at -s from the centre: 1 - (acos s - s sqrt(1 - s^2)) / pi.
 double submerged_share_of_circle(double depth_in_radii) {
   const double s = depth_in_radii;
   if (s >= 1) return 1;
@@ -22,6 +23,8 @@ double submerged_share_of_circle(double depth_in_radii) {
   return 1 - (std::acos(s) - s * std::sqrt(1 - s * s)) / std::numbers::pi;
 }
 
+// Sections at xi in (-1, 1) along the axis have the radius D/2 sqrt(1 - xi^2) and the volume 1 - xi^2; their sum by the
+// midpoint rule.
 Submergence submergence(const ModelParameters& model, const VehicleState& state, double sea_surface_z_m) {
   const HullShape& hull = model.hull;
   const double depth = depth_below_surface_m(state.position_ned_m, sea_surface_z_m);

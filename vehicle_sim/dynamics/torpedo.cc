@@ -23,6 +23,7 @@ ModelParameters torpedo_parameters() {
   p.name = kTorpedoName;
   p.added_mass_coriolis = AddedMassCoriolis::kFull;
   p.damping.decay_s_per_m[2] = p.damping.decay_s_per_m[1];
+  // The slope on the diameter squared, C_L,d d^2 = C_L S; its place from the leading end, behind the middle.
   p.body_lift = {
       .reference_area_m2 = p.lift_drag.reference_area_m2,
       .axial_drag = p.lift_drag.zero_lift_drag,

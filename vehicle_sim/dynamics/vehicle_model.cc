@@ -87,12 +87,14 @@ void check_actuators(const ModelParameters& p) {
 
 }  // namespace
 
+// S(a) b = a x b.
 Mat3 skew(const Vec3& a) {
   Mat3 s;
   s << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
   return s;
 }
 
+// M_RB = H(r_g)^T diag(m I, I_g) H(r_g), H(r) = [I, S(r)^T; 0, I] (Fossen 2021, eq. 3.35).
 Mat6 rigid_body_mass_matrix(double mass_kg, const Mat3& inertia_kg_m2, const Vec3& center_of_gravity_m) {
   Mat6 about_cg = Mat6::Zero();
   about_cg.topLeftCorner<3, 3>() = mass_kg * Mat3::Identity();

@@ -1,4 +1,4 @@
-// What changes as a vehicle moves: pose, velocity and actuator positions, and what it was told to do.
+// What changes as a vehicle moves: pose, velocity and actuator positions; and commands.
 //
 // Frames and units: see each field. Plain values, copied freely.
 #pragma once
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/archive.h"
 #include "core/frames.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 
@@ -38,6 +39,7 @@ struct VehicleState {
 
   auto linear_velocity_body_mps() const { return velocity_body.head<3>(); }
   auto angular_velocity_body_radps() const { return velocity_body.tail<3>(); }
+  void archive(Archive& a) { a(position_ned_m, orientation, velocity_body, actuators); }
 };
 
 // The water round a vehicle over a step.

@@ -23,17 +23,21 @@ double uniform(std::uint64_t seed, const char* purpose, int component) {
                      .which = 0});
 }
 
-// The spectrum's form over its peak frequency, up to a factor.
+// JONSWAP: S(omega) ~ omega^-5 exp(-5/4 (omega_p / omega)^4) gamma^b, b = exp(-(omega - omega_p)^2 / (2 sigma^2
+// omega_p^2)), sigma = 0.07 below the peak and 0.09 above (Hasselmann et al. 1973); gamma = 1 is Pierson and
+// Moskowitz 1964.
 double spectrum(double omega, double peak, double gamma) {
   const double sigma = omega <= peak ? kNarrowBelow : kNarrowAbove;
   const double bell = std::exp(-std::pow((omega - peak) / (sigma * peak), 2) / 2);
   return std::pow(omega, -5) * std::exp(-1.25 * std::pow(peak / omega, 4)) * std::pow(gamma, bell);
 }
 
+// Deep water: k = omega^2 / g.
 WaveField::Component component(double amplitude, double omega, double phase) {
   return {amplitude, omega, omega * omega / kGravity, phase};
 }
 
+// a_i = sqrt(2 S(omega_i) d omega), scaled so that the sum of a_i^2 / 2 is (H_s / 4)^2.
 std::vector<WaveField::Component> sea(const WaveSettings& s, double gamma, std::uint64_t seed) {
   const double peak = 2 * pi / s.period_s, width = (kHighest - kLowest) * peak / s.components;
   std::vector<WaveField::Component> components;
@@ -66,6 +70,8 @@ WaveField::WaveField(const WaveSettings& s, std::uint64_t seed)
   }
 }
 
+// theta = k s - omega t + phi; v = a omega exp(-k d) (cos theta along, sin theta up), and its rate of change at a fixed
+// place (Faltinsen 1990, table 2.1).
 WaterMotion WaveField::at(const Vec3& position_ned_m, double depth_m, SimTime now) const {
   const double along = north_ * position_ned_m.x() + east_ * position_ned_m.y(), t = now.seconds();
   const double depth = std::max(depth_m, 0.0);

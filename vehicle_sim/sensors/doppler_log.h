@@ -18,7 +18,7 @@
 
 namespace halocline::vehicle_sim {
 
-// A ray to be asked for: the first hit of the seabed.
+// A ray to the first hit of the seabed.
 struct EchoBeam {
   Vec3 origin_ned_m = Vec3::Zero();
   Vec3 direction_ned = Vec3::UnitZ();  // unit

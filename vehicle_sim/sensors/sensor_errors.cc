@@ -40,6 +40,7 @@ bool drops_out(const SensorIdentity& sensor, std::int64_t sample, double probabi
          uniform_at(address_of(sensor, purpose_of("sensor-dropout"), sample, part)) < probability;
 }
 
+// W(t) = sum of z_i for i < floor(t), and (t - floor(t)) z_floor(t): a Wiener process sampled once a second, linear between.
 double BiasWalk::at(SimTime when) {
   const double seconds = (when - SimTime()).seconds(), whole = std::floor(seconds);
   const auto second = static_cast<std::int64_t>(whole);
@@ -48,7 +49,10 @@ double BiasWalk::at(SimTime when) {
 }
 
 double BiasWalk::sum_to(std::int64_t second) {
-  if (second < second_) second_ = 0, sum_ = 0;
+  if (second < second_) {
+    second_ = 0;
+    sum_ = 0;
+  }
   for (; second_ < second; ++second_)
     sum_ += normal_at(address_of(sensor_, purpose_of("sensor-walk"), second_, axis_));
   return sum_;

@@ -53,7 +53,7 @@ double noise_draw(const SensorIdentity& sensor, std::int64_t sample, int axis);
 // `part` 0 to 1023: beams and rays drop out one by one.
 bool drops_out(const SensorIdentity& sensor, std::int64_t sample, double probability, int part = 0);
 
-// The walk of one axis of a sensor, for a step of 1 a second. Keeps its sum; asking out of order costs time,
+// The walk of one axis of a sensor, for a step of 1 a second. Keeps its sum: times out of order cost time,
 // nothing else.
 class BiasWalk {
  public:

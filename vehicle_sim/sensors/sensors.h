@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "core/archive.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
 
@@ -16,7 +17,7 @@ namespace halocline::vehicle_sim {
 enum class AltitudeStatus {
   kMeasured,
   kNoBottom,     // none within range, or beyond the known terrain
-  kUnavailable,  // not measured at this instant, or nobody answered where the bottom is
+  kUnavailable,  // not measured at this instant, or the bathymetry service did not answer
 };
 
 // A ray's way to the seabed.
@@ -39,6 +40,11 @@ struct SensorReading {
   ActuatorValues actuators;  // actual
   bool safe_state = false;   // commands have timed out
   bool on_seabed = false;    // the hull touches the ground
+
+  void archive(Archive& a) {
+    a(depth_fresh, depth_m, altitude, water_speed_fresh, water_speed_mps, attitude_fresh, attitude);
+    a(angular_rate_fresh, angular_velocity_body_radps, actuators, safe_state, on_seabed);
+  }
 };
 
 // Everything but altitude, safe state and contact, which are not the vehicle's own to know. `water` as the
@@ -52,7 +58,7 @@ SensorReading measure_fixed(const VehicleState& state, const Water& water);
 Vec3 altimeter_direction(const VehicleState& state);
 
 // The sensors of SENSORS with their errors. Holds what was measured last and the wandering biases; what it returns
-// depends on the instants asked for, in ascending order, and on nothing else.
+// depends on the instants of read(), in ascending order, and on nothing else.
 class SensorSuite {
  public:
   using Dead = std::array<bool, kSensorKinds.size()>;  // by SensorKind: true measures nothing
@@ -61,12 +67,15 @@ class SensorSuite {
   SensorSuite(const SensorSettings& settings, std::uint64_t seed, std::int32_t vehicle_id,
               SimDuration period);
 
-  // From what holds at `when` to what the sensors say; the altitude is left unavailable.
+  // Readings with errors of the `truth` at `when`; the altitude is left unavailable.
   SensorReading read(const SensorReading& truth, SimTime when, const Dead& dead);
 
   // True when the altimeter measures at the instant of the last read(); and its echo then, with its errors.
   bool altimeter_fires() const { return fires_[static_cast<std::size_t>(SensorKind::kAltimeter)]; }
   Echo read_altitude(const Echo& echo, SimTime when);
+
+  // The walks are functions of time, and not part of it.
+  void archive(Archive& a) { a(last_sample_, fires_, held_); }
 
  private:
   static constexpr std::size_t kBasic = 5, kWalks = 7;  // the gyro's three axes have one each

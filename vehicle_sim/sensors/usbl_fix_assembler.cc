@@ -25,20 +25,25 @@ UsblFixAssembler::Waiting& UsblFixAssembler::entry_of(const PacketKey& packet) {
   return waiting_.back();
 }
 
-void UsblFixAssembler::hear_arrival(const PacketKey& packet, const SoundArrival& arrival) {
+void UsblFixAssembler::on_arrival(const PacketKey& packet, const SoundArrival& arrival) {
   entry_of(packet).arrival = arrival;
 }
 
-void UsblFixAssembler::hear_packet(const PacketKey& packet, std::optional<double> travel_time_s) {
+void UsblFixAssembler::on_packet(const PacketKey& packet, std::optional<double> travel_time_s) {
   Waiting& entry = entry_of(packet);
   entry.received = true;
   entry.travel_time_s = travel_time_s;
 }
 
+void UsblFixAssembler::clear() {
+  poses_.clear();
+  waiting_.clear();
+}
+
 void UsblFixAssembler::note_pose(SimTime when, const Quaternion& orientation) {
   if (!poses_.empty() && poses_.back().when >= when) return;
   poses_.push_back({when, orientation});
-  while (poses_.size() > 2 && poses_[1].when < when - kPatience) poses_.pop_front();
+  while (poses_.size() > 2 && poses_[1].when < when - kTimeout) poses_.pop_front();
 }
 
 std::optional<Quaternion> UsblFixAssembler::orientation_at(SimTime when) const {
@@ -67,7 +72,7 @@ std::vector<UsblFix> UsblFixAssembler::take(bool is_dead) {
       if (!lost) fixes.push_back(fix_of(w, *orientation));
       return true;
     }
-    return w.since < now - kPatience;
+    return w.since < now - kTimeout;
   });
   return fixes;
 }

@@ -1,10 +1,10 @@
-// A vehicle's hydrophone array: from what the channel server tells of arrivals, to what the vehicle measures.
+// A vehicle's USBL array: fixes from the true directions of arrival and the packets received.
 //
-// The direction of an arrival is in OUTCOME (rays give its elevation, the straight line its azimuth), which
-// nobody on board hears; the vehicle's own RECEIVE tells that the packet is for it, and how long it travelled
-// where it can know. A bearing is made when both have come and the attitude at the instant of the first bit
-// is known: between two noted poses it is interpolated along the shortest turn. Bearings leave in the order
-// in which their second half came. What waits for longer than kPatience is forgotten.
+// Model: the true direction of an arrival is in OUTCOME (elevation of the ray, azimuth of the straight line), which the
+// vehicle itself does not receive; RECEIVE shows that the packet is for it, and its travel time where that is known on
+// board. A fix is made when both have come and the attitude at the instant of the first bit is known: between two noted
+// poses it is interpolated along the shortest turn. Fixes leave in the order in which their second half came. What
+// waits for longer than kTimeout is forgotten.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/sensors/sensors.h"
 
@@ -42,20 +43,21 @@ struct UsblFix {
 
 class UsblFixAssembler {
  public:
-  static constexpr SimDuration kPatience = SimDuration::from_milliseconds(20'000);
+  static constexpr SimDuration kTimeout = SimDuration::from_milliseconds(20'000);
 
   UsblFixAssembler(const UsblSettings& settings, const SensorIdentity& identity)
       : settings_(settings), identity_(identity) {}
 
-  void hear_arrival(const PacketKey& packet, const SoundArrival& arrival);
+  void on_arrival(const PacketKey& packet, const SoundArrival& arrival);
   // Of a packet for this vehicle; the travel time where it is known on board.
-  void hear_packet(const PacketKey& packet, std::optional<double> travel_time_s);
+  void on_packet(const PacketKey& packet, std::optional<double> travel_time_s);
   // Poses come in ascending order.
   void note_pose(SimTime when, const Quaternion& orientation);
 
-  void clear() { poses_.clear(), waiting_.clear(); }
+  void clear();
+  void archive(Archive& a) { a(poses_, waiting_); }
 
-  // All bearings that are complete now, taken out; none while the array is dead (they are then lost).
+  // All fixes that are complete now, taken out; none while the array is dead (they are then lost).
   std::vector<UsblFix> take(bool is_dead);
 
  private:
@@ -69,6 +71,7 @@ class UsblFixAssembler {
   struct Pose {
     SimTime when;
     Quaternion orientation;
+    void archive(Archive& a) { a(when, orientation); }
   };
 
   Waiting& entry_of(const PacketKey& packet);

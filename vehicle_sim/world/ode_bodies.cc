@@ -9,6 +9,13 @@ Mat3 ode_inertia(const ModelParameters& p) {
   return p.inertia_kg_m2 + Mat3(p.added_mass.diagonal().tail<3>().asDiagonal());
 }
 
+// 1 / m + (r x n) . I^-1 (r x n): how fast the body moves along the unit n for each unit of impulse along it at r from
+// the centre of gravity, body frame.
+double ode_inverse_mass_at(const ModelParameters& p, const Vec3& arm_m, const Vec3& direction) {
+  const Vec3 moment = arm_m.cross(direction);
+  return 1 / ode_kilograms(p) + moment.dot(ode_inertia(p).inverse() * moment);
+}
+
 }  // namespace
 
 void scale_mass(dBodyID body, const ModelParameters& p, double scale) {
@@ -17,11 +24,6 @@ void scale_mass(dBodyID body, const ModelParameters& p, double scale) {
   dMassSetParameters(&mass, scale * ode_kilograms(p), 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
                      inertia(0, 1), inertia(0, 2), inertia(1, 2));
   dBodySetMass(body, &mass);
-}
-
-double ode_inverse_mass_at(const ModelParameters& p, const Vec3& arm_m, const Vec3& direction) {
-  const Vec3 moment = arm_m.cross(direction);
-  return 1 / ode_kilograms(p) + moment.dot(ode_inertia(p).inverse() * moment);
 }
 
 void write_body(dBodyID body, const Model& model, const VehicleState& state) {
@@ -44,8 +46,25 @@ dBodyID make_body(dWorldID world, const Model& model, const VehicleState& state)
   return body;
 }
 
-// A contact that lets the first body's point approach against `normal` by `closing_speed` at most (negative: it must
-// part).
+void push_to_velocity(dBodyID body, const Model& model, const VehicleState& now, const VehicleState& next,
+                      const Quaternion& orientation, double scale, double step_s) {
+  const ModelParameters& p = model.parameters();
+  const Motion before = motion_of_cg(model, now), after = motion_of_cg(model, next);
+  const Vec3 force = scale * ode_kilograms(p) / step_s * (after.velocity - before.velocity);
+  const Vec3 spin_up = (after.angular_velocity - before.angular_velocity) / step_s;
+  const Vec3 torque = scale * (orientation * (ode_inertia(p) * (orientation.conjugate() * spin_up)));
+  dBodySetForce(body, force.x(), force.y(), force.z());
+  dBodySetTorque(body, torque.x(), torque.y(), torque.z());
+}
+
+double scale_of_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,
+                        const Vec3& normal_ned) {
+  const Quaternion to_body = pose.orientation.conjugate();
+  const Vec3 arm = to_body * (point_ned_m - motion_of_cg(model, pose).position);
+  return ode_inverse_mass_at(model.parameters(), arm, to_body * normal_ned) /
+         inverse_mass_at(model, pose, point_ned_m, normal_ned);
+}
+
 dContact ode_contact(const Vec3& normal, const Vec3& point, double closing_speed, double friction) {
   dContact contact = {};
   contact.surface.mode = dContactApprox1 | dContactMotionN;

@@ -1,11 +1,8 @@
-// The ODE side of a VehicleWorld, for vehicle_world.cc and vehicle_links.cc alone: bodies, contacts, what they felt.
+// The ODE side of a VehicleWorld, for vehicle_world.cc alone: bodies and contacts.
 #pragma once
-
-#include <optional>
 
 #include "vehicle_sim/dynamics/body_motion.h"
 #include "vehicle_sim/world/ode_handles.h"
-#include "vehicle_sim/world/vehicle_world.h"
 
 namespace halocline::vehicle_sim {
 
@@ -22,31 +19,19 @@ void write_body(dBodyID body, const Model& model, const VehicleState& state);
 // Gives the body `scale` times ODE's mass: dry mass and inertia with the added mass of heave and of rotation.
 void scale_mass(dBodyID body, const ModelParameters& parameters, double scale);
 
-// How fast ODE's body moves along the unit `direction` for each unit of impulse along it, as inverse_mass_at;
-// `arm_m` from the centre of gravity, both in the body frame; for a scale of 1.
-double ode_inverse_mass_at(const ModelParameters& parameters, const Vec3& arm_m, const Vec3& direction);
+// Gives the body, which has `scale` times ODE's mass, the force and torque that take it from the velocity of `now` to
+// that of `next` in a step: M_ode (v - v_0) / h and I_ode (omega - omega_0) / h, with the inertia turned as
+// `orientation`.
+void push_to_velocity(dBodyID body, const Model& model, const VehicleState& now, const VehicleState& next,
+                      const Quaternion& orientation, double scale, double step_s);
+
+// The scale at which ODE's body gives way at `point_ned_m` along `normal_ned` (unit) as the vehicle at `pose` does with its
+// added mass: the ratio of both inverse masses there.
+double scale_of_mass_at(const Model& model, const VehicleState& pose, const Vec3& point_ned_m,
+                        const Vec3& normal_ned);
 
 // A contact that lets the first body's point approach against `normal` by `closing_speed` at most (negative: it must
 // part).
 dContact ode_contact(const Vec3& normal, const Vec3& point, double closing_speed, double friction);
-
-// A contact with the ground.
-struct VehicleWorld::Contact {
-  std::size_t vehicle;
-  dJointID joint;
-  dJointFeedback feedback = {};
-};
-
-// A push along a line between two vehicles, or a vehicle and a fixed point, that keeps a gap open.
-struct VehicleWorld::Link {
-  std::size_t vehicle;               // is pushed along `normal`
-  std::optional<std::size_t> other;  // is pushed against it
-  Vec3 point, normal;                // where the free velocities lead
-  double gap_m;
-  double time_left_s;  // in the step after the instant at which the gap was measured
-  std::optional<std::size_t> tether;
-  dJointID joint = nullptr;
-  dJointFeedback feedback = {};
-};
 
 }  // namespace halocline::vehicle_sim

@@ -11,7 +11,7 @@
 
 namespace halocline::vehicle_sim {
 
-// The plane tangent to the ground at the point asked for.
+// The plane tangent to the ground at the given point.
 struct SeabedPlane {
   double z_m = 0;                    // of the ground at that point
   Vec3 normal_ned = -Vec3::UnitZ();  // unit, out of the ground: its z is below 0

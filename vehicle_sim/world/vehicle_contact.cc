@@ -38,7 +38,7 @@ double gap_at(const HullPose& a, const HullPose& b, const Places& p) {
 // the step.
 Places closest_places(const HullPose& a, const HullPose& b, const AxisSegment& third) {
   Places best{(third.low + third.high) / 2, 0};
-  double least = gap_at(a, b, best);
+  double min_gap = gap_at(a, b, best);
   for (double step = kCoarsest; step > kFinest;) {
     Places better = best;
     for (int i = -1; i <= 1; ++i) {
@@ -46,8 +46,8 @@ Places closest_places(const HullPose& a, const HullPose& b, const AxisSegment& t
         const Places tried{std::clamp(best.first + i * step, third.low, third.high),
                            std::clamp(best.second + k * step, -1.0, 1.0)};
         const double gap = gap_at(a, b, tried);
-        if (gap < least) {
-          least = gap;
+        if (gap < min_gap) {
+          min_gap = gap;
           better = tried;
         }
       }
@@ -56,6 +56,12 @@ Places closest_places(const HullPose& a, const HullPose& b, const AxisSegment& t
     best = better;
   }
   return best;
+}
+
+bool overlap(const std::vector<VehicleContact>& contacts) {
+  constexpr double kTouching = 1e-3;  // m
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const VehicleContact& c) { return c.gap_m < -kTouching; });
 }
 
 VehicleContact contact_at(const HullPose& a, const HullPose& b, const Places& p) {
@@ -82,6 +88,35 @@ void find_vehicle_contacts(const HullPose& first, const HullPose& second, double
     const VehicleContact contact = contact_at(first, second, closest_places(first, second, interval));
     if (contact.gap_m < margin_m) contacts.push_back(contact);
   }
+}
+
+HullPath path_of(const HullShape& hull, const VehicleState& from, const VehicleState& to) {
+  return {hull, from.position_ned_m, to.position_ned_m, from.orientation, to.orientation};
+}
+
+HullPose HullPath::at(double time) const {
+  return {hull, from + time * (to - from), orientation_from.slerp(time, orientation_to) * Vec3::UnitX()};
+}
+
+double find_first_touch(const HullPath& first, const HullPath& second, double margin_m,
+                        std::vector<VehicleContact>& contacts) {
+  constexpr int kHalvings = 7;
+  const auto overlap_at = [&](double time) {
+    find_vehicle_contacts(first.at(time), second.at(time), margin_m, contacts);
+    return overlap(contacts);
+  };
+  if (!overlap_at(1)) return 1;
+  double free_at = 0, overlaps_at = 1;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double time = (free_at + overlaps_at) / 2;
+    if (overlap_at(time)) {
+      overlaps_at = time;
+    } else {
+      free_at = time;
+    }
+  }
+  overlap_at(free_at);
+  return free_at;
 }
 
 }  // namespace halocline::vehicle_sim

@@ -29,4 +29,20 @@ struct VehicleContact {
 void find_vehicle_contacts(const HullPose& first, const HullPose& second, double margin_m,
                            std::vector<VehicleContact>& contacts);
 
+// A hull on its way through a step, along a straight line and the shortest turn.
+struct HullPath {
+  HullShape hull;
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  Quaternion orientation_from = Quaternion::Identity(), orientation_to = Quaternion::Identity();
+
+  HullPose at(double time) const;  // 0 to 1
+};
+HullPath path_of(const HullShape& hull, const VehicleState& from, const VehicleState& to);
+
+// Contacts at the end of the step or, when the hulls would lie in each other then, at the last instant before (bisection
+// to 1/128 of the step): beyond it pointed ends have passed each other, and the way apart leads on. Returns the
+// instant, 0 to 1.
+double find_first_touch(const HullPath& first, const HullPath& second, double margin_m,
+                        std::vector<VehicleContact>& contacts);
+
 }  // namespace halocline::vehicle_sim

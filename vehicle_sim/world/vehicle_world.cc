@@ -13,8 +13,28 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-6;  // of a quaternion's length
 constexpr double kMinForce = 1e-9;       // N: below is no contact
+constexpr double kMinDistance = 1e-6;    // m: a rope whose ends meet has no direction
 
 }  // namespace
+
+// A contact of a vehicle with the ground.
+struct VehicleWorld::Contact {
+  std::size_t vehicle;
+  dJointID joint;
+  dJointFeedback feedback = {};
+};
+
+// A push along a line between two vehicles, or a vehicle and a fixed point, that keeps a gap open.
+struct VehicleWorld::Link {
+  std::size_t vehicle;               // is pushed along `normal`
+  std::optional<std::size_t> other;  // is pushed against it
+  Vec3 point, normal;                // where the free velocities lead
+  double gap_m;
+  double time_left_s;  // in the step after the instant at which the gap was measured
+  std::optional<std::size_t> tether;
+  dJointID joint = nullptr;
+  dJointFeedback feedback = {};
+};
 
 VehicleWorld::VehicleWorld(std::shared_ptr<const Seabed> seabed, double friction, ForEach for_each)
     : seabed_(std::move(seabed)),
@@ -38,6 +58,11 @@ std::size_t VehicleWorld::add(std::shared_ptr<const Model> model, const VehicleS
   longest_hull_m_ = std::max(longest_hull_m_, vehicle.model->parameters().hull.length_m);
   vehicles_.push_back(std::move(vehicle));
   return vehicles_.size() - 1;
+}
+
+void VehicleWorld::archive(Archive& a) {
+  for (Vehicle& v : vehicles_) a(v.state, v.diverged, v.seabed_force, v.link_force, v.touches, v.touches_vehicle);
+  for (TiedTether& tether : tethers_) a(tether.pull_n);
 }
 
 void VehicleWorld::set_command(std::size_t index, const ActuatorValues& command) {
@@ -67,13 +92,13 @@ void VehicleWorld::step(double step_s) {
   solve_free_motions(step_s);
   find_links(step_s);
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
-    if (!vehicles_[i].lost) attach_contacts(i, step_s);
+    if (!vehicles_[i].diverged) attach_contacts(i, step_s);
   }
   if (!contacts_.empty() || !links_.empty()) solve_contacts(step_s);
   note_what_touches();
   note_what_links_did();
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
-    if (!vehicles_[i].lost) take_result(i, step_s);
+    if (!vehicles_[i].diverged) take_result(i, step_s);
   }
   dJointGroupEmpty(ode_->contacts());
 }
@@ -86,8 +111,8 @@ void VehicleWorld::solve_free_motions(double step_s) {
     const std::size_t end = std::min(count, (chunk + 1) * kAtOnce);
     for (std::size_t i = chunk * kAtOnce; i < end; ++i) {
       Vehicle& v = vehicles_[i];
-      if (!v.lost) solve_free_motion(v, step_s);
-      if (!v.lost && seabed_) look_for_ground(v, step_s);
+      if (!v.diverged) solve_free_motion(v, step_s);
+      if (!v.diverged && seabed_) look_for_ground(v, step_s);
     }
   });
 }
@@ -99,16 +124,14 @@ void VehicleWorld::solve_free_motion(Vehicle& v, double step_s) {
   v.mass_scale = 1;
   v.ground.clear();
   if (is_finite(v.next)) return;
-  v.lost = true;
+  v.diverged = true;
   v.seabed_force.setZero();
   v.link_force.setZero();
   v.touches_vehicle = false;
 }
 
 void VehicleWorld::look_for_ground(Vehicle& v, double step_s) {
-  const Motion now = motion_of_cg(*v.model, v.state), free = motion_of_cg(*v.model, v.next);
-  const VehicleState reached =
-      moved(*v.model, v.state, {now.position, free.velocity, free.angular_velocity}, step_s);
+  const VehicleState reached = moved_freely(*v.model, v.state, v.next, step_s);
   find_contacts(v.model->parameters().hull, reached.position_ned_m, reached.orientation, *seabed_,
                 kContactMargin, v.ground);
 }
@@ -117,27 +140,14 @@ void VehicleWorld::look_for_ground(Vehicle& v, double step_s) {
 void VehicleWorld::solve_contacts(double step_s) {
   prepare_ode_in_this_thread();
   for (Vehicle& v : vehicles_) {
-    if (v.lost || !v.takes_part()) continue;
+    if (v.diverged || !v.takes_part()) continue;
     dBodyEnable(v.body);
-    aim_body_at_free_solution(v, step_s);
+    const Quaternion& q = v.linked ? v.reached.orientation : v.state.orientation;
+    push_to_velocity(v.body, *v.model, v.state, v.next, q, v.mass_scale, step_s);
   }
   for (Contact& contact : contacts_) dJointSetFeedback(contact.joint, &contact.feedback);
   for (Link& link : links_) attach_link(link, step_s);
   ensure(dWorldStep(ode_->world(), step_s) != 0, "ODE is out of memory");
-}
-
-// Gives the body the force that takes it to the free solution.
-void VehicleWorld::aim_body_at_free_solution(Vehicle& v, double step_s) {
-  const ModelParameters& p = v.model->parameters();
-  const Motion now = motion_of_cg(*v.model, v.state), then = motion_of_cg(*v.model, v.next);
-  const Vec3 force =
-      v.mass_scale * (p.mass_kg + p.added_mass(2, 2)) / step_s * (then.velocity - now.velocity);
-  const Mat3 inertia = p.inertia_kg_m2 + Mat3(p.added_mass.diagonal().tail<3>().asDiagonal());
-  const Vec3 spin_up = (then.angular_velocity - now.angular_velocity) / step_s;
-  const Quaternion& q = v.linked ? v.reached.orientation : v.state.orientation;
-  const Vec3 torque = v.mass_scale * (q * (inertia * (q.conjugate() * spin_up)));
-  dBodySetForce(v.body, force.x(), force.y(), force.z());
-  dBodySetTorque(v.body, torque.x(), torque.y(), torque.z());
 }
 
 void VehicleWorld::attach_contacts(std::size_t index, double step_s) {
@@ -177,9 +187,9 @@ void VehicleWorld::take_result(std::size_t index, double step_s) {
   if (v.takes_part()) {
     dBodyDisable(v.body);
     if (v.linked) scale_mass(v.body, v.model->parameters(), 1);
-    v.lost = !is_finite(v.next);
+    v.diverged = !is_finite(v.next);
   }
-  if (!v.lost) v.state = v.next;
+  if (!v.diverged) v.state = v.next;
 }
 
 void VehicleWorld::take_grounded(Vehicle& v, double step_s) {
@@ -192,6 +202,146 @@ void VehicleWorld::take_grounded(Vehicle& v, double step_s) {
   const Vec6 impulse = v.model->mass() * (touching.velocity_body - v.next.velocity_body);
   v.seabed_force = v.next.orientation * Vec3(impulse.head<3>() / step_s) - v.link_force;
   v.next = touching;
+}
+
+std::size_t VehicleWorld::add(const Tether& tether) {
+  require(tether.vehicle < vehicles_.size(), "a tether needs a vehicle");
+  require(!tether.to_vehicle || *tether.to_vehicle < vehicles_.size(),
+          "a tether needs a vehicle at its other end");
+  require(tether.to_vehicle != tether.vehicle, "a tether must not lead from a vehicle to itself");
+  require_in_range(tether.length_m, 1e-3, 1e6, "tether length", "m");
+  require(tether.attached_at_m.allFinite() && tether.to_attached_at_m.allFinite(),
+          "a tether's end is not finite");
+  tethers_.push_back({tether});
+  return tethers_.size() - 1;
+}
+
+double VehicleWorld::tether_distance_m(std::size_t index) const {
+  const Tether& t = tethers_[index].tether;
+  return (end_of(t.vehicle, t.attached_at_m, false) - end_of(t.to_vehicle, t.to_attached_at_m, false)).norm();
+}
+
+// An end of a tether, where its vehicle is or where its free velocity leads.
+Vec3 VehicleWorld::end_of(const std::optional<std::size_t>& vehicle, const Vec3& attached_at_m,
+                          bool when_reached) const {
+  if (!vehicle) return attached_at_m;
+  const Vehicle& v = vehicles_[*vehicle];
+  const VehicleState& state = when_reached ? v.reached : v.state;
+  return state.position_ned_m + state.orientation * attached_at_m;
+}
+
+// Pairs in ascending order, then tethers: the order of ODE's joints, and with it the result, is that of the indices.
+void VehicleWorld::find_links(double step_s) {
+  if (vehicles_.size() > 1) find_meetings(step_s);
+  find_taut_tethers(step_s);
+  for (Link& link : links_) {
+    take_scale_of(vehicles_[link.vehicle], link);
+    if (link.other) take_scale_of(vehicles_[*link.other], link);
+  }
+  for (Vehicle& v : vehicles_) {
+    if (!v.linked) continue;
+    scale_mass(v.body, v.model->parameters(), v.mass_scale);
+    VehicleState there = v.state;
+    there.orientation = v.reached.orientation;
+    set_motion_of_cg(there, *v.model, motion_of_cg(*v.model, v.state));
+    const Vec3 cg = motion_of_cg(*v.model, v.reached).position;
+    write_body(v.body, *v.model, there);
+    dBodySetPosition(v.body, cg.x(), cg.y(), cg.z());
+  }
+}
+
+void VehicleWorld::find_meetings(double step_s) {
+  positions_.clear();
+  for (const Vehicle& v : vehicles_)
+    positions_.push_back(v.diverged ? v.state.position_ned_m : v.next.position_ned_m);
+  // next and reached differ by less than the margin: half an acceleration times the step squared.
+  for (const auto& [i, k] : neighbours_.within(longest_hull_m_ + 4 * kContactMargin, positions_)) {
+    Vehicle &a = vehicles_[i], &b = vehicles_[k];
+    if (a.diverged || b.diverged) continue;
+    a.reached = moved_freely(*a.model, a.state, a.next, step_s);
+    b.reached = moved_freely(*b.model, b.state, b.next, step_s);
+    const double time =
+        find_first_touch(path_of(a.model->parameters().hull, a.state, a.reached),
+                         path_of(b.model->parameters().hull, b.state, b.reached), kContactMargin, meeting_);
+    for (const VehicleContact& c : meeting_)
+      links_.push_back({i, k, c.point_ned_m, c.normal_ned, c.gap_m, (1 - time) * step_s, {}});
+  }
+}
+
+void VehicleWorld::find_taut_tethers(double step_s) {
+  for (std::size_t i = 0; i < tethers_.size(); ++i) {
+    tethers_[i].pull_n = 0;
+    const Tether& t = tethers_[i].tether;
+    bool is_whole = true;
+    for (const auto& end : {std::optional(t.vehicle), t.to_vehicle}) {
+      if (!end) continue;
+      Vehicle& v = vehicles_[*end];
+      is_whole = is_whole && !v.diverged;
+      if (!v.diverged) v.reached = moved_freely(*v.model, v.state, v.next, step_s);
+    }
+    if (!is_whole) continue;
+    const Vec3 from = end_of(t.vehicle, t.attached_at_m, true),
+               to = end_of(t.to_vehicle, t.to_attached_at_m, true);
+    const double distance = (to - from).norm(), slack = t.length_m - distance;
+    if (slack > kContactMargin || distance < kMinDistance) continue;
+    links_.push_back({t.vehicle, t.to_vehicle, from, (to - from) / distance, slack, 0, i});
+  }
+}
+
+// Lets ODE's body give way at its closest link as the vehicle does, with its added mass.
+void VehicleWorld::take_scale_of(Vehicle& v, const Link& link) {
+  if (v.linked && v.closest_link_m <= link.gap_m) return;
+  v.linked = true;
+  v.closest_link_m = link.gap_m;
+  v.mass_scale = scale_of_mass_at(*v.model, v.reached, link.point, link.normal);
+}
+
+void VehicleWorld::attach_link(Link& link, double step_s) {
+  const auto free_velocity = [&](std::size_t index) {
+    const Vehicle& v = vehicles_[index];
+    Motion cg = motion_of_cg(*v.model, v.next);
+    cg.position = motion_of_cg(*v.model, v.reached).position;
+    return velocity_at(cg, link.point);
+  };
+  double free_speed = link.normal.dot(free_velocity(link.vehicle));
+  if (link.other) free_speed -= link.normal.dot(free_velocity(*link.other));
+  const double gap = link.gap_m + link.time_left_s * free_speed;  // at the end of the step
+  const double min_speed = std::min(free_speed - gap / step_s, kFastestPushOut);
+  const dContact contact = ode_contact(link.normal, link.point, -min_speed, 0);
+  link.joint = dJointCreateContact(ode_->world(), ode_->contacts(), &contact);
+  dJointAttach(link.joint, vehicles_[link.vehicle].body, link.other ? vehicles_[*link.other].body : nullptr);
+  dJointSetFeedback(link.joint, &link.feedback);
+}
+
+void VehicleWorld::note_what_links_did() {
+  for (Vehicle& v : vehicles_) {
+    v.link_force.setZero();
+    v.touches_vehicle = false;
+  }
+  for (const Link& link : links_) {
+    const double force = std::max(0.0, link.normal.dot(vector_from(link.feedback.f1)));
+    vehicles_[link.vehicle].link_force += force * link.normal;
+    if (link.other) vehicles_[*link.other].link_force -= force * link.normal;
+    if (link.tether) {
+      tethers_[*link.tether].pull_n = force;
+    } else if (force > 0) {
+      vehicles_[link.vehicle].touches_vehicle = vehicles_[*link.other].touches_vehicle = true;
+    }
+  }
+}
+
+void VehicleWorld::take_struck(std::size_t index, double step_s) {
+  Impulse total;
+  for (const Link& link : links_) {
+    if (link.vehicle != index && link.other != index) continue;
+    const double force = std::max(0.0, link.normal.dot(vector_from(link.feedback.f1)));
+    const Impulse one =
+        impulse_of((link.vehicle == index ? force : -force) * link.normal, link.point, step_s);
+    total.linear += one.linear;
+    total.moment += one.moment;
+  }
+  Vehicle& v = vehicles_[index];
+  v.next = struck(*v.model, v.state, v.next, total, v.water.current_ned_mps, step_s);
 }
 
 }  // namespace halocline::vehicle_sim

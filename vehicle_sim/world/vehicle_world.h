@@ -32,6 +32,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/for_each.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/world/neighbours.h"
@@ -88,6 +89,9 @@ class VehicleWorld {
   const VehicleState& state(std::size_t index) const { return vehicles_[index].state; }
   const Model& model(std::size_t index) const { return *vehicles_[index].model; }
 
+  // Where the vehicles are and what the last step did; not their models, commands and water, which are set anew.
+  void archive(Archive& a);
+
   // Adds a tether between vehicles that are there already and returns its index. It may be stretched at first: its
   // ends then approach at up to 0.2 m/s.
   std::size_t add(const Tether& tether);
@@ -107,7 +111,7 @@ class VehicleWorld {
 
   // True once a vehicle's equations gave a number that is not finite: it stays where it was last and moves no
   // more.
-  bool has_diverged(std::size_t index) const { return vehicles_[index].lost; }
+  bool has_diverged(std::size_t index) const { return vehicles_[index].diverged; }
 
  private:
   struct Contact;
@@ -127,7 +131,7 @@ class VehicleWorld {
     bool linked = false;           // has a link in this step
     bool touches = false;          // the ground, in the last step
     bool touches_vehicle = false;  // in the last step
-    bool lost = false;
+    bool diverged = false;
     std::vector<HullContact> ground = {};  // where the hull would touch it in this step
 
     bool takes_part() const { return linked || !ground.empty(); }  // in ODE's step
@@ -141,13 +145,12 @@ class VehicleWorld {
   static void solve_free_motion(Vehicle& vehicle, double step_s);
   void look_for_ground(Vehicle& vehicle, double step_s);
   void solve_contacts(double step_s);
-  void aim_body_at_free_solution(Vehicle& vehicle, double step_s);
   void attach_contacts(std::size_t index, double step_s);
   void find_links(double step_s);
   void find_meetings(double step_s);
   void find_taut_tethers(double step_s);
   void attach_link(Link& link, double step_s);
-  void take_scale_of(Vehicle& vehicle, const Link& link);
+  static void take_scale_of(Vehicle& vehicle, const Link& link);
   Vec3 end_of(const std::optional<std::size_t>& vehicle, const Vec3& attached_at_m, bool when_reached) const;
   void note_what_touches();
   void note_what_links_did();

@@ -1,10 +1,13 @@
 #include "bus/runtime/node.h"
 
+#include <memory>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bus/version.h"
 #include "tests/bus/messages_for_tests.h"
+#include "tests/bus/runtime/journal_files.h"
 #include "tests/bus/runtime/test_nodes.h"
 
 namespace halocline::bus {
@@ -101,6 +104,76 @@ TEST_F(NodeTest, IsDueAtItsNextStatusAtTheLatest) {
   node.step({at(0), at(0.25)});
   EXPECT_EQ(node.due().steady, at(1));
   EXPECT_EQ(node.due().sim, at(1000));
+}
+
+// A node that ticks ten times a second, killed after its tick at 2 s.
+class KilledNode : public NodeTest {
+ protected:
+  KilledNode() {
+    ear_.subscribe<sim_clock_t>("TICK.a", [this](const sim_clock_t& m) { ticks_.push_back(m); });
+    const auto node = start();
+    for (int step = 0; step <= 20; ++step) node->step({at(0.1 * step), at(0.1 * step)});
+    drain();
+    EXPECT_EQ(node->counters().sent, 21 + 3 + 7);  // ticks, STATUS, heartbeats
+  }
+  std::unique_ptr<TickingNode> start() {
+    auto node = std::make_unique<TickingNode>(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
+    node->enable_repair();
+    node->keep_state_in(files_.open());
+    return node;
+  }
+
+  testing::JournalFiles files_;
+  std::vector<sim_clock_t> ticks_;
+};
+
+TEST_F(KilledNode, GoesOnWithItsStateAndItsNumbers) {
+  start()->step({at(2.25), at(0)});
+  drain();
+  ASSERT_EQ(ticks_.size(), 22u);
+  EXPECT_EQ(ticks_.back().utime, 2'250'000);
+  EXPECT_EQ(ticks_.back().sequence, 21);
+  EXPECT_EQ(statuses_.back().sequence, 3);
+}
+
+TEST_F(KilledNode, ItsLastMessagesAreStillRepaired) {
+  const auto node = start();
+  std::vector<std::int64_t> repaired;
+  ear_.subscribe<sim_clock_t>(channels::kRepair.of("TICK.a"),
+                              [&](const sim_clock_t& m) { repaired.push_back(m.sequence); });
+  repair_request_t request{};
+  request.client_name = "ear";
+  request.missing_channel = "TICK.a";
+  request.publisher_session = 1;
+  request.num_missing = 2;
+  request.missing_sequence = {20, 21};
+  ear_.publish(channels::kRepairRequest, request);
+  drain();
+  EXPECT_THAT(repaired, ::testing::ElementsAre(20));
+}
+
+TEST_F(KilledNode, InAnotherRunItBeginsAnew) {
+  const auto node = start();
+  node->step({at(-10), at(0)});
+  EXPECT_EQ(node->restarts, 1);
+}
+
+TEST_F(KilledNode, WhatItWasToPublishIsKnownToTheJournalFirst) {
+  auto node = start();
+  node->at_step = [] { throw std::runtime_error("killed"); };  // before its tick went out
+  EXPECT_THROW(node->step({at(2.1), at(0)}), std::runtime_error);
+  node.reset();
+  drain();
+  EXPECT_EQ(ticks_.size(), 21u);
+  start()->step({at(2.2), at(0)});
+  drain();
+  ASSERT_EQ(ticks_.size(), 22u);
+  EXPECT_EQ(ticks_.back().sequence, 21);
+}
+
+TEST_F(KilledNode, AJournalOfAnotherSessionIsRefused) {
+  EchoNode node(lcm_, "echo", "ASK", "ANSWER", 2);
+  EXPECT_THROW(node.keep_state_in(files_.open()), InvalidArgument);
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ class TickingNode : public Node {
     ++restarts;
     next_ = now.sim;
   }
+  void on_archive(Archive& a) override { a(next_, sequence_); }
   std::string status_text() const override { return "ticking"; }
 
  private:

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "tests/bus/runtime/journal_files.h"
 
 namespace halocline::clients {
 namespace {
@@ -288,6 +289,46 @@ TEST(AutopilotNode, UnknownOnlyVehicleIsRefused) {
   AutopilotConfig config = one_mission();
   config.only_vehicle = "auv-2";
   EXPECT_THROW(AutopilotNode(lcm, {"autopilot", 1}, config), InvalidArgument);
+}
+
+// Behind its first waypoint, with integrals that have grown: steers as the one that was not killed.
+TEST(KilledAutopilot, GoesOnWithItsPlanAndItsNumbers) {
+  lcm::LCM lcm("memq://");
+  bus::Bus ear(lcm, {"ear", 1});
+  std::vector<vehicle_command_t> commands;
+  ear.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-1"),
+                                   [&](const vehicle_command_t& m) { commands.push_back(m); });
+  const auto publish_state = [&](int k) {
+    vehicle_state_t state{};
+    state.utime = k * 100'000;
+    state.vehicle_id = 1;
+    state.orientation_wxyz[0] = 1;
+    state.position_ned_m[1] = k;
+    ear.publish(bus::channels::kState.of("auv-1"), state);
+    while (lcm.handleTimeout(0) > 0) {
+    }
+  };
+  AutopilotConfig config = one_mission();
+  config.vehicles[0].mission.waypoints = {{0, 40, 20}, {500, 40, 20}};
+  const bus::testing::JournalFiles files;
+  AutopilotNode whole(lcm, {"autopilot", 11}, config);
+  whole.keep_state_in(files.open());
+  for (int k = 0; k <= 50; ++k) {
+    publish_state(k);
+    whole.step({at_ms(100 * k), at_ms(100 * k)});
+  }
+  AutopilotNode resumed(lcm, {"autopilot", 11}, config);
+  resumed.keep_state_in(files.open());
+  publish_state(51);
+  commands.clear();
+  whole.step({at_ms(5100), at_ms(5100)});
+  resumed.step({at_ms(5100), at_ms(0)});
+  while (lcm.handleTimeout(0) > 0) {
+  }
+  ASSERT_EQ(commands.size(), 2u);
+  EXPECT_EQ(commands[0].sequence, 51);
+  EXPECT_LT(commands[0].rudder_rad, 0) << "not back to the leg to the second waypoint";
+  EXPECT_EQ(bus::encoded(commands[1]), bus::encoded(commands[0]));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "bus/runtime/lockstep_runner.h"
 #include "channel_server/packets/packet.h"
 #include "core/check.h"
+#include "tests/bus/runtime/journal_files.h"
 
 namespace halocline::clients {
 namespace {
@@ -182,6 +183,29 @@ TEST(LocaliserConfig, RefusesABeaconThatIsNoOtherVehicle) {
   EXPECT_THROW(beacons_of(config, config.vehicles[0]), InvalidArgument);
   config.vehicles[0].beacons = "left auv";
   EXPECT_THROW(beacons_of(config, config.vehicles[0]), InvalidArgument);
+}
+
+TEST_F(LocaliserNodeTest, KilledItGoesOnWithItsEstimateAndItsNumbers) {
+  const bus::testing::JournalFiles files;
+  LocaliserNode whole(lcm_, {"localiser", 5}, two_beacons());
+  whole.keep_state_in(files.open());
+  bus::LockstepRunner runner(lcm_, {&sea_, &whole});
+  runner.run_until(SimTime::from_seconds(30));
+  LocaliserNode resumed(lcm_, {"localiser", 5}, two_beacons());
+  resumed.keep_state_in(files.open());
+  sea_.estimates.clear();
+  whole.step({SimTime::from_seconds(31), SimTime::from_seconds(31)});
+  resumed.step({SimTime::from_seconds(31), SimTime()});
+  while (lcm_.handleTimeout(0) > 0) {
+  }
+  ASSERT_EQ(sea_.estimates.size(), 2u);
+  EXPECT_EQ(sea_.estimates[0].estimate_status, position_estimate_t::UNIQUE);
+  EXPECT_EQ(sea_.estimates[1].estimate_status, position_estimate_t::UNIQUE);
+  EXPECT_EQ(sea_.estimates[1].sequence, sea_.estimates[0].sequence);
+  EXPECT_EQ(sea_.estimates[1].ranges_used, sea_.estimates[0].ranges_used);
+  // One of them has the last measurement of a steady motion more.
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(sea_.estimates[1].position_ned_m[axis], sea_.estimates[0].position_ned_m[axis], 1e-6);
 }
 
 }  // namespace

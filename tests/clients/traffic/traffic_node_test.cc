@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "tests/bus/runtime/journal_files.h"
 #include "tests/clients/modem/fake_server.h"
 
 namespace halocline::clients {
@@ -103,6 +104,27 @@ payload_bytes = 64
   EXPECT_EQ(config.vehicles[0].period, SimDuration::from_seconds(5));
   EXPECT_EQ(config.vehicles[0].start, SimTime::from_seconds(1.5));
   EXPECT_EQ(destination_id(config, config.vehicles[0]), kBroadcastId);
+}
+
+TEST_F(TrafficNodeTest, KilledItRepeatsWhatHasNoReceiptAndGoesOnWithItsNumbers) {
+  const bus::testing::JournalFiles files;
+  node_.keep_state_in(files.open());
+  step(2000);
+  TrafficNode resumed(lcm_, {"traffic", 77}, two_vehicles());
+  resumed.keep_state_in(files.open());
+  server_.answers = true;
+  resumed.step({at_ms(3000), at_ms(0)});
+  while (lcm_.handleTimeout(0) > 0) {
+  }
+  resumed.step({at_ms(12'000), at_ms(9000)});
+  while (lcm_.handleTimeout(0) > 0) {
+  }
+  ASSERT_EQ(server_.sends.size(), 3u);
+  EXPECT_EQ(bus::encoded(server_.sends[1]), bus::encoded(server_.sends[0]));
+  EXPECT_EQ(server_.sends[2].packet_sequence, 1);
+  EXPECT_EQ(server_.sends[2].session, server_.sends[0].session);
+  EXPECT_EQ(server_.sends[2].payload, traffic_payload(1, 12));
+  EXPECT_EQ(resumed.counters_of(0).accepted, 2);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST(CommandSchedule, ACommandHoldsFromItsOwnTimeOn) {
 
 TEST(CommandSchedule, ACommandIsVoidOnceOlderThanTheTimeout) {
   CommandSchedule schedule(kTimeout);
-  schedule.add({at_ms(0), kPort}, at_ms(0));
+  EXPECT_EQ(schedule.add({at_ms(0), kPort}, at_ms(0)), CommandVerdict::kTaken);
   EXPECT_EQ(schedule.at(at_ms(2000)), kPort);
   EXPECT_EQ(schedule.at(at_ms(2001)), kSafeState);
   EXPECT_TRUE(schedule.is_safe_state());
@@ -37,25 +37,25 @@ TEST(CommandSchedule, ACommandIsVoidOnceOlderThanTheTimeout) {
 
 TEST(CommandSchedule, ANewCommandEndsTheSafeState) {
   CommandSchedule schedule(kTimeout);
-  schedule.add({at_ms(0), kPort}, at_ms(0));
+  EXPECT_EQ(schedule.add({at_ms(0), kPort}, at_ms(0)), CommandVerdict::kTaken);
   schedule.at(at_ms(5000));
-  schedule.add({at_ms(5000), kStarboard}, at_ms(5000));
+  EXPECT_EQ(schedule.add({at_ms(5000), kStarboard}, at_ms(5000)), CommandVerdict::kTaken);
   EXPECT_EQ(schedule.at(at_ms(5000)), kStarboard);
   EXPECT_FALSE(schedule.is_safe_state());
 }
 
 TEST(CommandSchedule, CommandsTakeTheirTurnHoweverTheyCome) {
   CommandSchedule schedule(kTimeout);
-  schedule.add({at_ms(200), kStarboard}, at_ms(0));
-  schedule.add({at_ms(100), kPort}, at_ms(0));
+  EXPECT_EQ(schedule.add({at_ms(200), kStarboard}, at_ms(0)), CommandVerdict::kTaken);
+  EXPECT_EQ(schedule.add({at_ms(100), kPort}, at_ms(0)), CommandVerdict::kTaken);
   EXPECT_EQ(schedule.at(at_ms(150)), kPort);
   EXPECT_EQ(schedule.at(at_ms(250)), kStarboard);
 }
 
-TEST(CommandSchedule, OfTwoForOneInstantTheLaterHeardCounts) {
+TEST(CommandSchedule, OfTwoForOneInstantTheOneReceivedLaterCounts) {
   CommandSchedule schedule(kTimeout);
-  schedule.add({at_ms(100), kPort}, at_ms(0));
-  schedule.add({at_ms(100), kStarboard}, at_ms(0));
+  EXPECT_EQ(schedule.add({at_ms(100), kPort}, at_ms(0)), CommandVerdict::kTaken);
+  EXPECT_EQ(schedule.add({at_ms(100), kStarboard}, at_ms(0)), CommandVerdict::kTaken);
   EXPECT_EQ(schedule.at(at_ms(100)), kStarboard);
 }
 

@@ -22,7 +22,7 @@ GaussMarkovProcess process(std::uint64_t seed) {
 
 SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
 
-TEST(GaussMarkov, TheValueAtAnInstantDependsOnNeitherTheStepNorWhoAsks) {
+TEST(GaussMarkov, TheValueAtAnInstantDependsOnNeitherTheStepNorTheOrderOfEvaluation) {
   const GaussMarkovProcess p = process(1);
   GaussMarkovProcess::Cursor fine, coarse, backwards;
   std::vector<double> last;
@@ -79,7 +79,7 @@ TEST(GaussMarkov, CorrelationFallsExponentially) {
         << lags_ms[k] << " ms";
 }
 
-// The step of a millisecond has variance 2 sigma^2 (1 - exp(-h / T)); 20 000 of them tell it to 4 sqrt(2 / 20
+// The step of a millisecond has variance 2 sigma^2 (1 - exp(-h / T)); 20 000 of them estimate it to 4 sqrt(2 / 20
 // 000) = 4 %.
 TEST(GaussMarkov, IncrementsHaveTheRightSizeAtTheFinestStep) {
   const GaussMarkovProcess p = process(77);

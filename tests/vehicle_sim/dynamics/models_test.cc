@@ -128,8 +128,8 @@ TEST_P(EachModel, WhatIsNotANumberStaysWithinItsVehicle) {
   VehicleState lost;
   lost.velocity_body[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(is_finite(run(model_, lost, kManoeuvre, 0.05)));
-  const VehicleState told = run(model_, {}, {std::numeric_limits<double>::quiet_NaN(), 0, 20, {}}, 0.05);
-  EXPECT_FALSE(is_finite(told));
+  const VehicleState commanded = run(model_, {}, {std::numeric_limits<double>::quiet_NaN(), 0, 20, {}}, 0.05);
+  EXPECT_FALSE(is_finite(commanded));
   EXPECT_TRUE(is_finite(run(model_, {}, kManoeuvre, 1)));
 }
 

@@ -30,7 +30,7 @@ ModelParameters remus(double buoyancy_ratio = 1) {
   return p;
 }
 
-TEST(Submergence, ACircleIsCutAsGeometrySays) {
+TEST(Submergence, TheShareOfACircleIsThatOfItsSegment) {
   EXPECT_EQ(submerged_share_of_circle(1), 1);
   EXPECT_EQ(submerged_share_of_circle(-1), 0);
   EXPECT_NEAR(submerged_share_of_circle(0), 0.5, tolerance(1e-15));

@@ -93,7 +93,7 @@ TEST(SensorErrors, TheVarianceOfAWalkGrowsWithTime) {
   }
 }
 
-TEST(SensorErrors, AWalkIsTheSameHoweverItIsAskedFor) {
+TEST(SensorErrors, AWalkIsTheSameInAnyOrderOfTimes) {
   const SensorIdentity sensor{1, 5, SensorKind::kGyro};
   BiasWalk often(sensor, 1), once(sensor, 1);
   for (int ms = 0; ms <= 60'000; ms += 100) often.at(at_ms(ms));
@@ -114,7 +114,7 @@ SensorReading true_reading() {
 
 constexpr SimDuration kPeriod = SimDuration::from_milliseconds(200);
 
-TEST(SensorSuite, WithoutErrorsItSaysTheTruth) {
+TEST(SensorSuite, WithoutErrorsItReadsTheTruth) {
   SensorSuite suite({}, 1, 1, kPeriod);
   const SensorReading r = suite.read(true_reading(), at_ms(400), {});
   EXPECT_EQ(r.depth_m, 20);
@@ -125,7 +125,7 @@ TEST(SensorSuite, WithoutErrorsItSaysTheTruth) {
   EXPECT_TRUE(suite.altimeter_fires());
 }
 
-TEST(SensorSuite, BiasAndNoiseAreThoseAskedFor) {
+TEST(SensorSuite, BiasAndNoiseAreTheConfiguredOnes) {
   SensorSettings settings;
   settings.depth.errors = {.noise = 0.3, .bias = 0.7, .walk = 0, .dropout = 0};
   SensorSuite suite(settings, 1, 1, kPeriod);
@@ -199,7 +199,7 @@ TEST(Gps, IsSeenNearTheSurfaceAlone) {
   EXPECT_FALSE(gps_sees_sky(gps, state, 0.3));
 }
 
-TEST(Gps, TellsThePlaceOfItsAntenna) {
+TEST(Gps, MeasuresThePlaceOfItsAntenna) {
   GpsSettings gps;
   gps.place_m = {0.5, 0, -0.1};
   VehicleState state;
@@ -212,14 +212,14 @@ TEST(Gps, TellsThePlaceOfItsAntenna) {
 
 TEST(Usbl, TurnsTheDirectionOfSoundIntoTheBody) {
   const SensorIdentity sensor{1, 1, SensorKind::kUsbl};
-  const auto heard = [&](double azimuth, double elevation, const EulerAngles& attitude) {
+  const auto measured = [&](double azimuth, double elevation, const EulerAngles& attitude) {
     return read_usbl({.fitted = true}, sensor, 1, azimuth, elevation, to_quaternion(attitude));
   };
-  EXPECT_NEAR(heard(1, 0, {0, 0, 1}).bearing_rad, 0, tolerance(1e-12));
-  EXPECT_NEAR(heard(1, 0, {0, 0, 0}).bearing_rad, 1, tolerance(1e-12));
-  EXPECT_NEAR(heard(0, 0.3, {0, 0, 0}).elevation_rad, 0.3, tolerance(1e-12));
-  EXPECT_NEAR(heard(0, 0.3, {0, 0.3, 0}).elevation_rad, 0, tolerance(1e-12));  // the bow points at it
-  EXPECT_NEAR(heard(std::numbers::pi / 2, 0, {0.2, 0, 0}).elevation_rad, 0.2,
+  EXPECT_NEAR(measured(1, 0, {0, 0, 1}).bearing_rad, 0, tolerance(1e-12));
+  EXPECT_NEAR(measured(1, 0, {0, 0, 0}).bearing_rad, 1, tolerance(1e-12));
+  EXPECT_NEAR(measured(0, 0.3, {0, 0, 0}).elevation_rad, 0.3, tolerance(1e-12));
+  EXPECT_NEAR(measured(0, 0.3, {0, 0.3, 0}).elevation_rad, 0, tolerance(1e-12));  // the bow points at it
+  EXPECT_NEAR(measured(std::numbers::pi / 2, 0, {0.2, 0, 0}).elevation_rad, 0.2,
               tolerance(1e-12));  // starboard is down
 }
 

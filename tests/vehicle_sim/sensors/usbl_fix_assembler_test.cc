@@ -21,8 +21,8 @@ UsblFixAssembler turning(const UsblSettings& settings = {.fitted = true}) {
 
 TEST(UsblFixAssembler, ABearingIsThatOfTheAttitudeWhenTheSoundCame) {
   UsblFixAssembler desk = turning();
-  desk.hear_arrival(kPacket, {at_ms(1250), 0.5, 0.2});
-  desk.hear_packet(kPacket, 0.3);
+  desk.on_arrival(kPacket, {at_ms(1250), 0.5, 0.2});
+  desk.on_packet(kPacket, 0.3);
   const auto fixes = desk.take(false);
   ASSERT_EQ(fixes.size(), 1u);
   EXPECT_EQ(fixes[0].packet, kPacket);
@@ -35,9 +35,9 @@ TEST(UsblFixAssembler, ABearingIsThatOfTheAttitudeWhenTheSoundCame) {
 
 TEST(UsblFixAssembler, BothHalvesAreNeededInAnyOrder) {
   UsblFixAssembler desk = turning();
-  desk.hear_packet(kPacket, {});
+  desk.on_packet(kPacket, {});
   EXPECT_TRUE(desk.take(false).empty());
-  desk.hear_arrival(kPacket, {at_ms(1000), 0, 0});
+  desk.on_arrival(kPacket, {at_ms(1000), 0, 0});
   const auto fixes = desk.take(false);
   ASSERT_EQ(fixes.size(), 1u);
   EXPECT_EQ(fixes[0].travel_time_s, std::nullopt);
@@ -45,8 +45,8 @@ TEST(UsblFixAssembler, BothHalvesAreNeededInAnyOrder) {
 
 TEST(UsblFixAssembler, ItWaitsForAPoseAfterTheSound) {
   UsblFixAssembler desk = turning();
-  desk.hear_arrival(kPacket, {at_ms(2050), 0, 0});
-  desk.hear_packet(kPacket, {});
+  desk.on_arrival(kPacket, {at_ms(2050), 0, 0});
+  desk.on_packet(kPacket, {});
   EXPECT_TRUE(desk.take(false).empty());
   desk.note_pose(at_ms(2100), to_quaternion({0, 0, 0.21}));
   EXPECT_EQ(desk.take(false).size(), 1u);
@@ -54,17 +54,17 @@ TEST(UsblFixAssembler, ItWaitsForAPoseAfterTheSound) {
 
 TEST(UsblFixAssembler, APacketForOthersGivesNoBearing) {
   UsblFixAssembler desk = turning();
-  desk.hear_arrival(kPacket, {at_ms(1000), 0, 0});
+  desk.on_arrival(kPacket, {at_ms(1000), 0, 0});
   for (int ms = 2100; ms < 40'000; ms += 100) desk.note_pose(at_ms(ms), Quaternion::Identity());
   EXPECT_TRUE(desk.take(false).empty());
-  desk.hear_packet(kPacket, {});  // its other half was forgotten
+  desk.on_packet(kPacket, {});  // its other half was forgotten
   EXPECT_TRUE(desk.take(false).empty());
 }
 
-TEST(UsblFixAssembler, ADeadArrayLosesWhatItHears) {
+TEST(UsblFixAssembler, ADeadArrayGivesNoFixes) {
   UsblFixAssembler desk = turning();
-  desk.hear_arrival(kPacket, {at_ms(1000), 0, 0});
-  desk.hear_packet(kPacket, {});
+  desk.on_arrival(kPacket, {at_ms(1000), 0, 0});
+  desk.on_packet(kPacket, {});
   EXPECT_TRUE(desk.take(true).empty());
   EXPECT_TRUE(desk.take(false).empty());
 }
@@ -74,8 +74,8 @@ TEST(UsblFixAssembler, NoiseIsThePacketsOwn) {
   const auto bearing_of = [&](std::initializer_list<std::int64_t> sequences) {
     UsblFixAssembler desk = turning(noisy);
     for (const std::int64_t sequence : sequences) {
-      desk.hear_arrival({2, 0, 100, sequence}, {at_ms(0), 0, 0});
-      desk.hear_packet({2, 0, 100, sequence}, {});
+      desk.on_arrival({2, 0, 100, sequence}, {at_ms(0), 0, 0});
+      desk.on_packet({2, 0, 100, sequence}, {});
     }
     return desk.take(false).back().direction.bearing_rad;
   };
@@ -84,23 +84,23 @@ TEST(UsblFixAssembler, NoiseIsThePacketsOwn) {
 }
 
 // 4 standard deviations of a variance from 5000 packets.
-TEST(UsblFixAssembler, NoiseOfBothAnglesIsThatAskedForAndPacketsDropOut) {
+TEST(UsblFixAssembler, NoiseOfBothAnglesIsTheConfiguredOneAndPacketsDropOut) {
   UsblFixAssembler desk = turning({.fitted = true, .errors = {.noise = 0.02, .dropout = 0.3}});
   constexpr int kPackets = 5000;
   double bearing = 0, elevation = 0;
-  int heard = 0;
+  int received = 0;
   for (int i = 0; i < kPackets; ++i) {
-    desk.hear_arrival({2, 0, 100, i}, {at_ms(0), 0, 0});
-    desk.hear_packet({2, 0, 100, i}, {});
+    desk.on_arrival({2, 0, 100, i}, {at_ms(0), 0, 0});
+    desk.on_packet({2, 0, 100, i}, {});
     for (const UsblFix& fix : desk.take(false)) {
-      ++heard;
+      ++received;
       bearing += fix.direction.bearing_rad * fix.direction.bearing_rad;
       elevation += fix.direction.elevation_rad * fix.direction.elevation_rad;
     }
   }
-  EXPECT_NEAR(heard / static_cast<double>(kPackets), 0.7, 4 * std::sqrt(0.21 / kPackets));
-  EXPECT_NEAR(bearing / heard / 4e-4, 1, 4 * std::sqrt(2.0 / heard));
-  EXPECT_NEAR(elevation / heard / 4e-4, 1, 4 * std::sqrt(2.0 / heard));
+  EXPECT_NEAR(received / static_cast<double>(kPackets), 0.7, 4 * std::sqrt(0.21 / kPackets));
+  EXPECT_NEAR(bearing / received / 4e-4, 1, 4 * std::sqrt(2.0 / received));
+  EXPECT_NEAR(elevation / received / 4e-4, 1, 4 * std::sqrt(2.0 / received));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ double min_gap(const VehicleWorld& world, std::size_t a, std::size_t b) {
   return least;
 }
 
-TEST(VehicleContact, SpheresAreAsFarApartAsTheirCentresSay) {
+TEST(VehicleContact, TheGapOfSpheresIsTheDistanceOfTheirCentresLessTheirRadii) {
   std::vector<VehicleContact> found;
   const HullPose one{{2, 2}, {0, 0, 0}, Vec3::UnitX()}, other{{1, 1}, {0, 3, 4}, Vec3::UnitZ()};
   find_vehicle_contacts(one, other, 4, found);
@@ -242,7 +242,7 @@ double speed_where_forces_balance(const Model& model, double propeller_hz, int t
   return slow;
 }
 
-TEST_P(Towing, ATetherHoldsAndSlowsTheTugByWhatDragSays) {
+TEST_P(Towing, ATetherHoldsAndSlowsTheTugByTheTowedDrag) {
   const auto model = torpedo();
   const double half = model->parameters().hull.length_m / 2, length = 10, turns = 20;
   VehicleWorld world(nullptr);

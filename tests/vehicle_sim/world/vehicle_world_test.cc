@@ -198,7 +198,7 @@ TEST(VehicleWorld, OthersInTheWorldChangeNothing) {
   EXPECT_TRUE(same_bytes(mission(2), {many.begin(), many.begin() + 2}));
 }
 
-TEST(VehicleWorld, AVehicleWhoseEquationsFailIsLostAndTheOthersGoOn) {
+TEST(VehicleWorld, AVehicleWhoseEquationsFailHasDivergedAndTheOthersGoOn) {
   VehicleWorld world(flat(100));
   VehicleState runaway = at({0, 0, 10});
   runaway.velocity_body[1] = 1e200;  // its square overflows

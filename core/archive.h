@@ -1,0 +1,161 @@
+// Values as bytes and back: what a node keeps of its state on disk (bus/runtime/state_journal.h).
+//
+// A type states once, for both directions, what it consists of:
+//
+//   void archive(Archive& a) { a(position_, velocity_, waiting_); }
+//
+//   Archive saved;
+//   saved(navigator);                      // saves
+//   Archive(saved.bytes())(navigator);     // loads into another one
+//
+// Known besides: trivially copyable types (as they lie in memory; no pointers among them), strings, vectors, deques,
+// maps, sets, optional, pairs and tuples, Eigen's matrices and quaternions of fixed size, messages of lcm-gen. No
+// format for exchange: the bytes are understood by the same build of the same program.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/check.h"
+
+namespace halocline {
+
+class Archive {
+ public:
+  // Saves what it is called with.
+  Archive() = default;
+  // Loads from `bytes`, which must outlive it. Throws InvalidArgument, then or when called, where they end too early.
+  explicit Archive(std::span<const std::uint8_t> bytes) : source_(bytes), is_loading_(true) {}
+
+  template <class... T>
+  void operator()(T&... values) {
+    (pass(values), ...);
+  }
+
+  bool is_loading() const { return is_loading_; }
+  // What was saved so far.
+  const std::vector<std::uint8_t>& bytes() const { return saved_; }
+  // Throws InvalidArgument when bytes are left to be loaded.
+  void require_end() const { require(source_.empty(), "the saved state is longer than what was loaded"); }
+
+ private:
+  template <class T>
+  static constexpr bool is_plain = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
+
+  template <class T>
+  void pass(T& value) {
+    if constexpr (requires { value.archive(*this); }) {
+      value.archive(*this);
+    } else if constexpr (requires { value.getEncodedSize(); }) {
+      pass_message(value);
+    } else if constexpr (requires {
+                           value.coeffs();
+                           typename T::Vector3;
+                         }) {
+      pass_bytes(value.coeffs().data(), 4 * sizeof(typename T::Scalar));
+    } else if constexpr (requires { T::SizeAtCompileTime; }) {
+      static_assert(T::SizeAtCompileTime > 0, "a matrix of fixed size");
+      pass_bytes(value.data(), T::SizeAtCompileTime * sizeof(typename T::Scalar));
+    } else if constexpr (is_plain<T>) {
+      pass_bytes(&value, sizeof value);
+    } else if constexpr (requires { value.has_value(); }) {
+      pass_optional(value);
+    } else if constexpr (requires { std::tuple_size<T>::value; }) {
+      std::apply(*this, value);
+    } else if constexpr (requires { typename T::key_type; }) {
+      pass_keyed(value);
+    } else {
+      pass_sequence(value);
+    }
+  }
+
+  void pass_bytes(void* value, std::size_t size) {
+    if (!is_loading_) {
+      const auto* from = static_cast<const std::uint8_t*>(value);
+      saved_.insert(saved_.end(), from, from + size);
+      return;
+    }
+    require(size <= source_.size(), "the saved state is cut short");
+    if (size > 0) std::memcpy(value, source_.data(), size);
+    source_ = source_.subspan(size);
+  }
+
+  std::size_t pass_size(std::size_t size) {
+    pass_bytes(&size, sizeof size);
+    require(!is_loading_ || size <= source_.size(), "the saved state is cut short");
+    return size;
+  }
+
+  template <class Message>
+  void pass_message(Message& message) {
+    const std::size_t size = pass_size(is_loading_ ? 0 : static_cast<std::size_t>(message.getEncodedSize()));
+    if (is_loading_) {
+      require(message.decode(source_.data(), 0, static_cast<int>(size)) == static_cast<int>(size),
+              "the saved state holds another message");
+      source_ = source_.subspan(size);
+    } else {
+      saved_.resize(saved_.size() + size);
+      message.encode(saved_.data() + saved_.size() - size, 0, static_cast<int>(size));
+    }
+  }
+
+  template <class Optional>
+  void pass_optional(Optional& optional) {
+    bool has_value = optional.has_value();
+    pass_bytes(&has_value, sizeof has_value);
+    if (!has_value) return optional.reset();
+    if (is_loading_) optional.emplace();
+    pass(*optional);
+  }
+
+  template <class Container>
+  void pass_keyed(Container& container) {
+    constexpr bool is_map = requires { typename Container::mapped_type; };
+    using Key = typename Container::key_type;
+    const std::size_t size = pass_size(container.size());
+    if (is_loading_) {
+      container.clear();
+      for (std::size_t i = 0; i < size; ++i) {
+        Key key;
+        pass(key);
+        if constexpr (is_map) {
+          pass(container[std::move(key)]);
+        } else {
+          container.insert(std::move(key));
+        }
+      }
+      return;
+    }
+    for (auto& element : container) {
+      if constexpr (is_map) {
+        pass(const_cast<Key&>(element.first));
+        pass(element.second);
+      } else {
+        pass(const_cast<Key&>(element));
+      }
+    }
+  }
+
+  template <class Container>
+  void pass_sequence(Container& container) {
+    using Element = typename Container::value_type;
+    const std::size_t size = pass_size(container.size());
+    container.resize(size);
+    if constexpr (is_plain<Element> && requires { container.data(); }) {
+      pass_bytes(container.data(), size * sizeof(Element));
+    } else {
+      for (Element& element : container) pass(element);
+    }
+  }
+
+  std::vector<std::uint8_t> saved_;
+  std::span<const std::uint8_t> source_;
+  bool is_loading_ = false;
+};
+
+}  // namespace halocline

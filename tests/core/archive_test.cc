@@ -1,0 +1,89 @@
+#include "core/archive.h"
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "core/frames.h"
+#include "core/sim_time.h"
+
+namespace halocline {
+namespace {
+
+struct Leg {
+  Vec3 from = Vec3::Zero();
+  std::string name;
+
+  void archive(Archive& a) { a(from, name); }
+  bool operator==(const Leg&) const = default;
+};
+
+struct Everything {
+  double number = 0;
+  SimTime at;
+  Quaternion orientation = Quaternion::Identity();
+  std::vector<int> counts;
+  std::vector<Leg> legs;
+  std::deque<Leg> waiting;
+  std::map<std::string, Leg> by_name;
+  std::set<std::tuple<int, std::string>> known;
+  std::optional<Leg> latest, none;
+  std::optional<double> angle;
+
+  void archive(Archive& a) {
+    a(number, at, orientation, counts, legs, waiting, by_name, known, latest, none, angle);
+  }
+  bool operator==(const Everything& o) const {
+    return std::tie(number, at, counts, legs, waiting, by_name, known, latest, none, angle) ==
+               std::tie(o.number, o.at, o.counts, o.legs, o.waiting, o.by_name, o.known, o.latest, o.none,
+                        o.angle) &&
+           orientation.coeffs() == o.orientation.coeffs();
+  }
+};
+
+Everything example() {
+  const Leg a{{1, 2, 3}, "a"}, b{{4, 5, 6}, "bb"};
+  return {1.5, SimTime::from_utime(7), Quaternion(0.5, 0.5, -0.5, 0.5), {1, 2, 3}, {a, b},
+          {b}, {{"x", a}, {"y", b}},   {{1, "one"}, {2, "two"}},        b,         {},
+          0.25};
+}
+
+TEST(Archive, LoadsWhatWasSaved) {
+  Everything saved = example();
+  Archive to;
+  to(saved);
+  Everything loaded;
+  loaded.none = Leg{};
+  loaded.known = {{3, "three"}};
+  Archive from(to.bytes());
+  from(loaded);
+  EXPECT_TRUE(loaded == saved);
+  EXPECT_NO_THROW(from.require_end());
+}
+
+TEST(Archive, StateThatWasCutShortIsRefusedWhereverTheCutIs) {
+  Everything saved = example();
+  Archive to;
+  to(saved);
+  for (std::size_t size = 0; size < to.bytes().size(); ++size) {
+    Archive from(std::span(to.bytes()).first(size));
+    Everything loaded;
+    EXPECT_THROW(from(loaded), InvalidArgument) << size;
+  }
+}
+
+TEST(Archive, BytesLeftOverAreRefused) {
+  const std::vector<std::uint8_t> bytes(9);
+  Archive from(bytes);
+  double number = 0;
+  from(number);
+  EXPECT_THROW(from.require_end(), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace halocline
