@@ -1,4 +1,4 @@
-# Third-party packages. docs/decisions says why each is here.
+# Third-party packages. docs/decisions has the reason of each.
 find_package(PkgConfig REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(spdlog REQUIRED)

@@ -6,6 +6,8 @@ target_compile_options(halocline_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
   # GCC 12 sees overlapping and endless copies in optimised concatenations of texts (GCC bugs 105651, 105329).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Debug>>>:-Wno-restrict>
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Debug>>>:-Wno-array-bounds>
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Debug>>>:-Wno-stringop-overread>
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Debug>>>:-Wno-stringop-overflow>
   # A fused multiply-add rounds once where two operations round twice: results would depend on the
   # optimisation level and the processor. The same scenario has to give the same bytes everywhere.
@@ -45,6 +47,16 @@ function(halocline_library name)
   if(NOT ARG_NO_COMMON_HEADERS)
     target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
   endif()
+endfunction()
+
+# halocline_module(name SOURCES ... LINK ...): a shared module beside the programs, loaded when it is first used
+# (core/shared_module.h).
+function(halocline_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES PREFIX "" DEFINE_SYMBOL "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+  target_link_libraries(${name} PRIVATE halocline_options ${ARG_LINK})
+  target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
 endfunction()
 
 # halocline_program(name SOURCES ... LINK ...): an executable in build/<preset>/bin.

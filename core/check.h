@@ -1,7 +1,7 @@
 // Checks of arguments and of ourselves, for two of the three kinds of error.
 //
 // require: the caller is wrong (bad configuration, impossible argument). Throws InvalidArgument, whose text
-//          says what was given and what is allowed. The program's edge turns it into one line and an exit
+//          states what was given and what is allowed. The program's edge turns it into one line and an exit
 //          code.
 // ensure:  we are wrong. Prints and aborts, in every build.
 // What the sea refuses (no path, out of range, outside the map) is an ordinary value and no business of this
@@ -31,7 +31,7 @@ double require_in_range(double value, double lowest, double highest, std::string
 // Throws InvalidArgument unless `value` is neither NaN nor infinite. Returns `value`.
 double require_finite(double value, std::string_view what);
 
-// Where a call stands: what std::source_location tells, which clang 14 (clang-tidy, clangd) lacks.
+// Where a call stands: what std::source_location gives, which clang 14 (clang-tidy, clangd) lacks.
 struct CallPlace {
   const char* file;
   int line;

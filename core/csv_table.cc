@@ -4,6 +4,7 @@
 #include <cmath>
 #include <istream>
 #include <set>
+#include <system_error>
 
 namespace halocline {
 namespace {

@@ -2,7 +2,7 @@
 //
 // A draw is a pure function of (seed, purpose, who, which): Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011,
 // "Parallel random numbers: as easy as 1, 2, 3"), a counter-based generator. There is no state: two threads,
-// two processes or two runs that ask for the same draw get the same number in whatever order they ask.
+// two processes or two runs that compute the same draw get the same number, in whatever order they draw.
 //
 //   const double u = uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which =
 //   sequence});

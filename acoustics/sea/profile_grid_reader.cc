@@ -1,4 +1,5 @@
-// Columns of water from CF netCDF grids, through GDAL.
+// Columns of water from CF netCDF grids, through GDAL. Part of the module halocline_profile_grids.so, which only
+// profile_reader.cc loads.
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -173,9 +174,7 @@ std::string describe(const GridProfile& result) {
   return text.str();
 }
 
-}  // namespace
-
-GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model) {
+GridProfile read_grid(const GridQuery& query, SoundSpeedModel model) {
   require(model != SoundSpeedModel::kTeos10,
           "gridded climatologies hold no absolute salinity: teos10 cannot use them");
   require_in_range(query.latitude_rad, -std::numbers::pi / 2, std::numbers::pi / 2, "latitude", "rad");
@@ -204,4 +203,12 @@ GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model) {
   return result;
 }
 
+}  // namespace
 }  // namespace halocline::acoustics
+
+extern "C" halocline::acoustics::GridProfileReader halocline_read_grid_profile;
+
+halocline::acoustics::GridProfile* halocline_read_grid_profile(const halocline::acoustics::GridQuery& query,
+                                                               halocline::acoustics::SoundSpeedModel model) {
+  return new halocline::acoustics::GridProfile(halocline::acoustics::read_grid(query, model));
+}

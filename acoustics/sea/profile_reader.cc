@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <optional>
 
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/shared_module.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -120,6 +122,12 @@ SoundSpeedProfile read_csv_profile(std::istream& in, const std::string& name, co
   if (!columns->second) return SoundSpeedProfile::from_speeds(std::move(speeds), reading.assumed);
   const SoundSpeedModel model = columns->teos10 ? SoundSpeedModel::kTeos10 : reading.model;
   return SoundSpeedProfile::from_water(std::move(water), model, reading.latitude_rad);
+}
+
+GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model) {
+  static const auto read = reinterpret_cast<GridProfileReader*>(
+      module_symbol("halocline_profile_grids.so", "halocline_read_grid_profile"));
+  return std::move(*std::unique_ptr<GridProfile>(read(query, model)));
 }
 
 SoundSpeedProfile read_profile(const std::string& path, const ProfileReading& reading, double latitude_rad,

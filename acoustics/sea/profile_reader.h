@@ -13,7 +13,7 @@
 // (fill values never are) down to its first fill value, and the result states which column it is and how far
 // away.
 //
-// Needs GDAL, which is why this is a target of its own (halocline_profile_reader). Calls may overlap between
+// GDAL is in a module of its own (halocline_profile_grids.so), loaded by the first grid. Calls may overlap between
 // threads.
 #pragma once
 
@@ -53,9 +53,12 @@ struct GridProfile {
   std::string description;      // one line that states all this
 };
 
-// Throws InvalidArgument when the file has no such variables, no such time, or no valid column within
-// kFarthestColumn of the position.
+// The first call loads GDAL (0.1 s). Throws InvalidArgument when the file has no such variables, no such time, or no
+// valid column within kFarthestColumn of the position, and when GDAL cannot be loaded.
 GridProfile read_grid_profile(const GridQuery& query, SoundSpeedModel model);
+
+// What the module halocline_profile_grids.so exports as halocline_read_grid_profile; the caller owns the result.
+using GridProfileReader = GridProfile*(const GridQuery& query, SoundSpeedModel model);
 
 inline constexpr double kFarthestColumn = 300'000;  // m; farther water says nothing about this place
 

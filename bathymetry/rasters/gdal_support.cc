@@ -13,7 +13,7 @@
 namespace halocline::bathymetry::gdal {
 namespace {
 
-// While it lives, GDAL's messages of this thread are kept instead of printed.
+// While in scope: GDAL's messages of this thread are kept instead of printed.
 class QuietErrors {
  public:
   QuietErrors() {
@@ -92,7 +92,7 @@ Dataset open(const std::string& path, const std::string& variable, bool rows_as_
   const auto parts = parts_of(*dataset);
   if (variable.empty()) {
     require(dataset->GetRasterCount() > 0,
-            "'" + path + "' holds several rasters; say which variable: " + names_of(parts));
+            "'" + path + "' holds several rasters; name a variable: " + names_of(parts));
     return dataset;
   }
   const auto part = parts.find(variable);

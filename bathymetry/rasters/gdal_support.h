@@ -1,4 +1,4 @@
-// The few things the loader asks of GDAL, with its errors as exceptions and its objects owned.
+// What the loader uses of GDAL, with errors as exceptions and objects owned.
 //
 // GDAL prints errors and returns codes; here a failure throws InvalidArgument with GDAL's own words. Every
 // call may be made from any thread, but one dataset from one thread at a time.
@@ -42,7 +42,7 @@ struct Rectangle {
 // Raw values of the band, row by row; row_length: floats from one row of `out` to the next.
 void read_floats(GDALRasterBand& band, const Rectangle& rectangle, float* out, std::size_t row_length);
 
-// 0 where the band's mask says no data; empty when the band has no mask.
+// 0 where the band's mask marks no data; empty when the band has no mask.
 std::vector<unsigned char> read_mask(GDALRasterBand& band, const Rectangle& rectangle);
 
 // What the band's numbers mean.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -153,8 +154,9 @@ RasterReport report_on(const RasterOptions& options, const RasterSource& source,
 LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame,
                          const GridGeometry& geometry) {
   require_finite(options.datum_offset_m, "datum_offset_m");
-  const RasterSource source(options, to_degrees(frame.origin_latitude_rad()),
-                            to_degrees(frame.origin_longitude_rad()));
+  const std::unique_ptr<const RasterSource> opened = RasterSource::open(
+      options, to_degrees(frame.origin_latitude_rad()), to_degrees(frame.origin_longitude_rad()));
+  const RasterSource& source = *opened;
   HeightGrid grid(geometry, std::vector<float>(static_cast<std::size_t>(geometry.posts_x) *
                                                    static_cast<std::size_t>(geometry.posts_y),
                                                std::numeric_limits<float>::quiet_NaN()));
@@ -173,9 +175,10 @@ LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame,
 
 LoadedRaster load_local_raster(const RasterOptions& options) {
   require_finite(options.datum_offset_m, "datum_offset_m");
-  const RasterSource source(options, 0, 0);
+  const std::unique_ptr<const RasterSource> opened = RasterSource::open(options, 0, 0);
+  const RasterSource& source = *opened;
   require(source.is_local(),
-          options.path + ": the raster is not in local metres; say coordinate_system = \"local\"");
+          options.path + ": the raster is not in local metres; set coordinate_system = \"local\"");
   const RasterSource::LocalPosts posts = source.local_posts();
   PostCounts counts;
   RasterWindow window = source.read({0, 0}, {source.columns() - 1.0, source.rows() - 1.0}, counts);

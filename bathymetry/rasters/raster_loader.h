@@ -1,12 +1,12 @@
 // Reads bathymetry from any raster GDAL opens into a grid in the scenario's local frame: once, at load.
 //
-// Model: each post of the asked grid is mapped to the earth (local_frame.h), to the raster's coordinate
+// Model: each post of the grid is mapped to the earth (local_frame.h), to the raster's coordinate
 // system (PROJ) and to its posts, and gets the bilinear depth between the four around it; where one of those
 // has no data the post has none. In enu mode the post's own depth decides where on the earth it is: three
 // rounds of a fixed-point iteration leave less than 1 mm. In flat mode blocks of 16 x 16 posts are mapped by
 // their corners wherever that errs by less than 1e-4 of a pixel. GEBCO (pixel centres), its older grid and
 // ETOPO5 (nodes), EMODnet, ESRI ASCII and GeoTIFF are read as they declare themselves; for what files do not
-// say, see raster_options.h. The one part of the terrain that reads files.
+// state, see raster_options.h. The one part of the terrain that reads files.
 //
 //   const LocalFrame frame(FrameMode::kFlat, to_radians(29.9167), to_radians(-28.4167));
 //   const LoadedRaster loaded = load_raster({.path = "etopo5.cdf"}, frame, {-8000, -8000, 20, 801, 801});
@@ -31,7 +31,8 @@ struct RasterReport {
   int raster_columns = 0, raster_rows = 0;  // of the whole file
   int window_columns = 0, window_rows = 0;  // read
   std::size_t declared_no_data = 0;         // posts of the window
-  std::size_t undeclared_no_data = 0;  // posts of the window taken as no data though the file does not say so
+  std::size_t undeclared_no_data =
+      0;  // posts of the window taken as no data though the file does not declare it
   std::size_t posts_without_depth = 0;  // posts of the grid
   std::size_t posts_above_datum = 0;    // of the grid: land; all of them hint at a depth-positive-down file
   double shallowest_m = 0, deepest_m = 0;  // of the grid, z
@@ -42,7 +43,7 @@ struct LoadedRaster {
   RasterReport report;
 };
 
-// Throws InvalidArgument when the file cannot be read, does not say where it lies, or covers no post at all.
+// Throws InvalidArgument when the file cannot be read, does not state where it lies, or covers no post at all.
 LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame, const GridGeometry& geometry);
 
 // A raster whose coordinates already are local metres (coordinate_system "local"), post by post, without

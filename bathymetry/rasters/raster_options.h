@@ -1,4 +1,4 @@
-// What a user says about a raster of depths: where it is, and whatever the file itself does not say.
+// Options of a raster of depths: where it is, and whatever the file itself does not state.
 //
 // Files are trusted where they speak and never guessed at where they do not: a raster that lacks a coordinate
 // system or a place in the world is refused with the option that would supply it. The exceptions are stated.
@@ -40,7 +40,7 @@ struct RasterOptions {
   // the scenario's origin, and refused otherwise.
   std::string coordinate_system = {};
 
-  std::string vertical_datum = {};  // "LAT", "EGM2008", ...; empty: what the file says, else "unstated"
+  std::string vertical_datum = {};  // "LAT", "EGM2008", ...; empty: what the file states, else "unstated"
   double datum_offset_m = 0;        // added to every depth: how far the file's zero lies below the scenario's
 };
 

@@ -1,253 +1,18 @@
 #include "bathymetry/rasters/raster_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <numbers>
-#include <utility>
 
-#include <cpl_conv.h>
-#include <gdal_priv.h>
-#include <ogr_spatialref.h>
-
-#include "bathymetry/rasters/gdal_support.h"
-#include "bathymetry/rasters/suspect_values.h"
-#include "core/check.h"
+#include "core/shared_module.h"
 
 namespace halocline::bathymetry {
-namespace {
 
-constexpr double kTurnDeg = 360;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kMaxPostsRead = std::int64_t{1} << 28;  // 1 GiB of floats
-
-// x = origin_x + step_x column + skew_x row, y = origin_y + skew_y column + step_y row: at posts, not pixel
-// edges.
-struct PostTransform {
-  double origin_x = 0, step_x = 1, skew_x = 0;
-  double origin_y = 0, skew_y = 0, step_y = 1;
-
-  PixelPosition pixel(double x, double y) const {
-    const double dx = x - origin_x, dy = y - origin_y, determinant = step_x * step_y - skew_x * skew_y;
-    return {(dx * step_y - dy * skew_x) / determinant, (dy * step_x - dx * skew_y) / determinant};
-  }
-};
-
-// GDAL's geotransform of pixel edges: x, d(x)/d(column), d(x)/d(row), then y likewise.
-using EdgeTransform = std::array<double, 6>;
-
-EdgeTransform edges_of(const RasterBounds& bounds, int columns, int rows) {
-  require(bounds.west < bounds.east && bounds.south < bounds.north,
-          "bounds: west < east and south < north are needed");
-  const double step_x = (bounds.east - bounds.west) / columns, step_y = (bounds.north - bounds.south) / rows;
-  if (bounds.row_order == RowOrder::kSouthFirst) return {bounds.west, step_x, 0, bounds.south, 0, step_y};
-  return {bounds.west, step_x, 0, bounds.north, 0, -step_y};
-}
-
-PostTransform posts_of(const EdgeTransform& edges, Registration registration, int columns, int rows) {
-  if (registration == Registration::kNode) {
-    require(edges[2] == 0 && edges[4] == 0, "registration = node needs unrotated axes");
-    return {edges[0], edges[1] * columns / (columns - 1), 0, edges[3], 0, edges[5] * rows / (rows - 1)};
-  }
-  return {edges[0] + 0.5 * (edges[1] + edges[2]), edges[1], edges[2],
-          edges[3] + 0.5 * (edges[4] + edges[5]), edges[4], edges[5]};
-}
-
-}  // namespace
-
-struct RasterSource::State {
-  RasterOptions options;
-  gdal::Dataset dataset;
-  GDALRasterBand* band = nullptr;
-  int columns = 0, rows = 0;
-  PostTransform posts;
-  bool local = false, geographic = false;
-  int period = 0;  // columns of a full turn; 0 when the raster does not go round the earth
-  double origin_longitude_deg = 0;
-  std::string coordinate_system_name, vertical_datum;
-  gdal::Transformation from_wgs84;  // null when the raster's coordinates are longitude and latitude on WGS84
-
-  void place();
-  void name_coordinate_system(double origin_latitude_deg);
-  void close_the_turn();
-  void unwrap_around_origin();
-  void read_block(int first_column, int columns_read, RasterWindow& window, PostCounts& counts) const;
-};
-
-void RasterSource::State::place() {
-  EdgeTransform edges{};
-  const bool placed = dataset->GetGeoTransform(edges.data()) == CE_None;
-  require(placed || options.bounds,
-          options.path + ": the raster has no geotransform; give its bounds and row order");
-  require(!placed || !options.bounds,
-          options.path + ": the raster has a geotransform; bounds would contradict it");
-  if (!placed) edges = edges_of(*options.bounds, columns, rows);
-  posts = posts_of(edges, options.registration, columns, rows);
-  require(std::abs(posts.step_x * posts.step_y - posts.skew_x * posts.skew_y) > 0,
-          options.path + ": the raster's geotransform has no inverse");
-}
-
-void RasterSource::State::name_coordinate_system(double origin_latitude_deg) {
-  const OGRSpatialReference* declared = dataset->GetSpatialRef();
-  if (options.coordinate_system == "local" || (declared != nullptr && declared->IsLocal())) {
-    local = true;
-    coordinate_system_name = "local metres";
-    return;
-  }
-  OGRSpatialReference system;
-  if (!options.coordinate_system.empty()) {
-    require(system.SetFromUserInput(options.coordinate_system.c_str()) == OGRERR_NONE,
-            "coordinate_system '" + options.coordinate_system + "' is not known to PROJ");
-  } else if (declared != nullptr) {
-    system = *declared;
-  } else {
-    geographic = true;
-    unwrap_around_origin();
-    const PixelPosition origin = posts.pixel(origin_longitude_deg, origin_latitude_deg);
-    require(origin.column >= -1 && origin.column <= columns && origin.row >= -1 && origin.row <= rows,
-            options.path +
-                ": the raster names no coordinate system and, read as degrees, does not hold the "
-                "scenario's origin; say coordinate_system = \"EPSG:...\" or \"local\"");
-    coordinate_system_name = "assumed WGS 84 degrees";
-    return;
-  }
-  coordinate_system_name = system.GetName() != nullptr ? system.GetName() : "unnamed";
-  geographic = system.IsGeographic() != 0;
-  from_wgs84 = gdal::transformation_from_wgs84(system);
-  if (vertical_datum.empty()) vertical_datum = gdal::vertical_datum_of(system);
-}
-
-// A raster that goes round the earth: its step is exactly a turn over its columns, whatever its rounded axis
-// says.
-void RasterSource::State::close_the_turn() {
-  if (!geographic || posts.skew_x != 0 || posts.skew_y != 0) return;
-  const double turn = std::abs(kTurnDeg / posts.step_x);
-  const int nearest = static_cast<int>(std::min(std::lround(turn), 1'000'000'000L));
-  if (nearest < 2 || nearest > columns || std::abs(turn - nearest) >= 0.5) return;
-  period = nearest;
-  posts.step_x = std::copysign(kTurnDeg / period, posts.step_x);
-}
-
-// The origin's longitude by as many turns as bring it nearest to the raster's middle.
-void RasterSource::State::unwrap_around_origin() {
-  const double middle = posts.origin_x + 0.5 * posts.step_x * (columns - 1);
-  origin_longitude_deg -= kTurnDeg * std::round((origin_longitude_deg - middle) / kTurnDeg);
-}
-
-RasterSource::RasterSource(const RasterOptions& options, double origin_latitude_deg,
-                           double origin_longitude_deg)
-    : state_(std::make_unique<State>()) {
-  State& s = *state_;
-  s.options = options;
-  s.vertical_datum = options.vertical_datum;
-  s.origin_longitude_deg = origin_longitude_deg;
-  // netCDF files without coordinates would be turned over or not by rules of their own; then the file's order
-  // holds.
-  s.dataset = gdal::open(options.path, options.variable, options.bounds.has_value());
-  s.columns = s.dataset->GetRasterXSize();
-  s.rows = s.dataset->GetRasterYSize();
-  require(s.columns >= 2 && s.rows >= 2, options.path + ": a raster needs at least 2 x 2 posts");
-  require(options.band >= 1 && options.band <= s.dataset->GetRasterCount(),
-          options.path + ": there is no band " + std::to_string(options.band));
-  s.band = s.dataset->GetRasterBand(options.band);
-  s.place();
-  s.name_coordinate_system(origin_latitude_deg);
-  s.close_the_turn();
-  if (s.geographic) s.unwrap_around_origin();
-}
-
-RasterSource::~RasterSource() = default;
-
-int RasterSource::columns() const { return state_->columns; }
-int RasterSource::rows() const { return state_->rows; }
-bool RasterSource::is_local() const { return state_->local; }
-std::string RasterSource::coordinate_system() const { return state_->coordinate_system_name; }
-
-std::string RasterSource::vertical_datum() const {
-  return state_->vertical_datum.empty() ? "unstated" : state_->vertical_datum;
-}
-
-PixelPosition RasterSource::pixel_at(double latitude_deg, double longitude_deg) const {
-  double x = longitude_deg, y = latitude_deg;
-  if (state_->from_wgs84 && state_->from_wgs84->Transform(1, &x, &y) == 0) return {kNaN, kNaN};
-  if (state_->geographic) {
-    x = state_->origin_longitude_deg + std::remainder(x - state_->origin_longitude_deg, kTurnDeg);
-  }
-  return state_->posts.pixel(x, y);
-}
-
-PixelPosition RasterSource::pixel_at_local(double north_m, double east_m) const {
-  return state_->posts.pixel(east_m, north_m);
-}
-
-RasterSource::LocalPosts RasterSource::local_posts() const {
-  const PostTransform& p = state_->posts;
-  require(p.skew_x == 0 && p.skew_y == 0 && p.step_x > 0 &&
-              std::abs(p.step_x - std::abs(p.step_y)) <= 1e-9 * p.step_x,
-          state_->options.path + ": a local raster needs square pixels along north and east");
-  const bool south_first = p.step_y > 0;
-  return {south_first ? p.origin_y : p.origin_y + p.step_y * (state_->rows - 1), p.origin_x, p.step_x,
-          south_first};
-}
-
-// One contiguous run of columns, into the columns of the window it belongs to.
-void RasterSource::State::read_block(int first_column, int columns_read, RasterWindow& window,
-                                     PostCounts& counts) const {
-  const int wrapped = period > 0 ? ((first_column % period) + period) % period : first_column;
-  const std::size_t row_length = static_cast<std::size_t>(window.columns);
-  const std::size_t skip = static_cast<std::size_t>(first_column - window.first_column);
-  float* out = window.depths_m.data() + skip;
-  gdal::read_floats(*band, {wrapped, window.first_row, columns_read, window.rows}, out, row_length);
-  const gdal::BandMeaning meaning = gdal::meaning_of(*band, options.no_data);
-  const std::vector<unsigned char> mask =
-      gdal::read_mask(*band, {wrapped, window.first_row, columns_read, window.rows});
-  const double sign = options.positive_down ? 1 : -1;
-  for (std::size_t r = 0; r < static_cast<std::size_t>(window.rows); ++r) {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(columns_read); ++c) {
-      float& value = out[r * row_length + c];
-      const bool masked = !mask.empty() && mask[r * static_cast<std::size_t>(columns_read) + c] == 0;
-      if (masked || meaning.is_no_data(value)) {
-        ++counts.declared_no_data;
-        value = std::numeric_limits<float>::quiet_NaN();
-      } else {
-        value = static_cast<float>(sign * meaning.metres(value));
-      }
-    }
-  }
-}
-
-RasterWindow RasterSource::read(const PixelPosition& low, const PixelPosition& high,
-                                PostCounts& counts) const {
-  const State& s = *state_;
-  const auto bounded = [](double value, double least, double most) {
-    return static_cast<int>(std::clamp(value, least, most));
-  };
-  // A global raster may be entered from either side of its seam, by no more than a turn.
-  const double min_column = s.period > 0 ? -s.period : 0,
-               max_column = s.period > 0 ? 2 * s.period : s.columns - 1;
-  const int first_column = bounded(std::floor(low.column), min_column, max_column);
-  const int last_column = bounded(std::ceil(high.column), min_column, max_column);
-  const int first_row = bounded(std::floor(low.row), 0, s.rows - 1);
-  const int last_row = bounded(std::ceil(high.row), 0, s.rows - 1);
-  RasterWindow window{first_column, first_row, last_column - first_column + 1, last_row - first_row + 1, {}};
-  const bool apart =
-      high.column < min_column || low.column > max_column || high.row < 0 || low.row > s.rows - 1;
-  if (apart || std::isnan(low.column)) return {};
-  const std::int64_t posts = std::int64_t{window.columns} * window.rows;
-  require(posts <= kMaxPostsRead, s.options.path + ": the scenario covers " + std::to_string(posts) +
-                                      " posts of the raster, more than 2^28; take a smaller domain");
-  window.depths_m.resize(static_cast<std::size_t>(posts));
-  for (int column = first_column; column <= last_column;) {
-    const int wrapped = s.period > 0 ? ((column % s.period) + s.period) % s.period : column;
-    const int run = std::min(last_column - column + 1, (s.period > 0 ? s.period : s.columns) - wrapped);
-    s.read_block(column, run, window, counts);
-    column += run;
-  }
-  if (!s.options.trust_every_value) counts.undeclared_no_data += remove_suspects(window);
-  for (float& depth : window.depths_m) depth += static_cast<float>(s.options.datum_offset_m);
-  return window;
+std::unique_ptr<RasterSource> RasterSource::open(const RasterOptions& options, double origin_latitude_deg,
+                                                 double origin_longitude_deg) {
+  static const auto open_raster =
+      reinterpret_cast<RasterOpener*>(module_symbol("halocline_rasters.so", "halocline_open_raster"));
+  return std::unique_ptr<RasterSource>(open_raster(options, origin_latitude_deg, origin_longitude_deg));
 }
 
 double RasterWindow::depth_at(const PixelPosition& at) const {
@@ -255,7 +20,7 @@ double RasterWindow::depth_at(const PixelPosition& at) const {
   const double c = at.column - first_column, r = at.row - first_row;
   if (!(c >= -kRoundingPosts && r >= -kRoundingPosts && c <= columns - 1 + kRoundingPosts &&
         r <= rows - 1 + kRoundingPosts)) {
-    return kNaN;
+    return std::numeric_limits<double>::quiet_NaN();
   }
   const int i = std::clamp(static_cast<int>(r), 0, rows - 2),
             j = std::clamp(static_cast<int>(c), 0, columns - 2);

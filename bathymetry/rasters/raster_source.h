@@ -8,8 +8,8 @@
 // goes
 //   round the earth gets the step 360 / columns;
 // - NoData: declared values, netCDF fills, masks, NaN; values no sea or mountain has (below -12 000 m, above
-//   9 500 m); and undeclared -9999 or 9999, told from a real trench by neighbours none of which is within
-//   2000 m;
+//   9 500 m); and undeclared -9999 or 9999, distinguished from a real trench by neighbours none of which is
+//   within 2000 m;
 // - scale and offset of the band; feet; rows that run either way.
 // Only windows are read, so a global 15 arc-second grid costs what the scenario covers of it.
 #pragma once
@@ -39,46 +39,45 @@ struct RasterWindow {
 };
 
 struct PostCounts {
-  std::size_t declared_no_data = 0;    // as the file or the options say
+  std::size_t declared_no_data = 0;    // as the file or the options declare
   std::size_t undeclared_no_data = 0;  // recognised as stated above
 };
 
 class RasterSource {
  public:
-  // origin_latitude_deg, origin_longitude_deg: of the scenario, around which longitudes are unwrapped.
-  // Throws InvalidArgument with GDAL's words when the file cannot be read, and when it lacks what options
-  // must say.
-  RasterSource(const RasterOptions& options, double origin_latitude_deg, double origin_longitude_deg);
-  ~RasterSource();
-  RasterSource(const RasterSource&) = delete;
-  RasterSource& operator=(const RasterSource&) = delete;
+  // Opens a raster with GDAL, which the first call loads (0.1 s). origin_latitude_deg, origin_longitude_deg: of the
+  // scenario, around which longitudes are unwrapped. Throws InvalidArgument with GDAL's words when the file cannot be
+  // read, when it lacks what options must state, and when GDAL cannot be loaded.
+  static std::unique_ptr<RasterSource> open(const RasterOptions& options, double origin_latitude_deg,
+                                            double origin_longitude_deg);
+  virtual ~RasterSource() = default;
 
-  int columns() const;
-  int rows() const;
-  bool is_local() const;  // its coordinates are metres east and north of the scenario's origin
+  virtual int columns() const = 0;
+  virtual int rows() const = 0;
+  virtual bool is_local() const = 0;  // its coordinates are metres east and north of the scenario's origin
 
-  // Of a place on the earth (degrees, WGS84); NaN where the raster's projection has none. Not for local
-  // rasters.
-  PixelPosition pixel_at(double latitude_deg, double longitude_deg) const;
+  // Of a place on the earth (degrees, WGS84); NaN where the raster's projection has none. Not for local rasters.
+  virtual PixelPosition pixel_at(double latitude_deg, double longitude_deg) const = 0;
   // Of metres east and north of the origin; only for local rasters.
-  PixelPosition pixel_at_local(double north_m, double east_m) const;
+  virtual PixelPosition pixel_at_local(double north_m, double east_m) const = 0;
   // Only for local rasters: the south-western post and the distance of posts. Throws unless pixels are square
   // and the axes unrotated.
   struct LocalPosts {
     double first_north_m = 0, first_east_m = 0, spacing_m = 0;
     bool south_first = false;
   };
-  LocalPosts local_posts() const;
+  virtual LocalPosts local_posts() const = 0;
 
   // The part of the raster within one post around low..high, empty (0 columns) where they do not meet.
-  RasterWindow read(const PixelPosition& low, const PixelPosition& high, PostCounts& counts) const;
+  virtual RasterWindow read(const PixelPosition& low, const PixelPosition& high,
+                            PostCounts& counts) const = 0;
 
-  std::string coordinate_system() const;  // by name
-  std::string vertical_datum() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
+  virtual std::string coordinate_system() const = 0;  // by name
+  virtual std::string vertical_datum() const = 0;
 };
+
+// What the module halocline_rasters.so exports as halocline_open_raster; the caller owns the result.
+using RasterOpener = RasterSource*(const RasterOptions& options, double origin_latitude_deg,
+                                   double origin_longitude_deg);
 
 }  // namespace halocline::bathymetry

@@ -1,5 +1,4 @@
-// Finds values that cannot be depths in what a raster says are depths: no data that the file does not
-// declare.
+// Finds values of a raster that cannot be depths: no data that the file does not declare.
 //
 // Rule: a value deeper than 12 000 m or higher than 9 500 m is none (the deepest sea is 10 935 m, the highest
 // mountain 8 849 m). -9999 and 9999, the usual marks, are real depths too, in a trench: such a post is taken

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <utility>
 
+#include "bathymetry/rasters/raster_options.h"
+#include "bathymetry/terrain/height_grid.h"
+#include "bathymetry/terrain/local_frame.h"
 #include "core/check.h"
 #include "core/units.h"
 

@@ -7,13 +7,17 @@
 //   const PreparedTerrain prepared = prepare_terrain(recipe, {29.9167, -28.4167, scenario_folder});
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bathymetry/rasters/raster_loader.h"
+#include "bathymetry/rasters/raster_options.h"
 #include "bathymetry/terrain/fractal_relief.h"
 #include "bathymetry/terrain/generated_terrain.h"
+#include "bathymetry/terrain/height_grid.h"
+#include "bathymetry/terrain/local_frame.h"
 #include "bathymetry/terrain/terrain.h"
 
 namespace halocline::bathymetry {

@@ -1,5 +1,6 @@
 #include "core/frames.h"
 
+#include <cstdint>
 #include <numbers>
 
 #include <gtest/gtest.h>

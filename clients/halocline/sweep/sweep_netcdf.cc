@@ -1,4 +1,5 @@
-// The results of a sweep as netCDF-4, through netCDF's C library.
+// The results of a sweep as netCDF-4, through netCDF's C library. Part of the module halocline_sweep_netcdf.so, which
+// only sweep_summary.cc loads.
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -235,9 +236,7 @@ void write_run_numbers(NetcdfFile& file, const SweepResults& results, const Shap
   }
 }
 
-}  // namespace
-
-void write_netcdf(const SweepResults& results, const std::string& path) {
+void write_file(const SweepResults& results, const std::string& path) {
   const std::string unfinished = path + ".unfinished";
   NetcdfFile file(unfinished);
   file.attribute("Conventions", "CF-1.8");
@@ -252,4 +251,11 @@ void write_netcdf(const SweepResults& results, const std::string& path) {
   std::filesystem::rename(unfinished, path);
 }
 
+}  // namespace
 }  // namespace halocline::clients
+
+extern "C" halocline::clients::NetcdfWriter halocline_write_sweep_netcdf;
+
+void halocline_write_sweep_netcdf(const halocline::clients::SweepResults& results, const std::string& path) {
+  halocline::clients::write_file(results, path);
+}

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/check.h"
+#include "core/shared_module.h"
 
 namespace halocline::clients {
 namespace {
@@ -71,6 +72,12 @@ SweepResults summed_up(const SweepPlan& plan, std::vector<std::optional<RunMetri
     results.points.push_back(summary_of(done, plan.level));
   }
   return results;
+}
+
+void write_netcdf(const SweepResults& results, const std::string& path) {
+  static const auto write = reinterpret_cast<NetcdfWriter*>(
+      module_symbol("halocline_sweep_netcdf.so", "halocline_write_sweep_netcdf"));
+  write(results, path);
 }
 
 }  // namespace halocline::clients

@@ -52,8 +52,11 @@ SweepResults summed_up(const SweepPlan& plan, std::vector<std::optional<RunMetri
 void write_csvs(const SweepResults& results, const std::string& folder);
 
 // The same numbers as netCDF-4, by the CF conventions: a dimension an axis, then seed, fate, pair and bound
-// (low, high). A point without results holds NaN. Throws std::runtime_error.
+// (low, high). A point without results holds NaN. The first call loads netCDF. Throws std::runtime_error.
 void write_netcdf(const SweepResults& results, const std::string& path);
+
+// What the module halocline_sweep_netcdf.so exports as halocline_write_sweep_netcdf.
+using NetcdfWriter = void(const SweepResults& results, const std::string& path);
 
 // For a person: a line a point.
 void print(std::ostream& out, const SweepResults& results);

@@ -1,0 +1,13 @@
+// Loads a shared module from beside the program at first use: for libraries that are slow to load and that few runs need.
+#pragma once
+
+#include <string>
+
+namespace halocline {
+
+// The address of `symbol` in the module `file` ("halocline_rasters.so"). The module is searched in the program's folder,
+// then in the folder `bin` next to that (for tests), and stays loaded until the program ends. Throws InvalidArgument with
+// the dynamic linker's own words. Calls may overlap between threads.
+void* module_symbol(const std::string& file, const std::string& symbol);
+
+}  // namespace halocline
