@@ -1,10 +1,25 @@
+#include "tests/layers/source_tree.h"
+
 #include <algorithm>
 #include <cctype>
-
-#include "tests/layers/include_rules.h"
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <vector>
 
 namespace halocline::layers {
 namespace {
+
+const std::set<std::string> kExtensions{".h", ".hpp", ".cc", ".cpp", ".c", ".in"};
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
@@ -71,6 +86,28 @@ std::vector<Include> includes_of(std::string_view source) {
     if (!path.empty()) includes.push_back({first_line, path});
   }
   return includes;
+}
+
+std::string_view folder_of(std::string_view path) {
+  const std::size_t end = path.rfind('/');
+  return end == std::string_view::npos ? "" : path.substr(0, end);
+}
+
+std::vector<SourceFile> sources_below(const std::string& root) {
+  std::vector<SourceFile> sources;
+  for (const std::string_view folder : {"core", "acoustics", "bathymetry", "vehicle_sim", "channel_server",
+                                        "conductor", "bus", "clients", "tests", "bench"}) {
+    const std::filesystem::path start = std::filesystem::path(root) / folder;
+    if (!std::filesystem::exists(start)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(start)) {
+      const std::string extension = entry.path().extension().string();
+      if (!entry.is_regular_file() || !kExtensions.contains(extension)) continue;
+      sources.push_back(
+          {std::filesystem::relative(entry.path(), root).generic_string(), text_of(entry.path())});
+    }
+  }
+  std::sort(sources.begin(), sources.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
+  return sources;
 }
 
 }  // namespace halocline::layers

@@ -1,0 +1,25 @@
+// Limits that keep a room surveyable: lengths of files, files of a folder, one source file for a class.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/layers/source_tree.h"
+
+namespace halocline::layers {
+
+inline constexpr int kMaxSourceLines = 350;  // of a .cc
+inline constexpr int kMaxHeaderLines = 200;
+inline constexpr int kMaxFilesOfAFolder = 30;
+
+// Files longer than their limit: "path: 372 lines, at most 350". Tests are held to the same limits.
+std::vector<std::string> long_files(const std::vector<SourceFile>& sources);
+
+// Folders with too many files: "path: 32 source files, at most 30".
+std::vector<std::string> full_folders(const std::vector<SourceFile>& sources);
+
+// Classes whose members are defined in several source files: "Class: a.cc, b.cc". Approximate: a definition is a line
+// that starts with "... Class::member("; classes that a source file declares itself are local to it.
+std::vector<std::string> split_classes(const std::vector<SourceFile>& sources);
+
+}  // namespace halocline::layers
