@@ -1,5 +1,10 @@
 #include "bathymetry/bathymetry_config.h"
 
+#include <vector>
+
+#include "bathymetry/rasters/raster_options.h"
+#include "bathymetry/terrain/fractal_relief.h"
+
 namespace halocline::bathymetry {
 namespace {
 

@@ -1,6 +1,11 @@
 #include "bathymetry/bathymetry_messages.h"
 
 #include <algorithm>
+#include <vector>
+
+#include "bathymetry/terrain/profile.h"
+#include "bathymetry/terrain/terrain.h"
+#include "core/frames.h"
 
 namespace halocline::bathymetry {
 namespace {

@@ -9,10 +9,11 @@
 
 #include "bathymetry/ray_service.h"
 #include "bus/messages.h"
+#include "core/frames.h"
 
 namespace halocline::bathymetry {
 
-// Who asked what, to be repeated in the reply.
+// Client and request of a query, repeated in the reply.
 struct QueryHeader {
   std::int64_t utime = 0;
   std::string client_name;
@@ -27,7 +28,7 @@ RayBatch from_message(const ray_query_t& message);
 // Rays relative to `base_ned_m`, so that far from the origin offsets stay short.
 ray_query_t to_message(const QueryHeader& header, const RayBatch& batch, const Vec3& base_ned_m);
 
-// session: of the service's life.
+// session: of this start of the service.
 ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
                        const std::string& terrain_version, std::int64_t session);
 

@@ -4,7 +4,11 @@
 #include <utility>
 
 #include "bathymetry/rasters/terrain_recipe.h"
+#include "bathymetry/ray_service.h"
+#include "bus/bus.h"
+#include "bus/channels.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::bathymetry {
 
@@ -13,10 +17,11 @@ BathymetryNode::BathymetryNode(lcm::LCM& lcm, bus::NodeIdentity identity,
     : Node(lcm, std::move(identity)), terrain_(std::move(terrain)), summary_(std::move(summary)) {
   require(terrain_ != nullptr, "the bathymetry node needs a terrain");
   terrain_version_ = version_text(terrain_->version());
-  bus().subscribe<ray_query_t>(bus::channels::kRayQuery, [this](const ray_query_t& query) { hear(query); });
+  bus().subscribe<ray_query_t>(bus::channels::kRayQuery,
+                               [this](const ray_query_t& query) { on_query(query); });
 }
 
-void BathymetryNode::hear(const ray_query_t& query) {
+void BathymetryNode::on_query(const ray_query_t& query) {
   QueryHeader header = header_of(query);
   const bool repeated = std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& other) {
     return other.header.client_name == header.client_name && other.header.request_id == header.request_id;

@@ -11,6 +11,7 @@
 
 #include "bathymetry/bathymetry_messages.h"
 #include "bathymetry/terrain/terrain.h"
+#include "bus/bus.h"
 #include "bus/runtime/node.h"
 
 namespace halocline::bathymetry {
@@ -30,7 +31,7 @@ class BathymetryNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  void hear(const ray_query_t& query);
+  void on_query(const ray_query_t& query);
 
   struct Waiting {
     QueryHeader header;

@@ -1,5 +1,10 @@
+#include <memory>
+#include <utility>
+
 #include "bathymetry/bathymetry_config.h"
 #include "bathymetry/bathymetry_node.h"
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
 
 using halocline::bathymetry::BathymetryNode;
@@ -15,7 +20,7 @@ int main(int argc, char** argv) {
   program.node_name = "bathymetry";
   program.stage = halocline::bus::Stage::kTerrain;
   program.interface =
-      "hears:     RAY_QUERY, CLOCK\n"
+      "receives:  RAY_QUERY, CLOCK\n"
       "publishes: RAY_REPLY.<client>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, recipe); };
   program.make_node = [&](const NodeProgram::Context& context) {

@@ -1,6 +1,9 @@
 #include "bathymetry/ray_service.h"
 
 #include <cmath>
+#include <utility>
+
+#include "core/frames.h"
 
 namespace halocline::bathymetry {
 namespace {

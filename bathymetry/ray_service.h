@@ -1,7 +1,7 @@
 // Answers a batch of questions about the terrain: what the bathymetry service computes, without the bus.
 //
 // Model: a query is of one mode. closest_hit and occluded follow each ray; depth looks below each origin; the two
-// profiles take one ray, whose horizontal direction and range say where the line lies. A query is answered whole or
+// profiles take one ray, whose horizontal direction and range give the line. A query is answered whole or
 // refused whole, with the reason: never cut. Stateless: the same query always has the same answer.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace halocline::bathymetry {
 
-// A message of this many rays is 57 kB: what one should ask at a time.
+// The largest batch that is advised: a message of this many rays is 57 kB.
 inline constexpr std::size_t kUsualRays = 1024;
 // More rays, or more samples of a profile, are refused.
 inline constexpr std::size_t kMaxRays = 4096;

@@ -1,5 +1,5 @@
 // Seeded synthetic relief: fractal terrain, or the roughness that charts are too coarse to hold. It is
-// invented, and whoever shows it says so.
+// invented, and reports label it so.
 //
 // Model: a sum of octaves of gradient noise (Perlin 1985; quintic fade of Perlin 2002), wavelengths halving
 // from `longest_wavelength_m` down to `shortest_wavelength_m`. Amplitude goes with wavelength^hurst: a

@@ -8,7 +8,7 @@
 // hence continuous, exact on a plane, and straight along every cell edge. Two triangles a cell would differ
 // from it by a quarter of the cell's twist (0.8 m on the rugged terrain of the benchmark). A cell with a
 // no-data post is a no-data cell as a whole: nothing is interpolated from three posts. Accuracy: posts are
-// float: 0.25 mm at 4000 m. The surface is what the stored posts say, and exact from there on.
+// float: 0.25 mm at 4000 m. The surface is defined by the stored posts, and exact from there on.
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
 
 namespace halocline::bathymetry {

@@ -38,7 +38,7 @@ double first_root(double a, double b, double c, double length) {
   const double discriminant = b * b - 4 * a * c;
   if (discriminant < 0) return below_at_end ? length : kNone;
   const double root = std::sqrt(discriminant);
-  // The pair q / c, a / q loses no digits to cancellation; the sign of b says which is the first positive
+  // The pair q / c, a / q loses no digits to cancellation; the sign of b decides which is the first positive
   // one.
   double s = kNone;
   if (b < 0) {

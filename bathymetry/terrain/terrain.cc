@@ -95,7 +95,7 @@ DepthSample Terrain::depth_at(double x_m, double y_m) const {
 }
 
 // The interval above nested grids belongs to them, the rest to this patch; pieces are taken in the ray's
-// order. Where a piece begins and ends is said by the crossings of the patch around, so that its walk stops
+// order. Where a piece begins and ends is given by the crossings of the patch around, so that its walk stops
 // and resumes exactly at the border and never looks into a cell that the nested grid covers.
 TraceResult Terrain::trace(const Patch& patch, const Ray& unit_ray, Interval interval,
                            const Patch** owner) const {

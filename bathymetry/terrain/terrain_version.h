@@ -1,4 +1,4 @@
-// A number for the content of a terrain, by which a client and a server tell that they mean the same one.
+// A number for the content of a terrain, by which a client and a server check that they mean the same one.
 //
 // Model: a 64-bit multiply-rotate hash of our own over geometry and posts, four lanes wide so that 64 MB take
 // about 10 ms. Not cryptographic. Little-endian words; NaN posts count as one value, whatever their bits.

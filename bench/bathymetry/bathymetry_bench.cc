@@ -4,7 +4,9 @@
 // G grazing (within 2 degrees of level) to 1..20 km, mix a third each. Targets a core: mix 2.2 million rays/s, a
 // profile sample 15 ns, a 4096 x 4096 GeoTIFF with its pyramid 0.2 s; two threads 1.9 times one.
 #include <cmath>
+#include <cstdint>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -12,7 +14,10 @@
 #include <gdal_priv.h>
 
 #include "bathymetry/rasters/raster_loader.h"
+#include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/profile.h"
+#include "bathymetry/terrain/shallowest_pyramid.h"
+#include "bathymetry/terrain/terrain.h"
 #include "core/random.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 

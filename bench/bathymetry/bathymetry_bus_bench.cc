@@ -7,16 +7,22 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "bathymetry/bathymetry_node.h"
+#include "bus/channels.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/time_source.h"
 #include "bus/transport.h"
 #include "core/random.h"
+#include "core/sim_time.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 
 namespace halocline::bathymetry {
@@ -53,14 +59,14 @@ class SteadyTime : public bus::TimeSource {
   SimTime steady_at(SimTime sim) const override { return sim; }
 };
 
-// Asks and waits; what was lost is asked again and counted.
+// Publishes a query and waits; a lost one is published again and counted.
 class Client {
  public:
   explicit Client(lcm::LCM& lcm) : lcm_(lcm), bus_(lcm, {"bench", 1}) {
     bus_.subscribe<ray_reply_t>(bus::channels::kRayReply.of("bench"),
                                 [this](const ray_reply_t& reply) { answered_ = reply.request_id; });
   }
-  void ask(const RayBatch& batch) {
+  void query(const RayBatch& batch) {
     bus_.publish(bus::channels::kRayQuery, to_message({0, "bench", ++request_}, batch, Vec3::Zero()));
   }
   bool await(int milliseconds) {
@@ -101,11 +107,11 @@ void round_trip_udpm(benchmark::State& state) {
   const RayBatch batch = draw_batch(static_cast<std::size_t>(state.range(0)));
   std::vector<double> microseconds;
   std::int64_t lost = 0;
-  client.ask(batch);
+  client.query(batch);
   client.await(200);
   for (auto _ : state) {
     const auto start = Clock::now();
-    client.ask(batch);
+    client.query(batch);
     lost += !client.await(200);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     microseconds.push_back(seconds * 1e6);
@@ -125,7 +131,7 @@ void round_trip_memq(benchmark::State& state) {
   std::vector<double> microseconds;
   for (auto _ : state) {
     const auto start = Clock::now();
-    client.ask(batch);
+    client.query(batch);
     lcm->handleTimeout(0);  // the query reaches the service
     node.step({SimTime(), SimTime(), true});
     client.await(0);

@@ -1,11 +1,15 @@
 #include "bathymetry/bathymetry_config.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "bathymetry/rasters/raster_options.h"
 #include "bathymetry/rasters/terrain_recipe.h"
+#include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
 #include "tests/bathymetry/rasters/raster_fixtures.h"
 
@@ -83,7 +87,7 @@ TEST(BathymetryConfig, FillsTheRecipe) {
   EXPECT_EQ(recipe.nested[0].raster.path, "fine.tif");
 }
 
-TEST(BathymetryConfig, SaysWhatIsWrongWithEachKey) {
+TEST(BathymetryConfig, ReportsTheFaultOfEachKey) {
   const std::string errors = errors_of(R"(
     [terrain]
     kind = "raster"

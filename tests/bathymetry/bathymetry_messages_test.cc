@@ -1,8 +1,11 @@
 #include "bathymetry/bathymetry_messages.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "bathymetry/terrain/terrain.h"
 
 namespace halocline::bathymetry {
 namespace {

@@ -1,11 +1,16 @@
 #include "bathymetry/bathymetry_node.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
 #include "bathymetry/rasters/terrain_recipe.h"
+#include "bathymetry/ray_service.h"
+#include "bus/channels.h"
+#include "core/sim_time.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 
@@ -32,13 +37,13 @@ class BathymetryNodeTest : public ::testing::Test {
     }
   }
   void step() { node_.step({SimTime::from_seconds(1), SimTime::from_seconds(1), false}); }
-  void ask(const RayBatch& batch, std::int64_t request_id = 1, const std::string& name = "alpha") {
+  void query(const RayBatch& batch, std::int64_t request_id = 1, const std::string& name = "alpha") {
     client_.publish(bus::channels::kRayQuery,
                     to_message({5'000'000, name, request_id}, batch, {100, 100, 0}));
     drain();
   }
   void ask_and_step(const RayBatch& batch) {
-    ask(batch);
+    query(batch);
     step();
     drain();
   }
@@ -53,7 +58,7 @@ class BathymetryNodeTest : public ::testing::Test {
 
 const Ray kDown{{300, 200, 10}, {0, 0, 1}, 1000};
 
-TEST_F(BathymetryNodeTest, AnswersTheClientThatAskedWithWhatTheTerrainSays) {
+TEST_F(BathymetryNodeTest, AnswersTheClientFromItsTerrain) {
   ask_and_step({.rays = {kDown}});
   ASSERT_EQ(replies_.size(), 1u);
   EXPECT_EQ(heard_on_.front(), "alpha");
@@ -75,19 +80,19 @@ TEST_F(BathymetryNodeTest, EchoesTheQueryAndNamesItselfAndItsTerrain) {
 TEST_F(BathymetryNodeTest, IsDueAtOnceWhileAQueryWaitsAlsoBeforeTheTimeIsKnown) {
   step();
   EXPECT_NE(node_.due().sim, SimTime::at_once());
-  ask({.rays = {kDown}});
+  query({.rays = {kDown}});
   EXPECT_EQ(node_.due().sim, SimTime::at_once());
   step();
   EXPECT_NE(node_.due().sim, SimTime::at_once());
 }
 
 TEST_F(BathymetryNodeTest, HandlersOnlyStore) {
-  ask({.rays = {kDown}});
+  query({.rays = {kDown}});
   EXPECT_TRUE(replies_.empty());
 }
 
 TEST_F(BathymetryNodeTest, AnswersInTheOrderOfTheQueries) {
-  for (std::int64_t id = 1; id <= 5; ++id) ask({.rays = {kDown}}, id);
+  for (std::int64_t id = 1; id <= 5; ++id) query({.rays = {kDown}}, id);
   step();
   drain();
   ASSERT_EQ(replies_.size(), 5u);
@@ -95,9 +100,9 @@ TEST_F(BathymetryNodeTest, AnswersInTheOrderOfTheQueries) {
 }
 
 TEST_F(BathymetryNodeTest, ARepeatedQueryThatStillWaitsIsAnsweredOnce) {
-  ask({.rays = {kDown}}, 9);
-  ask({.rays = {kDown}}, 9);
-  ask({.rays = {kDown}}, 9, "beta");
+  query({.rays = {kDown}}, 9);
+  query({.rays = {kDown}}, 9);
+  query({.rays = {kDown}}, 9, "beta");
   step();
   drain();
   EXPECT_EQ(replies_.size(), 2u);
@@ -118,7 +123,7 @@ TEST_F(BathymetryNodeTest, RefusesMoreThanTheCapWhole) {
   EXPECT_FALSE(replies_[0].refusal.empty());
 }
 
-TEST_F(BathymetryNodeTest, RefusesForAnotherTerrainAndSaysWhichItServes) {
+TEST_F(BathymetryNodeTest, RefusesForAnotherTerrainAndNamesItsOwn) {
   ask_and_step({.expected_terrain = "another", .rays = {kDown}});
   ASSERT_EQ(replies_.size(), 1u);
   EXPECT_EQ(replies_[0].reply_status, ray_reply_t::REFUSED_OTHER_TERRAIN);
@@ -148,7 +153,7 @@ TEST_F(BathymetryNodeTest, ACorruptQueryIsCountedAndNotAnswered) {
 
 TEST_F(BathymetryNodeTest, RefusesQueriesBeyondWhatMayWait) {
   for (std::size_t n = 0; n <= BathymetryNode::kMaxWaiting; ++n) {
-    ask({.mode = QueryMode::kDepth, .rays = {kDown}}, static_cast<std::int64_t>(n));
+    query({.mode = QueryMode::kDepth, .rays = {kDown}}, static_cast<std::int64_t>(n));
   }
   EXPECT_EQ(node_.counters().refused, 1);
   step();

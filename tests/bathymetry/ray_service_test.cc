@@ -21,15 +21,15 @@ const Terrain& terrain() {
   return made;
 }
 
-RayAnswers ask(const RayBatch& batch) { return answer(terrain(), kVersion, batch); }
+RayAnswers answers_to(const RayBatch& batch) { return answer(terrain(), kVersion, batch); }
 
 TEST(RayService, AnswersEveryRayInItsOrderWithItsStatus) {
-  const RayAnswers answers = ask({.rays = {{{0, 0, 40}, {0, 0, 1}, 500},
-                                           {{0, 0, 40}, {0, 0, 1}, 5},
-                                           {{0, 0, 40}, {1, 0, 0}, 500},
-                                           {{80, 80, 40}, {1, 1, 0}, 500},
-                                           {{0, 0, 140}, {0, 0, 1}, 500},
-                                           {{0, 0, 40}, {0, 0, 0}, 500}}});
+  const RayAnswers answers = answers_to({.rays = {{{0, 0, 40}, {0, 0, 1}, 500},
+                                                  {{0, 0, 40}, {0, 0, 1}, 5},
+                                                  {{0, 0, 40}, {1, 0, 0}, 500},
+                                                  {{80, 80, 40}, {1, 1, 0}, 500},
+                                                  {{0, 0, 140}, {0, 0, 1}, 500},
+                                                  {{0, 0, 40}, {0, 0, 0}, 500}}});
   using enum RayStatus;
   EXPECT_EQ(answers.refusal, Refusal::kNone);
   EXPECT_EQ(answers.statuses, (std::vector{kHit, kMiss, kOutside, kNoData, kStartedBelowBottom, kBadInput}));
@@ -39,24 +39,24 @@ TEST(RayService, AnswersEveryRayInItsOrderWithItsStatus) {
 }
 
 TEST(RayService, OcclusionIsAHitWithinTheRange) {
-  const RayAnswers answers =
-      ask({.mode = QueryMode::kOccluded, .rays = {{{0, 0, 90}, {0, 3, 4}, 20}, {{0, 0, 90}, {0, 3, 4}, 12}}});
+  const RayAnswers answers = answers_to(
+      {.mode = QueryMode::kOccluded, .rays = {{{0, 0, 90}, {0, 3, 4}, 20}, {{0, 0, 90}, {0, 3, 4}, 12}}});
   EXPECT_EQ(answers.statuses, (std::vector{RayStatus::kHit, RayStatus::kMiss}));
 }
 
 TEST(RayService, DepthIgnoresDirections) {
-  const RayAnswers answers = ask({.mode = QueryMode::kDepth,
-                                  .rays = {{{3, 4, 0}, {0, 0, 0}, 0},
-                                           {{300, 4, 0}, {0, 0, 0}, 0},
-                                           {{99, 99, 0}, {0, 0, 0}, 0},
-                                           {{std::nan(""), 0, 0}, {0, 0, 0}, 0}}});
+  const RayAnswers answers = answers_to({.mode = QueryMode::kDepth,
+                                         .rays = {{{3, 4, 0}, {0, 0, 0}, 0},
+                                                  {{300, 4, 0}, {0, 0, 0}, 0},
+                                                  {{99, 99, 0}, {0, 0, 0}, 0},
+                                                  {{std::nan(""), 0, 0}, {0, 0, 0}, 0}}});
   using enum RayStatus;
   EXPECT_EQ(answers.statuses, (std::vector{kHit, kOutside, kNoData, kBadInput}));
   EXPECT_EQ(answers.results_m, (std::vector<double>{100, 0, 0, 0}));
 }
 
 TEST(RayService, UniformProfileSamplesAtTheSpacingAlongTheHorizontalDirection) {
-  const RayAnswers answers = ask(
+  const RayAnswers answers = answers_to(
       {.mode = QueryMode::kUniformProfile, .sample_spacing_m = 2.5, .rays = {{{0, 0, 7}, {0, 2, 5}, 100}}});
   ASSERT_EQ(answers.samples.size(), 41u);
   EXPECT_EQ(answers.statuses, std::vector{RayStatus::kHit});
@@ -66,20 +66,22 @@ TEST(RayService, UniformProfileSamplesAtTheSpacingAlongTheHorizontalDirection) {
 }
 
 TEST(RayService, AProfileShorterThanItsSpacingIsOneSample) {
-  const RayAnswers answers =
-      ask({.mode = QueryMode::kUniformProfile, .sample_spacing_m = 10, .rays = {{{0, 0, 0}, {1, 0, 0}, 3}}});
+  const RayAnswers answers = answers_to(
+      {.mode = QueryMode::kUniformProfile, .sample_spacing_m = 10, .rays = {{{0, 0, 0}, {1, 0, 0}, 3}}});
   ASSERT_EQ(answers.samples.size(), 1u);
   EXPECT_EQ(answers.samples[0].z_m, 100);
 }
 
 TEST(RayService, ExactProfileHasEveryCrossing) {
-  const RayAnswers answers = ask({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {1, 0, 0}, 45}}});
+  const RayAnswers answers =
+      answers_to({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {1, 0, 0}, 45}}});
   ASSERT_EQ(answers.samples.size(), 6u);
   EXPECT_EQ(answers.samples.back().distance_m, 45);
 }
 
 TEST(RayService, AProfileStraightDownIsBadInput) {
-  const RayAnswers answers = ask({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {0, 0, 1}, 45}}});
+  const RayAnswers answers =
+      answers_to({.mode = QueryMode::kExactProfile, .rays = {{{0, 5, 0}, {0, 0, 1}, 45}}});
   EXPECT_EQ(answers.refusal, Refusal::kNone);
   EXPECT_EQ(answers.statuses, std::vector{RayStatus::kBadInput});
   EXPECT_TRUE(answers.samples.empty());
@@ -87,9 +89,9 @@ TEST(RayService, AProfileStraightDownIsBadInput) {
 
 TEST(RayService, TakesTheCapAndRefusesOneMore) {
   RayBatch batch{.rays = std::vector<Ray>(kMaxRays, {{0, 0, 40}, {0, 0, 1}, 500})};
-  EXPECT_EQ(ask(batch).statuses.size(), kMaxRays);
+  EXPECT_EQ(answers_to(batch).statuses.size(), kMaxRays);
   batch.rays.push_back(batch.rays.front());
-  const RayAnswers answers = ask(batch);
+  const RayAnswers answers = answers_to(batch);
   EXPECT_EQ(answers.refusal, Refusal::kTooMany);
   EXPECT_TRUE(answers.statuses.empty()) << "refused, not cut";
   EXPECT_NE(answers.reason.find("4097"), std::string::npos);
@@ -98,27 +100,27 @@ TEST(RayService, TakesTheCapAndRefusesOneMore) {
 TEST(RayService, RefusesAProfileOfTooManySamples) {
   RayBatch batch{
       .mode = QueryMode::kUniformProfile, .sample_spacing_m = 1e-3, .rays = {{{0, 0, 0}, {1, 0, 0}, 90}}};
-  EXPECT_EQ(ask(batch).refusal, Refusal::kTooMany);
+  EXPECT_EQ(answers_to(batch).refusal, Refusal::kTooMany);
   batch.sample_spacing_m = 1e-300;
-  EXPECT_EQ(ask(batch).refusal, Refusal::kTooMany);
+  EXPECT_EQ(answers_to(batch).refusal, Refusal::kTooMany);
 }
 
 TEST(RayService, RefusesToAnswerForAnotherTerrain) {
   RayBatch batch{.expected_terrain = kVersion, .rays = {{{0, 0, 40}, {0, 0, 1}, 500}}};
-  EXPECT_EQ(ask(batch).refusal, Refusal::kNone);
+  EXPECT_EQ(answers_to(batch).refusal, Refusal::kNone);
   batch.expected_terrain = "fedcba9876543210";
-  EXPECT_EQ(ask(batch).refusal, Refusal::kOtherTerrain);
+  EXPECT_EQ(answers_to(batch).refusal, Refusal::kOtherTerrain);
 }
 
 TEST(RayService, RefusesQueriesThatAreNone) {
   const Ray ray{{0, 0, 40}, {1, 0, 0}, 50};
-  EXPECT_EQ(ask({.rays = {}}).refusal, Refusal::kBadQuery);
-  EXPECT_EQ(ask({.mode = static_cast<QueryMode>(5), .rays = {ray}}).refusal, Refusal::kBadQuery);
-  EXPECT_EQ(ask({.mode = static_cast<QueryMode>(255), .rays = {ray}}).refusal, Refusal::kBadQuery);
-  EXPECT_EQ(ask({.mode = QueryMode::kExactProfile, .rays = {ray, ray}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(answers_to({.rays = {}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(5), .rays = {ray}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(answers_to({.mode = static_cast<QueryMode>(255), .rays = {ray}}).refusal, Refusal::kBadQuery);
+  EXPECT_EQ(answers_to({.mode = QueryMode::kExactProfile, .rays = {ray, ray}}).refusal, Refusal::kBadQuery);
   for (const double spacing : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     const RayBatch batch{.mode = QueryMode::kUniformProfile, .sample_spacing_m = spacing, .rays = {ray}};
-    EXPECT_EQ(ask(batch).refusal, Refusal::kBadQuery) << spacing;
+    EXPECT_EQ(answers_to(batch).refusal, Refusal::kBadQuery) << spacing;
   }
 }
 

@@ -1,8 +1,11 @@
 #include "tests/support/csv.h"
 
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace halocline::testing {
 namespace {

@@ -9,7 +9,7 @@
 
 namespace halocline::testing {
 
-// A program running beside the test, its standard output and error kept. Killed when it goes out of scope.
+// A program running beside the test, its standard output and error kept. Ended by SIGKILL when it goes out of scope.
 class Process {
  public:
   // `command[0]` is a path; the others are its arguments.

@@ -51,7 +51,7 @@ std::string namespace_of(const char* process) {
   return readlink(link.c_str(), name, sizeof name - 1) < 0 ? "" : name;
 }
 
-// A raw socket that hears and speaks on one device alone.
+// A raw socket that receives and sends on one device alone.
 int open_device(const std::string& name) {
   const int device = socket(AF_PACKET, SOCK_RAW | SOCK_CLOEXEC, htons(ETH_P_ALL));
   if (device < 0) fail("no raw socket");

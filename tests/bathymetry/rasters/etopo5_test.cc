@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bathymetry/rasters/raster_loader.h"
+#include "bathymetry/terrain/local_frame.h"
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
@@ -61,7 +62,7 @@ TEST_F(Etopo5, CrossesGreenwichWithoutASeam) {
   EXPECT_GT(loaded.report.shallowest_m, 4000);  // the Gulf of Guinea
 }
 
-TEST_F(Etopo5, NamesTheVariablesItHasWhenAskedForAnother) {
+TEST_F(Etopo5, ForAnUnknownVariableNamesThoseItHas) {
   const LocalFrame frame(FrameMode::kFlat, 0.5, -0.5);
   EXPECT_THROW(load_raster({.path = kPath, .variable = "elevation"}, frame, {0, 0, 1, 2, 2}),
                InvalidArgument);

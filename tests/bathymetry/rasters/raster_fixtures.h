@@ -5,12 +5,17 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
+
+#include "bathymetry/terrain/height_grid.h"
+#include "bathymetry/terrain/local_frame.h"
+#include "core/units.h"
 
 namespace halocline::bathymetry::testing {
 
@@ -65,6 +70,18 @@ inline std::string write_text(const std::string& name, const std::string& text) 
   VSIFWriteL(text.data(), 1, text.size(), file);
   VSIFCloseL(file);
   return path;
+}
+
+// Float posts near 1000 m round by 3e-5 m.
+inline constexpr double kFloatM = 1e-4;
+
+inline LocalFrame frame_at(double latitude_deg, double longitude_deg, FrameMode mode = FrameMode::kFlat) {
+  return LocalFrame(mode, to_radians(latitude_deg), to_radians(longitude_deg));
+}
+
+inline GridGeometry around_origin(double half_width_m, double spacing_m) {
+  const int posts = 2 * static_cast<int>(half_width_m / spacing_m) + 1;
+  return {-half_width_m, -half_width_m, spacing_m, posts, posts};
 }
 
 }  // namespace halocline::bathymetry::testing

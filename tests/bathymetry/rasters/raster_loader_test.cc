@@ -1,5 +1,7 @@
 #include "bathymetry/rasters/raster_loader.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,21 +17,12 @@ namespace halocline::bathymetry {
 namespace {
 
 using halocline::testing::tolerance;
+using testing::around_origin;
+using testing::frame_at;
+using testing::kFloatM;
 using testing::TestRaster;
 using testing::write_raster;
 using testing::write_text;
-
-// Float posts near 1000 m round by 3e-5 m.
-constexpr double kFloatM = 1e-4;
-
-LocalFrame frame_at(double latitude_deg, double longitude_deg, FrameMode mode = FrameMode::kFlat) {
-  return LocalFrame(mode, to_radians(latitude_deg), to_radians(longitude_deg));
-}
-
-GridGeometry around_origin(double half_width_m, double spacing_m) {
-  const int posts = 2 * static_cast<int>(half_width_m / spacing_m) + 1;
-  return {-half_width_m, -half_width_m, spacing_m, posts, posts};
-}
 
 // Depth that no turn or flip of the raster leaves as it is.
 double slanted_depth(double latitude_deg, double longitude_deg) {
@@ -308,46 +301,7 @@ TEST(RasterLoader, BeyondTheRasterThereIsNoDataAndFarFromItAnError) {
   EXPECT_THROW(load_raster({.path = path}, frame_at(50, -28), around_origin(3000, 100)), InvalidArgument);
 }
 
-TEST(RasterLoader, LocalRastersAreTakenPostByPost) {
-  TestRaster raster{.name = "local",
-                    .columns = 4,
-                    .rows = 3,
-                    .geotransform = std::array<double, 6>{-105, 10, 0, 215, 0, -10},
-                    .coordinate_system = ""};
-  const auto path = write_raster(raster, [](int c, int r) { return -(100.0 * r + c + 1); });
-  const LoadedRaster loaded = load_local_raster({.path = path, .coordinate_system = "local"});
-  EXPECT_EQ(loaded.grid.geometry(), (GridGeometry{190, -100, 10, 3, 4}));
-  EXPECT_EQ(loaded.grid.post(0, 1), 202);  // the last row is the southernmost
-  EXPECT_EQ(loaded.grid.post(2, 3), 4);
-}
-
-TEST(RasterLoader, LocalRastersCanBeResampledToo) {
-  TestRaster raster{.name = "local_resampled",
-                    .columns = 40,
-                    .rows = 30,
-                    .geotransform = std::array<double, 6>{-200, 10, 0, 150, 0, -10},
-                    .coordinate_system = ""};
-  const auto path = write_raster(raster, [](int c, int r) {
-    const double east = -195 + 10 * c, north = 145 - 10 * r;
-    return -(500 + north + 0.1 * east);
-  });
-  const LoadedRaster loaded =
-      load_raster({.path = path, .coordinate_system = "local"}, frame_at(30, -28), around_origin(100, 2.5));
-  EXPECT_NEAR(loaded.grid.post(0, 0), 500 - 100 - 10, tolerance(kFloatM));
-  EXPECT_NEAR(loaded.grid.post(80, 0), 500 + 100 - 10, tolerance(kFloatM));
-}
-
-TEST(RasterLoader, LocalRastersNeedSquarePixels) {
-  TestRaster raster{.name = "oblong",
-                    .columns = 4,
-                    .rows = 3,
-                    .geotransform = std::array<double, 6>{0, 10, 0, 0, 0, -20},
-                    .coordinate_system = ""};
-  const auto path = write_raster(raster, [](int, int) { return -1.0; });
-  EXPECT_THROW(load_local_raster({.path = path, .coordinate_system = "local"}), InvalidArgument);
-}
-
-TEST(RasterLoader, SaysWhyAFileCannotBeRead) {
+TEST(RasterLoader, ReportsWhyAFileCannotBeRead) {
   try {
     load_raster({.path = "/vsimem/absent.tif"}, frame_at(30, -28), around_origin(100, 10));
     FAIL() << "an absent file was read";

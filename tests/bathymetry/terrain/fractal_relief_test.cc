@@ -49,7 +49,7 @@ TEST(FractalRelief, AnotherSeedIsAnotherRelief) {
   EXPECT_EQ(first, relief_at(relief, 123, 456));
 }
 
-TEST(FractalRelief, HasTheRmsAskedFor) {
+TEST(FractalRelief, HasTheRequestedRms) {
   // 80 x 80 longest wavelengths: the sample variance of so many cells is within a few per cent.
   const FractalRelief relief{
       .rms_m = 7, .longest_wavelength_m = 50, .shortest_wavelength_m = 10, .hurst = 0.8, .seed = 4};

@@ -41,7 +41,7 @@ TEST(GeneratedTerrain, RidgeIsConstantAlongItsCrestAndGaussianAcross) {
   }
 }
 
-TEST(GeneratedTerrain, SeamountIsRoundWithItsSummitWhereAsked) {
+TEST(GeneratedTerrain, SeamountIsRoundWithItsSummitAtTheGivenPlace) {
   const Shape mount{SeamountShape{
       .depth_m = 2000, .height_m = 1700, .radius_m = 2500, .summit_x_m = 100, .summit_y_m = 200}};
   EXPECT_NEAR(depth_of(mount, 100, 200), 300, tolerance(1e-9));

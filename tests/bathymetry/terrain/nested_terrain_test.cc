@@ -1,9 +1,17 @@
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bathymetry/terrain/generated_terrain.h"
+#include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/profile.h"
+#include "bathymetry/terrain/terrain.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "core/random.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
@@ -99,7 +107,7 @@ TEST(NestedTerrain, NoDataUnderANestedGridIsNotSeen) {
   EXPECT_EQ(hit.status, RayStatus::kMiss);
 }
 
-TEST(NestedTerrain, HolesStayOrAreFilledFromAroundAsAsked) {
+TEST(NestedTerrain, HolesStayOrAreFilledFromAroundAsChosen) {
   HeightGrid with_hole = fine();
   with_hole.posts_for_editing()[with_hole.index(50, 50)] = kNoData;
   for (const Holes holes : {Holes::kKeep, Holes::kFillFromAround}) {

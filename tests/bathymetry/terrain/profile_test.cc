@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
@@ -31,7 +33,7 @@ TEST(UniformProfile, SamplesBothEndsAndEvenlyBetween) {
   }
 }
 
-TEST(UniformProfile, SaysWhereItIsOutside) {
+TEST(UniformProfile, MarksTheSamplesOutside) {
   const auto points = uniform_profile(rugged_terrain(), {-100, 50}, {100, 50}, 5);
   EXPECT_EQ(points[0].status, DepthStatus::kOutside);
   EXPECT_TRUE(std::isnan(points[0].z_m));

@@ -1,10 +1,16 @@
 // Rays against the long double reference at every cell crossing: no miss, no false hit, ranges to 1e-6 m.
 // HALOCLINE_REFERENCE_RAYS sets how many random rays of each kind (default 3000; 500 000 takes minutes).
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "bathymetry/terrain/terrain.h"
+#include "core/frames.h"
 #include "core/random.h"
 #include "tests/bathymetry/terrain/reference_trace.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
@@ -56,7 +62,7 @@ bool agree(const RayHit& actual, const testing::ReferenceHit& expected) {
 }
 
 // A ray that touches the bottom and goes on may be decided either way: its own coordinates round by more. It
-// counts as such when moving it by 1e-9 m up or down makes the reference say what the rays say.
+// counts as such when moving it by 1e-9 m up or down makes the reference agree with the rays.
 bool only_touches(const Ray& ray, const RayHit& actual) {
   for (const double shift : {-1e-9, 1e-9}) {
     Ray moved = ray;
@@ -89,7 +95,7 @@ void expect_exact(const Score& score) {
   EXPECT_EQ(score.missed, 0);
   EXPECT_EQ(score.false_hits, 0);
   EXPECT_LT(score.max_error_m, tolerance(1e-6));
-  EXPECT_GT(score.hits, score.rays / 20) << "the rays must meet the bottom for the test to say something";
+  EXPECT_GT(score.hits, score.rays / 20) << "the rays must meet the bottom for the test to show something";
   // Aimed rays touch where their target is a summit, about one in a hundred.
   EXPECT_LE(score.touching, score.rays / 40);
   std::printf("%d rays, %d hits, %d only touching, greatest error %.2g m\n", score.rays, score.hits,

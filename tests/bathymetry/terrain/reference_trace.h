@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/terrain.h"
 
 namespace halocline::bathymetry::testing {

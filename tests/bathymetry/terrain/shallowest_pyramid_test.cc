@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "bathymetry/terrain/generated_terrain.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 
 namespace halocline::bathymetry {

@@ -1,8 +1,12 @@
 // Terrains that several tests and the benchmark share.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "bathymetry/terrain/fractal_relief.h"
 #include "bathymetry/terrain/generated_terrain.h"
+#include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/terrain.h"
 
 namespace halocline::bathymetry::testing {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bathymetry/terrain/generated_terrain.h"
 #include "core/check.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
@@ -116,7 +117,7 @@ TEST(TerrainRay, UpwardsEndsAtItsRangeOrTheEdgeOnly) {
   EXPECT_EQ(flat_terrain().closest_hit({{0, 0, 40}, {1, 0, -1}, 500}).status, RayStatus::kOutside);
 }
 
-TEST(TerrainRay, BelowTheBottomSaysSoAndGivesNoRange) {
+TEST(TerrainRay, BelowTheBottomIsReportedWithoutARange) {
   const RayHit hit = flat_terrain().closest_hit({{0, 0, 100.5}, {0, 0, -1}, 500});
   EXPECT_EQ(hit.status, RayStatus::kStartedBelowBottom);
   EXPECT_TRUE(std::isnan(hit.range_m));

@@ -1,0 +1,62 @@
+// Rasters whose coordinates are metres of the scenario's own frame.
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "bathymetry/rasters/raster_loader.h"
+#include "bathymetry/terrain/height_grid.h"
+#include "core/check.h"
+#include "tests/bathymetry/rasters/raster_fixtures.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::bathymetry {
+namespace {
+
+using halocline::testing::tolerance;
+using testing::around_origin;
+using testing::frame_at;
+using testing::kFloatM;
+using testing::TestRaster;
+using testing::write_raster;
+
+TEST(LocalRaster, IsTakenPostByPost) {
+  TestRaster raster{.name = "local",
+                    .columns = 4,
+                    .rows = 3,
+                    .geotransform = std::array<double, 6>{-105, 10, 0, 215, 0, -10},
+                    .coordinate_system = ""};
+  const auto path = write_raster(raster, [](int c, int r) { return -(100.0 * r + c + 1); });
+  const LoadedRaster loaded = load_local_raster({.path = path, .coordinate_system = "local"});
+  EXPECT_EQ(loaded.grid.geometry(), (GridGeometry{190, -100, 10, 3, 4}));
+  EXPECT_EQ(loaded.grid.post(0, 1), 202);  // the last row is the southernmost
+  EXPECT_EQ(loaded.grid.post(2, 3), 4);
+}
+
+TEST(LocalRaster, CanBeResampledToo) {
+  TestRaster raster{.name = "local_resampled",
+                    .columns = 40,
+                    .rows = 30,
+                    .geotransform = std::array<double, 6>{-200, 10, 0, 150, 0, -10},
+                    .coordinate_system = ""};
+  const auto path = write_raster(raster, [](int c, int r) {
+    const double east = -195 + 10 * c, north = 145 - 10 * r;
+    return -(500 + north + 0.1 * east);
+  });
+  const LoadedRaster loaded =
+      load_raster({.path = path, .coordinate_system = "local"}, frame_at(30, -28), around_origin(100, 2.5));
+  EXPECT_NEAR(loaded.grid.post(0, 0), 500 - 100 - 10, tolerance(kFloatM));
+  EXPECT_NEAR(loaded.grid.post(80, 0), 500 + 100 - 10, tolerance(kFloatM));
+}
+
+TEST(LocalRaster, NeedsSquarePixels) {
+  TestRaster raster{.name = "oblong",
+                    .columns = 4,
+                    .rows = 3,
+                    .geotransform = std::array<double, 6>{0, 10, 0, 0, 0, -20},
+                    .coordinate_system = ""};
+  const auto path = write_raster(raster, [](int, int) { return -1.0; });
+  EXPECT_THROW(load_local_raster({.path = path, .coordinate_system = "local"}), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace halocline::bathymetry
