@@ -1,5 +1,10 @@
 // What a person types, as far as it can be tried without building or installing anything.
+#include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -12,6 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string script(const std::string& name) { return std::string(HALOCLINE_SOURCE_DIR) + "/scripts/" + name; }
 
@@ -38,19 +44,39 @@ TEST(Isolated, HasLoopbackWithMulticastAndNothingElse) {
   EXPECT_THAT(output, ::testing::Not(HasSubstr("eth")));
 }
 
-TEST(Isolated, WithoutACommandItTellsItsUse) {
+TEST(Isolated, WithoutACommandItPrintsItsUse) {
   Process process({script("isolated")});
   EXPECT_EQ(process.wait(), 2);
   EXPECT_THAT(process.output(), HasSubstr("./scripts/isolated COMMAND"));
 }
 
-TEST(Scripts, AWrongWordIsAnErrorThatTellsTheUse) {
+// Builds nothing: it would take longer, and print progress.
+TEST(Scripts, HelpIsTheFirstCommentOfEach) {
+  int scripts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(script(""))) {
+    const std::string path = entry.path().string();
+    std::ifstream file(path);
+    std::string interpreter, first;
+    std::getline(file, interpreter);
+    std::getline(file, first);
+    const bool python = interpreter.ends_with("python3");
+    const std::string expected =
+        first.substr(python ? std::string_view("\"\"\"").size() : std::string_view("# ").size());
+    Process help({path, "--help"});
+    EXPECT_EQ(help.wait(), 0) << path;
+    EXPECT_THAT(help.output(), StartsWith(expected + "\n")) << path;
+    ++scripts;
+  }
+  EXPECT_GT(scripts, 10);
+}
+
+TEST(Scripts, AWrongWordIsAnErrorThatPrintsTheUse) {
   Process setup({script("setup"), "everything"});
   EXPECT_EQ(setup.wait(), 2);
   EXPECT_THAT(setup.output(), HasSubstr("Groups: build"));
   Process check({script("check"), "everything"});
   EXPECT_EQ(check.wait(), 2);
-  EXPECT_THAT(check.output(), HasSubstr("./scripts/check [format]"));
+  EXPECT_THAT(check.output(), HasSubstr("./scripts/check [NAME...]"));
   Process distributed({script("run_distributed"), "scenarios/seamount.toml", "--nonsense"});
   EXPECT_EQ(distributed.wait(), 2);
   EXPECT_THAT(distributed.output(), HasSubstr("allowed are --duration S"));
@@ -58,7 +84,7 @@ TEST(Scripts, AWrongWordIsAnErrorThatTellsTheUse) {
 
 TEST(Scripts, SetupIsSilentAndQuickWhenAllIsThere) {
   const auto start = std::chrono::steady_clock::now();
-  Process setup({script("setup"), "build"});
+  Process setup({script("setup"), "test"});
   EXPECT_EQ(setup.wait(), 0);
   EXPECT_EQ(setup.output(), "");
   EXPECT_LT(std::chrono::steady_clock::now() - start, 3s);  // 0.05 s on an idle machine

@@ -141,7 +141,7 @@ TEST_F(SweepCommand, TheTasksOfAJobArrayDoAllRunsAndGatherMakesTheSameTables) {
   fs::remove(script);
 }
 
-// The real thing where it is installed (./scripts/setup cluster): a SLURM of one node in a namespace of its own.
+// The real thing where it is installed (./scripts/setup test): a SLURM of one node in a namespace of its own.
 TEST_F(SweepCommand, SlurmRunsTheJobArray) {
   if (!fs::exists("/usr/sbin/slurmctld") || getuid() != 0) GTEST_SKIP() << "needs slurm-wlm, and root";
   auto words = four_runs();
