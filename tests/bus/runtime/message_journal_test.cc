@@ -30,8 +30,9 @@ class MessageJournalTest : public ::testing::Test {
   static std::vector<std::string> inherited(MessageJournal& journal) {
     std::vector<std::string> all;
     for (const JournalledMessage& m : journal.take_inherited()) {
-      all.push_back((m.kind == Kind::kOutput ? "o" : "i") + std::to_string(m.at.nanoseconds() / 1'000'000'000) +
-                    ' ' + m.channel + ' ' + std::to_string(m.bytes.at(0)));
+      all.push_back((m.kind == Kind::kOutput ? "o" : "i") +
+                    std::to_string(m.at.nanoseconds() / 1'000'000'000) + ' ' + m.channel + ' ' +
+                    std::to_string(m.bytes.at(0)));
     }
     return all;
   }
