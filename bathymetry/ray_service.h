@@ -42,6 +42,7 @@ struct RayAnswers {
 };
 
 // terrain_version: version_text(terrain.version()), made once by the caller.
-RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, const RayBatch& batch);
+[[nodiscard]] RayAnswers answer(const Terrain& terrain, const std::string& terrain_version,
+                                const RayBatch& batch);
 
 }  // namespace halocline::bathymetry

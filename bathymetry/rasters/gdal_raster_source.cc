@@ -228,8 +228,8 @@ void GdalRasterSource::State::read_block(int first_column, int columns_read, Ras
 RasterWindow GdalRasterSource::read(const PixelPosition& low, const PixelPosition& high,
                                     PostCounts& counts) const {
   const State& s = state_;
-  const auto bounded = [](double value, double least, double most) {
-    return static_cast<int>(std::clamp(value, least, most));
+  const auto bounded = [](double value, double min, double max) {
+    return static_cast<int>(std::clamp(value, min, max));
   };
   // A global raster may be entered from either side of its seam, by no more than a turn.
   const double min_column = s.period > 0 ? -s.period : 0,

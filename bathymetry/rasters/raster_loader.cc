@@ -14,9 +14,9 @@
 namespace halocline::bathymetry {
 namespace {
 
-constexpr int kBlockPosts = 16;            // posts each way that are mapped by their corners
-constexpr double kLargestMapError = 1e-4;  // of a pixel, at the block's middle, where it is greatest
-constexpr int kDepthRounds = 3;            // of the fixed point in enu mode: each gains four digits
+constexpr int kBlockPosts = 16;        // posts each way that are mapped by their corners
+constexpr double kMaxMapError = 1e-4;  // of a pixel, at the block's middle, where it is greatest
+constexpr int kDepthRounds = 3;        // of the fixed point in enu mode: each gains four digits
 
 // From the plane of the grid to the raster's posts.
 class PostMap {
@@ -92,7 +92,7 @@ class BlockMap {
         between(between(corners_[0], corners_[1], 0.5), between(corners_[2], corners_[3], 0.5), 0.5);
     const PixelPosition middle =
         map.pixel(0.5 * (g.x_at(i) + g.x_at(i + rows - 1)), 0.5 * (g.y_at(j) + g.y_at(j + columns - 1)), 0);
-    smooth_ = std::hypot(mean.column - middle.column, mean.row - middle.row) < kLargestMapError;
+    smooth_ = std::hypot(mean.column - middle.column, mean.row - middle.row) < kMaxMapError;
   }
   PixelPosition pixel(int i, int j) const {
     if (!smooth_) return exact(i, j);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kDeepestM = 12'000, kHighestM = 9'500;
 constexpr float kMark = 9999;
-constexpr float kSteepestStepM = 2000;  // between neighbouring posts of real terrain
+constexpr float kMaxStepM = 2000;  // between neighbouring posts of real terrain
 
 bool is_mark(float value) { return std::abs(value) == kMark; }
 
@@ -24,7 +24,7 @@ bool has_believable_neighbour(const RasterWindow& window, int row, int column) {
       const float other =
           window.depths_m[static_cast<std::size_t>(r) * static_cast<std::size_t>(window.columns) +
                           static_cast<std::size_t>(c)];
-      if (!is_mark(other) && std::abs(other - value) <= kSteepestStepM) return true;
+      if (!is_mark(other) && std::abs(other - value) <= kMaxStepM) return true;
     }
   }
   return false;

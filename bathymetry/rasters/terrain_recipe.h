@@ -33,7 +33,7 @@ struct DomainRecipe {
   // The grid; its posts lie symmetrically about the centre.
   GridGeometry geometry() const;
   // True when both sizes are whole multiples of the spacing, at least one.
-  bool is_possible() const;
+  [[nodiscard]] bool is_possible() const;
 };
 
 struct NestedRecipe {
