@@ -119,7 +119,7 @@ TEST_F(BusTest, ReportsARefusalWithChannelAndReasonFirstTenthAndHundredthTime) {
   drain();
   const std::string reports = ::testing::internal::GetCapturedStderr();
   EXPECT_EQ(std::count(reports.begin(), reports.end(), '\n'), 3) << reports;
-  EXPECT_THAT(reports, HasSubstr("channel=STATE.a count=1 reason=\"vehicle_id is no vehicle id"));
+  EXPECT_THAT(reports, HasSubstr("channel=STATE.a count=1 reason=\"vehicle_id is -1; allowed is 1 and up"));
   EXPECT_THAT(reports, HasSubstr("count=10 "));
   EXPECT_THAT(reports, HasSubstr("count=100 "));
   EXPECT_EQ(bus_.counters().refused, 250);
