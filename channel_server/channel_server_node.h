@@ -8,7 +8,7 @@
 // Of several servers of one water (rules.medium.shard) each receives what all the others receive and publishes its
 // share; the first also ENVIRONMENT; LINK_QUERYs go by their request_id; PING_ANSWER passes on answers to pings.
 //
-// With a journal a server that was killed goes on where it was (server_recovery.h; docs/time.md).
+// With a journal a server that was killed goes on where it was (server_recovery.h; docs/architecture.md).
 #pragma once
 
 #include <algorithm>

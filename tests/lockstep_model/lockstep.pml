@@ -1,4 +1,4 @@
-/* The lockstep protocol of docs/time.md, for spin (bus/lockstep/lockstep_conductor.h, bus/lockstep/lockstep_participant.h).
+/* The lockstep protocol of docs/architecture.md, for spin (bus/lockstep/lockstep_conductor.h, bus/lockstep/lockstep_participant.h).
  *
  * A run is STEPS rounds; in each every one of PARTS participants takes one turn. What is in a turn is left out; so are
  * windows (a turn is a turn), slices (a datagram is a datagram) and who is due (all are, always).
