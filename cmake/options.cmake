@@ -17,6 +17,7 @@ target_include_directories(halocline_options INTERFACE ${CMAKE_SOURCE_DIR})
 if(HALOCLINE_SANITIZE)
   add_compile_options(-fsanitize=${HALOCLINE_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${HALOCLINE_SANITIZE})
+  add_compile_options(-Wno-maybe-uninitialized)  # GCC 12 sees uninitialised members in instrumented std::function and std::regex
   if(HALOCLINE_SANITIZE MATCHES undefined)
     # GCC 12's vptr check of a call through a pointer to member, as LCM's header makes it, reads a temporary that
     # was never set and crashes on correct code.
