@@ -31,7 +31,7 @@ if(CCACHE)
 endif()
 
 # What nearly every file includes, parsed once: it halves the time of a build. Files still include what they use
-# (tests/layers looks), and a target whose options change a macro of these headers does without (NO_COMMON_HEADERS).
+# (scripts/check_includes looks), and a target whose options change a macro of these headers does without (NO_COMMON_HEADERS).
 set(HALOCLINE_COMMON_HEADERS
   <Eigen/Dense> <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <optional> <set> <span>
   <sstream> <stdexcept> <string> <string_view> <tuple> <utility> <vector>)
