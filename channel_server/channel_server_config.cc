@@ -35,15 +35,15 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   bus::seconds(v, "state_timeout_s", r.position.state_timeout,
                {0.01, 3600, "s", "a vehicle without a younger state leaves the tables"});
   bus::seconds(v, "max_lateness_s", r.medium.max_lateness,
-               {0, 600, "s", "how long after its start a transmission may be heard of"});
+               {0, 600, "s", "how long after its start a SEND may be received"});
   bus::seconds(v, "max_earliness_s", r.medium.max_earliness,
                {0, 3600, "s", "how long before its start a transmission may be announced"});
   visit_count(v, "bottom_points", r.bottom_points,
-              {1, 64, "", "points of the bottom asked about for each link"});
+              {1, 64, "", "points of the bottom surveyed for each link"});
   v.number("echo_reuse_distance_m", r.echo_reuse_distance_m,
-           {0, 1e5, "m", "how far the ends of a link may move before its echoes are asked anew"});
+           {0, 1e5, "m", "how far the ends of a link may move before its echoes are surveyed again"});
   v.number("profile_reuse_distance_m", r.profile.reuse_distance_m,
-           {0.1, 1000, "m", "rays: lattice of the places between which the bottom is asked about"});
+           {0.1, 1000, "m", "rays: lattice of the ends of bottom profiles"});
   v.number("profile_spacing_m", r.profile.spacing_m,
            {1, 1000, "m", "rays: samples of the bottom lie no further apart (16 to 256 of a link)"});
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});

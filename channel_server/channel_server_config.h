@@ -86,7 +86,7 @@ struct ServerRules {
   MediumRule medium;
   AskingRule asking;
   int bottom_points = 9;             // under each link, for its echoes
-  double echo_reuse_distance_m = 5;  // how far the ends of a link may move before its echoes are asked anew
+  double echo_reuse_distance_m = 5;  // how far the ends of a link may move before its echoes are surveyed again
   ProfileRule profile{.reuse_distance_m = 25, .spacing_m = 25};
   int threads = 1;  // that compute link tables
 };

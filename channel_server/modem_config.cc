@@ -120,7 +120,7 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   visit_max_payload(v, m);
   visit_reception(v, a);
   visit_beam(v, a.beam);
-  bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "asked to send while sending");
+  bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "on a SEND during a transmission");
   if (!v.writing() && m.profile != kGenericProfile) {
     bus::report_refusal(v, "profile", [&] { require_packets_of(load_modem(m.profile, v.folder()), a); });
   }

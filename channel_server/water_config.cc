@@ -132,12 +132,13 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
            {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
   v.number("max_bounce_loss_db", p.max_bounce_loss_db,
            {1, 200, "dB", "rays: of all bounces of a path; paths that lose more are dropped"});
-  v.number("speed_tolerance_mps", p.speed_tolerance_mps,
-           {0, 1, "m/s", "rays: rows of the water that others say to that are left out"});
+  v.number(
+      "speed_tolerance_mps", p.speed_tolerance_mps,
+      {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});
   v.number("reuse_distance_m", p.reuse_distance_m,
            {0, 1000, "m", "rays: length of the cells that share a search, a tenth high; 0: none"});
   v.number("shadow_loss_db", p.shadow_loss_db,
-           {0, 400, "dB", "rays: transmission loss told where no ray gets; 0: silence"});
+           {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
   v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
 }
 
