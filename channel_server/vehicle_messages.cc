@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "channel_server/modem_config.h"
+#include "channel_server/modems/modem_config.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

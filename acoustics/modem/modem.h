@@ -2,7 +2,7 @@
 //
 // The generic profile takes the four parameters of Sehgal, Cernea and Birk 2010: strength (source level),
 // cut-off (least receivable level), bandwidth and centre frequency. Those of real modems are data:
-// models/modems/*.toml, read by channel_server/modem_config.h.
+// models/modems/*.toml, read by channel_server/modems/modem_config.h.
 // A value; nothing here knows a bus or a clock. The transducer's pattern in elevation weighs the paths of sound
 // at both ends; noise comes from all around and is weighed by the directivity index alone. Left out: patterns in
 // bearing.

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "channel_server/modem_config.h"
+#include "channel_server/modems/modem_config.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {

@@ -6,7 +6,7 @@
 #include "bus/message_checks.h"
 #include "channel_server/environment_messages.h"
 #include "channel_server/link_messages.h"
-#include "channel_server/modem_config.h"
+#include "channel_server/modems/modem_config.h"
 #include "channel_server/packet_messages.h"
 #include "channel_server/vehicle_messages.h"
 #include "core/check.h"

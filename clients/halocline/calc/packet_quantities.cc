@@ -4,7 +4,7 @@
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/convolutional_code.h"
 #include "acoustics/rays/ray_doppler.h"
-#include "channel_server/modem_config.h"
+#include "channel_server/modems/modem_config.h"
 #include "clients/halocline/calc/columns.h"
 #include "core/check.h"
 #include "core/units.h"

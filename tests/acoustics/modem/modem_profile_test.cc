@@ -9,7 +9,7 @@
 
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
-#include "channel_server/modem_config.h"
+#include "channel_server/modems/modem_config.h"
 #include "core/check.h"
 #include "tests/acoustics/reference_rows.h"
 #include "tests/support/csv.h"

@@ -1,8 +1,8 @@
-#include "channel_server/modem_config.h"
+#include "channel_server/modems/modem_config.h"
 
 #include <filesystem>
 
-#include "channel_server/built_in_modems.h"
+#include "channel_server/modems/built_in_modems.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
