@@ -69,7 +69,8 @@ LinkModel::LinkModel(const Environment& environment, const Modem& transmitter, c
   tabulate_absorption();
 }
 
-// The running integral of alpha dz, boundary by boundary.
+// The running integral of alpha(z, f) dz, boundary by boundary, by Gauss-Legendre. A straight path has
+// integral of alpha ds = L / (z2 - z1) integral of alpha dz.
 void LinkModel::tabulate_absorption() {
   const std::vector<double>& boundaries = environment_.profile.cell_boundaries_m();
   const GaussLegendreRule& rule = gauss_legendre_5();

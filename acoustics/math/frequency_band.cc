@@ -10,6 +10,7 @@ namespace halocline::acoustics {
 namespace {
 
 void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz, double panel_ratio) {
+  // Panels of equal ratio, f_k = low (high / low)^(k / n) with n = ceil(ln(high / low) / ln(panel_ratio)).
   const double wanted = std::log(high_hz / low_hz) / std::log(panel_ratio);
   const int panels = std::max(1, static_cast<int>(std::ceil(wanted)));
   const GaussLegendreRule& rule = gauss_legendre_16();

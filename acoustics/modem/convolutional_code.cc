@@ -108,6 +108,8 @@ std::vector<SpectrumTerm> distance_spectrum(const ConvolutionalCode& code, int m
   for (const unsigned generator : code.generators) {
     require(generator > 0 && generator < 2 * states, "a generator is longer than the constraint length");
   }
+  // Terms of the transfer function T(D, N) of the trellis (Proakis, 4th edition, section 8.2): a_d is the coefficient of
+  // D^d in T(D, 1), B_d that in dT/dN at N = 1, summed bit by bit over all paths that leave state 0 and return once.
   const auto distances = static_cast<std::size_t>(max_distance) + 1;
   Front front(states, std::vector<Bundle>(distances));
   extend(front, edge_of(code, 0, 1), {1, 0}, 0, 1);

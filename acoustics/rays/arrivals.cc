@@ -39,7 +39,7 @@ bool are_one_fold(const Key& a, const Key& b) {
          std::abs(a.launch_rad - b.launch_rad) < kMergedAngle;
 }
 
-// The louder of the two, with the pressure of both.
+// The stronger of the two, with the pressure of both: the sum of A e^(i (phi - 2 pi f t)) at the carrier f.
 Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   const auto phasor = [frequency_hz](const Arrival& path) {
     return std::polar(path.amplitude, path.phase_rad - 2 * pi * std::fmod(frequency_hz * path.delay_s, 1.0));

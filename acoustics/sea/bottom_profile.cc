@@ -83,6 +83,7 @@ void BottomProfile::bend_facets() {
     const double turn = std::atan(right.slope) - std::atan(left.slope);
     right.smooth_group = left.smooth_group;
     if (turn == 0) continue;  // one straight piece: no corner to part rays at
+    // At the common point of a bend the reflecting direction is the mean of both: half the turn from each.
     if (is_bend(i)) {
       left.turn1 = turn / 2;
       right.turn0 = -turn / 2;
@@ -90,6 +91,7 @@ void BottomProfile::bend_facets() {
       ++right.smooth_group;
     }
   }
+  // d(turn)/ds along the facet: (turn1 - turn0) / length, length = (r1 - r0) / cos.
   for (Facet& facet : facets_)
     facet.bend_per_m = (facet.turn1 - facet.turn0) * facet.cosine / (facet.r1 - facet.r0);
 }
