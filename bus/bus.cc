@@ -47,11 +47,11 @@ struct Bus::Subscription {
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     if (bus->failure_) return;  // one failure ends the node; nothing more is handled on its way out
     try {
-      std::string_view heard_on = channel;
+      std::string_view received_on = channel;
       bus->received_at_ = SimTime::from_utime(buffer->recv_utime);
-      bus->answered_ = heard_on.starts_with(channels::kRepair.prefix);
-      if (bus->answered_) heard_on.remove_prefix(channels::kRepair.prefix.size());
-      handler(heard_on, buffer->data, buffer->data_size);
+      bus->is_repair_ = received_on.starts_with(channels::kRepair.prefix);
+      if (bus->is_repair_) received_on.remove_prefix(channels::kRepair.prefix.size());
+      handler(received_on, buffer->data, buffer->data_size);
     } catch (...) {
       bus->failure_ = std::current_exception();
     }
@@ -107,20 +107,20 @@ void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handle
 }
 
 void Bus::replay(std::string_view channel, const std::vector<std::uint8_t>& bytes) {
-  answered_ = false;
+  is_repair_ = false;
   for (std::size_t i = 0; i < subscribed_.size(); ++i) {
     if (!ChannelPattern(subscribed_[i].expression).matches(channel)) continue;
     subscriptions_[i]->handler(channel, bytes.data(), bytes.size());
   }
 }
 
-void Bus::keep_published(std::string_view channel, std::int64_t session, std::int64_t number,
-                         std::vector<std::uint8_t> bytes) {
-  if (repair_) repair_->on_published_earlier(channel, session, number, std::move(bytes));
+void Bus::restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
+                          std::vector<std::uint8_t> bytes) {
+  if (repair_) repair_->restore_history(channel, session, sequence, std::move(bytes));
 }
 
-bool Bus::is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence) {
-  const auto arrival = flows_.on_message(steady_, channel, session, sequence, answered_);
+bool Bus::is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence) {
+  const auto arrival = flows_.on_message(steady_, channel, session, sequence, is_repair_);
   counters_.gaps += arrival.newly_missing;
   counters_.repaired += arrival.fills_gap ? 1 : 0;
   if (!repair_ || !arrival.is_repeated) return false;
@@ -128,8 +128,8 @@ bool Bus::is_repeated(std::string_view channel, std::int64_t session, std::int64
   return true;
 }
 
-bool Bus::hears(std::string_view channel) const {
-  return std::any_of(heard_.begin(), heard_.end(),
+bool Bus::is_subscribed_to(std::string_view channel) const {
+  return std::any_of(patterns_.begin(), patterns_.end(),
                      [&](const ChannelPattern& pattern) { return pattern.matches(channel); });
 }
 
@@ -137,15 +137,15 @@ void Bus::enable_repair() {
   if (repair_) return;
   repair_ = std::make_unique<FlowRepair>(identity_.name, identity_.session, flows_);
   subscribe<repair_request_t>(channels::kRepairRequest,
-                              [this](const repair_request_t& request) { answer(request); });
+                              [this](const repair_request_t& request) { resend(request); });
   subscribe<flow_heartbeat_t>(
       channels::kHeartbeat, [this](std::string_view, const flow_heartbeat_t& heartbeat) {
-        counters_.gaps += repair_->on_heartbeat(steady_, heartbeat,
-                                                [this](std::string_view channel) { return hears(channel); });
+        counters_.gaps += repair_->on_heartbeat(
+            steady_, heartbeat, [this](std::string_view channel) { return is_subscribed_to(channel); });
       });
 }
 
-void Bus::answer(const repair_request_t& request) {
+void Bus::resend(const repair_request_t& request) {
   for (const Bytes* message : repair_->answers_to(request)) {
     publish_bytes(channels::kRepair.of(request.missing_channel), message->data(), message->size());
   }

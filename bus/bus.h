@@ -21,7 +21,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,42 +31,12 @@
 #include "bus/event_log.h"
 #include "bus/flow_repair.h"
 #include "bus/message_codec.h"
+#include "bus/node_identity.h"
+#include "bus/sequence_number.h"
+#include "bus/subscription.h"
 #include "core/names.h"
 
 namespace halocline::bus {
-
-// The order in which participants step at one instant of lockstep (lockstep_schedule.h): who makes things known
-// before who acts on them.
-enum class Stage { kTime, kTerrain, kVehicles, kPilots, kTraffic, kClients, kChannel };
-
-// Who speaks: the node's name (is_valid_name), a number that differs each time it is started, and its stage.
-struct NodeIdentity {
-  std::string name;
-  std::int64_t session = 0;
-  Stage stage = Stage::kClients;
-};
-
-// What receiving a message may do to a node. kStoreOnly is a promise: its handler only stores, so that the node is due
-// when it was due before. Lockstep then need not ask the node at once, and others may go further by themselves.
-enum class Wakeup { kMayAdvanceDue, kStoreOnly };
-
-// A subscription: an LCM regular expression, and what its messages may do to the node.
-struct Subscribed {
-  std::string expression;
-  Wakeup wakeup = Wakeup::kMayAdvanceDue;
-};
-
-// What a node has counted since it started; published in STATUS.
-struct BusCounters {
-  std::int64_t received = 0;
-  std::int64_t sent = 0;
-  std::int64_t refused = 0;
-  std::int64_t gaps = 0;
-  std::int64_t repaired = 0;
-  std::int64_t lost = 0;
-  std::int64_t duplicates = 0;
-  std::int64_t late = 0;
-};
 
 class Bus {
  public:
@@ -92,13 +61,13 @@ class Bus {
   void subscribe(const Family& family, FamilyHandler<Message> handler,
                  Wakeup wakeup = Wakeup::kMayAdvanceDue);
 
-  // From now on what is published goes to `outbox` and nowhere else: who runs the node delivers it.
+  // Redirects what is published to `outbox`, and nowhere else: the runner of the node delivers it.
   using Outbox = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void set_outbox(Outbox outbox) { outbox_ = std::move(outbox); }
   // All subscriptions, in the order they were made.
   const std::vector<Subscribed>& subscribed() const { return subscribed_; }
 
-  // Messages as bytes, for who passes them on: nothing is decoded, nothing counted as received.
+  // Messages as bytes, for bridges and recorders: nothing is decoded, nothing counted as received.
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   void subscribe_to_all(RawHandler handler) {
@@ -107,15 +76,16 @@ class Bus {
 
   // The wall time (Unix) at which LCM received the message that is being handled; the kernel's stamp over udpm.
   SimTime received_at() const { return received_at_; }
-  // From now on `tap` is shown, before its handler, each message that is accepted.
+  // `tap` is called with each message that is accepted, before its handler.
   void set_tap(RawHandler tap) { tap_ = std::move(tap); }
-  // Handles a message as if LCM had dispatched it, before anything else is heard: what an earlier life of
-  // this node heard (message_journal.h). What follows it in its flow is then known to be missing, and
-  // repaired.
+  // Handles a message as if LCM had dispatched it, before anything else is received: an input of an earlier
+  // incarnation of this node (message_journal.h). What follows it in its flow is then known to be missing, and
+  // is repaired.
   void replay(std::string_view channel, const std::vector<std::uint8_t>& bytes);
-  // An earlier life of this node published this: it goes on being repaired. After enable_repair().
-  void keep_published(std::string_view channel, std::int64_t session, std::int64_t number,
-                      std::vector<std::uint8_t> bytes);
+  // Takes a message that an earlier incarnation of this node published into the history from which repair
+  // requests are answered. After enable_repair().
+  void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
+                       std::vector<std::uint8_t> bytes);
   // The last message of each flow that is repaired.
   std::vector<FlowHistory::LastMessage> last_published() const {
     return repair_ ? repair_->history().last_messages() : std::vector<FlowHistory::LastMessage>();
@@ -124,14 +94,14 @@ class Bus {
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
 
-  // On a bus that loses datagrams: from now on this Bus keeps what it publishes, repairs what it misses, and ignores
-  // what comes twice (flow_repair.h). Whoever runs it calls set_steady() before LCM dispatches, and repair() at
+  // For a bus that loses datagrams: from now on this Bus keeps what it publishes, requests what it misses, and
+  // drops duplicates (flow_repair.h). Its runner calls set_steady() before LCM dispatches, and repair() at
   // next_repair() or earlier.
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady);
   SimTime next_repair() const { return repair_ ? repair_->next_due() : SimTime::never(); }
-  // Another run has begun: whoever published in the old one may number anew.
+  // Another run has begun: publishers of the old one may start their sequences anew.
   void forget_flows() { flows_.forget(); }
 
   const NodeIdentity& identity() const { return identity_; }
@@ -144,14 +114,13 @@ class Bus {
 
  private:
   struct Subscription;
-  // `regular_expression` matches channels; what was lost on them and comes again on REPAIR.<channel> is
-  // handled as if heard there.
+  // `regular_expression` matches channels; a repair on REPAIR.<channel> is handled as if received there.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
   template <class Message>
   bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
-  bool is_repeated(std::string_view channel, std::int64_t session, std::int64_t sequence);
-  bool hears(std::string_view channel) const;
-  void answer(const repair_request_t& request);
+  bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
+  bool is_subscribed_to(std::string_view channel) const;
+  void resend(const repair_request_t& request);
 
   lcm::LCM& lcm_;
   NodeIdentity identity_;
@@ -160,8 +129,8 @@ class Bus {
   FlowWatch flows_;
   std::unique_ptr<FlowRepair> repair_;
   SimTime steady_, received_at_;
-  bool answered_ = false;              // what is being handled came on REPAIR.<channel>
-  std::vector<ChannelPattern> heard_;  // what is subscribed to as messages, not as bytes
+  bool is_repair_ = false;                // the message being handled came on REPAIR.<channel>
+  std::vector<ChannelPattern> patterns_;  // of the subscriptions to messages, not to bytes
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
@@ -173,31 +142,6 @@ class Bus {
 // An LCM regular expression that matches `channel` and nothing else.
 std::string escaped(std::string_view channel);
 
-// The number of a message in its flow: of types that are numbered. Of a packet it is the packet's, because a SEND is
-// repeated on purpose.
-template <class Message>
-concept IsPacketToSend = requires(const Message& m) {
-  m.packet_sequence;
-  m.payload_size;
-  m.source_id;
-  m.session;
-}
-&&!requires(const Message& m) { m.sequence; };
-template <class Message>
-concept IsOfFlow =
-    !std::is_same_v<Message, flow_heartbeat_t> && (IsPacketToSend<Message> || requires(const Message& m) {
-      m.session;
-      m.sequence;
-    });
-template <class Message>
-std::int64_t number_in_flow(const Message& message) {
-  if constexpr (IsPacketToSend<Message>) {
-    return message.packet_sequence;
-  } else {
-    return message.sequence;
-  }
-}
-
 // ---- implementation of the templates
 
 template <class Message>
@@ -205,17 +149,17 @@ void Bus::publish(std::string_view channel, const Message& message) {
   Bytes bytes = encoded(message);
   publish_bytes(channel, bytes.data(), bytes.size());
   if constexpr (IsOfFlow<Message>) {
-    if (repair_) repair_->on_published(channel, message.session, number_in_flow(message), std::move(bytes));
+    if (repair_) repair_->on_published(channel, message.session, sequence_of(message), std::move(bytes));
   }
 }
 
 template <class Message>
 void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup wakeup) {
-  heard_.emplace_back(escaped(channel));
-  const auto decode_and_handle = [this, handler = std::move(handler)](std::string_view heard_on,
+  patterns_.emplace_back(escaped(channel));
+  const auto decode_and_handle = [this, handler = std::move(handler)](std::string_view received_on,
                                                                       const void* data, std::size_t size) {
     Message message;
-    if (accept(heard_on, data, size, message)) handler(message);
+    if (accept(received_on, data, size, message)) handler(message);
   };
   subscribe_raw(escaped(channel), decode_and_handle, wakeup);
 }
@@ -223,13 +167,13 @@ void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup w
 template <class Message>
 void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Wakeup wakeup) {
   const std::string_view prefix = family.prefix;
-  heard_.emplace_back(escaped(prefix) + ".*");
+  patterns_.emplace_back(escaped(prefix) + ".*");
   const auto decode_and_handle = [this, prefix, handler = std::move(handler)](
-                                     std::string_view heard_on, const void* data, std::size_t size) {
-    const std::string_view name = heard_on.substr(prefix.size());
-    if (!is_valid_name(name)) return refuse(heard_on, "the channel's name is no valid name");
+                                     std::string_view received_on, const void* data, std::size_t size) {
+    const std::string_view name = received_on.substr(prefix.size());
+    if (!is_valid_name(name)) return refuse(received_on, "the channel's name is no valid name");
     Message message;
-    if (accept(heard_on, data, size, message)) handler(name, message);
+    if (accept(received_on, data, size, message)) handler(name, message);
   };
   subscribe_raw(escaped(prefix) + ".*", decode_and_handle, wakeup);
 }
@@ -243,8 +187,8 @@ bool Bus::accept(std::string_view channel, const void* data, std::size_t size, M
   }
   ++counters_.received;
   if constexpr (IsOfFlow<Message>) {
-    const bool is_known = is_repeated(channel, message.session, number_in_flow(message));
-    if (is_known && !IsPacketToSend<Message>) return false;
+    const bool is_duplicate = is_repetition(channel, message.session, sequence_of(message));
+    if (is_duplicate && !IsPacketToSend<Message>) return false;
   }
   if (tap_) tap_(channel, data, size);
   return true;

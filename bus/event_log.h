@@ -18,13 +18,13 @@ void set_log_level(LogLevel level);
 // "debug", "info", "warning", "error" or "silent"; throws InvalidArgument that lists them otherwise.
 LogLevel log_level_from_name(std::string_view name);
 
-// The voice of one node. Not to be shared between threads.
+// Event log of one node. Not to be shared between threads.
 class EventLog {
  public:
   explicit EventLog(std::string node_name) : node_name_(std::move(node_name)) {}
   void set_time(SimTime now) { now_ = now; }
 
-  // `details` is "key=value key=value ...", empty where the event says all.
+  // `details` is "key=value key=value ...", empty where the event's name suffices.
   void debug(std::string_view event, std::string_view details = "") const;
   void info(std::string_view event, std::string_view details = "") const;
   void warning(std::string_view event, std::string_view details = "") const;

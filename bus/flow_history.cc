@@ -8,7 +8,7 @@ void FlowHistory::keep(std::string_view channel, std::int64_t session, std::int6
   const FlowName name(channel, session);
   const auto [flow, is_new] = flows_.try_emplace(name, Kept{sequence, 0, {}});
   flow->second.last = std::max(flow->second.last, sequence);
-  flow->second.turn = ++turn_;
+  flow->second.age = ++age_;
   const std::size_t size = message.size();
   if (!flow->second.messages.emplace(sequence, std::move(message)).second) return;
   bytes_ += size;
@@ -29,9 +29,8 @@ void FlowHistory::forget_oldest_message() {
 }
 
 void FlowHistory::forget_oldest_flow() {
-  const auto oldest = std::min_element(flows_.begin(), flows_.end(), [](const auto& a, const auto& b) {
-    return a.second.turn < b.second.turn;
-  });
+  const auto oldest = std::min_element(
+      flows_.begin(), flows_.end(), [](const auto& a, const auto& b) { return a.second.age < b.second.age; });
   for (const auto& [sequence, message] : oldest->second.messages) bytes_ -= message.size();
   flows_.erase(oldest);
 }

@@ -1,5 +1,5 @@
-// What a publisher said last, kept so that whoever missed it can ask again. Bounded: the oldest messages of
-// all flows make room.
+// Retransmission buffer of one publisher: its latest messages by flow and sequence number, from which repair
+// requests are answered. Bounded: the oldest messages of all flows make room.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class FlowHistory {
   using FlowName = std::pair<std::string, std::int64_t>;  // channel, session
   struct Kept {
     std::int64_t last = 0;
-    std::uint64_t turn = 0;  // of the last message, among all
+    std::uint64_t age = 0;  // counts all messages: greater for the flow published on later
     std::map<std::int64_t, Bytes> messages;
   };
   using Flows = std::map<FlowName, Kept, std::less<>>;
@@ -50,7 +50,7 @@ class FlowHistory {
   void forget_oldest_flow();
 
   std::size_t max_bytes_, bytes_ = 0;
-  std::uint64_t turn_ = 0;
+  std::uint64_t age_ = 0;
   Flows flows_;
   std::deque<std::pair<FlowName, std::int64_t>> in_order_;
 };

@@ -39,15 +39,15 @@ flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
 }
 
 std::int64_t FlowRepair::on_heartbeat(SimTime steady, const flow_heartbeat_t& heartbeat,
-                                      const std::function<bool(std::string_view)>& hears) {
+                                      const std::function<bool(std::string_view)>& is_subscribed_to) {
   const bool is_younger = SimDuration::from_microseconds(heartbeat.age_us) <= steady - began_;
   std::int64_t missing = 0;
   for (std::size_t i = 0; i < heartbeat.flow_channel.size(); ++i) {
-    if (!hears(heartbeat.flow_channel[i])) continue;
+    if (!is_subscribed_to(heartbeat.flow_channel[i])) continue;
     missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
                               heartbeat.flow_last_sequence[i], is_younger);
   }
-  watch_.on_all_named(heartbeat.session);
+  watch_.on_all_listed(heartbeat.session);
   return missing;
 }
 

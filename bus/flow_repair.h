@@ -1,10 +1,11 @@
-// Repairs what a datagram bus loses between Halocline's programs; both sides of it, for one Bus.
+// Retransmission on a bus that loses datagrams: publisher and receiver side for one Bus (NACK-based reliable
+// multicast).
 //
-// As a publisher it keeps a bounded history of its flows, names the last number of each in a heartbeat, and
-// publishes again, on REPAIR.<channel>, what is asked for. As a hearer it watches the numbers of what it hears
-// and of heartbeats, and asks for what is missing (flow_watch.h) until it comes or is lost for good.
+// The publisher keeps a bounded history of its flows, announces the last sequence number of each in a heartbeat,
+// and answers repair requests on REPAIR.<channel>. The receiver compares the sequence numbers of messages and
+// heartbeats, and requests what is missing (flow_watch.h) until it is received or given up.
 //
-// A publisher without this library is not asked more than that: its gaps show, and stay.
+// The gaps of a publisher without this library are counted, and stay.
 #pragma once
 
 #include <algorithm>
@@ -26,10 +27,10 @@ class FlowRepair {
  public:
   static constexpr SimDuration kHeartbeatPeriod = SimDuration::from_milliseconds(250);
   static constexpr std::size_t kHistoryBytes = 16u << 20;
-  // What one request is answered with at most; the rest is asked for again.
+  // Largest answer to one request; the receiver requests the rest again.
   static constexpr std::size_t kMaxAnswerBytes = 256u << 10;
 
-  // `name` and `session`: of the node whose Bus this is. `watch`: what it hears is told to that, which outlives this.
+  // `name` and `session`: of the node whose Bus this is. `watch`: its gap detector, which must outlive this.
   FlowRepair(std::string name, std::int64_t session, FlowWatch& watch)
       : name_(std::move(name)), session_(session), history_(kHistoryBytes), watch_(watch) {}
 
@@ -37,23 +38,22 @@ class FlowRepair {
   void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     history_.keep(channel, session, sequence, std::move(message));
   }
-  // The same by an earlier life, whose flows this one goes on with: no hearer is older than they are.
-  void on_published_earlier(std::string_view channel, std::int64_t session, std::int64_t sequence,
-                            Bytes message) {
+  // The same by an earlier incarnation, whose flows this one continues: they are older than any receiver.
+  void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     resumes_ = true;
     on_published(channel, session, sequence, std::move(message));
   }
-  // The messages asked for that are still kept.
+  // The requested messages that are still kept.
   std::vector<const Bytes*> answers_to(const repair_request_t& request) const;
   const FlowHistory& history() const { return history_; }
-  // The heartbeat when it is due at `steady`, which it then is a period later again.
+  // take_heartbeat() schedules the next a period later.
   bool heartbeat_is_due(SimTime steady) const { return steady >= next_heartbeat_; }
   flow_heartbeat_t take_heartbeat(SimTime sim, SimTime steady);
 
-  // ---- as a hearer
-  // Returns how many messages of the flows that `hears` selects are newly missing.
+  // ---- as a receiver
+  // Returns how many messages of the flows that `is_subscribed_to` selects are newly missing.
   std::int64_t on_heartbeat(SimTime steady, const flow_heartbeat_t& heartbeat,
-                            const std::function<bool(std::string_view channel)>& hears);
+                            const std::function<bool(std::string_view channel)>& is_subscribed_to);
   std::vector<repair_request_t> take_requests(SimTime sim, SimTime steady);
 
   // When a heartbeat or a request is due.

@@ -9,7 +9,7 @@ namespace {
 constexpr std::int64_t kRepetitionReach = 64;
 constexpr SimDuration kRepetitionAge = SimDuration::from_milliseconds(1000);
 
-// Numbers of a hostile publisher may lie further apart than an int64 tells: then more than anyone counts.
+// Sequence numbers of a hostile publisher may lie further apart than an int64 holds: saturates.
 std::int64_t distance(std::int64_t from, std::int64_t to) {
   std::int64_t step = 0;
   return __builtin_sub_overflow(to, from, &step) ? std::numeric_limits<std::int64_t>::max() : step;
@@ -18,8 +18,8 @@ std::int64_t distance(std::int64_t from, std::int64_t to) {
 }  // namespace
 
 FlowWatch::Publisher* FlowWatch::find(std::string_view channel, std::int64_t session) {
-  const auto found = heard_.find(channel);
-  if (found == heard_.end()) return nullptr;
+  const auto found = received_.find(channel);
+  if (found == received_.end()) return nullptr;
   const auto known = std::find_if(found->second.begin(), found->second.end(),
                                   [&](const Publisher& publisher) { return publisher.session == session; });
   if (known == found->second.end()) return nullptr;
@@ -28,101 +28,103 @@ FlowWatch::Publisher* FlowWatch::find(std::string_view channel, std::int64_t ses
 }
 
 FlowWatch::Publisher& FlowWatch::add(std::string_view channel, std::int64_t session, std::int64_t first) {
-  auto found = heard_.find(channel);
-  if (found == heard_.end()) found = heard_.emplace(std::string(channel), Publishers()).first;
+  auto found = received_.find(channel);
+  if (found == received_.end()) found = received_.emplace(std::string(channel), Publishers()).first;
   if (found->second.size() >= kSessionsKept) {
     lost_ += static_cast<std::int64_t>(found->second.front().missing.size());
     found->second.erase(found->second.begin());
   }
-  // A flow that had not begun when its publisher named its others is the hearer's from number 0.
-  const bool began_after = std::find(named_.begin(), named_.end(), session) != named_.end();
-  const std::int64_t own = began_after ? std::min<std::int64_t>(first, 0) : first;
+  // A flow that was not yet in its publisher's heartbeat is expected from sequence number 0.
+  const bool began_after = std::find(listed_.begin(), listed_.end(), session) != listed_.end();
+  const std::int64_t expected = began_after ? std::min<std::int64_t>(first, 0) : first;
   Publisher publisher;
   publisher.session = session;
-  publisher.first = own;
-  publisher.last = own == std::numeric_limits<std::int64_t>::min() ? own : own - 1;
+  publisher.first = expected;
+  publisher.last = expected == std::numeric_limits<std::int64_t>::min() ? expected : expected - 1;
   found->second.push_back(std::move(publisher));
   return found->second.back();
 }
 
-std::int64_t FlowWatch::miss(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end) {
+std::int64_t FlowWatch::note_missing(Publisher& publisher, SimTime steady, std::int64_t first,
+                                     std::int64_t end) {
   const std::int64_t count = distance(first, end);
   const auto kept = static_cast<std::int64_t>(kMaxMissing);
   if (count > kept) lost_ += count == std::numeric_limits<std::int64_t>::max() ? kept : count - kept;
   for (std::int64_t sequence = count > kept ? end - kept : first; sequence < end; ++sequence) {
-    publisher.missing[sequence] = {steady + kPatience, steady + kGivenUpAfter, kFirstRetry};
+    publisher.missing[sequence] = {steady + kReorderingDelay, steady + kGivenUpAfter, kFirstRetry};
   }
   while (publisher.missing.size() > kMaxMissing) {
     publisher.missing.erase(publisher.missing.begin());
     ++lost_;
   }
-  if (count > 0) next_due_ = std::min(next_due_, steady + kPatience);
+  if (count > 0) next_due_ = std::min(next_due_, steady + kReorderingDelay);
   return count;
 }
 
 FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view channel,
-                                                std::int64_t session, std::int64_t sequence, bool answered) {
+                                                std::int64_t session, std::int64_t sequence, bool is_repair) {
   if ((session == 0 && sequence == 0) || has_no_room_for(channel)) return {};
   Publisher* publisher = find(channel, session);
   if (publisher != nullptr && publisher->missing.erase(sequence) > 0) {
-    publisher->heard_at = steady;
+    publisher->received_at = steady;
     return {.fills_gap = true};
   }
-  if (answered) return {.is_repeated = true};
+  if (is_repair) return {.is_repeated = true};
   if (publisher == nullptr) publisher = &add(channel, session, sequence);
   Classification result;
   if (sequence > publisher->last) {
-    result.newly_missing = miss(*publisher, steady, publisher->last + 1, sequence);
+    result.newly_missing = note_missing(*publisher, steady, publisher->last + 1, sequence);
     publisher->last = sequence;
   } else if (distance(sequence, publisher->last) >= kRepetitionReach ||
-             steady - publisher->heard_at >= kRepetitionAge) {
-    publisher->first = publisher->last = sequence;  // it numbers anew
-  } else if (sequence < publisher->first) {         // the first heard had overtaken it
-    result.newly_missing = miss(*publisher, steady, sequence + 1, publisher->first);
+             steady - publisher->received_at >= kRepetitionAge) {
+    publisher->first = publisher->last = sequence;  // it starts its sequence anew
+  } else if (sequence < publisher->first) {         // reordered with the first received
+    result.newly_missing = note_missing(*publisher, steady, sequence + 1, publisher->first);
     publisher->first = sequence;
   } else {
     return {.is_repeated = true};
   }
-  publisher->heard_at = steady;
+  publisher->received_at = steady;
   return result;
 }
 
 std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::int64_t session,
                                 std::int64_t last, bool from_its_start) {
-  if (last < 0 || last == std::numeric_limits<std::int64_t>::max()) return 0;  // no number of ours
+  if (last < 0 || last == std::numeric_limits<std::int64_t>::max())
+    return 0;  // no sequence number of this library
   if (has_no_room_for(channel)) return 0;
   Publisher* publisher = find(channel, session);
   if (publisher == nullptr) publisher = &add(channel, session, last + 1);
   std::int64_t newly_missing = 0;
   if (from_its_start && publisher->first > 0) {
-    newly_missing += miss(*publisher, steady, 0, publisher->first);
+    newly_missing += note_missing(*publisher, steady, 0, publisher->first);
     publisher->first = 0;
   }
   if (last > publisher->last) {
-    newly_missing += miss(*publisher, steady, publisher->last + 1, last + 1);
+    newly_missing += note_missing(*publisher, steady, publisher->last + 1, last + 1);
     publisher->last = last;
   }
   return newly_missing;
 }
 
-void FlowWatch::on_all_named(std::int64_t session) {
-  constexpr std::size_t kMaxNamed = 200;
-  if (std::find(named_.begin(), named_.end(), session) != named_.end()) return;
-  named_.push_back(session);
-  if (named_.size() > kMaxNamed) named_.pop_front();
+void FlowWatch::on_all_listed(std::int64_t session) {
+  constexpr std::size_t kMaxListed = 200;
+  if (std::find(listed_.begin(), listed_.end(), session) != listed_.end()) return;
+  listed_.push_back(session);
+  if (listed_.size() > kMaxListed) listed_.pop_front();
 }
 
 std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
   std::vector<Request> requests;
   if (steady < next_due_) return requests;
   next_due_ = SimTime::never();
-  for (auto& [channel, publishers] : heard_) {
+  for (auto& [channel, publishers] : received_) {
     for (Publisher& publisher : publishers) {
       lost_ += static_cast<std::int64_t>(std::erase_if(
           publisher.missing, [&](const auto& entry) { return entry.second.given_up <= steady; }));
       Request request{channel, publisher.session, {}};
       for (auto& [sequence, missing] : publisher.missing) {
-        if (missing.next_request <= steady && request.sequences.size() < kMaxInARequest) {
+        if (missing.next_request <= steady && request.sequences.size() < kMaxPerRequest) {
           request.sequences.push_back(sequence);
           missing.next_request = steady + missing.retry;
           missing.retry = std::min(missing.retry * 2, kLongestRetry);
@@ -136,8 +138,8 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
 }
 
 void FlowWatch::forget() {
-  heard_.clear();
-  named_.clear();
+  received_.clear();
+  listed_.clear();
   next_due_ = SimTime::never();
 }
 

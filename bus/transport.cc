@@ -58,17 +58,17 @@ std::string receive_buffer_warning(const std::string& url) {
   if (!starts_with(url, "udpm://")) return "";
   const int probe = socket(AF_INET, SOCK_DGRAM, 0);
   if (probe < 0) return "";
-  const int asked = kReceiveBufferBytes;
+  const int requested = kReceiveBufferBytes;
   int granted = 0;
   socklen_t size = sizeof granted;
-  setsockopt(probe, SOL_SOCKET, SO_RCVBUF, &asked, sizeof asked);
+  setsockopt(probe, SOL_SOCKET, SO_RCVBUF, &requested, sizeof requested);
   getsockopt(probe, SOL_SOCKET, SO_RCVBUF, &granted, &size);
   close(probe);
-  if (granted >= asked) return "";
+  if (granted >= requested) return "";
   return "the kernel grants " + std::to_string(granted) + " bytes of receive buffer, " +
-         std::to_string(asked) +
+         std::to_string(requested) +
          " are needed to lose nothing in a burst; as root: sysctl -w net.core.rmem_max=" +
-         std::to_string(asked);
+         std::to_string(requested);
 }
 
 }  // namespace halocline::bus

@@ -1,4 +1,4 @@
-// Opens an lcm::LCM the way Halocline needs it, and says clearly what is wrong with a URL.
+// Opens an lcm::LCM with the settings that Halocline needs; errors name what is wrong with a URL.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace halocline::bus {
 // messages published back to back; docs/bus.md).
 inline constexpr std::string_view kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
 
-// Lockstep's own plane: grants on this port, answers on the next.
+// Of the lockstep protocol: grants on this port, answers on the next.
 inline constexpr std::string_view kDefaultSyncUrl = "udpm://239.255.76.67:7677?ttl=0&recv_buf_size=4194304";
 
 // The same URL with the next port; throws InvalidArgument for a URL without a port.
@@ -28,7 +28,7 @@ std::string effective_url(const std::string& given);
 // simulation: allowed are udpm:// and memq://.
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url);
 
-// What to tell the user when the kernel grants less receive buffer than asked; empty when it grants enough.
+// A warning for the user when the kernel grants less receive buffer than requested; empty when it grants enough.
 std::string receive_buffer_warning(const std::string& url);
 
 }  // namespace halocline::bus

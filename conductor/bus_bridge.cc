@@ -7,7 +7,7 @@
 namespace halocline::conductor {
 namespace {
 
-// What was shown and never came back was lost: it is expected no more after so many others.
+// Mirrored messages whose echo is expected; beyond these the oldest count as lost.
 constexpr std::size_t kMaxEchoes = 100'000;
 
 std::int64_t digest_of(const lockstep_message_t& message) {
@@ -18,17 +18,16 @@ std::int64_t digest_of(const lockstep_message_t& message) {
 
 }  // namespace
 
-BusBridge::BusBridge(lcm::LCM& lcm, std::function<void(lockstep_message_t)> heard)
-    : bus_(lcm, {"outside-ear", 0}), heard_(std::move(heard)) {
-  if (!heard_) return;
-  bus_.subscribe_to_all([this](std::string_view channel, const void* data, std::size_t size) {
-    on_message(channel, data, size);
-  });
+BusBridge::BusBridge(lcm::LCM& lcm, std::function<void(lockstep_message_t)> on_message)
+    : bus_(lcm, {"bus-bridge", 0}), on_message_(std::move(on_message)) {
+  if (!on_message_) return;
+  bus_.subscribe_to_all(
+      [this](std::string_view channel, const void* data, std::size_t size) { receive(channel, data, size); });
 }
 
-void BusBridge::show(const lockstep_message_t& message) {
+void BusBridge::mirror(const lockstep_message_t& message) {
   bus_.publish_bytes(message.channel_name, message.message_bytes.data(), message.message_bytes.size());
-  if (!heard_) return;
+  if (!on_message_) return;
   const std::int64_t digest = digest_of(message);
   ++echoes_[digest];
   in_order_.push_back(digest);
@@ -38,16 +37,18 @@ void BusBridge::show(const lockstep_message_t& message) {
   in_order_.pop_front();
 }
 
-void BusBridge::on_message(std::string_view channel, const void* data, std::size_t size) {
+void BusBridge::receive(std::string_view channel, const void* data, std::size_t size) {
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   lockstep_message_t message{};
   message.channel_name = channel;
   message.num_message_bytes = static_cast<std::int32_t>(size);
   message.message_bytes.assign(bytes, bytes + size);
   const auto echo = echoes_.find(digest_of(message));
-  const bool from_lcm_itself = channel == "LCM_SELF_TEST";
-  if (echo == echoes_.end()) return from_lcm_itself ? void() : heard_(std::move(message));
-  if (--echo->second <= 0) echoes_.erase(echo);
+  if (echo != echoes_.end()) {
+    if (--echo->second <= 0) echoes_.erase(echo);
+  } else if (channel != "LCM_SELF_TEST") {
+    on_message_(std::move(message));
+  }
 }
 
 }  // namespace halocline::conductor

@@ -1,4 +1,5 @@
-// Shows a lockstep run on the ordinary bus, and hears what others say there: all but what the run itself shows.
+// Mirrors the messages of a lockstep run on the ordinary bus, and receives those of other publishers there: all but
+// its own echoes.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +14,17 @@ namespace halocline::conductor {
 
 class BusBridge {
  public:
-  // `heard`: what others say; empty when nobody wants to know (then nothing is subscribed to).
-  BusBridge(lcm::LCM& lcm, std::function<void(lockstep_message_t)> heard);
+  // `on_message` gets those of other publishers; empty: nothing is subscribed to.
+  BusBridge(lcm::LCM& lcm, std::function<void(lockstep_message_t)> on_message);
 
   // Best effort: what LCM loses is lost.
-  void show(const lockstep_message_t& message);
+  void mirror(const lockstep_message_t& message);
 
  private:
-  void on_message(std::string_view channel, const void* data, std::size_t size);
+  void receive(std::string_view channel, const void* data, std::size_t size);
 
   bus::Bus bus_;
-  std::function<void(lockstep_message_t)> heard_;
+  std::function<void(lockstep_message_t)> on_message_;
   std::unordered_map<std::int64_t, int> echoes_;  // how many are expected back, by the digest of the message
   std::deque<std::int64_t> in_order_;
 };

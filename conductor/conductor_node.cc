@@ -12,8 +12,7 @@ ConductorNode::ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDurat
 
 bus::Due ConductorNode::on_due() const { return {.sim = next_clock_}; }
 
-// A clock says what time it is now, not what time it was to be: in a paced run the step comes a little after
-// the grid, and `now` is what others must follow.
+// CLOCK carries the present time, not the grid's: in a paced run the step comes a little after the grid.
 void ConductorNode::on_step(const bus::Now& now) {
   if (now.sim < next_clock_) return;
   sim_clock_t clock;

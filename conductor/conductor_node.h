@@ -10,7 +10,7 @@ namespace halocline::conductor {
 class ConductorNode : public bus::Node {
  public:
   // `rate`: simulated seconds per wall second that CLOCK announces; 0 where time is not paced (lockstep in
-  // one process), so that whoever hears it does not run ahead. `period` > 0.
+  // one process), so that receivers do not run ahead. `period` > 0.
   ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDuration period, double rate);
 
  protected:

@@ -32,22 +32,27 @@ std::set<std::string> names_of(const std::string& list) {
 
 std::vector<bus::ProgramOption> LockstepOptions::options() {
   return {
-      {"--lockstep", "lead a lockstep: nobody passes an instant before all have finished it", nullptr,
+      {"--lockstep",
+       "coordinate a lockstep run: time advances only when all participants have finished the step", nullptr,
        &lockstep_},
-      {"--expect", "who must have joined before time goes on: names, by commas (lockstep)", &expect_},
+      {"--expect",
+       "participants that must have joined before time advances: names, separated by commas (lockstep)",
+       &expect_},
       {"--log", "LCM log of the run, stamped with simulation time (lockstep)", &log_},
-      {"--journal", "file from which a conductor that was killed goes on (lockstep)", &journal_},
-      {"--rate", "simulated seconds per wall second; 0: as fast as all follow (lockstep)", &rate_},
-      {"--drop-after",
-       "seconds of silence after which a participant is dropped; 0: it is waited for (lockstep)",
+      {"--journal", "file from which a killed conductor continues the run when started again (lockstep)",
+       &journal_},
+      {"--rate", "simulated seconds per wall second; 0: as fast as the participants step (lockstep)", &rate_},
+      {"--drop-after", "seconds of silence after which a participant is dropped; 0: never (lockstep)",
        &drop_after_},
-      {"--no-lookahead", "exchange every step: nobody goes on alone (lockstep)", nullptr, &one_by_one_},
-      {"--bridge-bus", "hear what others say on the ordinary bus, at the next instant (lockstep)", nullptr,
-       &outside_},
+      {"--no-lookahead", "one exchange per step: no participant runs ahead on its own (lockstep)", nullptr,
+       &no_lookahead_},
+      {"--bridge-bus",
+       "deliver messages of other publishers on the ordinary bus at the next instant (lockstep)", nullptr,
+       &bridge_bus_},
   };
 }
 
-bool LockstepOptions::run_if_asked(const bus::NodeProgram::Context& context) const {
+bool LockstepOptions::run_if_requested(const bus::NodeProgram::Context& context) const {
   if (!lockstep_) return false;
   LockstepRun run;
   run.expected = names_of(expect_);
@@ -55,8 +60,8 @@ bool LockstepOptions::run_if_asked(const bus::NodeProgram::Context& context) con
   run.journal_path = journal_;
   run.rate = number_of("--rate", rate_);
   run.drop_after = SimDuration::from_seconds(number_of("--drop-after", drop_after_));
-  run.windows = !one_by_one_;
-  run.hear_outside = outside_;
+  run.lookahead = !no_lookahead_;
+  run.bridge_bus = bridge_bus_;
   run.sync_url = context.sync_url;
   run_lockstep(context.lcm, context.identity, context.scenario, run, bus::stop_requested);
   return true;

@@ -10,13 +10,14 @@ namespace halocline::conductor {
 
 class LockstepOptions {
  public:
-  // Refer to this, which must outlive the parsing.
+  // They point into this, which must outlive the parsing.
   std::vector<bus::ProgramOption> options();
-  // Leads a lockstep when --lockstep was given; false when it was not. Throws InvalidArgument for impossible values.
-  bool run_if_asked(const bus::NodeProgram::Context& context) const;
+  // Coordinates a lockstep run when --lockstep was given; false when it was not. Throws InvalidArgument for impossible
+  // values.
+  bool run_if_requested(const bus::NodeProgram::Context& context) const;
 
  private:
-  bool lockstep_ = false, one_by_one_ = false, outside_ = false;
+  bool lockstep_ = false, no_lookahead_ = false, bridge_bus_ = false;
   std::string expect_ = "bathymetry,vehicle-sim,autopilot,traffic,localiser,channel-server";
   std::string log_, journal_, rate_ = "0", drop_after_ = "0";
 };

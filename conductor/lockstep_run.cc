@@ -18,11 +18,12 @@
 namespace halocline::conductor {
 namespace {
 
-// How long farewells are waited for after a stop was wished for; how long the end is told to who asks; how
-// often who is waited for is named.
-constexpr SimDuration kFarewellPatience = SimDuration::from_milliseconds(4000);
-constexpr SimDuration kLastWords = SimDuration::from_milliseconds(600);
-constexpr SimDuration kNamingPeriod = SimDuration::from_milliseconds(5000);
+// For the last turns after a stop was requested.
+constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(4000);
+// After the end, for JOINs of participants that lost the notice.
+constexpr SimDuration kLinger = SimDuration::from_milliseconds(600);
+// Between warnings that name the participants waited for.
+constexpr SimDuration kWaitingPeriod = SimDuration::from_milliseconds(5000);
 
 class Run {
  public:
@@ -32,48 +33,47 @@ class Run {
         log_(identity.name),
         grants_lcm_(bus::open_transport(bus::effective_url(run.sync_url))),
         answers_lcm_(bus::open_transport(bus::next_port(bus::effective_url(run.sync_url)))),
-        mouth_(*grants_lcm_, {identity.name, 0}),
-        ears_(*answers_lcm_, {identity.name, 0}),
+        publisher_(*grants_lcm_, {identity.name, 0}),
+        receiver_(*answers_lcm_, {identity.name, 0}),
         bus_lcm_(bus_lcm),
         node_(memq_, {identity.name, bus::session_of(scenario.seed, identity.name), bus::Stage::kTime},
               scenario.clock_period, 0.0),
         turns_(memq_, node_) {
-    std::function<void(lockstep_message_t)> heard;
-    if (run.hear_outside) heard = [this](lockstep_message_t m) { conductor_->on_outside(std::move(m)); };
-    outside_.emplace(bus_lcm, heard);
+    std::function<void(lockstep_message_t)> on_bridged;
+    if (run.bridge_bus) on_bridged = [this](lockstep_message_t m) { conductor_->inject(std::move(m)); };
+    bridge_.emplace(bus_lcm, on_bridged);
     if (!run.log_path.empty()) recorder_.emplace(log_lcm_, run.log_path, [this] { return stamp_; });
     begin(scenario);
-    listen();
+    subscribe();
   }
 
   void until_over(const std::function<bool()>& should_stop) {
-    SimTime patience_ends = SimTime::never();
-    while (!conductor_->over() && bus::steady_now() < patience_ends) {
+    SimTime give_up_at = SimTime::never();
+    while (!conductor_->over() && bus::steady_now() < give_up_at) {
       keep_pace();
       conductor_->on_timer(bus::steady_now());
-      if (should_stop() && patience_ends == SimTime::never()) {
-        conductor_->ask_to_stop();
-        patience_ends = bus::steady_now() + kFarewellPatience;
+      if (should_stop() && give_up_at == SimTime::never()) {
+        conductor_->request_stop();
+        give_up_at = bus::steady_now() + kLastTurnTimeout;
       }
-      name_who_is_waited_for();
-      hear_until(std::min({conductor_->next_timer(), next_pace_, patience_ends}));
+      warn_of_waiting();
+      dispatch_until(std::min({conductor_->next_timer(), next_pace_, give_up_at}));
     }
     if (recorder_) recorder_->close();
     if (!conductor_->over()) return log_.warning("unfinished", "the journal keeps the run open");
     const Sequencer& sequencer = conductor_->sequencer();
     log_.info("over", "t=" + std::to_string(sequencer.now().seconds()) + " rounds=" +
                           std::to_string(sequencer.rounds()) + " turns=" + std::to_string(sequencer.turns()) +
-                          " repetitions=" + std::to_string(conductor_->repetitions()));
-    for (const SimTime end = bus::steady_now() + kLastWords; bus::steady_now() < end;) hear_until(end);
+                          " retransmissions=" + std::to_string(conductor_->retransmissions()));
+    for (const SimTime end = bus::steady_now() + kLinger; bus::steady_now() < end;) dispatch_until(end);
   }
 
  private:
   void begin(const bus::Scenario& scenario) {
-    JournalContents past;
-    if (!run_.journal_path.empty()) past = read_journal(run_.journal_path);
-    if (past.bytes_cut_off > 0) log_.warning("journal-mended", "bytes=" + std::to_string(past.bytes_cut_off));
-    require(past.entries.empty() || past.entries.back().kind != EntryKind::kOver,
-            "the run of the journal " + run_.journal_path + " is over; remove it or name another");
+    JournalContents journal;
+    if (!run_.journal_path.empty()) journal = read_journal(run_.journal_path);
+    if (journal.bytes_cut_off > 0)
+      log_.warning("journal-repaired", "bytes=" + std::to_string(journal.bytes_cut_off));
     if (!run_.journal_path.empty()) journal_.emplace(run_.journal_path);
     LockstepRules rules;
     rules.expected = run_.expected;
@@ -81,59 +81,69 @@ class Run {
     rules.end = SimTime() + scenario.duration;
     rules.drop_after = run_.drop_after;
     rules.scenario_digest = bus::digest_of(scenario);
-    rules.windows = run_.windows && run_.rate == 0;
-    conductor_.emplace(std::move(rules), bus::draw_life(), mouth());
+    rules.lookahead = run_.lookahead && run_.rate == 0;
+    conductor_.emplace(std::move(rules), bus::draw_incarnation(), outputs());
     conductor_->add_local(turns_.introduction(), [this](const lockstep_turn_t& t) { return turns_.take(t); });
-    past.entries.empty() ? conductor_->start() : conductor_->resume(past.entries);
-    live_ = true;
+    if (journal.entries.empty()) {
+      conductor_->start();
+    } else {
+      conductor_->resume(journal.entries);
+    }
+    is_live_ = true;
     if (run_.rate > 0) conductor_->set_pace(SimTime());
     log_.info("started", "mode=lockstep sync_url=" + run_.sync_url);
   }
 
-  LockstepConductor::Mouth mouth() {
-    LockstepConductor::Mouth mouth;
-    mouth.grant = [this](const std::string& channel, const lockstep_grant_t& m) {
-      mouth_.publish(channel, m);
+  LockstepConductor::Outputs outputs() {
+    LockstepConductor::Outputs outputs;
+    outputs.grant = [this](const std::string& channel, const lockstep_grant_t& m) {
+      publisher_.publish(channel, m);
     };
-    mouth.notice = [this](const lockstep_notice_t& m) { mouth_.publish(bus::channels::kLockstepNotice, m); };
-    mouth.record = [this](const JournalEntry& entry) {
+    outputs.notice = [this](const lockstep_notice_t& m) {
+      publisher_.publish(bus::channels::kLockstepNotice, m);
+    };
+    outputs.record = [this](const JournalEntry& entry) {
       if (journal_) journal_->append(entry);
     };
-    mouth.said = [this](const lockstep_message_t& m) { take_down(m); };
-    mouth.report = [this](const std::string& event, const std::string& detail) {
+    outputs.publish = [this](const lockstep_message_t& m) { on_message(m); };
+    outputs.report = [this](const std::string& event, const std::string& detail) {
       log_.set_time(conductor_ ? conductor_->sequencer().now() : SimTime());
-      event == "dropped" || event == "put-out" ? log_.warning(event, detail) : log_.info(event, detail);
+      if (event == "dropped" || event == "expelled") {
+        log_.warning(event, detail);
+      } else {
+        log_.info(event, detail);
+      }
     };
-    return mouth;
+    return outputs;
   }
 
-  // What an earlier life showed is not shown again; the log is written anew.
-  void take_down(const lockstep_message_t& message) {
+  // A resumed run writes its log anew; what an earlier incarnation mirrored on the bus is not mirrored again.
+  void on_message(const lockstep_message_t& message) {
     if (recorder_) {
       stamp_ = SimTime::from_nanoseconds(message.instant_ns);
       log_lcm_.publish(message.channel_name, message.message_bytes.data(),
                        static_cast<unsigned int>(message.message_bytes.size()));
       log_lcm_.handleTimeout(0);
     }
-    if (live_) outside_->show(message);
+    if (is_live_) bridge_->mirror(message);
   }
 
-  void listen() {
-    ears_.subscribe<lockstep_join_t>(bus::channels::kLockstepJoin, [this](const lockstep_join_t& m) {
+  void subscribe() {
+    receiver_.subscribe<lockstep_join_t>(bus::channels::kLockstepJoin, [this](const lockstep_join_t& m) {
       conductor_->on_join(m, bus::steady_now());
     });
-    ears_.subscribe<lockstep_answer_t>(bus::channels::kLockstepAnswer, [this](const lockstep_answer_t& m) {
-      conductor_->on_answer(m, bus::steady_now());
-    });
+    receiver_.subscribe<lockstep_answer_t>(
+        bus::channels::kLockstepAnswer,
+        [this](const lockstep_answer_t& m) { conductor_->on_answer(m, bus::steady_now()); });
   }
 
-  void hear_until(SimTime wake) {
+  void dispatch_until(SimTime wake) {
     bus::wait_and_dispatch(*answers_lcm_, wake);
-    ears_.rethrow_if_failed();
-    if (run_.hear_outside) bus::dispatch_waiting(bus_lcm_);
+    receiver_.rethrow_if_failed();
+    if (run_.bridge_bus) bus::dispatch_waiting(bus_lcm_);
   }
 
-  // Simulation time is let go as far as the wall has come since the run began, or was taken up.
+  // Simulation time may advance as far as the wall clock has since the run began, or was resumed.
   void keep_pace() {
     const SimTime steady = bus::steady_now();
     const Sequencer& sequencer = conductor_->sequencer();
@@ -148,15 +158,15 @@ class Run {
                           wall_start + SimDuration::from_seconds((next - sim_start).seconds() / run_.rate));
   }
 
-  void name_who_is_waited_for() {
+  void warn_of_waiting() {
     const SimTime steady = bus::steady_now();
     const std::int64_t turns = conductor_->sequencer().turns();
-    if (turns != turns_seen_) {
-      turns_seen_ = turns;
-      next_naming_ = steady + kNamingPeriod;
+    if (turns != turns_before_) {
+      turns_before_ = turns;
+      next_warning_ = steady + kWaitingPeriod;
     }
-    if (steady < next_naming_) return;
-    next_naming_ = steady + kNamingPeriod;
+    if (steady < next_warning_) return;
+    next_warning_ = steady + kWaitingPeriod;
     std::string names;
     for (const std::string& name : conductor_->waiting_for()) names += (names.empty() ? "" : ",") + name;
     if (!names.empty()) log_.warning("waiting", "for=" + names);
@@ -165,21 +175,21 @@ class Run {
   LockstepRun run_;
   bus::EventLog log_;
   std::unique_ptr<lcm::LCM> grants_lcm_, answers_lcm_;
-  bus::Bus mouth_, ears_;
+  bus::Bus publisher_, receiver_;
   lcm::LCM& bus_lcm_;
   lcm::LCM memq_{"memq://"};
   ConductorNode node_;
   bus::LockstepTurns turns_;
-  std::optional<BusBridge> outside_;
-  lcm::LCM log_lcm_{"memq://"};  // what is recorded, and nothing else
+  std::optional<BusBridge> bridge_;
+  lcm::LCM log_lcm_{"memq://"};  // carries the messages to record, and nothing else
   SimTime stamp_;
   std::optional<bus::LogRecorder> recorder_;
   std::optional<Journal> journal_;
   std::optional<LockstepConductor> conductor_;
-  bool live_ = false;
+  bool is_live_ = false;
   std::optional<std::pair<SimTime, SimTime>> paced_from_;  // steady, simulation
-  SimTime next_pace_ = SimTime::never(), next_naming_ = SimTime() + kNamingPeriod;
-  std::int64_t turns_seen_ = 0;
+  SimTime next_pace_ = SimTime::never(), next_warning_ = SimTime() + kWaitingPeriod;
+  std::int64_t turns_before_ = 0;
 };
 
 }  // namespace

@@ -20,15 +20,15 @@ PacedTime::PacedTime(lcm::LCM& lcm, double rate) : bus_(lcm, {"paced-time", 0}),
 void PacedTime::on_utime(std::int64_t utime) {
   if (running_ || utime <= 0) return;
   const SimTime zero = SimTime::from_utime(utime) - scaled(steady_, rate_);
-  zero_ = heard_ ? std::max(zero_, zero) : zero;
-  heard_ = true;
+  zero_ = has_received_ ? std::max(zero_, zero) : zero;
+  has_received_ = true;
 }
 
 std::optional<SimTime> PacedTime::now(SimTime steady) {
   if (!started_listening_) started_listening_ = steady;
   if (!running_) {
     if (steady < *started_listening_ + kListening) return std::nullopt;
-    if (!heard_) zero_ = SimTime() - scaled(steady, rate_);
+    if (!has_received_) zero_ = SimTime() - scaled(steady, rate_);
     running_ = true;
   }
   return zero_ + scaled(steady, rate_);

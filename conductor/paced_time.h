@@ -1,8 +1,7 @@
 // Simulation time as the conductor makes it: the steady clock times a rate.
 //
-// A conductor that is started into a running system takes up the time that the system has coasted to: it
-// listens for a little more than the period of STATUS, then goes on from the latest utime that it heard, or
-// from 0.
+// A conductor that is started into a running system continues from the time that the system has coasted to: it
+// listens for a little more than the period of STATUS, then starts from the latest utime received, or from 0.
 #pragma once
 
 #include <optional>
@@ -14,7 +13,7 @@ namespace halocline::conductor {
 
 class PacedTime : public bus::TimeSource {
  public:
-  // Long enough to hear every node's STATUS, published once a second.
+  // Long enough to receive every node's STATUS, published once a second.
   static constexpr SimDuration kListening = SimDuration::from_milliseconds(1200);
 
   // `rate`: simulated seconds per second of steady time, above 0.
@@ -23,15 +22,15 @@ class PacedTime : public bus::TimeSource {
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
 
-  // A message of a running system that carried this utime was heard at the steady time last set.
+  // A message of a running system with this utime was received at the steady time last set.
   void on_utime(std::int64_t utime);
 
  private:
   bus::Bus bus_;
   double rate_;
   std::optional<SimTime> started_listening_;
-  SimTime zero_;  // simulation time at steady time 0, as heard so far
-  bool heard_ = false;
+  SimTime zero_;  // simulation time at steady time 0, from the messages received so far
+  bool has_received_ = false;
   bool running_ = false;
 };
 

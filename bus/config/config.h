@@ -1,4 +1,4 @@
-// How a configuration struct is described once and then read from TOML, printed, and explained.
+// Describes a configuration struct once, to be read from TOML, printed, and explained in an example.
 //
 // Each `*_config.h` declares a plain struct with defaults and a function
 //     void visit(ConfigVisitor& v, MyConfig& c) { v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "wind at 10
@@ -62,7 +62,7 @@ class ConfigVisitor {
   virtual bool writing() const = 0;
   // The folder that relative paths in the file start from: the one that holds it; "." when writing.
   virtual std::string folder() const = 0;
-  // Reports that the key's value is impossible in a way that no rule says; for checks across keys.
+  // Reports that the key's value is impossible in a way that no rule covers; for checks across keys.
   virtual void problem(std::string_view key, std::string_view what_is_allowed) = 0;
   // This table also holds keys that other programs read: unknown ones are not errors here.
   virtual void shared_with_others() = 0;
@@ -136,7 +136,7 @@ class ConfigFile {
   // Visits the whole document as one table. May be called several times, for several structs; errors add up.
   void read(const std::function<void(ConfigVisitor&)>& body);
   // Throws ConfigErrors with everything that any read() found wrong; also, when `whole_file`, every key that
-  // no read() asked for. Without it, only unknown keys of sections that were read and not shared are errors.
+  // no read() visited. Without it, only unknown keys of sections that were read and not shared are errors.
   void check(bool whole_file);
 
   std::string folder() const;  // as ConfigVisitor::folder

@@ -16,7 +16,7 @@ struct ConfigDocument {
   std::string path;
   toml::table root;
   std::vector<std::string> errors;
-  std::set<const toml::node*> asked;     // values that a read asked for
+  std::set<const toml::node*> read;      // values that have been read
   std::set<const toml::table*> entered;  // tables that a read entered
   std::set<const toml::table*> shared;   // tables whose other keys are read by other programs
 

@@ -69,7 +69,7 @@ void collect_unknown(ConfigDocument& document, const toml::table& table, const s
   const bool tolerant = !whole_file && document.shared.contains(&table);
   for (const auto& [key, value] : table) {
     const std::string name = prefix + std::string(key.str());
-    if (document.asked.contains(&value)) {
+    if (document.read.contains(&value)) {
       collect_unknown_in(document, value, name, whole_file);
     } else if (!tolerant) {
       document.add_error(document.place_of(value) + ": " + name +

@@ -46,7 +46,7 @@ ConfigReader::ConfigReader(ConfigDocument& document, toml::table& table, std::st
 
 toml::node* ConfigReader::find(std::string_view key) {
   toml::node* node = table_.get(key);
-  if (node != nullptr) document_.asked.insert(node);
+  if (node != nullptr) document_.read.insert(node);
   return node;
 }
 

@@ -15,8 +15,8 @@
 namespace halocline::conductor {
 namespace {
 
-constexpr std::uint32_t kEntryWord = 0x484c4a31;  // "HLJ1"
-constexpr std::size_t kHeadBytes = 13;            // word, kind, length, check sum
+constexpr std::uint32_t kMagic = 0x484c4a31;  // "HLJ1"
+constexpr std::size_t kHeadBytes = 13;        // magic number, kind, length, check sum
 
 // FNV-1a, 32 bits.
 std::uint32_t check_sum(std::span<const std::uint8_t> bytes) {
@@ -36,7 +36,7 @@ JournalContents read_journal(const std::string& path) {
   JournalContents contents;
   const bus::Bytes file = contents_of(path);
   std::size_t at = 0;
-  while (file.size() - at >= kHeadBytes && bus::uint32_at(file, at) == kEntryWord) {
+  while (file.size() - at >= kHeadBytes && bus::uint32_at(file, at) == kMagic) {
     const std::size_t length = bus::uint32_at(file, at + 5);
     if (file.size() - at - kHeadBytes < length) break;
     const auto bytes = std::span(file).subspan(at + kHeadBytes, length);
@@ -63,7 +63,7 @@ Journal::~Journal() { close(file_); }
 void Journal::append(const JournalEntry& entry) {
   bus::Bytes bytes;
   bytes.reserve(kHeadBytes + entry.bytes.size());
-  bus::append_uint32(kEntryWord, bytes);
+  bus::append_uint32(kMagic, bytes);
   bytes.push_back(static_cast<std::uint8_t>(entry.kind));
   bus::append_uint32(static_cast<std::uint32_t>(entry.bytes.size()), bytes);
   bus::append_uint32(check_sum(entry.bytes), bytes);

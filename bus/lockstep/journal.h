@@ -1,10 +1,9 @@
-// The conductor's memory on disk: everything its sequencer was told, in order, so that a conductor that was killed
-// goes on where it was.
+// Write-ahead journal of the conductor: the inputs of its sequencer in their order, from which a new incarnation
+// continues the run.
 //
-// A file of entries: a word that begins each, its kind, the length of its bytes, a check sum, the bytes (LCM-encoded
-// messages). Each entry is handed to the kernel in one write before anything that follows from it is said, so a
-// killed process loses nothing that anybody acted upon; a machine that loses power may (nothing is forced to the
-// disk). What a kill cut off at the end is no entry, and is removed.
+// A file of entries: magic number, kind, length, check sum, bytes (LCM-encoded messages). Each entry is handed to the
+// kernel in one write before anything that follows from it is sent, so a killed process loses nothing that anybody
+// acted upon; a machine that loses power may (no fsync). An entry that a kill cut short is removed.
 #pragma once
 
 #include <string>
@@ -14,15 +13,15 @@
 
 namespace halocline::conductor {
 
-enum class EntryKind : std::uint8_t { kRun, kJoin, kRound, kFarewell, kOutside, kEnd, kOver };
+enum class EntryKind : std::uint8_t { kRun, kJoin, kRound, kLeave, kInjected, kEnd, kOver };
 
 struct JournalEntry {
   EntryKind kind = EntryKind::kRun;
   bus::Bytes bytes;
 };
 
-// All whole entries of the file, oldest first; empty when there is no file. What follows the last whole one is cut
-// off the file, and told. Throws std::runtime_error when the file cannot be read or cut.
+// All whole entries of the file, oldest first; empty when there is no file. The bytes behind the last whole one are
+// cut off the file, and counted. Throws std::runtime_error when the file cannot be cut.
 struct JournalContents {
   std::vector<JournalEntry> entries;
   std::size_t bytes_cut_off = 0;
@@ -31,13 +30,13 @@ JournalContents read_journal(const std::string& path);
 
 class Journal {
  public:
-  // Goes on at the end of the file, or begins one. Throws InvalidArgument when it cannot be written.
+  // Appends to the file, or creates it. Throws InvalidArgument when it cannot be written.
   explicit Journal(const std::string& path);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  // Throws std::runtime_error when the disk refuses it.
+  // Throws std::runtime_error when it cannot be written whole.
   void append(const JournalEntry& entry);
 
  private:

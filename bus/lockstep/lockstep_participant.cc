@@ -6,23 +6,23 @@
 
 namespace halocline::bus {
 
-LockstepParticipant::LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Mouth mouth)
-    : join_(std::move(introduction)), take_(std::move(take)), mouth_(std::move(mouth)) {
-  require(join_.incarnation != 0, "a participant needs a life");
+LockstepParticipant::LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Outputs outputs)
+    : join_(std::move(introduction)), take_(std::move(take)), outputs_(std::move(outputs)) {
+  require(join_.incarnation != 0, "a participant needs an incarnation");
 }
 
 void LockstepParticipant::on_grant(const lockstep_grant_t& grant, SimTime steady) {
-  const auto& lives = grant.incarnations;
-  const auto me = std::find(lives.begin(), lives.end(), join_.incarnation);
-  if (me == lives.end() || has_ended() || (join_.run_id != 0 && grant.run_id != join_.run_id)) return;
+  const auto& addressed = grant.incarnations;
+  const auto me = std::find(addressed.begin(), addressed.end(), join_.incarnation);
+  if (me == addressed.end() || has_ended() || (join_.run_id != 0 && grant.run_id != join_.run_id)) return;
   join_.run_id = grant.run_id;
-  last_heard_ = steady;
-  next_join_ = steady + kShowPeriod;
-  const std::int64_t first = grant.first_turns[static_cast<std::size_t>(me - lives.begin())];
+  last_received_ = steady;
+  next_join_ = steady + kKeepAlivePeriod;
+  const std::int64_t first = grant.first_turns[static_cast<std::size_t>(me - addressed.begin())];
   const std::int64_t last = first + grant.num_turns - 1;
   if (last == turns_taken_ && !last_result_.empty()) return answer();
   if (last <= turns_taken_ || first > turns_taken_ + 1)
-    return say_where();  // the conductor thinks it elsewhere
+    return send_join();  // the conductor does not know how many turns it has taken
   const auto body = grants_.add(last, grant.slice_number, grant.slice_count, grant.slice_bytes);
   if (!body) return;
   const auto turns = decoded_list<lockstep_turn_t>(*body);
@@ -58,18 +58,18 @@ void LockstepParticipant::answer() {
     const auto slice = slice_of(last_result_, answer.slice_number);
     answer.slice_bytes.assign(slice.begin(), slice.end());
     answer.num_slice_bytes = static_cast<std::int32_t>(slice.size());
-    mouth_.answer(answer);
+    outputs_.answer(answer);
   }
 }
 
 void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime steady) {
   if (notice.incarnation != join_.incarnation || has_ended()) return;
-  last_heard_ = steady;
+  last_received_ = steady;
   switch (notice.notice_kind) {
     case lockstep_notice_t::WELCOME:
       join_.run_id = notice.run_id;
       if (state_ == State::kJoining) state_ = State::kTakingPart;
-      next_join_ = steady + kShowPeriod;
+      next_join_ = steady + kKeepAlivePeriod;
       return;
     case lockstep_notice_t::EXPELLED:
       reason_ = notice.reason;
@@ -82,20 +82,20 @@ void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime ste
 
 void LockstepParticipant::on_timer(SimTime steady) {
   if (has_ended() || steady < next_join_) return;
-  if (state_ == State::kLeft && steady > last_heard_ + kLinger) {
+  if (state_ == State::kLeft && steady > last_received_ + kLinger) {
     state_ = State::kOver;
     return;
   }
-  say_where();
-  next_join_ = steady + (state_ == State::kJoining ? kJoinPeriod : kShowPeriod);
+  send_join();
+  next_join_ = steady + (state_ == State::kJoining ? kJoinPeriod : kKeepAlivePeriod);
 }
 
-void LockstepParticipant::say_where() {
+void LockstepParticipant::send_join() {
   join_.turns_taken = turns_taken_;
-  mouth_.join(join_);
+  outputs_.join(join_);
 }
 
-void LockstepParticipant::ask_to_leave() {
+void LockstepParticipant::request_leave() {
   join_.wants_to_leave = 1;
   next_join_ = SimTime::at_once();
 }

@@ -1,9 +1,9 @@
-// The participant's side of the lockstep protocol (docs/time.md): joins, takes the turns it is granted, once and in
+// The participant's side of the lockstep protocol (docs/architecture.md): joins, takes the turns it is granted, once and in
 // their order, and answers. A state machine: messages and steady time in, messages out; no socket, no clock.
 //
-// Every grant carries the participant's life and the number of its turn. The next turn is taken; the last one taken
-// is answered again with the answer that was kept; any other is none of ours. So grants may be lost, repeated and
-// overtaken, and each turn is taken exactly once.
+// Every grant carries the participant's incarnation and the number of its turn. The next turn is taken; the last one
+// taken is answered again with the answer that was kept; any other is ignored. So grants may be lost, duplicated and
+// reordered, and each turn is taken exactly once.
 #pragma once
 
 #include <cstdint>
@@ -18,34 +18,34 @@ namespace halocline::bus {
 
 class LockstepParticipant {
  public:
-  // How often an unanswered JOIN is said again, and how often one that waits for grants shows that it is there.
+  // Between JOINs until one is answered, and afterwards while no grant is received.
   static constexpr SimDuration kJoinPeriod = SimDuration::from_milliseconds(100);
-  static constexpr SimDuration kShowPeriod = SimDuration::from_milliseconds(250);
-  // After its farewell a participant still answers, until the conductor says that all is over, or for this long
-  // without a word from it.
+  static constexpr SimDuration kKeepAlivePeriod = SimDuration::from_milliseconds(250);
+  // After its last turn a participant still answers until the conductor notifies it that the run is over, or is silent
+  // for this long.
   static constexpr SimDuration kLinger = SimDuration::from_milliseconds(60'000);
 
-  struct Mouth {
+  struct Outputs {
     std::function<void(const lockstep_join_t&)> join;
     std::function<void(const lockstep_answer_t&)> answer;
   };
   using TakeTurn = std::function<lockstep_result_t(const lockstep_turn_t&)>;
   enum class State { kJoining, kTakingPart, kLeft, kOver, kExpelled };
 
-  // `introduction`: LockstepTurns::introduction with a life; `take` throws what ends the participant.
-  LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Mouth mouth);
+  // `introduction`: LockstepTurns::introduction with an incarnation; `take` throws what ends the participant.
+  LockstepParticipant(lockstep_join_t introduction, TakeTurn take, Outputs outputs);
 
   void on_grant(const lockstep_grant_t& grant, SimTime steady);
   void on_notice(const lockstep_notice_t& notice, SimTime steady);
-  // Says what is due to be said again.
+  // Sends the JOIN that is due.
   void on_timer(SimTime steady);
   SimTime next_timer() const { return next_join_; }
-  // Asks for a farewell: with the next answer, and as often as it shows itself.
-  void ask_to_leave();
+  // Requests its last turn: with the next answer, and with each JOIN.
+  void request_leave();
 
   State state() const { return state_; }
   bool has_ended() const { return state_ == State::kOver || state_ == State::kExpelled; }
-  // Why it was put out.
+  // Why it was expelled.
   const std::string& reason() const { return reason_; }
   // Simulation time of its last turn.
   SimTime reached() const { return reached_; }
@@ -53,17 +53,17 @@ class LockstepParticipant {
  private:
   void take(const std::vector<lockstep_turn_t>& turns, std::int64_t first, bool past);
   void answer();
-  void say_where();
+  void send_join();
 
   lockstep_join_t join_;
   TakeTurn take_;
-  Mouth mouth_;
+  Outputs outputs_;
   State state_ = State::kJoining;
   std::string reason_;
   std::int64_t turns_taken_ = 0;
   SliceCollector grants_;
   Bytes last_result_;
-  SimTime next_join_, last_heard_, reached_;
+  SimTime next_join_, last_received_, reached_;
 };
 
 }  // namespace halocline::bus

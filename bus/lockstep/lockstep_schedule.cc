@@ -10,22 +10,22 @@
 namespace halocline::bus {
 namespace {
 
-// A chain of answers to answers at one instant is a handful; this many means that it never ends.
+// Chains of messages at one instant have a few links; this many passes mean a livelock.
 constexpr int kMaxPassesPerInstant = 100'000;
 constexpr int kFirstStage = std::numeric_limits<int>::min();
 
-bool is_due(const LockstepSeat& seat, SimTime now) { return seat.must_hear || seat.due <= now; }
+bool is_due(const ScheduleEntry& entry, SimTime now) { return entry.has_input || entry.due <= now; }
 
 }  // namespace
 
-SimTime LockstepSchedule::next_instant(std::span<const LockstepSeat> seats) const {
+SimTime LockstepSchedule::next_instant(std::span<const ScheduleEntry> entries) const {
   SimTime next = SimTime::never();
-  for (const LockstepSeat& seat : seats) next = std::min(next, seat.must_hear ? now_ : seat.due);
+  for (const ScheduleEntry& entry : entries) next = std::min(next, entry.has_input ? now_ : entry.due);
   return std::max(next, now_);
 }
 
 void LockstepSchedule::begin(SimTime instant) {
-  ensure(instant >= now_, "time does not go back");
+  ensure(instant >= now_, "time does not run backwards");
   now_ = instant;
   next_stage_ = kFirstStage;
   passes_ = 0;
@@ -36,13 +36,14 @@ void LockstepSchedule::resume_after(SimTime instant, int stage) {
   next_stage_ = stage + 1;
 }
 
-std::vector<std::size_t> LockstepSchedule::round(std::span<const LockstepSeat> seats) {
+std::vector<std::size_t> LockstepSchedule::round(std::span<const ScheduleEntry> entries) {
   const auto first_from = [&](int stage) {
-    return std::find_if(seats.begin(), seats.end(),
-                        [&](const LockstepSeat& seat) { return seat.stage >= stage && is_due(seat, now_); });
+    return std::find_if(entries.begin(), entries.end(), [&](const ScheduleEntry& entry) {
+      return entry.stage >= stage && is_due(entry, now_);
+    });
   };
   auto first = first_from(next_stage_);
-  if (first == seats.end()) {
+  if (first == entries.end()) {
     first = first_from(kFirstStage);
     if (++passes_ == kMaxPassesPerInstant) {
       throw std::runtime_error(
@@ -50,19 +51,19 @@ std::vector<std::size_t> LockstepSchedule::round(std::span<const LockstepSeat> s
     }
   }
   std::vector<std::size_t> round;
-  if (first == seats.end()) return round;
+  if (first == entries.end()) return round;
   next_stage_ = first->stage + 1;
-  for (auto seat = first; seat != seats.end() && seat->stage == first->stage; ++seat) {
-    if (is_due(*seat, now_)) round.push_back(static_cast<std::size_t>(seat - seats.begin()));
+  for (auto entry = first; entry != entries.end() && entry->stage == first->stage; ++entry) {
+    if (is_due(*entry, now_)) round.push_back(static_cast<std::size_t>(entry - entries.begin()));
   }
   return round;
 }
 
-SimTime lockstep_horizon(std::span<const LockstepSeat> seats, std::size_t alone) {
+SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alone) {
   SimTime horizon = SimTime::never();
-  for (std::size_t i = 0; i < seats.size(); ++i) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     if (i == alone) continue;
-    horizon = std::min(horizon, seats[i].must_hear ? SimTime::at_once() : seats[i].due);
+    horizon = std::min(horizon, entries[i].has_input ? SimTime::at_once() : entries[i].due);
   }
   return horizon;
 }

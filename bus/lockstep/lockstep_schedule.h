@@ -1,13 +1,13 @@
-// Who steps when in lockstep: the one rule that the run in one process and the run in many both follow.
+// Step order of lockstep, for runs in one process and in many: a discrete-event schedule.
 //
-// Discrete events. Time goes to the earliest instant at which a participant is due. There the stages come in
-// their order (who moves vehicles before who pilots them, the channel server last), and all participants of a
-// stage that are due step together: none hears what the others of its stage say in that round. What they said
-// is put in order (by participant, then as each said it) and delivered; then the next stage comes. Passes over
-// the stages are repeated until nobody is due at that instant; then time goes on.
+// Time advances to the earliest instant at which a participant is due. There the stages step in their order
+// (vehicles before pilots, the channel server last), and all participants of a stage that are due step together: none
+// receives what the others of its stage publish in that round. Their messages are ordered (by participant, then as
+// each published them) and delivered; then the next stage steps. Passes over the stages are repeated until nobody is
+// due at that instant.
 //
-// So the order of all messages of a run depends on who takes part and on what they say alone, never on how
-// long anything took or on who joined first.
+// So the order of all messages of a run depends on the participants and what they publish alone, never on how long
+// anything took or on who joined first.
 #pragma once
 
 #include <cstddef>
@@ -18,26 +18,27 @@
 
 namespace halocline::bus {
 
-struct LockstepSeat {
+// A participant's place in the schedule.
+struct ScheduleEntry {
   int stage = 0;
   SimTime due = SimTime::never();
-  // Something waits for it that may make it due: it must be asked.
-  bool must_hear = false;
+  bool has_input = false;  // messages that may advance its due instant: it steps at the present instant
 };
 
 class LockstepSchedule {
  public:
   SimTime now() const { return now_; }
 
-  // The earliest instant at which somebody is due, the present one at the earliest; never() when nobody is.
-  // A seat that must hear is due at the present instant.
-  SimTime next_instant(std::span<const LockstepSeat> seats) const;
-  // Time goes to `instant`, which is not before now().
+  // The earliest instant at which one is due, the present one at the earliest; never() when none is.
+  // An entry with input is due at the present instant.
+  SimTime next_instant(std::span<const ScheduleEntry> entries) const;
+  // Time advances to `instant`, which is not before now().
   void begin(SimTime instant);
-  // The seats of the next round at now(), all of one stage, as indices in rising order; empty when the instant
-  // is over. `seats` are in rising order of stage. Throws std::runtime_error when nobody comes to rest.
-  std::vector<std::size_t> round(std::span<const LockstepSeat> seats);
-  // A seat of `stage` that stepped alone went on by itself as far as `instant`: the instant goes on behind it.
+  // The entries of the next round at now(), all of one stage, as indices in rising order; empty when the instant
+  // is over. `entries` are in rising order of stage. Throws std::runtime_error when an instant does not end.
+  std::vector<std::size_t> round(std::span<const ScheduleEntry> entries);
+  // A participant of `stage` that stepped alone used its lookahead as far as `instant`, which continues with the next
+  // stage.
   void resume_after(SimTime instant, int stage);
 
  private:
@@ -46,9 +47,9 @@ class LockstepSchedule {
   int passes_ = 0;
 };
 
-// How far a seat that steps alone may go on by itself: all of its own instants before this one. A due instant is
-// a promise to say nothing before it unless something is heard, so until the earliest of the others is due
-// nobody can say anything that it would hear. at_once() when somebody must be asked at once.
-SimTime lockstep_horizon(std::span<const LockstepSeat> seats, std::size_t alone);
+// Lookahead of the entry that steps alone: it may step at all of its own instants before this one. A due instant is
+// a promise to publish nothing before it unless a message is received, so until the earliest of the others is due
+// nobody can publish anything that it would receive. at_once() when another has input.
+SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alone);
 
 }  // namespace halocline::bus

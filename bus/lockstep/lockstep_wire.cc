@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/hash.h"
-#include "core/names.h"
 
 namespace halocline::bus {
 int slice_count(std::size_t body_bytes) {
@@ -31,9 +30,9 @@ std::optional<Bytes> SliceCollector::add(std::int64_t key, int number, int count
   return body;
 }
 
-std::int64_t digest_of(std::int64_t before, std::span<const lockstep_message_t> said) {
+std::int64_t digest_of(std::int64_t before, std::span<const lockstep_message_t> published) {
   auto sum = static_cast<std::uint64_t>(before) ^ kFnvStart;
-  for (const lockstep_message_t& message : said) sum = fnv1a(encoded(message), sum);
+  for (const lockstep_message_t& message : published) sum = fnv1a(encoded(message), sum);
   return static_cast<std::int64_t>(sum ^ kFnvStart);
 }
 

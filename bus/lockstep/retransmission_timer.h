@@ -1,9 +1,9 @@
-// How long to wait for an answer before a grant is said again: from the answers that came.
+// Retransmission timeout of a request from the round-trip times of earlier ones: Jacobson, "Congestion avoidance and
+// control" (1988): timeout = mean + 4 mean deviations, both smoothed. Karn's rule: the answer to a request that was
+// sent more than once yields no sample.
 //
-// Jacobson's estimate (1988): mean plus four mean deviations of the time from grant to answer, smoothed; Karn's
-// rule: an answer to what was said twice tells nothing of how long it took. A repetition may be lost like what it
-// repeats: only from the third on does the wait double, up to a bound, because then somebody is slow, or away. What a
-// participant computes counts as time to the answer.
+// The timeout doubles from the third retransmission on, up to kMax: before that a lost datagram is likelier than a slow
+// or absent peer. The time a participant computes is part of the round trip.
 #pragma once
 
 #include <algorithm>
@@ -18,32 +18,32 @@ class RetransmissionTimer {
   static constexpr SimDuration kAtFirst = SimDuration::from_milliseconds(20);
   static constexpr SimDuration kMax = SimDuration::from_milliseconds(200);
 
-  // A grant is said, for the first time or again. Steady time.
-  void say(SimTime steady) {
-    if (times_said_++ == 0) first_said_ = steady;
-    const int doublings = std::clamp(times_said_ - 3, 0, 10);
-    again_at_ = steady + std::min(estimate() * (std::int64_t{1} << doublings), kMax);
+  // The request was sent, for the first time or again. Steady time.
+  void on_sent(SimTime steady) {
+    if (times_sent_++ == 0) first_sent_ = steady;
+    const int doublings = std::clamp(times_sent_ - 3, 0, 10);
+    expires_at_ = steady + std::min(timeout() * (std::int64_t{1} << doublings), kMax);
   }
-  // Its answer came.
-  void answered(SimTime steady) {
-    if (times_said_ == 1) learn(steady - first_said_);
-    times_said_ = 0;
-    again_at_ = SimTime::never();
+  // Its answer was received.
+  void on_answered(SimTime steady) {
+    if (times_sent_ == 1) add_sample(steady - first_sent_);
+    times_sent_ = 0;
+    expires_at_ = SimTime::never();
   }
-  // When it is to be said again; never() while nothing waits for an answer.
-  SimTime again_at() const { return again_at_; }
-  int times_said() const { return times_said_; }
+  // When to send it again; never() while no answer is outstanding.
+  SimTime expires_at() const { return expires_at_; }
+  int times_sent() const { return times_sent_; }
 
  private:
-  SimDuration estimate() const { return known_ ? std::clamp(mean_ + deviation_ * 4, kMin, kMax) : kAtFirst; }
-  void learn(SimDuration took) {
+  SimDuration timeout() const { return known_ ? std::clamp(mean_ + deviation_ * 4, kMin, kMax) : kAtFirst; }
+  void add_sample(SimDuration round_trip) {
     if (!known_) {
-      mean_ = took;
-      deviation_ = SimDuration::from_nanoseconds(took.nanoseconds() / 2);
+      mean_ = round_trip;
+      deviation_ = SimDuration::from_nanoseconds(round_trip.nanoseconds() / 2);
       known_ = true;
       return;
     }
-    const std::int64_t error = (took - mean_).nanoseconds();
+    const std::int64_t error = (round_trip - mean_).nanoseconds();
     mean_ = SimDuration::from_nanoseconds(mean_.nanoseconds() + error / 8);
     deviation_ = SimDuration::from_nanoseconds(deviation_.nanoseconds() +
                                                ((error < 0 ? -error : error) - deviation_.nanoseconds()) / 4);
@@ -51,8 +51,8 @@ class RetransmissionTimer {
 
   bool known_ = false;
   SimDuration mean_, deviation_;
-  int times_said_ = 0;
-  SimTime first_said_, again_at_ = SimTime::never();
+  int times_sent_ = 0;
+  SimTime first_sent_, expires_at_ = SimTime::never();
 };
 
 }  // namespace halocline::conductor

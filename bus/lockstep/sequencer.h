@@ -1,8 +1,10 @@
-// What a run of lockstep is: who takes part, who steps next and hears what, and all messages in their order.
+// Deterministic state machine of a lockstep run: membership, step order, and the total order of all messages.
 //
-// A state machine without a network: its state is a function of what it was told (who was taken in, the results
-// of each round, ...), in that order, and of nothing else. So a journal of what it was told brings it back, and the
-// past of each participant can be told again to a new life of it. The rule is that of bus/lockstep/lockstep_schedule.h.
+// Conservative synchronisation of a distributed discrete-event simulation (Chandy and Misra 1979): a participant steps
+// only when no message can reach it any more that precedes the step; one that steps alone has lookahead to the
+// earliest instant of the others (lockstep_schedule.h). The state is a function of the inputs in their order (members
+// admitted, results of rounds, ...) and of nothing else. So replaying a journal of the inputs restores it, and the
+// turns of a participant can be replayed to a new incarnation of it.
 //
 //   sequencer.admit(join); ...
 //   while ((next = sequencer.next_instant()) <= end) {
@@ -30,22 +32,22 @@ namespace halocline::conductor {
 
 class Sequencer {
  public:
-  // A result with this many steps: the participant was given up. It takes no further part unless admitted again.
-  static constexpr std::int32_t kGivenUp = -1;
+  // A result with this many steps: the participant was dropped. It takes no further part unless admitted again.
+  static constexpr std::int32_t kDropped = -1;
 
-  // `said` gets every message of the run, in order.
-  explicit Sequencer(std::function<void(const lockstep_message_t&)> said) : said_(std::move(said)) {}
+  // `publish` gets every message of the run, in order.
+  explicit Sequencer(std::function<void(const lockstep_message_t&)> publish) : publish_(std::move(publish)) {}
 
   // ---- between rounds
 
-  // Takes a participant in: at the start, late, or again after it was given up or has left.
+  // Admits a participant: at the start, late, or again after it was dropped or has left.
   void admit(const lockstep_join_t& join);
-  // The next round is this participant's farewell; then it takes no further part. False when it takes none, or was
-  // let go already.
-  bool let_go(const std::string& name);
-  // Something said by nobody who takes part: heard, in the order given, at the beginning of the next instant.
-  void hear_from_outside(lockstep_message_t message);
-  // From here on every round is a farewell, at `instant`, in the order of stages.
+  // The next round is this participant's last turn; then it takes no further part. False when it takes none, or was
+  // dismissed already.
+  bool dismiss(const std::string& name);
+  // A message of a publisher outside the run: delivered, in the order given, at the beginning of the next instant.
+  void inject(lockstep_message_t message);
+  // From here on every round is a last turn, at `instant`, in the order of stages.
   void end_run(SimTime instant);
 
   // ---- time and rounds
@@ -54,7 +56,7 @@ class Sequencer {
   // never() when nobody is due any more.
   SimTime next_instant() const;
   void begin_instant(SimTime instant);
-  // Windows end before this; at_once(): there are none.
+  // Lookahead ends before this; at_once(): there is none.
   void set_furthest(SimTime furthest) { furthest_ = furthest; }
   // False when the instant is over, or, after end_run, when nobody is left.
   bool begin_round();
@@ -64,14 +66,14 @@ class Sequencer {
   // One result for each of the round, in whatever order.
   void complete(std::vector<lockstep_result_t> results);
 
-  // ---- what has been
+  // ---- history
 
   bool knows(const std::string& name) const { return find(name) != nullptr; }
   bool takes_part(const std::string& name) const;
   std::int64_t turns_taken(const std::string& name) const;
   std::int64_t digest_of(const std::string& name) const;
-  // Turns already taken, from number `first` (from 1) on, as they were; as many as make about `bytes`, one at least.
-  std::vector<lockstep_turn_t> past_turns(const std::string& name, std::int64_t first,
+  // Turns already taken, from number `first` (from 1) on; as many as make about `bytes`, one at least.
+  std::vector<lockstep_turn_t> history_of(const std::string& name, std::int64_t first,
                                           std::size_t bytes) const;
   // Rounds completed, and turns within them.
   std::int64_t rounds() const { return rounds_; }
@@ -81,46 +83,46 @@ class Sequencer {
   struct Turn {
     std::int64_t instant_ns = 0, reached_ns = 0;
     std::int32_t steps = 0;
-    std::size_t heard_end = 0;
+    std::size_t inbox_end = 0;  // messages delivered until then
   };
-  struct Seat {
+  struct Member {
     lockstep_join_t join;
     std::vector<bus::ChannelPattern> patterns;
-    bus::LockstepSeat place;
+    bus::ScheduleEntry schedule;
     bool present = true;
-    std::vector<std::size_t> heard;  // indices of all messages meant for it
-    std::size_t told = 0;            // how many of them it got in turns that it took
+    std::vector<std::size_t> inbox;  // indices of all messages that it receives
+    std::size_t delivered = 0;       // of them, in turns that it took
     std::vector<Turn> taken;
     std::int64_t digest = 0;
   };
-  struct Hearer {
-    Seat* seat;
+  struct Receiver {
+    Member* member;
     bool may_wake;
   };
 
-  Seat* find(const std::string& name);
-  const Seat* find(const std::string& name) const;
-  Seat& add_seat(const lockstep_join_t& join);
-  std::vector<bus::LockstepSeat> places() const;
-  const std::vector<Hearer>& hearers_of(const std::string& channel);
+  Member* find(const std::string& name);
+  const Member* find(const std::string& name) const;
+  Member& add(const lockstep_join_t& join);
+  std::vector<bus::ScheduleEntry> schedule_entries() const;
+  const std::vector<Receiver>& receivers_of(const std::string& channel);
   void deliver(lockstep_message_t message);
-  void take_result(Seat& seat, const lockstep_result_t& result);
-  lockstep_turn_t bare_turn(const Seat& seat, std::size_t heard_from, std::size_t heard_end) const;
-  std::vector<std::string> stopping_channels(const Seat& alone) const;
+  void take_result(Member& member, const lockstep_result_t& result);
+  lockstep_turn_t turn_with_inputs(const Member& member, std::size_t begin, std::size_t end) const;
+  std::vector<std::string> stopping_channels(const Member& alone) const;
 
-  std::function<void(const lockstep_message_t&)> said_;
-  std::vector<std::unique_ptr<Seat>> seats_;  // in the order of (stage, name)
-  std::unordered_map<std::string, Seat*> by_name_;
+  std::function<void(const lockstep_message_t&)> publish_;
+  std::vector<std::unique_ptr<Member>> members_;  // in the order of (stage, name)
+  std::unordered_map<std::string, Member*> by_name_;
   bus::LockstepSchedule schedule_;
   SimTime furthest_ = SimTime::at_once();
   std::vector<std::string> round_;
   SimTime horizon_ = SimTime::at_once();
-  bool farewell_ = false;  // the round is one
+  bool last_turn_ = false;  // the round is one of last turns
   std::vector<std::string> leaving_;
   bool ended_ = false;
-  std::vector<lockstep_message_t> outside_;
+  std::vector<lockstep_message_t> injected_;
   std::vector<lockstep_message_t> messages_;
-  std::unordered_map<std::string, std::vector<Hearer>> hearers_;
+  std::unordered_map<std::string, std::vector<Receiver>> receivers_;  // by channel
   std::int64_t rounds_ = 0, turns_ = 0;
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kStretchesTold = 20;
+constexpr std::size_t kMaxStretchesReported = 20;
 
 struct Mapping {
   std::shared_ptr<const std::uint8_t> start;
@@ -105,9 +105,9 @@ std::string place_of(const LogReader& log, const LoggedEvent& event) {
   return log.files().at(event.file) + ", byte " + std::to_string(event.offset);
 }
 
-void tell_damage(std::ostream& out, const LogReader& log) {
+void report_damage(std::ostream& out, const LogReader& log) {
   const auto& all = log.bad_stretches();
-  for (std::size_t i = 0; i < std::min(all.size(), kStretchesTold); ++i) {
+  for (std::size_t i = 0; i < std::min(all.size(), kMaxStretchesReported); ++i) {
     const BadStretch& bad = all[i];
     out << "halocline: " << log.files().at(bad.file) << ", byte " << bad.offset << ": ";
     if (bad.cut_short)
@@ -115,9 +115,9 @@ void tell_damage(std::ostream& out, const LogReader& log) {
     else
       out << bad.bytes << " bytes are no sound event and were skipped\n";
   }
-  if (all.size() > kStretchesTold)
-    out << "halocline: and " << all.size() - kStretchesTold << " more such stretches; " << log.bytes_skipped()
-        << " bytes in all were skipped\n";
+  if (all.size() > kMaxStretchesReported)
+    out << "halocline: and " << all.size() - kMaxStretchesReported << " more such stretches; "
+        << log.bytes_skipped() << " bytes in all were skipped\n";
 }
 
 }  // namespace halocline::clients

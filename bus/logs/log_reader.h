@@ -1,4 +1,4 @@
-// Reads LCM logs event by event, whatever state they are in: what is sound is read, the rest is told with its place.
+// Reads LCM logs event by event, whatever state they are in: sound events are read, the rest is reported with its place.
 //
 // What is an event and what is damage: log_scan.h. A log that a recorder rotated (bus/logs/log_recorder.h) is a series of
 // files: run.lcm, run.0001.lcm, run.0002.lcm, ...; opening run.lcm reads all of it that is there, also when the
@@ -75,6 +75,6 @@ std::string place_of(const LogReader& log, const LoggedEvent& event);
 
 // Writes a line about each bad stretch that was met so far (the first twenty, and how many more); none when the log
 // was sound.
-void tell_damage(std::ostream& out, const LogReader& log);
+void report_damage(std::ostream& out, const LogReader& log);
 
 }  // namespace halocline::clients

@@ -2,15 +2,15 @@
 //
 // Format (LCM's event log): per event the word 0xEDA1DA01, then number and stamp (64 bit), length of the
 // channel and of the data (32 bit), all big-endian, then channel and data. There is no checksum: bytes that
-// changed within the data of an event do not show here. What shows is where events begin and how long they
-// say they are. Rules:
+// changed within the data of an event do not show here. What shows is where events begin, and the lengths in
+// their headers. Rules:
 //
 // - A header is plausible when the channel has 1 to 63 bytes, no control characters, and the event ends
 // within the log.
 // - An event that is followed by another word, or by the end of the log, is sound; but when other events with the
 //   numbers that follow fill its data exactly to the end, its length is corrupt and it is damage.
 // - One that is followed by anything else is sound, too, unless a plausible header begins within its data: then its
-//   length is corrupt, and the search goes on behind its own word. Else what follows it is the damage.
+//   length is corrupt, and the search continues behind its own word. Else what follows it is the damage.
 // - What lies between sound events is damage. At the end of a log it is an event that was cut short when it begins
 //   with (the beginning of) a word and no whole event follows.
 //

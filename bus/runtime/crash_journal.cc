@@ -96,7 +96,7 @@ bool CrashJournal::resume(SimTime now) {
 
 void CrashJournal::restore(Output output) {
   publisher_.resume(output.channel, output.session, output.sequence);
-  bus_.keep_published(output.channel, output.session, output.sequence, std::move(output.message));
+  bus_.restore_history(output.channel, output.session, output.sequence, std::move(output.message));
   published_.emplace(std::move(output.channel), std::move(output.identity));
 }
 

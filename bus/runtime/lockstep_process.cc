@@ -17,40 +17,40 @@
 namespace halocline::bus {
 namespace {
 
-// How long a participant that was told to stop waits for its farewell.
-constexpr SimDuration kFarewellPatience = SimDuration::from_milliseconds(4000);
+// For the last turn after a stop was requested.
+constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(4000);
 
-// The participant's two ends of the sync plane: hears grants, speaks answers.
+// The participant's side of the synchronisation channel: receives grants and notices, publishes joins and answers.
 class SyncPlane {
  public:
   SyncPlane(const std::string& url, const std::string& name)
       : grants_lcm_(open_transport(effective_url(url))),
         answers_lcm_(open_transport(next_port(effective_url(url)))),
-        ears_(*grants_lcm_, {name, 0}),
-        mouth_(*answers_lcm_, {name, 0}) {}
+        receiver_(*grants_lcm_, {name, 0}),
+        publisher_(*answers_lcm_, {name, 0}) {}
 
   void connect(LockstepParticipant& participant, const std::string& name) {
     const auto on_grant = [&participant](const lockstep_grant_t& m) {
       participant.on_grant(m, steady_now());
     };
-    ears_.subscribe<lockstep_grant_t>(channels::kLockstepGrant, on_grant);
-    ears_.subscribe<lockstep_grant_t>(std::string(channels::kLockstepGrant) + "." + name, on_grant);
-    ears_.subscribe<lockstep_notice_t>(channels::kLockstepNotice, [&participant](const lockstep_notice_t& m) {
-      participant.on_notice(m, steady_now());
-    });
+    receiver_.subscribe<lockstep_grant_t>(channels::kLockstepGrant, on_grant);
+    receiver_.subscribe<lockstep_grant_t>(std::string(channels::kLockstepGrant) + "." + name, on_grant);
+    receiver_.subscribe<lockstep_notice_t>(
+        channels::kLockstepNotice,
+        [&participant](const lockstep_notice_t& m) { participant.on_notice(m, steady_now()); });
   }
-  LockstepParticipant::Mouth mouth() {
-    return {[this](const lockstep_join_t& m) { mouth_.publish(channels::kLockstepJoin, m); },
-            [this](const lockstep_answer_t& m) { mouth_.publish(channels::kLockstepAnswer, m); }};
+  LockstepParticipant::Outputs outputs() {
+    return {[this](const lockstep_join_t& m) { publisher_.publish(channels::kLockstepJoin, m); },
+            [this](const lockstep_answer_t& m) { publisher_.publish(channels::kLockstepAnswer, m); }};
   }
   void wait_and_dispatch(SimTime wake) {
     bus::wait_and_dispatch(*grants_lcm_, wake);
-    ears_.rethrow_if_failed();
+    receiver_.rethrow_if_failed();
   }
 
  private:
   std::unique_ptr<lcm::LCM> grants_lcm_, answers_lcm_;
-  Bus ears_, mouth_;
+  Bus receiver_, publisher_;
 };
 
 }  // namespace
@@ -61,7 +61,7 @@ std::string digest_of(const Scenario& scenario) {
   return std::to_string(fnv1a(text));
 }
 
-std::int64_t draw_life() {
+std::int64_t draw_incarnation() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count() * 1000 + getpid() % 1000;
 }
@@ -71,25 +71,25 @@ void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& syn
   EventLog log(node.name());
   LockstepTurns turns(memq, node);
   lockstep_join_t join = turns.introduction();
-  join.incarnation = draw_life();
+  join.incarnation = draw_incarnation();
   join.scenario_digest = scenario_digest;
   SyncPlane plane(sync_url, node.name());
   LockstepParticipant participant(
-      join, [&turns](const lockstep_turn_t& turn) { return turns.take(turn); }, plane.mouth());
+      join, [&turns](const lockstep_turn_t& turn) { return turns.take(turn); }, plane.outputs());
   plane.connect(participant, node.name());
   log.info("started", "sync_url=" + sync_url);
-  SimTime patience_ends = SimTime::never();
-  while (!participant.has_ended() && steady_now() < patience_ends) {
+  SimTime give_up_at = SimTime::never();
+  while (!participant.has_ended() && steady_now() < give_up_at) {
     participant.on_timer(steady_now());
-    if (should_stop() && patience_ends == SimTime::never()) {
-      participant.ask_to_leave();
-      patience_ends = steady_now() + kFarewellPatience;
+    if (should_stop() && give_up_at == SimTime::never()) {
+      participant.request_leave();
+      give_up_at = steady_now() + kLastTurnTimeout;
       continue;
     }
-    plane.wait_and_dispatch(std::min(participant.next_timer(), patience_ends));
+    plane.wait_and_dispatch(std::min(participant.next_timer(), give_up_at));
   }
   if (participant.state() == LockstepParticipant::State::kExpelled)
-    throw std::runtime_error("put out by the conductor: " + participant.reason());
+    throw std::runtime_error("expelled by the conductor: " + participant.reason());
 }
 
 }  // namespace halocline::bus

@@ -11,18 +11,17 @@
 
 namespace halocline::bus {
 
-// What all participants of a run must have been started with, as one word: a sum over the shared part of the
-// scenario, its seed and vehicles among it.
+// Digest of what all participants of a run must share: the common part of the scenario, with seed and vehicles.
 std::string digest_of(const Scenario& scenario);
 
-// A number for a life of a participant or a run: greater than that of any before (by the wall clock,
-// microseconds), and in all likelihood nobody else's.
-std::int64_t draw_life();
+// A number for an incarnation of a participant or for a run: greater than all before (wall clock, microseconds), and
+// in all likelihood unique.
+std::int64_t draw_incarnation();
 
-// Until the conductor says that the run is over. `memq` carries the node alone; `sync_url`: where grants come
-// from; answers go to the next port. When `should_stop` first says so, the node asks for its farewell and
-// waits for it a few seconds. Throws what the node throws, and std::runtime_error when it is put out: then it
-// should be started again.
+// Runs until the conductor's notice that the run is over. `memq` carries the node alone; `sync_url`: grants are received
+// there, answers go to the next port. Once `should_stop` returns true, the node requests its last turn and waits for it
+// a few seconds. Throws what the node throws, and std::runtime_error when the conductor expels it: then it should be
+// restarted.
 void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& sync_url,
                               const std::string& scenario_digest, const std::function<bool()>& should_stop);
 

@@ -13,7 +13,8 @@ LockstepRunner::LockstepRunner(lcm::LCM& lcm, std::vector<Node*> nodes)
 }
 
 void LockstepRunner::run_until(SimTime end) {
-  for (SimTime next = schedule_.next_instant(seats()); next <= end; next = schedule_.next_instant(seats())) {
+  for (SimTime next = schedule_.next_instant(schedule_entries()); next <= end;
+       next = schedule_.next_instant(schedule_entries())) {
     if (before_instant_ && !before_instant_(next)) return;
     now_ = next;
     schedule_.begin(next);
@@ -22,16 +23,17 @@ void LockstepRunner::run_until(SimTime end) {
   now_ = std::max(now_, end);
 }
 
-std::vector<LockstepSeat> LockstepRunner::seats() const {
-  std::vector<LockstepSeat> seats;
+std::vector<ScheduleEntry> LockstepRunner::schedule_entries() const {
+  std::vector<ScheduleEntry> entries;
   for (const Node* node : nodes_) {
-    seats.push_back({static_cast<int>(node->stage()), std::max(node->lockstep_due(), now_)});
+    entries.push_back({static_cast<int>(node->stage()), std::max(node->lockstep_due(), now_)});
   }
-  return seats;
+  return entries;
 }
 
 void LockstepRunner::step_all_due() {
-  for (auto round = schedule_.round(seats()); !round.empty(); round = schedule_.round(seats())) {
+  for (auto round = schedule_.round(schedule_entries()); !round.empty();
+       round = schedule_.round(schedule_entries())) {
     for (const std::size_t i : round) nodes_[i]->step({now_, now_});
     drain();
   }

@@ -1,7 +1,7 @@
 // Runs many nodes in one process on one lcm::LCM (memq), all at one simulation time, as fast as they compute.
 //
-// Who steps when is the rule of lockstep_schedule.h. Nothing depends on a clock or a thread, so two runs publish
-// the same messages in the same order.
+// The step order is that of lockstep_schedule.h. Nothing depends on a clock or a thread, so two runs publish the same
+// messages in the same order.
 #pragma once
 
 #include <functional>
@@ -34,7 +34,7 @@ class LockstepRunner {
   SimTime now() const { return now_; }
 
  private:
-  std::vector<LockstepSeat> seats() const;
+  std::vector<ScheduleEntry> schedule_entries() const;
   void step_all_due();
   void drain();
 

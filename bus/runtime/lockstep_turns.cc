@@ -8,9 +8,9 @@
 namespace halocline::bus {
 namespace {
 
-// A window ends before its result outgrows a datagram by much.
+// Bounds on the lookahead of one turn, so that its result does not outgrow a datagram by much.
 constexpr int kMaxStepsPerTurn = 1000;
-constexpr std::size_t kMaxSaidPerTurn = 200;
+constexpr std::size_t kMaxMessagesPerTurn = 200;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ LockstepTurns::LockstepTurns(lcm::LCM& memq, Node& node) : memq_(memq), node_(no
     message.channel_name = channel;
     message.num_message_bytes = static_cast<std::int32_t>(size);
     message.message_bytes.assign(bytes, bytes + size);
-    said_.push_back(std::move(message));
+    published_.push_back(std::move(message));
   });
 }
 
@@ -45,17 +45,17 @@ LockstepTurns::Interest LockstepTurns::interest_in(const std::string& channel) {
   Interest interest;
   for (const Subscribed& subscribed : node_.subscribed()) {
     if (!ChannelPattern(subscribed.expression).matches(channel)) continue;
-    interest.hears = true;
+    interest.receives = true;
     interest.may_wake = interest.may_wake || subscribed.wakeup == Wakeup::kMayAdvanceDue;
   }
   return interests_[channel] = interest;
 }
 
-void LockstepTurns::hear(const std::vector<lockstep_message_t>& heard) {
-  if (heard.empty()) return;
+void LockstepTurns::deliver(const std::vector<lockstep_message_t>& messages) {
+  if (messages.empty()) return;
   const SimTime due = node_.lockstep_due();
   bool may_wake = false;
-  for (const lockstep_message_t& message : heard) {
+  for (const lockstep_message_t& message : messages) {
     memq_.publish(message.channel_name, message.message_bytes.data(),
                   static_cast<unsigned int>(message.message_bytes.size()));
     may_wake = may_wake || interest_in(message.channel_name).may_wake;
@@ -63,47 +63,47 @@ void LockstepTurns::hear(const std::vector<lockstep_message_t>& heard) {
   while (memq_.handleTimeout(0) > 0) {
   }
   if (!may_wake && node_.lockstep_due() < due)
-    throw std::logic_error(node_.name() + " became due by what it promised only to store");
+    throw std::logic_error(node_.name() + " became due by a message that it promised only to store");
 }
 
-bool LockstepTurns::must_pause(const lockstep_turn_t& turn, std::size_t said_before) {
-  for (std::size_t i = said_before; i < said_.size(); ++i) {
-    const std::string& channel = said_[i].channel_name;
-    if (interest_in(channel).hears) return true;
+bool LockstepTurns::must_pause(const lockstep_turn_t& turn, std::size_t published_before) {
+  for (std::size_t i = published_before; i < published_.size(); ++i) {
+    const std::string& channel = published_[i].channel_name;
+    if (interest_in(channel).receives) return true;
     for (const std::string& expression : turn.stopping_channels) {
       const auto pattern = stopping_.try_emplace(expression, expression).first;
       if (pattern->second.matches(channel)) return true;
     }
   }
-  return said_.size() >= kMaxSaidPerTurn;
+  return published_.size() >= kMaxMessagesPerTurn;
 }
 
 lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
-  said_.clear();
+  published_.clear();
   now_ = SimTime::from_nanoseconds(turn.instant_ns);
   const SimTime horizon = SimTime::from_nanoseconds(turn.horizon_ns);
   const int max_steps = turn.max_steps >= 0 ? turn.max_steps : kMaxStepsPerTurn;
-  hear(turn.inputs);
+  deliver(turn.inputs);
   if (turn.farewell != 0) node_.stop({now_, now_});
   int steps = 0;
   for (bool paused = turn.farewell != 0; !paused && steps < max_steps; ++steps) {
     const SimTime next = std::max(node_.lockstep_due(), now_);
     const bool at_instant = steps == 0 && next == now_;
     if (!at_instant && next >= horizon) break;
-    const std::size_t said_before = said_.size();
+    const std::size_t published_before = published_.size();
     now_ = next;
     node_.step({now_, now_});
-    paused = must_pause(turn, said_before);
+    paused = must_pause(turn, published_before);
   }
-  digest_ = digest_of(digest_, said_);
+  digest_ = digest_of(digest_, published_);
   lockstep_result_t result;
   result.participant_name = node_.name();
   result.num_steps = steps;
   result.reached_ns = now_.nanoseconds();
   result.next_due_ns = node_.lockstep_due().nanoseconds();
   result.outputs_digest = digest_;
-  result.num_outputs = static_cast<std::int32_t>(said_.size());
-  result.outputs = said_;
+  result.num_outputs = static_cast<std::int32_t>(published_.size());
+  result.outputs = published_;
   return result;
 }
 

@@ -1,10 +1,9 @@
-// A node's side of lockstep: takes turns. Hears what it is told to hear, steps if it is due, and gives back all it
-// said and when it is next due.
+// Executes the turns of a lockstep run for one node: delivers the turn's messages, steps the node if it is due, and
+// returns what it published and when it is next due.
 //
-// The node is on a memq LCM of its own, so it runs unchanged: what is heard is published there for it, and
-// what it says goes to nobody but the result. In a window (a turn whose horizon lies beyond its instant) it
-// goes on through its own instants until the horizon, or until it says something that somebody must hear at
-// once.
+// The node is on a memq LCM of its own, so it runs unchanged: its inputs are published there, and its outputs go to the
+// result alone. With lookahead (a turn whose horizon lies beyond its instant) it steps at its own instants until the
+// horizon, or until it publishes a message that may advance the due instant of a participant.
 #pragma once
 
 #include <map>
@@ -31,20 +30,20 @@ class LockstepTurns {
   lockstep_result_t take(const lockstep_turn_t& turn);
 
  private:
-  // What this node does with a channel.
+  // The node's subscriptions that match a channel.
   struct Interest {
-    bool hears = false, may_wake = false;
+    bool receives = false, may_wake = false;
   };
   Interest interest_in(const std::string& channel);
-  void hear(const std::vector<lockstep_message_t>& heard);
-  bool must_pause(const lockstep_turn_t& turn, std::size_t said_before);
+  void deliver(const std::vector<lockstep_message_t>& messages);
+  bool must_pause(const lockstep_turn_t& turn, std::size_t published_before);
 
   lcm::LCM& memq_;
   Node& node_;
   std::map<std::string, Interest, std::less<>> interests_;
   std::map<std::string, ChannelPattern, std::less<>> stopping_;
   SimTime now_;
-  std::vector<lockstep_message_t> said_;
+  std::vector<lockstep_message_t> published_;
   std::int64_t digest_ = 0;
 };
 

@@ -54,7 +54,7 @@ void Node::load(const StateJournal::Saved& saved) {
   std::vector<Published> last_published;
   a(status_sequence_, last_published);
   for (Published& p : last_published)
-    bus_.keep_published(std::get<0>(p), std::get<1>(p), std::get<2>(p), std::move(std::get<3>(p)));
+    bus_.restore_history(std::get<0>(p), std::get<1>(p), std::get<2>(p), std::move(std::get<3>(p)));
   on_archive(a);
   a.require_end();
   resumed_from_ = saved.at;

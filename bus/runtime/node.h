@@ -1,8 +1,8 @@
 // A node: the thin adapter between the bus and a pure core. Handlers store; a step computes and publishes.
 //
-// A node never reads a clock. Whoever runs it (run_node_process, LockstepRunner, a test) dispatches LCM, asks
-// when the node is due, and calls step with the time. Simulation time is what results depend on; steady time
-// is for what concerns the process alone: time-outs of answers, STATUS. Under lockstep the two are the same.
+// A node never reads a clock. Its runner (run_node, LockstepRunner, a test) dispatches LCM, queries when the node is
+// due, and calls step with the time. Results depend on simulation time; steady time is for the process alone: time-outs
+// of requests, STATUS. Under lockstep the two are the same.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct Now {
   bool sim_known = true;  // false until the process has learnt the simulation time; sim is 0 then
 };
 
-// When a node next wants to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting
-// that does not depend on simulation time (answering a query). A node that asks for a steady time is stepped
-// then also before simulation time is known (Now::sim_known tells).
+// When a node is next to be stepped: at the earlier of the two. SimTime::at_once() while work is waiting that does not
+// depend on simulation time (answering a query). A node that is due at a steady time is stepped then also before
+// simulation time is known (Now::sim_known).
 struct Due {
   SimTime sim = SimTime::never();
   SimTime steady = SimTime::never();
@@ -56,10 +56,10 @@ class Node {
   // next incarnation contradicts nothing that was received of this one; what this one received since its last step is
   // lost, as if it had been killed before.
   void keep_state_in(std::unique_ptr<StateJournal> journal);
-  // What is handled from now on was heard at this steady time.
+  // Messages handled from now on were received at this steady time.
   void set_steady(SimTime steady) { bus_.set_steady(steady); }
   Stage stage() const { return bus_.identity().stage; }
-  // What it hears, and where what it says goes, for who delivers in LCM's place (bus.h).
+  // Its subscriptions, and the destination of its messages, for a runner that delivers in LCM's place (bus.h).
   const std::vector<Subscribed>& subscribed() const { return bus_.subscribed(); }
   void set_outbox(Bus::Outbox outbox) { bus_.set_outbox(std::move(outbox)); }
 
@@ -71,14 +71,14 @@ class Node {
   void step(const Now& now);
   // Another run has begun at `now`.
   void restart(const Now& now);
-  // The last step: publishes what is still to be said, then a final STATUS.
+  // The last step: publishes what remains, then a final STATUS.
   void stop(const Now& now);
 
  protected:
   virtual Due on_due() const = 0;
   virtual void on_step(const Now& now) = 0;
   virtual void on_stop(const Now& /*now*/) {}
-  // Simulation time jumped back: another run has begun. Forget what was heard of the old one.
+  // Simulation time jumped back: another run has begun. Discard what was received of the old one.
   virtual void on_restart(const Now& /*now*/) {}
   // What the next incarnation needs in order to go on from here, saved and loaded. After loading the first step may be
   // any time later.

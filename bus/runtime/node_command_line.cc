@@ -30,11 +30,12 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.add_option("--lcm-url", arguments.lcm_url, "LCM URL; default: LCM_DEFAULT_URL, else this host only");
   if (!program.make_time_source) {
     app.add_option("--time-source", arguments.time_source,
-                   "conductor, messages (what is heard), wall, or lockstep (turns that a conductor grants)")
+                   "conductor, messages (greatest time stamp received), wall, or lockstep (turns granted by "
+                   "a conductor)")
         ->default_val("conductor");
   }
   app.add_option("--sync-url", arguments.sync_url,
-                 "LCM URL of lockstep's own plane; it takes the next port, too")
+                 "LCM URL of the lockstep protocol, which uses the next port, too")
       ->default_val(std::string(kDefaultSyncUrl));
   if (program.keeps_state) {
     app.add_option("--journal", arguments.journal,
@@ -44,13 +45,16 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
         ->type_name("FILE");
   }
   for (const ProgramOption& option : program.options) {
-    option.flag != nullptr ? app.add_flag(option.name, *option.flag, option.help)
-                           : app.add_option(option.name, *option.value, option.help);
+    if (option.flag != nullptr) {
+      app.add_flag(option.name, *option.flag, option.help);
+    } else {
+      app.add_option(option.name, *option.value, option.help);
+    }
   }
   app.add_option("--log-level", arguments.log_level, "debug, info, warning, error or silent")
       ->default_val("info");
   app.add_flag("--example", arguments.example, "print an example of this program's sections and exit");
-  app.add_flag("--interface", arguments.interface, "print the channels heard and published and exit");
+  app.add_flag("--interface", arguments.interface, "print the channels subscribed and published and exit");
   app.add_flag("--print-config", arguments.print_config, "print the effective configuration and exit");
   app.set_version_flag("--version", kVersion);
   app.footer("Example:\n  " + program.program + " scenarios/seamount.toml --log-level debug");
@@ -85,7 +89,7 @@ std::string config_text(const NodeProgram& program, Scenario scenario, bool with
       with_comments);
 }
 
-std::uint64_t entropy_of_this_life() {
+std::uint64_t entropy_of_this_incarnation() {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return static_cast<std::uint64_t>(now) * 1'000'003u + static_cast<std::uint64_t>(getpid());
 }
@@ -98,22 +102,29 @@ std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const Node
   describe(app, arguments, program);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {
-    app.exit(asked);
+  } catch (const CLI::Success& requested) {
+    app.exit(requested);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     throw InvalidArgument(std::string(error.what()) + "; --help lists what is allowed");
   }
   NodeRun run;
-  if (arguments.interface) return std::printf("%s\n", program.interface.c_str()), std::nullopt;
-  if (arguments.example) return std::printf("%s", config_text(program, {}, true).c_str()), std::nullopt;
+  if (arguments.interface) {
+    std::printf("%s\n", program.interface.c_str());
+    return std::nullopt;
+  }
+  if (arguments.example) {
+    std::printf("%s", config_text(program, {}, true).c_str());
+    return std::nullopt;
+  }
   read_scenario(arguments, program, run);
   if (arguments.print_config) {
-    return std::printf("%s", config_text(program, run.scenario, false).c_str()), std::nullopt;
+    std::printf("%s", config_text(program, run.scenario, false).c_str());
+    return std::nullopt;
   }
   std::string name = arguments.name;
   if (name.empty()) name = program.default_name ? program.default_name() : program.node_name;
-  run.identity = {name, session_of(entropy_of_this_life(), name)};
+  run.identity = {name, session_of(entropy_of_this_incarnation(), name)};
   run.lcm_url = arguments.lcm_url;
   run.sync_url = arguments.sync_url;
   run.time_source =

@@ -8,7 +8,7 @@
 
 namespace halocline::bus {
 
-// What the command line and the scenario file ask for.
+// The settings of the command line and the scenario file.
 struct NodeRun {
   NodeIdentity identity;
   Scenario scenario;
@@ -21,10 +21,8 @@ struct NodeRun {
   std::uint64_t config_digest = 0;  // of the version and the effective configuration
 };
 
-// Empty when the command line asked only for something to be printed (--help, --example, --interface,
-// --version,
-// --print-config), which was done. Throws InvalidArgument for a wrong command line and ConfigErrors for a
-// wrong file.
+// Empty when the command line only requested output (--help, --example, --interface, --version, --print-config), which
+// was printed. Throws InvalidArgument for a wrong command line and ConfigErrors for a wrong file.
 std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const NodeProgram& program);
 
 }  // namespace halocline::bus

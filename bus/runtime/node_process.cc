@@ -23,20 +23,20 @@ std::atomic<bool> stop_signal_seen = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 void on_stop_signal(int) { stop_signal_seen = true; }
 
-// Longest sleep: a stop wished for by other means than a signal is seen within this.
+// Longest sleep: a stop requested by other means than a signal is seen within this.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
 // Messages dispatched between two steps at most, so that a flood cannot keep a node from its steps.
 constexpr int kMaxMessagesPerTurn = 2000;
 
-// What the bus has delivered when the end is wished for: until it is silent for a moment, since LCM's own
-// thread hands over what the socket holds one by one. A flood does not keep us for ever.
+// Handles what the bus has delivered when a stop is requested: until it is silent for a moment, since LCM's own thread
+// hands over the messages of the socket one by one. Bounded, against a flood.
 void dispatch_until_silent(lcm::LCM& lcm) {
-  constexpr int kSilenceMs = 10, kMaxMessages = 20'000;
+  constexpr int kSilenceMs = 100, kMaxMessages = 20'000;
   for (int i = 0; i < kMaxMessages && lcm.handleTimeout(kSilenceMs) > 0; ++i) {
   }
 }
 
-// The steady time of the next step. A node that asks for "at once" gets the time now.
+// The steady time of the next step; at_once() for a node that is due at once.
 SimTime wake_time(const Node& node, const TimeSource& time) {
   const Due due = node.due();
   return due.sim == SimTime::at_once() ? due.sim : std::min(due.steady, time.steady_at(due.sim));
@@ -93,8 +93,11 @@ int run_checked(int argc, char** argv, const NodeProgram& program) {
   set_log_level(run->log_level);
   catch_stop_signals();
   EventLog log(run->identity.name);
-  run->time_source == TimeSourceKind::kLockstep ? run_in_lockstep(*run, program)
-                                                : run_on_transport(*run, program, log);
+  if (run->time_source == TimeSourceKind::kLockstep) {
+    run_in_lockstep(*run, program);
+  } else {
+    run_on_transport(*run, program, log);
+  }
   log.info("stopped");
   return 0;
 }

@@ -1,9 +1,8 @@
 // A node in a process of its own: command line, transport, time source, loop, and an orderly end.
 //
-// Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT and SIGTERM end
-// the loop: what the bus has delivered is handled, the node takes its last step and says goodbye in STATUS;
-// exit code 0. An error of the user (configuration, command line) prints one line per problem; exit code 2.
-// Any other error: 1.
+// Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT and SIGTERM end the loop:
+// messages that the bus has delivered are handled, the node takes its last step and publishes a final STATUS; exit code
+// 0. An error of the user (configuration, command line) prints one line per problem; exit code 2. Any other error: 1.
 #pragma once
 
 #include <functional>
@@ -26,7 +25,7 @@ struct ProgramOption {
   std::string* value = nullptr;
   bool* flag = nullptr;
   // Of a text that stands for keys of the scenario: its settings ("section.key=value"). Throws InvalidArgument that
-  // says what is allowed.
+  // names what is allowed.
   std::function<std::vector<std::string>(const std::string& value)> settings = nullptr;
 };
 
@@ -39,7 +38,7 @@ struct NodeProgram {
   Stage stage = Stage::kClients;  // its place in lockstep
   std::vector<ProgramOption> options = {};
   bool keeps_state = false;  // takes --journal: its node describes its state (Node::on_archive)
-  // The name of the node when the command line gives none, asked once the configuration is read; default: node_name.
+  // The name of the node when the command line gives none, called once the configuration is read; default: node_name.
   std::function<std::string()> default_name = nullptr;
 
   // Describes the program's own sections of the scenario file: read from it, printed by --example and
@@ -57,14 +56,14 @@ struct NodeProgram {
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
   // Only for the program that makes the time itself; the others choose with --time-source.
   std::function<std::unique_ptr<TimeSource>(const Context&)> make_time_source = nullptr;
-  // Where the program has another way to run than run_node: returns true when it was asked for, and has run.
+  // Another way to run than run_node: returns true when the command line selects it, after it has run.
   std::function<bool(const Context&)> run_otherwise = nullptr;
 };
 
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
 int run_node_program(int argc, char** argv, const NodeProgram& program);
 
-// The loop alone. `should_stop` is asked at least every 0.1 s. The conductor brings its own TimeSource.
+// The loop alone. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource.
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop);
 
 // From now on SIGINT and SIGTERM set a flag instead of ending the process; returns whether either came.
@@ -80,7 +79,7 @@ void dispatch_waiting(lcm::LCM& lcm);
 // Both, one after the other, in fewer system calls.
 void wait_and_dispatch(lcm::LCM& lcm, SimTime wake);
 
-// From now on this thread's sleeps end when asked, not up to 50 us later (Linux' timer slack).
+// From now on this thread's sleeps end when requested, not up to 50 us later (Linux' timer slack).
 void sleep_precisely();
 
 // Unix time.

@@ -1,7 +1,7 @@
 // What every program of a run shares of a scenario file: name, seed, origin, time, and the vehicles.
 //
 // A scenario is one TOML file. Each program reads this part and the sections of its own; `halocline run`
-// reads all, so that one look finds every error. Sections and their owners:
+// reads all, so that it finds every error at once. Sections and their owners:
 //   [scenario] [time] [[vehicle]]      this file
 //   [terrain]                          bathymetry/bathymetry_config.h
 //   [environment] [modem] [channel_server], [vehicle.modem]    channel_server/channel_server_config.h
@@ -49,9 +49,8 @@ struct Scenario {
 
 void visit(ConfigVisitor& v, Scenario& scenario);
 
-// An identity for a node's life. In lockstep it must be the same in each run: made of the seed and the name.
-// In a process of its own it must differ from run to run: made of the given entropy (wall clock, process id)
-// and the name.
+// The session of a node's incarnation. In lockstep it must be the same in each run: made of the seed and the name. In a
+// process of its own it must differ from run to run: made of the given entropy (wall clock, process id) and the name.
 std::int64_t session_of(std::uint64_t entropy, std::string_view node_name);
 
 }  // namespace halocline::bus

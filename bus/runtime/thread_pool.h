@@ -1,10 +1,10 @@
-// A few threads that do the same for many numbers.
+// Thread pool with a parallel for.
 //
 //   ThreadPool pool(2);
 //   pool.for_each(links.size(), [&](std::size_t i) { rows[i] = row_of(links[i]); });
 //
-// The caller is one of the threads; a pool of one starts none. Bodies touch nothing in common, so results do not
-// depend on the number of threads. One caller at a time.
+// The caller is one of the threads; a pool of one starts none. Bodies share no mutable state, so results do not depend on
+// the number of threads. One caller at a time.
 #pragma once
 
 #include <condition_variable>
@@ -25,7 +25,8 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  // As core/for_each.h says. When bodies throw, the rest is still done, and what the lowest number threw is thrown.
+  // A ForEach (core/for_each.h). When bodies throw, the rest is still done, and the exception of the lowest index is
+  // thrown.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
 
  private:

@@ -8,7 +8,7 @@
 namespace halocline::bus {
 namespace {
 
-// A message that waited longer between the network and us says nothing of when it was sent.
+// Longest delay between the network and a handler that is credited to a message.
 constexpr SimDuration kLongestWait = SimDuration::from_milliseconds(100);
 constexpr SimDuration kSampleMemory = SimDuration::from_milliseconds(1000);
 // Messages of one moment reach us in any order within far less than this; a log started anew jumps by more.
@@ -26,15 +26,15 @@ SimTime to_steady(double seconds) {
 ConductorTime::ConductorTime(lcm::LCM& lcm, std::string process_name)
     : bus_(lcm, {std::move(process_name), 0}) {
   bus_.subscribe<sim_clock_t>(channels::kClock,
-                              [this](const sim_clock_t& clock) { on_clock(clock, heard()); });
+                              [this](const sim_clock_t& clock) { on_clock(clock, received()); });
 }
 
-SimTime ConductorTime::heard() const {
+SimTime ConductorTime::received() const {
   if (!wall_) return steady_;
   return steady_ - std::clamp(*wall_ - bus_.received_at(), SimDuration(), kLongestWait);
 }
 
-void ConductorTime::on_clock(const sim_clock_t& clock, SimTime heard) {
+void ConductorTime::on_clock(const sim_clock_t& clock, SimTime received) {
   const SimTime sim = SimTime::from_utime(clock.utime);
   if (clock.session != session_ || clock.clock_rate != rate_) samples_.clear();
   if (clock.session != session_ && latest_ > sim + kJumpBack) {
@@ -45,8 +45,8 @@ void ConductorTime::on_clock(const sim_clock_t& clock, SimTime heard) {
   rate_ = clock.clock_rate;
   paused_at_ = rate_ > 0 ? std::nullopt : std::optional(sim);
   if (rate_ <= 0) return;
-  samples_.push_back({heard, heard.seconds() - sim.seconds() / rate_});
-  while (samples_.front().heard + kSampleMemory < heard) samples_.pop_front();
+  samples_.push_back({received, received.seconds() - sim.seconds() / rate_});
+  while (samples_.front().received + kSampleMemory < received) samples_.pop_front();
 }
 
 std::optional<SimTime> ConductorTime::now(SimTime steady) {

@@ -1,6 +1,6 @@
-// Where a process takes its simulation time from.
+// Sources of a process's simulation time.
 //
-// Steady time is given in, never read here: integer nanoseconds since the process started. So is the wall's.
+// Steady time (integer nanoseconds since the process started) and wall time are parameters, never read here.
 #pragma once
 
 #include <cstdint>
@@ -21,18 +21,17 @@ namespace halocline::bus {
 class TimeSource {
  public:
   virtual ~TimeSource() = default;
-  // Called before messages are dispatched: the steady time at which that begins, and the wall's (Unix time), by
-  // which is known how long ago LCM received them; without it they count as received now.
+  // Called before messages are dispatched: the steady time at which that begins, and the wall time (Unix), against which
+  // LCM's receive stamps give the delay of each message; without it they count as received now.
   void set_steady(SimTime steady, std::optional<SimTime> wall = {}) {
     steady_ = steady;
     wall_ = wall;
   }
-  // Simulation time at `steady`; empty while none is known yet. Never goes back but where restarted() says
-  // so.
+  // Simulation time at `steady`; empty while none is known yet. Never goes back unless restarted().
   virtual std::optional<SimTime> now(SimTime steady) = 0;
-  // The steady time at which simulation time will reach `sim`; never() where that cannot be told.
+  // The steady time at which simulation time will reach `sim`; never() where that is unknown.
   virtual SimTime steady_at(SimTime sim) const = 0;
-  // True once after simulation time jumped back: another run has begun, state kept of the old one is void.
+  // True once after simulation time jumped back: another run has begun, state of the old one is void.
   virtual bool restarted() { return false; }
 
  protected:
@@ -42,8 +41,8 @@ class TimeSource {
 
 // Follows the CLOCK of a conductor, and coasts at its last rate when the conductor falls silent.
 //
-// Each CLOCK says: at this simulation time, this rate. It was heard after an unknown delay, so the smallest
-// (steady - utime / rate) of the last second is the best estimate of when the conductor meant it.
+// Each CLOCK carries a simulation time and a rate, and is received after an unknown delay; so the smallest
+// (steady - utime / rate) of the last second is the best estimate of the offset between the clocks.
 class ConductorTime : public TimeSource {
  public:
   explicit ConductorTime(lcm::LCM& lcm, std::string process_name);
@@ -51,16 +50,16 @@ class ConductorTime : public TimeSource {
   SimTime steady_at(SimTime sim) const override;
   bool restarted() override { return std::exchange(restarted_, false); }
 
-  // A CLOCK that was received at `heard` (steady).
-  void on_clock(const sim_clock_t& clock, SimTime heard);
+  // A CLOCK that was received at `received` (steady).
+  void on_clock(const sim_clock_t& clock, SimTime received);
 
  private:
   struct Sample {
-    SimTime heard;    // steady
-    double offset_s;  // heard - utime / rate, seconds
+    SimTime received;  // steady
+    double offset_s;   // received - utime / rate, seconds
   };
-  // When the message being handled was received. The wall may have been set meanwhile: within a bound.
-  SimTime heard() const;
+  // When the message being handled was received (steady); bounded, as the wall clock may have been set meanwhile.
+  SimTime received() const;
 
   Bus bus_;
   double rate_ = 0;
@@ -71,9 +70,8 @@ class ConductorTime : public TimeSource {
   bool restarted_ = false;
 };
 
-// The greatest utime heard in a STATE or SEND: for a lone channel server beside a replayed log. Stands still
-// between messages. A utime more than ten seconds before the greatest one heard means that a log was started
-// anew.
+// The greatest utime received in a STATE or SEND: for a lone channel server beside a replayed log. Stands still between
+// messages. A utime more than ten seconds before the greatest one means that a log was started anew.
 class MessageTime : public TimeSource {
  public:
   explicit MessageTime(lcm::LCM& lcm, std::string process_name);

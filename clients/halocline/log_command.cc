@@ -23,7 +23,7 @@ int info(const LogArguments& arguments) {
   } else {
     print(std::cout, statistics);
   }
-  tell_damage(std::cerr, log);
+  report_damage(std::cerr, log);
   return kDone;
 }
 
@@ -35,14 +35,14 @@ int export_all(const LogArguments& arguments) {
     std::cout << "left out: " << result.foreign << " events on channels that are none of ours\n";
   if (result.undecodable > 0)
     std::cout << "left out: " << result.undecodable << " events that do not decode\n";
-  tell_damage(std::cerr, log);
+  report_damage(std::cerr, log);
   return kDone;
 }
 
 int write_output(const LogArguments& arguments) {
   LogReader log(arguments.logs);
   std::cout << arguments.out << ": " << write_simulation_output(log, arguments.out) << " events\n";
-  tell_damage(std::cerr, log);
+  report_damage(std::cerr, log);
   return kDone;
 }
 

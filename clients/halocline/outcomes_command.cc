@@ -27,7 +27,7 @@ int show_outcomes(const OutcomesArguments& arguments) {
     print_outcomes_csv(std::cout, summary);
   else
     print(std::cout, summary);
-  tell_damage(std::cerr, log);
+  report_damage(std::cerr, log);
   if (!arguments.plot.empty()) write_plot(outcome_plot(summary, arguments.logs.front()), arguments.plot);
   return kDone;
 }

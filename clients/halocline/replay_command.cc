@@ -97,7 +97,7 @@ int replay(const ReplayOptions& options) {
   require_another_file(options, log);
   const ScenarioConfig config = config_of(options);
   Recording recording = read_recording(log, config.scenario);
-  tell_damage(std::cerr, log);
+  report_damage(std::cerr, log);
   if (!options.quiet) print_repairs(std::cerr, recording);
   require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");
   const RunFiles files = run_files("", config.scenario.name, options.out, "");
@@ -115,8 +115,8 @@ int replay(const ReplayOptions& options) {
 int compare(const ReplayOptions& options) {
   LogReader before(options.logs.at(0)), after(options.logs.at(1));
   const LoggedOutcomes was = outcomes_of(before), is = outcomes_of(after);
-  tell_damage(std::cerr, before);
-  tell_damage(std::cerr, after);
+  report_damage(std::cerr, before);
+  report_damage(std::cerr, after);
   show(Comparison(was, is), options.format);
   return kDone;
 }

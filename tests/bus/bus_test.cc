@@ -33,14 +33,15 @@ class BusTest : public ::testing::Test {
   Bus bus_{lcm_, {"listener", 11}};
 };
 
-TEST_F(BusTest, DeliversWhatWasPublished) {
-  std::vector<double> heard;
-  bus_.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t& m) { heard.push_back(m.clock_rate); });
+TEST_F(BusTest, DeliversPublishedMessages) {
+  std::vector<double> received;
+  bus_.subscribe<sim_clock_t>(channels::kClock,
+                              [&](const sim_clock_t& m) { received.push_back(m.clock_rate); });
   sim_clock_t clock = valid_message<sim_clock_t>(1);
   clock.clock_rate = 2.5;
   bus_.publish(channels::kClock, clock);
   drain();
-  EXPECT_THAT(heard, ElementsAre(2.5));
+  EXPECT_THAT(received, ElementsAre(2.5));
   EXPECT_EQ(bus_.counters().received, 1);
   EXPECT_EQ(bus_.counters().sent, 1);
 }
@@ -58,54 +59,54 @@ TEST_F(BusTest, AFamilyHandlerGetsTheNameAfterTheDot) {
 }
 
 TEST_F(BusTest, ANameThatIsNoNameIsRefused) {
-  int heard = 0;
+  int received = 0;
   bus_.subscribe<vehicle_state_t>(channels::kState,
-                                  [&](std::string_view, const vehicle_state_t&) { ++heard; });
+                                  [&](std::string_view, const vehicle_state_t&) { ++received; });
   for (const char* channel : {"STATE.", "STATE.Upper", "STATE.a.b", "STATE.much-too-long-for-a-vehicle"}) {
     bus_.publish(channel, valid_message<vehicle_state_t>(1));
   }
   drain();
-  EXPECT_EQ(heard, 0);
+  EXPECT_EQ(received, 0);
   EXPECT_EQ(bus_.counters().refused, 4);
   EXPECT_EQ(bus_.counters().received, 0);
 }
 
-TEST_F(BusTest, ALiteralChannelHearsNoOtherChannel) {
-  int heard = 0;
-  bus_.subscribe<sim_clock_t>("A.B", [&](const sim_clock_t&) { ++heard; });
+TEST_F(BusTest, ALiteralChannelReceivesNoOtherChannel) {
+  int received = 0;
+  bus_.subscribe<sim_clock_t>("A.B", [&](const sim_clock_t&) { ++received; });
   for (const char* channel : {"AxB", "A.BC", "XA.B", "A.B"})
     bus_.publish(channel, valid_message<sim_clock_t>(1));
   drain();
-  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(received, 1);
 }
 
-TEST(Escaped, EveryCharacterThatMeansSomethingIsEscaped) {
+TEST(Escaped, EverySpecialCharacterIsEscaped) {
   EXPECT_EQ(escaped(R"(a.b*c+(d)[e]{f}^g$h|i?j\k)"), R"(a\.b\*c\+\(d\)\[e\]\{f\}\^g\$h\|i\?j\\k)");
   EXPECT_EQ(escaped("plain_NAME-1"), "plain_NAME-1");
 }
 
 TEST_F(BusTest, AnotherTypeOfTheSameLengthIsRefused) {
-  int heard = 0;
+  int received = 0;
   bus_.subscribe<vehicle_state_t>(channels::kState,
-                                  [&](std::string_view, const vehicle_state_t&) { ++heard; });
+                                  [&](std::string_view, const vehicle_state_t&) { ++received; });
   auto bytes = encoded(valid_message<vehicle_state_t>(1));
   bytes[0] ^= 1;  // of the fingerprint
   publish_raw("STATE.a", bytes);
   drain();
-  EXPECT_EQ(heard, 0);
+  EXPECT_EQ(received, 0);
   EXPECT_EQ(bus_.counters().refused, 1);
 }
 
-TEST_F(BusTest, AnImpossibleMessageIsCountedAndIgnoredAndTheNextIsHeard) {
-  int heard = 0;
+TEST_F(BusTest, AnImpossibleMessageIsCountedAndIgnoredAndTheNextIsReceived) {
+  int received = 0;
   bus_.subscribe<vehicle_state_t>(channels::kState,
-                                  [&](std::string_view, const vehicle_state_t&) { ++heard; });
+                                  [&](std::string_view, const vehicle_state_t&) { ++received; });
   vehicle_state_t state = valid_message<vehicle_state_t>(1);
   state.position_ned_m[0] = std::numeric_limits<double>::quiet_NaN();
   bus_.publish("STATE.a", state);
   bus_.publish("STATE.a", valid_message<vehicle_state_t>(1));
   drain();
-  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(received, 1);
   EXPECT_EQ(bus_.counters().refused, 1);
 }
 
@@ -158,17 +159,17 @@ TEST_F(BusTest, AHandlersExceptionIsKeptAndThrownOnce) {
 }
 
 TEST_F(BusTest, AfterAFailureNothingMoreIsHandled) {
-  int heard = 0;
+  int received = 0;
   bus_.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t&) {
-    ++heard;
+    ++received;
     throw std::runtime_error("boom");
   });
   for (int i = 0; i < 3; ++i) bus_.publish(channels::kClock, valid_message<sim_clock_t>(1));
   drain();
-  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(received, 1);
 }
 
-TEST_F(BusTest, CountsWhatIsMissingInASession) {
+TEST_F(BusTest, CountsTheGapsOfASession) {
   bus_.subscribe<sim_clock_t>(channels::kClock, [](const sim_clock_t&) {});
   sim_clock_t clock = valid_message<sim_clock_t>(1);
   clock.session = 5;
@@ -192,15 +193,15 @@ TEST_F(BusTest, PacketsAreNumberedBySendersAndGapsAmongThemShow) {
   EXPECT_EQ(bus_.counters().gaps, 2);
 }
 
-TEST_F(BusTest, EndsItsSubscriptionsWithItsLife) {
-  int heard = 0;
+TEST_F(BusTest, UnsubscribesWhenDestroyed) {
+  int received = 0;
   {
     Bus brief(lcm_, {"brief", 1});
-    brief.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t&) { ++heard; });
+    brief.subscribe<sim_clock_t>(channels::kClock, [&](const sim_clock_t&) { ++received; });
   }
   bus_.publish(channels::kClock, valid_message<sim_clock_t>(1));
   drain();
-  EXPECT_EQ(heard, 0);
+  EXPECT_EQ(received, 0);
 }
 
 TEST_F(BusTest, ANodeHasAValidName) {

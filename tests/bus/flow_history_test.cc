@@ -33,7 +33,7 @@ TEST(FlowHistory, AMessageBeyondTheBoundIsKeptAlone) {
   EXPECT_NE(history.find("A", 1, 1), nullptr);
 }
 
-TEST(FlowHistory, NamesTheLastOfEachFlowEvenWhenItsMessagesAreGone) {
+TEST(FlowHistory, ListsTheLastNumberOfEachFlowEvenWhenItsMessagesAreGone) {
   FlowHistory history(10);
   history.keep("A", 1, 3, message_of(10));
   history.keep("B", 1, 9, message_of(10));

@@ -1,4 +1,4 @@
-// Two Buses joined by a network that loses, doubles and delays what passes.
+// Two Buses joined by a network that loses, duplicates and delays datagrams.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -81,22 +81,22 @@ class LossyNetwork {
   std::vector<Datagram> under_way_;
 };
 
-// A publisher of STATE.a on one host, a hearer on the other; a millisecond of steady time a round.
+// A publisher of STATE.a on one host, a receiver on the other; a millisecond of steady time a round.
 class FlowRepairTest : public ::testing::Test {
  protected:
   void start(double loss, double doubled = 0, unsigned seed = 1) {
     set_log_level(LogLevel::kSilent);
     publisher_.reset();
-    hearer_.reset();
+    receiver_.reset();
     network_.emplace(loss, doubled, seed);
     publisher_.emplace(network_->host(0), NodeIdentity{"publisher", 77});
-    hearer_.emplace(network_->host(1), NodeIdentity{"hearer", 88});
-    hearer_->subscribe<vehicle_state_t>(
-        channels::kState, [this](std::string_view, const vehicle_state_t& m) { ++heard_[m.sequence]; });
+    receiver_.emplace(network_->host(1), NodeIdentity{"receiver", 88});
+    receiver_->subscribe<vehicle_state_t>(
+        channels::kState, [this](std::string_view, const vehicle_state_t& m) { ++received_[m.sequence]; });
   }
   void enable_repair() {
     publisher_->enable_repair();
-    hearer_->enable_repair();
+    receiver_->enable_repair();
   }
   ~FlowRepairTest() override { set_log_level(LogLevel::kInfo); }
 
@@ -109,28 +109,29 @@ class FlowRepairTest : public ::testing::Test {
   void pass(int milliseconds) {
     for (int i = 0; i < milliseconds; ++i) {
       steady_ = steady_ + SimDuration::from_milliseconds(1);
-      for (Bus* bus : {&*publisher_, &*hearer_}) {
+      for (Bus* bus : {&*publisher_, &*receiver_}) {
         bus->set_steady(steady_);
         if (bus->next_repair() <= steady_) bus->repair(steady_, steady_);
       }
       network_->carry();
     }
   }
-  bool heard_each_once() const {
-    return heard_.size() == static_cast<std::size_t>(published_) &&
-           std::all_of(heard_.begin(), heard_.end(), [](const auto& entry) { return entry.second == 1; });
+  bool received_each_once() const {
+    return received_.size() == static_cast<std::size_t>(published_) &&
+           std::all_of(received_.begin(), received_.end(),
+                       [](const auto& entry) { return entry.second == 1; });
   }
 
   std::optional<LossyNetwork> network_;
-  std::optional<Bus> publisher_, hearer_;
-  std::map<std::int64_t, int> heard_;
+  std::optional<Bus> publisher_, receiver_;
+  std::map<std::int64_t, int> received_;
   std::int64_t published_ = 0;
   SimTime steady_;
 };
 
-TEST_F(FlowRepairTest, EveryMessageIsHeardOnceWhateverTheNetworkLosesDoublesAndDelays) {
+TEST_F(FlowRepairTest, EveryMessageIsReceivedOnceWhateverTheNetworkLosesDuplicatesAndDelays) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    heard_.clear();
+    received_.clear();
     published_ = 0;
     start(0.2, 0.1, seed);
     enable_repair();
@@ -140,21 +141,21 @@ TEST_F(FlowRepairTest, EveryMessageIsHeardOnceWhateverTheNetworkLosesDoublesAndD
       pass(5);
     }
     pass(5000);
-    EXPECT_TRUE(heard_each_once()) << "seed " << seed << ": " << heard_.size() << " of " << published_;
-    EXPECT_EQ(hearer_->counters().gaps, hearer_->counters().repaired);
-    EXPECT_GT(hearer_->counters().repaired, 30);
-    EXPECT_EQ(hearer_->counters().lost, 0);
+    EXPECT_TRUE(received_each_once()) << "seed " << seed << ": " << received_.size() << " of " << published_;
+    EXPECT_EQ(receiver_->counters().gaps, receiver_->counters().repaired);
+    EXPECT_GT(receiver_->counters().repaired, 30);
+    EXPECT_EQ(receiver_->counters().lost, 0);
   }
 }
 
-TEST_F(FlowRepairTest, WithoutItWhatIsLostStaysLost) {
+TEST_F(FlowRepairTest, WithoutRepairLostMessagesStayLost) {
   start(0.2);
   for (int i = 0; i < 300; ++i) {
     publish();
     pass(5);
   }
-  EXPECT_LT(heard_.size(), 280u);
-  EXPECT_GT(hearer_->counters().gaps, 20);
+  EXPECT_LT(received_.size(), 280u);
+  EXPECT_GT(receiver_->counters().gaps, 20);
 }
 
 TEST_F(FlowRepairTest, TheOnlyMessageOfAFlowIsRepairedByTheHeartbeat) {
@@ -165,14 +166,14 @@ TEST_F(FlowRepairTest, TheOnlyMessageOfAFlowIsRepairedByTheHeartbeat) {
   publish();
   pass(10);
   network_->loss() = 0;
-  EXPECT_TRUE(heard_.empty());
+  EXPECT_TRUE(received_.empty());
   pass(300);
-  EXPECT_TRUE(heard_each_once());
+  EXPECT_TRUE(received_each_once());
 }
 
-TEST_F(FlowRepairTest, AHearerThatIsOlderThanThePublisherMissesNothingOfItsFirstMessages) {
+TEST_F(FlowRepairTest, AReceiverOlderThanThePublisherMissesNoneOfItsFirstMessages) {
   start(0);
-  hearer_->enable_repair();
+  receiver_->enable_repair();
   pass(1000);
   publisher_->enable_repair();
   network_->loss() = 1;
@@ -181,28 +182,28 @@ TEST_F(FlowRepairTest, AHearerThatIsOlderThanThePublisherMissesNothingOfItsFirst
   pass(100);
   network_->loss() = 0;
   pass(600);
-  EXPECT_TRUE(heard_each_once());
+  EXPECT_TRUE(received_each_once());
 }
 
-TEST_F(FlowRepairTest, AHearerThatCameLaterAsksForNothingOfBefore) {
+TEST_F(FlowRepairTest, AReceiverThatStartedLaterRequestsNothingFromBefore) {
   start(0);
   publisher_->enable_repair();
-  network_->loss() = 1;  // nobody is there
+  network_->loss() = 1;  // no receiver yet
   for (int i = 0; i < 5; ++i) publish();
   pass(1000);
   network_->loss() = 0;
-  hearer_->enable_repair();
+  receiver_->enable_repair();
   pass(1000);
   publish();
   pass(1000);
-  EXPECT_EQ(heard_.size(), 1u);
-  EXPECT_EQ(heard_.count(5), 1u);
-  EXPECT_LE(hearer_->counters().gaps, 1);  // a heartbeat may overtake the message that it names
+  EXPECT_EQ(received_.size(), 1u);
+  EXPECT_EQ(received_.count(5), 1u);
+  EXPECT_LE(receiver_->counters().gaps, 1);  // a heartbeat may be reordered with the message that it names
 }
 
 TEST_F(FlowRepairTest, AGapOfAPublisherWithoutHistoryIsCountedAsLost) {
   start(0);
-  hearer_->enable_repair();
+  receiver_->enable_repair();
   publish();
   pass(10);
   network_->loss() = 1;
@@ -211,34 +212,35 @@ TEST_F(FlowRepairTest, AGapOfAPublisherWithoutHistoryIsCountedAsLost) {
   network_->loss() = 0;
   publish();
   pass(11'000);
-  EXPECT_EQ(hearer_->counters().gaps, 3);
-  EXPECT_EQ(hearer_->counters().repaired, 0);
-  EXPECT_EQ(hearer_->counters().lost, 3);
+  EXPECT_EQ(receiver_->counters().gaps, 3);
+  EXPECT_EQ(receiver_->counters().repaired, 0);
+  EXPECT_EQ(receiver_->counters().lost, 3);
 }
 
-TEST_F(FlowRepairTest, ASendThatIsRepeatedOnPurposeIsHeardEachTime) {
+TEST_F(FlowRepairTest, ASendThatIsRepeatedOnPurposeIsReceivedEachTime) {
   start(0);
   enable_repair();
-  int heard = 0;
-  hearer_->subscribe<modem_send_t>(channels::kSend, [&](std::string_view, const modem_send_t&) { ++heard; });
+  int received = 0;
+  receiver_->subscribe<modem_send_t>(channels::kSend,
+                                     [&](std::string_view, const modem_send_t&) { ++received; });
   modem_send_t send = valid_message<modem_send_t>(1);
   for (int i = 0; i < 3; ++i) {
     publisher_->publish("SEND.a", send);
     pass(10);
   }
-  EXPECT_EQ(heard, 3);
+  EXPECT_EQ(received, 3);
 }
 
-TEST_F(FlowRepairTest, ARequestForWhatNobodyPublishedIsIgnored) {
+TEST_F(FlowRepairTest, ARequestForAnUnknownMessageIsIgnored) {
   start(0);
   enable_repair();
   publish();
   repair_request_t request = valid_message<repair_request_t>(1);
   request.missing_channel = "STATE.a";
   request.publisher_session = 12345;
-  hearer_->publish(channels::kRepairRequest, request);
+  receiver_->publish(channels::kRepairRequest, request);
   pass(20);
-  EXPECT_TRUE(heard_each_once());
+  EXPECT_TRUE(received_each_once());
 }
 
 }  // namespace

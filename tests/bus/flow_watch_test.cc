@@ -13,15 +13,15 @@ SimTime at_ms(std::int64_t ms) { return SimTime() + SimDuration::from_millisecon
 
 class FlowWatchTest : public ::testing::Test {
  protected:
-  // How many messages are missing before this one, heard at 0.
+  // How many messages are missing before this one, received at 0.
   std::int64_t missing_before(const char* channel, std::int64_t session, std::int64_t sequence) {
     return watch_.on_message(SimTime(), channel, session, sequence).newly_missing;
   }
-  void hear(std::initializer_list<std::int64_t> sequences) {
+  void receive(std::initializer_list<std::int64_t> sequences) {
     for (const std::int64_t sequence : sequences) watch_.on_message(SimTime(), "A", 1, sequence);
   }
-  // The sequences asked for at this instant, of the only flow.
-  std::vector<std::int64_t> asked_at(SimTime steady) {
+  // The sequence numbers requested at this instant, of the only flow.
+  std::vector<std::int64_t> requested_at(SimTime steady) {
     const auto requests = watch_.take_due(steady);
     return requests.empty() ? std::vector<std::int64_t>() : requests.front().sequences;
   }
@@ -41,17 +41,17 @@ TEST_F(FlowWatchTest, AGapIsCountedOnce) {
   EXPECT_EQ(missing_before("A", 1, 6), 0);
 }
 
-TEST_F(FlowWatchTest, RepetitionsAndLatecomersAreNoGaps) {
+TEST_F(FlowWatchTest, DuplicatesAndReorderedMessagesAreNoGaps) {
   missing_before("A", 1, 5);
   EXPECT_EQ(missing_before("A", 1, 5), 0);
   EXPECT_EQ(missing_before("A", 1, 4), 0);
   EXPECT_EQ(missing_before("A", 1, 6), 0);
 }
 
-TEST_F(FlowWatchTest, WhatLiesBetweenTheFirstHeardAndOneItHadOvertakenIsMissing) {
+TEST_F(FlowWatchTest, MessagesBetweenTheFirstReceivedAndAReorderedOneAreMissing) {
   missing_before("A", 1, 5);
   EXPECT_EQ(missing_before("A", 1, 2), 2);
-  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(3, 4));
+  EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(3, 4));
 }
 
 TEST_F(FlowWatchTest, ANewSessionStartsAnew) {
@@ -73,7 +73,7 @@ TEST_F(FlowWatchTest, ChannelsAreFollowedApart) {
   EXPECT_EQ(missing_before("A", 1, 1), 0);
 }
 
-TEST_F(FlowWatchTest, APublisherThatKeepsNoNumbersIsNotWatched) {
+TEST_F(FlowWatchTest, APublisherWithoutSequenceNumbersIsNotWatched) {
   for (int i = 0; i < 3; ++i) {
     const auto arrival = watch_.on_message(SimTime(), "A", 0, 0);
     EXPECT_EQ(arrival.newly_missing, 0);
@@ -81,8 +81,8 @@ TEST_F(FlowWatchTest, APublisherThatKeepsNoNumbersIsNotWatched) {
   }
 }
 
-TEST_F(FlowWatchTest, RemembersTheSessionHeardLastAmongMany) {
-  missing_before("A", 1, 0);  // the smallest number of all, but heard again and again
+TEST_F(FlowWatchTest, KeepsTheSessionReceivedLastAmongMany) {
+  missing_before("A", 1, 0);  // the smallest number of all, but received repeatedly
   for (int session = 100; session < 130; ++session) {
     missing_before("A", 1, session - 99);
     missing_before("A", session, 0);
@@ -90,15 +90,15 @@ TEST_F(FlowWatchTest, RemembersTheSessionHeardLastAmongMany) {
   EXPECT_EQ(missing_before("A", 1, 35), 4);
 }
 
-TEST_F(FlowWatchTest, HostileNumbersNeitherOverflowNorGrow) {
+TEST_F(FlowWatchTest, HostileSequenceNumbersNeitherOverflowNorGrow) {
   missing_before("A", 1, INT64_MIN);
   EXPECT_GE(missing_before("A", 1, INT64_MAX), 0);
   EXPECT_EQ(missing_before("A", 1, INT64_MIN), 0);
   EXPECT_GT(watch_.lost(), 0);
-  EXPECT_LE(asked_at(at_ms(5)).size(), FlowWatch::kMaxInARequest);
+  EXPECT_LE(requested_at(at_ms(5)).size(), FlowWatch::kMaxPerRequest);
 }
 
-TEST_F(FlowWatchTest, ChannelsMadeUpWithoutEndAreNotWatchedBeyondABound) {
+TEST_F(FlowWatchTest, ChannelsBeyondABoundAreNotWatched) {
   for (std::size_t i = 0; i < FlowWatch::kMaxChannels + 10; ++i) {
     const std::string channel = "C" + std::to_string(i);
     watch_.on_message(SimTime(), channel, 1, 0);
@@ -107,36 +107,36 @@ TEST_F(FlowWatchTest, ChannelsMadeUpWithoutEndAreNotWatchedBeyondABound) {
   }
 }
 
-TEST_F(FlowWatchTest, WhatIsMissingIsAskedForAfterAMomentOfPatience) {
-  hear({0, 3});
+TEST_F(FlowWatchTest, MissingMessagesAreRequestedAfterTheReorderingDelay) {
+  receive({0, 3});
   EXPECT_EQ(watch_.next_due(), at_ms(5));
-  EXPECT_THAT(asked_at(at_ms(4)), IsEmpty());
-  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(1, 2));
+  EXPECT_THAT(requested_at(at_ms(4)), IsEmpty());
+  EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(1, 2));
 }
 
-TEST_F(FlowWatchTest, WhatWasOnlyOvertakenIsNeverAskedFor) {
-  hear({0, 2, 1});
-  EXPECT_THAT(asked_at(at_ms(5)), IsEmpty());
+TEST_F(FlowWatchTest, ReorderedMessagesAreNotRequested) {
+  receive({0, 2, 1});
+  EXPECT_THAT(requested_at(at_ms(5)), IsEmpty());
 }
 
 TEST_F(FlowWatchTest, RequestsAreRepeatedAtGrowingIntervals) {
-  hear({0, 2});
-  std::vector<std::int64_t> asked_ms;
+  receive({0, 2});
+  std::vector<std::int64_t> requested_ms;
   for (std::int64_t ms = 0; ms < 3000; ++ms) {
-    if (!asked_at(at_ms(ms)).empty()) asked_ms.push_back(ms);
+    if (!requested_at(at_ms(ms)).empty()) requested_ms.push_back(ms);
   }
-  EXPECT_THAT(asked_ms, ElementsAre(5, 45, 125, 285, 605, 1245, 1885, 2525));
+  EXPECT_THAT(requested_ms, ElementsAre(5, 45, 125, 285, 605, 1245, 1885, 2525));
 }
 
-TEST_F(FlowWatchTest, AMessageThatFillsAGapSaysSoAndEndsTheRequests) {
-  hear({0, 2});
+TEST_F(FlowWatchTest, AMessageThatFillsAGapEndsTheRequests) {
+  receive({0, 2});
   EXPECT_TRUE(watch_.on_message(at_ms(6), "A", 1, 1).fills_gap);
-  EXPECT_THAT(asked_at(at_ms(100)), IsEmpty());
+  EXPECT_THAT(requested_at(at_ms(100)), IsEmpty());
   EXPECT_FALSE(watch_.on_message(at_ms(7), "A", 1, 1).fills_gap);
 }
 
-TEST_F(FlowWatchTest, WhatNobodyAnswersIsLostAfterTenSeconds) {
-  hear({0, 4});
+TEST_F(FlowWatchTest, AnUnansweredRequestIsGivenUpAfterTenSeconds) {
+  receive({0, 4});
   watch_.take_due(at_ms(9'999));
   EXPECT_EQ(watch_.lost(), 0);
   watch_.take_due(at_ms(10'000));
@@ -144,56 +144,56 @@ TEST_F(FlowWatchTest, WhatNobodyAnswersIsLostAfterTenSeconds) {
   EXPECT_EQ(watch_.next_due(), SimTime::never());
 }
 
-TEST_F(FlowWatchTest, AMessageThatComesTwiceIsARepetition) {
-  hear({0, 1, 2});
+TEST_F(FlowWatchTest, AMessageReceivedTwiceIsADuplicate) {
+  receive({0, 1, 2});
   EXPECT_TRUE(watch_.on_message(at_ms(1), "A", 1, 2).is_repeated);
   EXPECT_TRUE(watch_.on_message(at_ms(1), "A", 1, 0).is_repeated);
   EXPECT_FALSE(watch_.on_message(at_ms(1), "A", 1, 3).is_repeated);
 }
 
-TEST_F(FlowWatchTest, APublisherThatNumbersAnewAfterASilenceIsHeard) {
-  hear({0, 1, 2, 3});
+TEST_F(FlowWatchTest, APublisherThatRestartsItsSequenceAfterASilenceIsReceived) {
+  receive({0, 1, 2, 3});
   EXPECT_FALSE(watch_.on_message(at_ms(2000), "A", 1, 0).is_repeated);
 }
 
-TEST_F(FlowWatchTest, ALostTailShowsInWhatThePublisherSaysWasLast) {
-  hear({0, 1});
+TEST_F(FlowWatchTest, ALostTailShowsInTheLastNumberOfTheHeartbeat) {
+  receive({0, 1});
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, false), 2);
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, false), 0);
-  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(2, 3));
+  EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(2, 3));
 }
 
-TEST_F(FlowWatchTest, WhatCameBeforeTheHearerIsNotMissing) {
+TEST_F(FlowWatchTest, MessagesBeforeTheReceiverStartedAreNotMissing) {
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 7, false), 0);
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 8, false), 1);
-  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(8));
+  EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(8));
 }
 
-TEST_F(FlowWatchTest, AnAnswerThatFillsNoGapOfOursIsRepeated) {
-  hear({0, 2});
+TEST_F(FlowWatchTest, ARepairThatFillsNoGapIsADuplicate) {
+  receive({0, 2});
   EXPECT_FALSE(watch_.on_message(SimTime(), "A", 1, 1, true).is_repeated);
   EXPECT_TRUE(watch_.on_message(SimTime(), "A", 1, 1, true).is_repeated);
   EXPECT_TRUE(watch_.on_message(SimTime(), "B", 1, 1, true).is_repeated);
 }
 
-TEST_F(FlowWatchTest, AFlowThatBeganAfterItsPublisherWasMetIsOursFromItsStart) {
-  watch_.on_all_named(1);
+TEST_F(FlowWatchTest, AFlowNewerThanAHeartbeatIsExpectedFromItsStart) {
+  watch_.on_all_listed(1);
   EXPECT_EQ(missing_before("A", 1, 2), 2);
-  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(0, 1));
+  EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(0, 1));
 }
 
-TEST_F(FlowWatchTest, AHearerOlderThanThePublisherLearnsWhatItMissedBeforeTheFirstItHeard) {
-  hear({3});
+TEST_F(FlowWatchTest, AReceiverOlderThanThePublisherMissesMessagesBeforeTheFirstReceived) {
+  receive({3});
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, true), 3);
-  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(0, 1, 2));
+  EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(0, 1, 2));
 }
 
-TEST_F(FlowWatchTest, AFlowHeardOfFromItsStartMissesAllOfIt) {
+TEST_F(FlowWatchTest, AnAnnouncedFlowOfWhichNothingWasReceivedIsMissingWhole) {
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 2, true), 3);
-  EXPECT_THAT(asked_at(at_ms(5)), ElementsAre(0, 1, 2));
+  EXPECT_THAT(requested_at(at_ms(5)), ElementsAre(0, 1, 2));
 }
 
-TEST_F(FlowWatchTest, EveryNumberIsInTheEndHeardOrLostWhateverTheOrder) {
+TEST_F(FlowWatchTest, EverySequenceNumberIsReceivedOrLostWhateverTheOrder) {
   // A sweep through all orders of a short flow, each with every subset of it delivered: gaps found, filled and
   // lost always balance.
   std::vector<std::int64_t> order{0, 1, 2, 3};

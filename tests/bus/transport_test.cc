@@ -30,12 +30,12 @@ TEST(Transport, TakesTheGivenUrlThenTheEnvironmentThenTheDefault) {
   unsetenv("LCM_DEFAULT_URL");
 }
 
-TEST(Transport, AsksForABufferThatHoldsABurst) {
+TEST(Transport, RequestsABufferThatHoldsABurst) {
   EXPECT_EQ(effective_url("udpm://239.1.1.1:9"), "udpm://239.1.1.1:9?recv_buf_size=4194304");
   EXPECT_EQ(effective_url("udpm://239.1.1.1:9?ttl=1"), "udpm://239.1.1.1:9?ttl=1&recv_buf_size=4194304");
 }
 
-TEST(Transport, RefusesWhatCannotCarryASimulation) {
+TEST(Transport, RefusesOtherProviders) {
   for (const char* url :
        {"tcpq://127.0.0.1:7700", "file:///tmp/x.lcmlog", "nonsense", "mpudpm://239.1.1.1:9"}) {
     EXPECT_THAT(refusal_of(url), HasSubstr("allowed are udpm://")) << url;
@@ -43,7 +43,7 @@ TEST(Transport, RefusesWhatCannotCarryASimulation) {
   }
 }
 
-TEST(Transport, AUrlThatLcmCannotOpenSaysWhatToDo) {
+TEST(Transport, TheErrorForAUrlThatLcmCannotOpenNamesTheRemedy) {
   EXPECT_THAT(refusal_of("udpm://not-an-address:x"), HasSubstr("scripts/isolated"));
 }
 

@@ -12,11 +12,11 @@ namespace {
 class ConductorNodeTest : public ::testing::Test {
  protected:
   ConductorNodeTest() {
-    ear_.subscribe<sim_clock_t>(bus::channels::kClock,
-                                [this](const sim_clock_t& m) { clocks_.push_back(m); });
+    listener_.subscribe<sim_clock_t>(bus::channels::kClock,
+                                     [this](const sim_clock_t& m) { clocks_.push_back(m); });
   }
   lcm::LCM lcm_{"memq://"};
-  bus::Bus ear_{lcm_, {"ear", 1}};
+  bus::Bus listener_{lcm_, {"listener", 1}};
   std::vector<sim_clock_t> clocks_;
 };
 
@@ -36,7 +36,7 @@ TEST_F(ConductorNodeTest, PublishesTheClockOnItsGridInLockstep) {
   }
 }
 
-TEST_F(ConductorNodeTest, APacedClockSaysTheTimeOfItsStepNotOfItsGrid) {
+TEST_F(ConductorNodeTest, APacedClockCarriesTheTimeOfItsStepNotOfItsGrid) {
   ConductorNode node(lcm_, {"conductor", 1}, SimDuration::from_milliseconds(100), 2);
   node.step({SimTime::from_utime(103'000), SimTime::from_utime(51'500)});
   node.step({SimTime::from_utime(150'000), SimTime::from_utime(75'000)});  // not due

@@ -26,17 +26,17 @@ TEST_F(PacedTimeTest, StartsAtZeroOnASilentBusWhenItHasListened) {
   EXPECT_EQ(time.steady_at(at(8)), at(6.2));
 }
 
-TEST_F(PacedTimeTest, TakesUpTheTimeOfARunningSystem) {
+TEST_F(PacedTimeTest, ContinuesTheTimeOfARunningSystem) {
   PacedTime time(lcm_, 2);
   time.now(at(1));
   time.set_steady(at(1.5));
   time.on_utime(100'000'000);
   time.set_steady(at(2));
-  time.on_utime(100'500'000);  // an older word than the first: 101 is due by now
+  time.on_utime(100'500'000);  // older than the first: 101 is due by now
   EXPECT_EQ(time.now(at(2.5)), at(102));
 }
 
-TEST_F(PacedTimeTest, HearsStatesAndStatuses) {
+TEST_F(PacedTimeTest, ReceivesStatesAndStatuses) {
   PacedTime time(lcm_, 1);
   bus::Bus mouth(lcm_, {"mouth", 1});
   time.now(at(0));
@@ -60,7 +60,7 @@ TEST_F(PacedTimeTest, ANodeThatKnowsNoTimeDoesNotSetIt) {
   EXPECT_EQ(time.now(at(2)), at(0));
 }
 
-TEST_F(PacedTimeTest, OnceRunningItFollowsNobody) {
+TEST_F(PacedTimeTest, OnceRunningItIgnoresOtherTimes) {
   PacedTime time(lcm_, 1);
   time.now(at(0));
   time.now(at(2));
@@ -74,7 +74,7 @@ TEST_F(PacedTimeTest, ARateIsAboveZero) {
 }
 
 // Simulation time is a multiple of the steady clock's, not a sum of steps: after a day it is off by no more than a
-// rounding of doubles, however often it was asked for.
+// rounding of doubles, however often it was read.
 TEST_F(PacedTimeTest, DoesNotDriftInADay) {
   for (const double rate : {1.0, 0.1, 3.7, 1000.0}) {
     PacedTime time(lcm_, rate);

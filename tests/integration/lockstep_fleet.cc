@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -19,15 +20,24 @@ std::string contents_of(const std::filesystem::path& path) {
   return bytes.str();
 }
 
+bool eventually(const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
 }  // namespace
 
-LockstepFleet::LockstepFleet(std::string scenario, std::vector<std::string> settings, Weather weather,
+LockstepFleet::LockstepFleet(std::string scenario, std::vector<std::string> settings, NetworkFaults faults,
                              int shards)
     : shards_(shards),
       participants_({"bathymetry", "vehicle-sim", "autopilot", "traffic", "localiser"}),
       scenario_(HALOCLINE_TEST_DATA "/scenarios/" + std::move(scenario) + ".toml"),
       settings_(std::move(settings)),
-      weather_(weather),
+      faults_(faults),
       folder_(::testing::TempDir() + "halocline-lockstep-" + std::to_string(getpid())) {
   for (int i = 0; i < shards; ++i) {
     participants_.push_back(shards == 1 ? "channel-server" : "channel-server-" + std::to_string(i));
@@ -46,13 +56,13 @@ std::vector<std::string> LockstepFleet::settings_as_options() const {
   return options;
 }
 
-std::vector<std::string> LockstepFleet::command(const std::string& program, bool through_weather) const {
+std::vector<std::string> LockstepFleet::command(const std::string& program, bool with_faults) const {
   std::vector<std::string> words;
-  if (through_weather && weather_.loss + weather_.doubling + weather_.reordering > 0) {
+  if (with_faults && faults_.loss + faults_.duplication + faults_.reordering > 0) {
     words = {"/usr/bin/env", "LD_PRELOAD=" HALOCLINE_LOSSY_UDP,
-             "HALOCLINE_UDP_LOSS=" + std::to_string(weather_.loss),
-             "HALOCLINE_UDP_DOUBLING=" + std::to_string(weather_.doubling),
-             "HALOCLINE_UDP_REORDERING=" + std::to_string(weather_.reordering)};
+             "HALOCLINE_UDP_LOSS=" + std::to_string(faults_.loss),
+             "HALOCLINE_UDP_DOUBLING=" + std::to_string(faults_.duplication),
+             "HALOCLINE_UDP_REORDERING=" + std::to_string(faults_.reordering)};
   }
   words.push_back(HALOCLINE_BIN_DIR "/" + program);
   return words;
@@ -65,8 +75,8 @@ void LockstepFleet::start_conductor(const std::vector<std::string>& options) {
   for (const std::string& option : settings_as_options()) words.push_back(option);
   std::string expected;
   for (const std::string& name : participants_) expected += (expected.empty() ? "" : ",") + name;
-  const bool names_them = std::find(options.begin(), options.end(), "--expect") != options.end();
-  if (!names_them) words.insert(words.end(), {"--expect", expected});
+  const bool has_expected = std::find(options.begin(), options.end(), "--expect") != options.end();
+  if (!has_expected) words.insert(words.end(), {"--expect", expected});
   words.insert(words.end(), options.begin(), options.end());
   conductor_options_ = options;
   if (processes_.contains("conductor")) earlier_output_ += at("conductor").output();
@@ -108,6 +118,20 @@ bool LockstepFleet::run_to_the_end(std::chrono::seconds limit) {
     if (code >= 0) return code == 0;
   }
   return false;
+}
+
+bool LockstepFleet::wait_for_log(std::size_t bytes) const {
+  const std::filesystem::path log = folder_ / "separate.lcm";
+  return eventually([&] { return std::filesystem::exists(log) && std::filesystem::file_size(log) >= bytes; });
+}
+
+bool LockstepFleet::wait_for_output(const std::string& text) {
+  return eventually([&] { return conductor_output().find(text) != std::string::npos; });
+}
+
+void LockstepFleet::cut_log_in_half() const {
+  const std::filesystem::path log = folder_ / "separate.lcm";
+  std::filesystem::resize_file(log, std::filesystem::file_size(log) / 2);
 }
 
 std::string LockstepFleet::conductor_output() { return earlier_output_ + at("conductor").output(); }

@@ -1,4 +1,4 @@
-// A run in lockstep as separate processes, on the test's own loopback bus: started, harmed, started again.
+// A lockstep run as separate processes, on the test's own loopback bus: started, killed, restarted.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,19 @@
 
 namespace halocline::testing {
 
-// The network that all processes see: shares of the datagrams that each sends.
-struct Weather {
-  double loss = 0, doubling = 0, reordering = 0;
+// Faults of the network, as shares of the datagrams that each process sends.
+struct NetworkFaults {
+  double loss = 0, duplication = 0, reordering = 0;
 };
-inline std::ostream& operator<<(std::ostream& out, const Weather& weather) {
-  return out << weather.loss << " lost, " << weather.doubling << " doubled, " << weather.reordering
-             << " overtaken";
+inline std::ostream& operator<<(std::ostream& out, const NetworkFaults& faults) {
+  return out << faults.loss << " lost, " << faults.duplication << " duplicated, " << faults.reordering
+             << " reordered";
 }
 
 class LockstepFleet {
  public:
   // Runs the scenario of tests/data with these settings ("section.key=value"), with so many channel servers.
-  LockstepFleet(std::string scenario, std::vector<std::string> settings, Weather weather = {},
+  LockstepFleet(std::string scenario, std::vector<std::string> settings, NetworkFaults faults = {},
                 int shards = 1);
   ~LockstepFleet();
 
@@ -35,12 +35,18 @@ class LockstepFleet {
   void start_all(const std::vector<std::string>& conductor_options = {});
 
   Process& at(const std::string& name) { return *processes_.at(name); }
-  // Kills it where it stands, and starts it again.
+  // SIGKILL, and started again.
   void kill_and_restart(const std::string& name);
-  // Starts again whatever has ended with an error; until the conductor has ended with 0. False after `limit`.
+  // Restarts whatever has ended with an error, until the conductor has ended with 0. False after `limit`.
   bool run_to_the_end(std::chrono::seconds limit);
 
-  // What the conductor's lives have written so far.
+  // False after a generous time: until the log has so many bytes, and until the conductor's output holds a text.
+  bool wait_for_log(std::size_t bytes) const;
+  bool wait_for_output(const std::string& text);
+  // Leaves the log as a conductor killed while writing it would.
+  void cut_log_in_half() const;
+
+  // Of all incarnations of the conductor so far.
   std::string conductor_output();
   std::string log_bytes() const;
   std::map<std::string, int> events_by_channel() const;
@@ -51,7 +57,7 @@ class LockstepFleet {
   std::string log_of_one_process(const std::vector<std::string>& more_settings = {});
 
  private:
-  std::vector<std::string> command(const std::string& program, bool through_weather) const;
+  std::vector<std::string> command(const std::string& program, bool with_faults) const;
   std::vector<std::string> settings_as_options() const;
 
   std::string output_of(const std::filesystem::path& log) const;
@@ -60,7 +66,7 @@ class LockstepFleet {
   std::vector<std::string> participants_;
   std::string scenario_;
   std::vector<std::string> settings_;
-  Weather weather_;
+  NetworkFaults faults_;
   std::filesystem::path folder_;
   std::map<std::string, std::unique_ptr<Process>> processes_;
   std::vector<std::string> conductor_options_;

@@ -1,17 +1,18 @@
 /* The lockstep protocol of docs/architecture.md, for spin (bus/lockstep/lockstep_conductor.h, bus/lockstep/lockstep_participant.h).
  *
- * A run is STEPS rounds; in each every one of PARTS participants takes one turn. What is in a turn is left out; so are
- * windows (a turn is a turn), slices (a datagram is a datagram) and who is due (all are, always).
+ * A run is STEPS rounds; in each every one of PARTS participants takes one turn. Abstracted away: the contents of turns,
+ * lookahead, slices, and due instants (all are due, always).
  *
- * Datagrams are kept as a set. One that was said may be heard at any later time (delayed, overtaken), again and again
- * (doubled), or be lost (LOSSES of them; saying it again puts it back). The first MORTALS participants and the conductor die at any
- * instant, LIVES - 1 and CONDUCTOR_LIVES - 1 times each, and are started again: a participant with nothing, the conductor with its journal.
+ * Datagrams are kept as a set. One that was sent may be received at any later time (delayed, reordered), again and again
+ * (duplicated), or be lost (LOSSES of them; a retransmission puts it back). The first CRASHING participants and the conductor
+ * crash at any instant, STARTS - 1 and CONDUCTOR_STARTS - 1 times each, and are restarted: a participant with nothing, the
+ * conductor with its journal.
  *
- * Transitions that change nothing (a datagram heard that has no effect) are left out. Every other one adds a datagram,
- * a turn, a life or a round, or uses up a loss, so no state comes twice, every execution is finite, and spin's search for
- * invalid end states proves that every execution ends with the run over: no deadlock, no livelock, provided that what
- * is said again and again is heard at last. The assertions are the safety claims:
- *   early    nobody takes turn k before all have taken turn k - 1 (in some life), and it is in the journal;
+ * Transitions that change nothing (a datagram received without effect) are left out. Every other one adds a datagram,
+ * a turn, an incarnation or a round, or uses up a loss, so no state comes twice, every execution is finite, and spin's search for
+ * invalid end states proves that every execution ends with the run over: no deadlock, no livelock, provided that a message
+ * retransmitted without end is received at last (fair loss). The assertions are the safety claims:
+ *   early    nobody takes turn k before all have taken turn k - 1 (in some incarnation), and it is in the journal;
  *   passed   no round goes into the journal before all have taken their turn of it;
  *   behind   no participant is ahead of the journal by more than the round.
  *
@@ -24,78 +25,78 @@
 #ifndef STEPS
 #define STEPS 2
 #endif
-#ifndef LIVES
-#define LIVES 2
+#ifndef STARTS
+#define STARTS 2
 #endif
-#ifndef MORTALS
-#define MORTALS PARTS
+#ifndef CRASHING
+#define CRASHING PARTS
 #endif
-#ifndef CONDUCTOR_LIVES
-#define CONDUCTOR_LIVES 2
+#ifndef CONDUCTOR_STARTS
+#define CONDUCTOR_STARTS 2
 #endif
 #ifndef LOSSES
 #define LOSSES 1
 #endif
 
-/* The datagrams that were said and not lost: bit k of [p, l] is the one about turn k to or from life l of p. */
-#define AT(p, l) ((p) * (LIVES + 1) + (l))
+/* The datagrams that were sent and not lost: bit k of [p, l] is the one about turn k to or from incarnation l of p. */
+#define AT(p, l) ((p) * (STARTS + 1) + (l))
 #define BIT(k) (1 << (k))
-byte grant[PARTS * (LIVES + 1)];
-byte answer[PARTS * (LIVES + 1)];
-byte join[PARTS * (LIVES + 1)];     /* bit t: "life l of p is here, and has taken t turns" */
+byte grant[PARTS * (STARTS + 1)];
+byte answer[PARTS * (STARTS + 1)];
+byte join[PARTS * (STARTS + 1)];     /* bit t: incarnation l of p is present, and has taken t turns */
 byte losses = 0;
-#ifdef MUTANT_NO_REPETITION
-byte said_once[PARTS * (LIVES + 1)];
+#ifdef MUTANT_NO_RETRANSMISSION
+byte sent_once[PARTS * (STARTS + 1)];
 #endif
 
 /* Participants. */
-byte life[PARTS];                   /* 1, 2, ...: greater is later */
-byte taken[PARTS];                  /* turns, in this life */
-byte max_taken[PARTS];             /* turns, in any life */
+byte incarnation[PARTS];                   /* 1, 2, ...: greater is later */
+byte taken[PARTS];                  /* turns, in this incarnation */
+byte max_taken[PARTS];             /* turns, in any incarnation */
 
 /* On the conductor's disk. */
 byte journal = 0;                   /* rounds */
 
 /* In the conductor's memory. */
 bool alive = true;
-byte conductor_life = 1;
+byte conductor_incarnation = 1;
 byte round = 1;                     /* under way */
-byte known[PARTS];                  /* the life that takes part; 0: none known */
-byte next_turn[PARTS];              /* that this life is to be granted, of the past or of the round */
+byte known[PARTS];                  /* the incarnation that takes part; 0: none known */
+byte next_turn[PARTS];              /* that this incarnation is to be granted, of the history or of the round */
 byte answered = 0;                  /* bit p: its result of the round is here */
 bool over = false;
 
 #define ALL BIT(PARTS) - 1
 
-/* What the conductor does about life l of p. */
-proctype conductor_about(byte p, l) {
+/* The conductor towards incarnation l of p. */
+proctype conductor_to(byte p, l) {
   byte t;
   do
-  /* A later life than the one known is here, or the known one is further than thought. */
+  /* A JOIN of a later incarnation than the known one, or of the known one with more turns than known. */
   :: atomic { alive && !over && l >= known[p] && join[AT(p, l)] != 0 &&
        (l > known[p] || (join[AT(p, l)] >> next_turn[p]) != 0 && next_turn[p] <= journal) ->
        t = 0;
-       do  /* some such message is heard: the first, or another */
+       do  /* some such message is received: the first, or another */
        :: (join[AT(p, l)] & BIT(t)) && (l > known[p] || t >= next_turn[p]) -> break
        :: t < STEPS && (join[AT(p, l)] >> (t + 1)) != 0 -> t++
        od;
        assert(t <= round);                                    /* behind */
        known[p] = l;
-#ifdef MUTANT_NO_PAST
+#ifdef MUTANT_NO_REPLAY
        next_turn[p] = round;
 #else
-       next_turn[p] = (t < round -> t + 1 : round);           /* t = round: its answer is wanted again */
+       next_turn[p] = (t < round -> t + 1 : round);           /* t = round: its answer is requested again */
 #endif
        t = 0 }
-  /* Says a grant, or says it again. */
-#ifdef MUTANT_NO_REPETITION
-  :: atomic { alive && !over && l == known[p] && next_turn[p] <= round && !(said_once[AT(p, l)] & BIT(next_turn[p])) ->
-       said_once[AT(p, l)] = said_once[AT(p, l)] | BIT(next_turn[p]);
+  /* Sends a grant, or retransmits it. */
+#ifdef MUTANT_NO_RETRANSMISSION
+  :: atomic { alive && !over && l == known[p] && next_turn[p] <= round && !(sent_once[AT(p, l)] & BIT(next_turn[p])) ->
+       sent_once[AT(p, l)] = sent_once[AT(p, l)] | BIT(next_turn[p]);
 #else
   :: atomic { alive && !over && l == known[p] && next_turn[p] <= round && !(grant[AT(p, l)] & BIT(next_turn[p])) ->
 #endif
        grant[AT(p, l)] = grant[AT(p, l)] | BIT(next_turn[p]) }
-  /* Hears an answer. */
+  /* Receives an answer. */
 #ifdef MUTANT_ANSWER_OF_ANY_TURN
   :: atomic { alive && !over && l == known[p] && answer[AT(p, l)] != 0 && !(answered & BIT(p)) ->
        answered = answered | BIT(p);
@@ -112,7 +113,7 @@ proctype conductor_about(byte p, l) {
   od
 }
 
-/* What the conductor does by itself. */
+/* The conductor on its own. */
 proctype conductor() {
   byte p;
   do
@@ -134,11 +135,11 @@ proctype conductor() {
        round++;
        over = (journal == STEPS) }
 #endif
-  /* Dies, and is started again with its journal alone. */
-  :: atomic { alive && !over && conductor_life < CONDUCTOR_LIVES -> alive = false }
+  /* Crashes, and is restarted with its journal alone. */
+  :: atomic { alive && !over && conductor_incarnation < CONDUCTOR_STARTS -> alive = false }
   :: atomic { !alive ->
        alive = true;
-       conductor_life++;
+       conductor_incarnation++;
        round = journal + 1;
        answered = 0;
        p = 0;
@@ -154,15 +155,15 @@ proctype conductor() {
 proctype participant(byte p) {
   byte q;
   do
-  /* Says that it is here, or says it again, while the conductor does not know it, or thinks it elsewhere. */
-  :: atomic { !over && alive && !(join[AT(p, life[p])] & BIT(taken[p])) &&
-       (known[p] != life[p] || next_turn[p] < taken[p]) ->
-       join[AT(p, life[p])] = join[AT(p, life[p])] | BIT(taken[p]) }
-  /* Hears the grant of its next turn, takes it, and answers. */
+  /* Sends a JOIN, or retransmits it, while the conductor does not know it, or its turns. */
+  :: atomic { !over && alive && !(join[AT(p, incarnation[p])] & BIT(taken[p])) &&
+       (known[p] != incarnation[p] || next_turn[p] < taken[p]) ->
+       join[AT(p, incarnation[p])] = join[AT(p, incarnation[p])] | BIT(taken[p]) }
+  /* Receives the grant of its next turn, takes it, and answers. */
 #ifdef MUTANT_NO_TURN_NUMBER
-  :: atomic { !over && taken[p] < STEPS && (grant[AT(p, life[p])] >> 1) != 0 ->
+  :: atomic { !over && taken[p] < STEPS && (grant[AT(p, incarnation[p])] >> 1) != 0 ->
 #else
-  :: atomic { !over && taken[p] < STEPS && (grant[AT(p, life[p])] & BIT(taken[p] + 1)) ->
+  :: atomic { !over && taken[p] < STEPS && (grant[AT(p, incarnation[p])] & BIT(taken[p] + 1)) ->
 #endif
        taken[p]++;
        assert(taken[p] <= journal + 1);                       /* early */
@@ -172,23 +173,23 @@ proctype participant(byte p) {
        :: else -> break
        od;
        q = 0;
-       grant[AT(p, life[p])] = grant[AT(p, life[p])] & ~(BIT(taken[p]) - 1);   /* without effect from here on */
+       grant[AT(p, incarnation[p])] = grant[AT(p, incarnation[p])] & ~(BIT(taken[p]) - 1);   /* without effect from here on */
        max_taken[p] = (taken[p] > max_taken[p] -> taken[p] : max_taken[p]);
-       answer[AT(p, life[p])] = answer[AT(p, life[p])] | BIT(taken[p]) }
-  /* Hears the grant of its last turn again: gives the same answer again. */
-  :: atomic { !over && taken[p] > 0 && (grant[AT(p, life[p])] & BIT(taken[p])) &&
-       !(answer[AT(p, life[p])] & BIT(taken[p])) ->
-       answer[AT(p, life[p])] = answer[AT(p, life[p])] | BIT(taken[p]) }
-  /* Dies, and is started again with nothing. */
-  :: atomic { !over && p < MORTALS && life[p] < LIVES ->
-       grant[AT(p, life[p])] = 0;                             /* nobody is there to hear it */
-       life[p]++;
+       answer[AT(p, incarnation[p])] = answer[AT(p, incarnation[p])] | BIT(taken[p]) }
+  /* Receives the grant of its last turn again: sends the same answer again. */
+  :: atomic { !over && taken[p] > 0 && (grant[AT(p, incarnation[p])] & BIT(taken[p])) &&
+       !(answer[AT(p, incarnation[p])] & BIT(taken[p])) ->
+       answer[AT(p, incarnation[p])] = answer[AT(p, incarnation[p])] | BIT(taken[p]) }
+  /* Crashes, and is restarted with nothing. */
+  :: atomic { !over && p < CRASHING && incarnation[p] < STARTS ->
+       grant[AT(p, incarnation[p])] = 0;                             /* no receiver */
+       incarnation[p]++;
        taken[p] = 0 }
   :: over -> break
   od
 }
 
-/* Loses what was said to or by life l of p. */
+/* Loses datagrams to or from incarnation l of p. */
 proctype network(byte p, l) {
   byte k;
   do
@@ -212,11 +213,11 @@ init {
     p = 0;
     do
     :: p < PARTS ->
-       life[p] = 1;
+       incarnation[p] = 1;
        run participant(p);
        l = 1;
        do
-       :: l <= LIVES -> run conductor_about(p, l); run network(p, l); l++
+       :: l <= STARTS -> run conductor_to(p, l); run network(p, l); l++
        :: else -> break
        od;
        p++

@@ -1,9 +1,9 @@
 // Lockstep steps per second: a conductor and N participants, each a process of its own, over udpm on loopback.
 //
 // All participants are due at every step and publish one vehicle state each, which the conductor puts in
-// order; nobody hears another (what is heard costs its bytes in the grant). The first argument is N, the
-// second the share of datagrams that each participant and the conductor throw away, in percent. scripts/bench
-// gives a bus of its own.
+// order; none subscribes to another (a received message costs its bytes in the grant). The first argument is N, the
+// second the share of datagrams that each participant and the conductor drop, in percent. scripts/bench provides a
+// private bus.
 #include <csignal>
 #include <memory>
 #include <random>
@@ -48,10 +48,10 @@ class Mover : public bus::Node {
   SimTime next_;
 };
 
-// Throws away a share of what is to be said.
-class Weather {
+// Drops a share of the datagrams.
+class LossyLink {
  public:
-  Weather(double loss, unsigned seed) : loss_(loss), random_(seed) {}
+  LossyLink(double loss, unsigned seed) : loss_(loss), random_(seed) {}
   bool carries() { return loss_ == 0 || std::uniform_real_distribution<double>(0, 1)(random_) >= loss_; }
 
  private:
@@ -59,28 +59,28 @@ class Weather {
   std::mt19937 random_;
 };
 
-[[noreturn]] void be_participant(const std::string& name, double loss, unsigned seed) {
+[[noreturn]] void run_participant(const std::string& name, double loss, unsigned seed) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   lcm::LCM memq("memq://");
   Mover mover(memq, name);
   bus::LockstepTurns turns(memq, mover);
   lockstep_join_t join = turns.introduction();
-  join.incarnation = bus::draw_life() * 1000 + seed;
+  join.incarnation = bus::draw_incarnation() * 1000 + seed;
   const std::string url(bus::kDefaultSyncUrl);
   const auto grants_lcm = bus::open_transport(url), answers_lcm = bus::open_transport(bus::next_port(url));
-  bus::Bus ears(*grants_lcm, {name, 0}), mouth(*answers_lcm, {name, 0});
-  Weather weather(loss, seed);
+  bus::Bus receiver(*grants_lcm, {name, 0}), publisher(*answers_lcm, {name, 0});
+  LossyLink link(loss, seed);
   bus::LockstepParticipant participant(
       join, [&](const lockstep_turn_t& turn) { return turns.take(turn); },
-      {[&](const lockstep_join_t& m) { mouth.publish(bus::channels::kLockstepJoin, m); },
+      {[&](const lockstep_join_t& m) { publisher.publish(bus::channels::kLockstepJoin, m); },
        [&](const lockstep_answer_t& m) {
-         if (weather.carries()) mouth.publish(bus::channels::kLockstepAnswer, m);
+         if (link.carries()) publisher.publish(bus::channels::kLockstepAnswer, m);
        }});
   const auto on_grant = [&](const lockstep_grant_t& m) {
-    if (weather.carries()) participant.on_grant(m, bus::steady_now());
+    if (link.carries()) participant.on_grant(m, bus::steady_now());
   };
-  ears.subscribe<lockstep_grant_t>(bus::channels::kLockstepGrant, on_grant);
-  ears.subscribe<lockstep_grant_t>(std::string(bus::channels::kLockstepGrant) + "." + name, on_grant);
+  receiver.subscribe<lockstep_grant_t>(bus::channels::kLockstepGrant, on_grant);
+  receiver.subscribe<lockstep_grant_t>(std::string(bus::channels::kLockstepGrant) + "." + name, on_grant);
   for (;;) {
     participant.on_timer(bus::steady_now());
     bus::wait_and_dispatch(*grants_lcm, participant.next_timer());
@@ -94,7 +94,7 @@ class SyntheticFleet {
       const std::string name = "mover-" + std::to_string(i);
       names.insert(name);
       const pid_t pid = fork();
-      if (pid == 0) be_participant(name, loss, static_cast<unsigned>(i) + 1);
+      if (pid == 0) run_participant(name, loss, static_cast<unsigned>(i) + 1);
       pids_.push_back(pid);
     }
   }
@@ -114,17 +114,18 @@ void lockstep_steps(benchmark::State& bench) {
   const SyntheticFleet fleet(count, loss);
   const std::string url(bus::kDefaultSyncUrl);
   const auto grants_lcm = bus::open_transport(url), answers_lcm = bus::open_transport(bus::next_port(url));
-  bus::Bus mouth(*grants_lcm, {"conductor", 0}), ears(*answers_lcm, {"conductor", 0});
-  std::int64_t said = 0;
+  bus::Bus publisher(*grants_lcm, {"conductor", 0}), receiver(*answers_lcm, {"conductor", 0});
+  std::int64_t published = 0;
   conductor::LockstepConductor conductor(
-      {.expected = fleet.names, .end = SimTime::from_seconds(1e6)}, bus::draw_life(),
-      {[&](const std::string& channel, const lockstep_grant_t& m) { mouth.publish(channel, m); },
-       [&](const lockstep_notice_t& m) { mouth.publish(bus::channels::kLockstepNotice, m); },
-       [](const conductor::JournalEntry&) {}, [&](const lockstep_message_t&) { ++said; },
+      {.expected = fleet.names, .end = SimTime::from_seconds(1e6)}, bus::draw_incarnation(),
+      {[&](const std::string& channel, const lockstep_grant_t& m) { publisher.publish(channel, m); },
+       [&](const lockstep_notice_t& m) { publisher.publish(bus::channels::kLockstepNotice, m); },
+       [](const conductor::JournalEntry&) {}, [&](const lockstep_message_t&) { ++published; },
        [](const std::string&, const std::string&) {}});
-  ears.subscribe<lockstep_join_t>(bus::channels::kLockstepJoin,
-                                  [&](const lockstep_join_t& m) { conductor.on_join(m, bus::steady_now()); });
-  ears.subscribe<lockstep_answer_t>(bus::channels::kLockstepAnswer, [&](const lockstep_answer_t& m) {
+  receiver.subscribe<lockstep_join_t>(bus::channels::kLockstepJoin, [&](const lockstep_join_t& m) {
+    conductor.on_join(m, bus::steady_now());
+  });
+  receiver.subscribe<lockstep_answer_t>(bus::channels::kLockstepAnswer, [&](const lockstep_answer_t& m) {
     conductor.on_answer(m, bus::steady_now());
   });
   conductor.start();
@@ -134,12 +135,12 @@ void lockstep_steps(benchmark::State& bench) {
       bus::wait_and_dispatch(*answers_lcm, conductor.next_timer());
     }
   };
-  step_to(200);  // all have joined, and the timers know the way
+  step_to(200);  // all have joined, and the timers have samples
   for (auto _ : bench) step_to(conductor.sequencer().rounds() + 1);
   const auto rounds = static_cast<double>(bench.iterations());
   bench.counters["steps"] = benchmark::Counter(rounds, benchmark::Counter::kIsRate);
-  bench.counters["repeated"] =
-      static_cast<double>(conductor.repetitions()) / static_cast<double>(conductor.sequencer().turns());
+  bench.counters["retransmitted"] =
+      static_cast<double>(conductor.retransmissions()) / static_cast<double>(conductor.sequencer().turns());
 }
 BENCHMARK(lockstep_steps)
     ->ArgsProduct({{2, 8, 32, 64}, {0, 1, 10}})

@@ -133,7 +133,7 @@ TEST(ConfigReader, NanAndInfinityAreNeverAllowed) {
   }
 }
 
-TEST(ConfigReader, AWrongTypeSaysWhatIsNeeded) {
+TEST(ConfigReader, AWrongTypeNamesTheOneNeeded) {
   EXPECT_THAT(error_of("wind_mps = 'strong'"), HasSubstr("a number is needed"));
   EXPECT_THAT(error_of("count = 2.5"), HasSubstr("a whole number is needed"));
   EXPECT_THAT(error_of("on = 1"), HasSubstr("allowed is true or false"));
@@ -171,7 +171,7 @@ weight_kg = -1
   EXPECT_EQ(errors.size(), 8u) << ::testing::PrintToString(errors);
 }
 
-TEST(ConfigReader, AnErrorSeenByTwoReadersIsToldOnce) {
+TEST(ConfigReader, AnErrorSeenByTwoReadersIsReportedOnce) {
   auto file = ConfigFile::parse("wind_mps = 99", "test.toml");
   Config config;
   for (int i = 0; i < 2; ++i) file.read([&](ConfigVisitor& v) { visit(v, config); });
@@ -253,7 +253,7 @@ TEST(ConfigOverride, BeyondTheArrayIsAnError) {
   EXPECT_THAT(errors_of("[[part]]\n", {"part.x.weight_kg=7"}), ElementsAre(HasSubstr("there is no 'x'")));
 }
 
-TEST(ConfigOverride, ItsErrorsSayCommandLine) {
+TEST(ConfigOverride, ItsErrorsNameTheCommandLine) {
   EXPECT_THAT(errors_of("", {"wind_mps=99"}),
               ElementsAre("command line: wind_mps is 99; allowed is 0 to 60 m/s"));
   EXPECT_THAT(errors_of("", {"wimd=1"}), ElementsAre(HasSubstr("command line: wimd is unknown")));
@@ -288,7 +288,7 @@ TEST(ConfigWriter, WhatIsWrittenReadsBackTheSame) {
   }
 }
 
-TEST(ConfigWriter, CommentsTellMeaningRangeAndUnit) {
+TEST(ConfigWriter, CommentsGiveMeaningRangeAndUnit) {
   Config config;
   EXPECT_THAT(to_toml([&](ConfigVisitor& v) { visit(v, config); }, true),
               HasSubstr("wind_mps = 5.0  # wind (0 to 60 m/s)"));

@@ -1,4 +1,4 @@
-// The lockstep protocol on a simulated network: whatever the network and death do, the messages of the run and their
+// The lockstep protocol on a simulated network: whatever is lost and whoever crashes, the messages of the run and their
 // order are those of one process.
 #include "bus/lockstep/lockstep_conductor.h"
 
@@ -15,8 +15,8 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using testing::Messages;
 using testing::NetworkRules;
-using testing::Said;
 using testing::SimulatedLockstep;
 using ::testing::StartsWith;
 
@@ -24,13 +24,13 @@ const SimTime kEnd = SimTime::from_seconds(2);
 
 // HALOCLINE_LOCKSTEP_SEEDS: how many random networks each test tries.
 unsigned seeds(unsigned usually) {
-  const char* asked = std::getenv("HALOCLINE_LOCKSTEP_SEEDS");
-  return asked == nullptr ? usually : static_cast<unsigned>(std::atoi(asked));
+  const char* requested = std::getenv("HALOCLINE_LOCKSTEP_SEEDS");
+  return requested == nullptr ? usually : static_cast<unsigned>(std::atoi(requested));
 }
 
-const Said& reference() {
-  static const Said said = testing::said_in_one_process(testing::five_nodes(), kEnd);
-  return said;
+const Messages& reference() {
+  static const Messages messages = testing::messages_of_one_process(testing::five_nodes(), kEnd);
+  return messages;
 }
 
 std::string last_reports(SimulatedLockstep& run) {
@@ -44,88 +44,120 @@ std::string last_reports(SimulatedLockstep& run) {
 }
 
 void expect_the_same_messages(const NetworkRules& rules, unsigned count) {
-  int deaths = 0;
+  int crashes = 0;
   for (unsigned seed = 0; seed < seeds(count); ++seed) {
     SimulatedLockstep run(testing::five_nodes(), kEnd, rules, seed);
     ASSERT_NO_THROW(run.run()) << "seed " << seed << ", " << last_reports(run);
-    const Said& said = run.said();
-    const auto differs = std::mismatch(said.begin(), said.end(), reference().begin(), reference().end());
-    ASSERT_TRUE(said == reference()) << "seed " << seed << ": differs from message "
-                                     << differs.first - said.begin() << " on, of " << said.size() << " and "
-                                     << reference().size();
-    deaths += run.deaths();
+    const Messages& messages = run.messages();
+    const auto differs =
+        std::mismatch(messages.begin(), messages.end(), reference().begin(), reference().end());
+    ASSERT_TRUE(messages == reference())
+        << "seed " << seed << ": differs from message " << differs.first - messages.begin() << " on, of "
+        << messages.size() << " and " << reference().size();
+    crashes += run.crashes();
   }
-  if (rules.participant_deaths_per_s + rules.conductor_deaths_per_s > 0) {
-    EXPECT_GT(deaths, static_cast<int>(seeds(count))) << "a test of deaths needs deaths";
+  if (rules.participant_crashes_per_s + rules.conductor_crashes_per_s > 0) {
+    EXPECT_GT(crashes, static_cast<int>(seeds(count))) << "a test of crashes needs crashes";
   }
 }
 
-TEST(LockstepConductor, SaysWhatOneProcessSays) {
+TEST(LockstepConductor, PublishesTheMessagesOfOneProcess) {
   EXPECT_GT(reference().size(), 150u);
   expect_the_same_messages({}, 20);
 }
 
-TEST(LockstepConductor, SaysTheSameWithoutWindows) { expect_the_same_messages({.windows = false}, 20); }
-
-TEST(LockstepConductor, SaysTheSameWithParticipantsInItsOwnProcess) {
-  expect_the_same_messages({.loss = 0.1, .conductor_deaths_per_s = 5, .local = 2}, 30);
+TEST(LockstepConductor, PublishesTheSameWithoutLookahead) {
+  expect_the_same_messages({.lookahead = false}, 20);
 }
 
-TEST(LockstepConductor, SaysTheSameWhenDatagramsAreLostDoubledAndOvertaken) {
+TEST(LockstepConductor, PublishesTheSameWithParticipantsInItsOwnProcess) {
+  expect_the_same_messages({.loss = 0.1, .conductor_crashes_per_s = 5, .local = 2}, 30);
+}
+
+TEST(LockstepConductor, PublishesTheSameWhenDatagramsAreLostDuplicatedAndReordered) {
   for (const double loss : {0.01, 0.05, 0.2, 0.5}) {
     expect_the_same_messages(
-        {.loss = loss, .doubling = 0.2, .longest_delay = SimDuration::from_milliseconds(20)}, 20);
+        {.loss = loss, .duplication = 0.2, .longest_delay = SimDuration::from_milliseconds(20)}, 20);
   }
 }
 
-TEST(LockstepConductor, SaysTheSameWhenParticipantsDieAndReturn) {
-  expect_the_same_messages({.loss = 0.05, .doubling = 0.05, .participant_deaths_per_s = 30}, 60);
+TEST(LockstepConductor, PublishesTheSameWhenParticipantsCrashAndReturn) {
+  expect_the_same_messages({.loss = 0.05, .duplication = 0.05, .participant_crashes_per_s = 30}, 60);
 }
 
-TEST(LockstepConductor, SaysTheSameWhenTheConductorDiesAndReturns) {
-  expect_the_same_messages({.loss = 0.05, .doubling = 0.05, .conductor_deaths_per_s = 20}, 60);
+TEST(LockstepConductor, PublishesTheSameWhenTheConductorCrashesAndReturns) {
+  expect_the_same_messages({.loss = 0.05, .duplication = 0.05, .conductor_crashes_per_s = 20}, 60);
 }
 
-TEST(LockstepConductor, SaysTheSameWhenAllDieAndReturn) {
+TEST(LockstepConductor, PublishesTheSameWhenAllCrashAndReturn) {
   expect_the_same_messages({.loss = 0.1,
-                            .doubling = 0.1,
+                            .duplication = 0.1,
                             .longest_delay = SimDuration::from_milliseconds(5),
-                            .participant_deaths_per_s = 20,
-                            .conductor_deaths_per_s = 20},
+                            .participant_crashes_per_s = 20,
+                            .conductor_crashes_per_s = 20},
                            150);
 }
 
-TEST(LockstepConductor, WindowsSaveExchanges) {
+// Wherever it crashes, its last output included: the run ends, and its log is whole.
+TEST(LockstepConductor, PublishesTheSameWhereverItCrashes) {
+  const SimTime end = SimTime::from_seconds(0.3);
+  const Messages expected = testing::messages_of_one_process(testing::five_nodes(), end);
+  int output = 0;
+  for (bool crashed = true; crashed; ++output) {
+    SimulatedLockstep run(testing::five_nodes(), end, {.conductor_crashes_at = output}, 1);
+    ASSERT_NO_THROW(run.run(SimDuration::from_seconds(30)))
+        << "output " << output << ", " << last_reports(run);
+    ASSERT_TRUE(run.messages() == expected) << "output " << output;
+    crashed = run.crashes() > 0;
+  }
+  EXPECT_GT(output, 150);
+}
+
+TEST(LockstepConductor, AJournalOfAnotherScenarioIsRefused) {
+  lockstep_join_t join{};
+  join.incarnation = 9;
+  join.participant_name = "a";
+  join.scenario_digest = "that";
+  LockstepConductor::Outputs outputs;
+  outputs.report = [](const std::string&, const std::string&) {};
+  LockstepConductor same({.expected = {"a"}, .end = kEnd, .scenario_digest = "that"}, 5, outputs);
+  LockstepConductor other({.expected = {"a"}, .end = kEnd, .scenario_digest = "this"}, 5, outputs);
+  const std::vector<JournalEntry> journal{{EntryKind::kRun, {'5'}}, {EntryKind::kJoin, bus::encoded(join)}};
+  EXPECT_NO_THROW(same.resume(journal));
+  EXPECT_THROW(other.resume(journal), std::runtime_error);
+}
+
+TEST(LockstepConductor, LookaheadSavesExchanges) {
   SimulatedLockstep with(testing::five_nodes(), kEnd, {}, 1);
-  SimulatedLockstep without(testing::five_nodes(), kEnd, {.windows = false}, 1);
+  SimulatedLockstep without(testing::five_nodes(), kEnd, {.lookahead = false}, 1);
   with.run();
   without.run();
   EXPECT_LT(with.conductor().sequencer().rounds(), without.conductor().sequencer().rounds());
 }
 
-TEST(LockstepConductor, WaitsForOneThatIsDeadWhenThatIsThePolicy) {
-  SimulatedLockstep run(testing::five_nodes(), kEnd, {.dies_for_good_after = 10}, 1);
+TEST(LockstepConductor, WaitsForACrashedParticipantWithoutATimeout) {
+  SimulatedLockstep run(testing::five_nodes(), kEnd, {.crashes_for_good_after = 10}, 1);
   EXPECT_THROW(run.run(SimDuration::from_seconds(30)), std::runtime_error);
   EXPECT_THAT(run.conductor().waiting_for(), Contains("server"));
 }
 
-TEST(LockstepConductor, DropsOneThatIsDeadAfterTheTimeSaidAndSaysSo) {
-  const NetworkRules rules{.drop_after = SimDuration::from_seconds(2), .dies_for_good_after = 10};
+TEST(LockstepConductor, DropsACrashedParticipantAfterTheTimeoutAndReportsIt) {
+  const NetworkRules rules{.drop_after = SimDuration::from_seconds(2), .crashes_for_good_after = 10};
   SimulatedLockstep run(testing::five_nodes(), kEnd, rules, 1);
   run.run();
   EXPECT_THAT(run.reports(), Contains(StartsWith("dropped participant=server")));
-  EXPECT_GT(run.said().size(), reference().size() / 2);
+  EXPECT_GT(run.messages().size(), reference().size() / 2);
 }
 
-TEST(LockstepConductor, OneThatWasDroppedMayComeBackAndGoesOn) {
-  const NetworkRules rules{.drop_after = SimDuration::from_seconds(1), .dies_for_good_after = -1};
+TEST(LockstepConductor, ADroppedParticipantMayReturn) {
+  const NetworkRules rules{.drop_after = SimDuration::from_seconds(1), .crashes_for_good_after = -1};
   SimulatedLockstep run(testing::five_nodes(), SimTime::from_seconds(40), rules, 1);
   int phase = 0;
   run.between_events = [&](SimulatedLockstep& now) {
     const bool dropped = !now.conductor().sequencer().takes_part("server");
     const auto turns = now.conductor().sequencer().turns_taken("server");
     if (phase == 0 && turns >= 10) {
-      now.kill_participant(4);
+      now.crash_participant(4);
       ++phase;
     } else if (phase == 1 && dropped) {
       now.start_participant(4);
@@ -139,42 +171,42 @@ TEST(LockstepConductor, OneThatWasDroppedMayComeBackAndGoesOn) {
   EXPECT_THAT(run.reports(), Contains(StartsWith("returned participant=server")));
 }
 
-// A fixed bug: its new life has all turns but the one that the round already has an answer to.
-TEST(LockstepConductor, OneThatDiesBetweenItsAnswerAndTheOthersComesBackWithoutMissingThatTurn) {
+// A fixed bug: the new incarnation lacks the turn for which the round already has an answer.
+TEST(LockstepConductor, AParticipantThatCrashesBetweenItsAnswerAndTheOthersMissesNoTurn) {
   SimulatedLockstep run(testing::five_nodes(), kEnd, {}, 1);
-  bool died = false;
+  bool crashed = false;
   run.between_events = [&](SimulatedLockstep& now) {
     const auto& round = now.conductor().sequencer().round();
     const auto missing = now.conductor().waiting_for();
-    if (died || round.size() < 2 || missing.size() != 1 || missing[0] != "mover-b") return;
-    now.kill_participant(1);
-    now.kill_participant(2);
+    if (crashed || round.size() < 2 || missing.size() != 1 || missing[0] != "mover-b") return;
+    now.crash_participant(1);
+    now.crash_participant(2);
     now.start_participant(1);
     now.start_participant(2);
-    died = true;
+    crashed = true;
   };
   run.run(SimDuration::from_seconds(30));
-  EXPECT_TRUE(died);
-  EXPECT_TRUE(run.said() == reference());
+  EXPECT_TRUE(crashed);
+  EXPECT_TRUE(run.messages() == reference());
 }
 
-TEST(LockstepConductor, OneThatAsksToLeaveSaysGoodbyeAndTheOthersGoOn) {
+TEST(LockstepConductor, AParticipantThatRequestsToLeaveTakesItsLastTurnAndTheOthersContinue) {
   SimulatedLockstep run(testing::five_nodes(), SimTime::from_seconds(20), {.loss = 0.1}, 1);
-  bool asked = false;
+  bool requested = false;
   run.between_events = [&](SimulatedLockstep& now) {
-    if (asked || now.conductor().sequencer().turns_taken("pilot") < 10) return;
-    now.participant(3)->ask_to_leave();
-    asked = true;
+    if (requested || now.conductor().sequencer().turns_taken("pilot") < 10) return;
+    now.participant(3)->request_leave();
+    requested = true;
   };
   run.run();
   EXPECT_EQ(run.participant(3)->state(), bus::LockstepParticipant::State::kOver);
   EXPECT_THAT(run.reports(), Contains(StartsWith("leaves participant=pilot")));
-  EXPECT_THAT(run.said().back(), HasSubstr("STATUS.server"));
+  EXPECT_THAT(run.messages().back(), HasSubstr("STATUS.server"));
 }
 
-TEST(LockstepConductor, ALateJoinerTakesPartFromTheInstantSaid) {
-  auto cast = testing::five_nodes();
-  SimulatedLockstep run(cast, SimTime::from_seconds(20), {.loss = 0.05}, 1);
+TEST(LockstepConductor, ALateParticipantJoinsAtTheInstantReported) {
+  auto nodes = testing::five_nodes();
+  SimulatedLockstep run(nodes, SimTime::from_seconds(20), {.loss = 0.05}, 1);
   lcm::LCM memq("memq://");
   testing::ChattyNode late(memq, "late", bus::Stage::kClients, SimDuration::from_milliseconds(40), {"pilot"},
                            "pilot");
@@ -187,25 +219,25 @@ TEST(LockstepConductor, ALateJoinerTakesPartFromTheInstantSaid) {
   };
   run.run();
   EXPECT_THAT(run.reports(), Contains(StartsWith("joined participant=late t=")));
-  EXPECT_THAT(run.said(), Contains(HasSubstr("SAY.late")));
+  EXPECT_THAT(run.messages(), Contains(HasSubstr("NEWS.late")));
 }
 
 TEST(LockstepConductor, TheCostOfARoundIsAGrantAndAnAnswerEach) {
   SimulatedLockstep run(testing::five_nodes(), kEnd, {}, 1);
   run.run();
-  EXPECT_EQ(run.conductor().repetitions(), 0);
+  EXPECT_EQ(run.conductor().retransmissions(), 0);
   const auto turns = run.conductor().sequencer().turns();
-  // A grant reaches five ears; joins, welcomes and farewells come once each.
+  // A grant reaches five participants; joins, welcomes and the end come once each.
   EXPECT_LT(run.datagrams(), 6 * turns + 200);
 }
 
-TEST(LockstepConductor, AParticipantOfAnotherScenarioIsPutOut) {
+TEST(LockstepConductor, AParticipantOfAnotherScenarioIsExpelled) {
   std::vector<lockstep_notice_t> notices;
-  LockstepConductor::Mouth mouth;
-  mouth.notice = [&](const lockstep_notice_t& notice) { notices.push_back(notice); };
-  mouth.record = [](const JournalEntry&) {};
-  mouth.report = [](const std::string&, const std::string&) {};
-  LockstepConductor conductor({.expected = {"a"}, .end = kEnd, .scenario_digest = "this"}, 5, mouth);
+  LockstepConductor::Outputs outputs;
+  outputs.notice = [&](const lockstep_notice_t& notice) { notices.push_back(notice); };
+  outputs.record = [](const JournalEntry&) {};
+  outputs.report = [](const std::string&, const std::string&) {};
+  LockstepConductor conductor({.expected = {"a"}, .end = kEnd, .scenario_digest = "this"}, 5, outputs);
   conductor.start();
   lockstep_join_t join{};
   join.incarnation = 9;

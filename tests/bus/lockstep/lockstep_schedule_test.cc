@@ -13,64 +13,66 @@ using ::testing::IsEmpty;
 
 SimTime at_ms(std::int64_t n) { return SimTime() + SimDuration::from_milliseconds(n); }
 
-TEST(LockstepSchedule, TimeGoesToTheEarliestInstantAtWhichSomebodyIsDue) {
+TEST(LockstepSchedule, TimeAdvancesToTheEarliestDueInstant) {
   LockstepSchedule schedule;
-  const std::vector<LockstepSeat> seats{{0, at_ms(30)}, {1, at_ms(20)}, {2}};
-  EXPECT_EQ(schedule.next_instant(seats), at_ms(20));
+  const std::vector<ScheduleEntry> entries{{0, at_ms(30)}, {1, at_ms(20)}, {2}};
+  EXPECT_EQ(schedule.next_instant(entries), at_ms(20));
 }
 
-TEST(LockstepSchedule, WhoMustHearIsAskedAtThePresentInstant) {
+TEST(LockstepSchedule, AnEntryWithInputStepsAtThePresentInstant) {
   LockstepSchedule schedule;
   schedule.begin(at_ms(5));
-  const std::vector<LockstepSeat> seats{{0, at_ms(30)}, {1, SimTime::never(), true}};
-  EXPECT_EQ(schedule.next_instant(seats), at_ms(5));
-  EXPECT_THAT(schedule.round(seats), ElementsAre(1));
+  const std::vector<ScheduleEntry> entries{{0, at_ms(30)}, {1, SimTime::never(), true}};
+  EXPECT_EQ(schedule.next_instant(entries), at_ms(5));
+  EXPECT_THAT(schedule.round(entries), ElementsAre(1));
 }
 
-TEST(LockstepSchedule, NobodyDueIsNever) { EXPECT_EQ(LockstepSchedule().next_instant({}), SimTime::never()); }
+TEST(LockstepSchedule, WithoutDueEntriesItIsNever) {
+  EXPECT_EQ(LockstepSchedule().next_instant({}), SimTime::never());
+}
 
 TEST(LockstepSchedule, AllOfAStageStepTogetherAndStagesInTheirOrder) {
   LockstepSchedule schedule;
   schedule.begin(at_ms(10));
-  std::vector<LockstepSeat> seats{{1, at_ms(10)}, {1, at_ms(11)}, {1, at_ms(10)}, {4, at_ms(10)}};
-  EXPECT_THAT(schedule.round(seats), ElementsAre(0, 2));
-  seats[0].due = seats[2].due = SimTime::never();
-  EXPECT_THAT(schedule.round(seats), ElementsAre(3));
-  seats[3].due = SimTime::never();
-  EXPECT_THAT(schedule.round(seats), IsEmpty());
+  std::vector<ScheduleEntry> entries{{1, at_ms(10)}, {1, at_ms(11)}, {1, at_ms(10)}, {4, at_ms(10)}};
+  EXPECT_THAT(schedule.round(entries), ElementsAre(0, 2));
+  entries[0].due = entries[2].due = SimTime::never();
+  EXPECT_THAT(schedule.round(entries), ElementsAre(3));
+  entries[3].due = SimTime::never();
+  EXPECT_THAT(schedule.round(entries), IsEmpty());
 }
 
 TEST(LockstepSchedule, AnEarlierStageThatIsDueAgainWaitsForTheNextPass) {
   LockstepSchedule schedule;
   schedule.begin(at_ms(10));
-  const std::vector<LockstepSeat> seats{{1, at_ms(10)}, {2, at_ms(10)}};
+  const std::vector<ScheduleEntry> entries{{1, at_ms(10)}, {2, at_ms(10)}};
   for (int pass = 0; pass < 3; ++pass) {
-    EXPECT_THAT(schedule.round(seats), ElementsAre(0));
-    EXPECT_THAT(schedule.round(seats), ElementsAre(1));
+    EXPECT_THAT(schedule.round(entries), ElementsAre(0));
+    EXPECT_THAT(schedule.round(entries), ElementsAre(1));
   }
 }
 
-TEST(LockstepSchedule, WhoNeverComesToRestIsAnError) {
+TEST(LockstepSchedule, AnInstantThatNeverEndsIsAnError) {
   LockstepSchedule schedule;
   schedule.begin(at_ms(10));
-  const std::vector<LockstepSeat> seats{{1, at_ms(10)}};
+  const std::vector<ScheduleEntry> entries{{1, at_ms(10)}};
   const auto keep_asking = [&] {
-    while (!schedule.round(seats).empty()) {
+    while (!schedule.round(entries).empty()) {
     }
   };
   EXPECT_THROW(keep_asking(), std::runtime_error);
 }
 
-TEST(LockstepHorizon, IsTheEarliestInstantAtWhichAnotherMaySpeak) {
-  const std::vector<LockstepSeat> seats{{0, at_ms(10)}, {1, at_ms(70)}, {2, at_ms(40)}};
-  EXPECT_EQ(lockstep_horizon(seats, 0), at_ms(40));
-  EXPECT_EQ(lockstep_horizon(seats, 2), at_ms(10));
-  EXPECT_EQ(lockstep_horizon(std::vector<LockstepSeat>{{0, at_ms(10)}}, 0), SimTime::never());
+TEST(LockstepHorizon, IsTheEarliestInstantAtWhichAnotherMayPublish) {
+  const std::vector<ScheduleEntry> entries{{0, at_ms(10)}, {1, at_ms(70)}, {2, at_ms(40)}};
+  EXPECT_EQ(lockstep_horizon(entries, 0), at_ms(40));
+  EXPECT_EQ(lockstep_horizon(entries, 2), at_ms(10));
+  EXPECT_EQ(lockstep_horizon(std::vector<ScheduleEntry>{{0, at_ms(10)}}, 0), SimTime::never());
 }
 
-TEST(LockstepHorizon, IsThePresentWhileAnotherMustHear) {
-  const std::vector<LockstepSeat> seats{{0, at_ms(10)}, {1, at_ms(70), true}};
-  EXPECT_EQ(lockstep_horizon(seats, 0), SimTime::at_once());
+TEST(LockstepHorizon, IsThePresentWhileAnotherHasInput) {
+  const std::vector<ScheduleEntry> entries{{0, at_ms(10)}, {1, at_ms(70), true}};
+  EXPECT_EQ(lockstep_horizon(entries, 0), SimTime::at_once());
 }
 
 }  // namespace

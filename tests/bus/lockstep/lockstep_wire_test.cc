@@ -55,7 +55,7 @@ TEST(LockstepWire, SlicesOfTwoBodiesDoNotMix) {
   EXPECT_EQ(collector.add(2, 0, 2, copy(slice_of(other, 0))), other);
 }
 
-TEST(LockstepWire, TheDigestTellsEveryDifferenceAndMayBeMadeInPieces) {
+TEST(LockstepWire, TheDigestShowsEveryDifferenceAndMayBeMadeInPieces) {
   const auto a = valid_message<lockstep_message_t>(1), b = valid_message<lockstep_message_t>(2);
   const std::vector both{a, b}, swapped{b, a}, first{a}, second{b};
   EXPECT_EQ(digest_of(0, both), digest_of(digest_of(0, first), second));

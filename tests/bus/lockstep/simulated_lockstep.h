@@ -1,5 +1,5 @@
-// A conductor and participants on a network that is simulated: datagrams are lost, doubled, delayed and overtaken,
-// participants and the conductor die in the middle of what they do and are started again. All by a seed.
+// A conductor and participants on a simulated network, with fault injection from a seed: datagrams are lost, duplicated,
+// delayed and reordered; participants and the conductor crash in the middle of their work and are restarted.
 #pragma once
 
 #include <functional>
@@ -19,52 +19,55 @@
 
 namespace halocline::conductor::testing {
 
-// What a message of the run was, for comparison: "instant channel bytes".
-using Said = std::vector<std::string>;
+// Messages of a run, for comparison: "instant channel bytes".
+using Messages = std::vector<std::string>;
 std::string text_of(const lockstep_message_t& message);
 
 // One of the nodes that take part: a name, its stage and its period.
-struct Cast {
+struct NodeRule {
   std::string name;
   bus::Stage stage;
   SimDuration period;
 };
-std::vector<Cast> five_nodes();
-std::unique_ptr<ChattyNode> make_node(lcm::LCM& lcm, const std::vector<Cast>& cast, std::size_t index);
+std::vector<NodeRule> five_nodes();
+std::unique_ptr<ChattyNode> make_node(lcm::LCM& lcm, const std::vector<NodeRule>& nodes, std::size_t index);
 
-// What all nodes say in one process on memq, by bus::LockstepRunner.
-Said said_in_one_process(const std::vector<Cast>& cast, SimTime end);
+// The messages of all nodes in one process on memq, by bus::LockstepRunner.
+Messages messages_of_one_process(const std::vector<NodeRule>& nodes, SimTime end);
 
 struct NetworkRules {
-  double loss = 0, doubling = 0;
+  double loss = 0, duplication = 0;
   SimDuration longest_delay = SimDuration::from_microseconds(100);
-  double participant_deaths_per_s = 0, conductor_deaths_per_s = 0;  // of steady time, all together
+  double participant_crashes_per_s = 0, conductor_crashes_per_s = 0;  // of steady time, all together
   SimDuration drop_after = SimDuration();
-  bool windows = true;
-  std::size_t local = 0;  // how many of the cast live in the conductor's process
-  // A participant that never answers after this many turns and never returns; -1: none.
-  int dies_for_good_after = -1;
+  bool lookahead = true;
+  std::size_t local = 0;  // the first so many nodes run in the conductor's process
+  // The last participant crashes after this many turns and never returns; -1: it does not.
+  int crashes_for_good_after = -1;
+  // The conductor crashes once, at its output of this number (grants, and before and after each journal entry), from 0;
+  // -1: it does not.
+  int conductor_crashes_at = -1;
 };
 
 class SimulatedLockstep {
  public:
-  SimulatedLockstep(std::vector<Cast> cast, SimTime end, const NetworkRules& rules, unsigned seed);
+  SimulatedLockstep(std::vector<NodeRule> nodes, SimTime end, const NetworkRules& rules, unsigned seed);
   ~SimulatedLockstep();
 
-  // Until the run is over and all have heard it; throws std::runtime_error after `patience` of steady time.
-  void run(SimDuration patience = SimDuration::from_seconds(600));
+  // Until the run is over and all participants know it; throws std::runtime_error after `limit` of steady time.
+  void run(SimDuration limit = SimDuration::from_seconds(600));
 
-  const Said& said() const { return said_; }
+  const Messages& messages() const { return messages_; }
   const std::vector<std::string>& reports() const { return reports_; }
   LockstepConductor& conductor() { return *conductor_; }
-  int deaths() const { return deaths_; }
+  int crashes() const { return crashes_; }
   std::int64_t datagrams() const { return datagrams_; }
   SimTime steady() const { return now_; }
 
   // Called between two events.
   std::function<void(SimulatedLockstep&)> between_events = [](SimulatedLockstep&) {};
   void start_participant(std::size_t index);
-  void kill_participant(std::size_t index);
+  void crash_participant(std::size_t index);
   bus::LockstepParticipant* participant(std::size_t index);
 
  private:
@@ -82,31 +85,31 @@ class SimulatedLockstep {
       return std::tie(other.when, other.number) < std::tie(when, number);
     }
   };
-  struct Died {};
+  struct Crashed {};
 
   void start_conductor();
-  void kill_conductor();
-  void maybe_die();
+  void crash_conductor();
+  void maybe_crash();
   void send(std::function<void()> delivery);
   void later(SimDuration delay, std::function<void()> what);
-  void to_conductor(const std::function<void(LockstepConductor&)>& tell);
+  void to_conductor(const std::function<void(LockstepConductor&)>& deliver);
   void turn_timers();
   double draw() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
-  std::vector<Cast> cast_;
+  std::vector<NodeRule> nodes_;
   SimTime end_;
   NetworkRules rules_;
   std::mt19937 random_;
   std::vector<std::unique_ptr<Process>> processes_, local_;
   std::unique_ptr<LockstepConductor> conductor_;
   std::vector<JournalEntry> journal_;
-  Said said_;
+  Messages messages_;
   std::vector<std::string> reports_;
   std::priority_queue<Event> events_;
-  std::int64_t events_made_ = 0, datagrams_ = 0, next_life_ = 1000;
+  std::int64_t events_made_ = 0, datagrams_ = 0, next_incarnation_ = 1000;
   SimTime now_;
-  int deaths_ = 0;
-  double conductor_death_ = 0;  // probability at each thing it says
+  int crashes_ = 0, conductor_outputs_ = 0;
+  bool may_crash_ = false;  // the conductor has started
 };
 
 }  // namespace halocline::conductor::testing

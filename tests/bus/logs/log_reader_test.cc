@@ -40,7 +40,7 @@ TEST(LogReader, EveryTruncationYieldsTheEventsBeforeIt) {
   }
 }
 
-TEST(LogReader, GoesOnBehindBytesThatAreNoEvent) {
+TEST(LogReader, ContinuesBehindBytesThatAreNoEvent) {
   TemporaryLog file;
   file.add_bytes(1, "A", {1});
   file.add_bytes(2, "B", {2});
@@ -65,7 +65,7 @@ TEST(LogReader, CorruptLengthCostsOneEventAndNoMemory) {
   EXPECT_EQ(events[0].channel, "B");
 }
 
-TEST(LogReader, DamageIsToldWithFileAndOffset) {
+TEST(LogReader, DamageIsReportedWithFileAndOffset) {
   TemporaryLog file;
   for (std::uint8_t i = 0; i < 3; ++i) file.add_bytes(i, "CHANNEL", {i, i});
   std::string bytes = file.bytes();
@@ -77,10 +77,10 @@ TEST(LogReader, DamageIsToldWithFileAndOffset) {
   EXPECT_EQ(all_of(log).size(), 1u);
   ASSERT_EQ(log.bad_stretches().size(), 1u);
   EXPECT_EQ(log.bad_stretches()[0].offset, static_cast<std::int64_t>(event_bytes));
-  std::ostringstream told;
-  tell_damage(told, log);
-  EXPECT_NE(told.str().find(file.path() + ", byte " + std::to_string(event_bytes)), std::string::npos)
-      << told.str();
+  std::ostringstream report;
+  report_damage(report, log);
+  EXPECT_NE(report.str().find(file.path() + ", byte " + std::to_string(event_bytes)), std::string::npos)
+      << report.str();
 }
 
 TEST(LogReader, EventsKnowTheirPlace) {

@@ -110,7 +110,7 @@ TEST_P(LogScanDamage, EveryEventThatDoesNotOverlapItIsFound) {
 }
 INSTANTIATE_TEST_SUITE_P(Bursts, LogScanDamage, ::testing::Values(1, 2, 5));
 
-TEST(LogScan, EveryByteBelongsToAnEventOrIsToldAsDamage) {
+TEST(LogScan, EveryByteBelongsToAnEventOrIsReportedAsDamage) {
   for (std::uint64_t trial = 0; trial < 500; ++trial) {
     WholeLog log = log_of(12, trial % 10);
     const std::size_t at = draw(trial + 900'000'000, log.bytes.size());
@@ -156,7 +156,7 @@ TEST(LogScan, DamageHasItsPlaceAndSize) {
   EXPECT_EQ(scan(log).damages, (std::vector<Extent>{{first, first + 7}}));
 }
 
-TEST(LogScan, AnEventThatTheEndCutsIsToldFromRubbish) {
+TEST(LogScan, AnEventCutByTheEndOfTheFileIsDistinguishedFromGarbage) {
   Bytes log;
   append_event(log, 0, "A", Bytes(20));
   const Bytes cut(log.begin(), log.end() - 5);

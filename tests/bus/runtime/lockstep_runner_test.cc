@@ -41,20 +41,20 @@ TEST_F(LockstepTest, ARunInPiecesIsTheRunInOne) {
   EXPECT_EQ(journal_, whole);
 }
 
-TEST_F(LockstepTest, AnswersOfAnswersAreGivenAtTheSameInstant) {
+TEST_F(LockstepTest, AnswersToAnswersShareTheInstant) {
   TickingNode ticker(lcm_, "a", ms(100), journal_);
   EchoNode second(lcm_, "second", "FIRST", "SECOND"), first(lcm_, "first", "TICK.a", "FIRST");
-  Bus ear(lcm_, {"ear", 1});
-  std::vector<std::int64_t> heard;
-  ear.subscribe<sim_clock_t>("SECOND", [&](const sim_clock_t& m) { heard.push_back(m.utime); });
+  Bus listener(lcm_, {"listener", 1});
+  std::vector<std::int64_t> received;
+  listener.subscribe<sim_clock_t>("SECOND", [&](const sim_clock_t& m) { received.push_back(m.utime); });
   LockstepRunner runner(lcm_, {&second, &first, &ticker});  // the order that needs most rounds
   runner.set_before_instant([&](SimTime instant) {
-    // What was published before this instant has been heard: the bus was empty when time went on.
-    EXPECT_EQ(heard.size(), static_cast<std::size_t>(instant.to_utime() / 100'000));
+    // Messages published before this instant were received: the bus was empty when time advanced.
+    EXPECT_EQ(received.size(), static_cast<std::size_t>(instant.to_utime() / 100'000));
     return true;
   });
   runner.run_until(at_ms(500));
-  EXPECT_THAT(heard, ElementsAre(0, 100'000, 200'000, 300'000, 400'000, 500'000));
+  EXPECT_THAT(received, ElementsAre(0, 100'000, 200'000, 300'000, 400'000, 500'000));
 }
 
 TEST_F(LockstepTest, NodesThatKeepEachOtherBusyAreAnErrorThatNamesTheTime) {
@@ -71,7 +71,7 @@ TEST_F(LockstepTest, NodesThatKeepEachOtherBusyAreAnErrorThatNamesTheTime) {
   EXPECT_THROW(runner.run_until(at_ms(100)), std::runtime_error);
 }
 
-TEST_F(LockstepTest, WhatAHandlerThrowsEndsTheRun) {
+TEST_F(LockstepTest, AnExceptionOfAHandlerEndsTheRun) {
   class Faulty : public EchoNode {
    public:
     explicit Faulty(lcm::LCM& lcm) : EchoNode(lcm, "faulty", "TICK.a", "NONE") {

@@ -35,14 +35,14 @@ lockstep_message_t message_on(const std::string& channel) {
   return message;
 }
 
-void add_heard(lockstep_turn_t& turn, const std::string& channel) {
+void add_message(lockstep_turn_t& turn, const std::string& channel) {
   turn.inputs.push_back(message_on(channel));
   turn.num_inputs = static_cast<std::int32_t>(turn.inputs.size());
 }
 
-std::vector<std::string> channels_said(const lockstep_result_t& result) {
+std::vector<std::string> channels_published(const lockstep_result_t& result) {
   std::vector<std::string> channels;
-  for (const auto& said : result.outputs) channels.push_back(said.channel_name);
+  for (const auto& output : result.outputs) channels.push_back(output.channel_name);
   return channels;
 }
 
@@ -54,28 +54,28 @@ class LockstepTurnsTest : public ::testing::Test {
   LockstepTurns turns_{memq_, ticker_};
 };
 
-TEST_F(LockstepTurnsTest, AStepIsTakenAtItsInstantAndWhatItSaidIsGivenBack) {
+TEST_F(LockstepTurnsTest, AStepIsTakenAtItsInstantAndItsMessagesAreReturned) {
   const lockstep_result_t result = turns_.take(turn_at(at_ms(0)));
   EXPECT_EQ(result.num_steps, 1);
-  EXPECT_THAT(channels_said(result), ElementsAre("TICK.a", "STATUS.a"));
+  EXPECT_THAT(channels_published(result), ElementsAre("TICK.a", "STATUS.a"));
   EXPECT_EQ(result.next_due_ns, at_ms(100).nanoseconds());
 }
 
-TEST_F(LockstepTurnsTest, WhoIsNotDueDoesNotStep) {
+TEST_F(LockstepTurnsTest, ANodeThatIsNotDueDoesNotStep) {
   turns_.take(turn_at(at_ms(0)));
   const lockstep_result_t result = turns_.take(turn_at(at_ms(50)));
   EXPECT_EQ(result.num_steps, 0);
   EXPECT_THAT(result.outputs, IsEmpty());
 }
 
-TEST_F(LockstepTurnsTest, AWindowHoldsAllInstantsBeforeTheHorizon) {
+TEST_F(LockstepTurnsTest, LookaheadCoversAllInstantsBeforeTheHorizon) {
   const lockstep_result_t result = turns_.take(turn_at(at_ms(0), at_ms(300)));
   EXPECT_EQ(result.num_steps, 3);
   EXPECT_EQ(result.reached_ns, at_ms(200).nanoseconds());
   EXPECT_EQ(result.outputs.back().instant_ns, at_ms(200).nanoseconds());
 }
 
-TEST_F(LockstepTurnsTest, AWindowEndsWithTheStepThatSaysWhatSomebodyMustHear) {
+TEST_F(LockstepTurnsTest, LookaheadEndsWithAStepThatPublishesOnAStoppingChannel) {
   lockstep_turn_t turn = turn_at(at_ms(0), at_ms(300));
   turn.stopping_channels = {"TICK\\..*"};
   turn.num_stopping = 1;
@@ -90,36 +90,36 @@ TEST_F(LockstepTurnsTest, ReplayedTurnsTakeAsManyStepsAsTheyDid) {
   EXPECT_EQ(turns_.take(turn).num_steps, 0);
 }
 
-TEST_F(LockstepTurnsTest, AFarewellStopsTheNode) {
+TEST_F(LockstepTurnsTest, TheLastTurnStopsTheNode) {
   lockstep_turn_t turn = turn_at(at_ms(0));
   turn.farewell = 1;
-  EXPECT_THAT(channels_said(turns_.take(turn)), ElementsAre("STATUS.a"));
+  EXPECT_THAT(channels_published(turns_.take(turn)), ElementsAre("STATUS.a"));
   EXPECT_THAT(journal_, ElementsAre("a stopped"));
 }
 
-TEST_F(LockstepTurnsTest, TwoLivesThatHearTheSameHaveTheSameDigest) {
+TEST_F(LockstepTurnsTest, TwoIncarnationsWithEqualInputsHaveEqualDigests) {
   lcm::LCM other_memq("memq://");
   std::vector<std::string> other_journal;
   TickingNode other(other_memq, "a", SimDuration::from_milliseconds(100), other_journal);
   LockstepTurns again(other_memq, other);
-  std::int64_t windowed = again.take(turn_at(at_ms(0), at_ms(500))).outputs_digest;
-  std::int64_t one_by_one = 0;
-  for (int ms = 0; ms < 500; ms += 100) one_by_one = turns_.take(turn_at(at_ms(ms))).outputs_digest;
-  EXPECT_EQ(windowed, one_by_one);
+  std::int64_t with_lookahead = again.take(turn_at(at_ms(0), at_ms(500))).outputs_digest;
+  std::int64_t stepwise = 0;
+  for (int ms = 0; ms < 500; ms += 100) stepwise = turns_.take(turn_at(at_ms(ms))).outputs_digest;
+  EXPECT_EQ(with_lookahead, stepwise);
 }
 
-TEST(LockstepTurnsOfAService, WhatIsHeardIsAnsweredInTheSameTurn) {
+TEST(LockstepTurnsOfAService, ARequestIsAnsweredInTheSameTurn) {
   lcm::LCM memq("memq://");
-  EchoNode echo(memq, "echo", "ASK", "ANSWER");
+  EchoNode echo(memq, "echo", "REQUEST", "ANSWER");
   LockstepTurns turns(memq, echo);
   turns.take(turn_at(at_ms(0)));
   lockstep_turn_t turn = turn_at(at_ms(20));
-  add_heard(turn, "ASK");
-  add_heard(turn, "NOTHING.to-it");
-  EXPECT_THAT(channels_said(turns.take(turn)), ElementsAre("ANSWER"));
+  add_message(turn, "REQUEST");
+  add_message(turn, "NOTHING.to-it");
+  EXPECT_THAT(channels_published(turns.take(turn)), ElementsAre("ANSWER"));
 }
 
-TEST(LockstepTurnsOfAService, TheIntroductionTellsWhatItHears) {
+TEST(LockstepTurnsOfAService, TheIntroductionListsItsSubscriptions) {
   lcm::LCM memq("memq://");
   EchoNode echo(memq, "echo", "ASK.x", "ANSWER");
   const lockstep_join_t join = LockstepTurns(memq, echo).introduction();
@@ -133,7 +133,7 @@ TEST(LockstepTurnsOfAService, ABrokenPromiseOnlyToStoreIsAnError) {
    public:
     explicit Liar(lcm::LCM& lcm) : EchoNode(lcm, "liar", "NONE", "ANSWER") {
       bus().subscribe<sim_clock_t>(
-          "ASK", [this](const sim_clock_t&) { due_ = SimTime::at_once(); }, Wakeup::kStoreOnly);
+          "REQUEST", [this](const sim_clock_t&) { due_ = SimTime::at_once(); }, Wakeup::kStoreOnly);
     }
     Due on_due() const override { return {.sim = due_}; }
 
@@ -144,7 +144,7 @@ TEST(LockstepTurnsOfAService, ABrokenPromiseOnlyToStoreIsAnError) {
   Liar liar(memq);
   LockstepTurns turns(memq, liar);
   lockstep_turn_t turn = turn_at(at_ms(0));
-  add_heard(turn, "ASK");
+  add_message(turn, "REQUEST");
   EXPECT_THROW(turns.take(turn), std::logic_error);
 }
 

@@ -22,7 +22,7 @@ class NodeTest : public ::testing::Test {
  protected:
   NodeTest() {
     set_log_level(LogLevel::kSilent);
-    ear_.subscribe<node_status_t>(
+    listener_.subscribe<node_status_t>(
         channels::kStatus, [this](std::string_view, const node_status_t& m) { statuses_.push_back(m); });
   }
   ~NodeTest() override { set_log_level(LogLevel::kInfo); }
@@ -32,12 +32,12 @@ class NodeTest : public ::testing::Test {
   }
 
   lcm::LCM lcm_{"memq://"};
-  Bus ear_{lcm_, {"ear", 9}};
+  Bus listener_{lcm_, {"listener", 9}};
   std::vector<node_status_t> statuses_;
   std::vector<std::string> journal_;
 };
 
-TEST_F(NodeTest, SaysItsStatusOnceASecondOfSteadyTime) {
+TEST_F(NodeTest, PublishesItsStatusOnceASecondOfSteadyTime) {
   TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
   for (int step = 0; step <= 30; ++step) node.step({at(100 + 0.1 * step), at(0.1 * step)});
   drain();
@@ -50,11 +50,11 @@ TEST_F(NodeTest, SaysItsStatusOnceASecondOfSteadyTime) {
 }
 
 TEST_F(NodeTest, ItsStatusCarriesItsCounters) {
-  EchoNode node(lcm_, "echo", "ASK", "ANSWER");
-  ear_.publish("ASK", testing::valid_message<sim_clock_t>(1));
+  EchoNode node(lcm_, "echo", "REQUEST", "ANSWER");
+  listener_.publish("REQUEST", testing::valid_message<sim_clock_t>(1));
   sim_clock_t impossible = testing::valid_message<sim_clock_t>(1);
   impossible.clock_rate = -1;
-  ear_.publish("ASK", impossible);
+  listener_.publish("REQUEST", impossible);
   drain();
   node.step({at(1), at(1)});
   drain();
@@ -64,7 +64,7 @@ TEST_F(NodeTest, ItsStatusCarriesItsCounters) {
   EXPECT_EQ(statuses_[0].messages_sent, 1);
 }
 
-TEST_F(NodeTest, SaysGoodbye) {
+TEST_F(NodeTest, PublishesAFinalStatus) {
   TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
   node.stop({at(5), at(5)});
   drain();
@@ -73,7 +73,7 @@ TEST_F(NodeTest, SaysGoodbye) {
   EXPECT_THAT(journal_, ::testing::ElementsAre("a stopped"));
 }
 
-TEST_F(NodeTest, WithoutSimulationTimeItSpeaksOfItsStateAlone) {
+TEST_F(NodeTest, WithoutSimulationTimeItPublishesItsStatusAlone) {
   TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
   node.step({SimTime(), at(1), false});
   drain();
@@ -81,16 +81,16 @@ TEST_F(NodeTest, WithoutSimulationTimeItSpeaksOfItsStateAlone) {
   EXPECT_EQ(statuses_.size(), 1u);
 }
 
-TEST_F(NodeTest, AnswersQuestionsEvenWithoutSimulationTime) {
-  EchoNode node(lcm_, "echo", "ASK", "ANSWER");
-  ear_.publish("ASK", testing::valid_message<sim_clock_t>(1));
+TEST_F(NodeTest, AnswersRequestsEvenWithoutSimulationTime) {
+  EchoNode node(lcm_, "echo", "REQUEST", "ANSWER");
+  listener_.publish("REQUEST", testing::valid_message<sim_clock_t>(1));
   drain();
   EXPECT_EQ(node.due().sim, SimTime::at_once());
   node.step({SimTime(), at(1), false});
   EXPECT_EQ(node.answers, 1);
 }
 
-TEST_F(NodeTest, IsToldOfANewRun) {
+TEST_F(NodeTest, IsNotifiedOfANewRun) {
   TickingNode node(lcm_, "a", SimDuration::from_milliseconds(100), journal_);
   node.step({at(500), at(1)});
   node.restart({at(0), at(2)});
@@ -110,7 +110,7 @@ TEST_F(NodeTest, IsDueAtItsNextStatusAtTheLatest) {
 class KilledNode : public NodeTest {
  protected:
   KilledNode() {
-    ear_.subscribe<sim_clock_t>("TICK.a", [this](const sim_clock_t& m) { ticks_.push_back(m); });
+    listener_.subscribe<sim_clock_t>("TICK.a", [this](const sim_clock_t& m) { ticks_.push_back(m); });
     const auto node = start();
     for (int step = 0; step <= 20; ++step) node->step({at(0.1 * step), at(0.1 * step)});
     drain();
@@ -139,15 +139,15 @@ TEST_F(KilledNode, GoesOnWithItsStateAndItsNumbers) {
 TEST_F(KilledNode, ItsLastMessagesAreStillRepaired) {
   const auto node = start();
   std::vector<std::int64_t> repaired;
-  ear_.subscribe<sim_clock_t>(channels::kRepair.of("TICK.a"),
-                              [&](const sim_clock_t& m) { repaired.push_back(m.sequence); });
+  listener_.subscribe<sim_clock_t>(channels::kRepair.of("TICK.a"),
+                                   [&](const sim_clock_t& m) { repaired.push_back(m.sequence); });
   repair_request_t request{};
   request.client_name = "ear";
   request.missing_channel = "TICK.a";
   request.publisher_session = 1;
   request.num_missing = 2;
   request.missing_sequence = {20, 21};
-  ear_.publish(channels::kRepairRequest, request);
+  listener_.publish(channels::kRepairRequest, request);
   drain();
   EXPECT_THAT(repaired, ::testing::ElementsAre(20));
 }

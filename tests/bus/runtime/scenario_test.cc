@@ -86,7 +86,7 @@ TEST(Scenario, WhatIsWrittenReadsBack) {
   EXPECT_EQ(back.duration, scenario.duration);
 }
 
-TEST(SessionOf, IsPositiveAndTheSameForTheSameLife) {
+TEST(SessionOf, IsPositiveAndTheSameForTheSameIncarnation) {
   std::set<std::int64_t> sessions;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     const std::int64_t session = session_of(seed, "channel-server");

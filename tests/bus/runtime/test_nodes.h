@@ -9,7 +9,7 @@
 
 namespace halocline::bus::testing {
 
-// Steps on the grid of a period, and says so in a journal shared with others. Publishes a CLOCK at each step.
+// Steps on the grid of a period, and notes it in a journal shared with others. Publishes a CLOCK at each step.
 class TickingNode : public Node {
  public:
   TickingNode(lcm::LCM& lcm, const std::string& name, SimDuration period, std::vector<std::string>& journal)
@@ -49,13 +49,13 @@ class TickingNode : public Node {
   std::int64_t sequence_ = 0;
 };
 
-// Answers each message of a channel at once, as a service does, with the utime that it heard.
+// Answers each message of a channel at once, as a service does, with the utime that it received.
 class EchoNode : public Node {
  public:
-  EchoNode(lcm::LCM& lcm, const std::string& name, const std::string& heard, const std::string& answered,
+  EchoNode(lcm::LCM& lcm, const std::string& name, const std::string& received, const std::string& answered,
            std::int64_t session = 2)
       : Node(lcm, {name, session}), answered_(answered) {
-    bus().subscribe<sim_clock_t>(heard, [this](const sim_clock_t& m) { waiting_.push_back(m); });
+    bus().subscribe<sim_clock_t>(received, [this](const sim_clock_t& m) { waiting_.push_back(m); });
   }
   int answers = 0;
 

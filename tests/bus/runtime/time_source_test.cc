@@ -25,7 +25,7 @@ class ConductorTimeTest : public ::testing::Test {
     clock.lockstep = rate == 0;
     return clock;
   }
-  void hear(double steady_s, double sim_s, double rate = 1, std::int64_t session = 1) {
+  void receive(double steady_s, double sim_s, double rate = 1, std::int64_t session = 1) {
     time_.on_clock(clock_at(sim_s, rate, session), at(steady_s));
   }
   double now(double steady_s) { return time_.now(at(steady_s))->seconds(); }
@@ -41,12 +41,12 @@ TEST_F(ConductorTimeTest, KnowsNoTimeBeforeTheFirstClock) {
 }
 
 TEST_F(ConductorTimeTest, FollowsTheClockAtItsRate) {
-  hear(10, 100, 4);
+  receive(10, 100, 4);
   EXPECT_NEAR(now(10.5), 102, 1e-9);
   EXPECT_NEAR(time_.steady_at(at(104)).seconds(), 11, 1e-6);
 }
 
-TEST_F(ConductorTimeTest, HearsTheClockOnTheBus) {
+TEST_F(ConductorTimeTest, ReceivesTheClockOnTheBus) {
   const sim_clock_t clock = clock_at(7);
   time_.set_steady(at(2));
   lcm_.publish("CLOCK", &clock);
@@ -74,8 +74,8 @@ TEST_F(ConductorTimeTest, AClockThatWaitedToBeHandledCountsFromWhenItWasReceived
   EXPECT_LE(now(2), 7 + 2 * ((after + waited - before).seconds() + kStampStepS));
 }
 
-TEST_F(ConductorTimeTest, CoastsWhenTheConductorFallsSilent) {
-  hear(1, 1);
+TEST_F(ConductorTimeTest, CoastsWhenTheConductorIsSilent) {
+  receive(1, 1);
   EXPECT_NEAR(now(60), 60, 1e-9);
   EXPECT_NEAR(now(3600), 3600, 1e-6);
 }
@@ -88,7 +88,7 @@ TEST_F(ConductorTimeTest, FiltersJitterAndNeverGoesBack) {
   for (int tick = 1; tick < 500; ++tick) {
     const double sim = 0.1 * tick;
     const double delay = tick == 1 ? 0.0 : 3e-5 * static_cast<double>(random() % 1000);
-    hear(sim + delay, sim);
+    receive(sim + delay, sim);
     const double known = now(sim + delay);
     EXPECT_GE(known, latest);
     EXPECT_LE(known, sim + delay + 1e-9);
@@ -100,52 +100,52 @@ TEST_F(ConductorTimeTest, FiltersJitterAndNeverGoesBack) {
 }
 
 TEST_F(ConductorTimeTest, ANewRateTakesHoldAtOnce) {
-  hear(1, 1, 1);
-  hear(2, 2, 10);
+  receive(1, 1, 1);
+  receive(2, 2, 10);
   EXPECT_NEAR(now(3), 12, 1e-9);
 }
 
 TEST_F(ConductorTimeTest, StandsStillWhilePaused) {
-  hear(1, 1, 1);
-  hear(2, 2, 0);
+  receive(1, 1, 1);
+  receive(2, 2, 0);
   EXPECT_NEAR(now(5), 2, 1e-9);
   EXPECT_EQ(time_.steady_at(at(3)), SimTime::never());
-  hear(9, 2, 1);
+  receive(9, 2, 1);
   EXPECT_NEAR(now(10), 3, 1e-9);
 }
 
-TEST_F(ConductorTimeTest, AConductorStartedAgainThatTookUpTheTimeIsNoNewRun) {
-  hear(1, 100, 1, 1);
-  hear(5, 103.9, 1, 2);
+TEST_F(ConductorTimeTest, ARestartedConductorThatContinuesTheTimeIsNoNewRun) {
+  receive(1, 100, 1, 1);
+  receive(5, 103.9, 1, 2);
   EXPECT_FALSE(time_.restarted());
   EXPECT_GE(now(5), 103.9);
 }
 
-TEST_F(ConductorTimeTest, AJumpBackIsANewRunToldOnce) {
-  hear(1, 100, 1, 1);
+TEST_F(ConductorTimeTest, AJumpBackIsANewRunReportedOnce) {
+  receive(1, 100, 1, 1);
   EXPECT_NEAR(now(2), 101, 1e-9);
-  hear(3, 0, 1, 2);
+  receive(3, 0, 1, 2);
   EXPECT_TRUE(time_.restarted());
   EXPECT_FALSE(time_.restarted());
   EXPECT_NEAR(now(4), 1, 1e-9);
 }
 
 TEST_F(ConductorTimeTest, OneClockLongDelayedDoesNotSetTimeBack) {
-  hear(1, 1);
-  hear(2, 2);
+  receive(1, 1);
+  receive(2, 2);
   EXPECT_NEAR(now(2.5), 2.5, 1e-9);
-  hear(2.6, 1.5);
+  receive(2.6, 1.5);
   EXPECT_NEAR(now(2.7), 2.7, 1e-9);
 }
 
 TEST_F(ConductorTimeTest, FarInstantsDoNotOverflow) {
-  hear(1, 1, 1e-3);
+  receive(1, 1, 1e-3);
   EXPECT_EQ(time_.steady_at(SimTime::never()), SimTime::never());
   EXPECT_EQ(time_.steady_at(SimTime::at_once()), SimTime::at_once());
   EXPECT_GT(time_.steady_at(at(9e9)), at(1));
 }
 
-TEST(MessageTime, IsTheGreatestUtimeHeard) {
+TEST(MessageTime, IsTheGreatestUtimeReceived) {
   lcm::LCM lcm("memq://");
   MessageTime time(lcm, "node");
   EXPECT_FALSE(time.now(at(1)).has_value());
@@ -157,7 +157,7 @@ TEST(MessageTime, IsTheGreatestUtimeHeard) {
   EXPECT_EQ(time.steady_at(at(5.1)), SimTime::never());
 }
 
-TEST(MessageTime, HearsStatesAndSends) {
+TEST(MessageTime, ReceivesStatesAndSends) {
   lcm::LCM lcm("memq://");
   MessageTime time(lcm, "node");
   modem_send_t send{};
@@ -201,7 +201,7 @@ struct Drift {
 };
 class ConductorTimeDay : public ConductorTimeTest, public ::testing::WithParamInterface<Drift> {};
 
-// A simulated day of CLOCKs every 0.1 s of simulation time, heard up to 5 ms late, one in a hundred 80 ms late, every
+// A simulated day of CLOCKs every 0.1 s of simulation time, received up to 5 ms late, one in a hundred 80 ms late, every
 // tenth lost. Time lags by the least delay of the last second and may lead by what the clocks part in that second: it
 // stays between -6 ms and +2 x skew x 1 s of the conductor's in its first hour as in its last, whatever went before.
 TEST_P(ConductorTimeDay, StaysWithinItsBoundOfTheConductorForADay) {
@@ -217,14 +217,14 @@ TEST_P(ConductorTimeDay, StaysWithinItsBoundOfTheConductorForADay) {
     const double conductor_s = sim / rate;
     if (uniform() < 0.1) continue;
     const double delay_s = uniform() < 0.01 ? 0.08 : 5e-3 * uniform();
-    true_s = std::max(true_s, conductor_s + delay_s);  // none overtakes another
-    const double heard_s = true_s * (1 + skew);
-    hear(heard_s, sim, rate);
-    const double error = now(heard_s) - true_s * rate;
+    true_s = std::max(true_s, conductor_s + delay_s);  // none is reordered
+    const double received_s = true_s * (1 + skew);
+    receive(received_s, sim, rate);
+    const double error = now(received_s) - true_s * rate;
     if (conductor_s > kWindow_s)
       worst_late = std::min(worst_late, error), worst_early = std::max(worst_early, error);
-    ASSERT_GE(now(heard_s), last);
-    last = now(heard_s);
+    ASSERT_GE(now(received_s), last);
+    last = now(received_s);
   }
   EXPECT_GT(worst_late, -(0.08 + kDelay_s) * rate);
   EXPECT_LT(worst_early, (2 * std::abs(skew) * kWindow_s + kRounding_s) * rate);

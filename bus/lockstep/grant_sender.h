@@ -1,0 +1,48 @@
+// Sends grants to participants, and retransmits those that are not answered.
+//
+// Turns that are alike travel in one grant to all addressed, else in one each; bodies longer than a datagram travel in
+// slices. A retransmission goes to those alone whose answer is missing.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/lockstep/participant_links.h"
+#include "bus/lockstep/sequencer.h"
+
+namespace halocline::conductor {
+
+class GrantSender {
+ public:
+  // `send` completes the grant (run_id) and publishes it on the channel.
+  using Send = std::function<void(const std::string& channel, lockstep_grant_t& grant)>;
+  GrantSender(const Sequencer& sequencer, Send send) : sequencer_(sequencer), send_(std::move(send)) {}
+
+  // The turn of the present round to each of these; all are up to date.
+  void grant_turn(const std::vector<ParticipantLink*>& links, SimTime steady);
+  // The next turns of the run's history that this incarnation lacks.
+  void grant_history(ParticipantLink& link, SimTime steady);
+
+  // The number of the first turn in the grant that a link has not answered.
+  std::int64_t first_turn(const ParticipantLink& link) const;
+
+  void retransmit(ParticipantLinks& links, SimTime steady);
+  // Steady time; nothing is to be retransmitted before.
+  SimTime next_retransmission() const { return next_retransmission_; }
+  std::int64_t retransmissions() const { return retransmissions_; }
+
+ private:
+  void send(const std::vector<ParticipantLink*>& links, SimTime steady);
+  void send_one(std::span<ParticipantLink* const> links);
+
+  const Sequencer& sequencer_;
+  Send send_;
+  SimTime next_retransmission_ = SimTime::never();
+  std::int64_t retransmissions_ = 0;
+};
+
+}  // namespace halocline::conductor

@@ -1,0 +1,22 @@
+// Restores the state of a lockstep run from the journal of an earlier incarnation of its conductor.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bus/lockstep/journal.h"
+#include "bus/lockstep/membership.h"
+#include "bus/lockstep/participant_links.h"
+#include "bus/lockstep/sequencer.h"
+
+namespace halocline::conductor {
+
+// Applies the entries to a new sequencer, which publishes the messages of the run again. Throws std::runtime_error for
+// a journal of another scenario (by `scenario_digest`), and for entries that no conductor wrote.
+RunState replay_journal(const std::vector<JournalEntry>& entries, const std::string& scenario_digest,
+                        Sequencer& sequencer);
+
+// A local participant takes its turns again. Throws std::runtime_error when it publishes otherwise than before.
+void replay_local(const ParticipantLink& local, const Sequencer& sequencer);
+
+}  // namespace halocline::conductor

@@ -1,0 +1,100 @@
+#include "bus/lockstep/membership.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace halocline::conductor {
+
+Membership::Membership(const Sequencer& sequencer, ParticipantLinks& links, GrantSender& grants,
+                       std::string scenario_digest, Outputs outputs)
+    : sequencer_(sequencer),
+      links_(links),
+      grants_(grants),
+      scenario_digest_(std::move(scenario_digest)),
+      outputs_(std::move(outputs)) {}
+
+void Membership::on_join(const lockstep_join_t& join, const RunState& run, SimTime steady) {
+  ParticipantLink& link = links_.of(join.participant_name);
+  if (link.incarnation == join.incarnation) return on_repeated_join(join, link, run, steady);
+  if (is_too_late(join, run)) return notify(join.incarnation, run, lockstep_notice_t::OVER);
+  const std::string objection = objection_to(join, link, run);
+  if (!objection.empty()) return expel(join.incarnation, link.name, run, objection);
+  if (link.incarnation != 0 || sequencer_.knows(link.name))
+    outputs_.report("returned", "participant=" + link.name);
+  links_.connect(link, join, steady);
+  notify(link.incarnation, run, lockstep_notice_t::WELCOME);
+  grant_next(link, steady);
+}
+
+void Membership::on_repeated_join(const lockstep_join_t& join, ParticipantLink& link, const RunState& run,
+                                  SimTime steady) {
+  link.last_received = steady;
+  link.wants_to_leave = link.wants_to_leave || join.wants_to_leave != 0;
+  const bool done = run.over || link.has_left;
+  notify(join.incarnation, run, done ? lockstep_notice_t::OVER : lockstep_notice_t::WELCOME);
+  // A join of an earlier instant was received first.
+  if (!link.up_to_date && join.turns_taken > link.turns_taken) {
+    link.turns_taken = join.turns_taken;
+    grant_next(link, steady);
+  }
+}
+
+// The run ends without it, or this incarnation has taken its last turn.
+bool Membership::is_too_late(const lockstep_join_t& join, const RunState& run) const {
+  const std::string& name = join.participant_name;
+  if (run.over) return true;
+  if (sequencer_.takes_part(name)) return false;
+  const bool has_left = join.run_id == run.id && join.turns_taken > sequencer_.turns_taken(name);
+  return run.ending || (sequencer_.knows(name) && sequencer_.turns_taken(name) == 0 && has_left);
+}
+
+std::string Membership::objection_to(const lockstep_join_t& join, const ParticipantLink& link,
+                                     const RunState& run) const {
+  if (link.take) return "its name is taken by the conductor itself";
+  if (join.run_id != 0 && join.run_id != run.id) return "it took part in another run";
+  if (join.scenario_digest != scenario_digest_) return "its scenario is not the conductor's";
+  if (join.incarnation < link.incarnation) return "a later incarnation of it takes part";
+  const std::int64_t ahead = join.turns_taken - sequencer_.turns_taken(link.name);
+  const auto& round = sequencer_.round();
+  const bool in_round = std::find(round.begin(), round.end(), link.name) != round.end();
+  return ahead <= (in_round ? 1 : 0) ? "" : "it took turns that the run does not count";
+}
+
+// History where it lacks some; else the turn of the round, if it is in it.
+void Membership::grant_next(ParticipantLink& link, SimTime steady) {
+  link.up_to_date = link.turns_taken >= sequencer_.turns_taken(link.name);
+  if (!link.up_to_date) return grants_.grant_history(link, steady);
+  link.wants_to_join = !sequencer_.takes_part(link.name);
+  if (link.awaited) grants_.grant_turn({&link}, steady);
+}
+
+void Membership::on_history_taken(ParticipantLink& link, const lockstep_result_t& result, const RunState& run,
+                                  SimTime steady) {
+  link.timer.on_answered(steady);
+  link.turns_taken += link.turns_granted;
+  const bool at_the_end = link.turns_taken == sequencer_.turns_taken(link.name);
+  if (at_the_end && result.outputs_digest != sequencer_.digest_of(link.name)) {
+    const std::int64_t incarnation = link.incarnation;
+    links_.disconnect(link);
+    return expel(incarnation, link.name, run, "it publishes otherwise than its earlier incarnation");
+  }
+  grant_next(link, steady);
+}
+
+void Membership::expel(std::int64_t incarnation, const std::string& name, const RunState& run,
+                       const std::string& reason) const {
+  outputs_.report("expelled", "participant=" + name + " reason=\"" + reason + "\"");
+  notify(incarnation, run, lockstep_notice_t::EXPELLED, reason);
+}
+
+void Membership::notify(std::int64_t incarnation, const RunState& run, std::int8_t kind,
+                        const std::string& reason) const {
+  lockstep_notice_t notice;
+  notice.run_id = run.id;
+  notice.incarnation = incarnation;
+  notice.notice_kind = kind;
+  notice.reason = reason;
+  outputs_.notice(notice);
+}
+
+}  // namespace halocline::conductor

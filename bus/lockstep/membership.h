@@ -1,0 +1,60 @@
+// Membership of a lockstep run: admits participants and returning incarnations, replays to them the turns that they
+// lack, and expels what cannot take part.
+//
+// A participant that was killed returns as a new incarnation with a greater number. It takes the turns of the run's
+// history again, and the digest of what it publishes meanwhile must be that of its predecessor.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "bus/lockstep/grant_sender.h"
+#include "bus/lockstep/participant_links.h"
+#include "bus/lockstep/sequencer.h"
+
+namespace halocline::conductor {
+
+// How far a run has come.
+struct RunState {
+  std::int64_t id = 0;
+  bool ending = false;  // every round is one of last turns
+  bool over = false;
+};
+
+class Membership {
+ public:
+  struct Outputs {
+    std::function<void(const lockstep_notice_t&)> notice;
+    std::function<void(const std::string& event, const std::string& detail)> report;
+  };
+  // `scenario_digest`: what a participant's must equal. All references must outlive this.
+  Membership(const Sequencer& sequencer, ParticipantLinks& links, GrantSender& grants,
+             std::string scenario_digest, Outputs outputs);
+
+  void on_join(const lockstep_join_t& join, const RunState& run, SimTime steady);
+  // All turns of the last grant_history() were taken, with the result of the last of them.
+  void on_history_taken(ParticipantLink& link, const lockstep_result_t& result, const RunState& run,
+                        SimTime steady);
+  // `kind`: of lockstep_notice_t.
+  void notify(std::int64_t incarnation, const RunState& run, std::int8_t kind,
+              const std::string& reason = "") const;
+
+ private:
+  void on_repeated_join(const lockstep_join_t& join, ParticipantLink& link, const RunState& run,
+                        SimTime steady);
+  bool is_too_late(const lockstep_join_t& join, const RunState& run) const;
+  std::string objection_to(const lockstep_join_t& join, const ParticipantLink& link,
+                           const RunState& run) const;
+  void grant_next(ParticipantLink& link, SimTime steady);
+  void expel(std::int64_t incarnation, const std::string& name, const RunState& run,
+             const std::string& reason) const;
+
+  const Sequencer& sequencer_;
+  ParticipantLinks& links_;
+  GrantSender& grants_;
+  std::string scenario_digest_;
+  Outputs outputs_;
+};
+
+}  // namespace halocline::conductor

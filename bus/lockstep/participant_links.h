@@ -1,0 +1,58 @@
+// The conductor's connections to the participants of a run: by name, and by the incarnation connected at present.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "bus/lockstep/lockstep_wire.h"
+#include "bus/lockstep/retransmission_timer.h"
+#include "bus/messages.h"
+#include "core/sim_time.h"
+
+namespace halocline::conductor {
+
+// Takes a turn of a participant that runs in the conductor's process.
+using TakeTurn = std::function<lockstep_result_t(const lockstep_turn_t&)>;
+
+// One participant: its incarnation, how far that has come, and the grant that it has not answered.
+struct ParticipantLink {
+  std::string name;
+  std::int64_t incarnation = 0;  // 0: none connected, or local
+  lockstep_join_t join;
+  TakeTurn take;                 // of a local participant
+  std::int64_t turns_taken = 0;  // by this incarnation, as far as is known
+  bool up_to_date = false;       // it has taken all turns of its name
+  bool wants_to_join = false;    // to be admitted between rounds
+  bool wants_to_leave = false;
+  bool has_left = false;  // this incarnation has taken its last turn
+  bool awaited = false;   // in the round, and its result has not been received
+  // The turns granted and not answered.
+  bus::Bytes granted;
+  std::int32_t turns_granted = 0;
+  bus::SliceCollector answer;
+  RetransmissionTimer timer;
+  SimTime last_received;  // steady
+};
+
+class ParticipantLinks {
+ public:
+  // Made where the name is new; stays where it is.
+  ParticipantLink& of(const std::string& name);
+  const ParticipantLink* find(const std::string& name) const;
+  // Null where that incarnation is not connected.
+  ParticipantLink* of_incarnation(std::int64_t incarnation);
+
+  void connect(ParticipantLink& link, const lockstep_join_t& join, SimTime steady);
+  void disconnect(ParticipantLink& link);
+
+  auto begin() { return links_.begin(); }
+  auto end() { return links_.end(); }
+
+ private:
+  std::map<std::string, ParticipantLink> links_;
+  std::map<std::int64_t, ParticipantLink*> connected_;
+};
+
+}  // namespace halocline::conductor

@@ -1,0 +1,32 @@
+// Who a node is on the bus.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace halocline::bus {
+
+// The order in which participants step at one instant of lockstep (lockstep_schedule.h): sources of information
+// before those that act on it.
+enum class Stage { kTime, kTerrain, kVehicles, kPilots, kTraffic, kClients, kChannel };
+
+// The publisher: the node's name (is_valid_name), a number that differs for each incarnation, and its stage.
+struct NodeIdentity {
+  std::string name;
+  std::int64_t session = 0;
+  Stage stage = Stage::kClients;
+};
+
+// What a node has counted since it started; published in STATUS.
+struct BusCounters {
+  std::int64_t received = 0;
+  std::int64_t sent = 0;
+  std::int64_t refused = 0;
+  std::int64_t gaps = 0;
+  std::int64_t repaired = 0;
+  std::int64_t lost = 0;
+  std::int64_t duplicates = 0;
+  std::int64_t late = 0;
+};
+
+}  // namespace halocline::bus
