@@ -35,7 +35,7 @@ void link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
   VehicleRegistry fleet({}, {});
   StraightPropagation propagation(acoustics::Environment{});
-  MultipathCache book(5);
+  MultipathCache echoes(5);
   const SimTime end = SimTime::from_seconds(100);
   add_states(fleet, vehicles, end);
   SimTime now = end;
@@ -43,7 +43,7 @@ void link_table(benchmark::State& state) {
     now = now + SimDuration::from_microseconds(1);
     const auto placed = place_all(fleet, now);
     benchmark::DoNotOptimize(link_tables(now, placed, propagation, [&](const auto& from, const auto& to) {
-      return book.at_last_tick(now, from, to, propagation);
+      return echoes.at_last_tick(now, from, to, propagation);
     }));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
@@ -56,17 +56,17 @@ double seamount_z_m(const Vec3& place) {
   return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
 }
 
-void tell_bottoms(SeabedProfileCache& book, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
-  for (const VehiclePair& pair : book.take_geometry(vehicles)) {
-    ProfileSurvey survey = book.survey_of(pair);
+void tell_bottoms(SeabedProfileCache& echoes, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
+  for (const VehiclePair& pair : echoes.take_geometry(vehicles)) {
+    ProfileSurvey survey = echoes.survey_of(pair);
     std::vector<RayAnswer> answers;
     for (const TerrainRay& ray : survey.rays()) {
       answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
     }
     survey.take(answers);
-    book.store(pair, survey);
+    echoes.store(pair, survey);
   }
-  book.open_tick(tick);
+  echoes.open_tick(tick);
 }
 
 // The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
