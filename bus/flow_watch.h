@@ -33,7 +33,7 @@ class FlowWatch {
   static constexpr std::size_t kMaxMissing = 2000;
   static constexpr std::size_t kMaxInARequest = 200;
   // Channels beyond these are not watched: names made up without end must not grow our memory.
-  static constexpr std::size_t kMaxChannels = 5000;
+  static constexpr std::size_t kMaxChannels = 20'000;
 
   // How a received message fits into its flow.
   struct Classification {
