@@ -1,7 +1,6 @@
 #include "channel_server/channel_server_config.h"
 
 #include "channel_server/modem_config.h"
-#include "channel_server/water_config.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -106,6 +106,8 @@ struct ChannelServerConfig {
 };
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
+// Its part that is about the water: [environment], [propagation] and [[environment_change]] (water_config.cc).
+void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
 // The water of a scenario whose file lies in `folder`. Throws InvalidArgument when a profile cannot be read or
 // is impossible.

@@ -1,4 +1,4 @@
-#include "channel_server/water_config.h"
+#include "channel_server/channel_server_config.h"
 
 #include <cmath>
 #include <filesystem>
