@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "bus/channels.h"
-#include "channel_server/environment_messages.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/world_messages.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

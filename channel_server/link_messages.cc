@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bus/message_checks.h"
-#include "channel_server/vehicle_messages.h"
+#include "channel_server/world_messages.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "bus/message_checks.h"
-#include "channel_server/environment_messages.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/modem_config.h"
 #include "channel_server/packet_messages.h"
-#include "channel_server/vehicle_messages.h"
+#include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 

@@ -13,7 +13,7 @@
 #include "channel_server/channel_server_node.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/packet_messages.h"
-#include "channel_server/vehicle_messages.h"
+#include "channel_server/world_messages.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server::testing {
