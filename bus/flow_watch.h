@@ -33,7 +33,7 @@ class FlowWatch {
   static constexpr std::size_t kMaxMissing = 2000;
   static constexpr std::size_t kMaxPerRequest = 200;
   // Channels beyond these are not watched: endless invented names must not exhaust memory.
-  static constexpr std::size_t kMaxChannels = 5000;
+  static constexpr std::size_t kMaxChannels = 20'000;
 
   // How a received message fits into its flow.
   struct Classification {

@@ -1,7 +1,6 @@
 #include "channel_server/channel_server_config.h"
 
 #include "channel_server/modems/modem_config.h"
-#include "channel_server/water_config.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -51,12 +50,13 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               {1, kMaxShards, "", "channel servers that share the vehicles (id mod shards = shard)"});
   visit_count(v, "shard", r.medium.shard.index,
               {0, kMaxShards - 1.0, "", "which of them this one is; in one process all run"});
-  bus::seconds(v, "echo_deadline_s", r.asking.answer_deadline,
+  bus::seconds(v, "echo_deadline_s", r.ray_queries.answer_deadline,
                {0.001, 60, "s", "the bathymetry service is away when it has not answered by then"});
-  visit_count(v, "echo_rays_per_message", r.asking.rays_per_batch, {128, 4096, "", "rays in one RAY_QUERY"});
-  visit_count(v, "echo_messages_in_flight", r.asking.batches_in_flight,
+  visit_count(v, "echo_rays_per_message", r.ray_queries.rays_per_batch,
+              {128, 4096, "", "rays in one RAY_QUERY"});
+  visit_count(v, "echo_messages_in_flight", r.ray_queries.batches_in_flight,
               {1, 64, "", "RAY_QUERYs without an answer"});
-  visit_count(v, "echo_messages_per_table", r.asking.batches_per_tick,
+  visit_count(v, "echo_messages_per_table", r.ray_queries.batches_per_tick,
               {1, 10000, "", "RAY_QUERYs for one link table"});
 }
 

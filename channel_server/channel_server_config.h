@@ -19,7 +19,7 @@
 
 namespace halocline::channel_server {
 
-// Where temperature and salinity, or speed, come from.
+// The source of temperature and salinity, or of speed.
 enum class ProfileSource {
   kGlobalMean,
   kGlobalMeanOfSalinity35,
@@ -84,7 +84,7 @@ struct ServerRules {
   SimDuration link_period = SimDuration::from_milliseconds(1000);  // between two LINKS of a vehicle
   PositionRule position;
   MediumRule medium;
-  AskingRule asking;
+  RayQueryRule ray_queries;
   int bottom_points = 9;             // under each link, for its echoes
   double echo_reuse_distance_m = 5;  // how far the ends of a link may move before its echoes are surveyed again
   ProfileRule profile{.reuse_distance_m = 25, .spacing_m = 25};
@@ -106,6 +106,8 @@ struct ChannelServerConfig {
 };
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
+// Its part that is about the water: [environment], [propagation] and [[environment_change]] (water_config.cc).
+void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 
 // The water of a scenario whose file lies in `folder`. Throws InvalidArgument when a profile cannot be read or
 // is impossible.
@@ -115,7 +117,7 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
 // Rays as configured. Throws InvalidArgument when a part is out of range.
 RayModel make_rays(const ChannelServerConfig& config);
 
-// Tells the timeline of the scenario's changes. Throws InvalidArgument when one cannot be.
+// Adds the scenario's changes to the timeline. Throws InvalidArgument when one cannot be.
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
                       const std::string& folder, EnvironmentTimeline& timeline);
 

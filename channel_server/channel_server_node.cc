@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "bus/channels.h"
-#include "channel_server/environment_messages.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/world_messages.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -19,7 +19,7 @@ constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
 constexpr std::int64_t kMaxTicksBehind = 100;
-// How much longer than their rules states and receipts are kept, so that every instant that may still be asked for
+// How much longer than their rules states and receipts are kept, so that every instant that may still be evaluated
 // has them.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
 
@@ -37,9 +37,9 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       vehicles_(rules.position, modems),
       medium_(vehicles_, *water_.propagation, rules.medium),
       echoes_(rules.echo_reuse_distance_m),
-      rays_(rules.asking),
+      rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, echoes_, rays_,
-               {rules.bottom_points, rules.profile, rules.asking.answer_deadline}),
+               {rules.bottom_points, rules.profile, rules.ray_queries.answer_deadline}),
       publisher_(bus()),
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard),
@@ -124,7 +124,7 @@ void ChannelServerNode::publish_environment(SimTime instant) {
       std::min(next_on_grid(instant, kEnvironmentPeriod), water_.waters->next_change_after(instant));
 }
 
-// The earliest instant that may still be asked for is the start of a transmission received late; its sender may
+// The earliest instant that may still be evaluated is the start of a transmission received late; its sender may
 // have been silent for the time-out before.
 void ChannelServerNode::forget_old(SimTime now) {
   const SimTime horizon = now - rules_.medium.max_lateness - kKeptLonger;
@@ -136,7 +136,7 @@ void ChannelServerNode::forget_old(SimTime now) {
 
 void ChannelServerNode::answer_queries(const bus::Now& now) {
   for (const link_query_t& query : inbox_.take_queries()) {
-    queries_.ask(to_question(query), now.sim_known ? std::optional(now.sim) : std::nullopt, now.steady);
+    queries_.submit(to_query(query), now.sim_known ? std::optional(now.sim) : std::nullopt, now.steady);
   }
   seabed_.publish_queries(now);
   for (const LinkReply& reply : queries_.take_replies(now.steady)) {

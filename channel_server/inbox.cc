@@ -35,7 +35,7 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
   bus_.subscribe<link_query_t>(channels::kLinkQuery, [this, shard](const link_query_t& m) {
     if ((m.request_id % shard.count + shard.count) % shard.count != shard.index) return;
     if (queries_.size() >= LinkQueryService::kMaxWaiting) {
-      return bus_.refuse(channels::kLinkQuery, "too many questions at once");
+      return bus_.refuse(channels::kLinkQuery, "too many queries at once");
     }
     queries_.push_back(m);
   });

@@ -35,7 +35,7 @@ class Inbox {
   StepInputs take_inputs() { return std::exchange(inputs_, {}); }
   std::vector<link_query_t> take_queries() { return std::exchange(queries_, {}); }
 
-  // The simulation time of the next step that they ask for; states and modems wait for any.
+  // The simulation time at which a step is needed for them; states and modems wait for any.
   SimTime due() const;
   // Another run has begun: forgets what is stamped after `latest`. The rest may belong to the new run.
   void forget_after(SimTime latest);

@@ -4,9 +4,8 @@
 #include <tuple>
 
 #include "bus/channels.h"
-#include "channel_server/environment_messages.h"
 #include "channel_server/packet_messages.h"
-#include "channel_server/vehicle_messages.h"
+#include "channel_server/world_messages.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bus/message_checks.h"
-#include "channel_server/vehicle_messages.h"
+#include "channel_server/world_messages.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -14,7 +14,7 @@ Vec3 to_vec3(const double (&values)[3]) { return {values[0], values[1], values[2
 
 std::vector<double> as_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-LinkEndRequest to_asked_end(const link_end_t& message) {
+LinkEndRequest to_end_request(const link_end_t& message) {
   LinkEndRequest end{message.vehicle_name, to_vec3(message.position_ned_m)};
   if (message.modem_choice == link_end_t::MODEM_SCENARIO) return end;
   if (message.modem_choice != link_end_t::MODEM_GIVEN) {
@@ -84,11 +84,11 @@ std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at) {
   return messages;
 }
 
-LinkQuestion to_question(const link_query_t& message) {
-  LinkQuestion question{message.client_name, message.request_id, {}, {}};
-  for (const link_end_t& end : message.transmitters) question.transmitters.push_back(to_asked_end(end));
-  for (const link_end_t& end : message.receivers) question.receivers.push_back(to_asked_end(end));
-  return question;
+LinkQuery to_query(const link_query_t& message) {
+  LinkQuery query{message.client_name, message.request_id, {}, {}};
+  for (const link_end_t& end : message.transmitters) query.transmitters.push_back(to_end_request(end));
+  for (const link_end_t& end : message.receivers) query.receivers.push_back(to_end_request(end));
+  return query;
 }
 
 link_reply_t to_message(const LinkReply& reply) {

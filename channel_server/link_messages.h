@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxPeers = 400;  // of link_table_t: 43 kB
 std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at);
 
 // An end that cannot be read (a modem with a NaN) carries the problem.
-LinkQuestion to_question(const link_query_t& message);
+LinkQuery to_query(const link_query_t& message);
 link_reply_t to_message(const LinkReply& reply);
 
 ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimTime asked_at);

@@ -30,15 +30,15 @@ int main(int argc, char** argv) {
   ChannelServerConfig config;
   NodeProgram program;
   program.program = "halocline-channel-server";
-  program.purpose = "Carries messages through the water and tells the quality of every link.";
+  program.purpose = "Simulates the acoustic channel: link qualities, transmissions and their outcomes.";
   program.node_name = "channel-server";
   program.stage = halocline::bus::Stage::kChannel;
   program.interface =
-      "receives:  STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
-      "           PING_ANSWER (of other shards),\n"
-      "           RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
-      "publishes: LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"
-      "           LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER (as a shard), STATUS.<name>";
+      "subscribes: STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
+      "            PING_ANSWER (of other shards),\n"
+      "            RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
+      "publishes:  LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"
+      "            LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER (as a shard), STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   std::string share, journal;
   program.options = {
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   program.make_node = [&](const NodeProgram::Context& context) {
     auto node = make_channel_server(context.lcm, context.identity, config, context.scenario, context.folder);
     require(journal.empty() || !context.in_lockstep,
-            "--journal is " + journal + "; in lockstep the conductor remembers for all");
+            "--journal is " + journal + "; in lockstep the conductor has the journal of all");
     if (!journal.empty()) node->open_journal(journal);
     return node;
   };

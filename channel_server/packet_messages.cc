@@ -7,22 +7,22 @@ namespace {
 
 // What OUTCOME and RECEIVE have in common.
 template <class Message>
-Message of_packet_end(const PacketEnd& end, SimTime at) {
-  const SendRequest& request = end.packet->request;
+Message common_fields(const PacketOutcome& outcome, SimTime at) {
+  const SendRequest& request = outcome.packet->request;
   Message message{};
   message.utime = at.to_utime();
   message.send_session = request.session;
   message.packet_sequence = request.packet_sequence;
   message.source_id = request.source_id;
   message.destination_id = request.destination_id;
-  message.receiver_id = end.receiver_id;
+  message.receiver_id = outcome.receiver_id;
   message.packet_kind = static_cast<std::int8_t>(request.kind);
-  message.departure_utime = end.packet->departure.to_utime();
-  message.travel_time_s = end.travel_time_s;
-  message.received_level_db = end.budget.received_level.value;
-  message.snr_db = end.budget.snr.value;
-  message.strongest_path_doppler_factor = end.doppler_factor;
-  message.sinr_db = end.judgement.sinr.value;
+  message.departure_utime = outcome.packet->departure.to_utime();
+  message.travel_time_s = outcome.travel_time_s;
+  message.received_level_db = outcome.budget.received_level.value;
+  message.snr_db = outcome.budget.snr.value;
+  message.strongest_path_doppler_factor = outcome.doppler_factor;
+  message.sinr_db = outcome.statistics.sinr.value;
   return message;
 }
 
@@ -35,14 +35,14 @@ packet_name_t to_message(const PacketName& name) {
   return message;
 }
 
-void set_judgement(const Judgement& judgement, packet_outcome_t& message) {
-  message.interference_level_db = judgement.interference.value;
-  message.acquisition_probability = judgement.acquisition_probability;
-  message.success_probability = judgement.success_probability;
-  message.acquisition_draw = judgement.acquisition_draw;
-  message.success_draw = judgement.success_draw;
-  message.num_colliders = static_cast<std::int32_t>(judgement.colliders.size());
-  for (const PacketName& name : judgement.colliders) message.colliders.push_back(to_message(name));
+void set_statistics(const DecisionStatistics& statistics, packet_outcome_t& message) {
+  message.interference_level_db = statistics.interference.value;
+  message.acquisition_probability = statistics.acquisition_probability;
+  message.success_probability = statistics.success_probability;
+  message.acquisition_draw = statistics.acquisition_draw;
+  message.success_draw = statistics.success_draw;
+  message.num_colliders = static_cast<std::int32_t>(statistics.colliders.size());
+  for (const PacketName& name : statistics.colliders) message.colliders.push_back(to_message(name));
 }
 
 std::string joined(std::initializer_list<std::int64_t> numbers) {
@@ -107,35 +107,38 @@ modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at) {
   return message;
 }
 
-packet_outcome_t to_outcome(const PacketEnd& end, SimTime at) {
-  auto message = of_packet_end<packet_outcome_t>(end, at);
-  message.outcome = static_cast<std::int8_t>(end.fate);
-  message.duration_s = end.packet->timing.duration.seconds();
-  message.range_m = end.budget.range_m;
-  message.transmission_loss_db = end.budget.transmission_loss.value;
-  message.noise_level_db = end.budget.noise_level.value;
-  message.cutoff_level_db = end.cutoff.value;
-  message.propagation_used = static_cast<std::int8_t>(end.propagation);
-  message.num_paths = static_cast<std::int32_t>(end.path_count);
-  message.delay_spread_s = end.delay_spread_s;
-  message.arrival_azimuth_rad = end.arrival_azimuth_rad;
-  message.arrival_elevation_rad = end.arrival_elevation_rad;
-  set_judgement(end.judgement, message);
+packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at) {
+  auto message = common_fields<packet_outcome_t>(outcome, at);
+  message.outcome = static_cast<std::int8_t>(outcome.kind);
+  message.duration_s = outcome.packet->timing.duration.seconds();
+  message.range_m = outcome.budget.range_m;
+  message.transmission_loss_db = outcome.budget.transmission_loss.value;
+  message.noise_level_db = outcome.budget.noise_level.value;
+  message.cutoff_level_db = outcome.cutoff.value;
+  message.propagation_used = static_cast<std::int8_t>(outcome.propagation);
+  message.num_paths = static_cast<std::int32_t>(outcome.path_count);
+  message.delay_spread_s = outcome.delay_spread_s;
+  message.arrival_azimuth_rad = outcome.arrival_azimuth_rad;
+  message.arrival_elevation_rad = outcome.arrival_elevation_rad;
+  set_statistics(outcome.statistics, message);
   return message;
 }
 
-modem_receive_t to_receive(const PacketEnd& end, SimTime at) {
-  const SendRequest& request = end.packet->request;
-  auto message = of_packet_end<modem_receive_t>(end, at);
+modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
+  const SendRequest& request = outcome.packet->request;
+  auto message = common_fields<modem_receive_t>(outcome, at);
   message.stamped = request.stamped ? 1 : 0;
-  if (!request.stamped) message.departure_utime = 0, message.travel_time_s = 0;
-  message.two_way_travel_time_s = end.two_way_travel_time_s;
+  if (!request.stamped) {
+    message.departure_utime = 0;
+    message.travel_time_s = 0;
+  }
+  message.two_way_travel_time_s = outcome.two_way_travel_time_s;
   message.payload_size = static_cast<std::int32_t>(request.payload.size());
   message.payload = request.payload;
   return message;
 }
 
-// A sender that keeps no session may number anew: the instant tells its packets apart.
+// A sender that keeps no session may number anew: the instant distinguishes its packets.
 std::string identity_of(const modem_receipt_t& m) {
   return joined({m.send_session, m.packet_sequence, m.send_session == 0 ? m.start_utime : 0});
 }

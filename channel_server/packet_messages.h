@@ -15,11 +15,11 @@ ping_answer_t to_message(const PingAnswer& answer, SimTime at);
 PingAnswer to_answer(const ping_answer_t& message);
 
 modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);
-packet_outcome_t to_outcome(const PacketEnd& end, SimTime at);
-// Only for an end that is to be delivered.
-modem_receive_t to_receive(const PacketEnd& end, SimTime at);
+packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at);
+// Only for an outcome whose packet is to be delivered.
+modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 
-// What tells an output from all others on its channel, whichever incarnation of the server computes it
+// What distinguishes an output from all others on its channel, whichever incarnation of the server computes it
 // (bus/runtime/crash_journal.h).
 std::string identity_of(const modem_receipt_t& message);
 std::string identity_of(const modem_receive_t& message);

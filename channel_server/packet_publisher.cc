@@ -14,7 +14,7 @@ void PacketPublisher::publish(const MediumEvent& event) {
     const ping_answer_t message = to_message(*answer, event.at);
     journal_.publish_once(std::string(channels::kPingAnswer), message, identity_of(message));
   } else {
-    publish(std::get<PacketEnd>(event.what), event.at, event.late);
+    publish(std::get<PacketOutcome>(event.what), event.at, event.late);
   }
 }
 
@@ -29,12 +29,12 @@ void PacketPublisher::publish(const Receipt& receipt, SimTime at) {
   }
 }
 
-void PacketPublisher::publish(const PacketEnd& end, SimTime at, bool late) {
-  if (end.deliver) {
-    const modem_receive_t message = to_receive(end, at);
-    journal_.publish_once(channels::kReceive.of(end.receiver), message, identity_of(message));
+void PacketPublisher::publish(const PacketOutcome& outcome, SimTime at, bool late) {
+  if (outcome.deliver) {
+    const modem_receive_t message = to_receive(outcome, at);
+    journal_.publish_once(channels::kReceive.of(outcome.receiver), message, identity_of(message));
   }
-  const packet_outcome_t message = to_outcome(end, at);
+  const packet_outcome_t message = to_outcome(outcome, at);
   const bool is_new = journal_.publish_once(std::string(channels::kOutcome), message, identity_of(message));
   if (journal_.is_recovering()) {
     published_late_ += is_new ? 1 : 0;

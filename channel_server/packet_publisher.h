@@ -21,7 +21,7 @@ class PacketPublisher {
   std::int64_t published_late() const { return published_late_; }
 
  private:
-  void publish(const PacketEnd& end, SimTime at, bool late);
+  void publish(const PacketOutcome& outcome, SimTime at, bool late);
 
   bus::Bus& bus_;
   bus::CrashJournal& journal_;

@@ -72,8 +72,8 @@ void SeabedClient::take_finished_surveys() {
 }
 
 void SeabedClient::store(const VehiclePair& pair, RayQueryClient::Finished finished) {
-  models_.echoes.note_asked(pair);
-  models_.profiles.note_asked(pair);
+  models_.echoes.note_queried(pair);
+  models_.profiles.note_queried(pair);
   if (!finished.answered) return;
   if (auto* echoes = std::get_if<EchoSurvey>(&finished.survey)) {
     models_.echoes.store(pair, std::move(*echoes));
@@ -101,13 +101,13 @@ void SeabedClient::request_echoes(const std::vector<PlacedVehicle>& vehicles) {
   for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, shard_)) {
     const EchoSurvey survey(models_.echoes.place(pair.first), models_.echoes.place(pair.second),
                             bottom_points_);
-    surveyed_pairs_.emplace(models_.rays.ask_routine(survey), pair);
+    surveyed_pairs_.emplace(models_.rays.submit_routine(survey), pair);
   }
 }
 
 void SeabedClient::request_profiles(const std::vector<PlacedVehicle>& vehicles) {
   for (const VehiclePair& pair : models_.profiles.take_geometry(vehicles, shard_)) {
-    surveyed_pairs_.emplace(models_.rays.ask_routine(models_.profiles.survey_of(pair)), pair);
+    surveyed_pairs_.emplace(models_.rays.submit_routine(models_.profiles.survey_of(pair)), pair);
   }
 }
 

@@ -1,9 +1,8 @@
-#include "channel_server/water_config.h"
-
 #include <cmath>
 #include <filesystem>
 
 #include "acoustics/sea/profile_reader.h"
+#include "channel_server/channel_server_config.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

@@ -6,10 +6,10 @@
 
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
-#include "channel_server/environment_messages.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/world_messages.h"
 
 namespace halocline::channel_server {
 

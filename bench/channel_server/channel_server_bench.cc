@@ -35,7 +35,7 @@ void link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
   VehicleRegistry fleet({}, {});
   StraightPropagation propagation(acoustics::Environment{});
-  MultipathCache book(5);
+  MultipathCache echoes(5);
   const SimTime end = SimTime::from_seconds(100);
   add_states(fleet, vehicles, end);
   SimTime now = end;
@@ -43,7 +43,7 @@ void link_table(benchmark::State& state) {
     now = now + SimDuration::from_microseconds(1);
     const auto placed = place_all(fleet, now);
     benchmark::DoNotOptimize(link_tables(now, placed, propagation, [&](const auto& from, const auto& to) {
-      return book.at_last_tick(now, from, to, propagation);
+      return echoes.at_last_tick(now, from, to, propagation);
     }));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
@@ -56,17 +56,17 @@ double seamount_z_m(const Vec3& place) {
   return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
 }
 
-void tell_bottoms(SeabedProfileCache& book, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
-  for (const VehiclePair& pair : book.take_geometry(vehicles)) {
-    ProfileSurvey survey = book.survey_of(pair);
+void store_profiles(SeabedProfileCache& profiles, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
+  for (const VehiclePair& pair : profiles.take_geometry(vehicles)) {
+    ProfileSurvey survey = profiles.survey_of(pair);
     std::vector<RayAnswer> answers;
     for (const TerrainRay& ray : survey.rays()) {
       answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
     }
     survey.take(answers);
-    book.store(pair, survey);
+    profiles.store(pair, survey);
   }
-  book.open_tick(tick);
+  profiles.open_tick(tick);
 }
 
 // The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
@@ -89,7 +89,7 @@ void ray_link_table(benchmark::State& state) {
     state.PauseTiming();
     now = now + SimDuration::from_milliseconds(1000);
     for (PlacedVehicle& vehicle : placed) vehicle.placement.position_ned_m.x() += 2e-3 * (vehicle.id % 3 + 1);
-    tell_bottoms(*bottoms, placed, now);
+    store_profiles(*bottoms, placed, now);
     bottoms->forget_before(now - SimDuration::from_milliseconds(5000));
     state.ResumeTiming();
     benchmark::DoNotOptimize(

@@ -21,7 +21,7 @@ bool is_told(RayAnswer::Kind kind) {
          kind == RayAnswer::Kind::kBelowBottom;
 }
 
-// An end below the bottom hears nothing by way of it.
+// An end below the bottom receives nothing by way of it.
 bool is_blocked(RayAnswer::Kind kind) { return kind != RayAnswer::Kind::kMiss; }
 
 }  // namespace
@@ -33,7 +33,7 @@ EchoSurvey::EchoSurvey(const Vec3& from_ned_m, const Vec3& to_ned_m, int point_c
   }
 }
 
-std::optional<RayKind> EchoSurvey::asks() const {
+std::optional<RayKind> EchoSurvey::next_query() const {
   if (stage_ == Stage::kDepths) return RayKind::kDepths;
   return stage_ == Stage::kWays && !bottom_.empty() ? std::optional(RayKind::kWays) : std::nullopt;
 }

@@ -1,11 +1,11 @@
 // Finds out by rays which echoes the bottom can send along one link: the geometry between the terrain, which
-// somebody else knows, and acoustics/link/multipath.h, which judges.
+// the service knows, and acoustics/link/multipath.h.
 //
 // Two questions, because the second needs the answer to the first:
 //   1. how deep is the bottom under `count` points of the line between the ends (the middles of equal parts);
-//   2. is the way from each end to each of these points free. Both ways are asked from the end down, and a
+//   2. is the way from each end to each of these points free. Both ways are queried from the end down, and a
 //      little short of the point, so that the bottom there does not count as being in its own way.
-// A point or way that the terrain's owner cannot tell (outside, no data) leaves the survey incomplete: then
+// A point or way without an answer (outside, no data) leaves the survey incomplete: then
 // an echo that is found is likely, and none found means unknown.
 //
 //   EchoSurvey survey(a, b, 9);
@@ -38,8 +38,8 @@ class EchoSurvey {
   // `point_count` >= 1.
   EchoSurvey(const Vec3& from_ned_m, const Vec3& to_ned_m, int point_count);
 
-  // What it is to be asked next; empty when it is through. Rays and answers of that question.
-  std::optional<RayKind> asks() const;
+  // The kind of its next query; empty after the last. Rays and answers of that query.
+  std::optional<RayKind> next_query() const;
   std::vector<TerrainRay> rays() const { return stage_ == Stage::kDepths ? depth_rays() : way_rays(); }
   void take(std::span<const RayAnswer> answers);
 
@@ -57,7 +57,7 @@ class EchoSurvey {
   std::size_t points_asked() const { return asked_.size(); }
   // The points that are known, "transmitter" being `from`.
   const std::vector<acoustics::BottomPoint>& bottom() const { return bottom_; }
-  // Everything was told.
+  // Everything has an answer.
   bool complete() const { return complete_; }
 
  private:

@@ -24,36 +24,36 @@ std::string problem_of_modem(const acoustics::Modem& modem) {
 }  // namespace
 
 LinkQueryService::LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation,
-                                   MultipathCache& book, RayQueryClient& asker, Rule rule)
-    : fleet_(fleet), propagation_(propagation), book_(book), asker_(asker), rule_(rule) {
+                                   MultipathCache& echoes, RayQueryClient& rays, Rule rule)
+    : fleet_(fleet), propagation_(propagation), echoes_(echoes), rays_(rays), rule_(rule) {
   require(rule.bottom_points >= 1, "at least one bottom point is needed");
 }
 
-void LinkQueryService::ask(const LinkQuestion& question, std::optional<SimTime> sim, SimTime steady) {
-  if (is_waiting(question)) return;
+void LinkQueryService::submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady) {
+  if (is_waiting(query)) return;
   Waiting waiting;
-  waiting.reply = {question.client, question.request_id, sim.value_or(SimTime()), refusal_of(question), {}};
-  waiting.deadline = steady + rule_.patience;
+  waiting.reply = {query.client, query.request_id, sim.value_or(SimTime()), refusal_of(query), {}};
+  waiting.deadline = steady + rule_.timeout;
   if (waiting.reply.refusal.empty()) {
-    for (std::size_t i = 0; i < question.transmitters.size(); ++i) {
-      answer(resolve(question.transmitters[i], sim), resolve(question.receivers[i], sim), waiting);
+    for (std::size_t i = 0; i < query.transmitters.size(); ++i) {
+      answer(resolve(query.transmitters[i], sim), resolve(query.receivers[i], sim), waiting);
     }
   }
   waiting_.push_back(std::move(waiting));
 }
 
-std::string LinkQueryService::refusal_of(const LinkQuestion& question) const {
-  const std::size_t count = question.transmitters.size();
+std::string LinkQueryService::refusal_of(const LinkQuery& query) const {
+  const std::size_t count = query.transmitters.size();
   if (count < 1 || count > kMaxLinks) {
     return "num_links is " + std::to_string(count) + "; allowed is 1 to " + std::to_string(kMaxLinks);
   }
-  if (waiting_.size() >= kMaxWaiting) return "too many questions are waiting; ask again later";
+  if (waiting_.size() >= kMaxWaiting) return "too many queries are waiting; try again later";
   return {};
 }
 
-bool LinkQueryService::is_waiting(const LinkQuestion& question) const {
+bool LinkQueryService::is_waiting(const LinkQuery& query) const {
   return std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return waiting.reply.client == question.client && waiting.reply.request_id == question.request_id;
+    return waiting.reply.client == query.client && waiting.reply.request_id == query.request_id;
   });
 }
 
@@ -86,7 +86,7 @@ LinkQueryService::ResolvedEnd LinkQueryService::resolve_vehicle(const LinkEndReq
   const auto placement = id && sim ? fleet_.placement(*id, *sim, *sim) : std::nullopt;
   if (!placement) {
     resolved.status = LinkAnswer::Status::kUnknownVehicle;
-    resolved.problem = end.vehicle + " is not heard, or its state is too old";
+    resolved.problem = end.vehicle + " is unknown, or its state is too old";
     return resolved;
   }
   resolved.id = *id;
@@ -124,20 +124,20 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Wa
   answer.row.multipath = multipath_of(reception, to.modem.modem.min_receivable_level);
   const bool tables_know = from.id != 0 && to.id != 0 && from.id != to.id && !propagation_.uses_bottom();
   if (tables_know) {
-    answer.row.multipath = book_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
+    answer.row.multipath = echoes_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
   }
   waiting.reply.answers.push_back(answer);
-  if (answer.row.multipath == Multipath::kUnknown) ask_terrain(from, to, waiting);
+  if (answer.row.multipath == Multipath::kUnknown) query_terrain(from, to, waiting);
 }
 
-void LinkQueryService::ask_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
+void LinkQueryService::query_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
   const Vec3 &here = from.placement.position_ned_m, &there = to.placement.position_ned_m;
   const TerrainSurvey survey =
       propagation_.uses_bottom()
           ? TerrainSurvey(ProfileSurvey(cells_of(here, there, rule_.profile), rule_.profile))
           : TerrainSurvey(EchoSurvey(here, there, rule_.bottom_points));
   const std::size_t index = waiting.reply.answers.size() - 1;
-  waiting.surveys.emplace(asker_.ask_urgent(survey), index);
+  waiting.surveys.emplace(rays_.submit_urgent(survey), index);
   waiting.ends.emplace(index, std::pair(from, to));
 }
 

@@ -1,12 +1,11 @@
-// Answers questions about links: between vehicles by name, and between positions and modems that need not
-// exist.
+// Answers link queries: between vehicles by name, and between positions and modems that need not exist.
 //
 // Every link is answered or refused on its own. A straight budget is computed at once; whether an echo is likely,
-// and rays, need the terrain, which is asked urgently: a reply waits for it no longer than `patience` of steady
-// time, then says unknown (and tells the straight path). For two vehicles whose echoes or whose bottom the link
-// tables know already, nothing is asked.
+// and rays, need the terrain, which is queried urgently: a reply waits for it no longer than `timeout` of steady
+// time, then holds unknown (and the straight path). For two vehicles whose echoes or whose bottom the link
+// tables know already, the terrain is not queried.
 //
-// The position of a named vehicle is that of state_history.h at the simulation time of the question; while no
+// The position of a named vehicle is that of state_history.h at the simulation time of the query; while no
 // simulation time is known, no vehicle is. Not thread-safe.
 #pragma once
 
@@ -31,7 +30,7 @@ struct LinkEndRequest {
   std::string problem = {};                // not empty: this end could not even be read
 };
 
-struct LinkQuestion {
+struct LinkQuery {
   std::string client;
   std::int64_t request_id = 0;
   std::vector<LinkEndRequest> transmitters, receivers;  // as many of each
@@ -48,28 +47,28 @@ struct LinkReply {
   std::string client;
   std::int64_t request_id = 0;
   SimTime at;                       // for which the answers hold; 0 while no simulation time is known
-  std::string refusal;              // not empty: the question as a whole is refused
-  std::vector<LinkAnswer> answers;  // in the order of the question
+  std::string refusal;              // not empty: the query as a whole is refused
+  std::vector<LinkAnswer> answers;  // in the order of the query
 };
 
 class LinkQueryService {
  public:
-  static constexpr std::size_t kMaxLinks = 200;   // of one question
-  static constexpr std::size_t kMaxWaiting = 64;  // questions that wait for the terrain
+  static constexpr std::size_t kMaxLinks = 200;   // of one query
+  static constexpr std::size_t kMaxWaiting = 64;  // queries that wait for the terrain
 
   struct Rule {
     int bottom_points = 9;  // of an echo survey
     ProfileRule profile;
-    SimDuration patience = SimDuration::from_milliseconds(250);
+    SimDuration timeout = SimDuration::from_milliseconds(250);
   };
 
-  // All of them must outlive the desk.
-  LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, MultipathCache& book,
-                   RayQueryClient& asker, Rule rule);
+  // All of them must outlive the service.
+  LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, MultipathCache& echoes,
+                   RayQueryClient& rays, Rule rule);
 
-  // A repetition of a question that is still waiting is not asked twice. `sim` is empty while unknown.
-  void ask(const LinkQuestion& question, std::optional<SimTime> sim, SimTime steady);
-  // A survey has ended; true when it was one of this desk's.
+  // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
+  void submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady);
+  // A survey has ended; true when it was one of this service's.
   bool finish(const RayQueryClient::Finished& finished);
   // What is ready at `steady`, or has waited long enough.
   std::vector<LinkReply> take_replies(SimTime steady);
@@ -84,7 +83,7 @@ class LinkQueryService {
     VehicleId id = 0;
     Placement placement;
     VehicleModem modem;
-    PlacedVehicle placed() const { return {id, placement, &modem}; }  // lives as long as this end
+    PlacedVehicle placed() const { return {id, placement, &modem}; }  // valid as long as this end
   };
   struct Waiting {
     LinkReply reply;
@@ -92,19 +91,19 @@ class LinkQueryService {
     std::map<RayQueryClient::SurveyId, std::size_t> surveys;          // to the index of the answer
     std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;  // of those answers
   };
-  std::string refusal_of(const LinkQuestion& question) const;
-  bool is_waiting(const LinkQuestion& question) const;
+  std::string refusal_of(const LinkQuery& query) const;
+  bool is_waiting(const LinkQuery& query) const;
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
-  void ask_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  void query_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting);
 
   const VehicleRegistry& fleet_;
   Propagation& propagation_;
-  MultipathCache& book_;
-  RayQueryClient& asker_;
+  MultipathCache& echoes_;
+  RayQueryClient& rays_;
   Rule rule_;
   std::deque<Waiting> waiting_;
 };

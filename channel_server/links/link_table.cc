@@ -28,7 +28,7 @@ LinkEnd link_end(const PlacedVehicle& vehicle) {
 }
 
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
-                                   Propagation& propagation, const MultipathJudge& multipath,
+                                   Propagation& propagation, const MultipathFunction& multipath,
                                    const ForEach& for_each, Shard shard) {
   std::vector<EndPair> links;
   for (const PlacedVehicle& from : vehicles) {

@@ -15,11 +15,10 @@ namespace halocline::channel_server {
 enum class Multipath {
   kUnlikely,
   kLikely,   // an echo reaches the receiver above its cut-off
-  kUnknown,  // the terrain was not told
+  kUnknown,  // the terrain is not known
 };
 
-// What the paths themselves say, each with its bounces: an echo is a path that met the bottom. Unknown of
-// straight paths.
+// From the bounces of the paths: an echo is a path that met the bottom. Unknown of straight paths.
 Multipath multipath_of(const Reception& reception, Decibels cutoff);
 
 struct LinkRow {
@@ -43,17 +42,16 @@ struct LinkTable {
   std::vector<LinkRow> rows;  // by receiver id
 };
 
-// As the propagation is asked about it.
+// As the propagation takes it.
 LinkEnd link_end(const PlacedVehicle& vehicle);
 
-using MultipathJudge =
+using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
 // One table a vehicle that `shard` serves, by id, of links whose sound leaves at `instant`; a vehicle alone has an
-// empty one. The
-// judge is asked where paths are straight by choice: rays know themselves what the bottom sends.
+// empty one. `multipath` is called where paths are straight by choice: rays hold the echoes of the bottom.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
-                                   Propagation& propagation, const MultipathJudge& multipath,
+                                   Propagation& propagation, const MultipathFunction& multipath,
                                    const ForEach& for_each = one_after_the_other, Shard shard = {});
 
 }  // namespace halocline::channel_server

@@ -28,12 +28,12 @@ Multipath MultipathCache::look_up(SimTime at, const PlacedVehicle& transmitter, 
   if (entry == entries_.end()) return Multipath::kUnknown;
   const bool rising = transmitter.id < receiver.id;
   if (!serves(entry->second, rising ? from : to, rising ? to : from)) return Multipath::kUnknown;
-  return judge(entry->second, at, transmitter, receiver, propagation);
+  return verdict_of(entry->second, at, transmitter, receiver, propagation);
 }
 
-// Judging takes as long as a dozen links; modems change rarely, so each verdict is kept beside its survey.
-Multipath MultipathCache::judge(Entry& entry, SimTime at, const PlacedVehicle& transmitter,
-                                const PlacedVehicle& receiver, Propagation& propagation) {
+// A verdict takes as long as a dozen links; modems change rarely, so each verdict is kept beside its survey.
+Multipath MultipathCache::verdict_of(Entry& entry, SimTime at, const PlacedVehicle& transmitter,
+                                     const PlacedVehicle& receiver, Propagation& propagation) {
   const bool reversed = transmitter.id > receiver.id;
   Verdict& verdict = entry.verdicts[reversed ? 1 : 0];
   const acoustics::Modem &from = transmitter.modem->modem, &to = receiver.modem->modem;
@@ -56,18 +56,18 @@ std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehi
       if (!shard.serves(low->first) && !shard.serves(high->first)) continue;
       const Entry& entry = entries_[{low->first, high->first}];
       if (serves(entry, low->second, high->second)) continue;
-      wanted.push_back({entry.asked_at_tick, {low->first, high->first}});
+      wanted.push_back({entry.queried_at_tick, {low->first, high->first}});
     }
   }
   std::sort(wanted.begin(), wanted.end());
   std::vector<VehiclePair> pairs;
-  for (const auto& [asked, pair] : wanted) pairs.push_back(pair);
+  for (const auto& [queried_at_tick, pair] : wanted) pairs.push_back(pair);
   return pairs;
 }
 
-void MultipathCache::note_asked(const VehiclePair& pair) {
+void MultipathCache::note_queried(const VehiclePair& pair) {
   const auto entry = entries_.find(pair);
-  if (entry != entries_.end()) entry->second.asked_at_tick = tick_;
+  if (entry != entries_.end()) entry->second.queried_at_tick = tick_;
 }
 
 void MultipathCache::store(const VehiclePair& pair, EchoSurvey survey) {

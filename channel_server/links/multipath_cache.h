@@ -1,8 +1,8 @@
 // What is known of the bottom echoes between vehicles, and which of it the next link table may use.
 //
-// Rule. The row of tick k tells the echoes of the geometry of tick k-1: its answer has had a whole period to
-// come, so a table never waits, and a replay gives the same tables. A survey serves as long as both ends (at
-// tick k-1) lie within `reuse_distance` of where they were when it was asked for; without one the row says
+// Rule. The row of tick k holds the echoes of the geometry of tick k-1: its answer has had a whole period to
+// arrive, so a table never waits, and a replay gives the same tables. A survey serves as long as both ends (at
+// tick k-1) lie within `reuse_distance` of where they were when it was queried; without one the row holds
 // unknown. One survey serves both directions.
 #pragma once
 
@@ -18,10 +18,10 @@ namespace halocline::channel_server {
 
 class MultipathCache {
  public:
-  // m, 0 and up; 0 asks anew for whatever moved at all.
+  // m, 0 and up; 0 queries anew whatever moved at all.
   explicit MultipathCache(double reuse_distance_m) : reuse_distance_m_(reuse_distance_m) {}
 
-  // For the row of the tick to come, from the geometry of the last begin_tick(), in the water of `at`.
+  // For the row of the next tick, from the geometry of the last begin_tick(), in the water of `at`.
   Multipath at_last_tick(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                          Propagation& propagation);
   // For two places given; unknown where no survey of the pair serves them.
@@ -29,17 +29,17 @@ class MultipathCache {
                Propagation& propagation);
 
   // The tables of a tick are made; its geometry is this. Returns the pairs that need a survey, those
-  // asked for longest ago first.
+  // queried longest ago first.
   std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard = {});
   // Place of a vehicle at the last tick; the vehicle was among those of begin_tick.
   const Vec3& place(VehicleId id) const { return places_.at(id); }
 
-  // The terrain was asked about the pair, whether it answered or not.
-  void note_asked(const VehiclePair& pair);
+  // The pair was queried, with or without an answer.
+  void note_queried(const VehiclePair& pair);
   // The survey's `from` is the lower id.
   void store(const VehiclePair& pair, EchoSurvey survey);
 
-  // The water is another from now on: what is known of the bottom is judged anew.
+  // The water is another from now on: verdicts are computed anew.
   void forget_verdicts();
   void clear();
   std::size_t surveys_kept() const { return entries_.size(); }
@@ -52,13 +52,13 @@ class MultipathCache {
   };
   struct Entry {
     bool surveyed = false;
-    std::int64_t asked_at_tick = -1;
+    std::int64_t queried_at_tick = -1;
     EchoSurvey survey;
     Verdict verdicts[2];  // from the lower id, from the higher
   };
   bool serves(const Entry& entry, const Vec3& low, const Vec3& high) const;
-  Multipath judge(Entry& entry, SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
-                  Propagation& propagation);
+  Multipath verdict_of(Entry& entry, SimTime at, const PlacedVehicle& transmitter,
+                       const PlacedVehicle& receiver, Propagation& propagation);
   Multipath look_up(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                     const Vec3& from, const Vec3& to, Propagation& propagation);
 

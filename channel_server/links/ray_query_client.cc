@@ -13,19 +13,19 @@ SimDuration half(SimDuration duration) { return SimDuration::from_nanoseconds(du
 
 }  // namespace
 
-RayQueryClient::RayQueryClient(AskingRule rule) : rule_(rule) {
+RayQueryClient::RayQueryClient(RayQueryRule rule) : rule_(rule) {
   require(rule.rays_per_batch >= 128 && rule.rays_per_batch <= 4096,
           "rays_per_batch: allowed is 128 to 4096");
   require(rule.batches_in_flight >= 1 && rule.batches_per_tick >= 1, "at least one batch must be allowed");
   require(rule.answer_deadline > SimDuration(), "the deadline of answers must be positive");
 }
 
-RayQueryClient::SurveyId RayQueryClient::ask_routine(TerrainSurvey survey) {
+RayQueryClient::SurveyId RayQueryClient::submit_routine(TerrainSurvey survey) {
   routine_depths_.push_back({.id = ++last_survey_, .survey = std::move(survey)});
   return last_survey_;
 }
 
-RayQueryClient::SurveyId RayQueryClient::ask_urgent(TerrainSurvey survey) {
+RayQueryClient::SurveyId RayQueryClient::submit_urgent(TerrainSurvey survey) {
   Waiting waiting{.id = ++last_survey_, .urgent = true, .survey = std::move(survey)};
   if (!away_) {
     urgent_depths_.push_back(std::move(waiting));
@@ -64,7 +64,7 @@ const RayQueryClient::Queue* RayQueryClient::next_queue() const {
 }
 
 RayQueryClient::Queue& RayQueryClient::queue_of(const Waiting& waiting) {
-  if (asks(waiting.survey) == RayKind::kWays) return waiting.urgent ? urgent_ways_ : routine_ways_;
+  if (next_query(waiting.survey) == RayKind::kWays) return waiting.urgent ? urgent_ways_ : routine_ways_;
   return waiting.urgent ? urgent_depths_ : routine_depths_;
 }
 
@@ -79,7 +79,7 @@ std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
 
 // Surveys are not split: all rays of one stage of one survey go in one batch.
 RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
-  InFlight sent{{++last_request_, *asks(queue.front().survey), {}}, {}, steady, false};
+  InFlight sent{{++last_request_, *next_query(queue.front().survey), {}}, {}, steady, false};
   if (!queue.front().urgent) ++sent_this_tick_;
   while (!queue.empty()) {
     const auto rays = rays_of(queue.front().survey);
@@ -146,7 +146,7 @@ void RayQueryClient::refuse(std::int64_t request_id) {
 
 void RayQueryClient::advance(Waiting waiting, std::span<const RayAnswer> answers) {
   take(waiting.survey, answers);
-  if (waiting.silent || !asks(waiting.survey)) return finish(std::move(waiting), true);
+  if (waiting.silent || !next_query(waiting.survey)) return finish(std::move(waiting), true);
   Queue& queue = queue_of(waiting);
   queue.push_back(std::move(waiting));
 }

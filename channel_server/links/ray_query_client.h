@@ -1,10 +1,10 @@
-// Gets surveys of the terrain answered by a service that may be slow, deaf or gone: batches their rays, paces
-// the batches, gives up in time, and finds out when the service is back.
+// Has surveys of the terrain answered by a service that may be slow or absent: batches their rays, limits the batches
+// in flight, repeats and times out, and detects when the service is away and back.
 //
-// Surveys go through their questions (depths; an echo survey then ways), each in batches of one kind of up to
+// Surveys go through their queries (depths; an echo survey then ways), each in batches of one kind of up to
 // `rays_per_batch` rays. No more than `batches_in_flight` wait for an answer, no more than `batches_per_tick`
 // are sent between two begin_tick(); routine surveys that have not been sent by the next tick are dropped and
-// counted: their rows say unknown, and their turn comes first then. Urgent surveys go before routine ones and
+// counted: their rows hold unknown, and they come first then. Urgent surveys go before routine ones and
 // do not count.
 //
 // A batch without an answer is sent again after half of the deadline, and given up at the deadline: the
@@ -26,7 +26,7 @@
 
 namespace halocline::channel_server {
 
-struct AskingRule {
+struct RayQueryRule {
   std::size_t rays_per_batch = 1024;  // 128..4096; a batch of 1024 is a message of 57 kB
   std::size_t batches_in_flight = 4;  // 1 and up
   std::size_t batches_per_tick = 64;  // 1 and up
@@ -41,7 +41,7 @@ struct RayQueryBatch {
 
 class RayQueryClient {
  public:
-  // The asker's name of a survey, ascending from 1.
+  // Identity of a survey, ascending from 1.
   using SurveyId = std::int64_t;
   struct Finished {
     SurveyId id = 0;
@@ -53,19 +53,19 @@ class RayQueryClient {
     std::int64_t surveys_answered = 0, surveys_failed = 0, surveys_dropped = 0;
   };
 
-  explicit RayQueryClient(AskingRule rule);
+  explicit RayQueryClient(RayQueryRule rule);
 
-  SurveyId ask_routine(TerrainSurvey survey);
-  SurveyId ask_urgent(TerrainSurvey survey);
+  SurveyId submit_routine(TerrainSurvey survey);
+  SurveyId submit_urgent(TerrainSurvey survey);
   // Drops routine surveys not sent yet and opens the allowance of a new tick; returns the dropped.
   std::vector<SurveyId> begin_tick();
 
   // What to send at `steady`: new batches and repetitions. Gives up what is overdue.
   std::vector<RayQueryBatch> take_batches(SimTime steady);
-  // The service answered `request_id`; unknown ids (late answers) only tell that it is there. An answer of
-  // another count than asked is no answer.
+  // The service answered `request_id`; unknown ids (late answers) only show that it is present. An answer of
+  // another count than queried is no answer.
   void answer(std::int64_t request_id, std::span<const RayAnswer> answers);
-  // The service refused: its surveys fail, it is there.
+  // The service refused: its surveys fail, it is present.
   void refuse(std::int64_t request_id);
   // Since the last call, in order of finishing.
   std::vector<Finished> take_finished();
@@ -74,14 +74,14 @@ class RayQueryClient {
   SimTime due() const;
   bool is_away() const { return away_; }
   const Counters& counters() const { return counters_; }
-  // Another run: forgets every survey, without a word.
+  // Another run: forgets every survey; none is returned as finished.
   void clear();
 
  private:
   struct Waiting {
     SurveyId id = 0;
     bool urgent = false;
-    bool silent = false;  // a probe: nobody waits for it
+    bool silent = false;  // a probe, whose answer is not needed
     TerrainSurvey survey;
   };
   struct InFlight {
@@ -103,7 +103,7 @@ class RayQueryClient {
   void fail_all(std::vector<Waiting> surveys);
   void declare_away();
 
-  AskingRule rule_;
+  RayQueryRule rule_;
   bool away_ = false;
   std::size_t sent_this_tick_ = 0;
   SurveyId last_survey_ = 0;

@@ -1,5 +1,5 @@
-// Whatever is found out of the terrain in one or more questions: each survey says what it asks next, gives the
-// rays, and takes the answers.
+// Surveys of the terrain in one or more queries: each has the kind and the rays of its next query, and takes the
+// answers.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ namespace halocline::channel_server {
 
 using TerrainSurvey = std::variant<EchoSurvey, ProfileSurvey>;
 
-// What it asks next; empty when it is through.
-inline std::optional<RayKind> asks(const TerrainSurvey& survey) {
-  return std::visit([](const auto& one) { return one.asks(); }, survey);
+// The kind of its next query; empty after the last.
+inline std::optional<RayKind> next_query(const TerrainSurvey& survey) {
+  return std::visit([](const auto& one) { return one.next_query(); }, survey);
 }
-// The rays of that question.
+// The rays of that query.
 inline std::vector<TerrainRay> rays_of(const TerrainSurvey& survey) {
   return std::visit([](const auto& one) { return one.rays(); }, survey);
 }

@@ -9,11 +9,11 @@ namespace halocline::channel_server {
 namespace {
 
 // A fixed point of the arrival is exact enough when a round moves it by less than this; at v/c = 0.07 (100
-// m/s, the fastest a state may tell) that takes 9 rounds.
+// m/s, the fastest that a state may hold) that takes 9 rounds.
 constexpr double kSettledS = 1e-10;
 constexpr int kMaxRounds = 50;
-constexpr int kMaxQuestions = 3;
-// An answer serves a receiver that came this close to the place it was given for, and moves nearly as fast:
+constexpr int kMaxPropagationCalls = 3;
+// A reception holds for a receiver this close to the position it was evaluated for, and nearly as fast:
 // 0.01 m/s shift a frequency by 7e-6 of itself.
 constexpr double kSamePlaceM = 0.1, kSameVelocityMps = 0.01;
 
@@ -22,14 +22,15 @@ SimDuration shrunk(SimDuration duration, double doppler_factor) {
 }
 
 bool serves(const Flight& flight, const Placement& place, const acoustics::Modem& modem) {
-  if (flight.times_asked == 0 || !(flight.modem == modem)) return false;
+  if (flight.propagation_calls == 0 || !(flight.modem == modem)) return false;
   const bool same = (place.position_ned_m - flight.place.position_ned_m).norm() <= kSamePlaceM &&
                     (place.velocity_ned_mps - flight.place.velocity_ned_mps).norm() <= kSameVelocityMps;
-  return same || flight.times_asked >= kMaxQuestions;
+  return same || flight.propagation_calls >= kMaxPropagationCalls;
 }
 
-void ask(Flight& flight, const Placement& place, const acoustics::Modem& modem, Propagation& propagation) {
-  ++flight.times_asked;
+void evaluate(Flight& flight, const Placement& place, const acoustics::Modem& modem,
+              Propagation& propagation) {
+  ++flight.propagation_calls;
   flight.modem = modem;
   flight.place = place;
   flight.reception = propagation.reception(
@@ -54,7 +55,7 @@ double solved_delay_s(const Reception& reception) {
   return paths.empty() ? reception.budget.delay_s : paths[first_significant(paths)].delay_s;
 }
 
-// How much later than the reception says, because the receiver has moved on.
+// How much later than in the reception, because the receiver has moved on.
 double shift_s(const Flight& flight) { return flight.travel_time_s - solved_delay_s(flight.reception); }
 
 // When a path of the reception begins to sound.
@@ -76,12 +77,13 @@ double Flight::doppler_factor() const {
   return strongest == paths.end() ? 1 : strongest->doppler_factor;
 }
 
-void aim(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet, Propagation& propagation) {
-  ++flight.times_aimed;
-  const auto aimed_at = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
-  if (!aimed_at) return;
+void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                   Propagation& propagation) {
+  ++flight.solutions;
+  const auto predicted = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
+  if (!predicted) return;
   const acoustics::Modem& modem = fleet.modem(flight.receiver_id, flight.arrival()).modem;
-  if (!serves(flight, *aimed_at, modem)) ask(flight, *aimed_at, modem, propagation);
+  if (!serves(flight, *predicted, modem)) evaluate(flight, *predicted, modem, propagation);
   const Vec3 slowness = slowness_at(flight, propagation);
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto receiver = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
@@ -93,16 +95,16 @@ void aim(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet, Propa
   }
 }
 
-HeardPacket heard_packet(const Flight& flight) {
-  HeardPacket heard{flight.packet, flight.signal.begin, flight.signal.end, {}};
+AudiblePacket audible_packet(const Flight& flight) {
+  AudiblePacket audible{flight.packet, flight.signal.begin, flight.signal.end, {}};
   for (const SoundPath& path : flight.reception.paths) {
     const SimTime begin = begin_of(flight, path);
     const SimTime end = begin + shrunk(flight.packet->timing.duration, path.doppler_factor);
-    heard.paths.push_back({begin, end, to_power_ratio(path.level).value});
-    heard.begin = std::min(heard.begin, begin);
-    heard.end = std::max(heard.end, end);
+    audible.paths.push_back({begin, end, to_power_ratio(path.level).value});
+    audible.begin = std::min(audible.begin, begin);
+    audible.end = std::max(audible.end, end);
   }
-  return heard;
+  return audible;
 }
 
 ReceivedSignal received_signal(const Flight& flight, double noise) {

@@ -1,4 +1,4 @@
-// What the packet medium takes in and gives out: transmissions asked for, receipts, and the ends of packets.
+// The inputs and outputs of the packet medium: requests to transmit, receipts, and outcomes of packets.
 #pragma once
 
 #include <compare>
@@ -23,13 +23,13 @@ enum class PacketKind {
 
 // From the last bit of a ping as sent (counted from its first bit's arrival) to the first bit of the answer.
 // Our choice: time for a modem to decode and to turn from receiving to sending, and longer than Doppler makes
-// any packet (10 ms of 3 s at 5 m/s); both ends know it, so that the one who asked can take it off.
+// any packet (10 ms of 3 s at 5 m/s); both ends know it, so that the sender of the ping can subtract it.
 inline constexpr SimDuration kPingTurnaround = SimDuration::from_milliseconds(100);
 
 // Transmit this: `session` and `packet_sequence` are the sender's names for it.
 struct SendRequest {
-  std::string vehicle;           // who asks, by the channel it asked on
-  VehicleId source_id = 0;       // who it says it is
+  std::string vehicle;           // by the channel of the request
+  VehicleId source_id = 0;       // as stated in the request
   VehicleId destination_id = 0;  // kBroadcastId for all
   std::int64_t session = 0;      // 0 where the sender keeps none
   std::int64_t packet_sequence = 0;
@@ -98,39 +98,39 @@ struct Packet {
 };
 using PacketPointer = std::shared_ptr<const Packet>;  // never null
 
-// What became of a packet at one possible receiver; in the order of packet_outcome_t. The first of these that
-// holds is the fate, in the order of the numbers in brackets.
-enum class PacketFate {
+// What became of a packet at one possible receiver; in the order of packet_outcome_t. It is the first of these that
+// holds, in the order of the numbers in brackets.
+enum class OutcomeKind {
   kReceived,      // [11] none of the others
   kBelowCutoff,   // [4] all paths together are below the receiver's least receivable level
   kReceiverGone,  // [1] the receiver's state had grown too old at the first bit or at the last
   kShadow,        // [3] no path: the water bends all away
   kBlocked,       // [3] no path: the terrain stands in all
   kOutOfBand,     // [2] the bands of the two modems share nothing
-  kCollided,  // [7] the receiver was locked onto another packet; [8, 9] or without others it had come through
-  kHalfDuplex,   // [5] the receiver transmitted at some instant of the packet
-  kDoppler,      // [6] shifted by more than the receiver's modem follows
-  kBitErrors,    // [9] noticed, with bits that were wrong
-  kNotAcquired,  // [8] its preamble was not noticed
+  kCollided,      // [7] the receiver followed another packet; [8, 9] or without others it had been received
+  kHalfDuplex,    // [5] the receiver transmitted at some instant of the packet
+  kDoppler,       // [6] shifted by more than the receiver's modem follows
+  kBitErrors,     // [9] acquired, with bits that were wrong
+  kNotAcquired,   // [8] its preamble was not acquired
 };
 
-// The numbers of the decision.
-struct Judgement {
+// What the outcome was decided by.
+struct DecisionStatistics {
   Decibels interference = kSilence;    // mean over the bits, dB re 1 uPa in the packet's band
   Decibels sinr;                       // over the bits; 0 unless it came to that
   double acquisition_probability = 0;  // 0 unless it came to that
   double success_probability = 0;      // of all bits being right; 0 unless it came to that
-  double acquisition_draw = 0;         // in (0, 1): noticed when below the probability
+  double acquisition_draw = 0;         // in (0, 1): acquired when below the probability
   double success_draw = 0;             // likewise
   std::vector<PacketName> colliders;   // the loudest first, 16 at most
 };
 
-// The end of a packet at one possible receiver.
-struct PacketEnd {
+// The outcome of a packet at one possible receiver.
+struct PacketOutcome {
   PacketPointer packet;
   VehicleId receiver_id = 0;
   std::string receiver;  // its name when the packet left
-  PacketFate fate = PacketFate::kReceived;
+  OutcomeKind kind = OutcomeKind::kReceived;
   bool deliver = false;              // received, and addressed to this receiver or to all
   double travel_time_s = 0;          // of the first significant path
   double two_way_travel_time_s = 0;  // of a kPingReply: out and back; else 0
@@ -142,13 +142,13 @@ struct PacketEnd {
   double doppler_factor = 1;         // of the strongest path; 1 without a path
   double arrival_azimuth_rad = 0;    // towards where the sound came from, from north by east, -pi..pi
   double arrival_elevation_rad = 0;  // likewise, from the horizontal, positive up
-  Judgement judgement;
+  DecisionStatistics statistics;
 };
 
 struct MediumEvent {
   SimTime at;         // exactly when it happened
   bool late = false;  // the medium had been advanced beyond `at` before it could know of this
-  std::variant<Receipt, PacketEnd, PingAnswer> what;  // answers only where other shards must learn of them
+  std::variant<Receipt, PacketOutcome, PingAnswer> what;  // answers only for other shards
 };
 
 }  // namespace halocline::channel_server

@@ -12,16 +12,16 @@ namespace {
 // An arrival solved at an instant no further before it than this stands: the receiver moves by micrometres.
 constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
 // Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
-constexpr int kMaxAims = 64;
+constexpr int kMaxSolutions = 64;
 
 // Where the sound comes from, seen by the receiver.
-void tell_direction(const Flight& flight, PacketEnd& end) {
+void set_direction(const Flight& flight, PacketOutcome& outcome) {
   const Vec3 back = flight.packet->departure_ned_m - flight.place.position_ned_m;
-  end.arrival_azimuth_rad = std::atan2(back.y(), back.x());
+  outcome.arrival_azimuth_rad = std::atan2(back.y(), back.x());
   const auto& paths = flight.reception.paths;
   // Sound that travels downwards comes from above.
-  end.arrival_elevation_rad = paths.empty() ? std::atan2(-back.z(), std::hypot(back.x(), back.y()))
-                                            : paths[first_significant(paths)].arrival_angle_rad;
+  outcome.arrival_elevation_rad = paths.empty() ? std::atan2(-back.z(), std::hypot(back.x(), back.y()))
+                                                : paths[first_significant(paths)].arrival_angle_rad;
 }
 
 bool is_for(const SendRequest& request, VehicleId receiver) {
@@ -36,15 +36,15 @@ double two_way_travel_time_s(const Flight& answer) {
   return waited.seconds() + answer.travel_time_s;
 }
 
-// What can be said of a packet before its preamble has ended; kReceived: nothing stands against it.
-PacketFate hopeless_fate(const Flight& flight) {
+// Without regard to noise and other sounds; kReceived: the packet may be acquired.
+OutcomeKind outcome_before_acquisition(const Flight& flight) {
   const Reception& reception = flight.reception;
-  if (flight.gone) return PacketFate::kReceiverGone;
-  if (!bands_overlap(flight.packet->modem, flight.modem)) return PacketFate::kOutOfBand;
-  if (reception.state == PathState::kBlocked) return PacketFate::kBlocked;
-  if (reception.state == PathState::kShadow || reception.paths.empty()) return PacketFate::kShadow;
-  if (reception.budget.received_level < flight.modem.min_receivable_level) return PacketFate::kBelowCutoff;
-  return PacketFate::kReceived;
+  if (flight.receiver_absent) return OutcomeKind::kReceiverGone;
+  if (!bands_overlap(flight.packet->modem, flight.modem)) return OutcomeKind::kOutOfBand;
+  if (reception.state == PathState::kBlocked) return OutcomeKind::kBlocked;
+  if (reception.state == PathState::kShadow || reception.paths.empty()) return OutcomeKind::kShadow;
+  if (reception.budget.received_level < flight.modem.min_receivable_level) return OutcomeKind::kBelowCutoff;
+  return OutcomeKind::kReceived;
 }
 
 bool is_shifted_too_far(const Flight& flight) {
@@ -139,7 +139,10 @@ void PacketMedium::depart(const Departure& departure, std::vector<MediumEvent>& 
   }
   if (departure.answers) return;  // a modem gives itself no receipt
   Receipt receipt{request.vehicle, request.session, request.packet_sequence, decision.result, {}, {}};
-  if (accepted) receipt.start = decision.start, receipt.duration = timing.duration;
+  if (accepted) {
+    receipt.start = decision.start;
+    receipt.duration = timing.duration;
+  }
   register_.decide(request, receipt);
   if (!rule_.shard.serves(request.source_id)) return;
   events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
@@ -182,7 +185,7 @@ void PacketMedium::launch(const PacketPointer& packet) {
     flight->packet = packet;
     flight->receiver_id = receiver;
     flight->receiver = fleet_.name_of(receiver);
-    aim(*flight, departure, fleet_, propagation_);
+    solve_arrival(*flight, departure, fleet_, propagation_);
     const SimTime first_sound = flight->first_sound();
     schedule(first_sound, std::move(flight));
   }
@@ -190,19 +193,19 @@ void PacketMedium::launch(const PacketPointer& packet) {
 
 void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events) {
   switch (flight->stage) {
-    case Flight::Stage::kComing:
-      return come(std::move(flight), at);
+    case Flight::Stage::kTravelling:
+      return begin_reception(std::move(flight), at);
     case Flight::Stage::kPreamble:
       return end_preamble(std::move(flight), at);
     case Flight::Stage::kBits:
-      return end(*flight, at, events);
+      return end_packet(*flight, at, events);
   }
 }
 
-void PacketMedium::come(FlightPointer flight, SimTime at) {
-  aim(*flight, at, fleet_, propagation_);
+void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
+  solve_arrival(*flight, at, fleet_, propagation_);
   const SimTime first_sound = flight->first_sound();
-  if (first_sound > at + kSolvedInTime && flight->times_aimed < kMaxAims) {
+  if (first_sound > at + kSolvedInTime && flight->solutions < kMaxSolutions) {
     return schedule(first_sound, std::move(flight));
   }
   const SimTime arrival = flight->arrival();
@@ -210,9 +213,9 @@ void PacketMedium::come(FlightPointer flight, SimTime at) {
   budget.noise_level = noise_.level(flight->packet->modem.band(), propagation_.environment(arrival).noise);
   const Decibels noise = budget.noise_level - flight->modem.directivity_index;
   budget.snr = budget.received_level - noise;
-  flight->gone = !fleet_.placement(flight->receiver_id, arrival, at);
+  flight->receiver_absent = !fleet_.placement(flight->receiver_id, arrival, at);
   flight->signal = received_signal(*flight, to_power_ratio(noise).value);
-  state_of(flight->receiver_id).open(heard_packet(*flight));
+  state_of(flight->receiver_id).open(audible_packet(*flight));
   flight->stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
   schedule(preamble_end, std::move(flight));
@@ -221,47 +224,48 @@ void PacketMedium::come(FlightPointer flight, SimTime at) {
 void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
   ReceiverState& receiver = state_of(flight->receiver_id);
   const ReceivedSignal& signal = flight->signal;
-  const bool hopeless = hopeless_fate(*flight) != PacketFate::kReceived || is_shifted_too_far(*flight) ||
-                        !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
-  if (!hopeless) flight->locked_onto = receiver.locked_onto(signal.preamble_end);
-  if (!hopeless && !flight->locked_onto) {
+  const bool is_impossible = outcome_before_acquisition(*flight) != OutcomeKind::kReceived ||
+                             is_shifted_too_far(*flight) ||
+                             !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
+  if (!is_impossible) flight->followed = receiver.followed_at(signal.preamble_end);
+  if (!is_impossible && !flight->followed) {
     const auto others = receiver.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
     const PacketDraws draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
-    flight->noticed = notices(signal, others, draws, flight->judgement);
+    flight->acquired = acquires(signal, others, draws, flight->statistics);
   }
-  if (flight->noticed) receiver.lock({flight->packet, signal.begin, signal.end}, signal.preamble_end);
+  if (flight->acquired) receiver.acquire({flight->packet, signal.begin, signal.end}, signal.preamble_end);
   flight->stage = Flight::Stage::kBits;
   const SimTime last_bit = std::max(signal.end, at);
   schedule(last_bit, std::move(flight));
 }
 
-PacketFate PacketMedium::fate_of(Flight& flight, SimTime at) {
+OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
   const ReceivedSignal& signal = flight.signal;
-  Judgement& judgement = flight.judgement;
+  DecisionStatistics& statistics = flight.statistics;
   const PacketDraws draws = draws_of(rule_.seed, *flight.packet, flight.receiver_id);
-  judgement.acquisition_draw = draws.acquisition;
-  judgement.success_draw = draws.success;
-  flight.gone = flight.gone || !fleet_.placement(flight.receiver_id, at, at);
-  const PacketFate hopeless = hopeless_fate(flight);
-  if (hopeless != PacketFate::kReceived) return hopeless;
+  statistics.acquisition_draw = draws.acquisition;
+  statistics.success_draw = draws.success;
+  flight.receiver_absent = flight.receiver_absent || !fleet_.placement(flight.receiver_id, at, at);
+  const OutcomeKind before = outcome_before_acquisition(flight);
+  if (before != OutcomeKind::kReceived) return before;
   const ReceiverState& receiver = state_of(flight.receiver_id);
   for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
-    if (judgement.colliders.size() < kMaxColliders) judgement.colliders.push_back(own->name());
+    if (statistics.colliders.size() < kMaxColliders) statistics.colliders.push_back(own->name());
   }
-  if (!judgement.colliders.empty()) return PacketFate::kHalfDuplex;
-  if (is_shifted_too_far(flight)) return PacketFate::kDoppler;
-  if (flight.locked_onto) {
-    judgement.colliders.push_back(flight.locked_onto->name());
-    return PacketFate::kCollided;
+  if (!statistics.colliders.empty()) return OutcomeKind::kHalfDuplex;
+  if (is_shifted_too_far(flight)) return OutcomeKind::kDoppler;
+  if (flight.followed) {
+    statistics.colliders.push_back(flight.followed->name());
+    return OutcomeKind::kCollided;
   }
   const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
-  return judge(signal, others, draws, flight.noticed, judgement);
+  return decide(signal, others, draws, flight.acquired, statistics);
 }
 
-void PacketMedium::end(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
-  PacketEnd ending = ending_of(flight, at);
-  const bool is_answered = ending.deliver && flight.packet->request.kind == PacketKind::kPing;
-  events.push_back({at, at < advanced_to_, std::move(ending)});
+void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
+  PacketOutcome outcome = outcome_of(flight, at);
+  const bool is_answered = outcome.deliver && flight.packet->request.kind == PacketKind::kPing;
+  events.push_back({at, at < advanced_to_, std::move(outcome)});
   if (is_answered) {
     const PingAnswer answer = answer_of(flight, at);
     add_answer(answer);
@@ -270,24 +274,25 @@ void PacketMedium::end(Flight& flight, SimTime at, std::vector<MediumEvent>& eve
   state_of(flight.receiver_id).close(flight.first_sound(), at);
 }
 
-PacketEnd PacketMedium::ending_of(Flight& flight, SimTime at) {
-  PacketEnd end;
-  end.fate = fate_of(flight, at);
-  end.packet = flight.packet;
-  end.receiver_id = flight.receiver_id;
-  end.receiver = flight.receiver;
-  end.deliver = end.fate == PacketFate::kReceived && is_for(flight.packet->request, flight.receiver_id);
-  end.travel_time_s = flight.travel_time_s;
-  if (flight.packet->answers) end.two_way_travel_time_s = two_way_travel_time_s(flight);
-  end.budget = flight.reception.budget;
-  end.cutoff = flight.modem.min_receivable_level;
-  end.propagation = flight.reception.used;
-  end.path_count = flight.reception.paths.size();
-  end.delay_spread_s = flight.reception.delay_spread_s;
-  end.doppler_factor = flight.doppler_factor();
-  tell_direction(flight, end);
-  end.judgement = flight.judgement;
-  return end;
+PacketOutcome PacketMedium::outcome_of(Flight& flight, SimTime at) {
+  PacketOutcome outcome;
+  outcome.kind = decide_outcome(flight, at);
+  outcome.packet = flight.packet;
+  outcome.receiver_id = flight.receiver_id;
+  outcome.receiver = flight.receiver;
+  outcome.deliver =
+      outcome.kind == OutcomeKind::kReceived && is_for(flight.packet->request, flight.receiver_id);
+  outcome.travel_time_s = flight.travel_time_s;
+  if (flight.packet->answers) outcome.two_way_travel_time_s = two_way_travel_time_s(flight);
+  outcome.budget = flight.reception.budget;
+  outcome.cutoff = flight.modem.min_receivable_level;
+  outcome.propagation = flight.reception.used;
+  outcome.path_count = flight.reception.paths.size();
+  outcome.delay_spread_s = flight.reception.delay_spread_s;
+  outcome.doppler_factor = flight.doppler_factor();
+  set_direction(flight, outcome);
+  outcome.statistics = flight.statistics;
+  return outcome;
 }
 
 PingAnswer PacketMedium::answer_of(const Flight& flight, SimTime at) const {

@@ -1,31 +1,31 @@
 // The water between modems as a discrete-event simulation: packets start, travel, arrive, disturb each other
 // and end at their exact instants.
 //
-// Model. A packet asked for at time s is decided at s: refused, accepted, or queued by a modem that queues (16
+// Model. A packet requested for time s is decided at s: refused, accepted, or queued by a modem that queues (16
 // wait at most; each starts when those before it have ended). Every vehicle present at its departure except the
-// sender is a possible receiver, and each gets exactly one PacketEnd.
-//   flight.h        when and how it comes in
-//   receiver_state.h     what else sounds at the receiver meanwhile
-//   packet_judge.h  whether it is noticed at the end of its preamble, and right at its last bit
-// packet.h lists the possible fates and in which order the first that holds is found. A packet lasts
-// duration / doppler factor at a receiver. A modem that has noticed a packet follows it to its end, even if
-// weak or for another; what comes meanwhile it does not notice. A transmission of its own ends that, and every
+// sender is a possible receiver, and each gets exactly one PacketOutcome.
+//   flight.h              when and how it arrives
+//   receiver_state.h      what else sounds at the receiver meanwhile
+//   reception_decision.h  whether it is acquired at the end of its preamble, and right at its last bit
+// packet.h lists the possible outcomes and in which order the first that holds is found. A packet lasts
+// duration / doppler factor at a receiver. A modem that has acquired a packet follows it to its end, even if
+// weak or for another; what arrives meanwhile it does not acquire. A transmission of its own ends that, and every
 // reception it overlaps. A ping that its addressee received is answered kPingTurnaround later, unless that
 // modem is busy then: a packet like any other.
 //
 // Repeatability. Decisions depend on the contents of states and requests, on the seed, and on instants of
-// simulation time, not on the order they were given in. Events come sorted by time, then receipts before packet
-// ends, then receiver, sender, packet sequence. A request heard after its start is processed as of its start,
+// simulation time, not on the order they were given in. Events are sorted by time, then receipts before
+// outcomes, then receiver, sender, packet sequence. A request received after its start is processed as of its start,
 // among all that sounded then; what was due meanwhile comes out at once, with its exact instant, marked late.
-// What was decided before it was heard stays: packets it would have disturbed, and a receiver it would have
-// found unlocked.
+// What was decided before it was received stays: packets it would have disturbed, and a receiver that would have
+// acquired it.
 //
 // Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time at
 // most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
 //
-// Shards. A medium that shares the water with others (rule.shard) is told of all states and requests, decides all
+// Shards. A medium that shares the water with others (rule.shard) gets all states and requests, decides all
 // of them, and follows packets only to the receivers it serves. Only the answer to a ping depends on what another
-// shard's vehicle received; it leaves kPingTurnaround after that, and add_answer() tells of it meanwhile.
+// shard's vehicle received; it leaves kPingTurnaround after that, and add_answer() passes it on meanwhile.
 //
 // Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet,
 // fading.
@@ -55,17 +55,17 @@ struct MediumRule {
   SimDuration max_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
   SimDuration max_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
   std::uint64_t seed = 1;                                              // of all draws
-  Shard shard = {};  // of several media of one water, each told of everything
+  Shard shard = {};  // of several media of one water, each with all requests
 };
 
 class PacketMedium {
  public:
   static constexpr std::size_t kMaxQueued = 16;  // at one modem
 
-  // VehicleRegistry and propagation must outlive the medium; the fleet is told of states by its owner, before advance_to.
+  // Both must outlive the medium; the owner adds the states to the registry before advance_to.
   PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule);
 
-  // A transmission asked for, heard at `now`. A receipt when it can be given without waiting for the start:
+  // A request received at `now`. A receipt when it can be given without waiting for the start:
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
   std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
 
@@ -110,11 +110,11 @@ class PacketMedium {
 
   using FlightPointer = std::unique_ptr<Flight>;
   void on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
-  void come(FlightPointer flight, SimTime at);
+  void begin_reception(FlightPointer flight, SimTime at);
   void end_preamble(FlightPointer flight, SimTime at);
-  void end(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
-  PacketEnd ending_of(Flight& flight, SimTime at);
-  PacketFate fate_of(Flight& flight, SimTime at);
+  void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
+  PacketOutcome outcome_of(Flight& flight, SimTime at);
+  OutcomeKind decide_outcome(Flight& flight, SimTime at);
   PingAnswer answer_of(const Flight& flight, SimTime at) const;
   void schedule(SimTime at, FlightPointer flight);
   ReceiverState& state_of(VehicleId id);

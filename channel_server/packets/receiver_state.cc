@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kFewSounds = 64;
 
 // A packet without a duration counts at its instant.
-bool overlap(const Span& span, SimTime begin, SimTime end) {
+bool overlap(const PacketInterval& span, SimTime begin, SimTime end) {
   return begin < span.end && (span.begin < end || span.begin == begin);
 }
 
@@ -20,12 +20,12 @@ double band_share(const acoustics::Band& of, const acoustics::Band& in) {
   return std::clamp(shared_hz / of.width_hz(), 0.0, 1.0);
 }
 
-void ReceiverState::open(HeardPacket packet) {
+void ReceiverState::open(AudiblePacket packet) {
   open_.insert(packet.begin);
   longest_ = std::max(longest_, packet.end - packet.begin);
-  const auto place = std::upper_bound(heard_.begin(), heard_.end(), packet.begin,
-                                      [](SimTime begin, const HeardPacket& h) { return begin < h.begin; });
-  heard_.insert(place, std::move(packet));
+  const auto place = std::upper_bound(sounds_.begin(), sounds_.end(), packet.begin,
+                                      [](SimTime begin, const AudiblePacket& h) { return begin < h.begin; });
+  sounds_.insert(place, std::move(packet));
 }
 
 void ReceiverState::close(SimTime begin, SimTime now) {
@@ -34,21 +34,25 @@ void ReceiverState::close(SimTime begin, SimTime now) {
 }
 
 std::vector<PacketPointer> ReceiverState::transmitted_during(SimTime begin, SimTime end) const {
-  std::vector<Span> spans;
-  for (const Span& span : transmissions_) {
+  std::vector<PacketInterval> spans;
+  for (const PacketInterval& span : transmissions_) {
     if (overlap(span, begin, end)) spans.push_back(span);
   }
-  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.begin < b.begin; });
+  std::sort(spans.begin(), spans.end(),
+            [](const PacketInterval& a, const PacketInterval& b) { return a.begin < b.begin; });
   std::vector<PacketPointer> packets;
-  for (Span& span : spans) packets.push_back(std::move(span.packet));
+  for (PacketInterval& span : spans) packets.push_back(std::move(span.packet));
   return packets;
 }
 
-std::shared_ptr<const Packet> ReceiverState::locked_onto(SimTime instant) const {
-  for (const Lock& lock : locks_) {
-    if (lock.noticed > instant || lock.reception.end <= instant) continue;
-    const auto sends = [&](const Span& span) { return overlap(span, lock.reception.begin, instant); };
-    if (std::none_of(transmissions_.begin(), transmissions_.end(), sends)) return lock.reception.packet;
+std::shared_ptr<const Packet> ReceiverState::followed_at(SimTime instant) const {
+  for (const Acquisition& acquisition : acquisitions_) {
+    if (acquisition.instant > instant || acquisition.reception.end <= instant) continue;
+    const auto sends = [&](const PacketInterval& span) {
+      return overlap(span, acquisition.reception.begin, instant);
+    };
+    if (std::none_of(transmissions_.begin(), transmissions_.end(), sends))
+      return acquisition.reception.packet;
   }
   return nullptr;
 }
@@ -56,17 +60,17 @@ std::shared_ptr<const Packet> ReceiverState::locked_onto(SimTime instant) const 
 Interferers ReceiverState::interferers_of(const Packet& packet, SimTime begin, SimTime end) const {
   Interferers found;
   const acoustics::Band band = packet.modem.band();
-  auto heard = std::lower_bound(heard_.begin(), heard_.end(), begin - longest_,
-                                [](const HeardPacket& h, SimTime time) { return h.begin < time; });
-  for (; heard != heard_.end() && heard->begin < end; ++heard) {
-    if (heard->end <= begin || heard->packet.get() == &packet) continue;
-    const double share = band_share(heard->packet->modem.band(), band);
+  auto sound = std::lower_bound(sounds_.begin(), sounds_.end(), begin - longest_,
+                                [](const AudiblePacket& h, SimTime time) { return h.begin < time; });
+  for (; sound != sounds_.end() && sound->begin < end; ++sound) {
+    if (sound->end <= begin || sound->packet.get() == &packet) continue;
+    const double share = band_share(sound->packet->modem.band(), band);
     if (share == 0) continue;
-    for (const HeardPath& path : heard->paths) {
+    for (const AudiblePath& path : sound->paths) {
       if (path.end <= begin || path.begin >= end) continue;
       found.paths.push_back({path.begin, path.end, path.power * share, found.packets.size()});
     }
-    found.packets.push_back(heard->packet);
+    found.packets.push_back(sound->packet);
   }
   return found;
 }
@@ -74,9 +78,10 @@ Interferers ReceiverState::interferers_of(const Packet& packet, SimTime begin, S
 void ReceiverState::forget(SimTime now) {
   SimTime horizon = now - kept_longer_;
   if (!open_.empty()) horizon = std::min(horizon, *open_.begin());
-  std::erase_if(heard_, [&](const HeardPacket& packet) { return packet.end < horizon; });
-  std::erase_if(transmissions_, [&](const Span& span) { return span.end < horizon; });
-  std::erase_if(locks_, [&](const Lock& lock) { return lock.reception.end < horizon; });
+  std::erase_if(sounds_, [&](const AudiblePacket& packet) { return packet.end < horizon; });
+  std::erase_if(transmissions_, [&](const PacketInterval& span) { return span.end < horizon; });
+  std::erase_if(acquisitions_,
+                [&](const Acquisition& acquisition) { return acquisition.reception.end < horizon; });
   size_at_forgetting_ = size();
 }
 

@@ -1,8 +1,8 @@
-// What sounds at one receiver, by interval: the packets that reach it, those it sends itself, and those it was
-// locked onto.
+// The sounds at one receiver, by interval: the packets that reach it, those it sends itself, and those it has
+// acquired.
 //
-// Everything here is by its own instants, whatever the order it was told in. Sounds are kept until no reception
-// that is still open, nor one that is asked for late, can overlap them. Not thread-safe.
+// Everything counts by its own instants, whatever the order of the calls. Sounds are kept until no reception
+// that is still open, nor one that is added late, can overlap them. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@
 namespace halocline::channel_server {
 
 // One path of a packet at the receiver: [begin, end), power in uPa^2 over the band of its packet.
-struct HeardPath {
+struct AudiblePath {
   SimTime begin, end;
   double power = 0;
 };
 
-struct HeardPacket {
+struct AudiblePacket {
   PacketPointer packet;
   SimTime begin, end;  // of all paths together
-  std::vector<HeardPath> paths;
+  std::vector<AudiblePath> paths;
 };
 
-// A packet during an interval: one's own in the water, or one that the receiver follows.
-struct Span {
+// A packet during an interval: a transmission of its own, or one that the receiver follows.
+struct PacketInterval {
   PacketPointer packet;
   SimTime begin, end;
 };
@@ -48,38 +48,40 @@ double band_share(const acoustics::Band& of, const acoustics::Band& in);
 
 class ReceiverState {
  public:
-  // `kept_longer`: how long after its end a sound can still be asked about, by receptions told late.
+  // `kept_longer`: how long after its end a sound may still overlap a reception that is added late.
   explicit ReceiverState(SimDuration kept_longer) : kept_longer_(kept_longer) {}
 
   // A packet arrives; a reception is open from its begin on until closed.
-  void open(HeardPacket packet);
+  void open(AudiblePacket packet);
   void close(SimTime begin, SimTime now);
-  void transmit(const Span& span) { transmissions_.push_back(span); }
-  // The receiver noticed a packet at `noticed` and follows it until its end.
-  void lock(const Span& reception, SimTime noticed) { locks_.push_back({reception, noticed}); }
+  void transmit(const PacketInterval& span) { transmissions_.push_back(span); }
+  // The receiver acquires a packet at `instant` and follows it until its end.
+  void acquire(const PacketInterval& reception, SimTime instant) {
+    acquisitions_.push_back({reception, instant});
+  }
 
   // What the receiver itself sends at any instant of [begin, end), by begin.
   std::vector<PacketPointer> transmitted_during(SimTime begin, SimTime end) const;
-  // Whom the receiver follows at `instant`; null for nobody. A transmission of its own ends that.
-  std::shared_ptr<const Packet> locked_onto(SimTime instant) const;
+  // The packet that the receiver follows at `instant`; null without one. A transmission of its own ends that.
+  std::shared_ptr<const Packet> followed_at(SimTime instant) const;
   // All other packets than `packet` during [begin, end), in its band; those of no power in it left out.
   Interferers interferers_of(const Packet& packet, SimTime begin, SimTime end) const;
 
-  bool silent() const { return heard_.empty() && transmissions_.empty() && open_.empty(); }
+  bool silent() const { return sounds_.empty() && transmissions_.empty() && open_.empty(); }
   // Drops what ended before every open reception and `kept_longer` before `now`.
   void forget(SimTime now);
-  std::size_t size() const { return heard_.size() + transmissions_.size() + locks_.size(); }
+  std::size_t size() const { return sounds_.size() + transmissions_.size() + acquisitions_.size(); }
 
  private:
-  struct Lock {
-    Span reception;
-    SimTime noticed;
+  struct Acquisition {
+    PacketInterval reception;
+    SimTime instant;
   };
   SimDuration kept_longer_;
-  std::vector<HeardPacket> heard_;  // by begin
-  SimDuration longest_;             // of those ever heard
-  std::vector<Span> transmissions_;
-  std::vector<Lock> locks_;
+  std::vector<AudiblePacket> sounds_;  // by begin
+  SimDuration longest_;                // of all so far
+  std::vector<PacketInterval> transmissions_;
+  std::vector<Acquisition> acquisitions_;
   std::multiset<SimTime> open_;  // begins
   std::size_t size_at_forgetting_ = 0;
 };

@@ -1,5 +1,5 @@
-// Remembers what became of each transmission asked for, so that a repetition is answered, not transmitted
-// again; and when each modem is occupied.
+// The receipt of each transmission requested, so that a repetition is answered, not transmitted again; and the
+// intervals in which each modem is occupied.
 //
 // A modem that queues sends one after the other, in the order of their starts: the next one when all accepted
 // before have ended.
@@ -35,7 +35,7 @@ class SendRegister {
   // Of more packets the earliest starts are forgotten.
   static constexpr std::size_t kMaxPackets = 100'000;
 
-  // True for a packet never heard of; it is known from now on, its receipt outstanding.
+  // True for a packet that is new; it is known from now on, its receipt outstanding.
   bool enter(const SendRequest& request);
   void decide(const SendRequest& request, const Receipt& receipt);
   // Null while undecided.
@@ -43,7 +43,7 @@ class SendRegister {
 
   // True when the modem is occupied at any time of [start, start + duration).
   bool is_busy(const std::string& vehicle, SimTime start, SimDuration duration) const;
-  // When a modem that queues is free for a transmission asked for at `start`: never before it.
+  // When a modem that queues is free for a transmission requested for `start`: never before it.
   SimTime free_from(const std::string& vehicle, SimTime start) const;
   // Transmissions accepted that have not started at `instant`.
   std::size_t waiting_at(const std::string& vehicle, SimTime instant) const;

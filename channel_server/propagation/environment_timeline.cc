@@ -69,9 +69,9 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
 }
 
 void EnvironmentTimeline::forget_before(SimTime time) {
-  constexpr std::size_t kForgottenTogether = kHeardKept / 10;  // for each time all others are moved
-  if (changes_kept() < kHeardKept + kForgottenTogether) return;
-  auto surplus = changes_kept() - kHeardKept;
+  constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // for each time all others are moved
+  if (changes_kept() < kAnnouncedKept + kForgottenTogether) return;
+  auto surplus = changes_kept() - kAnnouncedKept;
   std::vector<Span> kept;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     const bool announced = i > 0 && spans_[i].order.origin.session != 0;

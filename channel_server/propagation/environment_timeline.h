@@ -3,10 +3,10 @@
 // A run starts with one environment; changes follow, from the scenario and from whoever announces them. Each
 // sets some of wind, shipping, sea surface and sound-speed profile from an instant on, and leaves the rest. One
 // that is announced late (its instant lies before what has been published) holds from the instant at which it was
-// heard: what is published stays true. Changes of one instant apply in the order of who announced them and of
-// their numbers, so what holds is a function of what was heard and when, not of the order in one turn.
+// received: what is published stays true. Changes of one instant apply in the order of their sessions and sequence
+// numbers, so what holds is a function of what was received and when, not of the order in one turn.
 //
-// A value in memory; not thread-safe while it is told of changes.
+// A value in memory; not thread-safe while changes are added.
 #pragma once
 
 #include <compare>
@@ -29,14 +29,14 @@ struct EnvironmentChange {
 class EnvironmentTimeline {
  public:
   static constexpr std::size_t kMaxChanges = 10'000;
-  static constexpr std::size_t kHeardKept = 1000;
+  static constexpr std::size_t kAnnouncedKept = 1000;
 
-  // Who announced a change, and as its how manieth: session 0 is the scenario.
+  // Session and sequence number of an announcement; session 0 is the scenario.
   struct Origin {
     std::int64_t session = 0, sequence = 0;
     auto operator<=>(const Origin&) const = default;
   };
-  // Where the environment of a span of time differs from all others ever told, so does this.
+  // Different for each environment of a run.
   using WaterId = std::int64_t;
 
   // Throws InvalidArgument when the environment is out of range.
@@ -49,18 +49,18 @@ class EnvironmentTimeline {
   [[nodiscard]] std::string announce(SimTime announced_from, SimTime received_at, Origin origin,
                                      const EnvironmentChange& change);
 
-  // At an instant; a change holds at its very instant. References hold until the next change is told.
+  // At an instant; a change holds at its very instant. References are valid until the next change is added.
   const acoustics::Environment& at(SimTime instant) const { return span_at(instant).environment; }
   WaterId water_at(SimTime instant) const { return span_at(instant).id; }
   // The first change after `instant`; never() when none is known.
   SimTime next_change_after(SimTime instant) const;
 
-  // Forgets changes that were heard and superseded before `time`, but for the latest kHeardKept, of which repetitions
-  // may still come. No instant before `time` is asked about any more.
+  // Forgets changes that were announced and superseded before `time`, but for the latest kAnnouncedKept, of which
+  // repetitions may still arrive. No instant before `time` is evaluated any more.
   void forget_before(SimTime time);
   std::size_t changes_kept() const { return spans_.size() - 1; }
 
-  // Another run: forgets what was heard, keeps the schedule.
+  // Another run: forgets what was announced, keeps the schedule.
   void clear();
 
  private:

@@ -42,7 +42,7 @@ ProfileSurvey::ProfileSurvey(const CellPair& cells, const ProfileRule& rule) : c
   for (int i = 0; i < count; ++i) places_.emplace_back(from + (static_cast<double>(i) / (count - 1)) * way);
 }
 
-std::optional<RayKind> ProfileSurvey::asks() const {
+std::optional<RayKind> ProfileSurvey::next_query() const {
   return taken_ ? std::nullopt : std::optional(RayKind::kDepths);
 }
 

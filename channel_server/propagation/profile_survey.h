@@ -3,7 +3,7 @@
 // Rule. Each end is snapped to the nearest point of a horizontal lattice (points `reuse_distance_m` apart, one in
 // the world's origin); the seabed is sampled evenly between the two snapped ends, no further apart than
 // `spacing_m`, by 16 to 256 samples (so beyond 6.4 km by default they lie further apart). A profile is therefore
-// a function of the two lattice cells and the terrain, and serves whoever is in them, whatever was asked before.
+// a function of the two lattice cells and the terrain, and serves all that are in them, whatever was queried before.
 // For a link it is stretched to the true range: its samples are off by no more than 0.71 lattice spacings, as is
 // the bottom under the link. Where an end of the link lies below the profile at that end, the profile is lowered
 // there to just below it; nowhere else is it changed. Land counts as 0.1 m of water.
@@ -52,12 +52,12 @@ class ProfileSurvey {
   ProfileSurvey(const CellPair& cells, const ProfileRule& rule);
 
   // As EchoSurvey's: there is one question.
-  std::optional<RayKind> asks() const;
+  std::optional<RayKind> next_query() const;
   std::vector<TerrainRay> rays() const;
   void take(std::span<const RayAnswer> answers);
 
   const CellPair& cells() const { return cells_; }
-  // Null until told, and when one sample could not be told (outside, no data).
+  // Null until answered, and when one sample has no answer (outside, no data).
   const std::shared_ptr<const SeabedProfile>& profile() const { return profile_; }
 
  private:

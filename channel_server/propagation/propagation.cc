@@ -65,7 +65,7 @@ std::vector<Reception> Propagation::receptions(SimTime at, const std::vector<End
 
 Reception Propagation::reception_over(SimTime, const LinkEnd&, const LinkEnd&,
                                       const std::shared_ptr<const SeabedProfile>&) {
-  ensure(false, "a propagation without a bottom is asked for one over a bottom");
+  ensure(false, "reception_over() of a propagation without a bottom");
   return {};
 }
 

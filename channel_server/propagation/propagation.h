@@ -1,9 +1,9 @@
-// How sound gets from one point to another, behind one interface: what the packet medium and the link tables
-// ask of the water, whichever model answers.
+// Propagation of sound from one point to another: the interface between the packet medium and the link tables and
+// the models of the water.
 //
-// Every answer holds for an instant `at`, that of departure: it decides which water and which known bottom
-// count, both of which may change during a run. An implementation may keep what it has computed; its answers
-// depend on the arguments and on what was known for that instant, never on the order of the questions.
+// Every result holds for an instant `at`, that of departure: it decides which water and which known bottom
+// count, both of which may change during a run. An implementation may keep what it has computed; its results
+// depend on the arguments and on what was known for that instant, never on the order of the calls.
 //
 // Decibels are dB re 1 uPa in the transmitter's band. Angles are from the horizontal, positive down, of the
 // direction in which the sound travels: a launch angle as it leaves, an arrival angle as it comes in.
@@ -43,7 +43,7 @@ struct LinkEnd {
   VehicleId id = 0;                         // 0: a position
   Vec3 position_ned_m = Vec3::Zero();       // world NED, m
   Vec3 velocity_ned_mps = Vec3::Zero();     // world NED, over ground, m/s
-  const acoustics::Modem* modem = nullptr;  // never null in a question; outlives it
+  const acoustics::Modem* modem = nullptr;  // never null in a call; outlives it
 };
 
 // One path of sound from transmitter to receiver.
@@ -75,7 +75,7 @@ enum class PropagationUsed {
 
 // What arrives over one link. In the budget, `delay_s` is that of the first significant path, `received_level`
 // sums the powers of all paths, and the rest follows from these. Without a path both levels are kSilence or
-// what the implementation says of the straight line, and nothing is receivable.
+// a floor that the implementation states, and nothing is receivable.
 struct Reception {
   acoustics::LinkBudget budget;
   PathState state = PathState::kOpen;
@@ -115,7 +115,7 @@ class Propagation {
                                   const acoustics::Modem& receiver, const Vec3& from_ned_m,
                                   const Vec3& to_ned_m,
                                   const std::vector<acoustics::BottomPoint>& points) = 0;
-  // The water at `at`; holds until the propagation is told of another.
+  // The water at `at`; valid until the next change.
   virtual const acoustics::Environment& environment(SimTime at) const = 0;
 };
 

@@ -77,15 +77,15 @@ acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& fro
   return all;
 }
 
-// What is kept is looked at and added to in turn; searches and answers are shared out.
+// The cache is read and written in turn; searches and results are shared out.
 std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                   const ForEach& for_each) {
   std::vector<Reception> receptions(links.size());
   std::vector<Task> tasks;
   std::vector<std::size_t> link_of;     // of each task
-  std::map<Key, std::size_t> place_of;  // of each question, among `paths`
+  std::map<Key, std::size_t> place_of;  // of each query, among `paths`
   std::vector<FoundPaths> paths;
-  std::vector<std::pair<std::size_t, std::size_t>> to_search;  // place and a task that asks
+  std::vector<std::pair<std::size_t, std::size_t>> to_search;  // place and a task that needs it
   for (std::size_t i = 0; i < links.size(); ++i) {
     const auto& [from, to] = links[i];
     const auto seabed = seabed_between(at, from, to);
@@ -95,7 +95,7 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
     }
     tasks.push_back(shared_task_of(at, from, to, seabed));
     link_of.push_back(i);
-    const Key key = key_of(tasks.back().question);
+    const Key key = key_of(tasks.back().query);
     if (!place_of.emplace(key, paths.size()).second) continue;
     const FoundPaths* known = found_.find(key);
     paths.push_back(known == nullptr ? nullptr : *known);
@@ -103,10 +103,10 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
   }
   for_each(to_search.size(),
            [&](std::size_t i) { paths[to_search[i].first] = search(tasks[to_search[i].second]); });
-  for (const auto& [place, task] : to_search) found_.insert(key_of(tasks[task].question), paths[place]);
+  for (const auto& [place, task] : to_search) found_.insert(key_of(tasks[task].query), paths[place]);
   searches_ += static_cast<std::int64_t>(to_search.size());
   for_each(tasks.size(), [&](std::size_t i) {
-    receptions[link_of[i]] = answer(tasks[i], *paths[place_of.at(key_of(tasks[i].question))]);
+    receptions[link_of[i]] = answer(tasks[i], *paths[place_of.at(key_of(tasks[i].query))]);
   });
   return receptions;
 }
@@ -118,7 +118,7 @@ bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& tran
   return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
 }
 
-RayPropagation::Key RayPropagation::key_of(const Question& q) {
+RayPropagation::Key RayPropagation::key_of(const PathQuery& q) {
   return {q.water_id,    q.frequency_hz, q.seabed.get(), q.link.source_depth_m, q.link.receiver_depth_m,
           q.link.range_m};
 }
@@ -162,13 +162,13 @@ RayPropagation::Task RayPropagation::shared_task_of(SimTime at, const LinkEnd& f
   if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
     shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
     shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
-    task.question.link = *shared;
+    task.query.link = *shared;
   }
   return task;
 }
 
 RayPropagation::FoundPaths RayPropagation::search(const Task& task) const {
-  const Question& q = task.question;
+  const PathQuery& q = task.query;
   acoustics::RayOptions options = model_.options;
   options.frequency_hz = q.frequency_hz;
   const acoustics::RaySea sea{
@@ -182,7 +182,7 @@ RayPropagation::FoundPaths RayPropagation::search(const Task& task) const {
 }
 
 RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
-  return found_.find_or_make(key_of(task.question), [&] {
+  return found_.find_or_make(key_of(task.query), [&] {
     ++searches_;
     return search(task);
   });
@@ -210,7 +210,7 @@ Reception RayPropagation::answer(const Task& task, const Found& found) const {
 }
 
 acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const Found& found) const {
-  const acoustics::RayLink &searched = task.question.link, &link = task.link;
+  const acoustics::RayLink &searched = task.query.link, &link = task.link;
   const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
                       searched.receiver_depth_m == link.receiver_depth_m;
   if (itself) return found.arrivals;

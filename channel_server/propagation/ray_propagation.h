@@ -16,10 +16,10 @@
 //
 // Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
 // the same paths backwards, so the two are reciprocal to the last bit. With a distance of reuse, the search is
-// for the middle of the cell that the link lies in (ray_cells.h), and its paths are carried from there to the link
-// (acoustics/rays/extrapolate_arrivals.h); not for given bottoms and coherent levels, which a search of their own serves. Answers are
-// functions of environment, profile and ends alone: what was found is kept for the very same question, and found
-// again when it was forgotten. Ends above the surface are taken at it. Left out: motion of the bottom's slope across
+// for the middle of the cell that the link lies in (ray_cells.h), and its paths are extrapolated from there to the
+// link (acoustics/rays/extrapolate_arrivals.h); not for given bottoms and coherent levels, which need a search of
+// their own. Results are functions of environment, profile and ends alone: a search is kept for the very same query,
+// and done again when it was forgotten. Ends above the surface are taken at it. Left out: motion of the bottom's slope across
 // the link (acoustics/rays/eigenray.h).
 #pragma once
 
@@ -40,7 +40,7 @@ namespace halocline::channel_server {
 struct RayModel {
   acoustics::FluidBottom bottom;
   acoustics::SurfaceModel surface = acoustics::SurfaceModel::kAplBubbles;
-  acoustics::RayOptions options;               // its frequency is the transmitter's, whatever it says
+  acoustics::RayOptions options;               // its frequency is not used: the transmitter's is
   std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
   std::optional<Decibels> shadow_loss;         // transmission loss where no ray gets; empty: silence
   bool coherent = false;                       // received level: sum of phasors at the centre frequency
@@ -73,7 +73,7 @@ class RayPropagation : public Propagation {
 
  private:
   // What paths depend on. The link runs from the profile's first end.
-  struct Question {
+  struct PathQuery {
     EnvironmentTimeline::WaterId water_id;
     double frequency_hz;
     std::shared_ptr<const SeabedProfile> seabed;
@@ -86,24 +86,24 @@ class RayPropagation : public Propagation {
     bool blocked = false;  // the bottom cuts the straight line
   };
   using FoundPaths = std::shared_ptr<const Found>;
-  // A link over a known bottom, ready to be answered without touching what is kept.
+  // A link over a known bottom, ready to be computed without touching the caches.
   struct Task {
     EndPair ends;
     const acoustics::Environment* environment;
     std::shared_ptr<const acoustics::RayWater> water;
     std::shared_ptr<const acoustics::LinkModel> budget;
-    Question question;
-    acoustics::RayLink link;  // where the ends are; the question's own unless its paths are carried
+    PathQuery query;
+    acoustics::RayLink link;  // where the ends are; the query's own unless its paths are extrapolated
     bool reversed = false;    // the transmitter is the profile's last end
   };
 
-  static Key key_of(const Question& question);
+  static Key key_of(const PathQuery& query);
   std::shared_ptr<const SeabedProfile> seabed_between(SimTime at, const LinkEnd& from,
                                                       const LinkEnd& to) const;
   std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
   Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
                const std::shared_ptr<const SeabedProfile>& seabed, bool reversed);
-  // For two vehicles: the question may be that of a cell, shared by links near it.
+  // For two vehicles: the query may be that of a cell, shared by links near it.
   Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
                       const std::shared_ptr<const SeabedProfile>& seabed);
   FoundPaths search(const Task& task) const;

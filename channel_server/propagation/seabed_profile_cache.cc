@@ -23,12 +23,12 @@ std::vector<VehiclePair> SeabedProfileCache::take_geometry(const std::vector<Pla
       Entry& entry = entries_[pair_of(low->id, high->id)];
       entry.present = true;
       entry.cells = cells_of(low->placement.position_ned_m, high->placement.position_ned_m, rule_);
-      if (!entry.serves()) wanted.push_back({entry.asked_at_tick, pair_of(low->id, high->id)});
+      if (!entry.serves()) wanted.push_back({entry.queried_at_tick, pair_of(low->id, high->id)});
     }
   }
   std::sort(wanted.begin(), wanted.end());
   std::vector<VehiclePair> pairs;
-  for (const auto& [asked, pair] : wanted) pairs.push_back(pair);
+  for (const auto& [queried_at_tick, pair] : wanted) pairs.push_back(pair);
   return pairs;
 }
 
@@ -36,17 +36,17 @@ ProfileSurvey SeabedProfileCache::survey_of(const VehiclePair& pair) const {
   return ProfileSurvey(entries_.at(pair).cells, rule_);
 }
 
-void SeabedProfileCache::note_asked(const VehiclePair& pair) {
+void SeabedProfileCache::note_queried(const VehiclePair& pair) {
   const auto entry = entries_.find(pair);
-  if (entry != entries_.end()) entry->second.asked_at_tick = tick_;
+  if (entry != entries_.end()) entry->second.queried_at_tick = tick_;
 }
 
 void SeabedProfileCache::store(const VehiclePair& pair, const ProfileSurvey& survey) {
   const auto entry = entries_.find(pair);
   if (entry == entries_.end() || survey.cells() != entry->second.cells) return;
-  entry->second.told_cells = survey.cells();
+  entry->second.answered_cells = survey.cells();
   entry->second.profile = survey.profile();
-  entry->second.told = true;
+  entry->second.answered = true;
 }
 
 std::shared_ptr<const SeabedProfile> SeabedProfileCache::at(SimTime at, const VehiclePair& pair) const {

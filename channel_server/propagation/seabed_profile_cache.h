@@ -1,12 +1,12 @@
 // The bottom profiles between vehicles, and which of them holds when.
 //
-// Rule. What is asked for the geometry of tick k-1 serves the rows of tick k and all sound that leaves in
-// [tick k, tick k+1): its answer has had a whole period to come, so nothing ever waits, and a replay uses the same
+// Rule. What is queried for the geometry of tick k-1 serves the rows of tick k and all sound that leaves in
+// [tick k, tick k+1): its answer has had a whole period to arrive, so nothing ever waits, and a replay uses the same
 // profiles. The profile of a pair is kept as long as both vehicles stay in their lattice cells
 // (profile_survey.h); once one is in another cell at a tick, the pair has no profile (the bottom is unknown)
-// unless that of the new cells was told in time. One profile serves both directions.
+// unless that of the new cells was answered in time. One profile serves both directions.
 //
-// Sound on its way asks for the instant at which it left: what held is kept until forgotten. Not thread-safe.
+// Sound on its way needs the instant at which it left: what held is kept until forgotten. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -27,14 +27,14 @@ class SeabedProfileCache {
 
   // From `tick` on hold the profiles of the last geometry, as far as they are known. Instants rise.
   void open_tick(SimTime tick);
-  // The geometry of the tick just opened. Returns the pairs about whose cells the terrain has told
-  // nothing, those asked for longest ago first.
+  // The geometry of the tick just opened. Returns the pairs whose cells have no answer yet,
+  // those queried longest ago first.
   std::vector<VehiclePair> take_geometry(const std::vector<PlacedVehicle>& vehicles, Shard shard = {});
 
-  // To be asked for a pair of the last geometry; it runs from the lower id to the higher.
+  // Of a pair of the last geometry; it runs from the lower id to the higher.
   ProfileSurvey survey_of(const VehiclePair& pair) const;
-  // The terrain was asked about the pair, whether it answered or not.
-  void note_asked(const VehiclePair& pair);
+  // The pair was queried, with or without an answer.
+  void note_queried(const VehiclePair& pair);
   // An answer for cells that the pair has left meanwhile is of no use.
   void store(const VehiclePair& pair, const ProfileSurvey& survey);
 
@@ -56,12 +56,12 @@ class SeabedProfileCache {
   struct Entry {
     bool present = false;  // both were at the last tick
     CellPair cells;        // at the last tick
-    bool told = false;
-    CellPair told_cells;
-    std::shared_ptr<const SeabedProfile> profile;  // of told_cells; null where the terrain does not reach
-    std::int64_t asked_at_tick = -1;
+    bool answered = false;
+    CellPair answered_cells;
+    std::shared_ptr<const SeabedProfile> profile;  // of answered_cells; null where the terrain does not reach
+    std::int64_t queried_at_tick = -1;
     std::vector<Held> held;  // ascending, each unlike the one before
-    bool serves() const { return present && told && told_cells == cells; }
+    bool serves() const { return present && answered && answered_cells == cells; }
   };
 
   ProfileRule rule_;

@@ -1,11 +1,11 @@
-// What the channel server asks the owner of the terrain, and what it is told: world NED, m.
+// Queries of the terrain and their answers: world NED, m.
 #pragma once
 
 #include "core/frames.h"
 
 namespace halocline::channel_server {
 
-// What one message asks for: all rays of a kind.
+// The kind of all rays of one message.
 enum class RayKind {
   kDepths,  // z of the seabed under each origin
   kWays,    // whether the seabed cuts each ray
@@ -24,7 +24,7 @@ struct RayAnswer {
   double result_m = 0;  // z of the seabed for a depth, distance for a way; holds for kHit only
 };
 
-// A depth is asked for a place, not a ray: its range only has to be legal.
+// A depth belongs to a place, not to a ray: its range only has to be legal.
 inline TerrainRay depth_ray(const Vec3& place_ned_m) { return {place_ned_m, Vec3::UnitZ(), 1}; }
 
 }  // namespace halocline::channel_server

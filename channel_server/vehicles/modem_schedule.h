@@ -1,6 +1,6 @@
 // Which modem a vehicle carries at an instant: the one configured, until it announces another.
 //
-// Announcements hold from the instant they name, in whatever order they were heard.
+// Announcements hold from the instant they name, whatever their order.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace halocline::channel_server {
 
-// What a modem does that is asked to send while it is sending.
+// What a modem does on a request to send while it is sending.
 enum class WhenBusy {
   kRefuse,  // the transmission is refused
   kQueue,   // it starts when those before it have ended

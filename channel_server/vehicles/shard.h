@@ -1,4 +1,4 @@
-// Which part of the work one of several channel servers does: they split the vehicles, all hear all, and the
+// Which part of the work one of several channel servers does: they split the vehicles, all receive all, and the
 // union of what they publish is what one would.
 #pragma once
 

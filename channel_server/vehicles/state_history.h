@@ -1,4 +1,4 @@
-// Where a vehicle is at an instant, told from the states it has published: a pure function of their contents.
+// Where a vehicle is at an instant, from the states it has published: a pure function of their contents.
 //
 // Rule. The position at instant t, as decided at instant d, knows the states with time <= d - state_lag, and
 // no other:
@@ -9,7 +9,7 @@
 // The velocity is interpolated, or carried on unchanged, in the same cases.
 // The lag is longer than a message takes on the bus, so the answer does not depend on which datagram was
 // quicker, and it never uses what was not yet known at d (causal). A packet's arrival decided later than it
-// happened therefore profits from states heard meanwhile; one decided ahead extrapolates.
+// happened therefore profits from states received meanwhile; one decided ahead extrapolates.
 //
 // Error of the extrapolation over a time h at acceleration a: a h^2 / 2 (1 mm at 1 m/s^2 over 50 ms).
 // Left out: orientation, which matters to nothing that is omnidirectional.

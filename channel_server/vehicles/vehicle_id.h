@@ -1,4 +1,4 @@
-// What tells vehicles apart on the bus and in the water.
+// Identities of vehicles on the bus and in the water.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 // A vehicle is present at instant t when its position at t, decided at t, is known from a state no older than
 // the time-out (state_history.h). One id belongs to one name: the first that claims it keeps it until that vehicle
-// is forgotten. All answers are functions of the messages received and of the instants asked for, whatever the
+// is forgotten. All answers are functions of the messages received and of the instants given, whatever the
 // order of the messages.
 //
 // Bounded: beyond kMaxVehicles a new vehicle is refused. The modem of a vehicle without a state is forgotten when no
@@ -51,7 +51,7 @@ class VehicleRegistry {
   std::vector<VehicleId> present(SimTime instant) const;
   // Where the vehicle is at `instant` as decided at `decided_at`; empty when unknown or its state is too old.
   std::optional<Placement> placement(VehicleId id, SimTime instant, SimTime decided_at) const;
-  // The same, however old the state: for aiming at a moment to come.
+  // The same, however old the state: for an instant to come.
   std::optional<Placement> prediction(VehicleId id, SimTime instant, SimTime decided_at) const;
 
   std::optional<VehicleId> id_of(std::string_view name) const;

@@ -1,7 +1,7 @@
-// A weak link and a packet over it in a small world, all numbers that the channel server tells of them, and
+// A weak link and a packet over it in a small world, all numbers that the channel server publishes of them, and
 // claims about how each moves: for tests that turn one input alone.
 //
-// The link is 800 m long, at a depth of 50 m over 200 m of water, and so weak that the packet is noticed and right
+// The link is 800 m long, at a depth of 50 m over 200 m of water, and so weak that the packet is acquired and right
 // with probabilities well inside 0..1: they show what moves them.
 #pragma once
 
@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/sea/noise.h"
 #include "bus/event_log.h"
 #include "tests/channel_server/node_bench.h"
 
@@ -19,7 +20,7 @@ namespace halocline::channel_server::testing {
 inline constexpr double kAt = 3;  // s: table and packet
 inline constexpr double kRangeM = 800;
 inline constexpr std::int32_t kBytes = 10;
-// Of packets with this number the draws are 0.41 (noticed) and 0.56 (right), so that fates move with the
+// Of packets with this number the draws are 0.41 (acquired) and 0.56 (right), so that outcomes move with the
 // probabilities.
 inline constexpr std::int64_t kSequence = 5;
 
@@ -88,7 +89,7 @@ inline Numbers numbers_of(const packet_outcome_t& packet) {
           {"azimuth", packet.arrival_azimuth_rad},
           {"elevation", packet.arrival_elevation_rad},
           {"colliders", packet.num_colliders},
-          {"fate", packet.outcome}};
+          {"outcome", packet.outcome}};
 }
 
 inline Numbers numbers_of(const World& world) {
@@ -137,5 +138,47 @@ inline Moves operator+(Moves some, const Moves& more) {
   some.insert(some.end(), more.begin(), more.end());
   return some;
 }
+
+inline World with_receiver_at(World world, const Vec3& velocity) {
+  world.velocity_of_b = velocity;
+  return world;
+}
+
+inline double noise_db(const acoustics::NoiseSources& sources, double low_hz = 22'500,
+                       double high_hz = 27'500) {
+  return acoustics::noise_level_over_band(low_hz, high_hz, sources).value;
+}
+// Of the whole straight link, dB.
+inline double absorbed_db(const acoustics::Environment& water, double depth_m = 50, double khz = 25) {
+  return kRangeM / 1000 * absorption_spectrum_at(water, depth_m).db_per_km(khz * khz);
+}
+// As loud as makes up for what the water absorbs, so that it starts from the same ratio of signal to noise.
+inline World in_water(World world, const acoustics::Environment& water) {
+  world.modem.modem.source_level.value += absorbed_db(water) - absorbed_db(world.water);
+  world.water = water;
+  return world;
+}
+// Between ends of one depth.
+inline double delay_s(const acoustics::Environment& water, double depth_m = 50) {
+  return kRangeM / water.profile.sound_speed_mps(depth_m);
+}
+
+// What follows from a better or worse ratio of signal to noise.
+inline Moves clearer() { return {rises("capacity"), rises("acquisition"), rises("success")}; }
+inline Moves dimmer() { return {falls("capacity"), falls("acquisition"), falls("success")}; }
+inline Moves not_acquired() { return dimmer() + Moves{becomes("outcome", packet_outcome_t::NOT_ACQUIRED)}; }
+// One straight path: every level in step.
+inline Moves ratio_by(double db) { return {moves_by("snr", db), moves_by("sinr", db)}; }
+inline Moves loss_by(double db) {
+  return Moves{moves_by("loss", db), moves_by("level", -db)} + ratio_by(-db);
+}
+inline Moves delay_by(double seconds) {  // a packet's instants are whole nanoseconds
+  return {moves_by("link delay", seconds), moves_by("packet delay", seconds, 3e-9)};
+}
+inline Moves undecided() { return {becomes("sinr", 0), becomes("acquisition", 0), becomes("success", 0)}; }
+
+inline const double kWindyDb = noise_db({0.5, 10}) - noise_db({0.5, 0}),
+                    kBusyDb = noise_db({1, 0}) - noise_db({0.5, 0});
+inline constexpr double kDoubleDb = 6, kMoving = 2;  // dB; m/s
 
 }  // namespace halocline::channel_server::testing

@@ -53,45 +53,6 @@ acoustics::Environment uniform_water(double temperature_degc, double salinity_ps
   return water;
 }
 
-World with_receiver_at(World world, const Vec3& velocity) {
-  world.velocity_of_b = velocity;
-  return world;
-}
-
-double noise_db(const acoustics::NoiseSources& sources, double low_hz = 22'500, double high_hz = 27'500) {
-  return acoustics::noise_level_over_band(low_hz, high_hz, sources).value;
-}
-// Of the whole straight link, dB.
-double absorbed_db(const acoustics::Environment& water, double depth_m = 50, double khz = 25) {
-  return kRangeM / 1000 * absorption_spectrum_at(water, depth_m).db_per_km(khz * khz);
-}
-// As loud as makes up for what the water absorbs, so that it starts from the same ratio of signal to noise.
-World in_water(World world, const acoustics::Environment& water) {
-  world.modem.modem.source_level.value += absorbed_db(water) - absorbed_db(world.water);
-  world.water = water;
-  return world;
-}
-// Between ends of one depth.
-double delay_s(const acoustics::Environment& water, double depth_m = 50) {
-  return kRangeM / water.profile.sound_speed_mps(depth_m);
-}
-
-// What follows from a better or worse ratio of signal to noise.
-Moves clearer() { return {rises("capacity"), rises("acquisition"), rises("success")}; }
-Moves dimmer() { return {falls("capacity"), falls("acquisition"), falls("success")}; }
-Moves unnoticed() { return dimmer() + Moves{becomes("fate", packet_outcome_t::NOT_ACQUIRED)}; }
-// One straight path: every level in step.
-Moves ratio_by(double db) { return {moves_by("snr", db), moves_by("sinr", db)}; }
-Moves loss_by(double db) { return Moves{moves_by("loss", db), moves_by("level", -db)} + ratio_by(-db); }
-Moves delay_by(double seconds) {  // a packet's instants are whole nanoseconds
-  return {moves_by("link delay", seconds), moves_by("packet delay", seconds, 3e-9)};
-}
-Moves undecided() { return {becomes("sinr", 0), becomes("acquisition", 0), becomes("success", 0)}; }
-
-const double kWindyDb = noise_db({0.5, 10}) - noise_db({0.5, 0}),
-             kBusyDb = noise_db({1, 0}) - noise_db({0.5, 0});
-constexpr double kDoubleDb = 6, kMoving = 2;  // dB; m/s
-
 // Inputs that move the same numbers, whichever way sound goes.
 void add_common(std::vector<Turn>& all, const World& world) {
   const auto add = [&](const std::string& input, std::function<void(World&)> turn, const Moves& moves) {
@@ -101,7 +62,7 @@ void add_common(std::vector<Turn>& all, const World& world) {
       "cut-off", [](World& w) { w.modem.modem.min_receivable_level = {120}; },
       undecided() +
           Moves{becomes("receivable", 0), becomes("cutoff", 120),
-                becomes("fate", packet_outcome_t::BELOW_CUTOFF)} +
+                becomes("outcome", packet_outcome_t::BELOW_CUTOFF)} +
           (world.rays ? Moves{becomes("interference", kSilence.value)} : Moves{}));
   add("error model", [](World& w) { w.modem.modem.error_model = acoustics::ErrorModel::kBpsk; },
       {rises("success")});
@@ -112,7 +73,7 @@ void add_common(std::vector<Turn>& all, const World& world) {
       [=](World& w) { w.modem.modem.preamble = w.modem.modem.packet_overhead = preamble + preamble; },
       Moves{moves_by("duration", preamble.seconds()), rises("acquisition")} +
           (world.rays ? Moves{changes("interference"), changes("sinr"), changes("success")} : Moves{}));
-  // Who comes towards sends a packet that is heard for less long, so that late echoes meet less of it.
+  // An approaching sender shortens its packet at the receiver, so that late echoes meet less of it.
   for (const double speed : {-kMoving, kMoving}) {
     const auto nearing = [=](const std::string& output) { return speed > 0 ? rises(output) : falls(output); };
     const auto parting = [=](const std::string& output) { return speed > 0 ? falls(output) : rises(output); };
@@ -132,7 +93,7 @@ void add_water_of_the_line(std::vector<Turn>& all) {
   };
   add(
       "wind", World(), [](World& w) { w.water.noise.wind_mps = 10; },
-      Moves{moves_by("noise", kWindyDb)} + ratio_by(-kWindyDb) + unnoticed());
+      Moves{moves_by("noise", kWindyDb)} + ratio_by(-kWindyDb) + not_acquired());
   add(
       "shipping", World(), [](World& w) { w.water.noise.shipping = 1; },
       Moves{moves_by("noise", kBusyDb)} + ratio_by(-kBusyDb) + dimmer());
@@ -162,7 +123,7 @@ void add_water_of_the_line(std::vector<Turn>& all) {
       loss_by(absorbed_db(acid) - absorbed_db(alkaline)) + clearer());
   add(
       "spreading", World(), [](World& w) { w.water.spreading_exponent = 2; },
-      loss_by(5 * std::log10(kRangeM)) + unnoticed());
+      loss_by(5 * std::log10(kRangeM)) + not_acquired());
   // The sea rises by 1 m: the ends are 1 m deeper.
   const acoustics::Environment real;
   add(
@@ -215,7 +176,7 @@ void add_modems_of_the_line(std::vector<Turn>& all) {
   add(
       "centre frequency", [](World& w) { w.modem.modem.centre_frequency_hz = 50'000; },
       Moves{moves_by("noise", higher_db), moves_by("loss", more_db), moves_by("level", -more_db)} +
-          ratio_by(-more_db - higher_db) + unnoticed());
+          ratio_by(-more_db - higher_db) + not_acquired());
   add(
       "source level", [](World& w) { w.modem.modem.source_level.value += kDoubleDb; },
       Moves{moves_by("level", kDoubleDb)} + ratio_by(kDoubleDb) + clearer());
@@ -227,19 +188,19 @@ void add_modems_of_the_line(std::vector<Turn>& all) {
       [](World& w) {
         w.modem.modem.beam = acoustics::BeamPattern({{0, kDoubleDb / 2}});
       },
-      loss_by(kDoubleDb) + unnoticed());
+      loss_by(kDoubleDb) + not_acquired());
   add("guard time", [](World& w) { w.modem.modem.guard_time = for_s(0.1); }, {});
   add("bit rate", [](World& w) { w.modem.modem.bit_rate_bps *= 2; },
       {moves_by("duration", -8 * kBytes / bit_rate_bps(false) / 2), falls("success"),
-       becomes("fate", packet_outcome_t::BIT_ERRORS)});
+       becomes("outcome", packet_outcome_t::BIT_ERRORS)});
   add("packet length", [](World& w) { w.bytes = 2 * kBytes; },
       {moves_by("duration", 8 * kBytes / bit_rate_bps(false)),
        {"success", [](double once, double twice) { EXPECT_NEAR(twice, once * once, 1e-12); }},
-       becomes("fate", packet_outcome_t::BIT_ERRORS)});
+       becomes("outcome", packet_outcome_t::BIT_ERRORS)});
   all.push_back({"line: Doppler tolerance of a receiver under way",
                  with_receiver_at(World(), {kMoving, 0, 0}),
                  [](World& w) { w.modem.modem.doppler_tolerance = 0.001; },
-                 undecided() + Moves{becomes("fate", packet_outcome_t::DOPPLER)}});
+                 undecided() + Moves{becomes("outcome", packet_outcome_t::DOPPLER)}});
 }
 
 // By rays: the level is a sum over paths, and late echoes disturb.
@@ -259,7 +220,7 @@ void add_water_of_rays(std::vector<Turn>& all) {
       "wind", world, [](World& w) { w.water.noise.wind_mps = 10; },
       Moves{moves_by("noise", kWindyDb), falls("paths"), falls("spread"), falls("interference"),
             falls("sinr"), falls("acquisition"), falls("success"),
-            becomes("fate", packet_outcome_t::NOT_ACQUIRED)} +
+            becomes("outcome", packet_outcome_t::NOT_ACQUIRED)} +
           all_levels(rises, falls));
   add(
       "shipping", world, [](World& w) { w.water.noise.shipping = 1; },
@@ -290,7 +251,7 @@ void add_water_of_rays(std::vector<Turn>& all) {
   add(
       "bottom depth", world, [](World& w) { w.bottom_z_m = 150; },
       Moves{changes("spread"), rises("interference"), falls("sinr"), falls("success"),
-            becomes("fate", packet_outcome_t::BIT_ERRORS)} +
+            becomes("outcome", packet_outcome_t::BIT_ERRORS)} +
           all_levels(falls, rises));
 }
 
@@ -304,7 +265,7 @@ void add_ends_of_rays(std::vector<Turn>& all) {
       delay_by((slant_m - kRangeM) / kSpeedMps) +
           Moves{moves_by("range", slant_m - kRangeM), moves_by("elevation", -std::atan2(100, kRangeM)),
                 changes("spread"), changes("interference"), changes("sinr"), falls("acquisition"),
-                becomes("success", 0), becomes("fate", packet_outcome_t::NOT_ACQUIRED)} +
+                becomes("success", 0), becomes("outcome", packet_outcome_t::NOT_ACQUIRED)} +
           all_levels(changes, changes));
   for (const double speed : {-kMoving, kMoving}) {
     const double travel_s = kRangeM / (kSpeedMps - speed);
@@ -327,12 +288,12 @@ void add_modems_of_rays(std::vector<Turn>& all) {
   const double narrower_db = noise_db({0.5, 0}, 23'750, 26'250) - noise_db({0.5, 0});
   add("bandwidth", [](World& w) { w.modem.modem.bandwidth_hz = 2'500; },
       {moves_by("noise", narrower_db), moves_by("snr", -narrower_db), falls("capacity"), rises("sinr"),
-       changes("acquisition"), falls("success"), becomes("fate", packet_outcome_t::BIT_ERRORS)});
+       changes("acquisition"), falls("success"), becomes("outcome", packet_outcome_t::BIT_ERRORS)});
   const double higher_db = noise_db({0.5, 0}, 47'500, 52'500) - noise_db({0.5, 0});
   add(
       "centre frequency", [](World& w) { w.modem.modem.centre_frequency_hz = 50'000; },
       Moves{moves_by("noise", higher_db), falls("spread"), falls("interference"), falls("sinr"),
-            falls("acquisition"), falls("success"), becomes("fate", packet_outcome_t::NOT_ACQUIRED)} +
+            falls("acquisition"), falls("success"), becomes("outcome", packet_outcome_t::NOT_ACQUIRED)} +
           all_levels(rises, falls));
   add(
       "source level", [](World& w) { w.modem.modem.source_level.value += kDoubleDb; },
@@ -349,16 +310,16 @@ void add_modems_of_rays(std::vector<Turn>& all) {
       },
       Moves{moves_by("loss", kDoubleDb), moves_by("level", -kDoubleDb), moves_by("snr", -kDoubleDb),
             moves_by("interference", -kDoubleDb), falls("sinr")} +
-          unnoticed());
+          not_acquired());
   add("guard time", [](World& w) { w.modem.modem.guard_time = for_s(0.1); },
       {falls("interference"), rises("sinr"), rises("acquisition"), rises("success")});
   // An echo that comes late by a fixed time is missing from more of a shorter packet.
   add("bit rate", [](World& w) { w.modem.modem.bit_rate_bps *= 2; },
       {moves_by("duration", -8 * kBytes / bit_rate_bps(true) / 2), falls("interference"), rises("sinr"),
-       falls("success"), becomes("fate", packet_outcome_t::BIT_ERRORS)});
+       falls("success"), becomes("outcome", packet_outcome_t::BIT_ERRORS)});
   add("packet length", [](World& w) { w.bytes = 2 * kBytes; },
       {moves_by("duration", 8 * kBytes / bit_rate_bps(true)), rises("interference"), falls("sinr"),
-       falls("success"), becomes("fate", packet_outcome_t::BIT_ERRORS)});
+       falls("success"), becomes("outcome", packet_outcome_t::BIT_ERRORS)});
 }
 
 std::vector<Turn> turns() {

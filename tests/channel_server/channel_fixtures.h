@@ -23,7 +23,7 @@ inline acoustics::Environment even_water() {
   return water;
 }
 
-// 8 bits take 10 ms, no overhead: durations are easy to tell.
+// 8 bits take 10 ms, no overhead: durations are easy to read.
 inline VehicleModem quick_modem() {
   VehicleModem modem;
   modem.modem.bit_rate_bps = 800;
@@ -67,12 +67,12 @@ inline std::vector<Receipt> receipts_in(const std::vector<MediumEvent>& events) 
   return receipts;
 }
 
-inline std::vector<PacketEnd> ends_in(const std::vector<MediumEvent>& events) {
-  std::vector<PacketEnd> ends;
+inline std::vector<PacketOutcome> outcomes_in(const std::vector<MediumEvent>& events) {
+  std::vector<PacketOutcome> outcomes;
   for (const auto& event : events) {
-    if (const auto* end = std::get_if<PacketEnd>(&event.what)) ends.push_back(*end);
+    if (const auto* outcome = std::get_if<PacketOutcome>(&event.what)) outcomes.push_back(*outcome);
   }
-  return ends;
+  return outcomes;
 }
 
 // The bottom between vehicle 1 at `one` and vehicle 2 at `other`, `depth_at(north)` metres deep, known from 1 s on.

@@ -86,7 +86,7 @@ TEST(ChannelServerConfig, TheScenariosSurfaceAndLatitudeEnterTheWater) {
   EXPECT_NEAR(water.latitude_rad, 1.0472, 1e-4);
 }
 
-TEST(ChannelServerConfig, AVehiclesModemDiffersFromTheStandardOneInWhatItSays) {
+TEST(ChannelServerConfig, AVehiclesModemDiffersFromTheStandardOneInItsOwnKeys) {
   const auto config = read(
       "[modem]\nsource_level_db = 170\nbit_rate_bps = 300\n"
       "[[vehicle]]\nname = \"a\"\nid = 1\n"
@@ -198,7 +198,7 @@ TEST(ChannelServerConfig, RatesAndTimesAreTaken) {
   EXPECT_EQ(rules.bottom_points, 5);
 }
 
-TEST(ChannelServerConfig, EveryErrorIsToldAtOnceWithItsPlace) {
+TEST(ChannelServerConfig, EveryErrorIsReportedAtOnceWithItsPlace) {
   const std::string errors = errors_of(
       "[environment]\nwind_mps = 99\nprofile = \"lake\"\n[modem]\nbandwidth_hz = 60000\n"
       "[channel_server]\nlink_rate = 3\n");
@@ -276,7 +276,7 @@ TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed)
   EXPECT_THAT(errors, HasSubstr("MediumSand"));
 }
 
-TEST(ChannelServerConfig, ChangesOfTheWaterHoldFromTheirInstantsAndSetWhatTheySay) {
+TEST(ChannelServerConfig, ChangesOfTheWaterHoldFromTheirInstantsAndSetTheirKeysOnly) {
   const auto config = read(
       "[environment]\nwind_mps = 3\n[[environment_change]]\nat_s = 10\nshipping = 0.75\n"
       "[[environment_change]]\nat_s = 20\nwind_mps = 9\nprofile = \"isovelocity\"\nisovelocity_mps = 1450");

@@ -93,7 +93,7 @@ TEST_F(ChannelServerNodeTest, AStateFromTheFutureIsRefused) {
   EXPECT_EQ(bench.node().counters().refused, 1);
 }
 
-TEST_F(ChannelServerNodeTest, TheEnvironmentIsToldAtTheStartAndEveryMinute) {
+TEST_F(ChannelServerNodeTest, TheEnvironmentIsPublishedAtTheStartAndEveryMinute) {
   NodeBench bench;
   bench.run_to(125);
   std::vector<std::int64_t> instants;
@@ -125,7 +125,7 @@ TEST_F(ChannelServerNodeTest, APacketIsAnsweredDeliveredAndAccountedForAtItsExac
   EXPECT_EQ(bench.outcomes[0].send_session, 7);
 }
 
-TEST_F(ChannelServerNodeTest, APingIsHeardAndAnsweredWithTheTimeOutAndBack) {
+TEST_F(ChannelServerNodeTest, APingIsReceivedAndAnsweredWithTheTwoWayTravelTime) {
   NodeBench bench;
   two_at_rest(bench);
   modem_send_t ping{};
@@ -170,7 +170,7 @@ TEST_F(ChannelServerNodeTest, ARepeatedSendGetsItsReceiptAgainAndIsNotTransmitte
   EXPECT_EQ(bench.receives.size(), 1u);
 }
 
-TEST_F(ChannelServerNodeTest, RefusalsTellTheirReason) {
+TEST_F(ChannelServerNodeTest, RefusalsHoldTheirReason) {
   NodeBench bench;
   two_at_rest(bench);
   bench.send(1, 10, 0, 64);
@@ -188,7 +188,7 @@ TEST_F(ChannelServerNodeTest, RefusalsTellTheirReason) {
   EXPECT_EQ(results[3], modem_receipt_t::REFUSED_UNKNOWN_VEHICLE);
 }
 
-TEST_F(ChannelServerNodeTest, ASendHeardLateIsPublishedAtOnceWithExactStampsAndCounted) {
+TEST_F(ChannelServerNodeTest, ASendReceivedLateIsPublishedAtOnceWithExactStampsAndCounted) {
   NodeBench bench;
   two_at_rest(bench);
   bench.run_to(15);
@@ -199,7 +199,7 @@ TEST_F(ChannelServerNodeTest, ASendHeardLateIsPublishedAtOnceWithExactStampsAndC
   EXPECT_EQ(bench.node().counters().late, 1);
 }
 
-TEST_F(ChannelServerNodeTest, ASendHeardTooLateIsRefused) {
+TEST_F(ChannelServerNodeTest, ASendReceivedTooLateIsRefused) {
   NodeBench bench;
   two_at_rest(bench);
   bench.run_to(25);
@@ -263,7 +263,7 @@ TEST_F(ChannelServerNodeTest, ARestartForgetsTheOldRun) {
   bench.step(at_s(0.2), at_s(30));
   bench.step(at_s(1), at_s(31));
   EXPECT_EQ(bench.last_table(1).utime, 1'000'000);
-  EXPECT_EQ(bench.last_table(1).num_peers, 0);  // the other has not been heard in this run
+  EXPECT_EQ(bench.last_table(1).num_peers, 0);  // the other has no state in this run
   bench.step(at_s(4), at_s(40));
   EXPECT_TRUE(bench.outcomes.empty());
 }
@@ -329,7 +329,7 @@ TEST_F(ChannelServerNodeTest, TheOrderInWhichMessagesArriveChangesNothing) {
   EXPECT_EQ(run(true), forward);
 }
 
-TEST_F(ChannelServerNodeTest, StatusTellsWhatItDoes) {
+TEST_F(ChannelServerNodeTest, StatusShowsVehiclesLinksPacketsAndTheTerrain) {
   NodeBench bench;
   two_at_rest(bench);
   bench.run_to(5);

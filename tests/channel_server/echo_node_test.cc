@@ -24,13 +24,16 @@ class EchoNodeTest : public ::testing::Test {
     }
   }
   int multipath() { return bench_.last_table(1).peers.at(0).multipath; }
-  std::int64_t last_request_in(const FlatBottom& bottom) { return bottom.heard().back().request_id; }
-  void ask(std::int64_t request_id, const std::vector<std::pair<link_end_t, link_end_t>>& ends) {
+  std::int64_t last_request_in(const FlatBottom& bottom) { return bottom.queries().back().request_id; }
+  void publish_query(std::int64_t request_id, const std::vector<std::pair<link_end_t, link_end_t>>& ends) {
     link_query_t query{};
     query.client_name = "tester";
     query.request_id = request_id;
     query.num_links = static_cast<std::int32_t>(ends.size());
-    for (const auto& [from, to] : ends) query.transmitters.push_back(from), query.receivers.push_back(to);
+    for (const auto& [from, to] : ends) {
+      query.transmitters.push_back(from);
+      query.receivers.push_back(to);
+    }
     bench_.bus().publish("LINK_QUERY", query);
   }
   static link_end_t at(double north_m, double depth_m) {
@@ -43,7 +46,7 @@ class EchoNodeTest : public ::testing::Test {
   NodeBench bench_;
 };
 
-TEST_F(EchoNodeTest, ARowTellsTheEchoesOfTheTickBefore) {
+TEST_F(EchoNodeTest, ARowHoldsTheEchoesOfTheTickBefore) {
   FlatBottom bottom(bench_.lcm(), 100);
   two_at_rest();
   bench_.run_to(1);
@@ -52,11 +55,11 @@ TEST_F(EchoNodeTest, ARowTellsTheEchoesOfTheTickBefore) {
   EXPECT_EQ(multipath(), link_t::MULTIPATH_LIKELY);
 }
 
-TEST_F(EchoNodeTest, WhoStandsStillIsAskedAboutOnce) {
+TEST_F(EchoNodeTest, AVehicleAtRestIsQueriedOnce) {
   FlatBottom bottom(bench_.lcm(), 100);
   two_at_rest();
   bench_.run_to(14);
-  EXPECT_EQ(bottom.heard().size(), 2u);  // depths, ways
+  EXPECT_EQ(bottom.queries().size(), 2u);  // depths, ways
 }
 
 TEST_F(EchoNodeTest, WithoutTheServiceLinksComeAllTheSameAndItRecoversByItself) {
@@ -108,7 +111,7 @@ TEST_F(EchoNodeTest, TheEnvironmentNamesTheTerrainOnceItIsKnown) {
   EXPECT_EQ(bench_.environments.back().terrain_version, "flat-1");
 }
 
-TEST_F(EchoNodeTest, AnotherTerrainIsAskedAnew) {
+TEST_F(EchoNodeTest, AnotherTerrainIsQueriedAnew) {
   FlatBottom bottom(bench_.lcm(), 100);
   for (double t = 0; t <= 10; t += 0.5) {
     bench_.state(1, t, {0, 0, 50});
@@ -116,39 +119,39 @@ TEST_F(EchoNodeTest, AnotherTerrainIsAskedAnew) {
     bench_.state(3, t, {4 * t, 300, 50}, {4, 0, 0});  // keeps the conversation going
   }
   bench_.run_to(4);
-  const auto before = bottom.heard().size();
+  const auto before = bottom.queries().size();
   bottom.set_terrain("flat-2");
   bench_.run_to(10);
-  EXPECT_GT(bottom.heard().size(), before + 4);
+  EXPECT_GT(bottom.queries().size(), before + 4);
   EXPECT_EQ(bench_.environments.back().terrain_version, "flat-2");
   EXPECT_EQ(multipath(), link_t::MULTIPATH_LIKELY);
 }
 
-TEST_F(EchoNodeTest, ALargeFleetIsAskedAboutWithinItsAllowance) {
+TEST_F(EchoNodeTest, ALargeFleetIsQueriedWithinItsAllowance) {
   ServerRules rules;
-  rules.asking.batches_per_tick = 3;
+  rules.ray_queries.batches_per_tick = 3;
   NodeBench bench(rules);
   FlatBottom bottom(bench.lcm(), 100);
   for (double t = 0; t <= 3; t += 0.5) {
     for (VehicleId id = 1; id <= 60; ++id) bench.state(id, t, {10.0 * id, 0, 50});
   }
   bench.run_to(1);
-  EXPECT_LE(bottom.heard().size(), 3u);
-  for (const auto& query : bottom.heard()) EXPECT_LE(query.num_rays, 1024);
+  EXPECT_LE(bottom.queries().size(), 3u);
+  for (const auto& query : bottom.queries()) EXPECT_LE(query.num_rays, 1024);
   bench.run_to(3);
   EXPECT_THAT(bench.statuses.back().message.status_text, HasSubstr("echo surveys dropped"));
 }
 
-TEST_F(EchoNodeTest, AWhatIfQuestionWaitsForTheTerrain) {
+TEST_F(EchoNodeTest, AQueryBetweenPositionsWaitsForTheTerrain) {
   FlatBottom bottom(bench_.lcm(), 100);
-  ask(5, {{at(0, 50), at(500, 50)}});
+  publish_query(5, {{at(0, 50), at(500, 50)}});
   bench_.step(0, /*known=*/false);
   ASSERT_EQ(bench_.replies.size(), 1u);
   EXPECT_EQ(bench_.replies[0].message.answers.at(0).link.multipath, link_t::MULTIPATH_LIKELY);
 }
 
-TEST_F(EchoNodeTest, AWhatIfQuestionSaysUnknownAtTheDeadlineAlsoWithoutSimulationTime) {
-  ask(5, {{at(0, 50), at(500, 50)}});
+TEST_F(EchoNodeTest, AQueryBetweenPositionsIsUnknownAtTheDeadlineAlsoWithoutSimulationTime) {
+  publish_query(5, {{at(0, 50), at(500, 50)}});
   bench_.step(SimTime(), at_s(1), /*known=*/false);
   EXPECT_TRUE(bench_.replies.empty());
   bench_.step(SimTime(), at_s(1.2), false);
@@ -159,36 +162,36 @@ TEST_F(EchoNodeTest, AWhatIfQuestionSaysUnknownAtTheDeadlineAlsoWithoutSimulatio
   EXPECT_EQ(bench_.replies[0].message.answers.at(0).getml_multipath, link_t::MULTIPATH_UNKNOWN);
 }
 
-TEST_F(EchoNodeTest, WhileTheServiceIsAwayQuestionsAreAnsweredAtOnceUntilItIsBack) {
+TEST_F(EchoNodeTest, WhileTheServiceIsAwayQueriesAreAnsweredAtOnceUntilItIsBack) {
   FlatBottom bottom(bench_.lcm(), 100);
   bottom.set_away(true);
-  ask(1, {{at(0, 50), at(500, 50)}});
+  publish_query(1, {{at(0, 50), at(500, 50)}});
   bench_.step(SimTime(), at_s(1), false);
   bench_.step(SimTime(), at_s(1.25), false);
-  ask(2, {{at(0, 50), at(500, 50)}});
+  publish_query(2, {{at(0, 50), at(500, 50)}});
   bench_.step(SimTime(), at_s(2), false);  // at once; its probe goes out
   ASSERT_EQ(bench_.replies.size(), 2u);
   bottom.set_away(false);
-  ask(3, {{at(0, 50), at(500, 50)}});
+  publish_query(3, {{at(0, 50), at(500, 50)}});
   bench_.step(SimTime(), at_s(2.15), false);  // the probe is repeated and answered
-  ask(4, {{at(0, 50), at(500, 50)}});
+  publish_query(4, {{at(0, 50), at(500, 50)}});
   bench_.step(SimTime(), at_s(2.2), false);
   ASSERT_EQ(bench_.replies.size(), 4u);
   EXPECT_EQ(bench_.replies[3].message.answers.at(0).link.multipath, link_t::MULTIPATH_LIKELY);
 }
 
-TEST_F(EchoNodeTest, AQuestionAboutVehiclesKnownToTheTablesAsksNothing) {
+TEST_F(EchoNodeTest, AQueryOfVehiclesKnownToTheTablesNeedsNoTerrain) {
   FlatBottom bottom(bench_.lcm(), 100);
   two_at_rest();
   bench_.run_to(2.5);
-  const auto asked = bottom.heard().size();
+  const auto before = bottom.queries().size();
   link_end_t one{}, two{};
   one.vehicle_name = "v1";
   two.vehicle_name = "v2";
-  ask(1, {{one, two}, {two, one}});
+  publish_query(1, {{one, two}, {two, one}});
   bench_.run_to(2.5);
   EXPECT_EQ(bench_.replies.at(0).message.answers.at(1).link.multipath, link_t::MULTIPATH_LIKELY);
-  EXPECT_EQ(bottom.heard().size(), asked);
+  EXPECT_EQ(bottom.queries().size(), before);
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ class EnvironmentChangeNodeTest : public ::testing::Test {
   }
   // The row from 1 to 2 of the table of an instant.
   link_t row_at(double time_s) {
-    for (const auto& heard : bench_.links) {
-      if (heard.message.vehicle_id == 1 && heard.message.utime == at_s(time_s).to_utime()) {
-        return heard.message.peers.at(0);
+    for (const auto& table : bench_.links) {
+      if (table.message.vehicle_id == 1 && table.message.utime == at_s(time_s).to_utime()) {
+        return table.message.peers.at(0);
       }
     }
     throw std::runtime_error("no table at " + std::to_string(time_s));
@@ -58,7 +58,7 @@ TEST_F(EnvironmentChangeNodeTest, TheEnvironmentIsPublishedAtTheChange) {
   EXPECT_EQ(bench_.environments[1].wind_speed_mps, 12);
 }
 
-TEST_F(EnvironmentChangeNodeTest, AChangeHeardLateHoldsFromWhenItIsHeard) {
+TEST_F(EnvironmentChangeNodeTest, AChangeReceivedLateHoldsFromItsReception) {
   two_at_rest();
   bench_.run_to(6.5);
   bench_.change(bench_.change_of_wind(3, 12));
@@ -160,12 +160,12 @@ TEST_F(RayNodeTest, ARowKnowsTheBottomOfTheTickBefore) {
   EXPECT_EQ(row().path_state, link_t::PATH_OPEN);
 }
 
-TEST_F(RayNodeTest, WhoStandsStillIsAskedAboutOnce) {
+TEST_F(RayNodeTest, AVehicleAtRestIsQueriedOnce) {
   FlatBottom bottom(rays_.lcm(), 100);
   two_at_rest();
   rays_.run_to(14);
-  EXPECT_EQ(bottom.heard().size(), 1u);  // depths
-  EXPECT_EQ(bottom.heard()[0].num_rays, 21);
+  EXPECT_EQ(bottom.queries().size(), 1u);  // depths
+  EXPECT_EQ(bottom.queries()[0].num_rays, 21);
 }
 
 TEST_F(RayNodeTest, WithoutTheServicePathsAreStraightAndRaysComeBackByThemselves) {
@@ -179,7 +179,7 @@ TEST_F(RayNodeTest, WithoutTheServicePathsAreStraightAndRaysComeBackByThemselves
   EXPECT_EQ(row().propagation_used, link_t::USED_RAYS);
 }
 
-TEST_F(RayNodeTest, AWhatIfQuestionWaitsForTheBottom) {
+TEST_F(RayNodeTest, AQueryBetweenPositionsWaitsForTheBottom) {
   FlatBottom bottom(rays_.lcm(), 100);
   link_query_t query{};
   query.client_name = "tester";
@@ -238,10 +238,10 @@ TEST_F(RayNodeTest, ATideMovesDepthsAndSoThePaths) {
 TEST_F(RayNodeTest, TheEnvironmentNamesRaysSurfaceAndBottom) {
   two_at_rest(2);
   rays_.run_to(1);
-  const environment_t& told = rays_.environments.front();
-  EXPECT_EQ(told.propagation_model, "rays");
-  EXPECT_EQ(told.surface_model, "apl-bubbles");
-  EXPECT_EQ(told.bottom_density_ratio, acoustics::FluidBottom().density_ratio);
+  const environment_t& published = rays_.environments.front();
+  EXPECT_EQ(published.propagation_model, "rays");
+  EXPECT_EQ(published.surface_model, "apl-bubbles");
+  EXPECT_EQ(published.bottom_density_ratio, acoustics::FluidBottom().density_ratio);
 }
 
 }  // namespace

@@ -45,16 +45,19 @@ class LinkQueryTest : public ::testing::Test {
     query.client_name = "tester";
     query.request_id = request_id;
     query.num_links = static_cast<std::int32_t>(links.size());
-    for (const auto& [from, to] : links) query.transmitters.push_back(from), query.receivers.push_back(to);
+    for (const auto& [from, to] : links) {
+      query.transmitters.push_back(from);
+      query.receivers.push_back(to);
+    }
     bench_.bus().publish("LINK_QUERY", query);
   }
-  link_reply_t ask(const std::vector<std::pair<link_end_t, link_end_t>>& links, double time_s = 1) {
+  link_reply_t reply_to(const std::vector<std::pair<link_end_t, link_end_t>>& links, double time_s = 1) {
     publish(links);
     bench_.step(time_s);
     return bench_.replies.at(0).message;
   }
   link_answer_t ask_one(const link_end_t& from, const link_end_t& to) {
-    return ask({{from, to}}).answers.at(0);
+    return reply_to({{from, to}}).answers.at(0);
   }
   void expect_bad(const link_end_t& end, const std::string& text) {
     bench_.replies.clear();
@@ -90,17 +93,17 @@ TEST_F(LinkQueryTest, TheAnswerIsThatOfTheLinkModelForModemsGiven) {
   EXPECT_EQ(answer.link.capacity_bps, expected.capacity_bps);
 }
 
-TEST_F(LinkQueryTest, VehiclesAreWhereTheirStatesSayAtThatInstant) {
+TEST_F(LinkQueryTest, VehiclesAreWhereTheirStatesPutThemAtThatInstant) {
   bench_.state(1, 0, {0, 0, 50});
   bench_.state(2, 0, {1000, 0, 50}, {10, 0, 0});
   bench_.step(2);
-  const auto answer = ask({{named("v1"), named("v2")}}, 3).answers.at(0);
+  const auto answer = reply_to({{named("v1"), named("v2")}}, 3).answers.at(0);
   EXPECT_EQ(answer.link.receiver_id, 2);
   EXPECT_NEAR(answer.link.range_m, 1030, tolerance(1e-9));
   EXPECT_NEAR(answer.link.receiver_age_s, 3, tolerance(1e-12));
 }
 
-TEST_F(LinkQueryTest, AVehicleNotHeardIsSaidToBeUnknown) {
+TEST_F(LinkQueryTest, AVehicleWithoutStatesIsUnknown) {
   const auto answer = ask_one(named("ghost"), at(0, 50));
   EXPECT_EQ(answer.answer_status, link_answer_t::UNKNOWN_VEHICLE);
   EXPECT_THAT(answer.problem, HasSubstr("ghost"));
@@ -115,8 +118,8 @@ TEST_F(LinkQueryTest, WithoutSimulationTimeVehiclesAreUnknownAndPositionsAreAnsw
   EXPECT_EQ(answers.at(1).answer_status, link_answer_t::ANSWERED);
 }
 
-TEST_F(LinkQueryTest, EachLinkIsJudgedOnItsOwn) {
-  const auto reply = ask({{at(0, 50), at(100, 50)}, {at(0, 50), at(0, -5)}, {at(0, 50), at(200, 50)}});
+TEST_F(LinkQueryTest, EachLinkIsAnsweredOrRefusedOnItsOwn) {
+  const auto reply = reply_to({{at(0, 50), at(100, 50)}, {at(0, 50), at(0, -5)}, {at(0, 50), at(200, 50)}});
   EXPECT_EQ(reply.reply_status, link_reply_t::OK);
   EXPECT_EQ(reply.answers.at(0).answer_status, link_answer_t::ANSWERED);
   EXPECT_EQ(reply.answers.at(1).answer_status, link_answer_t::BAD_INPUT);
@@ -146,17 +149,17 @@ TEST_F(LinkQueryTest, ImpossibleModemsAreRefusedWithClearWords) {
   expect_bad(with_modem(at(0, 50), modem), "directivity index");
 }
 
-TEST_F(LinkQueryTest, AQuestionWithoutLinksOrWithTooManyIsRefusedAsAWhole) {
-  EXPECT_EQ(ask({}).reply_status, link_reply_t::REFUSED);
+TEST_F(LinkQueryTest, AQueryWithoutLinksOrWithTooManyIsRefusedAsAWhole) {
+  EXPECT_EQ(reply_to({}).reply_status, link_reply_t::REFUSED);
   bench_.replies.clear();
-  const auto reply = ask(std::vector<std::pair<link_end_t, link_end_t>>(201, {at(0, 50), at(1, 50)}));
+  const auto reply = reply_to(std::vector<std::pair<link_end_t, link_end_t>>(201, {at(0, 50), at(1, 50)}));
   EXPECT_EQ(reply.reply_status, link_reply_t::REFUSED);
   EXPECT_THAT(reply.refusal, HasSubstr("1 to 200"));
   EXPECT_TRUE(reply.answers.empty());
 }
 
 TEST_F(LinkQueryTest, TwoHundredLinksAreAnswered) {
-  const auto reply = ask(std::vector<std::pair<link_end_t, link_end_t>>(200, {at(0, 50), at(400, 50)}));
+  const auto reply = reply_to(std::vector<std::pair<link_end_t, link_end_t>>(200, {at(0, 50), at(400, 50)}));
   ASSERT_EQ(reply.num_answers, 200);
   EXPECT_EQ(reply.answers.back().link.multipath, link_t::MULTIPATH_LIKELY);
 }
@@ -170,14 +173,14 @@ TEST_F(LinkQueryTest, ARepetitionWhileWaitingIsAnsweredOnce) {
   EXPECT_EQ(bench_.replies.size(), 1u);
 }
 
-TEST_F(LinkQueryTest, TooManyWaitingQuestionsAreRefused) {
+TEST_F(LinkQueryTest, TooManyWaitingQueriesAreRefused) {
   bottom_.set_away(true);
   for (int i = 0; i < 40; ++i) publish({{at(0, 50), at(1, 50)}}, i);
   bench_.step(1);
   for (int i = 40; i < 80; ++i) publish({{at(0, 50), at(1, 50)}}, i);
   bench_.step(1.01);
   EXPECT_EQ(bench_.replies.size(), 16u);
-  EXPECT_THAT(bench_.replies.back().message.refusal, HasSubstr("too many questions"));
+  EXPECT_THAT(bench_.replies.back().message.refusal, HasSubstr("too many queries"));
   bench_.step(1.26);
   EXPECT_EQ(bench_.replies.size(), 80u);
 }

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "bus/message_checks.h"
-#include "channel_server/environment_messages.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packet_messages.h"
-#include "channel_server/vehicle_messages.h"
+#include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 
@@ -37,8 +36,8 @@ VehicleModem odd_modem() {
   return modem;
 }
 
-PacketEnd some_end() {
-  PacketEnd end;
+PacketOutcome some_outcome() {
+  PacketOutcome end;
   SendRequest request = testing::request_of(3, 10, 44, 5);
   request.destination_id = 4;
   request.stamped = true;
@@ -55,7 +54,7 @@ PacketEnd some_end() {
   end.doppler_factor = 1.0625;
   end.arrival_azimuth_rad = -3;
   end.arrival_elevation_rad = 0.125;
-  end.judgement = {{81}, {12.5}, 0.75, 0.5, 0.625, 0.25, {{9, 77, PacketKind::kPing, 2, at_s(3), 1234}}};
+  end.statistics = {{81}, {12.5}, 0.75, 0.5, 0.625, 0.25, {{9, 77, PacketKind::kPing, 2, at_s(3), 1234}}};
   return end;
 }
 
@@ -145,17 +144,17 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(SendResult::kWrongSource), modem_receipt_t::REFUSED_WRONG_SOURCE);
   EXPECT_EQ(static_cast<int>(SendResult::kStale), modem_receipt_t::REFUSED_STALE);
   EXPECT_EQ(static_cast<int>(SendResult::kTooEarly), modem_receipt_t::REFUSED_TOO_EARLY);
-  EXPECT_EQ(static_cast<int>(PacketFate::kReceived), packet_outcome_t::RECEIVED);
-  EXPECT_EQ(static_cast<int>(PacketFate::kBelowCutoff), packet_outcome_t::BELOW_CUTOFF);
-  EXPECT_EQ(static_cast<int>(PacketFate::kReceiverGone), packet_outcome_t::RECEIVER_GONE);
-  EXPECT_EQ(static_cast<int>(PacketFate::kShadow), packet_outcome_t::SHADOW);
-  EXPECT_EQ(static_cast<int>(PacketFate::kBlocked), packet_outcome_t::BLOCKED);
-  EXPECT_EQ(static_cast<int>(PacketFate::kOutOfBand), packet_outcome_t::OUT_OF_BAND);
-  EXPECT_EQ(static_cast<int>(PacketFate::kCollided), packet_outcome_t::COLLIDED);
-  EXPECT_EQ(static_cast<int>(PacketFate::kHalfDuplex), packet_outcome_t::HALF_DUPLEX);
-  EXPECT_EQ(static_cast<int>(PacketFate::kDoppler), packet_outcome_t::DOPPLER);
-  EXPECT_EQ(static_cast<int>(PacketFate::kBitErrors), packet_outcome_t::BIT_ERRORS);
-  EXPECT_EQ(static_cast<int>(PacketFate::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kReceived), packet_outcome_t::RECEIVED);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kBelowCutoff), packet_outcome_t::BELOW_CUTOFF);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kReceiverGone), packet_outcome_t::RECEIVER_GONE);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kShadow), packet_outcome_t::SHADOW);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kBlocked), packet_outcome_t::BLOCKED);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kOutOfBand), packet_outcome_t::OUT_OF_BAND);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kCollided), packet_outcome_t::COLLIDED);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kHalfDuplex), packet_outcome_t::HALF_DUPLEX);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kDoppler), packet_outcome_t::DOPPLER);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kBitErrors), packet_outcome_t::BIT_ERRORS);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kStraight), packet_outcome_t::STRAIGHT);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kRays), packet_outcome_t::RAYS);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kStraightWithoutBottom),
@@ -180,8 +179,8 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(RayAnswer::Kind::kBadInput), ray_reply_t::BAD_INPUT);
 }
 
-TEST(ChannelServerMessages, APacketsEndTellsWhatDecidedIt) {
-  const packet_outcome_t outcome = to_outcome(some_end(), at_s(11.3));
+TEST(ChannelServerMessages, AnOutcomeHoldsWhatDecidedIt) {
+  const packet_outcome_t outcome = to_outcome(some_outcome(), at_s(11.3));
   EXPECT_EQ(bus::problem_in(outcome), "");
   EXPECT_EQ(outcome.utime, 11'300'000);
   EXPECT_EQ(outcome.departure_utime, 10'500'000);
@@ -191,7 +190,7 @@ TEST(ChannelServerMessages, APacketsEndTellsWhatDecidedIt) {
   EXPECT_EQ(outcome.duration_s, 0.05);
   EXPECT_EQ(outcome.range_m, 900);
   EXPECT_EQ(outcome.cutoff_level_db, 70);
-  EXPECT_EQ(outcome.received_level_db, some_end().budget.received_level.value);
+  EXPECT_EQ(outcome.received_level_db, some_outcome().budget.received_level.value);
   EXPECT_EQ(outcome.propagation_used, packet_outcome_t::RAYS);
   EXPECT_EQ(outcome.num_paths, 4);
   EXPECT_EQ(outcome.delay_spread_s, 0.375);
@@ -212,7 +211,7 @@ TEST(ChannelServerMessages, APacketsEndTellsWhatDecidedIt) {
 }
 
 TEST(ChannelServerMessages, AReceiverCannotKnowWhenAPacketWithoutAStampLeft) {
-  PacketEnd end = some_end();
+  PacketOutcome end = some_outcome();
   EXPECT_EQ(to_receive(end, at_s(11.3)).departure_utime, 10'500'000);
   EXPECT_EQ(to_receive(end, at_s(11.3)).travel_time_s, 1.25);
   Packet silent = *end.packet;
@@ -225,15 +224,15 @@ TEST(ChannelServerMessages, AReceiverCannotKnowWhenAPacketWithoutAStampLeft) {
 }
 
 TEST(ChannelServerMessages, AReceivedPacketCarriesItsPayload) {
-  const modem_receive_t receive = to_receive(some_end(), at_s(11.3));
+  const modem_receive_t receive = to_receive(some_outcome(), at_s(11.3));
   EXPECT_EQ(bus::problem_in(receive), "");
   EXPECT_EQ(receive.payload_size, 5);
-  EXPECT_EQ(receive.payload, some_end().packet->request.payload);
+  EXPECT_EQ(receive.payload, some_outcome().packet->request.payload);
   EXPECT_EQ(receive.destination_id, 4);
-  EXPECT_EQ(receive.snr_db, some_end().budget.snr.value);
+  EXPECT_EQ(receive.snr_db, some_outcome().budget.snr.value);
 }
 
-TEST(ChannelServerMessages, AReceiptTellsStartAndDuration) {
+TEST(ChannelServerMessages, AReceiptHoldsStartAndDuration) {
   const Receipt receipt{"v3", 7, 44, SendResult::kAccepted, at_s(10), for_s(0.5)};
   const modem_receipt_t message = to_message(receipt, at_s(10.1));
   EXPECT_EQ(bus::problem_in(message), "");
@@ -243,7 +242,7 @@ TEST(ChannelServerMessages, AReceiptTellsStartAndDuration) {
   EXPECT_EQ(message.send_session, 7);
 }
 
-TEST(ChannelServerMessages, ALinkTableTellsEveryFieldOfItsRows) {
+TEST(ChannelServerMessages, ALinkTableHoldsEveryFieldOfItsRows) {
   LinkRow row{
       1,          2,          acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5}), Multipath::kLikely,
       for_s(0.5), for_s(0.25)};
@@ -301,10 +300,10 @@ TEST(ChannelServerMessages, AModemThatCannotBeReadIsTheProblemOfItsEndAlone) {
   query.receivers[0].modem_choice = link_end_t::MODEM_GIVEN;
   query.receivers[0].modem = to_message(odd_modem(), at_s(0));
   query.receivers[0].modem.bit_rate_bps = std::numeric_limits<double>::quiet_NaN();
-  const LinkQuestion question = to_question(query);
-  EXPECT_EQ(question.transmitters[0].problem, "");
-  EXPECT_NE(question.receivers[0].problem, "");
-  EXPECT_FALSE(question.receivers[0].modem);
+  const LinkQuery query = to_query(query);
+  EXPECT_EQ(query.transmitters[0].problem, "");
+  EXPECT_NE(query.receivers[0].problem, "");
+  EXPECT_FALSE(query.receivers[0].modem);
 }
 
 TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {

@@ -1,5 +1,5 @@
-// A channel server on a bus of its own (memq), with hands to publish as vehicles do, an ear for everything it
-// says, and a bathymetry service that can be switched off.
+// A channel server on a bus of its own (memq), with functions that publish as vehicles do, subscriptions to all that
+// it publishes, and a bathymetry service that can be switched off.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "channel_server/channel_server_node.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/packet_messages.h"
-#include "channel_server/vehicle_messages.h"
+#include "channel_server/world_messages.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server::testing {
@@ -28,11 +28,11 @@ class FlatBottom {
   }
   void set_away(bool away) { away_ = away; }
   void set_terrain(const std::string& version) { terrain_ = version; }
-  const std::vector<ray_query_t>& heard() const { return heard_; }
+  const std::vector<ray_query_t>& queries() const { return queries_; }
 
  private:
   void answer(const ray_query_t& query) {
-    heard_.push_back(query);
+    queries_.push_back(query);
     if (away_) return;
     const bool depth = query.query_mode == ray_query_t::DEPTH;
     ray_reply_t reply{};
@@ -51,12 +51,12 @@ class FlatBottom {
   double bottom_z_m_;
   bool away_ = false;
   std::string terrain_ = "flat-1";
-  std::vector<ray_query_t> heard_;
+  std::vector<ray_query_t> queries_;
 };
 
-// One message heard, by channel and arrival.
+// A message received, with its channel.
 template <class Message>
-struct HeardOn {
+struct ReceivedOn {
   std::string channel;
   Message message;
 };
@@ -72,11 +72,11 @@ class NodeBench {
       : lcm_("memq://"),
         node_(lcm_, {"channel-server", kSession}, std::move(water), modems, rules),
         bus_(lcm_, {"test", 1}) {
-    hear(channels::kLinks, links);
-    hear(channels::kReceipt, receipts);
-    hear(channels::kReceive, receives);
-    hear(channels::kLinkReply, replies);
-    hear(channels::kStatus, statuses);
+    record(channels::kLinks, links);
+    record(channels::kReceipt, receipts);
+    record(channels::kReceive, receives);
+    record(channels::kLinkReply, replies);
+    record(channels::kStatus, statuses);
     bus_.subscribe<packet_outcome_t>(channels::kOutcome,
                                      [this](const packet_outcome_t& m) { outcomes.push_back(m); });
     bus_.subscribe<environment_t>(channels::kEnvironment,
@@ -96,8 +96,10 @@ class NodeBench {
     message.utime = at_s(time_s).to_utime();
     message.vehicle_id = id;
     message.orientation_wxyz[0] = 1;
-    for (int i = 0; i < 3; ++i)
-      message.position_ned_m[i] = position[i], message.velocity_ned_mps[i] = velocity[i];
+    for (int i = 0; i < 3; ++i) {
+      message.position_ned_m[i] = position[i];
+      message.velocity_ned_mps[i] = velocity[i];
+    }
     bus_.publish(channels::kState.of(name), message);
   }
   modem_send_t send(VehicleId source, double time_s, std::int64_t sequence, std::int32_t bytes = 1,
@@ -164,17 +166,17 @@ class NodeBench {
     throw std::runtime_error("no table of vehicle " + std::to_string(id));
   }
 
-  std::vector<HeardOn<link_table_t>> links;
-  std::vector<HeardOn<modem_receipt_t>> receipts;
-  std::vector<HeardOn<modem_receive_t>> receives;
-  std::vector<HeardOn<link_reply_t>> replies;
-  std::vector<HeardOn<node_status_t>> statuses;
+  std::vector<ReceivedOn<link_table_t>> links;
+  std::vector<ReceivedOn<modem_receipt_t>> receipts;
+  std::vector<ReceivedOn<modem_receive_t>> receives;
+  std::vector<ReceivedOn<link_reply_t>> replies;
+  std::vector<ReceivedOn<node_status_t>> statuses;
   std::vector<packet_outcome_t> outcomes;
   std::vector<environment_t> environments;
 
  private:
   template <class Message>
-  void hear(const bus::Family& family, std::vector<HeardOn<Message>>& into) {
+  void record(const bus::Family& family, std::vector<ReceivedOn<Message>>& into) {
     bus_.subscribe<Message>(family, [&into, family](std::string_view name, const Message& message) {
       into.push_back({family.of(name), message});
     });

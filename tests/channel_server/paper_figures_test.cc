@@ -105,7 +105,7 @@ TEST(Figures6And7, LevelsAndCapacitiesInTheTablesMatchTheReference) {
   }
 }
 
-TEST(Figures6And7, AnswersToQuestionsMatchTheReference) {
+TEST(Figures6And7, AnswersToQueriesMatchTheReference) {
   const auto rows = read_reference_csv("acoustics/fig6_fig7_100m_depth.csv");
   for (std::size_t i = 0; i < rows.size(); i += 5) {
     acoustics::Environment water;

@@ -1,5 +1,5 @@
-// A channel server that dies while packets are under way, and returns with its journal, has said in both
-// lives together what one that lived on says: nothing twice, nothing missing, the same numbers.
+// A channel server that is killed while packets are under way, and restarted with its journal, publishes in both
+// incarnations together what an uninterrupted one publishes: nothing twice, nothing missing, the same numbers.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -21,7 +21,7 @@ using testing::NodeBench;
 constexpr VehicleId kVehicles = 4;
 constexpr double kBottomM = 200;
 
-// The bytes of a message without who said it as his how-manieth.
+// The bytes of a message without session and sequence number.
 template <class Message>
 std::string unnumbered(Message message) {
   message.session = message.sequence = 0;
@@ -30,17 +30,17 @@ std::string unnumbered(Message message) {
   return bytes;
 }
 
-// One life of a server, beside the bathymetry service.
-struct Life {
-  Life(bool rays, const std::string& journal)
+// One incarnation of a server, beside the bathymetry service.
+struct Incarnation {
+  Incarnation(bool rays, const std::string& journal)
       : bench({}, {testing::quick_modem(), {}},
               rays ? ray_model(testing::even_water(), {}, {}) : straight_model(testing::even_water())),
         bottom(bench.lcm(), kBottomM) {
     if (!journal.empty()) bench.node().open_journal(journal);
   }
-  // What four vehicles, two to six kilometres apart, say in a tenth of a second: two send at times, of which
+  // What four vehicles, two to six kilometres apart, publish in a tenth of a second: two send at times, of which
   // one pings.
-  void say(int tenth) {
+  void publish(int tenth) {
     const double t = tenth / 10.0;
     for (VehicleId id = 1; id <= kVehicles; ++id) {
       bench.state(id, t, {2000.0 * id + t, 40.0 * id - 2 * t, 60}, {1, -2, 0});
@@ -53,9 +53,9 @@ struct Life {
     ping.utime += 400'000;
     bench.bus().publish(testing::channels::kSend.of(testing::name_of(2)), ping);
   }
-  void live(int from_tenth, int to_tenth) {
+  void run(int from_tenth, int to_tenth) {
     for (int tenth = from_tenth; tenth < to_tenth; ++tenth) {
-      say(tenth);
+      publish(tenth);
       bench.run_to(tenth / 10.0 + 0.0999);
     }
   }
@@ -64,7 +64,7 @@ struct Life {
   testing::FlatBottom bottom;
 };
 
-struct Told {
+struct Published {
   std::multiset<std::string> outcomes, receives, receipts;
   std::multiset<double> arrivals_s;
   void add(const NodeBench& bench) {
@@ -82,26 +82,26 @@ class RecoveringServer : public ::testing::TestWithParam<bool> {
     for (const char* part : {"", ".1"}) std::filesystem::remove(journal_ + part);
   }
 
-  // Dies at each of `deaths` (tenths of a second), and returns `away` tenths later; what was said meanwhile
+  // Killed at each of `kills` (tenths of a second), and restarted `away` tenths later; what was published meanwhile
   // is repaired.
-  Told with_deaths(const std::vector<int>& deaths, int away) {
+  Published with_kills(const std::vector<int>& kills, int away) {
     forget();
-    Told told;
+    Published published;
     int tenth = 0;
-    auto life = std::make_unique<Life>(GetParam(), journal_);
-    for (const int death : deaths) {
-      life->live(tenth, death);
-      told.add(life->bench);
-      late_ += life->bench.node().counters().late;
-      life = std::make_unique<Life>(GetParam(), journal_);
-      for (tenth = death; tenth < death + away; ++tenth) life->say(tenth);
-      life->bench.step((tenth - 1) / 10.0 + 0.0999);
+    auto server = std::make_unique<Incarnation>(GetParam(), journal_);
+    for (const int kill : kills) {
+      server->run(tenth, kill);
+      published.add(server->bench);
+      late_ += server->bench.node().counters().late;
+      server = std::make_unique<Incarnation>(GetParam(), journal_);
+      for (tenth = kill; tenth < kill + away; ++tenth) server->publish(tenth);
+      server->bench.step((tenth - 1) / 10.0 + 0.0999);
     }
-    life->live(tenth, kTenths);
-    life->bench.run_to(kTenths / 10.0 + 20);
-    told.add(life->bench);
-    late_ += life->bench.node().counters().late;
-    return told;
+    server->run(tenth, kTenths);
+    server->bench.run_to(kTenths / 10.0 + 20);
+    published.add(server->bench);
+    late_ += server->bench.node().counters().late;
+    return published;
   }
 
   static constexpr int kTenths = 400;
@@ -109,12 +109,12 @@ class RecoveringServer : public ::testing::TestWithParam<bool> {
   std::int64_t late_ = 0;
 };
 
-TEST_P(RecoveringServer, SaysInAllItsLivesWhatOneThatLivedOnSays) {
-  const Told one = with_deaths({}, 0);
+TEST_P(RecoveringServer, PublishesInAllIncarnationsWhatAnUninterruptedServerPublishes) {
+  const Published one = with_kills({}, 0);
   EXPECT_GT(one.outcomes.size(), 150u);
   EXPECT_GT(one.receives.size(), 30u);
   EXPECT_EQ(late_, 0);
-  const Told several = with_deaths({51, 123, 140, 266, 301}, 12);
+  const Published several = with_kills({51, 123, 140, 266, 301}, 12);
   EXPECT_TRUE(several.outcomes == one.outcomes);
   EXPECT_TRUE(several.receives == one.receives);
   EXPECT_TRUE(several.receipts.size() == one.receipts.size());
@@ -122,57 +122,57 @@ TEST_P(RecoveringServer, SaysInAllItsLivesWhatOneThatLivedOnSays) {
 }
 
 TEST_P(RecoveringServer, WithoutAJournalLosesWhatWasUnderWay) {
-  const Told one = with_deaths({}, 0);
-  Life first(GetParam(), "");
-  first.live(0, 200);
-  Life second(GetParam(), "");
-  second.live(200, kTenths);
+  const Published one = with_kills({}, 0);
+  Incarnation first(GetParam(), "");
+  first.run(0, 200);
+  Incarnation second(GetParam(), "");
+  second.run(200, kTenths);
   second.bench.run_to(kTenths / 10.0 + 20);
   EXPECT_LT(first.bench.outcomes.size() + second.bench.outcomes.size(), one.outcomes.size());
 }
 
 TEST_P(RecoveringServer, GoesOnWithTheNumbersOfItsFlows) {
-  Life first(GetParam(), journal_);
-  first.live(0, 100);
+  Incarnation first(GetParam(), journal_);
+  first.run(0, 100);
   ASSERT_FALSE(first.bench.outcomes.empty());
-  Life second(GetParam(), journal_);
+  Incarnation second(GetParam(), journal_);
   second.bench.step(10.0);
-  second.live(100, 200);
+  second.run(100, 200);
   ASSERT_FALSE(second.bench.outcomes.empty());
   EXPECT_EQ(second.bench.outcomes.front().session, first.bench.outcomes.back().session);
   EXPECT_EQ(second.bench.outcomes.front().sequence, first.bench.outcomes.back().sequence + 1);
 }
 
-TEST_P(RecoveringServer, TellsNoTableOfATickThatPassedWhileItWasAway) {
-  Life first(GetParam(), journal_);
-  first.live(0, 100);
-  Life second(GetParam(), journal_);
-  for (int tenth = 100; tenth < 135; ++tenth) second.say(tenth);
+TEST_P(RecoveringServer, PublishesNoTableOfATickThatPassedWhileItWasAway) {
+  Incarnation first(GetParam(), journal_);
+  first.run(0, 100);
+  Incarnation second(GetParam(), journal_);
+  for (int tenth = 100; tenth < 135; ++tenth) second.publish(tenth);
   second.bench.step(13.45);
-  second.live(135, 160);
+  second.run(135, 160);
   ASSERT_FALSE(second.bench.links.empty());
   EXPECT_EQ(second.bench.links.front().message.utime, 14'000'000);
 }
 
 TEST_P(RecoveringServer, ForgetsTheJournalOfAnotherRun) {
-  Life first(GetParam(), journal_);
-  first.live(0, 300);
-  Life second(GetParam(), journal_);
-  second.say(3);
+  Incarnation first(GetParam(), journal_);
+  first.run(0, 300);
+  Incarnation second(GetParam(), journal_);
+  second.publish(3);
   second.bench.step(0.5);
-  second.live(6, 300);
+  second.run(6, 300);
   second.bench.run_to(50);
   EXPECT_FALSE(second.bench.outcomes.empty());
   EXPECT_EQ(second.bench.outcomes.front().sequence, 0);
 }
 
 TEST_P(RecoveringServer, AJournalCutOffWithinAnEntryIsReadUpToThere) {
-  Life first(GetParam(), journal_);
-  first.live(0, 100);
+  Incarnation first(GetParam(), journal_);
+  first.run(0, 100);
   std::filesystem::resize_file(journal_, std::filesystem::file_size(journal_) - 7);
-  Life second(GetParam(), journal_);
+  Incarnation second(GetParam(), journal_);
   second.bench.step(10.0);
-  second.live(100, 200);
+  second.run(100, 200);
   EXPECT_FALSE(second.bench.outcomes.empty());
 }
 

@@ -1,7 +1,8 @@
 // A propagation whose paths are written down link by link, and a bench of still vehicles around a medium: what
-// decides a packet's fate can then be set one by one.
+// decides a packet's outcome can then be set one by one.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/bit_error.h"
 #include "channel_server/packets/packet_medium.h"
 #include "tests/channel_server/channel_fixtures.h"
 
@@ -24,15 +26,26 @@ inline SoundPath path(double delay_s, double level_db, double doppler_factor = 1
   return sound;
 }
 
+// What the quick modem (800 bit/s in 5 kHz, non-coherent FSK) does with a bit at this ratio.
+inline double bit_error(double sinr) {
+  return acoustics::bit_error_rate(quick_modem().modem, PowerRatio{sinr});
+}
+
+// The level, dB, at which `error` of the bits are wrong in noise alone: exp(-Eb/2N0)/2 solved for S.
+inline double level_with_bit_error(double error, double noise_power) {
+  const double eb_over_n0 = -2 * std::log(2 * error);
+  return 10 * std::log10(eb_over_n0 * 800 / 5000 * noise_power);
+}
+
 class ScriptedPropagation : public Propagation {
  public:
   // Paths by delay; without any, silence for the reason given.
   void set(VehicleId from, VehicleId to, std::vector<SoundPath> paths, PathState state = PathState::kOpen) {
     links_[{from, to}] = {std::move(paths), state};
   }
-  // A link that is not written down is in a shadow, one second away.
+  // A link that is not set is in a shadow, one second away.
   Reception reception(SimTime, const LinkEnd& from, const LinkEnd& to) override {
-    ++questions;
+    ++calls;
     Reception reception;
     reception.state = PathState::kShadow;
     reception.used = PropagationUsed::kRays;
@@ -53,7 +66,7 @@ class ScriptedPropagation : public Propagation {
   }
   const acoustics::Environment& environment(SimTime) const override { return water_; }
 
-  int questions = 0;
+  int calls = 0;
 
  private:
   acoustics::Environment water_ = even_water();
@@ -76,10 +89,10 @@ class ScriptedWater : public ::testing::Test {
     for (MediumEvent& event : medium.advance_to(at_s(until_s))) events.push_back(std::move(event));
   }
   // Of the packet that `source` called `sequence`, at `receiver`.
-  const PacketEnd& end_of(VehicleId source, std::int64_t sequence, VehicleId receiver,
-                          PacketKind kind = PacketKind::kData) {
+  const PacketOutcome& end_of(VehicleId source, std::int64_t sequence, VehicleId receiver,
+                              PacketKind kind = PacketKind::kData) {
     for (const MediumEvent& event : events) {
-      const auto* end = std::get_if<PacketEnd>(&event.what);
+      const auto* end = std::get_if<PacketOutcome>(&event.what);
       if (end && end->packet->request.source_id == source && end->receiver_id == receiver &&
           end->packet->request.packet_sequence == sequence && end->packet->request.kind == kind) {
         return *end;

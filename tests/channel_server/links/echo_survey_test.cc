@@ -16,7 +16,7 @@ const Vec3 kFrom(0, 0, 40), kTo(900, 0, 70);
 
 std::vector<RayAnswer> same_answer(std::size_t count, RayAnswer answer) { return {count, answer}; }
 
-// A survey over a flat bottom, with every way free unless said otherwise.
+// A survey over a flat bottom, with every way free unless given otherwise.
 EchoSurvey surveyed(double bottom_z_m, RayAnswer ways = {Kind::kMiss, 0}) {
   EchoSurvey survey(kFrom, kTo, 3);
   survey.take_depths(same_answer(3, {Kind::kHit, bottom_z_m}));
@@ -31,7 +31,7 @@ acoustics::Modem modem_with_cutoff(double cutoff_db) {
   return modem;
 }
 
-TEST(EchoSurvey, AsksForTheBottomUnderTheMiddlesOfEqualParts) {
+TEST(EchoSurvey, QueriesTheBottomUnderTheMiddlesOfEqualParts) {
   const auto rays = EchoSurvey(kFrom, kTo, 3).depth_rays();
   ASSERT_EQ(rays.size(), 3u);
   EXPECT_NEAR(rays[0].origin_ned_m.x(), 150, tolerance(1e-9));
@@ -40,7 +40,7 @@ TEST(EchoSurvey, AsksForTheBottomUnderTheMiddlesOfEqualParts) {
   EXPECT_EQ(rays[1].direction, Vec3(0, 0, 1));
 }
 
-TEST(EchoSurvey, AsksForBothWaysFromTheEndsDownAndStopsShortOfTheBottom) {
+TEST(EchoSurvey, QueriesBothWaysFromTheEndsDownAndStopsShortOfTheBottom) {
   EchoSurvey survey(kFrom, kTo, 3);
   survey.take_depths(same_answer(3, {Kind::kHit, 200}));
   const auto rays = survey.way_rays();
@@ -53,7 +53,7 @@ TEST(EchoSurvey, AsksForBothWaysFromTheEndsDownAndStopsShortOfTheBottom) {
               tolerance(1e-9));
 }
 
-TEST(EchoSurvey, AnEndOnTheBottomAsksNoImpossibleRay) {
+TEST(EchoSurvey, AnEndOnTheBottomQueriesNoImpossibleRay) {
   EchoSurvey survey({0, 0, 100}, {0, 0, 50}, 1);
   survey.take_depths(same_answer(1, {Kind::kHit, 100}));
   for (const TerrainRay& ray : survey.way_rays()) {
@@ -75,7 +75,7 @@ TEST(EchoSurvey, AnAnswerOfAnotherCountIsRefused) {
   EXPECT_THROW(survey.take_depths(same_answer(2, {})), InvalidArgument);
 }
 
-TEST(EchoSurvey, AWayThatCannotBeToldMakesItIncomplete) {
+TEST(EchoSurvey, AWayWithoutAnAnswerMakesItIncomplete) {
   EXPECT_TRUE(surveyed(200).complete());
   EXPECT_FALSE(surveyed(200, {Kind::kOutside, 0}).complete());
   EXPECT_FALSE(surveyed(200, {Kind::kBadInput, 0}).complete());
@@ -84,7 +84,7 @@ TEST(EchoSurvey, AWayThatCannotBeToldMakesItIncomplete) {
 
 class MultipathOfTest : public ::testing::Test {
  protected:
-  Multipath judge(const EchoSurvey& survey, double cutoff_db, bool reversed = false) {
+  Multipath verdict_of(const EchoSurvey& survey, double cutoff_db, bool reversed = false) {
     const auto modem = modem_with_cutoff(cutoff_db);
     return multipath_of(survey, reversed, SimTime(), propagation_, modem, modem);
   }
@@ -92,31 +92,31 @@ class MultipathOfTest : public ::testing::Test {
 };
 
 TEST_F(MultipathOfTest, IsLikelyWhenAFreeEchoIsLoudEnough) {
-  EXPECT_EQ(judge(surveyed(200), 60), Multipath::kLikely);
-  EXPECT_EQ(judge(surveyed(200), 149), Multipath::kUnlikely);
+  EXPECT_EQ(verdict_of(surveyed(200), 60), Multipath::kLikely);
+  EXPECT_EQ(verdict_of(surveyed(200), 149), Multipath::kUnlikely);
 }
 
 TEST_F(MultipathOfTest, IsUnlikelyWhenTerrainStandsInEveryWay) {
-  EXPECT_EQ(judge(surveyed(200, {Kind::kHit, 5}), 60), Multipath::kUnlikely);
-  EXPECT_EQ(judge(surveyed(200, {Kind::kBelowBottom, 0}), 60), Multipath::kUnlikely);
+  EXPECT_EQ(verdict_of(surveyed(200, {Kind::kHit, 5}), 60), Multipath::kUnlikely);
+  EXPECT_EQ(verdict_of(surveyed(200, {Kind::kBelowBottom, 0}), 60), Multipath::kUnlikely);
 }
 
-TEST_F(MultipathOfTest, IsUnknownWhenNoEchoIsFoundButNotAllWasTold) {
+TEST_F(MultipathOfTest, IsUnknownWhenNoEchoIsFoundAndAnswersAreMissing) {
   EchoSurvey survey(kFrom, kTo, 3);
   survey.take_depths(same_answer(3, {Kind::kNoData, 0}));
-  EXPECT_EQ(judge(survey, 60), Multipath::kUnknown);
+  EXPECT_EQ(verdict_of(survey, 60), Multipath::kUnknown);
 }
 
-TEST_F(MultipathOfTest, IsLikelyByOneKnownEchoAlthoughNotAllWasTold) {
+TEST_F(MultipathOfTest, IsLikelyByOneKnownEchoAlthoughAnswersAreMissing) {
   EchoSurvey survey(kFrom, kTo, 3);
   survey.take_depths(std::vector<RayAnswer>{{Kind::kHit, 200}, {Kind::kNoData, 0}, {Kind::kNoData, 0}});
   survey.take_ways(same_answer(2, {Kind::kMiss, 0}));
-  EXPECT_EQ(judge(survey, 60), Multipath::kLikely);
+  EXPECT_EQ(verdict_of(survey, 60), Multipath::kLikely);
 }
 
 TEST_F(MultipathOfTest, ServesBothDirections) {
   for (const double cutoff_db : {60.0, 100.0, 105.0, 110.0}) {
-    EXPECT_EQ(judge(surveyed(200), cutoff_db), judge(surveyed(200), cutoff_db, /*reversed=*/true));
+    EXPECT_EQ(verdict_of(surveyed(200), cutoff_db), verdict_of(surveyed(200), cutoff_db, /*reversed=*/true));
   }
 }
 
@@ -131,8 +131,8 @@ TEST_F(MultipathOfTest, ChangesAtTheLevelOfTheShortestEcho) {
           acoustics::LinkModel(testing::even_water(), modem_with_cutoff(0), modem_with_cutoff(0)), {0, 0, 70},
           {900, 0, 70}, {{450, 0, 200}})
           .level.value;
-  EXPECT_EQ(judge(survey, level_db - 0.001), Multipath::kLikely);
-  EXPECT_EQ(judge(survey, level_db + 0.001), Multipath::kUnlikely);
+  EXPECT_EQ(verdict_of(survey, level_db - 0.001), Multipath::kLikely);
+  EXPECT_EQ(verdict_of(survey, level_db + 0.001), Multipath::kUnlikely);
 }
 
 }  // namespace

@@ -16,12 +16,14 @@ using testing::kSpeedMps;
 using testing::quick_modem;
 using testing::state_at;
 
-const MultipathJudge kUntold = [](const PlacedVehicle&, const PlacedVehicle&) { return Multipath::kUnknown; };
+const MultipathFunction kUnknownMultipath = [](const PlacedVehicle&, const PlacedVehicle&) {
+  return Multipath::kUnknown;
+};
 
 class LinkTableTest : public ::testing::Test {
  protected:
-  std::vector<LinkTable> tables_at(double time_s, const MultipathJudge& judge = kUntold) {
-    return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, judge);
+  std::vector<LinkTable> tables_at(double time_s, const MultipathFunction& multipath = kUnknownMultipath) {
+    return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, multipath);
   }
   VehicleRegistry fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
   StraightPropagation propagation_{even_water()};
@@ -76,7 +78,7 @@ TEST_F(LinkTableTest, EachDirectionHasTheLevelOfItsTransmitter) {
   EXPECT_NEAR(there - back, 7, tolerance(1e-9));
 }
 
-TEST_F(LinkTableTest, RowsTellTheMultipathOfTheirOwnDirection) {
+TEST_F(LinkTableTest, RowsHoldTheMultipathOfTheirOwnDirection) {
   EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
   EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");
   const auto tables = tables_at(1, [](const PlacedVehicle& from, const PlacedVehicle&) {

@@ -13,183 +13,183 @@ using testing::for_s;
 using Kind = RayKind;
 
 constexpr int kPoints = 8;
-const AskingRule kRule{
+const RayQueryRule kRule{
     .rays_per_batch = 128, .batches_in_flight = 2, .batches_per_tick = 3, .answer_deadline = for_s(0.2)};
 
 EchoSurvey survey() { return EchoSurvey({0, 0, 50}, {1000, 0, 50}, kPoints); }
 
 // A service that always answers: depth 100 m, every way free.
-void answer(RayQueryClient& asker, const RayQueryBatch& batch) {
+void answer(RayQueryClient& rays, const RayQueryBatch& batch) {
   const RayAnswer one = batch.kind == Kind::kDepths ? RayAnswer{RayAnswer::Kind::kHit, 100}
                                                     : RayAnswer{RayAnswer::Kind::kMiss, 0};
-  asker.answer(batch.request_id, std::vector<RayAnswer>(batch.rays.size(), one));
+  rays.answer(batch.request_id, std::vector<RayAnswer>(batch.rays.size(), one));
 }
 
 TEST(RayQueryClient, ASurveyGoesThroughDepthsAndWays) {
-  RayQueryClient asker(kRule);
-  const auto id = asker.ask_routine(survey());
-  EXPECT_EQ(asker.due(), SimTime::at_once());
-  const auto depths = asker.take_batches(at_s(0));
+  RayQueryClient rays(kRule);
+  const auto id = rays.submit_routine(survey());
+  EXPECT_EQ(rays.due(), SimTime::at_once());
+  const auto depths = rays.take_batches(at_s(0));
   ASSERT_EQ(depths.size(), 1u);
   EXPECT_EQ(depths[0].kind, Kind::kDepths);
   EXPECT_EQ(depths[0].rays.size(), 8u);
-  answer(asker, depths[0]);
-  const auto ways = asker.take_batches(at_s(0.01));
+  answer(rays, depths[0]);
+  const auto ways = rays.take_batches(at_s(0.01));
   ASSERT_EQ(ways.size(), 1u);
   EXPECT_EQ(ways[0].kind, Kind::kWays);
   EXPECT_EQ(ways[0].rays.size(), 16u);
-  answer(asker, ways[0]);
-  const auto finished = asker.take_finished();
+  answer(rays, ways[0]);
+  const auto finished = rays.take_finished();
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(finished[0].id, id);
   EXPECT_TRUE(finished[0].answered);
   EXPECT_TRUE(std::get<EchoSurvey>(finished[0].survey).complete());
-  EXPECT_EQ(asker.due(), SimTime::never());
+  EXPECT_EQ(rays.due(), SimTime::never());
 }
 
 TEST(RayQueryClient, SurveysShareBatchesUpToTheirSize) {
-  RayQueryClient asker(kRule);
-  for (int i = 0; i < 20; ++i) asker.ask_routine(survey());
-  const auto batches = asker.take_batches(at_s(0));
+  RayQueryClient rays(kRule);
+  for (int i = 0; i < 20; ++i) rays.submit_routine(survey());
+  const auto batches = rays.take_batches(at_s(0));
   ASSERT_EQ(batches.size(), 2u);
   EXPECT_EQ(batches[0].rays.size(), 128u);  // 16 surveys of 8 rays
   EXPECT_EQ(batches[1].rays.size(), 32u);
 }
 
 TEST(RayQueryClient, OnlySoManyBatchesWaitForAnswers) {
-  RayQueryClient asker(kRule);
-  for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
-  const auto first = asker.take_batches(at_s(0));
+  RayQueryClient rays(kRule);
+  for (int i = 0; i < 100; ++i) rays.submit_routine(survey());
+  const auto first = rays.take_batches(at_s(0));
   EXPECT_EQ(first.size(), 2u);
-  EXPECT_TRUE(asker.take_batches(at_s(0.01)).empty());
-  answer(asker, first[0]);
-  EXPECT_EQ(asker.take_batches(at_s(0.02)).size(), 1u);
+  EXPECT_TRUE(rays.take_batches(at_s(0.01)).empty());
+  answer(rays, first[0]);
+  EXPECT_EQ(rays.take_batches(at_s(0.02)).size(), 1u);
 }
 
 TEST(RayQueryClient, OnlySoManyBatchesAreSentATickAndTheRestIsDroppedAndCounted) {
-  RayQueryClient asker(kRule);
-  for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
+  RayQueryClient rays(kRule);
+  for (int i = 0; i < 100; ++i) rays.submit_routine(survey());
   int sent = 0;
-  for (auto batches = asker.take_batches(at_s(0)); !batches.empty(); batches = asker.take_batches(at_s(0))) {
+  for (auto batches = rays.take_batches(at_s(0)); !batches.empty(); batches = rays.take_batches(at_s(0))) {
     for (const auto& batch : batches) {
       ++sent;
-      answer(asker, batch);
+      answer(rays, batch);
     }
   }
   EXPECT_EQ(sent, 3);
-  const auto done = asker.take_finished().size();
-  EXPECT_EQ(asker.begin_tick().size(), 100 - done);
-  EXPECT_EQ(asker.counters().surveys_dropped, static_cast<std::int64_t>(100 - done));
-  EXPECT_EQ(asker.due(), SimTime::never());
+  const auto done = rays.take_finished().size();
+  EXPECT_EQ(rays.begin_tick().size(), 100 - done);
+  EXPECT_EQ(rays.counters().surveys_dropped, static_cast<std::int64_t>(100 - done));
+  EXPECT_EQ(rays.due(), SimTime::never());
 }
 
 TEST(RayQueryClient, UrgentSurveysGoFirstAndDoNotCount) {
-  RayQueryClient asker(kRule);
-  for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
-  const auto urgent = asker.ask_urgent(survey());
-  const auto batches = asker.take_batches(at_s(0));
+  RayQueryClient rays(kRule);
+  for (int i = 0; i < 100; ++i) rays.submit_routine(survey());
+  const auto urgent = rays.submit_urgent(survey());
+  const auto batches = rays.take_batches(at_s(0));
   EXPECT_EQ(batches[0].rays.size(), 8u);
-  answer(asker, batches[0]);
-  const auto ways = asker.take_batches(at_s(0));
+  answer(rays, batches[0]);
+  const auto ways = rays.take_batches(at_s(0));
   EXPECT_EQ(ways[0].rays.size(), 16u);
-  answer(asker, ways[0]);
-  EXPECT_EQ(asker.take_finished().at(0).id, urgent);
+  answer(rays, ways[0]);
+  EXPECT_EQ(rays.take_finished().at(0).id, urgent);
 }
 
 TEST(RayQueryClient, ALostBatchIsRepeatedOnceWithItsNumber) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(survey());
-  const auto sent = asker.take_batches(at_s(0));
-  EXPECT_EQ(asker.due(), at_s(0.1));
-  const auto repeated = asker.take_batches(at_s(0.1));
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  const auto sent = rays.take_batches(at_s(0));
+  EXPECT_EQ(rays.due(), at_s(0.1));
+  const auto repeated = rays.take_batches(at_s(0.1));
   ASSERT_EQ(repeated.size(), 1u);
   EXPECT_EQ(repeated[0].request_id, sent[0].request_id);
-  EXPECT_EQ(asker.due(), at_s(0.2));
-  answer(asker, repeated[0]);
-  EXPECT_FALSE(asker.is_away());
-  EXPECT_EQ(asker.counters().batches_repeated, 1);
+  EXPECT_EQ(rays.due(), at_s(0.2));
+  answer(rays, repeated[0]);
+  EXPECT_FALSE(rays.is_away());
+  EXPECT_EQ(rays.counters().batches_repeated, 1);
 }
 
 TEST(RayQueryClient, AtTheDeadlineASurveyFailsAndTheServiceIsAway) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(survey());
-  asker.take_batches(at_s(0));
-  asker.take_batches(at_s(0.2));
-  EXPECT_TRUE(asker.is_away());
-  const auto finished = asker.take_finished();
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  rays.take_batches(at_s(0));
+  rays.take_batches(at_s(0.2));
+  EXPECT_TRUE(rays.is_away());
+  const auto finished = rays.take_finished();
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_FALSE(finished[0].answered);
 }
 
 TEST(RayQueryClient, WhileAwayUrgentSurveysFailAtOnceAndTheServiceIsProbed) {
-  RayQueryClient asker(kRule);
-  asker.ask_urgent(survey());
-  asker.take_batches(at_s(0));
-  asker.take_batches(at_s(0.2));
-  asker.take_finished();
-  const auto id = asker.ask_urgent(survey());
-  const auto finished = asker.take_finished();
+  RayQueryClient rays(kRule);
+  rays.submit_urgent(survey());
+  rays.take_batches(at_s(0));
+  rays.take_batches(at_s(0.2));
+  rays.take_finished();
+  const auto id = rays.submit_urgent(survey());
+  const auto finished = rays.take_finished();
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_EQ(finished[0].id, id);
   EXPECT_FALSE(finished[0].answered);
-  const auto probe = asker.take_batches(at_s(1));
+  const auto probe = rays.take_batches(at_s(1));
   ASSERT_EQ(probe.size(), 1u);
-  asker.ask_urgent(survey());
-  EXPECT_TRUE(asker.take_batches(at_s(1)).empty());  // one at a time
-  asker.take_finished();
-  answer(asker, probe[0]);
-  EXPECT_FALSE(asker.is_away());
-  EXPECT_TRUE(asker.take_finished().empty());  // nobody waited for the probe
+  rays.submit_urgent(survey());
+  EXPECT_TRUE(rays.take_batches(at_s(1)).empty());  // one at a time
+  rays.take_finished();
+  answer(rays, probe[0]);
+  EXPECT_FALSE(rays.is_away());
+  EXPECT_TRUE(rays.take_finished().empty());  // nobody waited for the probe
 }
 
 TEST(RayQueryClient, WhileAwayOneRoutineBatchAtATimeProbes) {
-  RayQueryClient asker(kRule);
-  for (int i = 0; i < 100; ++i) asker.ask_routine(survey());
-  EXPECT_EQ(asker.take_batches(at_s(0)).size(), 2u);
-  const auto probe = asker.take_batches(at_s(0.2));
-  EXPECT_TRUE(asker.is_away());
+  RayQueryClient rays(kRule);
+  for (int i = 0; i < 100; ++i) rays.submit_routine(survey());
+  EXPECT_EQ(rays.take_batches(at_s(0)).size(), 2u);
+  const auto probe = rays.take_batches(at_s(0.2));
+  EXPECT_TRUE(rays.is_away());
   ASSERT_EQ(probe.size(), 1u);
-  answer(asker, probe[0]);
-  EXPECT_FALSE(asker.is_away());
+  answer(rays, probe[0]);
+  EXPECT_FALSE(rays.is_away());
 }
 
-TEST(RayQueryClient, ALateAnswerTellsThatTheServiceIsBack) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(survey());
-  const auto sent = asker.take_batches(at_s(0));
-  asker.take_batches(at_s(0.2));
-  ASSERT_TRUE(asker.is_away());
-  answer(asker, sent[0]);
-  EXPECT_FALSE(asker.is_away());
+TEST(RayQueryClient, ALateAnswerShowsThatTheServiceIsBack) {
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  const auto sent = rays.take_batches(at_s(0));
+  rays.take_batches(at_s(0.2));
+  ASSERT_TRUE(rays.is_away());
+  answer(rays, sent[0]);
+  EXPECT_FALSE(rays.is_away());
 }
 
-TEST(RayQueryClient, AnswersToNothingAskedAreIgnored) {
-  RayQueryClient asker(kRule);
-  asker.answer(99, {});
-  asker.ask_routine(survey());
-  const auto sent = asker.take_batches(at_s(0));
-  asker.answer(sent[0].request_id + 1, std::vector<RayAnswer>(8));
-  EXPECT_TRUE(asker.take_finished().empty());
-  EXPECT_EQ(asker.due(), at_s(0.1));
+TEST(RayQueryClient, AnswersToNoQueryAreIgnored) {
+  RayQueryClient rays(kRule);
+  rays.answer(99, {});
+  rays.submit_routine(survey());
+  const auto sent = rays.take_batches(at_s(0));
+  rays.answer(sent[0].request_id + 1, std::vector<RayAnswer>(8));
+  EXPECT_TRUE(rays.take_finished().empty());
+  EXPECT_EQ(rays.due(), at_s(0.1));
 }
 
 TEST(RayQueryClient, AnAnswerOfAnotherCountAndARefusalAreNoAnswers) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(survey());
-  asker.answer(asker.take_batches(at_s(0)).at(0).request_id, std::vector<RayAnswer>(7));
-  EXPECT_FALSE(asker.take_finished().at(0).answered);
-  asker.ask_routine(survey());
-  asker.refuse(asker.take_batches(at_s(0)).at(0).request_id);
-  EXPECT_FALSE(asker.take_finished().at(0).answered);
-  EXPECT_FALSE(asker.is_away());
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  rays.answer(rays.take_batches(at_s(0)).at(0).request_id, std::vector<RayAnswer>(7));
+  EXPECT_FALSE(rays.take_finished().at(0).answered);
+  rays.submit_routine(survey());
+  rays.refuse(rays.take_batches(at_s(0)).at(0).request_id);
+  EXPECT_FALSE(rays.take_finished().at(0).answered);
+  EXPECT_FALSE(rays.is_away());
 }
 
-TEST(RayQueryClient, ASurveyWithoutAKnownDepthIsAnsweredWithoutAskingForWays) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(survey());
-  const auto sent = asker.take_batches(at_s(0));
-  asker.answer(sent[0].request_id, std::vector<RayAnswer>(8, {RayAnswer::Kind::kOutside, 0}));
-  const auto finished = asker.take_finished();
+TEST(RayQueryClient, ASurveyWithoutAKnownDepthIsAnsweredWithoutQueryingWays) {
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  const auto sent = rays.take_batches(at_s(0));
+  rays.answer(sent[0].request_id, std::vector<RayAnswer>(8, {RayAnswer::Kind::kOutside, 0}));
+  const auto finished = rays.take_finished();
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_TRUE(finished[0].answered);
   EXPECT_FALSE(std::get<EchoSurvey>(finished[0].survey).complete());
@@ -206,34 +206,34 @@ ProfileSurvey profile(std::int64_t cells_long) {
 }
 
 TEST(RayQueryClient, AProfileSurveyIsThroughAfterItsDepths) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(profile(40));
-  const auto depths = asker.take_batches(at_s(0));
+  RayQueryClient rays(kRule);
+  rays.submit_routine(profile(40));
+  const auto depths = rays.take_batches(at_s(0));
   ASSERT_EQ(depths.size(), 1u);
   EXPECT_EQ(depths[0].rays.size(), 17u);  // 400 m, 25 m apart
-  answer(asker, depths[0]);
-  const auto finished = asker.take_finished();
+  answer(rays, depths[0]);
+  const auto finished = rays.take_finished();
   ASSERT_EQ(finished.size(), 1u);
   EXPECT_NE(std::get<ProfileSurvey>(finished[0].survey).profile(), nullptr);
-  EXPECT_EQ(asker.due(), SimTime::never());
+  EXPECT_EQ(rays.due(), SimTime::never());
 }
 
 TEST(RayQueryClient, ProfilesAndEchoesShareABatchOfDepths) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(survey());
-  asker.ask_routine(profile(40));
-  const auto batches = asker.take_batches(at_s(0));
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  rays.submit_routine(profile(40));
+  const auto batches = rays.take_batches(at_s(0));
   ASSERT_EQ(batches.size(), 1u);
   EXPECT_EQ(batches[0].rays.size(), 8u + 17u);
-  answer(asker, batches[0]);
-  EXPECT_EQ(asker.take_batches(at_s(0)).at(0).kind, Kind::kWays);  // the echoes'
+  answer(rays, batches[0]);
+  EXPECT_EQ(rays.take_batches(at_s(0)).at(0).kind, Kind::kWays);  // the echoes'
 }
 
 TEST(RayQueryClient, ASurveyLongerThanABatchGoesWhole) {
-  RayQueryClient asker(kRule);
-  asker.ask_routine(survey());
-  asker.ask_routine(profile(500));
-  const auto batches = asker.take_batches(at_s(0));
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  rays.submit_routine(profile(500));
+  const auto batches = rays.take_batches(at_s(0));
   ASSERT_EQ(batches.size(), 2u);
   EXPECT_EQ(batches[1].rays.size(), 201u);  // kRule allows 128
 }

@@ -1,5 +1,5 @@
 // A busy sea: twenty vehicles under way in a box of 6 km, random packets, pings, queues, silences, odd bands and
-// modems that hear badly; every fate occurs. All of it drawn by address, so a run is its seed and its length.
+// modems that receive badly; every outcome occurs. All of it drawn by address, so a run is its seed and its length.
 #pragma once
 
 #include <algorithm>
@@ -83,14 +83,14 @@ inline ConfiguredModems busy_modems() {
   return modems;
 }
 
-struct HeardState {
+struct TimedState {
   VehicleId id;
   StampedState state;
 };
 
 // Circles, once a second; every vehicle falls silent for 8 s of each 400 s, at times of its own.
-inline std::vector<HeardState> busy_states(double until_s) {
-  std::vector<HeardState> states;
+inline std::vector<TimedState> busy_states(double until_s) {
+  std::vector<TimedState> states;
   for (int second = 0; second <= static_cast<int>(until_s); ++second) {
     for (VehicleId id = 1; id <= kBusyVehicles; ++id) {
       if ((second + 37 * id) % 400 < 8) continue;
@@ -147,7 +147,7 @@ VehicleRegistry run_busy_sea(const BusyRun& run, Visitor&& visit) {
   auto states = busy_states(until_s);
   auto requests = busy_requests(run.packets);
   if (run.turn > 0) shuffle(states, run.turn), shuffle(requests, run.turn);
-  for (const auto& heard : states) EXPECT_EQ(fleet.add_state(name_of(heard.id), heard.id, heard.state), "");
+  for (const auto& timed : states) EXPECT_EQ(fleet.add_state(name_of(timed.id), timed.id, timed.state), "");
   for (const auto& request : requests) medium.transmit(request, SimTime());
   for (double t = 0; t <= until_s; t += run.step_s) {
     for (const MediumEvent& event : medium.advance_to(at_s(t))) visit(event);

@@ -24,9 +24,9 @@ using testing::request_of;
 class QueueTest : public testing::ScriptedWater {
  protected:
   QueueTest() {
-    VehicleModem patient = big_modem();
-    patient.when_busy = WhenBusy::kQueue;
-    fleet.announce_modem("v1", at_s(0), patient, at_s(0));
+    VehicleModem queueing = big_modem();
+    queueing.when_busy = WhenBusy::kQueue;
+    fleet.announce_modem("v1", at_s(0), queueing, at_s(0));
     water.set(1, 2, {path(1, 120)});
   }
   Receipt receipt_of(std::int64_t sequence) {
@@ -48,7 +48,7 @@ TEST_F(QueueTest, ABusyModemSendsOneAfterTheOther) {
   EXPECT_EQ(receipt_of(1).duration, for_s(0.5));
   EXPECT_EQ(receipt_of(2).start, at_s(11.5));
   for (int sequence = 0; sequence < 3; ++sequence) {
-    EXPECT_EQ(end_of(1, sequence, 2).fate, PacketFate::kReceived);
+    EXPECT_EQ(end_of(1, sequence, 2).kind, OutcomeKind::kReceived);
   }
   EXPECT_EQ(end_of(1, 2, 2).packet->departure, at_s(11.5));
 }
@@ -63,10 +63,10 @@ TEST_F(QueueTest, TheReceiptComesAtOnceAndStaysTheSame) {
   EXPECT_EQ(again->result, SendResult::kQueued);
   EXPECT_EQ(again->start, at_s(11));
   run();
-  EXPECT_EQ(testing::ends_in(events).size(), 2u * 3);
+  EXPECT_EQ(testing::outcomes_in(events).size(), 2u * 3);
 }
 
-TEST_F(QueueTest, AFreeModemSendsAtTheStartAskedFor) {
+TEST_F(QueueTest, AFreeModemSendsAtTheStartRequested) {
   send(1, 10, 0, 100);
   send(1, 11.2, 1, 50);
   run();
@@ -90,9 +90,9 @@ TEST_F(QueueTest, SixteenWaitAndTheNextIsRefused) {
 
 TEST_F(QueueTest, AQueuedPacketLeavesFromWhereTheVehicleIsByThen) {
   testing::move_steadily(fleet, 7, {0, 0, 50}, {10, 0, 0}, 0, 60);
-  VehicleModem patient = big_modem();
-  patient.when_busy = WhenBusy::kQueue;
-  fleet.announce_modem("v7", at_s(0), patient, at_s(0));
+  VehicleModem queueing = big_modem();
+  queueing.when_busy = WhenBusy::kQueue;
+  fleet.announce_modem("v7", at_s(0), queueing, at_s(0));
   send(7, 10, 0, 500);
   send(7, 11, 1, 100);  // from 15 on
   run();
@@ -116,9 +116,9 @@ class PingTest : public ::testing::Test {
   void send(VehicleId from, double start_s, std::int64_t sequence, std::size_t bytes) {
     medium_.transmit(request_of(from, start_s, sequence, bytes), SimTime());
   }
-  std::vector<PacketEnd> run() {
+  std::vector<PacketOutcome> run() {
     events_ = medium_.advance_to(at_s(40));
-    return testing::ends_in(events_);
+    return testing::outcomes_in(events_);
   }
   static VehicleModem modem() {
     VehicleModem modem = quick_modem();
@@ -132,10 +132,10 @@ class PingTest : public ::testing::Test {
   std::vector<MediumEvent> events_;
 };
 
-std::vector<PacketEnd> replies_in(const std::vector<PacketEnd>& ends) {
-  std::vector<PacketEnd> replies;
-  for (const PacketEnd& end : ends) {
-    if (end.packet->request.kind == PacketKind::kPingReply) replies.push_back(end);
+std::vector<PacketOutcome> replies_in(const std::vector<PacketOutcome>& outcomes) {
+  std::vector<PacketOutcome> replies;
+  for (const PacketOutcome& outcome : outcomes) {
+    if (outcome.packet->request.kind == PacketKind::kPingReply) replies.push_back(outcome);
   }
   return replies;
 }
@@ -145,7 +145,7 @@ TEST_F(PingTest, BetweenStillVehiclesTheTwoWayTimeIsTwiceTheRangeOverTheSpeed) {
   const auto replies = replies_in(run());
   ASSERT_EQ(replies.size(), 2u);  // at 1, and overheard at 3
   const double range_m = (place_of(2) - place_of(1)).norm();
-  for (const PacketEnd& reply : replies) {
+  for (const PacketOutcome& reply : replies) {
     EXPECT_EQ(reply.deliver, reply.receiver_id == 1);
     EXPECT_EQ(reply.packet->request.source_id, 2);
     EXPECT_EQ(reply.packet->request.packet_sequence, 5);
@@ -169,8 +169,8 @@ TEST_F(PingTest, ABusyModemDoesNotAnswer) {
   const double received_s = 10 + (place_of(2) - place_of(1)).norm() / kSpeedMps + 0.2;
   ping(1, 2, 10, 5);
   send(2, received_s + 0.01, 0, 30);  // 0.5 s: on the air when the answer is due
-  const auto ends = run();
-  EXPECT_TRUE(replies_in(ends).empty());
+  const auto outcomes = run();
+  EXPECT_TRUE(replies_in(outcomes).empty());
   EXPECT_EQ(receipts_in(events_).size(), 2u);
 }
 
@@ -183,22 +183,22 @@ TEST_F(PingTest, AnAnswerKeepsItsModemBusyAndGivesNoReceipt) {
   EXPECT_EQ(receipts_in(events_)[1].result, SendResult::kBusy);
 }
 
-TEST_F(PingTest, OnlyTheOneAskedAnswersAndOnlyAPing) {
+TEST_F(PingTest, OnlyTheAddresseeAnswersAndOnlyAPing) {
   ping(1, 3, 10, 5);
   send(1, 20, 6, 5);
-  for (const PacketEnd& reply : replies_in(run())) EXPECT_EQ(reply.packet->request.source_id, 3);
+  for (const PacketOutcome& reply : replies_in(run())) EXPECT_EQ(reply.packet->request.source_id, 3);
 }
 
 TEST_F(PingTest, APingThatWasLostIsNotAnswered) {
-  VehicleModem deaf = modem();
-  deaf.modem.min_receivable_level = {200};
-  fleet_.announce_modem("v2", at_s(0), deaf, at_s(0));
+  VehicleModem insensitive = modem();
+  insensitive.modem.min_receivable_level = {200};
+  fleet_.announce_modem("v2", at_s(0), insensitive, at_s(0));
   ping(1, 2, 10, 5);
   EXPECT_TRUE(replies_in(run()).empty());
 }
 
 // Both keep no session and count alike; the answers are two packets all the same.
-TEST_F(PingTest, AnswersToTwoSendersWithoutSessionsAreToldApart) {
+TEST_F(PingTest, AnswersToTwoSendersWithoutSessionsAreDistinguished) {
   for (const VehicleId from : {1, 3}) {
     SendRequest request = request_of(from, from == 1 ? 10 : 20, 5, 0);
     request.session = 0;
@@ -207,7 +207,7 @@ TEST_F(PingTest, AnswersToTwoSendersWithoutSessionsAreToldApart) {
     medium_.transmit(request, SimTime());
   }
   std::set<PacketName> names;
-  for (const PacketEnd& reply : replies_in(run())) names.insert(reply.packet->name());
+  for (const PacketOutcome& reply : replies_in(run())) names.insert(reply.packet->name());
   EXPECT_EQ(names.size(), 2u);
 }
 

@@ -55,13 +55,13 @@ TEST_F(PacketMediumTest, APacketArrivesAfterItsDelayAndEndsAfterItsDuration) {
   const auto events = medium_.advance_to(at_s(20));
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].at, at_s(10 + 3000 / kSpeedMps + 0.05));
-  const auto end = ends_in(events).at(0);
+  const auto end = outcomes_in(events).at(0);
   EXPECT_NEAR(end.travel_time_s, 2, tolerance(1e-9));
-  EXPECT_EQ(end.fate, PacketFate::kReceived);
+  EXPECT_EQ(end.kind, OutcomeKind::kReceived);
   EXPECT_TRUE(end.deliver);
 }
 
-TEST_F(PacketMediumTest, NextEventTellsWhenToLookAgain) {
+TEST_F(PacketMediumTest, NextEventIsTheInstantOfTheNextChange) {
   stay(1, {0, 0, 50});
   stay(2, {3000, 0, 50});
   EXPECT_EQ(medium_.next_event(), SimTime::never());
@@ -90,7 +90,7 @@ TEST_F(PacketMediumTest, AMovingReceiverIsMetWhereItIsByThen) {
   stay(1, {0, 0, 50});
   move_steadily(fleet_, 2, {3000 - 10 * recede_mps, 0, 50}, {recede_mps, 0, 0}, 0, 30);
   medium_.transmit(request_of(1, 10, 0), at_s(10));
-  const auto end = ends_in(medium_.advance_to(at_s(30))).at(0);
+  const auto end = outcomes_in(medium_.advance_to(at_s(30))).at(0);
   const double expected_s = 3000 / (kSpeedMps - recede_mps);
   EXPECT_NEAR(end.travel_time_s, expected_s, tolerance(kNanosecondsS));
   EXPECT_NEAR(end.budget.range_m, expected_s * kSpeedMps, tolerance(1e-5));
@@ -106,7 +106,7 @@ TEST_F(PacketMediumTest, ATurnDuringTheTravelCounts) {
               "");
   }
   medium_.transmit(request_of(1, 10, 0), at_s(10));
-  const auto end = ends_in(medium_.advance_to(at_s(20))).at(0);
+  const auto end = outcomes_in(medium_.advance_to(at_s(20))).at(0);
   EXPECT_NEAR(end.travel_time_s, 3000 / (kSpeedMps - 10), tolerance(kNanosecondsS));
 }
 
@@ -120,7 +120,7 @@ TEST_F(PacketMediumTest, AReceiverThatCameCloserIsMetAtItsTrueInstant) {
   }
   medium_.transmit(request_of(1, 10, 0, 5), at_s(10));
   const auto events = medium_.advance_to(at_s(20));
-  const auto end = ends_in(events).at(0);
+  const auto end = outcomes_in(events).at(0);
   // Solved at the predicted first bit, 13 ms after the true one: then the true one counts.
   EXPECT_NEAR(end.travel_time_s, 3000 / (kSpeedMps + 10), tolerance(kNanosecondsS));
   EXPECT_EQ(events.back().at, at_s(10 + end.travel_time_s) + for_s(0.05 / end.doppler_factor));
@@ -131,7 +131,7 @@ TEST_F(PacketMediumTest, EachOtherVehicleGetsExactlyOneEnd) {
   for (VehicleId id = 1; id <= 5; ++id) stay(id, {100.0 * id, 0, 50});
   medium_.transmit(request_of(3, 10, 0), at_s(10));
   std::vector<VehicleId> receivers;
-  for (const auto& end : ends_in(medium_.advance_to(at_s(20)))) receivers.push_back(end.receiver_id);
+  for (const auto& end : outcomes_in(medium_.advance_to(at_s(20)))) receivers.push_back(end.receiver_id);
   std::sort(receivers.begin(), receivers.end());
   EXPECT_EQ(receivers, (std::vector<VehicleId>{1, 2, 4, 5}));
 }
@@ -141,33 +141,33 @@ TEST_F(PacketMediumTest, APacketForOneIsDeliveredToThatOneAndDecidedForAll) {
   SendRequest request = request_of(1, 10, 0);
   request.destination_id = 3;
   medium_.transmit(request, at_s(10));
-  const auto ends = ends_in(medium_.advance_to(at_s(20)));
-  ASSERT_EQ(ends.size(), 2u);
-  EXPECT_FALSE(ends[0].deliver);
-  EXPECT_EQ(ends[0].fate, PacketFate::kReceived);
-  EXPECT_TRUE(ends[1].deliver);
+  const auto outcomes = outcomes_in(medium_.advance_to(at_s(20)));
+  ASSERT_EQ(outcomes.size(), 2u);
+  EXPECT_FALSE(outcomes[0].deliver);
+  EXPECT_EQ(outcomes[0].kind, OutcomeKind::kReceived);
+  EXPECT_TRUE(outcomes[1].deliver);
 }
 
 TEST_F(PacketMediumTest, BelowTheCutoffAPacketIsLost) {
-  VehicleModem deaf = quick_modem();
-  deaf.modem.min_receivable_level = {140};
-  fleet_.announce_modem("v2", at_s(0), deaf, at_s(0));
+  VehicleModem insensitive = quick_modem();
+  insensitive.modem.min_receivable_level = {140};
+  fleet_.announce_modem("v2", at_s(0), insensitive, at_s(0));
   stay(1, {0, 0, 50});
   stay(2, {5000, 0, 50});
   medium_.transmit(request_of(1, 10, 0), at_s(10));
-  const auto end = ends_in(medium_.advance_to(at_s(20))).at(0);
-  EXPECT_EQ(end.fate, PacketFate::kBelowCutoff);
+  const auto end = outcomes_in(medium_.advance_to(at_s(20))).at(0);
+  EXPECT_EQ(end.kind, OutcomeKind::kBelowCutoff);
   EXPECT_FALSE(end.deliver);
   EXPECT_EQ(end.cutoff.value, 140);
   EXPECT_LT(end.budget.received_level, end.cutoff);
 }
 
-TEST_F(PacketMediumTest, AReceiverWhoseStatesEndedIsGone) {
+TEST_F(PacketMediumTest, AReceiverWhoseStatesEndedIsAbsent) {
   stay(1, {0, 0, 50});
   stay(2, {9000, 0, 50}, /*until_s=*/10);  // the packet arrives at 16
   medium_.transmit(request_of(1, 10, 0), at_s(10));
-  const auto end = ends_in(medium_.advance_to(at_s(30))).at(0);
-  EXPECT_EQ(end.fate, PacketFate::kReceiverGone);
+  const auto end = outcomes_in(medium_.advance_to(at_s(30))).at(0);
+  EXPECT_EQ(end.kind, OutcomeKind::kReceiverGone);
   EXPECT_FALSE(end.deliver);
   EXPECT_NEAR(end.budget.range_m, 9000, tolerance(1e-6));
 }
@@ -179,10 +179,10 @@ TEST_F(PacketMediumTest, AReceiverThatIsForgottenMidwayStillGetsItsEnd) {
   medium_.advance_to(at_s(40));
   fleet_.forget_before(at_s(30));
   ASSERT_FALSE(fleet_.id_of("v2"));
-  const auto ends = ends_in(medium_.advance_to(at_s(60)));
-  ASSERT_EQ(ends.size(), 1u);
-  EXPECT_EQ(ends[0].fate, PacketFate::kReceiverGone);
-  EXPECT_EQ(ends[0].receiver, "v2");
+  const auto outcomes = outcomes_in(medium_.advance_to(at_s(60)));
+  ASSERT_EQ(outcomes.size(), 1u);
+  EXPECT_EQ(outcomes[0].kind, OutcomeKind::kReceiverGone);
+  EXPECT_EQ(outcomes[0].receiver, "v2");
 }
 
 TEST_F(PacketMediumTest, ATransmittingModemRefuses) {
@@ -235,10 +235,10 @@ TEST_F(PacketMediumTest, ARepetitionGetsTheSameReceiptAndIsNotTransmittedAgain) 
   EXPECT_EQ(again->result, first[0].result);
   EXPECT_EQ(again->start, first[0].start);
   EXPECT_EQ(again->duration, first[0].duration);
-  EXPECT_EQ(ends_in(medium_.advance_to(at_s(20))).size(), 1u);
+  EXPECT_EQ(outcomes_in(medium_.advance_to(at_s(20))).size(), 1u);
 }
 
-TEST_F(PacketMediumTest, ARequestHeardLateIsProcessedAsOfItsStart) {
+TEST_F(PacketMediumTest, ARequestReceivedLateIsProcessedAsOfItsStart) {
   stay(1, {0, 0, 50});
   move_steadily(fleet_, 2, {3000, 0, 50}, {5, 0, 0}, 0, 30);
   PacketMedium punctual(fleet_, propagation_, {});
@@ -253,8 +253,8 @@ TEST_F(PacketMediumTest, ARequestHeardLateIsProcessedAsOfItsStart) {
     EXPECT_TRUE(late[i].late);
     EXPECT_FALSE(expected[i].late);
   }
-  EXPECT_EQ(ends_in(late)[0].travel_time_s, ends_in(expected)[0].travel_time_s);
-  EXPECT_EQ(ends_in(late)[0].budget.received_level, ends_in(expected)[0].budget.received_level);
+  EXPECT_EQ(outcomes_in(late)[0].travel_time_s, outcomes_in(expected)[0].travel_time_s);
+  EXPECT_EQ(outcomes_in(late)[0].budget.received_level, outcomes_in(expected)[0].budget.received_level);
 }
 
 TEST_F(PacketMediumTest, ALateRequestDoesNotOverlapWhatWasAcceptedMeanwhile) {

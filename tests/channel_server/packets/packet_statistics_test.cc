@@ -1,5 +1,5 @@
 // Long random runs through the medium: nothing is lost, nothing is counted twice, losses are as frequent as the
-// model says, and the order in which messages came does not matter.
+// model gives, and the order in which messages came does not matter.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -35,8 +35,8 @@ struct Trials {
     ++count;
     successes += success ? 1 : 0;
   }
-  // Within the central 99.9 % of what the probabilities say: 3.29 standard deviations and half a count. Of less
-  // than 10 in variance the normal approximation says nothing.
+  // Within the central 99.9 % of what the probabilities give: 3.29 standard deviations and half a count. Of less
+  // than 10 in variance the normal approximation does not hold.
   bool says_anything() const { return variance >= 10; }
   bool agrees() const {
     return std::abs(static_cast<double>(successes) - expected) <= 3.29 * std::sqrt(variance) + 0.5;
@@ -45,10 +45,10 @@ struct Trials {
 
 struct Tally {
   std::map<PacketName, std::uint32_t> receivers;  // bit id set: has ended there
-  std::map<PacketFate, std::int64_t> fates;
+  std::map<OutcomeKind, std::int64_t> outcomes;
   std::map<int, Trials> bits_by_sinr, preambles_by_snr;  // by whole dB
   std::map<SendResult, std::int64_t> receipts;
-  std::int64_t accepted = 0, ends = 0, twice = 0;
+  std::int64_t accepted = 0, packet_outcomes = 0, twice = 0;
 
   void operator()(const MediumEvent& event) {
     if (const auto* receipt = std::get_if<Receipt>(&event.what)) {
@@ -57,60 +57,60 @@ struct Tally {
       accepted += sent ? 1 : 0;
       return;
     }
-    const auto& end = std::get<PacketEnd>(event.what);
+    const auto& end = std::get<PacketOutcome>(event.what);
     std::uint32_t& mask = receivers[end.packet->name()];
     const std::uint32_t bit = 1u << end.receiver_id;
     twice += (mask & bit) != 0 ? 1 : 0;
     mask |= bit;
-    ++ends;
-    ++fates[end.fate];
+    ++packet_outcomes;
+    ++outcomes[end.kind];
     count_probabilities(end);
   }
 
-  void count_probabilities(const PacketEnd& end) {
-    const Judgement& j = end.judgement;
-    if (j.success_probability > 0) {  // noticed
+  void count_probabilities(const PacketOutcome& end) {
+    const DecisionStatistics& j = end.statistics;
+    if (j.success_probability > 0) {  // acquired
       bits_by_sinr[static_cast<int>(std::floor(j.sinr.value))].add(j.success_probability,
-                                                                   end.fate == PacketFate::kReceived);
+                                                                   end.kind == OutcomeKind::kReceived);
     }
-    // Alone at the receiver, what was noticed was received or has bit errors.
+    // Alone at the receiver, what was acquired was received or has bit errors.
     if (j.acquisition_probability > 0 && j.colliders.empty()) {
       preambles_by_snr[static_cast<int>(std::floor(end.budget.snr.value))].add(
-          j.acquisition_probability, end.fate != PacketFate::kNotAcquired);
+          j.acquisition_probability, end.kind != OutcomeKind::kNotAcquired);
     }
   }
 };
 
 void expect_one_end_at_every_possible_receiver(const Tally& tally, const VehicleRegistry& fleet) {
   EXPECT_EQ(tally.twice, 0);
-  std::int64_t expected_ends = 0, requested = 0, answers = 0;
+  std::int64_t expected_outcomes = 0, requested = 0, answers = 0;
   for (const auto& [name, mask] : tally.receivers) {
     std::uint32_t expected = 0;
     for (const VehicleId id : fleet.present(name.departure)) expected |= 1u << id;
     expected &= ~(1u << name.source_id);
     EXPECT_EQ(mask, expected) << "packet " << name.packet_sequence << " of " << name.source_id;
-    expected_ends += std::popcount(expected);
+    expected_outcomes += std::popcount(expected);
     ++(name.kind == PacketKind::kPingReply ? answers : requested);
   }
-  EXPECT_EQ(tally.ends, expected_ends);
+  EXPECT_EQ(tally.packet_outcomes, expected_outcomes);
   // Every accepted request became a packet; the others are answers to pings.
   EXPECT_EQ(requested, tally.accepted);
   EXPECT_GT(answers, 0);
 }
 
 void expect_counts_that_add_up(const Tally& tally) {
-  std::int64_t receipts = 0, ends = 0;
+  std::int64_t receipts = 0, packet_outcomes = 0;
   for (const auto& [result, count] : tally.receipts) receipts += count;
-  for (const auto& [fate, count] : tally.fates) ends += count;
+  for (const auto& [kind, count] : tally.outcomes) packet_outcomes += count;
   EXPECT_EQ(receipts, static_cast<std::int64_t>(kManyPackets));
-  EXPECT_EQ(ends, tally.ends);
+  EXPECT_EQ(packet_outcomes, tally.packet_outcomes);
 }
 
 // The run is worth something: whatever may happen does.
-void expect_every_fate_and_refusal(const Tally& tally) {
-  for (int fate = 0; fate <= static_cast<int>(PacketFate::kNotAcquired); ++fate) {
-    const auto found = tally.fates.find(static_cast<PacketFate>(fate));
-    EXPECT_GT(found == tally.fates.end() ? 0 : found->second, 30) << "fate " << fate;
+void expect_every_outcome_and_refusal(const Tally& tally) {
+  for (int kind = 0; kind <= static_cast<int>(OutcomeKind::kNotAcquired); ++kind) {
+    const auto found = tally.outcomes.find(static_cast<OutcomeKind>(kind));
+    EXPECT_GT(found == tally.outcomes.end() ? 0 : found->second, 30) << "outcome " << kind;
   }
   for (const auto result : {SendResult::kAccepted, SendResult::kBusy, SendResult::kQueued}) {
     EXPECT_TRUE(tally.receipts.contains(result)) << static_cast<int>(result);
@@ -118,14 +118,14 @@ void expect_every_fate_and_refusal(const Tally& tally) {
 }
 
 void expect_odds_kept(const std::map<int, Trials>& bins, int min_bins) {
-  int told = 0;
+  int compared = 0;
   for (const auto& [decibels, trials] : bins) {
     if (!trials.says_anything()) continue;
-    ++told;
+    ++compared;
     EXPECT_TRUE(trials.agrees()) << decibels << " dB: " << trials.successes << " of " << trials.count
                                  << ", expected " << trials.expected << " +- " << std::sqrt(trials.variance);
   }
-  EXPECT_GE(told, min_bins);
+  EXPECT_GE(compared, min_bins);
 }
 
 // One run for all of it, because it takes a quarter of a minute.
@@ -134,12 +134,12 @@ TEST(PacketStatistics, OfAHundredThousandPacketsEachEndsOnceEverywhereWithTheOdd
   const VehicleRegistry fleet = run_busy_sea({.packets = kManyPackets}, tally);
   expect_one_end_at_every_possible_receiver(tally, fleet);
   expect_counts_that_add_up(tally);
-  expect_every_fate_and_refusal(tally);
+  expect_every_outcome_and_refusal(tally);
   expect_odds_kept(tally.bits_by_sinr, 5);
   expect_odds_kept(tally.preambles_by_snr, 3);
 }
 
-// FNV-1a over everything that an event tells.
+// FNV-1a over everything that an event holds.
 class Hash {
  public:
   void operator()(const MediumEvent& event) {
@@ -149,17 +149,18 @@ class Hash {
       add(static_cast<std::int64_t>(receipt->result));
       return add(receipt->start.nanoseconds());
     }
-    const auto& end = std::get<PacketEnd>(event.what);
+    const auto& end = std::get<PacketOutcome>(event.what);
     add(end.packet->name());
     add(end.receiver_id);
-    add(static_cast<std::int64_t>(end.fate));
+    add(static_cast<std::int64_t>(end.kind));
     for (const double value :
          {end.travel_time_s, end.two_way_travel_time_s, end.doppler_factor, end.budget.received_level.value,
-          end.judgement.interference.value, end.judgement.sinr.value, end.judgement.acquisition_probability,
-          end.judgement.success_probability, end.judgement.acquisition_draw, end.judgement.success_draw}) {
+          end.statistics.interference.value, end.statistics.sinr.value,
+          end.statistics.acquisition_probability, end.statistics.success_probability,
+          end.statistics.acquisition_draw, end.statistics.success_draw}) {
       add(std::bit_cast<std::int64_t>(value));
     }
-    for (const PacketName& name : end.judgement.colliders) add(name);
+    for (const PacketName& name : end.statistics.colliders) add(name);
   }
   std::uint64_t value() const { return hash_; }
 

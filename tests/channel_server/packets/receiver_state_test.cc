@@ -21,7 +21,7 @@ PacketPointer packet_of(VehicleId source, double departure_s) {
   return std::make_shared<const Packet>(packet);
 }
 
-HeardPacket heard(const PacketPointer& packet, double begin_s, double end_s, double power) {
+AudiblePacket audible(const PacketPointer& packet, double begin_s, double end_s, double power) {
   return {packet, at_s(begin_s), at_s(end_s), {{at_s(begin_s), at_s(end_s), power}}};
 }
 
@@ -32,36 +32,36 @@ TEST(BandShare, IsThePartOfABandWithinAnother) {
   EXPECT_EQ(band_share({20, 30}, {30, 40}), 0);
 }
 
-TEST(ReceiverState, TellsWhoElseSoundsDuringAReceptionInWhateverOrderTheyCame) {
+TEST(ReceiverState, FindsTheInterferersOfAReceptionWhateverTheOrderOfArrival) {
   ReceiverState receiver(for_s(10));
   const auto own = packet_of(1, 0), before = packet_of(2, 0), across = packet_of(3, 0),
              after = packet_of(4, 0);
-  receiver.open(heard(after, 12, 13, 4));
-  receiver.open(heard(across, 5, 25, 3));  // longer than all others
-  receiver.open(heard(own, 10, 12, 1));
-  receiver.open(heard(before, 9, 10, 2));
+  receiver.open(audible(after, 12, 13, 4));
+  receiver.open(audible(across, 5, 25, 3));  // longer than all others
+  receiver.open(audible(own, 10, 12, 1));
+  receiver.open(audible(before, 9, 10, 2));
   const Interferers found = receiver.interferers_of(*own, at_s(10), at_s(12));
   EXPECT_THAT(found.packets, ElementsAre(across));
   ASSERT_EQ(found.paths.size(), 1u);
   EXPECT_EQ(found.paths[0].power, 3);
 }
 
-TEST(ReceiverState, ALockLastsFromTheNoticeToTheEnd) {
+TEST(ReceiverState, AnAcquiredPacketIsFollowedToItsEnd) {
   ReceiverState receiver(for_s(10));
   const auto packet = packet_of(1, 0);
-  receiver.lock({packet, at_s(10), at_s(12)}, at_s(10.5));
-  EXPECT_EQ(receiver.locked_onto(at_s(10.4)), nullptr);
-  EXPECT_EQ(receiver.locked_onto(at_s(10.5)), packet);
-  EXPECT_EQ(receiver.locked_onto(at_s(11.9)), packet);
-  EXPECT_EQ(receiver.locked_onto(at_s(12)), nullptr);
+  receiver.acquire({packet, at_s(10), at_s(12)}, at_s(10.5));
+  EXPECT_EQ(receiver.followed_at(at_s(10.4)), nullptr);
+  EXPECT_EQ(receiver.followed_at(at_s(10.5)), packet);
+  EXPECT_EQ(receiver.followed_at(at_s(11.9)), packet);
+  EXPECT_EQ(receiver.followed_at(at_s(12)), nullptr);
 }
 
-TEST(ReceiverState, ATransmissionEndsALock) {
+TEST(ReceiverState, ATransmissionEndsAReception) {
   ReceiverState receiver(for_s(10));
-  receiver.lock({packet_of(1, 0), at_s(10), at_s(12)}, at_s(10.5));
+  receiver.acquire({packet_of(1, 0), at_s(10), at_s(12)}, at_s(10.5));
   receiver.transmit({packet_of(2, 0), at_s(11), at_s(11.1)});
-  EXPECT_NE(receiver.locked_onto(at_s(10.9)), nullptr);
-  EXPECT_EQ(receiver.locked_onto(at_s(11.5)), nullptr);
+  EXPECT_NE(receiver.followed_at(at_s(10.9)), nullptr);
+  EXPECT_EQ(receiver.followed_at(at_s(11.5)), nullptr);
 }
 
 TEST(ReceiverState, OwnTransmissionsComeInTheOrderOfTheirStarts) {
@@ -76,14 +76,14 @@ TEST(ReceiverState, OwnTransmissionsComeInTheOrderOfTheirStarts) {
 TEST(ReceiverState, NothingIsForgottenThatAnOpenReceptionMayNeed) {
   ReceiverState receiver(for_s(10));
   const auto open = packet_of(1, 0), disturbing = packet_of(2, 0);
-  receiver.open(heard(open, 100, 200, 1));
-  receiver.open(heard(disturbing, 101, 102, 1));
+  receiver.open(audible(open, 100, 200, 1));
+  receiver.open(audible(disturbing, 101, 102, 1));
   receiver.close(at_s(101), at_s(102));
   receiver.forget(at_s(190));
   EXPECT_EQ(receiver.interferers_of(*open, at_s(100), at_s(200)).packets.size(), 1u);
   receiver.close(at_s(100), at_s(200));
   receiver.forget(at_s(209));
-  EXPECT_FALSE(receiver.silent());  // asked about by what is told late
+  EXPECT_FALSE(receiver.silent());  // it may overlap a reception that is added late
   receiver.forget(at_s(211));
   EXPECT_TRUE(receiver.silent());
   EXPECT_EQ(receiver.size(), 0u);

@@ -19,7 +19,7 @@ TEST(SendRegister, APacketIsNewOnce) {
   EXPECT_TRUE(sends.enter(request_of(2, 10, 5)));
 }
 
-TEST(SendRegister, ASenderWithoutSessionIsToldByTheStartAsWell) {
+TEST(SendRegister, ASenderWithoutSessionIsDistinguishedByTheStartAsWell) {
   SendRegister sends;
   SendRequest first = request_of(1, 10, 0), second = request_of(1, 11, 0);
   first.session = second.session = 0;

@@ -1,5 +1,5 @@
-// Several media of one water, each following packets only to the receivers it serves: together they say what
-// one says.
+// Several media of one water, each following packets only to the receivers it serves: together they publish what
+// one publishes.
 #include "channel_server/vehicles/shard.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using testing::name_of;
 
 constexpr std::size_t kPackets = 3000;
 
-// All that tells one event from another, in full precision.
+// All that distinguishes one event from another, in full precision.
 std::string text_of(const MediumEvent& event) {
   std::ostringstream out;
   out.precision(17);
@@ -30,24 +30,24 @@ std::string text_of(const MediumEvent& event) {
   if (const auto* receipt = std::get_if<Receipt>(&event.what)) {
     out << "receipt " << receipt->vehicle << ' ' << receipt->packet_sequence << ' '
         << static_cast<int>(receipt->result) << ' ' << receipt->start.nanoseconds();
-  } else if (const auto* end = std::get_if<PacketEnd>(&event.what)) {
+  } else if (const auto* end = std::get_if<PacketOutcome>(&event.what)) {
     const PacketName name = end->packet->name();
     out << "end " << name.source_id << ' ' << name.packet_sequence << ' ' << static_cast<int>(name.kind)
-        << ' ' << end->receiver << ' ' << static_cast<int>(end->fate) << ' ' << end->travel_time_s << ' '
-        << end->two_way_travel_time_s << ' ' << end->budget.snr.value << ' ' << end->judgement.sinr.value
-        << ' ' << end->judgement.success_draw;
-    for (const PacketName& collider : end->judgement.colliders) out << ' ' << collider.packet_sequence;
+        << ' ' << end->receiver << ' ' << static_cast<int>(end->kind) << ' ' << end->travel_time_s << ' '
+        << end->two_way_travel_time_s << ' ' << end->budget.snr.value << ' ' << end->statistics.sinr.value
+        << ' ' << end->statistics.success_draw;
+    for (const PacketName& collider : end->statistics.colliders) out << ' ' << collider.packet_sequence;
   }
   return out.str();
 }
 
-// A fleet, a propagation and a medium of one server; all hear all.
+// A registry, a propagation and a medium of one server; all receive all.
 struct Server {
   Server(Shard shard, double until_s)
       : fleet({for_s(0.05), for_s(5)}, testing::busy_modems()),
         medium(fleet, propagation, {for_s(10), for_s(until_s), 1, shard}) {
-    for (const auto& heard : testing::busy_states(until_s)) {
-      EXPECT_EQ(fleet.add_state(name_of(heard.id), heard.id, heard.state), "");
+    for (const auto& timed : testing::busy_states(until_s)) {
+      EXPECT_EQ(fleet.add_state(name_of(timed.id), timed.id, timed.state), "");
     }
     for (const auto& request : testing::busy_requests(kPackets)) medium.transmit(request, SimTime());
   }
@@ -56,12 +56,12 @@ struct Server {
   PacketMedium medium;
 };
 
-// What `count` servers say together, sorted; they tell each other of answers to pings at the instant these are known.
+// What `count` servers publish together, sorted; they pass on answers to pings at the instant these are known.
 std::vector<std::string> said_by(int count) {
   const double until_s = static_cast<double>(kPackets) / testing::kPacketsPerSecond + 30;
   std::vector<std::unique_ptr<Server>> servers;
   for (int i = 0; i < count; ++i) servers.push_back(std::make_unique<Server>(Shard{i, count}, until_s));
-  std::vector<std::string> said;
+  std::vector<std::string> published;
   for (;;) {
     SimTime next = SimTime::never();
     for (const auto& server : servers) next = std::min(next, server->medium.next_event());
@@ -72,7 +72,7 @@ std::vector<std::string> said_by(int count) {
         if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
           answers.push_back(*answer);
         } else {
-          said.push_back(text_of(event));
+          published.push_back(text_of(event));
         }
       }
     }
@@ -80,13 +80,13 @@ std::vector<std::string> said_by(int count) {
       for (const auto& server : servers) server->medium.add_answer(answer);
     }
   }
-  std::sort(said.begin(), said.end());
-  return said;
+  std::sort(published.begin(), published.end());
+  return published;
 }
 
 class Shards : public ::testing::TestWithParam<int> {};
 
-TEST_P(Shards, TogetherSayWhatOneServerSays) {
+TEST_P(Shards, TogetherPublishWhatOneServerPublishes) {
   const auto one = said_by(1);
   EXPECT_GT(one.size(), kPackets * 15);
   EXPECT_EQ(said_by(GetParam()), one);
@@ -104,7 +104,7 @@ TEST(Shard, EveryVehicleIsServedByExactlyOne) {
   }
 }
 
-TEST(Shard, AnAnswerToldTwiceIsTransmittedOnce) {
+TEST(Shard, AnAnswerAddedTwiceIsTransmittedOnce) {
   testing::ThreePaths propagation;
   VehicleRegistry fleet({for_s(0.05), for_s(5)}, testing::busy_modems());
   for (double t = 0; t < 20; t += 1) {

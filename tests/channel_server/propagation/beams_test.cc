@@ -31,7 +31,7 @@ acoustics::Modem flat_looking() {
   const double steep = kEdge + 1e-6;
   return with_beam({{-steep, kDown20Db}, {-kEdge, 0}, {kEdge, 0}, {steep, kDown20Db}});
 }
-// Hears and sends what lies below it.
+// A modem that receives and sends below it.
 acoustics::Modem down_looking() { return with_beam({{-0.01, kDown20Db}, {0.01, 0}}); }
 
 struct Sea {
@@ -53,7 +53,7 @@ Reception by_line(const LinkEnd& from, const LinkEnd& to) {
 
 LinkEnd end_at(const Vec3& place, const acoustics::Modem& modem) { return {0, place, Vec3::Zero(), &modem}; }
 
-// Every path with a beam against the same path without: `weight` says what is to be missing.
+// Every path with a beam against the same path without: `weight` is what is to be missing.
 template <class Weight>
 void expect_paths_weighed(const Reception& with, const Reception& without, Weight weight) {
   ASSERT_EQ(with.paths.size(), without.paths.size());
@@ -115,8 +115,8 @@ TEST(Beams, ATransmitterThatLooksDownSendsNothingUp) {
 TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
   acoustics::Modem plain;
   plain.centre_frequency_hz = 1e6;
-  acoustics::Modem deaf = plain;
-  deaf.beam = acoustics::BeamPattern({{0, 200}});
+  acoustics::Modem insensitive = plain;
+  insensitive.beam = acoustics::BeamPattern({{0, 200}});
   const auto bottom = std::make_shared<const SeabedProfile>(41, 5000);
   const Vec3 from(0, 0, 2400), to(19'000, 0, 2500);
   RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()),
@@ -126,12 +126,12 @@ TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
     return std::pair(rays.reception_over(at_s(0), here, there, bottom).paths.size(),
                      rays.arrivals_over(at_s(0), here, there, bottom).paths.size());
   };
-  const auto [heard, told] = counts(plain);
-  ASSERT_GT(heard, 0u);
-  EXPECT_EQ(told, heard);
-  const auto [heard_by_deaf, told_of_deaf] = counts(deaf);
-  EXPECT_LT(heard_by_deaf, heard);
-  EXPECT_EQ(told_of_deaf, heard_by_deaf);
+  const auto [received, stated] = counts(plain);
+  ASSERT_GT(received, 0u);
+  EXPECT_EQ(stated, received);
+  const auto [received_insensitive, stated_insensitive] = counts(insensitive);
+  EXPECT_LT(received_insensitive, received);
+  EXPECT_EQ(stated_insensitive, received_insensitive);
 }
 
 TEST(Beams, TheLevelIsTheSumOfWeighedPathsAndTheBudgetFollows) {

@@ -55,13 +55,13 @@ TEST(EnvironmentTimeline, WhatIsNotSetStaysAsItWas) {
   EXPECT_EQ(timeline.at(at_s(15)).noise.shipping, even_water().noise.shipping);
 }
 
-TEST(EnvironmentTimeline, TheOrderOfHearingDoesNotMatter) {
+TEST(EnvironmentTimeline, TheOrderOfAnnouncementsDoesNotMatter) {
   EnvironmentTimeline one(even_water()), other(even_water());
-  const auto tell = [](EnvironmentTimeline& timeline, int n) {
+  const auto announce = [](EnvironmentTimeline& timeline, int n) {
     EXPECT_EQ(timeline.announce(at_s(n < 3 ? 10 : 20), at_s(0), {kSession, n}, wind(n)), "");
   };
-  for (const int n : {1, 2, 3, 4}) tell(one, n);
-  for (const int n : {4, 2, 1, 3}) tell(other, n);
+  for (const int n : {1, 2, 3, 4}) announce(one, n);
+  for (const int n : {4, 2, 1, 3}) announce(other, n);
   for (const double time_s : {5.0, 10.0, 15.0, 20.0}) {
     EXPECT_EQ(wind_at(one, time_s), wind_at(other, time_s)) << time_s;
   }
@@ -69,7 +69,7 @@ TEST(EnvironmentTimeline, TheOrderOfHearingDoesNotMatter) {
   EXPECT_EQ(wind_at(one, 25), 4);
 }
 
-TEST(EnvironmentTimeline, ALateChangeHoldsFromWhenItWasHeard) {
+TEST(EnvironmentTimeline, ALateChangeHoldsFromItsReception) {
   EnvironmentTimeline timeline(even_water());
   EXPECT_EQ(timeline.announce(at_s(10), at_s(12), {kSession, 0}, wind(7)), "");
   EXPECT_EQ(wind_at(timeline, 11.9), 0);
@@ -116,7 +116,7 @@ TEST(EnvironmentTimeline, AnyNumberOfChangesIsTakenWhenTheOldAreForgotten) {
   for (int i = 0; i < 30'000; ++i) {
     ASSERT_EQ(timeline.announce(at_s(i), at_s(i), {kSession, i}, wind(i % 20)), "");
     timeline.forget_before(at_s(i - 130));
-    ASSERT_LE(timeline.changes_kept(), EnvironmentTimeline::kHeardKept + 200);
+    ASSERT_LE(timeline.changes_kept(), EnvironmentTimeline::kAnnouncedKept + 200);
   }
   EXPECT_EQ(wind_at(timeline, 29'999), 19);
   EXPECT_EQ(wind_at(timeline, 29'900.5), 0);
@@ -126,7 +126,7 @@ TEST(EnvironmentTimeline, AnyNumberOfChangesIsTakenWhenTheOldAreForgotten) {
   EXPECT_EQ(wind_at(timeline, 6), 3);
 }
 
-TEST(EnvironmentTimeline, ForgettingChangesNoInstantThatIsStillAskedAbout) {
+TEST(EnvironmentTimeline, ForgettingKeepsTheWaterOfLaterInstants) {
   EnvironmentTimeline all(even_water()), forgetting(even_water());
   for (int i = 0; i < 3000; ++i) {
     for (EnvironmentTimeline* timeline : {&all, &forgetting})

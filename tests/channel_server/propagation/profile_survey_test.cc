@@ -13,7 +13,7 @@ using halocline::testing::tolerance;
 const ProfileRule kRule;  // 10 m, 25 m
 
 // Answers by a seabed that falls by 0.1 m a metre towards the north from 100 m.
-ProfileSurvey told(const Vec3& from, const Vec3& to) {
+ProfileSurvey answered(const Vec3& from, const Vec3& to) {
   ProfileSurvey survey(cells_of(from, to, kRule), kRule);
   std::vector<RayAnswer> answers;
   for (const TerrainRay& ray : survey.rays()) {
@@ -31,12 +31,12 @@ TEST(ProfileSurvey, RunsBetweenTheLatticePointsNearestToTheEnds) {
 }
 
 TEST(ProfileSurvey, IsTheSameForAllEndsInTheSameCells) {
-  const auto one = told({-4.9, 0, 20}, {1004.9, 4, 80}), other = told({4.9, -4, 90}, {995.1, 0, 5});
+  const auto one = answered({-4.9, 0, 20}, {1004.9, 4, 80}), other = answered({4.9, -4, 90}, {995.1, 0, 5});
   EXPECT_EQ(*one.profile(), *other.profile());
-  EXPECT_NE(*one.profile(), *told({5.1, 0, 20}, {1004.9, 4, 80}).profile());
+  EXPECT_NE(*one.profile(), *answered({5.1, 0, 20}, {1004.9, 4, 80}).profile());
 }
 
-TEST(ProfileSurvey, SamplesLieNoFurtherApartThanAskedWithinTheirNumbers) {
+TEST(ProfileSurvey, SamplesLieNoFurtherApartThanTheSpacingWithinTheirNumbers) {
   const auto samples = [](double range_m) {
     return ProfileSurvey(cells_of({0, 0, 0}, {range_m, 0, 0}, kRule), kRule).rays().size();
   };
@@ -48,19 +48,19 @@ TEST(ProfileSurvey, SamplesLieNoFurtherApartThanAskedWithinTheirNumbers) {
   EXPECT_EQ(samples(50'000), 256u);
 }
 
-TEST(ProfileSurvey, OneSampleThatCannotBeToldLeavesTheBottomUnknown) {
+TEST(ProfileSurvey, OneSampleWithoutAnAnswerLeavesTheBottomUnknown) {
   for (const auto kind : {RayAnswer::Kind::kOutside, RayAnswer::Kind::kNoData, RayAnswer::Kind::kBadInput}) {
     ProfileSurvey survey(cells_of({0, 0, 0}, {200, 0, 0}, kRule), kRule);
     std::vector<RayAnswer> answers(survey.rays().size(), {RayAnswer::Kind::kHit, 50});
     answers[7] = {kind, 0};
     survey.take(answers);
     EXPECT_EQ(survey.profile(), nullptr);
-    EXPECT_FALSE(survey.asks());
+    EXPECT_FALSE(survey.next_query());
   }
 }
 
 TEST(ProfileSurvey, TheBottomUnderALinkIsStretchedToItsRange) {
-  const auto seabed = told({0, 0, 0}, {1000, 0, 0}).profile();
+  const auto seabed = answered({0, 0, 0}, {1000, 0, 0}).profile();
   const auto bottom = bottom_under(*seabed, {20, 30, 1004}, 0);
   EXPECT_EQ(bottom.points().front().range_m, 0);
   EXPECT_EQ(bottom.points().back().range_m, 1004);

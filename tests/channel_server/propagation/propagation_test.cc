@@ -73,13 +73,13 @@ TEST(StraightPropagation, TheDopplerFactorIsThatOfTheVelocitiesAlongThePath) {
 
 TEST(StraightPropagation, EqualModemsShareOneModel) {
   StraightPropagation propagation(acoustics::Environment{});
-  const auto ask = [&](double transmitter_db, double receiver_db) {
+  const auto evaluate = [&](double transmitter_db, double receiver_db) {
     propagation.reception(SimTime(), end_at({0, 0, 1}, modem_of_level(transmitter_db)),
                           end_at({9, 0, 1}, modem_of_level(receiver_db)));
   };
-  for (int i = 0; i < 5; ++i) ask(180, 180);
+  for (int i = 0; i < 5; ++i) evaluate(180, 180);
   EXPECT_EQ(propagation.models_kept(), 1u);
-  ask(181, 180);
+  evaluate(181, 180);
   EXPECT_EQ(propagation.models_kept(), 2u);
 }
 

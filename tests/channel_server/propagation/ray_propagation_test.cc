@@ -143,7 +143,7 @@ TEST_F(RayPropagationTest, BothWaysHaveTheSamePathsToTheLastBit) {
   EXPECT_EQ(propagation.reception(at_s(0.9), a, b).used, PropagationUsed::kStraightWithoutBottom);
 }
 
-TEST_F(RayPropagationTest, WithoutAKnownBottomThePathIsStraightAndSaysSo) {
+TEST_F(RayPropagationTest, WithoutAKnownBottomThePathIsMarkedStraight) {
   auto propagation = rays({});
   const LinkEnd a = end({0, 0, 30}, modem_, 1), b = end({1000, 0, 60}, modem_, 2);
   const Reception reception = propagation.reception(at_s(1), a, b);

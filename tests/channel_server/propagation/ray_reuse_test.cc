@@ -75,8 +75,8 @@ TEST_F(RayReuseTest, WithoutADistanceEveryLinkIsSearched) {
   EXPECT_EQ(propagation.searches(), 6);
 }
 
-// Whoever asked before, in whatever order, in however many propagations.
-TEST_F(RayReuseTest, AnswersDependOnTheQuestionAlone) {
+// Whatever was computed before, in whatever order, in however many propagations.
+TEST_F(RayReuseTest, ResultsDependOnTheQueryAlone) {
   auto forwards = rays(bottoms_, kCellM), backwards = rays(bottoms_, kCellM);
   std::vector<Vec3> places;
   for (std::uint32_t i = 0; i < 12; ++i) {

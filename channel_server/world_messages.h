@@ -1,4 +1,4 @@
-// The water as ENVIRONMENT describes it, and changes of it.
+// Vehicles and the water, from messages and back: states, modems, ENVIRONMENT and its changes.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,16 @@
 #include "acoustics/sea/environment.h"
 #include "bus/messages.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/state_history.h"
 
 namespace halocline::channel_server {
+
+StampedState to_state(const vehicle_state_t& message);
+
+// Throws InvalidArgument for a modem that acoustics/modem/modem.h refuses.
+VehicleModem to_modem(const modem_config_t& message);
+modem_config_t to_message(const VehicleModem& modem, SimTime from);
 
 // What ENVIRONMENT holds beside the water.
 struct WaterDescription {

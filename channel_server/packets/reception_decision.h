@@ -1,5 +1,5 @@
-// From signal, noise and interference over time to the fate of one packet at one receiver, once it is known to
-// be above the cut-off, in band, open and unhindered.
+// The outcome of one packet at one receiver from signal, noise and interference over time, for a packet above the
+// cut-off, in band, with an open path, at a receiver that does not transmit.
 //
 // Model. The first part of a packet is its preamble, the rest holds its information bits evenly. At every
 // instant SINR = S / (N + I) in the packet's band:
@@ -7,14 +7,13 @@
 //   N  the noise over the band, less the receiver's directivity;
 //   I  everything else that sounds: the packet's own later and earlier echoes, all paths of all other packets,
 //      each during its own interval.
-//   noticed   when draw 1 < acquisition_probability(modem, S / (N + mean of I over the preamble)): a correlator
+//   acquired  when draw 1 < acquisition_probability(modem, S / (N + mean of I over the preamble)): a correlator
 //             gathers the interference of the whole preamble;
 //   received  when draw 2 < exp(sum over stretches of constant I of (bits in it) ln(1 - ber(SINR))): errors of
 //             bits do not depend on each other.
 // Both curves are those of acoustics/modem/modem.h. Interference counts as noise that is white over the band.
 //
-// The cause of a loss is found by deciding once more with the same draws and without the other packets: had it
-// come through, they are the cause.
+// A loss counts as a collision when the same draws without the other packets give a reception.
 //
 // Draws are addressed by the packet's contents and the receiver, never by turn and not by the sender's session,
 // which differs between runs of separate processes.
@@ -57,11 +56,11 @@ double success_probability(const ReceivedSignal& signal, const std::vector<Inter
 // Loudest first, then by name; kMaxColliders at most.
 std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interferers& others);
 
-// At the end of the preamble: fills in probability and draw, and says whether the packet is noticed.
-bool notices(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
-             Judgement& judgement);
-// At the last bit: fills in the rest. kReceived, kCollided, kNotAcquired or kBitErrors.
-PacketFate judge(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
-                 bool noticed, Judgement& judgement);
+// At the end of the preamble: sets the probability, and returns whether the packet is acquired.
+bool acquires(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
+              DecisionStatistics& statistics);
+// At the last bit: sets the rest. kReceived, kCollided, kNotAcquired or kBitErrors.
+OutcomeKind decide(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
+                   bool acquired, DecisionStatistics& statistics);
 
 }  // namespace halocline::channel_server

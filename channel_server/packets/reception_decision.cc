@@ -1,4 +1,4 @@
-#include "channel_server/packets/packet_judge.h"
+#include "channel_server/packets/reception_decision.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ struct Change {
   double power;
 };
 
-// By instant; among equals in an order of their own, so that sums do not depend on who was heard first.
+// By instant; among equals in an order of their own, so that sums do not depend on the order of arrival.
 std::vector<Change> changes_within(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
   std::vector<Change> changes;
   for (const Interference& path : paths) {
@@ -120,27 +120,27 @@ std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interfe
   return names;
 }
 
-bool notices(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
-             Judgement& judgement) {
-  judgement.acquisition_probability = acquisition_probability(signal, all_disturbances(signal, others));
-  return draws.acquisition < judgement.acquisition_probability;
+bool acquires(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
+              DecisionStatistics& statistics) {
+  statistics.acquisition_probability = acquisition_probability(signal, all_disturbances(signal, others));
+  return draws.acquisition < statistics.acquisition_probability;
 }
 
-PacketFate judge(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
-                 bool noticed, Judgement& judgement) {
+OutcomeKind decide(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
+                   bool acquired, DecisionStatistics& statistics) {
   const auto disturbances = all_disturbances(signal, others);
   const double interference = mean_power(disturbances, signal.preamble_end, signal.end);
-  judgement.interference = level_of(interference);
-  judgement.sinr = level_of(sinr(signal, interference).value);
-  judgement.colliders = colliders_of(signal, others);
-  if (noticed) {
-    judgement.success_probability = success_probability(signal, disturbances);
-    if (draws.success < judgement.success_probability) return PacketFate::kReceived;
+  statistics.interference = level_of(interference);
+  statistics.sinr = level_of(sinr(signal, interference).value);
+  statistics.colliders = colliders_of(signal, others);
+  if (acquired) {
+    statistics.success_probability = success_probability(signal, disturbances);
+    if (draws.success < statistics.success_probability) return OutcomeKind::kReceived;
   }
   const bool alone_received = draws.acquisition < acquisition_probability(signal, signal.echoes) &&
                               draws.success < success_probability(signal, signal.echoes);
-  if (alone_received && !judgement.colliders.empty()) return PacketFate::kCollided;
-  return noticed ? PacketFate::kBitErrors : PacketFate::kNotAcquired;
+  if (alone_received && !statistics.colliders.empty()) return OutcomeKind::kCollided;
+  return acquired ? OutcomeKind::kBitErrors : OutcomeKind::kNotAcquired;
 }
 
 }  // namespace halocline::channel_server
