@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "bus/message_field.h"
 #include "bus/message_fields.h"
 #include "core/names.h"
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "bus/message_field.h"
 #include "bus/message_fields.h"
 
 namespace halocline::bus {

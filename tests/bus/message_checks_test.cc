@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bus/message_field.h"
 #include "bus/message_fields.h"
 #include "tests/bus/messages_for_tests.h"
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <string>
 #include <type_traits>
+#include <vector>
 
+#include "bus/message_field.h"
 #include "bus/message_fields.h"
 
 namespace halocline::bus::testing {

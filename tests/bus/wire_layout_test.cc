@@ -2,6 +2,7 @@
 #include "bus/wire_layout.h"
 
 #include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <random>
 

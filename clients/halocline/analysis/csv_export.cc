@@ -10,8 +10,10 @@
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "bus/logs/channel_types.h"
+#include "bus/message_field.h"
 #include "bus/message_fields.h"
 #include "core/check.h"
 #include "core/csv_table.h"
