@@ -86,7 +86,7 @@ TYPED_TEST(ChecksOf, RefusesEnumerationsWithoutAMeaning) {
   });
 }
 
-// What lcmtypes says of each field: every number of every message is checked but these.
+// As lcmtypes annotates each field: every number of every message is checked but these.
 TEST(MessageChecks, LeaveUncheckedWhatIsAnsweredOneByOne) {
   std::set<std::string> unchecked;
   const auto collect = [&]<class Message>(Message message) {
