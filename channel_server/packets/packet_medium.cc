@@ -259,7 +259,7 @@ OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
     return OutcomeKind::kCollided;
   }
   const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
-  return decide(signal, others, draws, flight.acquired, statistics);
+  return decide_reception(signal, others, draws, flight.acquired, statistics);
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {

@@ -126,8 +126,8 @@ bool acquires(const ReceivedSignal& signal, const Interferers& others, const Pac
   return draws.acquisition < statistics.acquisition_probability;
 }
 
-OutcomeKind decide(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
-                   bool acquired, DecisionStatistics& statistics) {
+OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& others,
+                             const PacketDraws& draws, bool acquired, DecisionStatistics& statistics) {
   const auto disturbances = all_disturbances(signal, others);
   const double interference = mean_power(disturbances, signal.preamble_end, signal.end);
   statistics.interference = level_of(interference);

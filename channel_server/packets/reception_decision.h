@@ -60,7 +60,7 @@ std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interfe
 bool acquires(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
               DecisionStatistics& statistics);
 // At the last bit: sets the rest. kReceived, kCollided, kNotAcquired or kBitErrors.
-OutcomeKind decide(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
-                   bool acquired, DecisionStatistics& statistics);
+OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& others,
+                             const PacketDraws& draws, bool acquired, DecisionStatistics& statistics);
 
 }  // namespace halocline::channel_server
