@@ -1,14 +1,10 @@
 // What other packets, and late paths of its own, do to a packet.
 #include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
 #include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/modem/bit_error.h"
 #include "tests/channel_server/scripted_water.h"
 #include "tests/support/tolerance.h"
 
@@ -18,12 +14,10 @@ namespace {
 using halocline::testing::relative_error;
 using halocline::testing::tolerance;
 using testing::at_s;
+using testing::bit_error;
 using ::testing::ElementsAre;
-using testing::even_water;
-using testing::for_s;
 using testing::path;
 using testing::quick_modem;
-using testing::request_of;
 
 using PacketInterferenceTest = testing::ScriptedWater;
 

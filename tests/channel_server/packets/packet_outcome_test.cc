@@ -8,7 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "acoustics/modem/bit_error.h"
 #include "tests/channel_server/scripted_water.h"
 #include "tests/support/tolerance.h"
 
@@ -18,9 +17,9 @@ namespace {
 using halocline::testing::relative_error;
 using halocline::testing::tolerance;
 using testing::at_s;
-using ::testing::ElementsAre;
 using testing::even_water;
 using testing::for_s;
+using testing::level_with_bit_error;
 using testing::path;
 using testing::quick_modem;
 using testing::request_of;

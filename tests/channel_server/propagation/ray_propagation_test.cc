@@ -270,7 +270,8 @@ TEST_F(RayPropagationTest, TwoThreadsGiveTheSameBitsAsOneAndAsOneByOne) {
           {end(a.placement.position_ned_m, modem_, a.id), end(b.placement.position_ned_m, modem_, b.id)});
     }
   }
-  auto one = rays({}, acoustics::Environment{}, bottoms), two = one, in_turn = one;
+  auto one = rays({}, acoustics::Environment{}, bottoms), two = rays({}, acoustics::Environment{}, bottoms),
+       in_turn = rays({}, acoustics::Environment{}, bottoms);
   const auto expected = one.receptions(at_s(1), links, one_after_the_other);
   const auto shared = two.receptions(at_s(1), links, on_two_threads);
   EXPECT_EQ(one.searches(), 14);
