@@ -15,11 +15,11 @@ namespace {
 
 using halocline::testing::tolerance;
 using testing::at_s;
-using testing::ends_in;
 using testing::even_water;
 using testing::for_s;
 using testing::kSpeedMps;
 using testing::move_steadily;
+using testing::outcomes_in;
 using testing::quick_modem;
 using testing::receipts_in;
 using testing::request_of;
