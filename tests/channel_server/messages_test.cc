@@ -300,10 +300,10 @@ TEST(ChannelServerMessages, AModemThatCannotBeReadIsTheProblemOfItsEndAlone) {
   query.receivers[0].modem_choice = link_end_t::MODEM_GIVEN;
   query.receivers[0].modem = to_message(odd_modem(), at_s(0));
   query.receivers[0].modem.bit_rate_bps = std::numeric_limits<double>::quiet_NaN();
-  const LinkQuery query = to_query(query);
-  EXPECT_EQ(query.transmitters[0].problem, "");
-  EXPECT_NE(query.receivers[0].problem, "");
-  EXPECT_FALSE(query.receivers[0].modem);
+  const LinkQuery converted = to_query(query);
+  EXPECT_EQ(converted.transmitters[0].problem, "");
+  EXPECT_NE(converted.receivers[0].problem, "");
+  EXPECT_FALSE(converted.receivers[0].modem);
 }
 
 TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {
