@@ -8,11 +8,11 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers: Boost.Math
+find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # inlined
 find_package(GDAL REQUIRED)
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
-pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 
 # LCM 1.3.1 (Debian) has no CMake package, 1.5 (upstream) has one whose target differs: find the header,
 # the library and the generator ourselves, so that both work.

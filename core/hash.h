@@ -1,5 +1,7 @@
-// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv): a non-cryptographic hash:
-// collisions are rare by chance, and easy to construct.
+// Non-cryptographic hashes: collisions are rare by chance, and easy to construct.
+//
+// FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv) for what is computed in pieces; XXH3 of
+// 64 bits (Collet; https://xxhash.com) for the identity of stored results.
 #pragma once
 
 #include <cstdint>
@@ -21,5 +23,8 @@ constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t sum = kFnvSta
   for (const char c : text) sum = (sum ^ static_cast<std::uint8_t>(c)) * 0x100000001b3u;
   return sum;
 }
+
+// XXH3, 64 bits, seed 0; the same on every platform.
+std::uint64_t xxh3(std::string_view text);
 
 }  // namespace halocline

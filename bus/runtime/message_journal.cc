@@ -13,7 +13,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "bus/files/atomic_file.h"
+#include "core/atomic_file.h"
 #include "core/check.h"
 
 namespace halocline::bus {

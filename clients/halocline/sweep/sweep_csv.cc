@@ -5,8 +5,8 @@
 
 #include <fmt/ostream.h>
 
-#include "bus/files/atomic_file.h"
 #include "clients/halocline/sweep/sweep_summary.h"
+#include "core/atomic_file.h"
 #include "core/csv_table.h"
 
 namespace halocline::clients {
@@ -106,9 +106,9 @@ std::string text_of(const SweepResults& results, void (*write)(std::ostream&, co
 }  // namespace
 
 void write_csvs(const SweepResults& results, const std::string& folder) {
-  bus::replace_file(folder + "/points.csv", text_of(results, write_points));
-  bus::replace_file(folder + "/pairs.csv", text_of(results, write_pairs));
-  bus::replace_file(folder + "/runs.csv", text_of(results, write_runs));
+  replace_file(folder + "/points.csv", text_of(results, write_points));
+  replace_file(folder + "/pairs.csv", text_of(results, write_pairs));
+  replace_file(folder + "/runs.csv", text_of(results, write_runs));
 }
 
 void print(std::ostream& out, const SweepResults& results) {

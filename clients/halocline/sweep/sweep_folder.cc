@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
-#include "bus/files/atomic_file.h"
 #include "bus/version.h"
+#include "core/atomic_file.h"
+#include "core/hash.h"
 
 namespace halocline::clients {
 namespace {
@@ -28,8 +28,7 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 std::string run_identity(const std::string& effective_configuration) {
-  const std::string text = std::string(bus::kVersion) + "\n" + effective_configuration;
-  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+  return fmt::format("{:016x}", xxh3(std::string(bus::kVersion) + "\n" + effective_configuration));
 }
 
 std::string run_folder(const std::string& out, const std::string& identity) {
@@ -48,7 +47,7 @@ std::optional<RunMetrics> result_in(const std::string& folder) {
 }
 
 void write_result(const std::string& folder, const RunMetrics& metrics) {
-  bus::replace_file(result_path(folder), to_json(metrics) + "\n");
+  replace_file(result_path(folder), to_json(metrics) + "\n");
 }
 
 std::string plan_path(const std::string& out) { return out + "/plan.toml"; }
@@ -57,7 +56,7 @@ void write_plan(const std::string& out, const SweepPlan& plan) {
   std::error_code error;
   fs::create_directories(out, error);
   if (error) throw std::runtime_error("cannot make the folder " + out + ": " + error.message());
-  bus::replace_file(plan_path(out), to_toml(plan));
+  replace_file(plan_path(out), to_toml(plan));
 }
 
 std::string slurm_script(const std::string& program, const std::string& out, std::size_t tasks) {

@@ -7,9 +7,9 @@
 
 #include <netcdf.h>
 
-#include "bus/files/atomic_file.h"
 #include "bus/version.h"
 #include "clients/halocline/sweep/sweep_summary.h"
+#include "core/atomic_file.h"
 #include "core/csv_table.h"
 
 namespace halocline::clients {
@@ -238,7 +238,7 @@ void write_run_numbers(NetcdfFile& file, const SweepResults& results, const Shap
 }
 
 void write_file(const SweepResults& results, const std::string& path) {
-  bus::AtomicFile replacement(path);
+  AtomicFile replacement(path);
   NetcdfFile file(replacement.temporary_path());
   file.attribute("Conventions", "CF-1.8");
   file.attribute("title", "Halocline sweep of " + results.plan.scenario);

@@ -1,4 +1,4 @@
-#include "bus/files/atomic_file.h"
+#include "core/atomic_file.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -10,7 +10,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace halocline::bus {
+namespace halocline {
 namespace {
 
 void check(bool done, const std::string& path) {
@@ -51,4 +51,4 @@ void replace_file(const std::string& path, std::string_view content) {
   file.commit();
 }
 
-}  // namespace halocline::bus
+}  // namespace halocline

@@ -4,9 +4,9 @@
 // (fsync of the file before the rename and of its folder after it; POSIX rename replaces in one step). One writer at a
 // time: two writers of one path share the name of the temporary file.
 //
-//   bus::replace_file("result.json", text);
+//   replace_file("result.json", text);
 //
-//   bus::AtomicFile file("sweep.nc");
+//   AtomicFile file("sweep.nc");
 //   write_netcdf(results, file.temporary_path());
 //   file.commit();
 #pragma once
@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-namespace halocline::bus {
+namespace halocline {
 
 class AtomicFile {
  public:
@@ -37,4 +37,4 @@ class AtomicFile {
 // Replaces the file at `path` by `content`. Throws std::runtime_error.
 void replace_file(const std::string& path, std::string_view content);
 
-}  // namespace halocline::bus
+}  // namespace halocline

@@ -1,4 +1,4 @@
-#include "bus/files/atomic_file.h"
+#include "core/atomic_file.h"
 
 #include <filesystem>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace halocline::bus {
+namespace halocline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,4 +65,4 @@ TEST_F(AtomicFileTest, AFolderThatDoesNotExistIsReportedWithThePath) {
 }
 
 }  // namespace
-}  // namespace halocline::bus
+}  // namespace halocline
