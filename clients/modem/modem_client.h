@@ -44,7 +44,7 @@ struct ModemAddress {
 // How a packet is sent.
 struct SendOptions {
   std::int8_t kind = modem_send_t::DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY
-  bool stamped = true;  // carries the instant of its departure: its receiver knows the delay
+  bool stamped = true;  // carries the instant of its departure: the receiver computes the delay
 };
 
 // When to repeat a SEND that was not answered; steady time.

@@ -294,17 +294,17 @@ TEST(AutopilotNode, UnknownOnlyVehicleIsRefused) {
 // Behind its first waypoint, with integrals that have grown: steers as the one that was not killed.
 TEST(KilledAutopilot, GoesOnWithItsPlanAndItsNumbers) {
   lcm::LCM lcm("memq://");
-  bus::Bus ear(lcm, {"ear", 1});
+  bus::Bus peer(lcm, {"peer", 1});
   std::vector<vehicle_command_t> commands;
-  ear.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-1"),
-                                   [&](const vehicle_command_t& m) { commands.push_back(m); });
+  peer.subscribe<vehicle_command_t>(bus::channels::kCommand.of("auv-1"),
+                                    [&](const vehicle_command_t& m) { commands.push_back(m); });
   const auto publish_state = [&](int k) {
     vehicle_state_t state{};
     state.utime = k * 100'000;
     state.vehicle_id = 1;
     state.orientation_wxyz[0] = 1;
     state.position_ned_m[1] = k;
-    ear.publish(bus::channels::kState.of("auv-1"), state);
+    peer.publish(bus::channels::kState.of("auv-1"), state);
     while (lcm.handleTimeout(0) > 0) {
     }
   };

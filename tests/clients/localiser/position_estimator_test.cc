@@ -18,7 +18,7 @@ constexpr double kPi = std::numbers::pi;
 const Vec3 kWest(0, 0, 50), kEast(0, 1000, 50);
 constexpr double kDepthM = 30;
 
-// A vehicle that goes as the estimator's model says: by its speed and heading, a constant current and a random walk,
+// A vehicle that moves by the estimator's model: by its speed and heading, a constant current and a random walk,
 // all drawn from what the rules state.
 struct Voyage {
   std::uint64_t number = 0;
@@ -130,7 +130,7 @@ class Sailing {
 End sail(const Voyage& voyage) { return Sailing(voyage).sail(); }
 
 // The normalised squared errors of many voyages: chi-squared with two degrees of freedom each when the covariance is
-// what it says. Over n voyages their sum has mean 2 n and variance 4 n; the share beyond 3 sigma (11.83) is 0.27 %.
+// its covariance. Over n voyages their sum has mean 2 n and variance 4 n; the share beyond 3 sigma (11.83) is 0.27 %.
 void expect_honest(Voyage voyage) {
   constexpr int kVoyages = 400;
   double sum = 0;
