@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "bathymetry/bathymetry_messages.h"
+#include "bathymetry/ray_service.h"
 #include "bathymetry/terrain/terrain.h"
 #include "bus/bus.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 
 namespace halocline::bathymetry {

@@ -30,11 +30,13 @@
 #include "bus/channels.h"
 #include "bus/event_log.h"
 #include "bus/flow_repair.h"
+#include "bus/flow_watch.h"
 #include "bus/message_codec.h"
 #include "bus/node_identity.h"
 #include "bus/sequence_number.h"
 #include "bus/subscription.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus {
 

@@ -1,5 +1,7 @@
 #include "bus/channel_pattern.h"
 
+#include <utility>
+
 #include "core/check.h"
 
 namespace halocline::bus {

@@ -4,18 +4,27 @@
 // The structs are SI; every key's unit and range is in the .cc, where it is visited, and in --example.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/noise.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
 #include "bus/runtime/scenario.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 
@@ -85,8 +94,9 @@ struct ServerRules {
   PositionRule position;
   MediumRule medium;
   RayQueryRule ray_queries;
-  int bottom_points = 9;             // under each link, for its echoes
-  double echo_reuse_distance_m = 5;  // how far the ends of a link may move before its echoes are surveyed again
+  int bottom_points = 9;  // under each link, for its echoes
+  double echo_reuse_distance_m =
+      5;  // how far the ends of a link may move before its echoes are surveyed again
   ProfileRule profile{.reuse_distance_m = 25, .spacing_m = 25};
   int threads = 1;  // that compute link tables
 };

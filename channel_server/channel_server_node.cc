@@ -1,9 +1,12 @@
 #include "channel_server/channel_server_node.h"
 
+#include <cstdint>
 #include <optional>
 
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/shard.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 

@@ -15,18 +15,25 @@
 #include <memory>
 #include <string>
 
+#include "bus/node_identity.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/crash_journal.h"
 #include "bus/runtime/node.h"
+#include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/inbox.h"
 #include "channel_server/input_processor.h"
 #include "channel_server/link_table_publisher.h"
 #include "channel_server/links/link_query_service.h"
+#include "channel_server/links/multipath_cache.h"
+#include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
+#include "channel_server/packets/packet_medium.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 #include "channel_server/water_model.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

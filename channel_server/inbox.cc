@@ -1,8 +1,10 @@
 #include "channel_server/inbox.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "bus/channels.h"
+#include "bus/subscription.h"
 #include "channel_server/links/link_query_service.h"
 
 namespace halocline::channel_server {

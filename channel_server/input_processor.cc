@@ -1,10 +1,12 @@
 #include "channel_server/input_processor.h"
 
 #include <algorithm>
+#include <string>
 #include <tuple>
 
 #include "bus/channels.h"
 #include "channel_server/packet_messages.h"
+#include "channel_server/vehicles/state_history.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 

@@ -6,6 +6,8 @@
 // refused on its channel.
 #pragma once
 
+#include <vector>
+
 #include "bus/bus.h"
 #include "channel_server/inbox.h"
 #include "channel_server/packet_publisher.h"
@@ -13,6 +15,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -1,11 +1,13 @@
 #include "channel_server/link_messages.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "bus/message_checks.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
+#include "core/frames.h"
 
 namespace halocline::channel_server {
 namespace {

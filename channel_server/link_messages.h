@@ -9,6 +9,8 @@
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/ray_query_client.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -1,9 +1,11 @@
 #include "channel_server/link_table_publisher.h"
 
 #include <functional>
+#include <utility>
 
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/links/link_table.h"
 
 namespace halocline::channel_server {
 

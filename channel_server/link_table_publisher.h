@@ -13,6 +13,7 @@
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -1,4 +1,9 @@
+#include <string>
+#include <vector>
+
+#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
+#include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
 #include "core/check.h"
 

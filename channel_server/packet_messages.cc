@@ -1,5 +1,6 @@
 #include "channel_server/packet_messages.h"
 
+#include <cstdint>
 #include <initializer_list>
 
 namespace halocline::channel_server {

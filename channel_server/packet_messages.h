@@ -7,6 +7,7 @@
 
 #include "bus/messages.h"
 #include "channel_server/packets/packet.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -1,5 +1,8 @@
 #include "channel_server/packet_publisher.h"
 
+#include <string>
+#include <variant>
+
 #include "bus/channels.h"
 #include "channel_server/packet_messages.h"
 

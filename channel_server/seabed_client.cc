@@ -1,9 +1,12 @@
 #include "channel_server/seabed_client.h"
 
 #include <utility>
+#include <variant>
 
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/links/echo_survey.h"
+#include "channel_server/propagation/profile_survey.h"
 
 namespace halocline::channel_server {
 namespace {

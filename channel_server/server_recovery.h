@@ -13,6 +13,7 @@
 #include "bus/runtime/crash_journal.h"
 #include "bus/runtime/node.h"
 #include "channel_server/inbox.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -1,9 +1,26 @@
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/environment.h"
 #include "acoustics/sea/profile_reader.h"
+#include "acoustics/sea/sound_speed.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "bus/config/config.h"
+#include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/ray_propagation.h"
 #include "core/check.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -1,5 +1,7 @@
 #include "channel_server/water_model.h"
 
+#include <utility>
+
 namespace halocline::channel_server {
 
 WaterModel straight_model(const acoustics::Environment& environment) {

@@ -4,9 +4,12 @@
 #include <memory>
 #include <string>
 
+#include "acoustics/sea/environment.h"
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_profile_cache.h"
 #include "channel_server/world_messages.h"

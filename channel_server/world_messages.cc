@@ -1,9 +1,16 @@
 #include "channel_server/world_messages.h"
 
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/modem/error_model.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/modems/modem_config.h"
 #include "core/check.h"
+#include "core/frames.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -10,6 +10,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -1,6 +1,7 @@
 #include "conductor/bus_bridge.h"
 
 #include <span>
+#include <utility>
 
 #include "bus/lockstep/lockstep_wire.h"
 

@@ -1,5 +1,7 @@
 #include "conductor/conductor_node.h"
 
+#include <utility>
+
 #include "core/check.h"
 
 namespace halocline::conductor {

@@ -1,9 +1,13 @@
 // Publishes CLOCK: the simulation time, on the grid of the clock period.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 
+#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 

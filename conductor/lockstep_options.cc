@@ -1,10 +1,13 @@
 #include "conductor/lockstep_options.h"
 
 #include <charconv>
+#include <set>
 #include <sstream>
+#include <system_error>
 
 #include "conductor/lockstep_run.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 namespace {

@@ -1,11 +1,16 @@
 #include "conductor/lockstep_run.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "bus/channels.h"
+#include "bus/event_log.h"
+#include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_conductor.h"
+#include "bus/lockstep/sequencer.h"
 #include "bus/logs/log_recorder.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/lockstep_turns.h"

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "bus/bus.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/scenario.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 

@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "bus/runtime/node_process.h"
 #include "conductor/conductor_node.h"
 #include "conductor/lockstep_options.h"

@@ -1,6 +1,7 @@
 #include "conductor/paced_time.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "core/check.h"
 

@@ -4,10 +4,12 @@
 // listens for a little more than the period of STATUS, then starts from the latest utime received, or from 0.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "bus/bus.h"
 #include "bus/runtime/time_source.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/frames.h"
 
 namespace halocline::vehicle_sim {
 

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "core/sim_time.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 

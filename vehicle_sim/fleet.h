@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,10 +14,15 @@
 
 #include "core/archive.h"
 #include "core/for_each.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/dynamics/waves.h"
 #include "vehicle_sim/faults.h"
 #include "vehicle_sim/sensors/sensors.h"
+#include "vehicle_sim/world/seabed.h"
 #include "vehicle_sim/world/vehicle_world.h"
 
 namespace halocline::vehicle_sim {

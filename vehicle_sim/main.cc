@@ -1,5 +1,10 @@
+#include <memory>
+
 #include "bathymetry/bathymetry_config.h"
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
+#include "vehicle_sim/vehicle_sim_config.h"
 #include "vehicle_sim/vehicle_sim_node.h"
 #include "vehicle_sim/world/terrain_seabed.h"
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <string_view>
 
 #include "core/check.h"
 #include "vehicle_sim/model_library.h"

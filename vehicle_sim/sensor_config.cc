@@ -1,6 +1,9 @@
 #include "vehicle_sim/sensor_config.h"
 
 #include <numbers>
+#include <string_view>
+
+#include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "core/sim_time.h"
 #include "vehicle_sim/faults.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
 

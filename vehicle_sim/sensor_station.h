@@ -6,11 +6,18 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "core/archive.h"
+#include "core/sim_time.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/sensors/doppler_log.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
 #include "vehicle_sim/sensors/sensors.h"
 
 namespace halocline::vehicle_sim {

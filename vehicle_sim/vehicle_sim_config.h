@@ -11,12 +11,20 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bus/config/config.h"
 #include "bus/runtime/scenario.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+#include "vehicle_sim/dynamics/currents.h"
+#include "vehicle_sim/dynamics/waves.h"
+#include "vehicle_sim/faults.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/sensor_config.h"
 #include "vehicle_sim/sensor_station.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
 
 namespace halocline::vehicle_sim {
 

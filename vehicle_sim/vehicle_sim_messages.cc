@@ -4,6 +4,8 @@
 #include <array>
 #include <type_traits>
 
+#include "vehicle_sim/sensors/sensor_errors.h"
+
 namespace halocline::vehicle_sim {
 namespace {
 

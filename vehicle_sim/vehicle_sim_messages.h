@@ -3,15 +3,21 @@
 // Session and sequence numbers are the publisher's: left at 0 here, set where a message is published.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/messages.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
+#include "vehicle_sim/faults.h"
 #include "vehicle_sim/sensor_station.h"
+#include "vehicle_sim/sensors/doppler_log.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
+#include "vehicle_sim/sensors/sensors.h"
 #include "vehicle_sim/sensors/usbl_fix_assembler.h"
 
 namespace halocline::vehicle_sim {

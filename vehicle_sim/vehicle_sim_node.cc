@@ -2,8 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <variant>
 
+#include "bus/subscription.h"
 #include "core/check.h"
+#include "vehicle_sim/dynamics/command_schedule.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
+#include "vehicle_sim/sensors/sensors.h"
 #include "vehicle_sim/vehicle_sim_messages.h"
 
 namespace halocline::vehicle_sim {

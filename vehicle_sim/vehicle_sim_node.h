@@ -11,20 +11,27 @@
 // its absence, with the last commands until they time out, and publishes what lies at most two seconds back.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bus/node_identity.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
+#include "bus/runtime/scenario.h"
 #include "bus/runtime/thread_pool.h"
+#include "core/archive.h"
+#include "core/sim_time.h"
+#include "vehicle_sim/faults.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/pending_echoes.h"
 #include "vehicle_sim/sensor_station.h"
 #include "vehicle_sim/sensors/usbl_fix_assembler.h"
 #include "vehicle_sim/vehicle_sim_config.h"
+#include "vehicle_sim/world/seabed.h"
 
 namespace halocline::vehicle_sim {
 

@@ -10,6 +10,7 @@
 #include "acoustics/math/depth_cells.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/math/gauss_legendre.h"
+#include "acoustics/sea/absorption.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -24,6 +24,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "core/frames.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 

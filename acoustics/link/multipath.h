@@ -13,6 +13,7 @@
 
 #include "acoustics/link/link_budget.h"
 #include "core/frames.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 

@@ -14,6 +14,10 @@
 #pragma once
 
 #include "acoustics/link/capacity.h"
+#include "acoustics/math/frequency_band.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/noise.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 

@@ -1,5 +1,7 @@
 #include "acoustics/link/transmission_loss.h"
 
+#include <cmath>
+
 namespace halocline::acoustics {
 
 TransmissionLoss transmission_loss(double range_m, double spreading_exponent, double absorption_db_per_km) {

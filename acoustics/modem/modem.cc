@@ -1,6 +1,7 @@
 #include "acoustics/modem/modem.h"
 
 #include <algorithm>
+#include <string>
 
 #include "acoustics/modem/preamble_detection.h"
 #include "core/check.h"

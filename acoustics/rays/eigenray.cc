@@ -1,7 +1,9 @@
 #include "acoustics/rays/eigenray.h"
 
 #include <cmath>
+#include <vector>
 
+#include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/image_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/sea/boundary_reflection.h"
+
 namespace halocline::acoustics {
 namespace {
 

@@ -12,8 +12,11 @@
 #include <span>
 #include <vector>
 
+#include "acoustics/rays/arc_steps.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/ray_column.h"
+#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/bottom_profile.h"
 
 namespace halocline::acoustics {
 

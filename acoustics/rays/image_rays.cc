@@ -7,6 +7,7 @@
 
 #include "acoustics/math/arc_math.h"
 #include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/boundary_reflection.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/layered_rays.h"
 
 namespace halocline::acoustics {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "acoustics/math/arc_math.h"
+#include "acoustics/sea/boundary_reflection.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {

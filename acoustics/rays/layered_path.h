@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/layered_legs.h"

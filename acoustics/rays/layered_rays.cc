@@ -1,10 +1,12 @@
 #include "acoustics/rays/layered_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "acoustics/math/hermite_cubic.h"
+#include "acoustics/rays/layered_legs.h"
 #include "acoustics/rays/layered_path.h"
 #include "core/check.h"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "acoustics/rays/ray_water.h"
+
 namespace halocline::acoustics {
 namespace {
 

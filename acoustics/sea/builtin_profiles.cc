@@ -1,6 +1,11 @@
 // The profiles that ship with the project.
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/units.h"
 

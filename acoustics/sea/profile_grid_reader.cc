@@ -1,14 +1,20 @@
 // Columns of water from CF netCDF grids, through GDAL. Part of the module halocline_profile_grids.so, which only
 // profile_reader.cc loads.
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <gdal_priv.h>
 
 #include "acoustics/sea/profile_reader.h"
+#include "acoustics/sea/sound_speed.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/units.h"
 

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/check.h"
 #include "core/csv_table.h"

@@ -20,6 +20,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
 
 namespace halocline::acoustics {

@@ -1,8 +1,13 @@
 // Claims about the acoustics' speed: docs/performance.md holds the table.
+#include <vector>
+
 #include <benchmark/benchmark.h>
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/multipath.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "core/frames.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -3,12 +3,20 @@
 // Claims (microseconds, searched for): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots
 // 80, a slope 150, a bottom of many facets 1500.
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/sound_speed_profile.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -17,6 +17,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bathymetry/bathymetry_node.h"
+#include "bathymetry/ray_service.h"
 #include "bus/channels.h"
 #include "bus/runtime/node_process.h"
 #include "bus/runtime/time_source.h"

@@ -3,6 +3,10 @@
 // The udpm case needs a private loopback bus: scripts/bench gives it one. It sends in rounds that the receive
 // buffer holds, waits for each round to be heard, and fails when one message is lost.
 #include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 

@@ -1,14 +1,31 @@
 // Claims about the channel server's speed: docs/performance.md holds the table.
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
+#include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 #include "core/check.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 namespace {

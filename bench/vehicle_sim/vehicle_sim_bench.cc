@@ -1,13 +1,24 @@
 // Vehicle steps per second: the right-hand side, a Runge-Kutta step, a step in the ODE world, free and
 // grounded, and a fleet's step in each kind of moving water; what each sensor costs.
 #include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "core/sim_time.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/dynamics/waves.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/sensor_station.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
+#include "vehicle_sim/sensors/sensors.h"
+#include "vehicle_sim/world/seabed.h"
 #include "vehicle_sim/world/vehicle_world.h"
 
 namespace halocline::vehicle_sim {

@@ -1,6 +1,7 @@
 #include "bus/config/config.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
 

@@ -2,13 +2,17 @@
 // this: it is what keeps toml++ out of every other file.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <toml++/toml.h>
 
 #include "bus/config/config.h"
+#include "core/frames.h"
 
 namespace halocline::bus {
 

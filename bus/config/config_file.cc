@@ -1,7 +1,13 @@
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "bus/config/config.h"
 #include "bus/config/config_document.h"
 
 namespace halocline::bus {

@@ -1,7 +1,14 @@
 #include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
+#include "bus/config/config.h"
 #include "bus/config/config_document.h"
+#include "core/frames.h"
 
 namespace halocline::bus {
 namespace {

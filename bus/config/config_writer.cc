@@ -1,14 +1,18 @@
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bus/config/config.h"
+#include "core/frames.h"
 
 namespace halocline::bus {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "bus/lockstep/participant_links.h"
 #include "bus/lockstep/sequencer.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 

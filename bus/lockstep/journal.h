@@ -6,6 +6,7 @@
 // acted upon; a machine that loses power may (no fsync). An entry that a kill cut short is removed.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

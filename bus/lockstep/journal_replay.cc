@@ -1,9 +1,12 @@
 #include "bus/lockstep/journal_replay.h"
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 namespace {

@@ -10,6 +10,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/lockstep/grant_sender.h"
@@ -18,6 +19,7 @@
 #include "bus/lockstep/membership.h"
 #include "bus/lockstep/participant_links.h"
 #include "bus/lockstep/sequencer.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 

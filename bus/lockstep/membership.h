@@ -12,6 +12,7 @@
 #include "bus/lockstep/grant_sender.h"
 #include "bus/lockstep/participant_links.h"
 #include "bus/lockstep/sequencer.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 

@@ -27,6 +27,7 @@
 #include "bus/channel_pattern.h"
 #include "bus/lockstep/lockstep_schedule.h"
 #include "bus/messages.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor {
 

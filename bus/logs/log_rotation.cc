@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <stdexcept>
 
 #include <unistd.h>
 
 #include "bus/channels.h"
 #include "bus/config/config.h"
+#include "bus/event_log.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "core/hash.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus {
 namespace {

@@ -1,6 +1,7 @@
 // A node as a participant of lockstep in a process of its own: the protocol of lockstep_participant.h on LCM.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 

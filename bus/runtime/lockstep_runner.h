@@ -6,12 +6,14 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/lockstep/lockstep_schedule.h"
 #include "bus/runtime/node.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus {
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "bus/lockstep/lockstep_wire.h"
+#include "bus/subscription.h"
 
 namespace halocline::bus {
 namespace {

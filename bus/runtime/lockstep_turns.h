@@ -6,6 +6,8 @@
 // horizon, or until it publishes a message that may advance the due instant of a participant.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "bus/channel_pattern.h"
 #include "bus/messages.h"
 #include "bus/runtime/node.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus {
 

@@ -1,6 +1,7 @@
 #include "bus/runtime/node.h"
 
 #include <algorithm>
+#include <string_view>
 #include <tuple>
 #include <utility>
 

@@ -10,10 +10,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/state_journal.h"
+#include "bus/subscription.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
 

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <cstdio>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "bus/config/config.h"
 #include "bus/transport.h"
 #include "bus/version.h"
 #include "core/check.h"

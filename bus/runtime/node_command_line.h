@@ -1,10 +1,15 @@
 // The command line that all node programs share.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 
 #include "bus/event_log.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/scenario.h"
+#include "bus/runtime/time_source.h"
 
 namespace halocline::bus {
 

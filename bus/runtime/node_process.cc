@@ -11,9 +11,12 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include "bus/event_log.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/node_command_line.h"
+#include "bus/runtime/state_journal.h"
 #include "bus/transport.h"
+#include "core/check.h"
 
 namespace halocline::bus {
 namespace {

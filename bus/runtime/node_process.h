@@ -12,9 +12,12 @@
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "bus/config/config.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/scenario.h"
 #include "bus/runtime/time_source.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus {
 

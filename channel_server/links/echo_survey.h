@@ -21,10 +21,13 @@
 #include <span>
 #include <vector>
 
+#include "acoustics/link/multipath.h"
+#include "acoustics/modem/modem.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
+#include "acoustics/modem/modem.h"
+#include "channel_server/links/echo_survey.h"
 #include "core/check.h"
 #include "core/names.h"
 

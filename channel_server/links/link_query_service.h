@@ -9,6 +9,7 @@
 // simulation time is known, no vehicle is. Not thread-safe.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <optional>
@@ -18,8 +19,15 @@
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
+#include "channel_server/links/terrain_survey.h"
+#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -5,9 +5,14 @@
 #include <functional>
 #include <vector>
 
+#include "acoustics/link/link_budget.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/for_each.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

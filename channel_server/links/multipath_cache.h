@@ -11,8 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/modem/modem.h"
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_table.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "channel_server/links/terrain_survey.h"
+#include "channel_server/propagation/terrain_rays.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {

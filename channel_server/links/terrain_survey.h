@@ -9,6 +9,7 @@
 
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/terrain_rays.h"
 
 namespace halocline::channel_server {
 

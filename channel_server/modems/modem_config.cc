@@ -1,7 +1,10 @@
 #include "channel_server/modems/modem_config.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <utility>
 
+#include "acoustics/modem/beam_pattern.h"
 #include "channel_server/modems/built_in_modems.h"
 #include "core/check.h"
 

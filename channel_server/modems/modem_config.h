@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/modem/modem.h"
 #include "bus/config/config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "acoustics/rays/ray_doppler.h"
+#include "core/frames.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -13,13 +13,19 @@
 // one that turns. All paths of a flight hold for the one place of its first significant path.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "acoustics/modem/modem.h"
+#include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -5,8 +5,10 @@
 #include <cstddef>
 
 #include "acoustics/link/capacity.h"
+#include "acoustics/math/frequency_band.h"
 #include "acoustics/sea/noise.h"
 #include "core/lru_cache.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

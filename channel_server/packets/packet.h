@@ -9,9 +9,13 @@
 #include <vector>
 
 #include "acoustics/link/link_budget.h"
+#include "acoustics/modem/modem.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "channel_server/packets/reception_decision.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "core/names.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -47,7 +47,9 @@
 #include "channel_server/packets/send_register.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

@@ -6,10 +6,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <set>
 #include <vector>
 
+#include "acoustics/math/frequency_band.h"
 #include "channel_server/packets/packet.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

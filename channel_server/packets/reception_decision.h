@@ -24,6 +24,9 @@
 
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

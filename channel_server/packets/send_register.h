@@ -10,6 +10,7 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "channel_server/packets/packet.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

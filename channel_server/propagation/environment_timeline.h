@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {

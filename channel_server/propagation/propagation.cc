@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "core/check.h"
 

@@ -18,6 +18,8 @@
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/multipath.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/profile_survey.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -25,6 +27,7 @@
 #include "core/frames.h"
 #include "core/lru_cache.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

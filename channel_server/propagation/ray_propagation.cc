@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/rays/ray_doppler.h"

@@ -30,10 +30,22 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/link/multipath.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/environment.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_profile_cache.h"
+#include "core/for_each.h"
+#include "core/frames.h"
 #include "core/lru_cache.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

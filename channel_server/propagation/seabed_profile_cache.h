@@ -16,6 +16,7 @@
 
 #include "channel_server/propagation/profile_survey.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
 

@@ -1,5 +1,7 @@
 #include "channel_server/vehicles/vehicle_registry.h"
 
+#include <utility>
+
 #include "core/check.h"
 
 namespace halocline::channel_server {

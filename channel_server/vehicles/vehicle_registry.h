@@ -24,6 +24,7 @@
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 

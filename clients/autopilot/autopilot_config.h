@@ -1,6 +1,7 @@
 // The sections [vehicle.mission] and [autopilot] of a scenario file.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/navigator.h"
 #include "clients/autopilot/plan.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {

@@ -1,6 +1,7 @@
 // Messages of the bus to the values of the control laws, and back.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -9,9 +10,12 @@
 #include "clients/autopilot/acoustic_fix.h"
 #include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/control_laws.h"
+#include "clients/autopilot/formation.h"
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/navigator.h"
+#include "clients/autopilot/seabed_ahead.h"
 #include "clients/autopilot/vehicle_pilot.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 

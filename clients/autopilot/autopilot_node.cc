@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "bus/subscription.h"
 #include "clients/autopilot/autopilot_messages.h"
+#include "clients/autopilot/formation.h"
+#include "clients/autopilot/guidance.h"
+#include "clients/autopilot/seabed_ahead.h"
 #include "core/check.h"
 
 namespace halocline::clients {

@@ -8,18 +8,24 @@
 // the time-out gets no commands, and so falls into its safe state.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 #include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation_link.h"
 #include "clients/autopilot/navigator.h"
+#include "clients/autopilot/plan.h"
 #include "clients/autopilot/vehicle_pilot.h"
+#include "core/archive.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -25,10 +25,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/plan.h"
+#include "core/archive.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 

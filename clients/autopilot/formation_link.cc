@@ -1,5 +1,7 @@
 #include "clients/autopilot/formation_link.h"
 
+#include <utility>
+
 #include "bus/runtime/scenario.h"
 #include "clients/autopilot/autopilot_messages.h"
 #include "core/names.h"

@@ -5,14 +5,19 @@
 // position in a report is the latest situation's, stamped with its own time.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "bus/runtime/node.h"
 #include "clients/autopilot/autopilot_config.h"
+#include "clients/autopilot/formation.h"
 #include "clients/autopilot/vehicle_pilot.h"
 #include "clients/modem/modem_client.h"
+#include "core/archive.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "clients/autopilot/guidance.h"
+#include "core/archive.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 

@@ -18,6 +18,8 @@
 #include <optional>
 
 #include "clients/autopilot/guidance.h"
+#include "core/archive.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 

@@ -12,9 +12,12 @@
 
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/formation.h"
+#include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/plan.h"
 #include "clients/autopilot/seabed_ahead.h"
+#include "core/archive.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 

@@ -1,8 +1,12 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <vector>
 
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/arrivals/arrival_plot.h"

@@ -7,6 +7,7 @@
 
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/calc/calc.h"
+#include "clients/halocline/calc/quantity.h"
 #include "clients/halocline/commands.h"
 #include "core/check.h"
 

@@ -2,6 +2,9 @@
 // work and leaves the exit code: 0 done, 1 failed, 2 the user's error. What it throws is reported by main.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 namespace halocline::clients {

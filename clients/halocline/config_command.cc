@@ -1,5 +1,7 @@
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"

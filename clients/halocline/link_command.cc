@@ -2,14 +2,23 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
+#include "acoustics/link/link_budget.h"
+#include "acoustics/modem/modem.h"
+#include "channel_server/links/link_table.h"
+#include "channel_server/propagation/propagation.h"
+#include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/arrivals/arrival_plot.h"
 #include "clients/halocline/commands.h"
+#include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
 #include "core/check.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 namespace {

@@ -1,6 +1,9 @@
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/csv_export.h"
 #include "clients/halocline/analysis/log_statistics.h"
 #include "clients/halocline/analysis/simulation_output.h"

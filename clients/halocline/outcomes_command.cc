@@ -1,7 +1,10 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/outcome_summary.h"
 #include "clients/halocline/commands.h"
 #include "core/check.h"

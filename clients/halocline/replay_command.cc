@@ -1,20 +1,26 @@
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <fmt/ostream.h>
 
 #include "bus/event_log.h"
+#include "bus/logs/log_reader.h"
 #include "bus/logs/log_rotation.h"
 #include "bus/runtime/node_process.h"
 #include "clients/halocline/analysis/comparison.h"
+#include "clients/halocline/analysis/recording.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
 #include "clients/halocline/scenario/replay_node.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

@@ -1,13 +1,17 @@
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/ostream.h>
 
 #include "bus/event_log.h"
+#include "bus/logs/log_reader.h"
 #include "bus/logs/log_rotation.h"
 #include "bus/runtime/node_process.h"
 #include "clients/halocline/analysis/csv_export.h"
@@ -16,6 +20,7 @@
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

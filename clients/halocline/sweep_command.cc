@@ -5,17 +5,22 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <sstream>
 #include <thread>
+#include <vector>
 
 #include "bus/event_log.h"
+#include "bus/logs/log_reader.h"
 #include "bus/runtime/node_process.h"
 #include "bus/runtime/thread_pool.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/sweep/child_program.h"
+#include "clients/halocline/sweep/run_metrics.h"
 #include "clients/halocline/sweep/sweep_folder.h"
+#include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/check.h"
 

@@ -1,5 +1,6 @@
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/vehicle_replay.h"

@@ -1,12 +1,14 @@
 // The sections [vehicle.localiser] of a scenario file: which vehicle finds its place, by which beacons and how.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/config/config.h"
 #include "clients/localiser/position_estimator.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {

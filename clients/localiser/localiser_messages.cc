@@ -1,5 +1,7 @@
 #include "clients/localiser/localiser_messages.h"
 
+#include <vector>
+
 namespace halocline::clients {
 
 OwnMotion to_motion(const vehicle_sensors_t& sensors) {

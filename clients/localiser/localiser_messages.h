@@ -3,7 +3,10 @@
 
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/messages.h"
+#include "clients/localiser/dead_reckoning.h"
 #include "clients/localiser/position_estimator.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -5,9 +5,12 @@
 #include <cmath>
 
 #include "bus/runtime/scenario.h"
+#include "bus/subscription.h"
 #include "channel_server/packets/packet.h"
+#include "clients/localiser/dead_reckoning.h"
 #include "clients/localiser/localiser_messages.h"
 #include "core/check.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 namespace {

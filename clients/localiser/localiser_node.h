@@ -14,15 +14,21 @@
 // instants that the water gave it, so its lateness costs nothing.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "acoustics/sea/sound_speed_profile.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 #include "clients/localiser/localiser_config.h"
+#include "clients/localiser/position_estimator.h"
 #include "clients/modem/modem_client.h"
+#include "core/archive.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -1,4 +1,8 @@
+#include <memory>
+
+#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
+#include "clients/localiser/localiser_config.h"
 #include "clients/localiser/localiser_node.h"
 
 using halocline::bus::NodeProgram;

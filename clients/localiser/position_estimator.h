@@ -26,7 +26,9 @@
 #include <Eigen/Core>
 
 #include "clients/localiser/dead_reckoning.h"
+#include "core/archive.h"
 #include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -10,10 +10,14 @@
 // subscriptions made on it are served too. Not thread-safe; the LCM must outlive the modem.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 
 #include "bus/runtime/time_source.h"
 #include "clients/modem/modem_client.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -1,5 +1,7 @@
 #include "clients/traffic/traffic_config.h"
 
+#include <string_view>
+
 #include "core/check.h"
 
 namespace halocline::clients {

@@ -1,6 +1,7 @@
 // The sections [vehicle.traffic] of a scenario file: who sends what to whom, and how often.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -6,12 +6,17 @@
 // whose instant passed while the program was not running is not sent late.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 #include "clients/modem/modem_client.h"
 #include "clients/traffic/traffic_config.h"
+#include "core/archive.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -15,11 +15,17 @@
 #include "acoustics/math/gauss_legendre.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/absorption.h"
+#include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 #include "tests/support/csv.h"
 
 namespace halocline::acoustics {

@@ -10,6 +10,8 @@
 #include "bathymetry/rasters/raster_options.h"
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "bathymetry/terrain/height_grid.h"
+#include "bathymetry/terrain/local_frame.h"
+#include "bathymetry/terrain/terrain.h"
 #include "core/check.h"
 #include "tests/bathymetry/rasters/raster_fixtures.h"
 

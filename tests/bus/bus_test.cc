@@ -1,5 +1,7 @@
 #include "bus/bus.h"
 
+#include <algorithm>
+#include <limits>
 #include <random>
 #include <stdexcept>
 

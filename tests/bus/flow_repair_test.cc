@@ -1,14 +1,21 @@
 // Two Buses joined by a network that loses, duplicates and delays datagrams.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <random>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bus/bus.h"
+#include "bus/event_log.h"
+#include "bus/node_identity.h"
+#include "core/sim_time.h"
 #include "tests/bus/messages_for_tests.h"
 
 namespace halocline::bus {

@@ -1,5 +1,7 @@
 #include "bus/flow_watch.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

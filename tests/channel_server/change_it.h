@@ -6,13 +6,20 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
 #include "bus/event_log.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "core/frames.h"
 #include "tests/channel_server/node_bench.h"
 
 namespace halocline::channel_server::testing {

@@ -3,10 +3,22 @@
 // to the last bit.
 #include <cmath>
 #include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/modem/error_model.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
+#include "acoustics/sea/sound_speed.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/change_it.h"
 
 namespace halocline::channel_server {

@@ -1,14 +1,26 @@
 // Waters, modems and fleets that several tests of the channel server start from.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server::testing {
 

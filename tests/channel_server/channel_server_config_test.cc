@@ -3,7 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/modem/error_model.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/boundary_reflection.h"
 #include "channel_server/modems/modem_config.h"
+#include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {

@@ -1,10 +1,19 @@
 #include "channel_server/channel_server_node.h"
 
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bus/event_log.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/names.h"
+#include "core/units.h"
 #include "tests/channel_server/node_bench.h"
 #include "tests/support/tolerance.h"
 

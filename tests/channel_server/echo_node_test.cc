@@ -1,8 +1,16 @@
 // The channel server and the bathymetry service: echoes in tables and answers, and the service away and back.
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bus/event_log.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/seabed_client.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/node_bench.h"
 
 namespace halocline::channel_server {

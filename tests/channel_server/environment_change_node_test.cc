@@ -1,6 +1,11 @@
 // The water changes during a run: what moves, from which instant, and what stays.
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
 #include <gtest/gtest.h>
 
+#include "acoustics/sea/boundary_reflection.h"
 #include "bus/event_log.h"
 #include "tests/channel_server/node_bench.h"
 

@@ -1,10 +1,16 @@
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bus/event_log.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/node_bench.h"
 #include "tests/support/tolerance.h"
 

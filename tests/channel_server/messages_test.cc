@@ -1,14 +1,31 @@
 // The messages of the channel server, from the bus to the models and back.
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/modem/error_model.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "bus/message_checks.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/links/link_query_service.h"
+#include "channel_server/links/link_table.h"
+#include "channel_server/links/ray_query_client.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packet_messages.h"
+#include "channel_server/packets/packet.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {
@@ -314,33 +331,6 @@ TEST(ChannelServerMessages, ABatchOfRaysStaysBelowSixtyKilobytes) {
   EXPECT_EQ(message.offset_m.at(1023), (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(message.max_range_m.at(1023), 50);
   EXPECT_LT(message.getEncodedSize(), 60'000);
-}
-
-TEST(ChannelServerMessages, TheEnvironmentExplainsItself) {
-  const acoustics::Environment water;
-  const environment_t message = to_message(water, {"straight", {}, {}}, at_s(60), "terrain-7");
-  EXPECT_EQ(bus::problem_in(message), "");
-  EXPECT_EQ(message.num_layers, 15);
-  EXPECT_EQ(message.layer_temperature_degc.at(1), 15.09);
-  EXPECT_EQ(message.sound_speed_model, "mackenzie");
-  EXPECT_EQ(message.absorption_model, "fisher-simmons");
-  EXPECT_EQ(message.terrain_version, "terrain-7");
-}
-
-TEST(ChannelServerMessages, AProfileThatIsAFormulaIsTabulated) {
-  acoustics::Environment water;
-  water.profile = acoustics::SoundSpeedProfile::munk({10, 35});
-  const environment_t message = to_message(water, {"straight", {}, {}}, at_s(0), "");
-  EXPECT_EQ(bus::problem_in(message), "");
-  EXPECT_EQ(message.num_layers, 51);
-}
-
-TEST(ChannelServerMessages, ALongProfileIsThinnedToWhatAMessageHolds) {
-  std::vector<acoustics::SpeedRow> rows;
-  for (int i = 0; i < 5000; ++i) rows.push_back({1.0 * i, 1500});
-  acoustics::Environment water;
-  water.profile = acoustics::SoundSpeedProfile::from_speeds(rows, {10, 35});
-  EXPECT_EQ(bus::problem_in(to_message(water, {"straight", {}, {}}, at_s(0), "")), "");
 }
 
 }  // namespace

@@ -1,19 +1,29 @@
-// A channel server on a bus of its own (memq), with functions that publish as vehicles do, subscriptions to all that
-// it publishes, and a bathymetry service that can be switched off.
+// A channel server on a bus of its own (memq), with vehicles, subscriptions and a bathymetry service that may be away.
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "acoustics/sea/environment.h"
 #include "bus/channels.h"
+#include "bus/runtime/node.h"
+#include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/packet_messages.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "channel_server/water_model.h"
 #include "channel_server/world_messages.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server::testing {
@@ -154,8 +164,7 @@ class NodeBench {
     now_ = at_s(end_s);
   }
   void drain() {
-    while (lcm_.handleTimeout(0) > 0) {
-    }
+    while (lcm_.handleTimeout(0) > 0) continue;
   }
 
   // Rows of the last table of a vehicle; fails the test when there is none.

@@ -1,11 +1,13 @@
 // A long random run through the node on the bus: every accepted packet has one OUTCOME for each possible
 // receiver, every RECEIVE an OUTCOME of its own.
+#include <cstdint>
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "bus/event_log.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/random.h"
 #include "tests/channel_server/node_bench.h"
 

@@ -1,8 +1,16 @@
 // Figures 4, 6 and 7 of Sehgal, Cernea and Birk 2010 through the channel server on the bus: static vehicles,
 // LINKS and LINK_REPLY, against the reference tables and the numbers that are expected of them.
+#include <string>
+#include <utility>
+
 #include <gtest/gtest.h>
 
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "bus/event_log.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/node_bench.h"
 #include "tests/support/csv.h"
 #include "tests/support/tolerance.h"

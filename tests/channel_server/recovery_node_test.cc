@@ -1,16 +1,19 @@
 // A channel server that is killed while packets are under way, and restarted with its journal, publishes in both
 // incarnations together what an uninterrupted one publishes: nothing twice, nothing missing, the same numbers.
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "bus/event_log.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "tests/channel_server/node_bench.h"
 
 namespace halocline::channel_server {

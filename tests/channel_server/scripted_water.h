@@ -3,17 +3,30 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/multipath.h"
 #include "acoustics/modem/bit_error.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server::testing {

@@ -1,5 +1,7 @@
 #include "conductor/conductor_node.h"
 
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

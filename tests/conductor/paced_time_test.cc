@@ -1,5 +1,6 @@
 #include "conductor/paced_time.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

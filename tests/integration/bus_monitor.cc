@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <fstream>
+#include <string>
+#include <string_view>
 #include <thread>
 
 namespace halocline::testing {

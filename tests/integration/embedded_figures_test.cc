@@ -2,9 +2,14 @@
 // tables (tests/data/README.md). Tolerances are those of the reference formulas: relative 1e-12, dB 1e-10,
 // capacity 1e-9; a vehicle's depth is exact in all three, and states travel as doubles.
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "clients/halocline/scenario/composition.h"
 #include "tests/integration/embedded_fixture.h"
 #include "tests/support/csv.h"
 #include "tests/support/tolerance.h"

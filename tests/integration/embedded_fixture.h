@@ -3,10 +3,13 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,9 +18,11 @@
 #include "bus/event_log.h"
 #include "bus/logs/channel_types.h"
 #include "bus/logs/log_reader.h"
+#include "clients/halocline/analysis/recording.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
 #include "clients/halocline/scenario/replay_node.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients::testing {
 

@@ -2,11 +2,19 @@
 // sound, dead reckoning.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "clients/autopilot/autopilot_config.h"
+#include "clients/autopilot/plan.h"
+#include "clients/halocline/scenario/composition.h"
+#include "core/frames.h"
 #include "tests/integration/embedded_fixture.h"
 #include "tests/support/tolerance.h"
 

@@ -1,10 +1,21 @@
 // What a whole run promises: the same bytes each time, a log that replays to the same answers, a sound end.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bus/logs/log_reader.h"
+#include "bus/node_identity.h"
+#include "bus/runtime/node.h"
+#include "clients/halocline/scenario/composition.h"
+#include "core/sim_time.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

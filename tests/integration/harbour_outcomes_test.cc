@@ -1,8 +1,11 @@
 // The harbour shows why packets are lost: four outcomes at least, each with the numbers that decided it, and no outcome
 // missing or double.
+#include <cstdint>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 

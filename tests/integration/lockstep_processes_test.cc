@@ -1,9 +1,14 @@
 // Separate processes in lockstep over udpm write the log of one process, byte for byte, under faults as well.
 // Runs inside a network namespace of its own (scripts/isolated).
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <random>
+#include <string>
 #include <thread>
+#include <tuple>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -12,6 +14,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <tuple>
 #include <vector>
@@ -19,9 +22,11 @@
 #include <gtest/gtest.h>
 
 #include "bus/bus.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "clients/modem/blocking_modem.h"
+#include "core/sim_time.h"
 #include "tests/support/process.h"
 
 namespace halocline {

@@ -1,5 +1,7 @@
 // The ranging scenario: the error of the position estimate, and that its covariance matches it.
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -2,11 +2,17 @@
 // must; a log from sea, or a damaged one, is replayed as far as it can be read.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/comparison.h"
+#include "clients/halocline/scenario/composition.h"
 #include "core/random.h"
 #include "tests/integration/embedded_fixture.h"
 

@@ -3,13 +3,17 @@
 // reception that the ledger names arrives, once. Runs inside a network namespace of its own (scripts/isolated).
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <tuple>
 #include <vector>
@@ -19,8 +23,10 @@
 #include <unistd.h>
 
 #include "bus/bus.h"
+#include "bus/node_identity.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
+#include "core/sim_time.h"
 #include "tests/support/process.h"
 
 namespace halocline {

@@ -1,11 +1,17 @@
 // Long missions need no more memory than short ones: hours of simulated time, as fast as they compute, with
 // the bytes in use compared between the first half and the second. Not a test of time.
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <malloc.h>
 
 #include "bus/logs/log_recorder.h"
 #include "bus/logs/log_series.h"
 #include "bus/runtime/lockstep_runner.h"
+#include "clients/halocline/scenario/composition.h"
+#include "core/sim_time.h"
 #include "tests/integration/embedded_fixture.h"
 
 namespace halocline::clients {

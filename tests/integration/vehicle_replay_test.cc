@@ -5,6 +5,8 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,7 @@
 #include "vehicle_sim/faults.h"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>

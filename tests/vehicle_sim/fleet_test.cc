@@ -1,12 +1,18 @@
 #include "vehicle_sim/fleet.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "bathymetry/terrain/generated_terrain.h"
+#include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/world/terrain_seabed.h"
 
 namespace halocline::vehicle_sim {

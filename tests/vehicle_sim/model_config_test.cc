@@ -6,8 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/check.h"
+#include "core/sim_time.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_library.h"
 
 namespace halocline::vehicle_sim {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "vehicle_sim/sensors/doppler_log.h"
+#include "vehicle_sim/sensors/sensors.h"
+
 namespace halocline::vehicle_sim {
 namespace {
 

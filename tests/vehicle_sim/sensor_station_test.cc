@@ -1,10 +1,14 @@
 #include "vehicle_sim/sensor_station.h"
 
+#include <array>
 #include <map>
+#include <memory>
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/faults.h"
 #include "vehicle_sim/model_library.h"
 
 namespace halocline::vehicle_sim {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -1,9 +1,12 @@
 #include "vehicle_sim/vehicle_sim_messages.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "bus/message_checks.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -1,12 +1,21 @@
 // The node on memq: grids, commands, time-out, sensors with and without a bathymetry service.
 #include "vehicle_sim/vehicle_sim_node.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
 #include <gtest/gtest.h>
 
+#include "bus/event_log.h"
 #include "bus/runtime/lockstep_runner.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/world/grounds.h"
+#include "vehicle_sim/dynamics/currents.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
 #include "vehicle_sim/vehicle_sim_messages.h"
 
 namespace halocline::vehicle_sim {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 
 namespace halocline::vehicle_sim {

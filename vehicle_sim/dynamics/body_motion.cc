@@ -1,5 +1,7 @@
 #include "vehicle_sim/dynamics/body_motion.h"
 
+#include "vehicle_sim/dynamics/vehicle_model.h"
+
 namespace halocline::vehicle_sim {
 namespace {
 

@@ -6,6 +6,7 @@
 // two hulls share when they are close (each has its added mass as if alone). Pure functions; any number of threads.
 #pragma once
 
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim {

@@ -14,6 +14,7 @@
 // Source: Fossen 2021, section 10.3, for irrotational currents and first-order Gauss-Markov processes.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/archive.h"

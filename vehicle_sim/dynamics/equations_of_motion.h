@@ -13,7 +13,9 @@
 //   for (int i = 0; i < 1000; ++i) state = rk4_step(model, state, {.propeller_hz = 20}, Water{}, 0.01);
 #pragma once
 
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/body_axes.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 
 namespace halocline::vehicle_sim {

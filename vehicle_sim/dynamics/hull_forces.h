@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "vehicle_sim/dynamics/body_axes.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 
 namespace halocline::vehicle_sim {
 

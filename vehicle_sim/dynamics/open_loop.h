@@ -9,6 +9,8 @@
 
 #include "core/sim_time.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim {
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/frames.h"
 #include "core/units.h"
 
 namespace halocline::vehicle_sim {

@@ -7,6 +7,7 @@
 // frame.
 #pragma once
 
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim {

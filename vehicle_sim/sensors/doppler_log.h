@@ -10,9 +10,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/frames.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
 #include "vehicle_sim/sensors/sensors.h"
 

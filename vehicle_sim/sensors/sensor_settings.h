@@ -5,6 +5,8 @@
 // body frame.
 #pragma once
 
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 

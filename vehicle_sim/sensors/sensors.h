@@ -6,10 +6,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/archive.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
 
 namespace halocline::vehicle_sim {

@@ -14,7 +14,10 @@
 #include <vector>
 
 #include "core/archive.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
 #include "vehicle_sim/sensors/sensors.h"
 
 namespace halocline::vehicle_sim {

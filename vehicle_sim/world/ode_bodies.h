@@ -1,7 +1,10 @@
 // The ODE side of a VehicleWorld, for vehicle_world.cc alone: bodies and contacts.
 #pragma once
 
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/body_motion.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/world/ode_handles.h"
 
 namespace halocline::vehicle_sim {

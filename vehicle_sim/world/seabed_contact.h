@@ -10,6 +10,8 @@
 
 #include <vector>
 
+#include "core/frames.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/world/seabed.h"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "bathymetry/terrain/terrain.h"
 #include "vehicle_sim/world/seabed.h"

@@ -8,6 +8,8 @@
 
 #include <vector>
 
+#include "core/frames.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim {

@@ -5,8 +5,11 @@
 #include <utility>
 
 #include "core/check.h"
+#include "vehicle_sim/dynamics/body_motion.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/world/ode_bodies.h"
+#include "vehicle_sim/world/ode_handles.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -49,8 +52,7 @@ VehicleWorld::~VehicleWorld() = default;
 std::size_t VehicleWorld::add(std::shared_ptr<const Model> model, const VehicleState& initial) {
   require(model != nullptr, "a vehicle needs a model");
   require(is_finite(initial), "the initial state is not finite");
-  require_in_range(initial.orientation.norm(), 1 - kUnitTolerance, 1 + kUnitTolerance,
-                   "length of the quaternion");
+  require_in_range(initial.orientation.norm(), 1 - kUnitTolerance, 1 + kUnitTolerance, "quaternion norm");
   Vehicle vehicle{.model = std::move(model), .state = initial};
   vehicle.state.orientation.normalize();
   vehicle.body = make_body(ode_->world(), *vehicle.model, vehicle.state);
@@ -61,7 +63,8 @@ std::size_t VehicleWorld::add(std::shared_ptr<const Model> model, const VehicleS
 }
 
 void VehicleWorld::archive(Archive& a) {
-  for (Vehicle& v : vehicles_) a(v.state, v.diverged, v.seabed_force, v.link_force, v.touches, v.touches_vehicle);
+  for (Vehicle& v : vehicles_)
+    a(v.state, v.diverged, v.seabed_force, v.link_force, v.touches, v.touches_vehicle);
   for (TiedTether& tether : tethers_) a(tether.pull_n);
 }
 

@@ -34,6 +34,7 @@
 
 #include "core/archive.h"
 #include "core/for_each.h"
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/world/neighbours.h"
 #include "vehicle_sim/world/seabed.h"

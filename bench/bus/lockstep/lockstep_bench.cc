@@ -5,8 +5,10 @@
 // second the share of datagrams that each participant and the conductor drop, in percent. scripts/bench provides a
 // private bus.
 #include <csignal>
+#include <cstdint>
 #include <memory>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,15 @@
 #include <unistd.h>
 
 #include "bus/channels.h"
+#include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/lockstep_turns.h"
+#include "bus/runtime/node.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
+#include "core/sim_time.h"
 
 namespace halocline {
 namespace {

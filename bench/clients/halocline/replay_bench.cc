@@ -1,15 +1,21 @@
 // How fast logs are read and replayed, and how many packets go through one channel server on a bus.
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include "bus/event_log.h"
+#include "bus/logs/log_reader.h"
 #include "bus/runtime/lockstep_runner.h"
+#include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
+#include "clients/halocline/analysis/recording.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
 #include "clients/halocline/scenario/replay_node.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

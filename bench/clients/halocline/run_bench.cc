@@ -10,6 +10,7 @@
 #include "bus/event_log.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -58,7 +59,8 @@ class Differences {
     level("cutoff", before.cutoff_level_db, after.cutoff_level_db);
     number("range", before.range_m, after.range_m, kRangeStep_m, "{:.1f} m");
     number("duration", before.duration_s, after.duration_s, kDurationStep_s, "{:.3f} s");
-    number("doppler", before.strongest_path_doppler_factor, after.strongest_path_doppler_factor, kFactorStep, "{:.6f}");
+    number("doppler", before.strongest_path_doppler_factor, after.strongest_path_doppler_factor, kFactorStep,
+           "{:.6f}");
     if (before.acquisition_draw != after.acquisition_draw || before.success_draw != after.success_draw)
       add("draws", "");
     if (colliders(before) != colliders(after)) add("colliders", "");

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/outcome_summary.h"
 
 namespace halocline::clients {

@@ -1,5 +1,11 @@
 // The comparison as text, JSON and CSV.
 #include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
@@ -86,7 +92,8 @@ std::string deciding_numbers(const packet_outcome_t& o,
     case packet_outcome_t::HALF_DUPLEX:
       return "the receiver itself sent " + others;
     case packet_outcome_t::DOPPLER:
-      return fmt::format("Doppler factor {:.6f} is beyond the modem's tolerance", o.strongest_path_doppler_factor);
+      return fmt::format("Doppler factor {:.6f} is beyond the modem's tolerance",
+                         o.strongest_path_doppler_factor);
     case packet_outcome_t::COLLIDED:
       if (o.success_probability == 0) return "the receiver followed " + others;
       [[fallthrough]];

@@ -1,6 +1,7 @@
 #include "clients/halocline/analysis/outcome_summary.h"
 
 #include <numeric>
+#include <type_traits>
 
 #include "bus/channels.h"
 #include "bus/logs/channel_types.h"

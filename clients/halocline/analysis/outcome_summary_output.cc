@@ -1,12 +1,16 @@
 // The outcome summary as text, JSON, CSV and a plot.
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
 #include "clients/halocline/analysis/outcome_summary.h"
+#include "clients/halocline/plot/plot.h"
 #include "core/csv_table.h"
 
 namespace halocline::clients {
@@ -127,9 +131,9 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
                outcome_name(static_cast<std::size_t>(o.outcome)));
     for (const double number :
          {o.travel_time_s, o.range_m, o.received_level_db, o.cutoff_level_db, o.noise_level_db, o.snr_db,
-          o.interference_level_db, o.sinr_db, o.strongest_path_doppler_factor, static_cast<double>(o.num_paths),
-          o.delay_spread_s, o.acquisition_probability, o.acquisition_draw, o.success_probability,
-          o.success_draw}) {
+          o.interference_level_db, o.sinr_db, o.strongest_path_doppler_factor,
+          static_cast<double>(o.num_paths), o.delay_spread_s, o.acquisition_probability, o.acquisition_draw,
+          o.success_probability, o.success_draw}) {
       out << ',' << format_number(number);
     }
     out << ',' << colliders_text(summary, o) << '\n';

@@ -6,6 +6,7 @@
 #include <optional>
 #include <ostream>
 #include <set>
+#include <type_traits>
 
 #include "bus/channels.h"
 #include "bus/logs/channel_types.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "bus/message_codec.h"
 #include "bus/transport.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

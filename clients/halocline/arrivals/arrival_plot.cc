@@ -1,5 +1,6 @@
 #include "clients/halocline/arrivals/arrival_plot.h"
 
+#include "acoustics/rays/arrivals.h"
 #include "core/csv_table.h"
 #include "core/units.h"
 

@@ -1,6 +1,7 @@
 // Arrivals as a picture: level against delay as stems, and the angles below.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "clients/halocline/arrivals/arrival_output.h"

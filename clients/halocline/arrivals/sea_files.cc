@@ -4,9 +4,16 @@
 #include <cmath>
 #include <fstream>
 #include <istream>
+#include <string_view>
+#include <utility>
 
+#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/pressure.h"
 #include "acoustics/sea/profile_reader.h"
+#include "acoustics/sea/sound_speed.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 

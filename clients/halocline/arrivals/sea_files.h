@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/bottom_profile.h"
 
 namespace halocline::clients {
 

@@ -12,6 +12,8 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 #include "clients/halocline/calc/quantity.h"
 

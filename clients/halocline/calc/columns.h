@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "acoustics/sea/absorption.h"
 #include "clients/halocline/calc/quantity.h"

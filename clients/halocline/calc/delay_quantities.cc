@@ -1,11 +1,21 @@
 // Quantities that need a profile of the water: delays, and the figures of the 2010 IEEE SMC paper.
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "acoustics/link/link_budget.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/environment.h"
 #include "acoustics/sea/profile_reader.h"
+#include "acoustics/sea/sound_speed.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "clients/halocline/calc/columns.h"
+#include "clients/halocline/calc/quantity.h"
 #include "core/check.h"
 #include "core/units.h"
 

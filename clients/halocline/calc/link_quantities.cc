@@ -1,10 +1,17 @@
 // Quantities of a straight link through uniform water: transmission loss, signal-to-noise ratio, capacity.
 #include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "acoustics/link/capacity.h"
 #include "acoustics/link/optimum_band.h"
 #include "acoustics/link/transmission_loss.h"
+#include "acoustics/math/frequency_band.h"
+#include "acoustics/sea/absorption.h"
 #include "clients/halocline/calc/columns.h"
+#include "clients/halocline/calc/quantity.h"
 #include "core/check.h"
 #include "core/units.h"
 

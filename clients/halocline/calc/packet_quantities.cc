@@ -1,12 +1,19 @@
 // Quantities of packets: bit and packet errors, codes, durations, Doppler.
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/convolutional_code.h"
+#include "acoustics/modem/modem.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "channel_server/modems/modem_config.h"
 #include "clients/halocline/calc/columns.h"
+#include "clients/halocline/calc/quantity.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::clients {

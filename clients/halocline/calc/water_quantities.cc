@@ -1,9 +1,15 @@
 // Quantities of the water itself: sound speed, pressure, absorption, noise.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "acoustics/sea/absorption.h"
 #include "acoustics/sea/noise.h"
 #include "acoustics/sea/pressure.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "clients/halocline/calc/columns.h"
+#include "clients/halocline/calc/quantity.h"
 #include "core/units.h"
 
 namespace halocline::clients {

@@ -1,10 +1,13 @@
 #include "clients/halocline/scenario/composition.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "bathymetry/bathymetry_config.h"
 #include "bathymetry/bathymetry_node.h"
+#include "bus/node_identity.h"
 #include "channel_server/channel_server_node.h"
+#include "channel_server/vehicles/shard.h"
 #include "clients/autopilot/autopilot_node.h"
 #include "clients/localiser/localiser_node.h"
 #include "clients/traffic/traffic_node.h"

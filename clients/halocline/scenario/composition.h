@@ -6,11 +6,13 @@
 //   bus::LockstepRunner runner(lcm, all.nodes());
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bathymetry/rasters/terrain_recipe.h"
+#include "bus/config/config.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"

@@ -7,6 +7,7 @@
 
 #include "bus/logs/log_recorder.h"
 #include "bus/runtime/node.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

@@ -4,9 +4,25 @@
 #include <cmath>
 #include <memory>
 #include <sstream>
+#include <system_error>
+#include <utility>
+#include <vector>
 
+#include "acoustics/link/link_budget.h"
+#include "acoustics/link/received_field.h"
+#include "acoustics/rays/arrivals.h"
 #include "bathymetry/ray_service.h"
+#include "bathymetry/terrain/terrain.h"
+#include "bus/runtime/scenario.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/terrain_rays.h"
 #include "core/check.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::clients {
 namespace {

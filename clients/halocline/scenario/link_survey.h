@@ -9,8 +9,11 @@
 
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_table.h"
+#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/scenario/composition.h"
+#include "core/frames.h"
 
 namespace halocline::clients {
 

@@ -1,6 +1,9 @@
 #include "clients/halocline/scenario/replay_node.h"
 
 #include <utility>
+#include <variant>
+
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 

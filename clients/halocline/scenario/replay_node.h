@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 #include "clients/halocline/analysis/recording.h"
 

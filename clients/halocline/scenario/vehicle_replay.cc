@@ -11,7 +11,11 @@
 #include "clients/halocline/analysis/run_files.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "core/units.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_config.h"
 
 namespace halocline::clients {

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "bus/logs/channel_types.h"
+#include "clients/halocline/analysis/log_statistics.h"
 
 namespace halocline::clients {
 namespace {

@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/outcome_summary.h"
 
 namespace halocline::clients {

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 

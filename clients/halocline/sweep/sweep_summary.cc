@@ -3,6 +3,7 @@
 #include <limits>
 #include <set>
 
+#include "clients/halocline/analysis/outcome_summary.h"
 #include "core/check.h"
 #include "core/shared_module.h"
 

@@ -6,6 +6,8 @@
 // that: compare the two.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>

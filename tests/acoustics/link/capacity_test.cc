@@ -4,6 +4,7 @@
 
 #include "acoustics/math/frequency_band.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

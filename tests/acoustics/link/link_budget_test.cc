@@ -1,13 +1,17 @@
 #include "acoustics/link/link_budget.h"
 
 #include <cmath>
+#include <string>
 
 #include "acoustics/link/capacity.h"
 #include "acoustics/link/transmission_loss.h"
 #include "acoustics/math/frequency_band.h"
+#include "acoustics/sea/absorption.h"
 #include "acoustics/sea/pressure.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

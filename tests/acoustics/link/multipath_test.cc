@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 

@@ -1,9 +1,11 @@
 #include "acoustics/link/optimum_band.h"
 
 #include <map>
+#include <string>
 
 #include "core/check.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

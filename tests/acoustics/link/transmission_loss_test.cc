@@ -1,7 +1,10 @@
 #include "acoustics/link/transmission_loss.h"
 
+#include <string>
+
 #include "acoustics/sea/absorption.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -1,8 +1,11 @@
 // The modems of models/modems.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +13,9 @@
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
 #include "channel_server/modems/modem_config.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
+#include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
 #include "tests/support/csv.h"
 

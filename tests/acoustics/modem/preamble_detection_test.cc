@@ -1,6 +1,7 @@
 #include "acoustics/modem/preamble_detection.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 

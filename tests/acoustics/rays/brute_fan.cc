@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
+
+#include "acoustics/rays/arrivals.h"
+#include "tests/acoustics/rays/brute_ray.h"
 
 namespace halocline::acoustics {
 namespace {

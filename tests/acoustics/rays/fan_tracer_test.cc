@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/ray_column.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::acoustics {

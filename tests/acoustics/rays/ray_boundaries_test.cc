@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +11,7 @@
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -1,11 +1,19 @@
+#include <cmath>
+#include <complex>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/link/received_field.h"
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "core/check.h"
+#include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -1,13 +1,25 @@
 // Rays in water that depends on depth alone: closed forms, symmetries, and completeness against a dense fan.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/layered_rays.h"
+#include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/random.h"
 #include "tests/acoustics/rays/dense_fan.h"
 #include "tests/acoustics/rays/ray_reference.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

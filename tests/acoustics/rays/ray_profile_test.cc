@@ -1,9 +1,20 @@
 // Rays over a bottom that changes with range: against a dense fan of straight lines, symmetries, moving ends.
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/profile_rays.h"
+#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "tests/acoustics/rays/ray_reference.h"
 

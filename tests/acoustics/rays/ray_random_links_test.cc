@@ -2,15 +2,27 @@
 //
 // A short set runs by default; HALOCLINE_RAY_LINKS=170 runs that many links of each water, and
 // HALOCLINE_RAY_FAN=200000 sets the angles of the fan.
+#include <algorithm>
+#include <cmath>
 #include <complex>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/random.h"
 #include "tests/acoustics/rays/brute_fan.h"
+#include "tests/acoustics/rays/brute_ray.h"
 #include "tests/acoustics/rays/ray_reference.h"
 
 namespace halocline::acoustics {

@@ -10,7 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "tests/support/csv.h"
 #include "tests/support/tolerance.h"
 

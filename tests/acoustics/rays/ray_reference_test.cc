@@ -1,7 +1,14 @@
 // Every row of the reference arrivals, by every solver that can do its water.
 #include "tests/acoustics/rays/ray_reference.h"
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "acoustics/link/received_field.h"
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

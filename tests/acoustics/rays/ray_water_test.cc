@@ -7,6 +7,7 @@
 #include "acoustics/math/arc_math.h"
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/environment.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 

@@ -1,7 +1,11 @@
 #include "acoustics/sea/absorption.h"
 
+#include <functional>
+#include <string>
+
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -1,8 +1,11 @@
 #include "acoustics/sea/noise.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -1,10 +1,12 @@
 #include "acoustics/sea/sound_speed_profile.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

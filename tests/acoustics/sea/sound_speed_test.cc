@@ -3,6 +3,7 @@
 #include "acoustics/sea/pressure.h"
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
+#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -1,10 +1,14 @@
+#include <cstdint>
 #include <fstream>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bus/config/config.h"
+#include "core/frames.h"
 
 namespace halocline::bus {
 namespace {

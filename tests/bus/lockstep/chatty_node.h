@@ -2,11 +2,14 @@
 // reordered changes all that it publishes afterwards, and when.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bus/runtime/node.h"
+#include "bus/subscription.h"
+#include "core/sim_time.h"
 
 namespace halocline::conductor::testing {
 

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bus/runtime/lockstep_turns.h"
+#include "tests/bus/lockstep/chatty_node.h"
 #include "tests/bus/lockstep/simulated_lockstep.h"
 
 namespace halocline::conductor {

@@ -1,5 +1,6 @@
 #include "bus/lockstep/lockstep_schedule.h"
 
+#include <cstdint>
 #include <stdexcept>
 
 #include <gmock/gmock.h>

@@ -1,8 +1,20 @@
 #include "tests/bus/lockstep/simulated_lockstep.h"
 
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "bus/lockstep/journal.h"
+#include "bus/lockstep/lockstep_conductor.h"
+#include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_runner.h"
+#include "bus/runtime/lockstep_turns.h"
+#include "core/sim_time.h"
+#include "tests/bus/lockstep/chatty_node.h"
 
 namespace halocline::conductor::testing {
 namespace {

@@ -2,19 +2,23 @@
 // delayed and reordered; participants and the conductor crash in the middle of their work and are restarted.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <queue>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_turns.h"
+#include "core/sim_time.h"
 #include "tests/bus/lockstep/chatty_node.h"
 
 namespace halocline::conductor::testing {

@@ -1,11 +1,14 @@
 // Logs made by hand, in a file of the test's own.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

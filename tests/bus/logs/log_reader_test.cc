@@ -1,5 +1,7 @@
 #include "bus/logs/log_reader.h"
 
+#include <cstdio>
+#include <fstream>
 #include <sstream>
 
 #include "bus/logs/log_series.h"

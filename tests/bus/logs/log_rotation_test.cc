@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

@@ -1,4 +1,7 @@
 // A node program for the tests of node_process.h: answers every CLOCK-shaped message on REQUEST with one on ANSWER.
+#include <memory>
+
+#include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
 #include "tests/bus/runtime/test_nodes.h"
 

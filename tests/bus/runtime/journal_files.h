@@ -1,6 +1,7 @@
 // The files of a journal for one test: none at first, removed at its end.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>

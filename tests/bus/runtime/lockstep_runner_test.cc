@@ -1,6 +1,8 @@
 #include "bus/runtime/lockstep_runner.h"
 
+#include <cstdint>
 #include <stdexcept>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,14 @@
 // Node programs as processes, on a private loopback bus (scripts/isolated; see tests/CMakeLists.txt).
 #include "bus/runtime/node_process.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <random>
+#include <string_view>
 #include <thread>
 
 #include <gmock/gmock.h>

@@ -1,11 +1,15 @@
 #include "bus/runtime/node.h"
 
 #include <memory>
+#include <stdexcept>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bus/event_log.h"
 #include "bus/version.h"
+#include "core/check.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/bus/runtime/test_nodes.h"

@@ -1,11 +1,14 @@
 // Small nodes for the tests of those that run them.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "bus/runtime/node.h"
+#include "core/archive.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus::testing {
 

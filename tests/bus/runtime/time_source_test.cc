@@ -1,6 +1,8 @@
 #include "bus/runtime/time_source.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>

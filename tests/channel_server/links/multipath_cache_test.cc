@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "channel_server/links/echo_survey.h"
+#include "channel_server/propagation/profile_survey.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 

@@ -4,15 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/multipath.h"
+#include "acoustics/modem/modem.h"
 #include "acoustics/rays/ray_doppler.h"
+#include "acoustics/sea/environment.h"
+#include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
 #include "core/random.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server::testing {

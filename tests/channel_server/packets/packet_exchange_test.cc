@@ -1,10 +1,21 @@
 // Modems that queue, and modems that answer pings.
+#include <cstdint>
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "channel_server/packets/packet.h"
+#include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/scripted_water.h"
 #include "tests/support/tolerance.h"
 

@@ -1,10 +1,15 @@
 // What other packets, and late paths of its own, do to a packet.
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "tests/channel_server/scripted_water.h"
 #include "tests/support/tolerance.h"
 

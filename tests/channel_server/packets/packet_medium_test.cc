@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "core/names.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"

@@ -4,10 +4,18 @@
 #include <numbers>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "channel_server/packets/packet.h"
+#include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/scripted_water.h"
 #include "tests/support/tolerance.h"
 

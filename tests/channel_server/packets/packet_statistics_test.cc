@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/packets/busy_sea.h"
 
 namespace halocline::channel_server {

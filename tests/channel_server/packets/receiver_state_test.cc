@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "channel_server/vehicles/vehicle_id.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
 

@@ -7,10 +7,17 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "channel_server/packets/packet.h"
+#include "channel_server/packets/packet_medium.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "tests/channel_server/packets/busy_sea.h"
 
 namespace halocline::channel_server {

@@ -1,11 +1,26 @@
 // A modem's pattern in elevation weighs the paths of sound at both ends, by rays and by the straight path.
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/multipath.h"
 #include "acoustics/link/received_field.h"
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
 

@@ -1,5 +1,6 @@
 #include "channel_server/propagation/propagation.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>

@@ -1,11 +1,18 @@
 #include "channel_server/propagation/ray_propagation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/link_budget.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/link_table.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 #include "core/random.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"

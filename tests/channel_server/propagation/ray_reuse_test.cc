@@ -1,11 +1,23 @@
 // Links that share a search: what that changes, and what it never may.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/modem.h"
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/sea/environment.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/frames.h"
 #include "core/random.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "channel_server/propagation/terrain_rays.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {

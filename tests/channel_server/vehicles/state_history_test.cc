@@ -1,5 +1,7 @@
 #include "channel_server/vehicles/state_history.h"
 
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "tests/channel_server/channel_fixtures.h"

@@ -1,15 +1,21 @@
 // The control laws steering the equations of motion of the fin-steered vehicles: what a mission looks like in
 // the water.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "clients/autopilot/control_laws.h"
+#include "clients/autopilot/guidance.h"
+#include "core/frames.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_library.h"
 
 namespace halocline::clients {

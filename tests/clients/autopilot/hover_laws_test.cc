@@ -1,6 +1,7 @@
 // The hover laws steering the equations of motion of `hover`.
 #include "clients/autopilot/hover_laws.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,6 +10,7 @@
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/hover.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::clients {
 namespace {

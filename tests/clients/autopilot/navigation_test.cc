@@ -1,12 +1,30 @@
 // Navigation error after minutes by the vehicle's own sensors, from its true motion through messages to
 // its reckoning.
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <variant>
 
 #include <gtest/gtest.h>
 
+#include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_messages.h"
+#include "clients/autopilot/control_laws.h"
+#include "clients/autopilot/guidance.h"
+#include "clients/autopilot/navigator.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/faults.h"
+#include "vehicle_sim/fleet.h"
 #include "vehicle_sim/model_library.h"
+#include "vehicle_sim/sensor_station.h"
+#include "vehicle_sim/sensors/sensor_errors.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
+#include "vehicle_sim/sensors/sensors.h"
 #include "vehicle_sim/vehicle_sim_messages.h"
 
 namespace halocline::clients {

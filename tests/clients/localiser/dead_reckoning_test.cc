@@ -1,5 +1,6 @@
 #include "clients/localiser/dead_reckoning.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>

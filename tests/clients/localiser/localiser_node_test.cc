@@ -9,6 +9,7 @@
 #include "bus/runtime/lockstep_runner.h"
 #include "channel_server/packets/packet.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "tests/bus/runtime/journal_files.h"
 
 namespace halocline::clients {

@@ -1,5 +1,7 @@
 #include "clients/modem/blocking_modem.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/names.h"

@@ -1,5 +1,7 @@
 #include "clients/modem/modem_client.h"
 
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,11 @@
 #include "clients/traffic/traffic_node.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bus/config/config.h"
 #include "core/check.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/clients/modem/fake_server.h"

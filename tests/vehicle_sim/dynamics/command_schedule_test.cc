@@ -1,5 +1,7 @@
 #include "vehicle_sim/dynamics/command_schedule.h"
 
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "core/check.h"

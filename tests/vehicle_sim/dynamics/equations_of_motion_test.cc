@@ -3,7 +3,9 @@
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,11 @@
 #include "vehicle_sim/dynamics/hull_forces.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
 #include "core/random.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"

@@ -1,18 +1,26 @@
 // What every built-in vehicle obeys, and how each behaves under way.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
+#include "vehicle_sim/dynamics/body_axes.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/hull_forces.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_library.h"
 
 namespace halocline::vehicle_sim {

@@ -1,6 +1,7 @@
 #include "vehicle_sim/dynamics/open_loop.h"
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,14 @@
 #include "tests/vehicle_sim/dynamics/reference_motion.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "core/frames.h"
 #include "core/units.h"
+#include "tests/support/csv.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim::testing {
 namespace {

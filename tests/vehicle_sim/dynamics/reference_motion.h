@@ -4,8 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "core/frames.h"
 #include "tests/support/csv.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim::testing {
 

@@ -2,12 +2,17 @@
 #include "tests/vehicle_sim/dynamics/reference_motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "core/units.h"
+#include "tests/support/csv.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -1,5 +1,7 @@
 #include "vehicle_sim/dynamics/submergence.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>

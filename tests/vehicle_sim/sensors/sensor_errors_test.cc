@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
 #include "vehicle_sim/sensors/sensors.h"
 
 namespace halocline::vehicle_sim {

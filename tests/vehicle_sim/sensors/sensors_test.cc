@@ -4,6 +4,7 @@
 
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -1,5 +1,7 @@
 #include "vehicle_sim/sensors/usbl_fix_assembler.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/tolerance.h"

@@ -7,8 +7,12 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/world/seabed.h"
 
 namespace halocline::vehicle_sim::testing {

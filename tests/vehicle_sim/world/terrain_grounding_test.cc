@@ -1,15 +1,22 @@
 // Vehicles on generated terrain, as the simulator meets it: bilinear cells, not formulas. And at the surface.
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "bathymetry/terrain/generated_terrain.h"
+#include "bathymetry/terrain/height_grid.h"
+#include "core/frames.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/dynamics/submergence.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/world/terrain_seabed.h"
 #include "vehicle_sim/world/vehicle_world.h"

@@ -1,10 +1,16 @@
 // That a world moves the same, bit by bit, however many threads share its step.
 #include <cstring>
+#include <functional>
+#include <memory>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/for_each.h"
 #include "tests/vehicle_sim/world/grounds.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/world/vehicle_world.h"
 

@@ -1,9 +1,12 @@
 // Vehicles in the ODE world: free flight is the equations' own, contact holds what it should.
 #include "vehicle_sim/world/vehicle_world.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -15,6 +18,7 @@
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 
 namespace halocline::vehicle_sim {
 namespace {

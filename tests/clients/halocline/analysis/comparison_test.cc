@@ -1,5 +1,6 @@
 #include "clients/halocline/analysis/comparison.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gmock/gmock.h>

@@ -2,6 +2,8 @@
 #include "clients/halocline/analysis/simulation_output.h"
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "core/check.h"
 #include "tests/bus/logs/log_fixture.h"

@@ -1,13 +1,18 @@
 #include "clients/halocline/arrivals/arrival_output.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/rays/eigenray.h"
 #include "clients/halocline/arrivals/arrival_plot.h"
 #include "clients/halocline/arrivals/sea_files.h"
+#include "clients/halocline/plot/plot.h"
 #include "core/csv_table.h"
 #include "tests/support/csv.h"
 

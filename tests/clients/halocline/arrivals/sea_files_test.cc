@@ -1,9 +1,11 @@
 #include "clients/halocline/arrivals/sea_files.h"
 
+#include <functional>
 #include <sstream>
 
 #include <gmock/gmock.h>
 
+#include "acoustics/sea/absorption.h"
 #include "core/check.h"
 
 namespace halocline::clients {

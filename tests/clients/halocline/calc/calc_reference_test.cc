@@ -2,10 +2,12 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "clients/halocline/calc/calc.h"
+#include "clients/halocline/calc/quantity.h"
 #include "core/csv_table.h"
 #include "tests/support/tolerance.h"
 

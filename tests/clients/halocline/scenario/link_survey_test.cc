@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/beam_pattern.h"
+#include "channel_server/channel_server_config.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 

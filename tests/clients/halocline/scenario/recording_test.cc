@@ -1,7 +1,13 @@
 #include "clients/halocline/analysis/recording.h"
 
+#include <cstdint>
 #include <sstream>
+#include <utility>
+#include <vector>
 
+#include "bus/logs/log_reader.h"
+#include "bus/runtime/scenario.h"
+#include "core/sim_time.h"
 #include "tests/bus/logs/log_fixture.h"
 
 namespace halocline::clients {

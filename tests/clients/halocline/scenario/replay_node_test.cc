@@ -1,6 +1,12 @@
 #include "clients/halocline/scenario/replay_node.h"
 
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "bus/logs/log_reader.h"
 #include "bus/runtime/lockstep_runner.h"
+#include "core/sim_time.h"
 #include "tests/bus/logs/log_fixture.h"
 
 namespace halocline::clients {

@@ -2,12 +2,15 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bus/config/config.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/scenario/composition.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {

@@ -1,6 +1,7 @@
 #include "clients/halocline/sweep/run_metrics.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "tests/bus/logs/log_fixture.h"
 
