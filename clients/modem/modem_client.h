@@ -27,6 +27,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "bus/bus.h"
 #include "core/archive.h"

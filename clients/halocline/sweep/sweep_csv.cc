@@ -5,6 +5,9 @@
 
 #include <fmt/ostream.h>
 
+#include "clients/halocline/sweep/confidence.h"
+#include "clients/halocline/sweep/run_metrics.h"
+#include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/atomic_file.h"
 #include "core/csv_table.h"

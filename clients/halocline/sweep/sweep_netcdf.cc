@@ -4,10 +4,16 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <netcdf.h>
 
 #include "bus/version.h"
+#include "clients/halocline/sweep/confidence.h"
+#include "clients/halocline/sweep/run_metrics.h"
+#include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"
 #include "core/atomic_file.h"
 #include "core/csv_table.h"

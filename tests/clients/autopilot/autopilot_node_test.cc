@@ -1,6 +1,7 @@
 #include "clients/autopilot/autopilot_node.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #include "clients/localiser/position_estimator.h"
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
