@@ -129,11 +129,6 @@ void ConfigFile::check(bool whole_file) {
   if (!document_->errors.empty()) throw ConfigErrors(document_->errors);
 }
 
-std::string ConfigDocument::folder() const {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
-
 std::string ConfigFile::folder() const { return document_->folder(); }
 
 const std::string& ConfigFile::path() const { return document_->path; }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <sstream>
@@ -40,6 +41,11 @@ std::string ConfigDocument::place_of(const toml::node& node) const {
   if (source.path == nullptr) return path;  // a section that the file does not have
   if (*source.path != path) return *source.path;
   return path + ":" + std::to_string(source.begin.line);
+}
+
+std::string ConfigDocument::folder() const {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
 }
 
 void ConfigDocument::add_error(const std::string& error) {

@@ -18,8 +18,6 @@ using ::testing::IsEmpty;
 
 // What is over a limit today, by the start of its line. Nothing may be added here; what is mended is taken out.
 const std::vector<std::string_view> kOverALimit{
-    "ConfigDocument:",
-    "SoundSpeedProfile:",
     "tests/acoustics/rays/ray_layered_test.cc:",
     "tests/channel_server/change_it_and_it_moves_test.cc:",
     "tests/vehicle_sim/vehicle_sim_node_test.cc:",
