@@ -45,11 +45,6 @@ void CrashJournal::open(Rule rule) {
       MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all});
   for (JournalledMessage& entry : journal_->take_inherited()) {
     last_step_ = entry.at;
-    if (entry.kind == Kind::kState) {
-      saved_state_ = {entry.at, std::move(entry.bytes)};
-      history_.clear();
-      continue;
-    }
     const bool is_output = entry.kind == Kind::kOutput;
     history_.push_back(is_output ? JournalledMessage{Kind::kOutput, entry.at, {}, {}} : entry);
     if (is_output) outputs_.push_back(std::move(entry));
@@ -112,10 +107,6 @@ bool CrashJournal::claim(const std::string& channel, const std::string& identity
   if (published_.contains({channel, identity})) return false;
   if (recovers_) published_.emplace(channel, identity);
   return true;
-}
-
-void CrashJournal::save_state(SimTime now, Bytes state) {
-  if (is_open()) journal_->write_state(now, std::move(state));
 }
 
 void CrashJournal::clear() {

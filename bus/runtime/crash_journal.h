@@ -1,15 +1,15 @@
-// Lets a node that was killed go on where it was: restores its state, replays its recent inputs, and publishes
-// each output once in all its incarnations together.
+// Lets a node that was killed go on where it was: replays its recent inputs, and publishes each output once in all its
+// incarnations together. For a node whose state follows from recent inputs; one whose state does not, and can be
+// written whole, has a StateJournal (state_journal.h).
 //
-// State machine replication in time (Schneider 1990): the state at an instant, the inputs that followed, and the
-// steps that took them give the same outputs again, of which those that the journal holds are not published again.
+// The inputs of a state machine, and the steps that took them, give the same outputs again (Schneider 1990), of which
+// those that the journal holds are not published again.
 // Inputs and outputs are written before anything that follows from them is published (message_journal.h). For a bus
 // that repairs losses, not for lockstep, where the conductor replays.
 //
 //   CrashJournal journal(bus(), publisher);          // does nothing until it is open: publish_once() publishes
 //
 //   journal.open(rule);                              // when the node is made, before anything is dispatched
-//   if (const auto saved = journal.saved_state()) restore(*saved);
 //   journal.replay_inputs([&](const ReplayedStep& step) { history.push_back({step.at, take_inbox()}); });
 //
 //   on_step:                                         // the first one whose simulation time is known
@@ -21,7 +21,6 @@
 //     ...
 //     journal.end_recovery();                        // the first time: the present is reached
 //     journal.publish_once(channels::kState.of(name), state, std::to_string(state.utime));
-//     journal.save_state(now.sim, bytes);            // at times: replay begins there
 //   on_restart: journal.clear();
 //
 // The Bus and the NumberedPublisher must outlive it. Not thread-safe.
@@ -60,10 +59,6 @@ class CrashJournal {
     std::vector<Family> keep_last;      // inputs of which the last on each channel is kept for ever
     std::vector<std::string> keep_all;  // channels whose inputs are all kept (the latest 1000)
   };
-  struct SavedState {
-    SimTime at;
-    Bytes bytes;
-  };
   // Steady time, from the first step, within which repair brings what was published while the node was away:
   // heartbeats come four times a second, the messages within two requests.
   static constexpr SimDuration kRepairTime = SimDuration::from_milliseconds(500);
@@ -77,10 +72,7 @@ class CrashJournal {
   // ---- recovery
   // The earlier incarnation's last step; empty without one.
   std::optional<SimTime> last_step() const { return last_step_; }
-  // Empty when none was saved.
-  const std::optional<SavedState>& saved_state() const { return saved_state_; }
-  // Hands the inputs taken after the saved state (all, without one) to the node's own handlers, oldest first, and
-  // calls `end_step` after those of each step. Once, before anything else is dispatched: what follows an input in
+  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step. Once, before anything else is dispatched: what follows an input in
   // its flow is then known to be missing, and is repaired.
   void replay_inputs(const std::function<void(const ReplayedStep&)>& end_step);
   // Takes up the outputs: they are not published again, their channels' numbers go on, and they are kept for
@@ -110,8 +102,6 @@ class CrashJournal {
     write_output(channel, identity, message.session, message.sequence, message);
     bus_.publish(channel, message);
   }
-  // What saved_state() gives the next incarnation, as after the step at `now`.
-  void save_state(SimTime now, Bytes state);
 
   // Another run has begun: forgets everything but what was received since the last step.
   void clear();
@@ -140,7 +130,6 @@ class CrashJournal {
   std::unique_ptr<MessageJournal> journal_;
   std::vector<JournalledMessage> history_;  // inherited: inputs, and outputs without their bytes
   std::vector<JournalledMessage> outputs_;  // inherited
-  std::optional<SavedState> saved_state_;
   std::optional<SimTime> last_step_;
   std::set<std::pair<std::string, std::string>>
       published_;  // (channel, identity), while repetition threatens

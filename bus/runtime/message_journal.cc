@@ -88,7 +88,6 @@ MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   const auto earlier = [](const auto& a, const auto& b) { return a.at < b.at; };
   std::stable_sort(inherited_.begin(), inherited_.end(), earlier);
   for (const JournalledMessage& entry : inherited_) carry(entry);
-  keep_last_state_only();
   const SimTime horizon = inherited_.empty() ? SimTime() : inherited_.back().at - rule_.kept;
   std::erase_if(inherited_, [&](const JournalledMessage& entry) { return entry.at < horizon; });
   std::vector<JournalledMessage> older = carried();
@@ -96,17 +95,6 @@ MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   inherited_.insert(inherited_.begin(), older.begin(), older.end());
   std::stable_sort(inherited_.begin(), inherited_.end(), earlier);
   begin_file(inherited_);
-}
-
-// Each file begins with a copy of the state.
-void MessageJournal::keep_last_state_only() {
-  bool found = false;
-  std::erase_if(inherited_, [&](const JournalledMessage& entry) {
-    if (entry.kind != Kind::kState) return false;
-    const bool is_last = !found && entry.at == last_state_->at;
-    found = found || is_last;
-    return !is_last;
-  });
 }
 
 MessageJournal::~MessageJournal() { close(file_); }
@@ -129,15 +117,7 @@ void MessageJournal::write_output(SimTime now, std::string_view channel, std::ve
   write({{Kind::kOutput, now, std::string(channel), std::move(bytes)}});
 }
 
-void MessageJournal::write_state(SimTime now, std::vector<std::uint8_t> bytes) {
-  if (last_state_ && last_state_->at >= now) return;
-  const JournalledMessage state{Kind::kState, now, {}, std::move(bytes)};
-  carry(state);
-  write({state});
-}
-
 void MessageJournal::clear() {
-  last_state_.reset();
   kept_last_.clear();
   kept_all_.clear();
   std::remove((rule_.path + ".1").c_str());
@@ -171,10 +151,6 @@ void MessageJournal::write(const std::vector<JournalledMessage>& entries) {
 }
 
 void MessageJournal::carry(const JournalledMessage& entry) {
-  if (entry.kind == Kind::kState) {
-    if (!last_state_ || last_state_->at < entry.at) last_state_ = entry;
-    return;
-  }
   if (entry.kind == Kind::kOutput) return;
   for (const Family& family : rule_.keep_last) {
     if (entry.channel.starts_with(family.prefix)) kept_last_[entry.channel] = entry;
@@ -206,7 +182,6 @@ void MessageJournal::forget_older_half() {
 std::vector<JournalledMessage> MessageJournal::carried() const {
   std::vector<JournalledMessage> entries(kept_all_.begin(), kept_all_.end());
   for (const auto& [channel, entry] : kept_last_) entries.push_back(entry);
-  if (last_state_) entries.push_back(*last_state_);
   return entries;
 }
 

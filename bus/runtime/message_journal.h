@@ -1,5 +1,6 @@
-// Write-ahead journal of a node's recent inputs and outputs, and of its state: a file from which the next
-// incarnation of a node that was killed restores what was under way (crash_journal.h).
+// Write-ahead journal of a node's recent inputs and outputs: a file from which the next incarnation of a node that was
+// killed restores what was under way (crash_journal.h). A node whose state can be written whole keeps that instead
+// (state_journal.h).
 //
 // A file of entries: a word that begins each, its kind, stamp, lengths, a check sum, channel and message. What is
 // written is handed to the kernel before anything that follows from it is published, so a killed process loses
@@ -7,14 +8,13 @@
 // off at the end is no entry.
 //
 // Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
-// and another begins with what is carried over: the last state, the last input of each channel of `keep_last` (of
-// 16 384 channels at most), and the inputs on `keep_all` (the latest 1000). So at least `kept` is there, and twice that at most.
+// and another begins with what is carried over: the last input of each channel of `keep_last` (of 16 384 channels at
+// most), and the inputs on `keep_all` (the latest 1000). So at least `kept` is there, and twice that at most.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +29,6 @@ struct JournalledMessage {
     kInput,
     kOutput,
     kInputAfterAbsence,  // received after the node's return, perhaps much later than it was published
-    kState,              // of the node; without a channel
   };
   Kind kind = Kind::kInput;
   SimTime at;  // simulation time of the step that took it, or made it
@@ -59,13 +58,10 @@ class MessageJournal {
   // Writes the inputs added since, as taken at `now`.
   void write_inputs(SimTime now, JournalledMessage::Kind kind = JournalledMessage::Kind::kInput);
   void write_output(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes);
-  // Unless a state of that instant, or of a later one, is there.
-  void write_state(SimTime now, std::vector<std::uint8_t> bytes);
   // Another run: forgets everything but the inputs added since the last step.
   void clear();
 
  private:
-  void keep_last_state_only();
   void begin_file(const std::vector<JournalledMessage>& entries);
   void write(const std::vector<JournalledMessage>& entries);
   void carry(const JournalledMessage& entry);
@@ -76,7 +72,6 @@ class MessageJournal {
   int file_ = -1;
   SimTime file_begins_ = SimTime::never();
   std::vector<JournalledMessage> inherited_, inputs_;
-  std::optional<JournalledMessage> last_state_;
   std::map<std::string, JournalledMessage> kept_last_;  // by channel
   std::deque<JournalledMessage> kept_all_;
 };

@@ -104,21 +104,6 @@ TEST_F(MessageJournalTest, ALongRunKeepsTheLastSecondsAndWhatIsCarriedOver) {
   EXPECT_EQ(read.back(), "i1000 STATE.a 9");
 }
 
-TEST_F(MessageJournalTest, ALongRunKeepsTheLatestStateOnce) {
-  {
-    const auto journal = open();
-    for (int second = 0; second <= 100; ++second) {
-      receive(*journal, second, "STATE.a", 9);
-      if (second % 30 == 0) journal->write_state(SimTime::from_seconds(second), {std::uint8_t(second)});
-    }
-  }
-  std::vector<std::uint8_t> states;
-  for (const JournalledMessage& m : open()->take_inherited()) {
-    if (m.kind == Kind::kState) states.push_back(m.bytes.at(0));
-  }
-  EXPECT_EQ(states, (std::vector<std::uint8_t>{90}));
-}
-
 TEST_F(MessageJournalTest, AnotherRunForgetsAll) {
   {
     const auto journal = open();
