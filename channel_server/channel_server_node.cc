@@ -22,8 +22,7 @@ constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
 constexpr std::int64_t kMaxTicksBehind = 100;
-// How much longer than their rules states and receipts are kept, so that every instant that may still be evaluated
-// has them.
+// How much longer than their rules states and receipts are kept, for every instant that may still be evaluated.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
 
 SimTime on_grid_from(SimTime now, SimDuration period) {
@@ -127,8 +126,7 @@ void ChannelServerNode::publish_environment(SimTime instant) {
       std::min(next_on_grid(instant, kEnvironmentPeriod), water_.waters->next_change_after(instant));
 }
 
-// The earliest instant that may still be evaluated is the start of a transmission received late; its sender may
-// have been silent for the time-out before.
+// The earliest instant evaluated is the start of a SEND received late, whose sender may have timed out before.
 void ChannelServerNode::forget_old(SimTime now) {
   const SimTime horizon = now - rules_.medium.max_lateness - kKeptLonger;
   medium_.forget_before(horizon);
@@ -175,7 +173,6 @@ bool ChannelServerNode::recover(const bus::Now& now) {
   return false;
 }
 
-// What was received in the same turn as the first message of the new run may belong to it, and stays.
 void ChannelServerNode::on_restart(const bus::Now& now) {
   vehicles_.clear();
   medium_.clear();

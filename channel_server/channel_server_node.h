@@ -1,14 +1,9 @@
 // The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the water, the
-// link tables, and the outcome of every packet; answers link queries.
-//
-// Subscribes to STATE.*, MODEM.*, SEND.*, SET_ENVIRONMENT, LINK_QUERY, and RAY_REPLY.<its own client name>.
-// Publishes ENVIRONMENT, LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, LINK_REPLY.<client>,
-// RAY_QUERY.
+// link tables, and the outcome of every packet; answers link queries. --interface lists its channels.
 //
 // Of several servers of one water (rules.medium.shard) each receives what all the others receive and publishes its
 // share; the first also ENVIRONMENT; LINK_QUERYs go by their request_id; PING_ANSWER passes on answers to pings.
-//
-// With a journal a server that was killed goes on where it was (server_recovery.h; docs/architecture.md).
+// With a journal a server that was killed goes on where it was (server_recovery.h).
 #pragma once
 
 #include <algorithm>
