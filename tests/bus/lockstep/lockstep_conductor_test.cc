@@ -113,7 +113,7 @@ TEST(LockstepConductor, PublishesTheSameWhereverItCrashes) {
     ASSERT_TRUE(run.messages() == expected) << "output " << output;
     crashed = run.crashes() > 0;
   }
-  EXPECT_GT(output, 150);
+  EXPECT_GT(output, 50);  // the sweep covers a run
 }
 
 TEST(LockstepConductor, AJournalOfAnotherScenarioIsRefused) {
