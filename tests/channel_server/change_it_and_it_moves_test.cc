@@ -1,23 +1,16 @@
 // Change it and it moves: each physical input turned alone moves the numbers of a link and of a packet that
 // it should, in the right direction, by the right amount where there is a closed form, and leaves every other
 // to the last bit.
-#include <cmath>
-#include <functional>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/error_model.h"
 #include "acoustics/sea/absorption.h"
-#include "acoustics/sea/environment.h"
-#include "acoustics/sea/noise.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
-#include "core/frames.h"
 #include "core/sim_time.h"
 #include "tests/channel_server/change_it.h"
 
