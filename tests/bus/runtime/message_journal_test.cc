@@ -1,5 +1,6 @@
 #include "bus/runtime/message_journal.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
