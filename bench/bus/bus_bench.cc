@@ -1,7 +1,7 @@
 // Messages per second through LCM as the bus uses it: published, walked, decoded, checked and handled.
 //
 // The udpm case needs a private loopback bus: scripts/bench gives it one. It sends in rounds that the receive
-// buffer holds, waits for each round to be heard, and fails when one message is lost.
+// buffer holds, waits for each round to be received, and fails when one message is lost.
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -25,14 +25,14 @@ vehicle_state_t state() {
 }
 
 // One round: `count` states out, all of them in.
-bool exchange(Bus& bus, lcm::LCM& lcm, std::int64_t count, std::int64_t& heard) {
+bool exchange(Bus& bus, lcm::LCM& lcm, std::int64_t count, std::int64_t& received) {
   vehicle_state_t message = state();
-  const std::int64_t goal = heard + count;
+  const std::int64_t goal = received + count;
   for (std::int64_t i = 0; i < count; ++i) {
     message.sequence = goal - count + i;
     bus.publish("STATE.a", message);
   }
-  while (heard < goal) {
+  while (received < goal) {
     if (lcm.handleTimeout(1000) <= 0) return false;
   }
   return true;
@@ -41,13 +41,13 @@ bool exchange(Bus& bus, lcm::LCM& lcm, std::int64_t count, std::int64_t& heard) 
 void run(benchmark::State& bench, const std::string& url) {
   const auto lcm = open_transport(url);
   Bus bus(*lcm, {"bench", 1});
-  std::int64_t heard = 0;
+  std::int64_t received = 0;
   bus.subscribe<vehicle_state_t>(channels::kState,
-                                 [&](std::string_view, const vehicle_state_t&) { ++heard; });
+                                 [&](std::string_view, const vehicle_state_t&) { ++received; });
   for (auto _ : bench) {
-    if (!exchange(bus, *lcm, bench.range(0), heard)) return bench.SkipWithError("a message was lost");
+    if (!exchange(bus, *lcm, bench.range(0), received)) return bench.SkipWithError("a message was lost");
   }
-  bench.counters["messages"] = benchmark::Counter(static_cast<double>(heard), benchmark::Counter::kIsRate);
+  bench.counters["messages"] = benchmark::Counter(static_cast<double>(received), benchmark::Counter::kIsRate);
   bench.counters["gaps"] = static_cast<double>(bus.counters().gaps);
 }
 

@@ -39,7 +39,7 @@ TEST_F(PacedTimeTest, ContinuesTheTimeOfARunningSystem) {
 
 TEST_F(PacedTimeTest, ReceivesStatesAndStatuses) {
   PacedTime time(lcm_, 1);
-  bus::Bus mouth(lcm_, {"mouth", 1});
+  bus::Bus publisher(lcm_, {"publisher", 1});
   time.now(at(0));
   time.set_steady(at(0));
   node_status_t status;
@@ -48,7 +48,7 @@ TEST_F(PacedTimeTest, ReceivesStatesAndStatuses) {
   status.messages_received = status.messages_sent = status.messages_refused = 0;
   status.gaps = status.repaired = status.late = 0;
   status.node_name = "vehicle-sim";
-  mouth.publish("STATUS.vehicle-sim", status);
+  publisher.publish("STATUS.vehicle-sim", status);
   while (lcm_.handleTimeout(0) > 0) {
   }
   EXPECT_EQ(time.now(at(2)), at(52));

@@ -62,13 +62,13 @@ TEST_F(LockstepTest, AnswersToAnswersShareTheInstant) {
 TEST_F(LockstepTest, NodesThatKeepEachOtherBusyAreAnErrorThatNamesTheTime) {
   EchoNode left(lcm_, "left", "A", "B"), right(lcm_, "right", "B", "A");
   TickingNode ticker(lcm_, "t", ms(100), journal_);
-  Bus mouth(lcm_, {"mouth", 1});
+  Bus publisher(lcm_, {"publisher", 1});
   sim_clock_t message;
   message.utime = message.session = message.sequence = 0;
   message.clock_rate = 1;
   message.clock_step_us = 1;
   message.lockstep = 0;
-  ticker.at_step = [&] { mouth.publish("A", message); };
+  ticker.at_step = [&] { publisher.publish("A", message); };
   LockstepRunner runner(lcm_, {&left, &right, &ticker});
   EXPECT_THROW(runner.run_until(at_ms(100)), std::runtime_error);
 }
