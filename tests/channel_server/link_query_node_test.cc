@@ -152,7 +152,7 @@ TEST_F(LinkQueryTest, ImpossibleModemsAreRefusedWithClearWords) {
   expect_bad(with_modem(at(0, 50), modem), "source_level_db");
   modem = testing::quick_modem();
   modem.modem.directivity_index = {41};
-  expect_bad(with_modem(at(0, 50), modem), "directivity index");
+  expect_bad(with_modem(at(0, 50), modem), "directivity_index_db");
 }
 
 TEST_F(LinkQueryTest, AQueryWithoutLinksOrWithTooManyIsRefusedAsAWhole) {

@@ -43,7 +43,7 @@ class Sea : public bus::Node {
 
   std::vector<position_estimate_t> estimates;
   std::vector<modem_send_t> pings;
-  bool publishes_water = true, tells_state = true;
+  bool publishes_water = true, publishes_state = true;
 
   static Vec3 place(SimTime at) { return {300 + 1.5 * at.seconds(), 200, 50 + kSurfaceZ}; }
 
@@ -63,7 +63,7 @@ class Sea : public bus::Node {
     state.orientation_wxyz[0] = 1;
     Eigen::Map<Vec3>(state.position_ned_m) = place(now.sim);
     state.velocity_ned_mps[0] = 1.5;
-    if (tells_state) bus().publish(bus::channels::kState.of("auv"), state);
+    if (publishes_state) bus().publish(bus::channels::kState.of("auv"), state);
     next_ = now.sim + SimDuration::from_milliseconds(500);
   }
   std::string status_text() const override { return ""; }
@@ -76,7 +76,9 @@ class Sea : public bus::Node {
     water.layer_sound_speed_mps = {kSoundSpeedMps};
     water.layer_temperature_degc = {10};
     water.layer_salinity_psu = {35};
+    water.acidity_ph = 8;
     water.sea_surface_z_m = kSurfaceZ;
+    water.spreading_exponent = 1.5;
     bus().publish(kEnvironment, water);
   }
   void answer(const modem_send_t& ping) {
@@ -162,7 +164,7 @@ TEST_F(LocaliserNodeTest, UsesNoRangeBeforeTheFirstEnvironment) {
 }
 
 TEST_F(LocaliserNodeTest, FindsItsPlaceWithoutTheTruth) {
-  sea_.tells_state = false;
+  sea_.publishes_state = false;
   run(two_beacons(), 120);
   const position_estimate_t& last = sea_.estimates.back();
   EXPECT_FALSE(last.truth_known);
