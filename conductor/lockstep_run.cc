@@ -47,7 +47,6 @@ class Run {
     std::function<void(lockstep_message_t)> on_bridged;
     if (run.bridge_bus) on_bridged = [this](lockstep_message_t m) { conductor_->inject(std::move(m)); };
     bridge_.emplace(bus_lcm, on_bridged);
-    if (!run.log_path.empty()) recorder_.emplace(log_lcm_, run.log_path, [this] { return stamp_; });
     begin(scenario);
     subscribe();
   }
@@ -94,6 +93,7 @@ class Run {
     } else {
       conductor_->resume(journal.entries);
     }
+    open_log();
     is_live_ = true;
     if (run_.rate > 0) conductor_->set_pace(SimTime());
     log_.info("started", "mode=lockstep sync_url=" + run_.sync_url);
@@ -122,8 +122,15 @@ class Run {
     return outputs;
   }
 
+  // Not before the journal has proved to be of this scenario: a refused one leaves the log as it was.
+  void open_log() {
+    if (!recorder_ && !run_.log_path.empty())
+      recorder_.emplace(log_lcm_, run_.log_path, [this] { return stamp_; });
+  }
+
   // A resumed run writes its log anew; what an earlier incarnation mirrored on the bus is not mirrored again.
   void on_message(const lockstep_message_t& message) {
+    open_log();
     if (recorder_) {
       stamp_ = SimTime::from_nanoseconds(message.instant_ns);
       log_lcm_.publish(message.channel_name, message.message_bytes.data(),

@@ -159,6 +159,17 @@ TEST(LockstepProcesses, AConductorKilledBeforeTheEndOfItsLogWritesIt) {
   expect_the_log_of_one_process(fleet);
 }
 
+TEST(LockstepProcesses, AConductorThatRefusesItsJournalLeavesTheLogAsItWas) {
+  LockstepFleet fleet = fleet_of("6");
+  fleet.start_all();
+  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  const std::string log = fleet.log_bytes();
+  fleet.start_conductor({"--set", "scenario.seed=77"});
+  EXPECT_NE(fleet.at("conductor").wait(kLimit), 0);
+  EXPECT_THAT(fleet.conductor_output(), HasSubstr("the journal is of another scenario"));
+  EXPECT_EQ(fleet.log_bytes(), log);
+}
+
 // HALOCLINE_CHAOS_KILLS: how often each is killed; scripts/determinism asks for 50.
 TEST(LockstepProcesses, AllReturnWhereverTheyAreKilled) {
   const char* requested = std::getenv("HALOCLINE_CHAOS_KILLS");
