@@ -19,7 +19,7 @@
 
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
-#include "clients/halocline/sweep/run_pool.h"
+#include "clients/halocline/sweep/child_program.h"
 #include "core/sim_time.h"
 
 namespace halocline {
@@ -68,7 +68,7 @@ class Relay {
   }
 
   // Sends one packet and waits for it; false when it did not come in time.
-  bool deliver(double patience_s) {
+  bool deliver(double timeout_s) {
     modem_send_t send{};
     send.utime = (bus::steady_now() + SimDuration::from_milliseconds(20)).to_utime();
     send.session = 1;
@@ -78,7 +78,7 @@ class Relay {
     send.payload.resize(16);
     send_states();
     bus_.publish(channels::kSend.of("a"), send);
-    const SimTime end = bus::steady_now() + SimDuration::from_seconds(patience_s);
+    const SimTime end = bus::steady_now() + SimDuration::from_seconds(timeout_s);
     while (arrived_ != sequence_ && bus::steady_now() < end) {
       send_states();
       lcm_->handleTimeout(5);

@@ -32,10 +32,12 @@ constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
 constexpr int kMaxMessagesPerTurn = 2000;
 
 // Handles what the bus has delivered when a stop is requested: until it is silent for a moment, since LCM's own thread
-// hands over the messages of the socket one by one. Bounded, against a flood.
+// hands over the messages of the socket one by one. Other nodes may never be silent: no longer than kLongest.
 void dispatch_until_silent(lcm::LCM& lcm) {
-  constexpr int kSilenceMs = 100, kMaxMessages = 20'000;
-  for (int i = 0; i < kMaxMessages && lcm.handleTimeout(kSilenceMs) > 0; ++i) {
+  constexpr int kSilenceMs = 100;
+  constexpr SimDuration kLongest = SimDuration::from_milliseconds(300);
+  const SimTime end = steady_now() + kLongest;
+  while (steady_now() < end && lcm.handleTimeout(kSilenceMs) > 0) {
   }
 }
 
