@@ -56,7 +56,9 @@ TEST_F(NumberedPublisherTest, NamesMadeUpWithoutEndDoNotRenumberAChannelInUse) {
   std::int64_t expected = 0;
   for (std::size_t i = 0; i < 2 * NumberedPublisher::kMaxChannels; ++i) {
     next_on("RECEIPT." + std::to_string(i));
-    if (i % 1000 == 0) EXPECT_EQ(next_on("OUTCOME"), expected++);
+    if (i % 1000 == 0) {
+      EXPECT_EQ(next_on("OUTCOME"), expected++);
+    }
   }
   EXPECT_EQ(next_on("RECEIPT.0"), 0) << "longest unused, so begun anew";
 }

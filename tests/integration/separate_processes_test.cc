@@ -4,6 +4,7 @@
 #include <csignal>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,9 @@ struct Interruption {
   std::string program;
   int signal;
 };
+std::ostream& operator<<(std::ostream& out, const Interruption& interruption) {
+  return out << interruption.program << " by signal " << interruption.signal;
+}
 
 class AfterAnInterruption : public ::testing::TestWithParam<Interruption> {};
 

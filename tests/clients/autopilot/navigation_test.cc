@@ -148,9 +148,9 @@ Kept way_without_compass(double gyro_bias_radps) {
   SensorSettings sensors;
   sensors.gyro.errors.bias = gyro_bias_radps;
   SensorStation station({{1, sensors}}, 1, kPeriod, 100);
-  fleet.apply_fault(0, {.from = SimTime::from_seconds(60),
-                        .kind = vehicle_sim::FaultKind::kDeadSensor,
-                        .sensor = vehicle_sim::SensorKind::kCompass});
+  EXPECT_TRUE(fleet.apply_fault(0, {.from = SimTime::from_seconds(60),
+                                    .kind = vehicle_sim::FaultKind::kDeadSensor,
+                                    .sensor = vehicle_sim::SensorKind::kCompass}));
   AttitudeKeeper attitude(gyro_bias_radps);
   Integrals integrals;
   const double course = std::numbers::pi / 4;

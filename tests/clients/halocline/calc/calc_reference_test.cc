@@ -23,6 +23,9 @@ struct Case {
   double capacity_tolerance = 1e-9;  // of columns in bit/s; decibels 1e-10, everything else 1e-12
   double tolerance = 1e-12;
 };
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.file << " by " << c.options.quantity;
+}
 
 double allowed_error(const Case& c, const std::string& column) {
   const bool capacity = column.find("bit_per_s") != std::string::npos;
