@@ -1,17 +1,31 @@
 #include "core/shared_module.h"
 
+#include <array>
+
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include "core/check.h"
 
 namespace halocline {
+namespace {
+
+// The folder of the running program, with its slash. Not the dynamic linker's $ORIGIN: beneath a sanitizer, which calls
+// dlopen for us, that is the sanitizer's folder.
+std::string program_folder() {
+  std::array<char, 4096> path{};
+  const auto length = readlink("/proc/self/exe", path.data(), path.size());
+  const std::string program(path.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
+  return program.substr(0, program.rfind('/') + 1);
+}
+
+}  // namespace
 
 void* module_symbol(const std::string& file, const std::string& symbol) {
-  // The dynamic linker replaces $ORIGIN by the program's folder.
   void* module = nullptr;
   std::string errors;
-  for (const char* folder : {"$ORIGIN/", "$ORIGIN/../bin/"}) {
-    module = dlopen((folder + file).c_str(), RTLD_LAZY | RTLD_LOCAL);
+  for (const char* folder : {"", "../bin/"}) {
+    module = dlopen((program_folder() + folder + file).c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (module != nullptr) break;
     errors += std::string(errors.empty() ? "" : "; ") + dlerror();
   }
