@@ -1,7 +1,6 @@
 #include "conductor/lockstep_run.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,14 +10,15 @@
 #include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/sequencer.h"
-#include "bus/logs/log_recorder.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
 #include "conductor/bus_bridge.h"
 #include "conductor/conductor_node.h"
-#include "core/check.h"
+#include "conductor/lockstep_log.h"
+#include "conductor/lockstep_pace.h"
+#include "conductor/wait_monitor.h"
 
 namespace halocline::conductor {
 namespace {
@@ -27,15 +27,13 @@ namespace {
 constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(4000);
 // After the end, for JOINs of participants that lost the notice.
 constexpr SimDuration kLinger = SimDuration::from_milliseconds(600);
-// Between warnings that name the participants waited for.
-constexpr SimDuration kWaitingPeriod = SimDuration::from_milliseconds(5000);
 
 class Run {
  public:
   Run(lcm::LCM& bus_lcm, const bus::NodeIdentity& identity, const bus::Scenario& scenario,
       const LockstepRun& run)
       : run_(run),
-        log_(identity.name),
+        events_(identity.name),
         grants_lcm_(bus::open_transport(bus::effective_url(run.sync_url))),
         answers_lcm_(bus::open_transport(bus::next_port(bus::effective_url(run.sync_url)))),
         publisher_(*grants_lcm_, {identity.name, 0}),
@@ -43,7 +41,9 @@ class Run {
         bus_lcm_(bus_lcm),
         node_(memq_, {identity.name, bus::session_of(scenario.seed, identity.name), bus::Stage::kTime},
               scenario.clock_period, 0.0),
-        turns_(memq_, node_) {
+        turns_(memq_, node_),
+        log_(run.log_path),
+        pace_(run.rate) {
     std::function<void(lockstep_message_t)> on_bridged;
     if (run.bridge_bus) on_bridged = [this](lockstep_message_t m) { conductor_->inject(std::move(m)); };
     bridge_.emplace(bus_lcm, on_bridged);
@@ -54,21 +54,23 @@ class Run {
   void until_over(const std::function<bool()>& should_stop) {
     SimTime give_up_at = SimTime::never();
     while (!conductor_->over() && bus::steady_now() < give_up_at) {
-      keep_pace();
+      pace_.keep(*conductor_, bus::steady_now());
       conductor_->on_timer(bus::steady_now());
       if (should_stop() && give_up_at == SimTime::never()) {
         conductor_->request_stop();
         give_up_at = bus::steady_now() + kLastTurnTimeout;
       }
-      warn_of_waiting();
-      dispatch_until(std::min({conductor_->next_timer(), next_pace_, give_up_at}));
+      const std::string waiting_for = wait_monitor_.overdue(*conductor_, bus::steady_now());
+      if (!waiting_for.empty()) events_.warning("waiting", "for=" + waiting_for);
+      dispatch_until(std::min({conductor_->next_timer(), pace_.next_due(), give_up_at}));
     }
-    if (recorder_) recorder_->close();
-    if (!conductor_->over()) return log_.warning("unfinished", "the journal keeps the run open");
+    log_.close();
+    if (!conductor_->over()) return events_.warning("unfinished", "the journal keeps the run open");
     const Sequencer& sequencer = conductor_->sequencer();
-    log_.info("over", "t=" + std::to_string(sequencer.now().seconds()) + " rounds=" +
-                          std::to_string(sequencer.rounds()) + " turns=" + std::to_string(sequencer.turns()) +
-                          " retransmissions=" + std::to_string(conductor_->retransmissions()));
+    events_.info("over", "t=" + std::to_string(sequencer.now().seconds()) +
+                             " rounds=" + std::to_string(sequencer.rounds()) +
+                             " turns=" + std::to_string(sequencer.turns()) +
+                             " retransmissions=" + std::to_string(conductor_->retransmissions()));
     for (const SimTime end = bus::steady_now() + kLinger; bus::steady_now() < end;) dispatch_until(end);
   }
 
@@ -77,7 +79,7 @@ class Run {
     JournalContents journal;
     if (!run_.journal_path.empty()) journal = read_journal(run_.journal_path);
     if (journal.bytes_cut_off > 0)
-      log_.warning("journal-repaired", "bytes=" + std::to_string(journal.bytes_cut_off));
+      events_.warning("journal-repaired", "bytes=" + std::to_string(journal.bytes_cut_off));
     if (!run_.journal_path.empty()) journal_.emplace(run_.journal_path);
     LockstepRules rules;
     rules.expected = run_.expected;
@@ -93,10 +95,9 @@ class Run {
     } else {
       conductor_->resume(journal.entries);
     }
-    open_log();
+    log_.open();
     is_live_ = true;
-    if (run_.rate > 0) conductor_->set_pace(SimTime());
-    log_.info("started", "mode=lockstep sync_url=" + run_.sync_url);
+    events_.info("started", "mode=lockstep sync_url=" + run_.sync_url);
   }
 
   LockstepConductor::Outputs outputs() {
@@ -112,31 +113,19 @@ class Run {
     };
     outputs.publish = [this](const lockstep_message_t& m) { on_message(m); };
     outputs.report = [this](const std::string& event, const std::string& detail) {
-      log_.set_time(conductor_ ? conductor_->sequencer().now() : SimTime());
+      events_.set_time(conductor_ ? conductor_->sequencer().now() : SimTime());
       if (event == "dropped" || event == "expelled") {
-        log_.warning(event, detail);
+        events_.warning(event, detail);
       } else {
-        log_.info(event, detail);
+        events_.info(event, detail);
       }
     };
     return outputs;
   }
 
-  // Not before the journal has proved to be of this scenario: a refused one leaves the log as it was.
-  void open_log() {
-    if (!recorder_ && !run_.log_path.empty())
-      recorder_.emplace(log_lcm_, run_.log_path, [this] { return stamp_; });
-  }
-
   // A resumed run writes its log anew; what an earlier incarnation mirrored on the bus is not mirrored again.
   void on_message(const lockstep_message_t& message) {
-    open_log();
-    if (recorder_) {
-      stamp_ = SimTime::from_nanoseconds(message.instant_ns);
-      log_lcm_.publish(message.channel_name, message.message_bytes.data(),
-                       static_cast<unsigned int>(message.message_bytes.size()));
-      log_lcm_.handleTimeout(0);
-    }
+    log_.record(message);
     if (is_live_) bridge_->mirror(message);
   }
 
@@ -155,37 +144,8 @@ class Run {
     if (run_.bridge_bus) bus::dispatch_waiting(bus_lcm_);
   }
 
-  // Simulation time may advance as far as the wall clock has since the run began, or was resumed.
-  void keep_pace() {
-    const SimTime steady = bus::steady_now();
-    const Sequencer& sequencer = conductor_->sequencer();
-    if (run_.rate <= 0 || sequencer.rounds() == 0) return;
-    if (!paced_from_) paced_from_ = {steady, sequencer.now()};
-    const auto& [wall_start, sim_start] = *paced_from_;
-    conductor_->set_pace(sim_start + SimDuration::from_seconds((steady - wall_start).seconds() * run_.rate));
-    next_pace_ = steady + SimDuration::from_milliseconds(1);
-    const SimTime next = sequencer.next_instant();
-    if (sequencer.in_round() || next == SimTime::never()) return;
-    next_pace_ = std::max(next_pace_,
-                          wall_start + SimDuration::from_seconds((next - sim_start).seconds() / run_.rate));
-  }
-
-  void warn_of_waiting() {
-    const SimTime steady = bus::steady_now();
-    const std::int64_t turns = conductor_->sequencer().turns();
-    if (turns != turns_before_) {
-      turns_before_ = turns;
-      next_warning_ = steady + kWaitingPeriod;
-    }
-    if (steady < next_warning_) return;
-    next_warning_ = steady + kWaitingPeriod;
-    std::string names;
-    for (const std::string& name : conductor_->waiting_for()) names += (names.empty() ? "" : ",") + name;
-    if (!names.empty()) log_.warning("waiting", "for=" + names);
-  }
-
   LockstepRun run_;
-  bus::EventLog log_;
+  bus::EventLog events_;
   std::unique_ptr<lcm::LCM> grants_lcm_, answers_lcm_;
   bus::Bus publisher_, receiver_;
   lcm::LCM& bus_lcm_;
@@ -193,15 +153,12 @@ class Run {
   ConductorNode node_;
   bus::LockstepTurns turns_;
   std::optional<BusBridge> bridge_;
-  lcm::LCM log_lcm_{"memq://"};  // carries the messages to record, and nothing else
-  SimTime stamp_;
-  std::optional<bus::LogRecorder> recorder_;
+  LockstepLog log_;
+  LockstepPace pace_;
+  WaitMonitor wait_monitor_;
   std::optional<Journal> journal_;
   std::optional<LockstepConductor> conductor_;
   bool is_live_ = false;
-  std::optional<std::pair<SimTime, SimTime>> paced_from_;  // steady, simulation
-  SimTime next_pace_ = SimTime::never(), next_warning_ = SimTime() + kWaitingPeriod;
-  std::int64_t turns_before_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,32 @@
+// Paces a lockstep run: simulation time may advance as far as the wall clock has since the run began, or was resumed,
+// times a rate.
+#pragma once
+
+#include <optional>
+
+#include "bus/lockstep/lockstep_conductor.h"
+#include "core/sim_time.h"
+
+namespace halocline::conductor {
+
+class LockstepPace {
+ public:
+  // `rate`: simulated seconds per wall second; 0: the run is not paced.
+  explicit LockstepPace(double rate) : rate_(rate) {}
+
+  // Sets the pace of `conductor`. Before its first round that is simulation time 0.
+  void keep(LockstepConductor& conductor, SimTime steady);
+  // Steady time of the next call of keep(); never() where nothing is paced.
+  SimTime next_due() const { return next_due_; }
+
+ private:
+  struct Origin {
+    SimTime steady, simulation;
+  };
+
+  double rate_;
+  std::optional<Origin> origin_;
+  SimTime next_due_ = SimTime::never();
+};
+
+}  // namespace halocline::conductor
