@@ -115,7 +115,10 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
   if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
   const double lost_db = surface_loss_.db_at_sine(std::min(sine, 1.0));
   if (lost_db > 0) ray.factor *= std::exp(-std::numbers::ln10 / 20 * lost_db);
-  if (details != nullptr) details->surface_loss_db += lost_db;
+  if (details != nullptr) {
+    details->surface_loss_db += lost_db;
+    details->surface_sine_squares += sine * sine;
+  }
   return ray.factor >= min_factor_;
 }
 
@@ -158,6 +161,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
     ray.factor *= one.magnitude;
     details->bottom_phase_rad += one.phase_rad;
     details->bottom_loss_db += one.loss_db();
+    details->bottom_sine_squares += sin_g * sin_g;
   }
   return ray.factor >= min_factor_;
 }

@@ -64,7 +64,7 @@ struct TracedRay {
 // Sums that an eigenray needs besides.
 struct TracedDetails {
   double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
-         surface_loss_db = 0;
+         surface_loss_db = 0, surface_sine_squares = 0, bottom_sine_squares = 0;
   double slowness_over_range = 0;  // sum of xi dr, s
 };
 

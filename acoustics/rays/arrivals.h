@@ -39,6 +39,8 @@ struct Arrival {
   double absorption_db = 0;    // along the arcs, at RayOptions::frequency_hz
   double surface_loss_db = 0;  // of all surface bounces, part of the amplitude
   double bottom_loss_db = 0;   // of all bottom bounces, part of the amplitude
+  // Sums over the bounces of the squared sine of the grazing angle, by which rough boundaries scatter.
+  double surface_sine_squares = 0, bottom_sine_squares = 0;
   int surface_bounces = 0, bottom_bounces = 0;
   int caustics = 0;  // touched on the way
   PathIdentity identity;

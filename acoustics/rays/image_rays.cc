@@ -127,6 +127,8 @@ bool ImageSum::add(const Image& image) {
   path.path_length_m = length;
   path.absorption_db = absorption_db(image, length);
   path.bottom_loss_db = bottom > 0 ? bottom * one.loss_db() : 0;
+  path.surface_sine_squares = surface * sine * sine;
+  path.bottom_sine_squares = bottom * sine * sine;
   set_phase(image, one, surface, bottom, path);
   const bool leaves_down = source_is_upper_ ? !image.up : image.down;
   const bool comes_down = source_is_upper_ ? !image.down : image.up;

@@ -139,6 +139,8 @@ void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const Laye
   set_directions(link, legs, ray, sums.xi, path);
   set_lengths(link, legs, ray, sums.xi, path);
   path.surface_bounces = path.identity.surface_bounces = bounces.surface;
+  path.surface_sine_squares = bounces.surface * sums.sine_top * sums.sine_top;
+  path.bottom_sine_squares = bounces.bottom * sums.sine_bottom * sums.sine_bottom;
   path.bottom_bounces = path.identity.bottom_bounces = bounces.bottom;
   path.identity.upper_turns = bounces.upper_turns;
   path.identity.lower_turns = bounces.lower_turns;

@@ -58,6 +58,8 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
   path.absorption_db = details.absorption_db;
   path.surface_loss_db = details.surface_loss_db;
   path.bottom_loss_db = details.bottom_loss_db;
+  path.surface_sine_squares = details.surface_sine_squares;
+  path.bottom_sine_squares = details.bottom_sine_squares;
   path.surface_bounces = ray.surface_bounces;
   path.bottom_bounces = ray.bottom_bounces;
   path.caustics = ray.caustics;

@@ -4,7 +4,7 @@
 // - uniform: steady, the same everywhere;
 // - by depth: a table of horizontal velocities, linear between its depths, constant beyond;
 // - tide: amplitude cos(2 pi t / period + phase) toward an azimuth (one constituent, rectilinear);
-// - random: a Gauss-Markov process in north and in east (gauss_markov.h), the same everywhere; its value at an
+// - random: a Gauss-Markov process in north and in east (core/gauss_markov.h), the same everywhere; its value at an
 //   instant depends on neither the step nor the order of evaluation.
 // What acts on a vehicle within a step: the velocity where it is at the start of the step, changed evenly by the
 // acceleration. Uniform, tide and random carry a neutrally buoyant vehicle along exactly: the path is that in still
@@ -19,8 +19,8 @@
 
 #include "core/archive.h"
 #include "core/frames.h"
+#include "core/gauss_markov.h"
 #include "core/sim_time.h"
-#include "vehicle_sim/dynamics/gauss_markov.h"
 #include "vehicle_sim/dynamics/waves.h"
 
 namespace halocline::vehicle_sim {

@@ -1,4 +1,4 @@
-#include "vehicle_sim/dynamics/gauss_markov.h"
+#include "core/gauss_markov.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 
-namespace halocline::vehicle_sim {
+namespace halocline {
 namespace {
 
 using halocline::testing::tolerance;
@@ -106,4 +106,4 @@ TEST(GaussMarkov, ImpossibleSettingsAreRefused) {
 }
 
 }  // namespace
-}  // namespace halocline::vehicle_sim
+}  // namespace halocline

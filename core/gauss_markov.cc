@@ -1,11 +1,11 @@
-#include "vehicle_sim/dynamics/gauss_markov.h"
+#include "core/gauss_markov.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
 
-namespace halocline::vehicle_sim {
+namespace halocline {
 namespace {
 
 constexpr int kHalvings = 36;
@@ -71,4 +71,4 @@ double GaussMarkovProcess::at(SimTime time) const {
   return at(time, cursor);
 }
 
-}  // namespace halocline::vehicle_sim
+}  // namespace halocline

@@ -17,7 +17,7 @@
 #include "core/random.h"
 #include "core/sim_time.h"
 
-namespace halocline::vehicle_sim {
+namespace halocline {
 
 class GaussMarkovProcess {
  public:
@@ -53,4 +53,4 @@ class GaussMarkovProcess::Cursor {
   std::vector<Bracket> path_;  // each within the one before it
 };
 
-}  // namespace halocline::vehicle_sim
+}  // namespace halocline
