@@ -190,8 +190,9 @@ void LinkModel::set_levels(LinkBudget& link, Decibels loss) const {
   link.snr = link.received_level - noise_level_ + receiver_.directivity_index;
   const Decibels bandwidth = to_decibels(PowerRatio{transmitter_.bandwidth_hz});
   link.snr_narrowband = link.received_level - centre_noise_ - bandwidth + receiver_.directivity_index;
-  link.receivable =
-      link.received_level >= receiver_.min_receivable_level && bands_overlap(transmitter_, receiver_);
+  link.receivable = link.received_level >= receiver_.min_receivable_level &&
+                    same_family(transmitter_, receiver_) &&
+                    band_share(transmitter_.band(), receiver_.band()) > 0;
 }
 
 LinkBudget LinkModel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,

@@ -40,7 +40,7 @@ struct LinkBudget {
   Decibels snr;                     // with the noise integrated over the band
   Decibels snr_narrowband;          // with the noise of the centre all over the band (equation 7)
   double capacity_bps = 0;          // bit/s
-  bool receivable = false;          // received level >= the receiver's cut-off, and the bands overlap
+  bool receivable = false;          // of one family, bands overlap, received level >= the cut-off
 };
 
 // Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal points.

@@ -27,6 +27,11 @@ void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz
 
 }  // namespace
 
+double band_share(const Band& of, const Band& in) {
+  const double shared_hz = std::min(of.high_hz, in.high_hz) - std::max(of.low_hz, in.low_hz);
+  return std::clamp(shared_hz / of.width_hz(), 0.0, 1.0);
+}
+
 std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio) {
   require(low_hz > 0 && low_hz <= high_hz && std::isfinite(high_hz), "a band needs 0 < low_hz <= high_hz");
   std::vector<FrequencyNode> nodes;

@@ -23,6 +23,10 @@ struct Band {
   double centre_hz() const { return (low_hz + high_hz) / 2; }
 };
 
+// The share of `of` that lies within `in`, 0..1: of sound spread evenly over the one band, that much of its power
+// lies in the other.
+double band_share(const Band& of, const Band& in);
+
 struct FrequencyNode {
   double frequency_hz;
   double weight_hz;  // the weights of a band sum to its width

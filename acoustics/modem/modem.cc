@@ -1,10 +1,10 @@
 #include "acoustics/modem/modem.h"
 
-#include <algorithm>
 #include <string>
 
 #include "acoustics/modem/preamble_detection.h"
 #include "core/check.h"
+#include "core/names.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -17,6 +17,19 @@ void validate(const FrameLayout& layout) {
   require_in_range(layout.tail_bits, 0, kMaxBits, "tail of a coded block", "bits");
   require_in_range(layout.frame_bytes, 0, kMaxPayloadBytes, "frame", "bytes");
   require_in_range(layout.max_frames, layout.frame_bytes > 0 ? 1 : 0, 1024, "frames of a packet");
+}
+
+void validate_hopping(const Modem& modem) {
+  require_in_range(modem.chip.seconds(), 0, 10, "chip", "s");
+  require_in_range(modem.hop_count, 0, modem.chip > SimDuration() ? 1024 : 0, "hop count (0 without chips)",
+                   "pairs of tones");
+  if (modem.hop_count > 0) {
+    require_in_range(modem.hop_clearing.seconds(), modem.chip.seconds(), 60,
+                     "clearing time of the hop pattern (at least a chip)", "s");
+  } else {
+    require_in_range(modem.hop_clearing.seconds(), 0, 0,
+                     "clearing time of the hop pattern (0 without hopping)", "s");
+  }
 }
 
 // Bytes that are sent for a payload: whole frames, where there are frames.
@@ -33,6 +46,8 @@ std::int64_t block_bits(const FrameLayout& layout, std::int64_t information_bits
 }  // namespace
 
 void validate(const Modem& modem) {
+  require(is_valid_name(modem.family),
+          "family of the modem is '" + modem.family + "'; allowed is " + std::string(kNameRule));
   require_in_range(modem.source_level.value, 0, 250, "source level", "dB re 1 uPa at 1 m");
   require_in_range(modem.min_receivable_level.value, -200, 250, "least receivable level", "dB re 1 uPa");
   require_in_range(modem.centre_frequency_hz, 10, 1e6, "centre frequency", "Hz");
@@ -48,7 +63,11 @@ void validate(const Modem& modem) {
                    "preamble (part of the packet overhead)", "s");
   require_in_range(modem.preamble_pieces, 1, 256, "pieces of the preamble");
   require_in_range(modem.guard_time.seconds(), 0, 10, "guard time", "s");
+  require_in_range(modem.guard_taper_or_default().seconds(), 0, 10, "taper after the guard time", "s");
   require_in_range(modem.doppler_tolerance, 0, 1, "Doppler tolerance");
+  require_in_range(modem.doppler_correction, 0, 1, "Doppler correction");
+  require_in_range(modem.time_quantum.seconds(), 0, 1, "quantum of the time of arrival", "s");
+  validate_hopping(modem);
   validate(modem.layout);
 }
 
@@ -94,9 +113,6 @@ double bit_error_rate(const Modem& modem, PowerRatio sinr) {
   return bit_error_rate(modem.error_model, PowerRatio{sinr.value * modem.bandwidth_hz / modem.bit_rate_bps});
 }
 
-bool bands_overlap(const Modem& one, const Modem& other) {
-  return std::max(one.band().low_hz, other.band().low_hz) <
-         std::min(one.band().high_hz, other.band().high_hz);
-}
+bool same_family(const Modem& sender, const Modem& receiver) { return sender.family == receiver.family; }
 
 }  // namespace halocline::acoustics

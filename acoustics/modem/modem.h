@@ -14,6 +14,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/beam_pattern.h"
@@ -37,6 +39,8 @@ struct FrameLayout {
 
 // The defaults are one generic modem of the 25 kHz class with the band of the reference figures.
 struct Modem {
+  // The waveform family: only modems of one family receive each other. A name (core/names.h).
+  std::string family = "generic";
   // Strength: dB re 1 uPa at 1 m over the band, 0..250. Real modems give 160..190 (WHOI Micromodem about
   // 185); the paper's figures use 60..120, which is 120 dB = 8.4 microwatts.
   Decibels source_level{185};
@@ -53,16 +57,32 @@ struct Modem {
   // The first part of the overhead, by which the packet is detected, 0..60 s. 0: it is always detected.
   SimDuration preamble;
   std::int32_t preamble_pieces = 1;  // 1..256, matched each, added without phase (preamble_detection.h)
-  // An echo this much later than the first arrival, or less, adds to the signal; a later one interferes.
+  // An echo this much later than the instant the receiver synchronised to, or less, adds to the signal.
   // 0..10 s; 10 ms is our choice, near a bit of 80 bit/s.
   SimDuration guard_time = SimDuration::from_milliseconds(10);
-  // Greatest |f_rx / f_tx - 1| at which a packet can be received, 0..1. 0.1 is 150 m/s: of no effect on
-  // submarines, because the generic modem stands for no Doppler correction in particular.
+  // After the guard time the weight of an echo falls from 1 to 0 by a raised cosine over this much, 0..10 s.
+  // None: over one more guard time, whatever that is; guard_taper_or_default() gives it.
+  std::optional<SimDuration> guard_taper;
+
+  // Frequency-hopped FSK: duration of a chip, 0..10 s, and pairs of tones to hop between, 0..1024; 0 of both:
+  // no hopping. The packet's own echo that is later than a chip takes nothing until the pattern returns to its
+  // tones, hop_clearing after them (chip..60 s), and 1 / hop_count of its power later.
+  SimDuration chip;
+  std::int32_t hop_count = 0;
+  SimDuration hop_clearing;
+
+  // Greatest |f_rx / f_tx - 1| at which a packet can be received in a sea without fading, 0..1; with fading
+  // doppler_correction decides. 0.1 is 150 m/s: of no effect on submarines, because the generic modem stands
+  // for no Doppler correction in particular.
   double doppler_tolerance = 0.1;
+  // Greatest |f_rx / f_tx - 1| that the receiver corrects, 0..1; what is left of a greater one costs power.
+  double doppler_correction = 0.1;
+  SimDuration time_quantum;  // resolution of the measured time of arrival, 0..1 s; 0: none
   ErrorModel error_model = ErrorModel::kBfsk;
   FrameLayout layout;
   BeamPattern beam;  // in transmission and reception; source and cut-off level are those of its 0 dB
 
+  SimDuration guard_taper_or_default() const { return guard_taper.value_or(guard_time); }
   Band band() const {
     return {centre_frequency_hz - bandwidth_hz / 2, centre_frequency_hz + bandwidth_hz / 2};
   }
@@ -100,7 +120,7 @@ double acquisition_probability(const Modem& modem, PowerRatio sinr);
 // during the bits). Eb/N0 = sinr bandwidth / bit rate: noise and interference are taken as white over the band.
 double bit_error_rate(const Modem& modem, PowerRatio sinr);
 
-// True when the two bands share frequencies: only then can one modem receive the other.
-bool bands_overlap(const Modem& one, const Modem& other);
+// True when `receiver` knows the waveform of `sender`. Another family's sound triggers no detector.
+bool same_family(const Modem& sender, const Modem& receiver);
 
 }  // namespace halocline::acoustics

@@ -105,17 +105,18 @@ using PacketPointer = std::shared_ptr<const Packet>;  // never null
 // What became of a packet at one possible receiver; in the order of packet_outcome_t. It is the first of these that
 // holds, in the order of the numbers in brackets.
 enum class OutcomeKind {
-  kReceived,      // [11] none of the others
-  kBelowCutoff,   // [4] all paths together are below the receiver's least receivable level
+  kReceived,      // [12] none of the others
+  kBelowCutoff,   // [5] all paths together are below the receiver's least receivable level
   kReceiverGone,  // [1] the receiver's state had grown too old at the first bit or at the last
-  kShadow,        // [3] no path: the water bends all away
-  kBlocked,       // [3] no path: the terrain stands in all
-  kOutOfBand,     // [2] the bands of the two modems share nothing
-  kCollided,      // [7] the receiver followed another packet; [8, 9] or without others it had been received
-  kHalfDuplex,    // [5] the receiver transmitted at some instant of the packet
-  kDoppler,       // [6] shifted by more than the receiver's modem follows
-  kBitErrors,     // [9] acquired, with bits that were wrong
-  kNotAcquired,   // [8] its preamble was not acquired
+  kShadow,        // [4] no path: the water bends all away
+  kBlocked,       // [4] no path: the terrain stands in all
+  kOutOfBand,     // [3] the bands of the two modems share nothing
+  kCollided,      // [8] the receiver followed another packet; [9, 10] or without others it had been received
+  kHalfDuplex,    // [6] the receiver transmitted at some instant of the packet
+  kDoppler,       // [7] shifted by more than the receiver's modem follows
+  kBitErrors,     // [10] acquired, with bits that were wrong
+  kNotAcquired,   // [9] its preamble was not acquired
+  kForeign,       // [2] the waveform families of the two modems differ: its detector does not know this sound
 };
 
 // What the outcome was decided by.

@@ -44,7 +44,8 @@ double two_way_travel_time_s(const Flight& answer) {
 OutcomeKind outcome_before_acquisition(const Flight& flight) {
   const Reception& reception = flight.reception;
   if (flight.receiver_absent) return OutcomeKind::kReceiverGone;
-  if (!bands_overlap(flight.packet->modem, flight.modem)) return OutcomeKind::kOutOfBand;
+  if (!same_family(flight.packet->modem, flight.modem)) return OutcomeKind::kForeign;
+  if (band_share(flight.packet->modem.band(), flight.modem.band()) == 0) return OutcomeKind::kOutOfBand;
   if (reception.state == PathState::kBlocked) return OutcomeKind::kBlocked;
   if (reception.state == PathState::kShadow || reception.paths.empty()) return OutcomeKind::kShadow;
   if (reception.budget.received_level < flight.modem.min_receivable_level) return OutcomeKind::kBelowCutoff;

@@ -15,11 +15,6 @@ bool overlap(const PacketInterval& span, SimTime begin, SimTime end) {
 
 }  // namespace
 
-double band_share(const acoustics::Band& of, const acoustics::Band& in) {
-  const double shared_hz = std::min(of.high_hz, in.high_hz) - std::max(of.low_hz, in.low_hz);
-  return std::clamp(shared_hz / of.width_hz(), 0.0, 1.0);
-}
-
 void ReceiverState::open(AudiblePacket packet) {
   open_.insert(packet.begin);
   longest_ = std::max(longest_, packet.end - packet.begin);

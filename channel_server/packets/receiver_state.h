@@ -46,9 +46,6 @@ struct Interferers {
   std::vector<Interference> paths;
 };
 
-// The share of `of` that lies within `in`, 0..1.
-double band_share(const acoustics::Band& of, const acoustics::Band& in);
-
 class ReceiverState {
  public:
   // `kept_longer`: how long after its end a sound may still overlap a reception that is added late.

@@ -170,6 +170,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(OutcomeKind::kCollided), packet_outcome_t::COLLIDED);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kHalfDuplex), packet_outcome_t::HALF_DUPLEX);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kDoppler), packet_outcome_t::DOPPLER);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kForeign), packet_outcome_t::FOREIGN);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kBitErrors), packet_outcome_t::BIT_ERRORS);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kStraight), packet_outcome_t::STRAIGHT);

@@ -79,11 +79,19 @@ TEST(Modem, ASlowerBitIsSafer) {
   EXPECT_LT(bit_error_rate(slow, {0.1}), bit_error_rate(fast, {0.1}));
 }
 
-TEST(Modem, BandsOverlapOnlyWhereTheyShareFrequencies) {
-  const Modem a = generic_modem({185}, {70}, 10e3, 2e3);
-  EXPECT_TRUE(bands_overlap(a, a));
-  EXPECT_TRUE(bands_overlap(a, generic_modem({185}, {70}, 11.5e3, 2e3)));
-  EXPECT_FALSE(bands_overlap(a, generic_modem({185}, {70}, 12e3, 2e3)));  // they touch at 11 kHz
+TEST(Modem, IsOfOneFamilyWithItsOwnKindAlone) {
+  Modem one, other;
+  one.family = other.family = "sonobuoy-3";
+  EXPECT_TRUE(same_family(one, other));
+  EXPECT_FALSE(same_family(one, Modem()));
+}
+
+TEST(Modem, TapersOverOneMoreGuardTimeUnlessATaperIsGiven) {
+  Modem modem;
+  modem.guard_time = SimDuration::from_milliseconds(4);
+  EXPECT_EQ(modem.guard_taper_or_default(), modem.guard_time);
+  modem.guard_taper = SimDuration();
+  EXPECT_EQ(modem.guard_taper_or_default(), SimDuration());
 }
 
 TEST(Modem, RefusesImpossibleValues) {
@@ -103,6 +111,17 @@ TEST(Modem, RefusesImpossibleValues) {
   refuses([](Modem& m) { m.preamble_pieces = 0; });
   refuses([](Modem& m) { m.guard_time = SimDuration::from_seconds(-1); });
   refuses([](Modem& m) { m.doppler_tolerance = -0.1; });
+  refuses([](Modem& m) { m.doppler_correction = 1.1; });
+  refuses([](Modem& m) { m.family = "two words"; });
+  refuses([](Modem& m) { m.guard_taper = SimDuration::from_seconds(-1); });
+  refuses([](Modem& m) { m.time_quantum = SimDuration::from_seconds(2); });
+  refuses([](Modem& m) { m.hop_count = 13; });                                    // without a chip
+  refuses([](Modem& m) { m.hop_clearing = SimDuration::from_milliseconds(1); });  // without hopping
+  refuses([](Modem& m) {
+    m.chip = SimDuration::from_milliseconds(6);
+    m.hop_count = 13;
+    m.hop_clearing = SimDuration::from_milliseconds(5);  // before the chip has ended
+  });
   refuses([](Modem& m) { m.layout = {.frame_bytes = 32, .max_frames = 0}; });
   refuses([](Modem& m) { m.layout.header_bits = -1; });
 }

@@ -26,13 +26,6 @@ AudiblePacket audible(const PacketPointer& packet, double begin_s, double end_s,
   return {packet, at_s(begin_s), at_s(end_s), {{at_s(begin_s), at_s(end_s), power}}};
 }
 
-TEST(BandShare, IsThePartOfABandWithinAnother) {
-  EXPECT_NEAR(band_share({20, 30}, {25, 40}), 0.5, tolerance(1e-15));
-  EXPECT_NEAR(band_share({20, 30}, {0, 100}), 1, tolerance(1e-15));
-  EXPECT_NEAR(band_share({0, 100}, {20, 30}), 0.1, tolerance(1e-15));
-  EXPECT_EQ(band_share({20, 30}, {30, 40}), 0);
-}
-
 TEST(ReceiverState, FindsTheInterferersOfAReceptionWhateverTheOrderOfArrival) {
   ReceiverState receiver(for_s(10));
   const auto own = packet_of(1, 0), before = packet_of(2, 0), across = packet_of(3, 0),
