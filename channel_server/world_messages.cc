@@ -94,6 +94,7 @@ VehicleModem to_modem(const modem_config_t& message) {
           "error_model is no value of its enumeration");
   const VehicleModem profile = load_modem(profile_in(message));
   VehicleModem modem = profile;
+  modem.modem.family = message.family;
   modem.modem.source_level = {message.source_level_db};
   modem.modem.min_receivable_level = {message.cutoff_level_db};
   modem.modem.centre_frequency_hz = message.center_frequency_hz;
@@ -103,7 +104,13 @@ VehicleModem to_modem(const modem_config_t& message) {
   modem.modem.packet_overhead = SimDuration::from_seconds(message.packet_overhead_s);
   modem.modem.preamble = SimDuration::from_seconds(message.preamble_s);
   modem.modem.guard_time = SimDuration::from_seconds(message.guard_time_s);
+  modem.modem.guard_taper = taper_from(message.guard_taper_s);
+  modem.modem.chip = SimDuration::from_seconds(message.chip_s);
+  modem.modem.hop_count = message.hop_count;
+  modem.modem.hop_clearing = SimDuration::from_seconds(message.hop_clearing_s);
   modem.modem.doppler_tolerance = message.doppler_tolerance;
+  modem.modem.doppler_correction = message.doppler_correction;
+  modem.modem.time_quantum = SimDuration::from_seconds(message.time_quantum_s);
   modem.modem.error_model = static_cast<acoustics::ErrorModel>(message.error_model);
   modem.modem.beam = beam_in(message);
   modem.max_payload_bytes = message.max_payload_bytes;
@@ -116,6 +123,7 @@ VehicleModem to_modem(const modem_config_t& message) {
 modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   modem_config_t message{};
   message.utime = from.to_utime();
+  message.family = modem.modem.family;
   message.source_level_db = modem.modem.source_level.value;
   message.cutoff_level_db = modem.modem.min_receivable_level.value;
   message.center_frequency_hz = modem.modem.centre_frequency_hz;
@@ -127,7 +135,13 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   set_profile(modem.profile, message);
   message.preamble_s = modem.modem.preamble.seconds();
   message.guard_time_s = modem.modem.guard_time.seconds();
+  message.guard_taper_s = seconds_of(modem.modem.guard_taper);
+  message.chip_s = modem.modem.chip.seconds();
+  message.hop_count = modem.modem.hop_count;
+  message.hop_clearing_s = modem.modem.hop_clearing.seconds();
   message.doppler_tolerance = modem.modem.doppler_tolerance;
+  message.doppler_correction = modem.modem.doppler_correction;
+  message.time_quantum_s = modem.modem.time_quantum.seconds();
   message.error_model = static_cast<std::int8_t>(modem.modem.error_model);
   message.when_busy = static_cast<std::int8_t>(modem.when_busy);
   message.num_beam_rows = static_cast<std::int32_t>(modem.modem.beam.rows().size());

@@ -56,7 +56,10 @@ LinkModel::LinkModel(const Environment& environment, const Modem& transmitter, c
   validate(transmitter);
   validate(receiver);
   const Band band = transmitter.band();
-  std::vector<FrequencyNode> nodes = frequency_nodes(band.low_hz, band.high_hz);
+  const double low_hz = std::max(band.low_hz, receiver.band().low_hz);
+  const double high_hz = std::min(band.high_hz, receiver.band().high_hz);
+  std::vector<FrequencyNode> nodes;
+  if (low_hz < high_hz) nodes = frequency_nodes(low_hz, high_hz);
   nodes.insert(nodes.begin(), {band.centre_hz(), 0});
   const double density =
       to_power_ratio(transmitter.source_level + receiver.directivity_index).value / band.width_hz();
@@ -187,9 +190,10 @@ void LinkModel::set_levels(LinkBudget& link, Decibels loss) const {
   link.received_level = transmitter_.source_level - link.transmission_loss;
   link.noise_level = noise_level_;
   link.noise_spectrum_level = centre_noise_;
-  link.snr = link.received_level - noise_level_ + receiver_.directivity_index;
+  const Decibels gain = receiver_.directivity_index - band_loss(transmitter_, receiver_);
+  link.snr = link.received_level - noise_level_ + gain;
   const Decibels bandwidth = to_decibels(PowerRatio{transmitter_.bandwidth_hz});
-  link.snr_narrowband = link.received_level - centre_noise_ - bandwidth + receiver_.directivity_index;
+  link.snr_narrowband = link.received_level - centre_noise_ - bandwidth + gain;
   link.receivable = link.received_level >= receiver_.min_receivable_level &&
                     same_family(transmitter_, receiver_) &&
                     band_share(transmitter_.band(), receiver_.band()) > 0;

@@ -37,10 +37,10 @@ struct LinkBudget {
   Decibels received_level;          // dB re 1 uPa
   Decibels noise_level;             // dB re 1 uPa over the band
   Decibels noise_spectrum_level;    // dB re 1 uPa^2/Hz at the centre frequency
-  Decibels snr;                     // with the noise integrated over the band
-  Decibels snr_narrowband;          // with the noise of the centre all over the band (equation 7)
-  double capacity_bps = 0;          // bit/s
-  bool receivable = false;          // of one family, bands overlap, received level >= the cut-off
+  Decibels snr;             // with the noise integrated over the band, less the band_loss of the modems
+  Decibels snr_narrowband;  // with the noise of the centre all over the band (equation 7), likewise
+  double capacity_bps = 0;  // bit/s, of the part of the band that the receiver has too
+  bool receivable = false;  // of one family, bands overlap, received level >= the cut-off
 };
 
 // Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal points.

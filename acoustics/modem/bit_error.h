@@ -3,11 +3,14 @@
 // Model (Proakis, Digital Communications, 4th edition, chapters 5.2 and 14.3), g the ratio Eb/N0, Q the tail of
 // the normal distribution:
 //
-//   modulation          AWGN                 Rayleigh fading, slow, g the mean
+//   modulation          AWGN                 Rayleigh fading over a bit, g the mean
 //   BPSK                Q(sqrt(2 g))         (1 - sqrt(g / (1 + g))) / 2
 //   DBPSK               exp(-g) / 2          1 / (2 (1 + g))
 //   coherent BFSK       Q(sqrt(g))           (1 - sqrt(g / (2 + g))) / 2
 //   non-coherent BFSK   exp(-g / 2) / 2      1 / (2 + g)
+//
+// Fades last a bit and longer. packet_error_rate takes the bits of a packet as independent: in fading that stands
+// for bits interleaved over many fades.
 //
 // Exact for white Gaussian noise, a matched filter and perfect timing; interference counts as such noise. Left
 // out: symbols that run into each other, phase noise, error correction (convolutional_code.h, block_code.h).

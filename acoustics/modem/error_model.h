@@ -3,6 +3,9 @@
 // Eb is always the energy of an information bit, so a model with a code (bits of the air carry less each) and
 // one without compare fairly. Each model's formula, source and limits: bit_error.h, convolutional_code.h,
 // block_code.h.
+//
+// Rayleigh: each bit (of JANUS: each chip) fades by itself. That stands for bits interleaved over many fades; with one
+// fade a packet, packets would be lost far more seldom at the same mean ratio.
 #pragma once
 
 #include <array>
@@ -15,13 +18,13 @@ namespace halocline::acoustics {
 enum class ErrorModel {
   kNone,           // no bit is ever wrong: only the level decides, as in the 2010 IEEE SMC paper
   kBfsk,           // non-coherent binary FSK
-  kBfskRayleigh,   // the same, fading
+  kBfskRayleigh,   // the same, interleaved over Rayleigh fades
   kBpsk,           // coherent binary PSK (or QPSK, which is two of it)
-  kBpskRayleigh,   //
+  kBpskRayleigh,   // likewise
   kDbpsk,          // differential binary PSK
-  kDbpskRayleigh,  //
+  kDbpskRayleigh,  // likewise
   kJanus,          // non-coherent FSK chips, JANUS's convolutional code, soft decisions
-  kJanusRayleigh,  // the same, every chip fading by itself
+  kJanusRayleigh,  // the same, interleaved over Rayleigh fades
   kBpskBch64,      // PSK with the extended BCH code (64, 10)
   kBpskHamming14,  // PSK with the shortened Hamming code (14, 9)
 };

@@ -1,5 +1,6 @@
 #include "acoustics/modem/modem.h"
 
+#include <algorithm>
 #include <string>
 
 #include "acoustics/modem/preamble_detection.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kBitsPerByte = 8;
 constexpr double kMaxBits = 1e6;
+constexpr double kLeastShare = 1e-30;  // of a band, for band_loss
 
 void validate(const FrameLayout& layout) {
   require_in_range(layout.header_bits, 0, kMaxBits, "header", "bits");
@@ -21,15 +23,10 @@ void validate(const FrameLayout& layout) {
 
 void validate_hopping(const Modem& modem) {
   require_in_range(modem.chip.seconds(), 0, 10, "chip", "s");
-  require_in_range(modem.hop_count, 0, modem.chip > SimDuration() ? 1024 : 0, "hop count (0 without chips)",
-                   "pairs of tones");
-  if (modem.hop_count > 0) {
-    require_in_range(modem.hop_clearing.seconds(), modem.chip.seconds(), 60,
-                     "clearing time of the hop pattern (at least a chip)", "s");
-  } else {
-    require_in_range(modem.hop_clearing.seconds(), 0, 0,
-                     "clearing time of the hop pattern (0 without hopping)", "s");
-  }
+  require_in_range(modem.hop_count, 0, 1024, "hop count", "pairs of tones");
+  require_in_range(modem.hop_clearing.seconds(), 0, 60, "clearing time of the hop pattern", "s");
+  require(hops_well(modem),
+          "hopping needs a chip, and a pattern that does not return before the chip has ended");
 }
 
 // Bytes that are sent for a payload: whole frames, where there are frames.
@@ -113,6 +110,14 @@ double bit_error_rate(const Modem& modem, PowerRatio sinr) {
   return bit_error_rate(modem.error_model, PowerRatio{sinr.value * modem.bandwidth_hz / modem.bit_rate_bps});
 }
 
+bool hops_well(const Modem& modem) {
+  return modem.hop_count == 0 || (modem.chip > SimDuration() && modem.hop_clearing >= modem.chip);
+}
+
 bool same_family(const Modem& sender, const Modem& receiver) { return sender.family == receiver.family; }
+
+Decibels band_loss(const Modem& sender, const Modem& receiver) {
+  return -to_decibels(PowerRatio{std::max(band_share(sender.band(), receiver.band()), kLeastShare)});
+}
 
 }  // namespace halocline::acoustics

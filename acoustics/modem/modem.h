@@ -92,6 +92,9 @@ struct Modem {
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
 void validate(const Modem& modem);
 
+// True without hopping, and when there is a chip that ends before the hop pattern returns.
+bool hops_well(const Modem& modem);
+
 // The paper's four parameters on top of the other defaults.
 Modem generic_modem(Decibels strength, Decibels cut_off, double centre_frequency_hz, double bandwidth_hz);
 
@@ -122,5 +125,9 @@ double bit_error_rate(const Modem& modem, PowerRatio sinr);
 
 // True when `receiver` knows the waveform of `sender`. Another family's sound triggers no detector.
 bool same_family(const Modem& sender, const Modem& receiver);
+
+// What a receiver's signal lacks because part of the sender's band lies outside of its own: -10 log10 of the share that
+// lies within (band_share), dB, 0..300; 300 without any.
+Decibels band_loss(const Modem& sender, const Modem& receiver);
 
 }  // namespace halocline::acoustics

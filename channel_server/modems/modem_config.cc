@@ -7,6 +7,7 @@
 #include "acoustics/modem/beam_pattern.h"
 #include "channel_server/modems/built_in_modems.h"
 #include "core/check.h"
+#include "core/names.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -25,6 +26,11 @@ void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
   });
 }
 
+void visit_family(bus::ConfigVisitor& v, acoustics::Modem& a) {
+  v.text("family", a.family, {}, "of the waveform: modems of one family alone receive each other");
+  if (!is_valid_name(a.family)) v.problem("family", "allowed is a name of " + std::string(kNameRule));
+}
+
 // Levels, band and rate.
 void visit_signal(bus::ConfigVisitor& v, acoustics::Modem& a) {
   v.number("source_level_db", a.source_level.value, {0, 250, "dB re 1 uPa at 1 m", "strength"});
@@ -38,7 +44,7 @@ void visit_signal(bus::ConfigVisitor& v, acoustics::Modem& a) {
                {0, 60, "s", "preamble and header of a packet; generic alone"});
 }
 
-// How a packet is put together: of a profile's file alone.
+// How a packet is put together and hops: of a profile's file alone.
 void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   acoustics::FrameLayout& layout = a.layout;
   bus::integer_as(v, "preamble_pieces", a.preamble_pieces,
@@ -47,15 +53,27 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::integer_as(v, "tail_bits", layout.tail_bits, {0, 1e6, "bits", "that end each coded block"});
   bus::integer_as(v, "frame_bytes", layout.frame_bytes, {0, 32768, "bytes", "sent whole; 0: no frames"});
   bus::integer_as(v, "max_frames", layout.max_frames, {0, 1024, "", "of a packet with frames"});
+  bus::seconds(v, "chip_s", a.chip, {0, 10, "s", "of frequency-hopped FSK; 0: no hopping"});
+  bus::integer_as(v, "hop_count", a.hop_count, {0, 1024, "", "pairs of tones to hop between; 0: no hopping"});
+  bus::seconds(v, "hop_clearing_s", a.hop_clearing,
+               {0, 60, "s", "own echoes take nothing before the hop pattern returns, at least chip_s"});
 }
 
 // How a packet is received, once it is strong enough.
 void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::seconds(v, "preamble_s", a.preamble,
                {0, 60, "s", "first part of the overhead, by which a packet is detected; 0: always detected"});
-  bus::seconds(v, "guard_time_s", a.guard_time,
-               {0, 10, "s", "echoes up to this late add to the signal, later ones interfere"});
-  v.number("doppler_tolerance", a.doppler_tolerance, {0, 1, "", "greatest |f_rx / f_tx - 1| received"});
+  bus::seconds(v, "guard_time_s", a.guard_time, {0, 10, "s", "echoes up to this late add to the signal"});
+  double taper_s = seconds_of(a.guard_taper);
+  v.number("guard_taper_s", taper_s,
+           {-1, 10, "s", "over which the weight of later ones falls to 0; below 0: one more guard time"});
+  a.guard_taper = taper_from(taper_s);
+  v.number("doppler_tolerance", a.doppler_tolerance,
+           {0, 1, "", "greatest |f_rx / f_tx - 1| received where there is no fading"});
+  v.number("doppler_correction", a.doppler_correction,
+           {0, 1, "", "greatest |f_rx / f_tx - 1| corrected where there is fading"});
+  bus::seconds(v, "time_quantum_s", a.time_quantum,
+               {0, 1, "s", "resolution of the measured time of arrival; 0: none"});
   bus::choice(v, "error_model", a.error_model, bus::names_of(acoustics::kErrorModels),
               "how often bits are wrong");
 }
@@ -95,12 +113,15 @@ void check_as_a_whole(bus::ConfigVisitor& v, const acoustics::Modem& a) {
   if (a.bandwidth_hz >= 2 * a.centre_frequency_hz) {
     v.problem("bandwidth_hz", "the band reaches below 0 Hz; allowed is below twice center_frequency_hz");
   }
+  if (!hops_well(a))
+    v.problem("hop_count", "allowed is 0, or a chip_s above 0 and a hop_clearing_s not below it");
 }
 
 VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile) {
   VehicleModem m;
   m.profile = profile;
   file.read([&](bus::ConfigVisitor& v) {
+    visit_family(v, m.modem);
     visit_signal(v, m.modem);
     visit_max_payload(v, m);
     visit_reception(v, m.modem);
@@ -119,6 +140,7 @@ VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile) {
 void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   acoustics::Modem& a = m.modem;
   visit_profile(v, m);
+  visit_family(v, a);
   visit_signal(v, a);
   visit_max_payload(v, m);
   visit_reception(v, a);
@@ -129,6 +151,12 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   }
   check_as_a_whole(v, a);
 }
+
+std::optional<SimDuration> taper_from(double seconds) {
+  return seconds < 0 ? std::nullopt : std::optional(SimDuration::from_seconds(seconds));
+}
+
+double seconds_of(std::optional<SimDuration> taper) { return taper ? taper->seconds() : -1; }
 
 void require_packets_of(const VehicleModem& profile, const acoustics::Modem& modem) {
   const auto fixed = [&](bool same, const std::string& what) {

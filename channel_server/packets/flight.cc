@@ -115,8 +115,9 @@ ReceivedSignal received_signal(const Flight& flight, double noise) {
   signal.end = signal.begin + shrunk(flight.packet->timing.duration, factor);
   const double first_s = solved_delay_s(flight.reception);
   const double last_s = first_s + flight.modem.guard_time.seconds();
+  const Decibels lost = band_loss(flight.packet->modem, flight.modem);
   for (const SoundPath& path : flight.reception.paths) {
-    const double power = to_power_ratio(path.level).value;
+    const double power = to_power_ratio(path.level - lost).value;
     if (path.delay_s >= first_s && path.delay_s <= last_s) {
       signal.signal += power;
       continue;

@@ -217,7 +217,7 @@ void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
   auto& budget = flight->reception.budget;
   budget.noise_level = noise_.level(flight->packet->modem.band(), propagation_.environment(arrival).noise);
   const Decibels noise = budget.noise_level - flight->modem.directivity_index;
-  budget.snr = budget.received_level - noise;
+  budget.snr = budget.received_level - noise - band_loss(flight->packet->modem, flight->modem);
   flight->receiver_absent = !fleet_.placement(flight->receiver_id, arrival, at);
   flight->signal = received_signal(*flight, to_power_ratio(noise).value);
   state_of(flight->receiver_id).open(audible_packet(*flight));

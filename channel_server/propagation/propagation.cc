@@ -100,7 +100,7 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
   const std::array<double, 5> numbers{modem.source_level.value, modem.min_receivable_level.value,
                                       modem.centre_frequency_hz, modem.bandwidth_hz,
                                       modem.directivity_index.value};
-  return {numbers, std::move(beam)};
+  return {numbers, std::move(beam), modem.family};
 }
 
 std::shared_ptr<const acoustics::LinkModel> StraightPropagation::model_of(SimTime at,

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -147,7 +148,8 @@ class StraightPropagation : public Propagation {
   std::size_t models_kept() const { return models_.size(); }
 
  private:
-  using ModemKey = std::pair<std::array<double, 5>, std::vector<double>>;  // numbers of a budget; beam
+  // Numbers of a budget, beam, family.
+  using ModemKey = std::tuple<std::array<double, 5>, std::vector<double>, std::string>;
   using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
   static ModemKey key_of(const acoustics::Modem& modem);
 

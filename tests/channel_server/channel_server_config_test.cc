@@ -113,12 +113,25 @@ TEST(ChannelServerConfig, AProfileSetsWhatTheOtherKeysThenChange) {
   EXPECT_EQ(modem.max_payload_bytes, 4096);
 }
 
+TEST(ChannelServerConfig, AGuardTimeAloneTakesItsTaperWithIt) {
+  const acoustics::Modem modem = read("[modem]\nprofile = \"janus\"\nguard_time_s = 0.02\n").modem.modem;
+  EXPECT_EQ(modem.guard_taper_or_default(), for_s(0.02));
+}
+
+TEST(ChannelServerConfig, AFamilyIsAName) {
+  const std::string errors = errors_of("[modem]\n\nfamily = \"two words\"\n");
+  EXPECT_THAT(errors, HasSubstr(":3: "));
+  EXPECT_THAT(errors, HasSubstr("family"));
+  EXPECT_THAT(errors, HasSubstr("a-z"));
+}
+
 TEST(ChannelServerConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
   const auto modem =
       read(
           "[modem]\nprofile = \"micromodem-psk-1\"\nsource_level_db = 150\ncutoff_level_db = 30\n"
           "center_frequency_hz = 10000\nbandwidth_hz = 2000\ndirectivity_index_db = 3\n"
-          "guard_time_s = 0.5\ndoppler_tolerance = 0.01\nerror_model = \"dbpsk-rayleigh\"\n"
+          "family = \"psk-of-our-own\"\nguard_time_s = 0.5\nguard_taper_s = 0.25\ndoppler_tolerance = 0.01\n"
+          "doppler_correction = 0.02\ntime_quantum_s = 0.001\nerror_model = \"dbpsk-rayleigh\"\n"
           "max_payload_bytes = 10\nwhen_busy = \"queue\"\n")
           .modem;
   acoustics::Modem expected = load_modem("micromodem-psk-1").modem;
@@ -128,7 +141,11 @@ TEST(ChannelServerConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
   expected.bandwidth_hz = 2000;
   expected.directivity_index = {3};
   expected.guard_time = for_s(0.5);
+  expected.family = "psk-of-our-own";
+  expected.guard_taper = for_s(0.25);
   expected.doppler_tolerance = 0.01;
+  expected.doppler_correction = 0.02;
+  expected.time_quantum = for_s(0.001);
   expected.error_model = acoustics::ErrorModel::kDbpskRayleigh;
   EXPECT_EQ(modem, (VehicleModem{expected, 10, WhenBusy::kQueue, "micromodem-psk-1"}));
 }

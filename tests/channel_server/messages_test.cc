@@ -47,6 +47,13 @@ VehicleModem odd_modem() {
   modem.modem.preamble = for_s(0.25);
   modem.modem.guard_time = for_s(0.0625);
   modem.modem.doppler_tolerance = 0.002;
+  modem.modem.family = "sonobuoy-3";
+  modem.modem.guard_taper = for_s(0.03125);
+  modem.modem.chip = for_s(0.0125);
+  modem.modem.hop_count = 5;
+  modem.modem.hop_clearing = for_s(0.0625);
+  modem.modem.doppler_correction = 0.001;
+  modem.modem.time_quantum = for_s(0.0005);
   modem.modem.error_model = acoustics::ErrorModel::kDbpskRayleigh;
   modem.modem.beam = acoustics::BeamPattern({{-0.5, 20}, {0.25, -3}});
   modem.when_busy = WhenBusy::kQueue;

@@ -89,6 +89,8 @@ std::string deciding_numbers(const packet_outcome_t& o,
       return "no path: the terrain blocks all";
     case packet_outcome_t::OUT_OF_BAND:
       return "the bands of the two modems do not overlap";
+    case packet_outcome_t::FOREIGN:
+      return "the two modems are of different waveform families";
     case packet_outcome_t::HALF_DUPLEX:
       return "the receiver itself sent " + others;
     case packet_outcome_t::DOPPLER:

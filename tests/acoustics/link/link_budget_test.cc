@@ -202,6 +202,28 @@ TEST(LinkBudget, ATideMovesDepthsNotVehicles) {
   EXPECT_EQ(shifted.budget().range_m, c.budget().range_m);
 }
 
+TEST(LinkBudget, APartOfTheBandCostsItsShareOfTheRatioAndOfTheCapacity) {
+  const Modem sender = modem_of(160, 22.5, 27.5), upper = modem_of(160, 25, 30);
+  const auto from_sender = [&](const Modem& receiver) {
+    return link_budget(Environment(), sender, receiver, {0, 0, 100}, {0, 1000, 100});
+  };
+  const LinkBudget whole = from_sender(sender), half = from_sender(upper);
+  EXPECT_NEAR(half.snr.value, whole.snr.value - 10 * std::log10(2), tolerance(1e-9));
+  EXPECT_NEAR(half.snr_narrowband.value, whole.snr_narrowband.value - 10 * std::log10(2), tolerance(1e-9));
+  const LinkBudget lower = from_sender(modem_of(160, 20, 25));
+  EXPECT_NEAR(half.capacity_bps + lower.capacity_bps, whole.capacity_bps, tolerance(1e-6));
+  EXPECT_TRUE(half.receivable);
+  EXPECT_EQ(from_sender(modem_of(160, 27.5, 32.5)).capacity_bps, 0);
+}
+
+TEST(LinkBudget, OnlyAModemOfTheFamilyReceives) {
+  Modem sender = modem_of(160, 22.5, 27.5);
+  const Modem receiver = sender;
+  sender.family = "whistle";
+  EXPECT_FALSE(link_budget(Environment(), sender, receiver, {0, 0, 100}, {0, 100, 100}).receivable);
+  EXPECT_TRUE(link_budget(Environment(), sender, sender, {0, 0, 100}, {0, 100, 100}).receivable);
+}
+
 TEST(LinkBudget, CutOffDecidesWhatIsReceivable) {
   Case c;
   const double level = c.budget().received_level.value;

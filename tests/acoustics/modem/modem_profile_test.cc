@@ -71,7 +71,7 @@ TEST(ModemProfile, EveryFileGivesEveryNumberWithItsSource) {
       ASSERT_NE(source, std::string::npos) << name << ": " << line;
       EXPECT_THAT(head, HasSubstr("# " + line.substr(source))) << name << ": " << line;
     }
-    EXPECT_EQ(keys, 17) << name;
+    EXPECT_EQ(keys, 24) << name;
   }
 }
 
@@ -100,6 +100,49 @@ TEST(ModemProfile, ErrorsOfAFileNameFileKeyAndWhatIsAllowed) {
   EXPECT_THAT(error_of("when_busy = \"queue\""), HasSubstr("a.toml:1"));
   EXPECT_THROW(load_modem("semaphore"), InvalidArgument);
   EXPECT_THROW(load_modem("missing.toml", kFolder.string()), InvalidArgument);
+}
+
+TEST(ModemProfile, AChipAndAPatternBelongToHopping) {
+  EXPECT_THAT(error_of("bit_rate_bps = 80\nhop_count = 13"), HasSubstr("a.toml:2: hop_count"));
+  EXPECT_THAT(error_of("hop_count = 13\nchip_s = 0.01\nhop_clearing_s = 0.009"), HasSubstr("hop_count"));
+  EXPECT_EQ(error_of("hop_count = 13\nchip_s = 0.01\nhop_clearing_s = 0.01"), "");
+}
+
+// Chip i of JANUS is on pair b (u + v b) mod 13, b = 2^(1 + i mod 12), u = 1 + i div 156, v = i div 12 (its reference
+// implementation).
+int janus_pair(int i) {
+  int b = 1;
+  for (int power = 0; power <= i % 12; ++power) b = 2 * b % 13;
+  return b * (1 + i / 156 + i / 12 * b) % 13;
+}
+
+TEST(ModemProfile, JanusHopsToTheSamePairAfterAChipAsAfterAnyOther) {
+  const Modem janus = modem_of("janus");
+  EXPECT_EQ(janus.hop_clearing, janus.chip);
+  constexpr int kChips = 12 * 13 * 13;  // the pattern repeats
+  for (int late = 1; late <= 40; ++late) {
+    int met = 0;
+    for (int i = 0; i < kChips; ++i) met += janus_pair(i) == janus_pair((i + late) % kChips);
+    const double share = static_cast<double>(met) / kChips;
+    if (late % 12 == 0) {
+      EXPECT_LT(share, 0.02) << late;
+    } else {
+      EXPECT_NEAR(share, 1.0 / janus.hop_count, 0.003) << late;
+    }
+  }
+}
+
+TEST(ModemProfile, RealModemsHaveADetectorAndNoCutOff) {
+  for (const std::string& name : built_in_modems()) {
+    const Modem modem = modem_of(name);
+    EXPECT_EQ(modem.min_receivable_level.value, name == "generic" ? 70 : -200) << name;
+    EXPECT_EQ(modem.preamble > SimDuration(), name != "generic") << name;
+  }
+}
+
+TEST(ModemProfile, TheRatesOfPskAreOneFamily) {
+  EXPECT_TRUE(same_family(modem_of("micromodem-psk-1"), modem_of("micromodem-psk-5")));
+  EXPECT_FALSE(same_family(modem_of("micromodem-psk-1"), modem_of("micromodem-fsk")));
 }
 
 TEST(ModemProfile, JanusPacketsLastAsInTheReference) {

@@ -115,8 +115,7 @@ TEST(Modem, RefusesImpossibleValues) {
   refuses([](Modem& m) { m.family = "two words"; });
   refuses([](Modem& m) { m.guard_taper = SimDuration::from_seconds(-1); });
   refuses([](Modem& m) { m.time_quantum = SimDuration::from_seconds(2); });
-  refuses([](Modem& m) { m.hop_count = 13; });                                    // without a chip
-  refuses([](Modem& m) { m.hop_clearing = SimDuration::from_milliseconds(1); });  // without hopping
+  refuses([](Modem& m) { m.hop_count = 13; });  // without a chip
   refuses([](Modem& m) {
     m.chip = SimDuration::from_milliseconds(6);
     m.hop_count = 13;

@@ -72,6 +72,19 @@ TEST(StraightPropagation, TheDopplerFactorIsThatOfTheVelocitiesAlongThePath) {
   EXPECT_NEAR(reception.paths[0].doppler_factor, (kSpeedMps + 2) / (kSpeedMps - 3), tolerance(1e-14));
 }
 
+TEST(StraightPropagation, ModemsOfTwoFamiliesShareNoModel) {
+  StraightPropagation propagation(acoustics::Environment{});
+  const acoustics::Modem modem = modem_of_level(190);
+  acoustics::Modem foreign = modem;
+  foreign.family = "whistle";
+  const auto receivable = [&](const acoustics::Modem& receiver) {
+    return propagation.reception(SimTime(), end_at({0, 0, 40}, modem), end_at({100, 0, 40}, receiver))
+        .budget.receivable;
+  };
+  EXPECT_TRUE(receivable(modem));
+  EXPECT_FALSE(receivable(foreign));
+}
+
 TEST(StraightPropagation, EqualModemsShareOneModel) {
   StraightPropagation propagation(acoustics::Environment{});
   const auto evaluate = [&](double transmitter_db, double receiver_db) {
