@@ -14,6 +14,7 @@ namespace {
 
 constexpr auto& kReceiptNames = kModemReceiptReceiptResultNames;
 constexpr auto& kOutcomeNames = kPacketOutcomeOutcomeNames;
+static_assert(kOutcomeNames.size() == kOutcomes);
 
 std::map<std::string, std::int64_t> by_family(const LogStatistics& s) {
   std::map<std::string, std::int64_t> families;

@@ -1,5 +1,5 @@
 // A busy sea: twenty vehicles under way in a box of 6 km, random packets, pings, queues, silences, odd bands and
-// modems that receive badly; every outcome occurs. All of it drawn by address, so a run is its seed and its length.
+// families, modems that receive badly; every outcome occurs. All of it drawn by address, so a run is its seed and its length.
 #pragma once
 
 #include <algorithm>
@@ -86,6 +86,7 @@ inline VehicleModem busy_modem(VehicleId id) {
   modem.when_busy = id % 2 == 0 ? WhenBusy::kQueue : WhenBusy::kRefuse;
   if (id == 7) modem.modem.centre_frequency_hz = 28'000;  // half of the others' band
   if (id == 13) modem.modem.centre_frequency_hz = 40'000;
+  if (id == 17) modem.modem.family = "whistle";
   return modem;
 }
 

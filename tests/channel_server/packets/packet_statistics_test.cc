@@ -114,7 +114,7 @@ void expect_counts_that_add_up(const Tally& tally) {
 
 // The run is worth something: whatever may happen does.
 void expect_every_outcome_and_refusal(const Tally& tally) {
-  for (int kind = 0; kind <= static_cast<int>(OutcomeKind::kNotAcquired); ++kind) {
+  for (int kind = 0; kind <= static_cast<int>(OutcomeKind::kForeign); ++kind) {
     const auto found = tally.outcomes.find(static_cast<OutcomeKind>(kind));
     EXPECT_GT(found == tally.outcomes.end() ? 0 : found->second, 30) << "outcome " << kind;
   }
