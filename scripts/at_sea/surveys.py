@@ -28,6 +28,7 @@ class Survey:
     name: str
     shots: list
     profile: list = None  # (depth m, speed m/s), rising; None: unknown
+    guesses: dict = dataclasses.field(default_factory=dict)  # of places, where the survey has them
     speed_given: float = 0  # m/s, of every depth; 0: none
     surface_up_m: float = 0
     places: dict = dataclasses.field(default_factory=dict)  # by transponder
@@ -45,16 +46,16 @@ def rows_of(path, allowed):
         lines = path.read_text().splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise Refusal(f"{path}: cannot be read: {error}") from None
-    rows = []
+    rows, of_columns = [], " or ".join(map(str, allowed))
     for number, line in enumerate(lines, 1):
         cells = line.split("#")[0].replace(",", " ").split()
         if not cells:
             continue
         if len(cells) not in allowed:
-            raise Refusal(f"{path}:{number}: {len(cells)} columns; allowed: {' or '.join(map(str, allowed))}")
+            raise Refusal(f"{path}:{number}: {len(cells)} columns; allowed: {of_columns}")
         rows.append((number, cells))
     if not rows:
-        raise Refusal(f"{path}: no rows; allowed: one or more of {' or '.join(map(str, allowed))} columns")
+        raise Refusal(f"{path}: no rows; allowed: one or more of {of_columns} columns")
     return rows
 
 
@@ -116,7 +117,11 @@ def read_seagap(path):
             continue
         shots.append(shot_of(path, line, cells[0], v[1], v[8], v[0], from_antenna(v[2:5], v[5:8], lever),
                              from_antenna(v[9:12], v[12:15], lever)))
-    return Survey(folder.resolve().name, shots, read_profile(profiles[0]))
+    guesses = {}
+    for path in [folder / name for name in ("pxp-ini.inp", "pxp-ini.xyh") if (folder / name).exists()][:1]:
+        for number, (line, cells) in enumerate(rows_of(path, range(3, 10)), 1):
+            guesses[str(number)] = tuple(numbers(path, line, cells[:3]))
+    return Survey(folder.resolve().name, shots, read_profile(profiles[0]), guesses)
 
 
 def read_one_transponder(path):

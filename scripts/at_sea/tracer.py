@@ -88,24 +88,35 @@ def solve(matrix, right):
     return [row[-1] / row[i] for i, row in enumerate(rows)]
 
 
-def fit(water, survey, shots, place):
-    """The transponder's place by least squares, and the mean of the squares left; Gauss and Newton, from `place`."""
-    for _ in range(50):
+def steps_to_fit(water, survey, shots, used, place):
+    """Least squares over the shots `used`, by Gauss and Newton from `place`: the place, and the residuals of all shots."""
+    for _ in range(30):
         computed = [two_way(water, survey, shot, place) for shot in shots]
         residuals = [shot.two_way_s - time for shot, (time, _) in zip(shots, computed)]
-        used = [(r, g) for r, (_, g), sound in zip(residuals, computed, is_sound(residuals)) if sound]
-        normal = [[sum(g[i] * g[j] for _, g in used) for j in range(3)] for i in range(3)]
+        rows = [(r, g) for r, (_, g), use in zip(residuals, computed, used) if use]
+        normal = [[sum(g[i] * g[j] for _, g in rows) for j in range(3)] for i in range(3)]
         try:
-            step = solve(normal, [sum(g[i] * r for r, g in used) for i in range(3)])
+            step = solve(normal, [sum(g[i] * r for r, g in rows) for i in range(3)])
         except ZeroDivisionError:
             break
-        shorten = min(1, 0.3 * survey.depth(place) / max(math.hypot(*step), 1e-9))
+        if math.hypot(*step) < 1e-5:
+            return place, residuals
+        shorten = min(1, 0.3 * survey.depth(place) / math.hypot(*step))
         place = tuple(a + shorten * b for a, b in zip(place, step))
         place = place[:2] + (min(place[2], min(min(s.sent[2], s.received[2]) for s in shots) - 1),)
-        if math.hypot(*step) < 1e-5:
-            return place, statistics.fmean(r * r for r, _ in used)
     raise Refusal(f"{survey.name}: the {len(shots)} shots to transponder {shots[0].transponder} do not fix its place; allowed: a track "
                   "round or across it")
+
+
+def fit(water, survey, shots, place):
+    """The transponder's place, and the mean of the squares left. Shots count that are sound by it."""
+    residuals = [shot.two_way_s - two_way(water, survey, shot, place)[0] for shot in shots]
+    for _ in range(5):
+        used = is_sound(residuals)
+        place, residuals = steps_to_fit(water, survey, shots, used, place)
+        if is_sound(residuals) == used:
+            break
+    return place, statistics.fmean(r * r for r, use in zip(residuals, used) if use)
 
 
 def first_guess(survey, shots):
@@ -116,11 +127,14 @@ def first_guess(survey, shots):
 
 def fit_all(survey, profile, chosen):
     """Places by transponder, and the sum of their mean squares; `chosen` picks the shots to fit from those of one transponder."""
-    water, straight = Water(profile), Water([(0.0, statistics.fmean(speed for _, speed in profile))])
-    places, squares = {}, 0.0
+    water, places, squares = Water(profile), {}, 0.0
     for transponder in sorted({shot.transponder for shot in survey.shots}):
         shots = chosen(survey.of(transponder))
-        near = survey.places.get(transponder) or fit(straight, survey, shots, first_guess(survey, shots))[0]
+        near = survey.places.get(transponder) or survey.guesses.get(transponder)
+        if near is None:
+            near = first_guess(survey, shots)
+            above = [speed for depth, speed in profile if depth <= survey.depth(near)] or [profile[0][1]]
+            near = fit(Water([(0.0, statistics.fmean(above))]), survey, shots, near)[0]
         places[transponder], left = fit(water, survey, shots, near)
         squares += left
     return places, squares
