@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "clients/halocline/analysis/log_statistics.h"
 #include "tests/bus/logs/log_fixture.h"
 
 namespace halocline::clients {
@@ -90,6 +91,14 @@ TEST_F(ComparisonTest, InterferersAreNamed) {
   const Comparison comparison = compared();
   EXPECT_THAT(comparison.rows()[0].moved, Contains("colliders"));
   EXPECT_THAT(comparison.rows()[0].why, HasSubstr("with scout:12"));
+}
+
+TEST_F(ComparisonTest, EveryOutcomeHasAReason) {
+  for (std::size_t kind = 0; kind < kOutcomes; ++kind) {
+    EXPECT_NE(deciding_numbers(outcome(1, static_cast<std::int8_t>(kind)), [](std::int32_t) { return "v"; }),
+              "")
+        << outcome_name(kind);
+  }
 }
 
 TEST_F(ComparisonTest, PacketsOfOneNameAreDistinguishedByTheirDeparture) {
