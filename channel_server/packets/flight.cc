@@ -5,6 +5,7 @@
 
 #include "acoustics/rays/ray_doppler.h"
 #include "core/frames.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {

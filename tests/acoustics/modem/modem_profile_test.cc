@@ -15,6 +15,7 @@
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"
 #include "tests/support/csv.h"
