@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
@@ -56,8 +57,8 @@ struct ProfileConfig {
 struct EnvironmentConfig {
   ProfileConfig profile;
   std::string sound_speed_model = "mackenzie";
-  std::string absorption_model = "fisher-simmons";
-  acoustics::NoiseSources noise;
+  std::string absorption_model = "francois-garrison";
+  acoustics::NoiseSources noise{.wind_mps = 5};
   double spreading_exponent = 1.5;
   double ph = 8.0;
 };
@@ -74,9 +75,10 @@ struct PropagationConfig {
   acoustics::RayOptions options{.max_bounces = 60};
   double min_amplitude_db = -120;
   double max_bounce_loss_db = 30;  // of all bounces of a path together
-  double shadow_loss_db = 0;       // 0: none stated
+  double shadow_loss_db = 120;     // our choice; 0: none stated
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
   bool coherent = false;
+  acoustics::FadingModel fading{.enabled = true};
 };
 
 // One [[environment_change]]; what is not given stays as it was.

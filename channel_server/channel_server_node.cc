@@ -201,6 +201,7 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
                                          "; allowed is 0 to shards - 1, " + std::to_string(shard.count - 1));
   ServerRules rules = config.rules;
   rules.medium.seed = scenario.seed;
+  rules.medium.fading = config.propagation.fading;
   return std::make_unique<ChannelServerNode>(lcm, identity, make_water_model(config, scenario, folder),
                                              make_modems(config), rules);
 }

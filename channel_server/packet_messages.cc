@@ -132,6 +132,8 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   if (!request.stamped) {
     message.departure_utime = 0;
     message.travel_time_s = 0;
+  } else {
+    message.travel_time_s = outcome.measured_travel_time_s;
   }
   message.two_way_travel_time_s = outcome.two_way_travel_time_s;
   message.payload_size = static_cast<std::int32_t>(request.payload.size());

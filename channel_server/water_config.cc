@@ -106,6 +106,7 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
 }
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
+const std::vector<std::string> kFading{"none", "sea"};
 constexpr std::string_view kCustom = "custom", kAnySolver = "auto";
 
 std::vector<std::string> sediments() {
@@ -134,6 +135,25 @@ void visit_boundaries(bus::ConfigVisitor& v, PropagationConfig& p) {
          "rays: what the wind takes from a bounce at the surface");
 }
 
+// Losses of the coherent part alone: a sea that fades scatters what they take away.
+bool is_coherent_loss(std::string_view surface_model) { return surface_model != "flat" && surface_model != "apl-bubbles"; }
+
+void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
+  acoustics::FadingModel& f = p.fading;
+  bus::choice(v, "fading", f.enabled, kFading,
+              "sea: paths fade by waves, rough bottom and medium (docs/packets.md); none: powers of paths add");
+  v.number("rice_factor_db", f.rice_factor_db, {-20, 60, "dB", "fading: steady over varying power of the medium"});
+  v.number("medium_coherence_s", f.medium_coherence_s, {0.1, 1e6, "s", "fading: coherence time of the medium"});
+  v.number("large_scale_fading_db", f.large_scale_db,
+           {0, 20, "dB", "fading: standard deviation of a link's level over minutes"});
+  v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
+  v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "fading: rms height of the bottom"});
+  if (f.enabled && is_coherent_loss(p.surface_loss_model)) {
+    v.problem("surface_loss_model", "with fading = \"sea\" what a rough surface takes from the coherent sound is scattered, "
+              "not lost; allowed are \"flat\" and \"apl-bubbles\", or fading = \"none\"");
+  }
+}
+
 void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   bus::choice(v, "model", p.model, kPropagationModels,
               "rays where the bottom is known, or one straight path (the paper's)");
@@ -155,6 +175,7 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
            {0, 1000, "m", "rays: length of the cells that share a search, a tenth high; 0: none"});
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
+  visit_fading(v, p);
   v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
 }
 
@@ -275,6 +296,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
     if (p.solver == to_name(solver)) rays.solver = solver;
   }
   if (p.shadow_loss_db > 0) rays.shadow_loss = Decibels{p.shadow_loss_db};
+  rays.fading = p.fading;
   rays.coherent = p.coherent;
   return rays;
 }

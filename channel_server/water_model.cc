@@ -4,9 +4,9 @@
 
 namespace halocline::channel_server {
 
-WaterModel straight_model(const acoustics::Environment& environment) {
+WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);
-  auto propagation = std::make_unique<StraightPropagation>(waters);
+  auto propagation = std::make_unique<StraightPropagation>(waters, fading);
   return {waters,
           std::make_shared<SeabedProfileCache>(ProfileRule{}),
           std::move(propagation),
@@ -26,7 +26,7 @@ WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenar
   const acoustics::Environment environment = make_environment(config.environment, scenario, folder);
   WaterModel water = config.propagation.model == PropagationModel::kRays
                          ? ray_model(environment, make_rays(config), config.rules.profile)
-                         : straight_model(environment);
+                         : straight_model(environment, config.propagation.fading);
   schedule_changes(config, scenario, folder, *water.waters);
   return water;
 }

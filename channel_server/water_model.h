@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/sea/environment.h"
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
@@ -23,7 +24,8 @@ struct WaterModel {
   std::unique_ptr<Propagation> propagation;
   WaterDescription description;  // for ENVIRONMENT
 };
-WaterModel straight_model(const acoustics::Environment& environment);
+WaterModel straight_model(const acoustics::Environment& environment,
+                          const acoustics::FadingModel& fading = {});
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
                      const ProfileRule& rule);
 

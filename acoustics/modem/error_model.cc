@@ -55,6 +55,15 @@ const Known& known(ErrorModel model) {
 
 std::string_view to_name(ErrorModel model) { return known(model).name; }
 
+bool is_coded_frequency_shift_keying(ErrorModel model) {
+  return model == ErrorModel::kJanus || model == ErrorModel::kJanusRayleigh;
+}
+
+bool is_frequency_shift_keying(ErrorModel model) {
+  return is_coded_frequency_shift_keying(model) || model == ErrorModel::kNone || model == ErrorModel::kBfsk ||
+         model == ErrorModel::kBfskRayleigh;
+}
+
 double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0) {
   return known(model).bit_error_rate(eb_over_n0);
 }

@@ -38,6 +38,11 @@ inline constexpr std::array kErrorModels = {
 // "janus-rayleigh", "bpsk-bch64", "bpsk-hamming14".
 std::string_view to_name(ErrorModel model);
 
+// Whether it is of tones (as `none` is taken to be), or of phases.
+bool is_frequency_shift_keying(ErrorModel model);
+// Whether it is of tones with a code over them.
+bool is_coded_frequency_shift_keying(ErrorModel model);
+
 // 0..0.5, never rising as eb_over_n0 (>= 0) rises.
 double bit_error_rate(ErrorModel model, PowerRatio eb_over_n0);
 

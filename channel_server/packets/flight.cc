@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/fading/link_fading.h"
 #include "acoustics/rays/ray_doppler.h"
+#include "acoustics/reception/signal_history.h"
 #include "core/frames.h"
 #include "core/units.h"
 
@@ -38,6 +40,8 @@ void evaluate(Flight& flight, const Placement& place, const acoustics::Modem& mo
   flight.reception = propagation.reception(
       flight.packet->departure, flight.packet->link_end(),
       {flight.receiver_id, place.position_ned_m, place.velocity_ned_mps, &flight.modem});
+  const auto& paths = flight.reception.paths;
+  flight.window = paths.empty() ? acoustics::GuardWindow() : best_window(paths, flight.modem);
 }
 
 // Along the first significant path, s/m; along the straight line without one.
@@ -65,6 +69,12 @@ SimTime begin_of(const Flight& flight, const SoundPath& path) {
   return flight.packet->departure + SimDuration::from_seconds(path.delay_s + shift_s(flight));
 }
 
+acoustics::FadingLink fading_link(const Flight& flight, std::uint64_t seed) {
+  const VehicleId from = flight.packet->request.source_id, to = flight.receiver_id;
+  return {seed, static_cast<std::uint32_t>(std::min(from, to)),
+          static_cast<std::uint32_t>(std::max(from, to)), from > to};
+}
+
 }  // namespace
 
 SimTime Flight::first_sound() const {
@@ -72,11 +82,12 @@ SimTime Flight::first_sound() const {
   return paths.empty() ? arrival() : std::min(arrival(), begin_of(*this, paths.front()));
 }
 
+SimTime Flight::lock() const {
+  return reception.paths.empty() ? arrival() : begin_of(*this, reception.paths[window.first]);
+}
+
 double Flight::doppler_factor() const {
-  const auto& paths = reception.paths;
-  const auto strongest = std::max_element(
-      paths.begin(), paths.end(), [](const SoundPath& a, const SoundPath& b) { return a.level < b.level; });
-  return strongest == paths.end() ? 1 : strongest->doppler_factor;
+  return reception.paths.empty() ? 1 : reception.paths[window.strongest].doppler_factor;
 }
 
 void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
@@ -102,30 +113,41 @@ AudiblePacket audible_packet(const Flight& flight) {
   for (const SoundPath& path : flight.reception.paths) {
     const SimTime begin = begin_of(flight, path);
     const SimTime end = begin + shrunk(flight.packet->timing.duration, path.doppler_factor);
-    audible.paths.push_back({begin, end, to_power_ratio(path.level).value});
+    audible.paths.push_back(
+        {begin, end, to_power_ratio(path.level).value * flight.large_scale * flight.large_scale});
     audible.begin = std::min(audible.begin, begin);
     audible.end = std::max(audible.end, end);
   }
   return audible;
 }
 
-ReceivedSignal received_signal(const Flight& flight, double noise) {
+double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed) {
+  return acoustics::LinkFading(fading, fading_link(flight, seed)).large_scale(flight.lock());
+}
+
+ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading,
+                               std::uint64_t seed) {
   const double factor = flight.doppler_factor();
-  ReceivedSignal signal{flight.packet, 0, noise, flight.arrival(), {}, {}, {}};
+  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fading.enabled, {}};
   signal.preamble_end = signal.begin + shrunk(flight.packet->timing.preamble, factor);
   signal.end = signal.begin + shrunk(flight.packet->timing.duration, factor);
-  const double first_s = solved_delay_s(flight.reception);
-  const double last_s = first_s + flight.modem.guard_time.seconds();
-  const Decibels lost = band_loss(flight.packet->modem, flight.modem);
-  for (const SoundPath& path : flight.reception.paths) {
-    const double power = to_power_ratio(path.level - lost).value;
-    if (path.delay_s >= first_s && path.delay_s <= last_s) {
-      signal.signal += power;
-      continue;
-    }
-    const SimTime begin = begin_of(flight, path);
-    const SimTime end = begin + shrunk(flight.packet->timing.duration, path.doppler_factor);
-    signal.echoes.push_back({begin, end, power});
+  if (flight.reception.paths.empty()) return signal;
+  // The receiver gets what lies within its own band.
+  const double shared = to_power_ratio(-band_loss(flight.packet->modem, flight.modem)).value;
+  const auto history = [&](const acoustics::Modem& receiver) {
+    acoustics::SignalHistory received = signal_history(
+        fading, fading_link(flight, seed), flight.large_scale, flight.reception.paths,
+        {&receiver, flight.window}, flight.packet->modem.band(), signal.begin,
+        {(signal.preamble_end - signal.begin).seconds(), (signal.end - signal.begin).seconds()});
+    for (double& power : received.signal) power *= shared;
+    for (double& power : received.echoes) power *= shared;
+    return received;
+  };
+  signal.history = history(flight.modem);
+  if (fading.enabled && std::abs(factor - 1) > flight.modem.doppler_correction) {
+    acoustics::Modem corrects = flight.modem;
+    corrects.doppler_correction = 1;
+    signal.without_shift = history(corrects);
   }
   return signal;
 }

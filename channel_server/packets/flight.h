@@ -13,11 +13,14 @@
 // one that turns. All paths of a flight hold for the one place of its first significant path.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/reception/guard_window.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/reception_decision.h"
@@ -41,20 +44,25 @@ struct Flight {
   acoustics::Modem modem;  // the receiver's
   Placement place;         // the receiver's that `reception` holds for
   Reception reception;
+  acoustics::GuardWindow window;  // where the receiver locks; of no path, empty
   int propagation_calls = 0, solutions = 0;
   double travel_time_s = 0;  // of the first significant path
 
   // Once it has arrived.
   bool receiver_absent = false;  // at the first significant path: its state is older than the time-out
+  double large_scale = 1;        // of the pressures, by the link's large-scale fading
   ReceivedSignal signal;
   std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before
   bool acquired = false;
+  double timing_error_s = 0;  // of the arrival, as the receiver measures it; 0 unless acquired
   DecisionStatistics statistics;
 
   SimTime arrival() const { return packet->departure + SimDuration::from_seconds(travel_time_s); }
   // Of the first path of all.
   SimTime first_sound() const;
-  // Of the strongest path; 1 without a path.
+  // When the path that the guard window begins at begins.
+  SimTime lock() const;
+  // Of the strongest path in the guard window; 1 without a path.
   double doppler_factor() const;
 };
 
@@ -63,9 +71,12 @@ struct Flight {
 void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                    Propagation& propagation);
 
-// All paths of a flight that has arrived, as the receiver gets them.
+// All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);
 // The same as signal and echoes; `noise` in uPa^2 over the packet's band, less the receiver's directivity.
-ReceivedSignal received_signal(const Flight& flight, double noise);
+ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading,
+                               std::uint64_t seed);
+// 10^(X/20) of the flight's link when it locks.
+double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
 
 }  // namespace halocline::channel_server

@@ -136,9 +136,11 @@ struct PacketOutcome {
   VehicleId receiver_id = 0;
   std::string receiver;  // its name when the packet left
   OutcomeKind kind = OutcomeKind::kReceived;
-  bool deliver = false;              // received, and addressed to this receiver or to all
-  double travel_time_s = 0;          // of the first significant path
-  double two_way_travel_time_s = 0;  // of a kPingReply: out and back; else 0
+  bool deliver = false;      // received, and addressed to this receiver or to all
+  double travel_time_s = 0;  // of the first significant path
+  double measured_travel_time_s =
+      0;  // as the receiver's modem measures it: with noise, in steps of its time quantum
+  double two_way_travel_time_s = 0;  // likewise, of a kPingReply: out and back; else 0
   acoustics::LinkBudget budget;      // from the sender at departure to the receiver at arrival
   Decibels cutoff;                   // the receiver's, dB re 1 uPa
   PropagationUsed propagation = PropagationUsed::kStraight;

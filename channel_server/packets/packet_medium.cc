@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
@@ -17,44 +18,6 @@ namespace {
 constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
 // Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
 constexpr int kMaxSolutions = 64;
-
-// Where the sound comes from, seen by the receiver.
-void set_direction(const Flight& flight, PacketOutcome& outcome) {
-  const Vec3 back = flight.packet->departure_ned_m - flight.place.position_ned_m;
-  outcome.arrival_azimuth_rad = std::atan2(back.y(), back.x());
-  const auto& paths = flight.reception.paths;
-  // Sound that travels downwards comes from above.
-  outcome.arrival_elevation_rad = paths.empty() ? std::atan2(-back.z(), std::hypot(back.x(), back.y()))
-                                                : paths[first_significant(paths)].arrival_angle_rad;
-}
-
-bool is_for(const SendRequest& request, VehicleId receiver) {
-  return request.destination_id == receiver || request.destination_id == kBroadcastId;
-}
-
-// Of a ping's answer: what its sender measures, less what both ends know of packets and turnaround.
-double two_way_travel_time_s(const Flight& answer) {
-  const Packet& ping = *answer.packet->answers;
-  const SimDuration waited =
-      answer.packet->departure - ping.departure - ping.timing.duration - kPingTurnaround;
-  return waited.seconds() + answer.travel_time_s;
-}
-
-// Without regard to noise and other sounds; kReceived: the packet may be acquired.
-OutcomeKind outcome_before_acquisition(const Flight& flight) {
-  const Reception& reception = flight.reception;
-  if (flight.receiver_absent) return OutcomeKind::kReceiverGone;
-  if (!same_family(flight.packet->modem, flight.modem)) return OutcomeKind::kForeign;
-  if (band_share(flight.packet->modem.band(), flight.modem.band()) == 0) return OutcomeKind::kOutOfBand;
-  if (reception.state == PathState::kBlocked) return OutcomeKind::kBlocked;
-  if (reception.state == PathState::kShadow || reception.paths.empty()) return OutcomeKind::kShadow;
-  if (reception.budget.received_level < flight.modem.min_receivable_level) return OutcomeKind::kBelowCutoff;
-  return OutcomeKind::kReceived;
-}
-
-bool is_shifted_too_far(const Flight& flight) {
-  return std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
-}
 
 }  // namespace
 
@@ -219,7 +182,8 @@ void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
   const Decibels noise = budget.noise_level - flight->modem.directivity_index;
   budget.snr = budget.received_level - noise - band_loss(flight->packet->modem, flight->modem);
   flight->receiver_absent = !fleet_.placement(flight->receiver_id, arrival, at);
-  flight->signal = received_signal(*flight, to_power_ratio(noise).value);
+  flight->large_scale = large_scale_of(*flight, rule_.fading, rule_.seed);
+  flight->signal = received_signal(*flight, to_power_ratio(noise).value, rule_.fading, rule_.seed);
   state_of(flight->receiver_id).open(audible_packet(*flight));
   flight->stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
@@ -237,6 +201,7 @@ void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
     const auto others = receiver.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
     const PacketDraws draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
     flight->acquired = acquires(signal, others, draws, flight->statistics);
+    if (flight->acquired) flight->timing_error_s = timing_error_s(signal, others, draws.timing);
   }
   if (flight->acquired) receiver.acquire({flight->packet, signal.begin, signal.end}, signal.preamble_end);
   flight->stage = Flight::Stage::kBits;
@@ -268,7 +233,8 @@ OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
-  PacketOutcome outcome = outcome_of(flight, at);
+  const OutcomeKind kind = decide_outcome(flight, at);
+  PacketOutcome outcome = outcome_of(flight, kind);
   const bool is_answered = outcome.deliver && flight.packet->request.kind == PacketKind::kPing;
   events.push_back({at, at < advanced_to_, std::move(outcome)});
   if (is_answered) {
@@ -277,41 +243,6 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
     if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
   }
   state_of(flight.receiver_id).close(flight.first_sound(), at);
-}
-
-PacketOutcome PacketMedium::outcome_of(Flight& flight, SimTime at) {
-  PacketOutcome outcome;
-  outcome.kind = decide_outcome(flight, at);
-  outcome.packet = flight.packet;
-  outcome.receiver_id = flight.receiver_id;
-  outcome.receiver = flight.receiver;
-  outcome.deliver =
-      outcome.kind == OutcomeKind::kReceived && is_for(flight.packet->request, flight.receiver_id);
-  outcome.travel_time_s = flight.travel_time_s;
-  if (flight.packet->answers) outcome.two_way_travel_time_s = two_way_travel_time_s(flight);
-  outcome.budget = flight.reception.budget;
-  outcome.cutoff = flight.modem.min_receivable_level;
-  outcome.propagation = flight.reception.used;
-  outcome.path_count = flight.reception.paths.size();
-  outcome.delay_spread_s = flight.reception.delay_spread_s;
-  outcome.doppler_factor = flight.doppler_factor();
-  set_direction(flight, outcome);
-  outcome.statistics = flight.statistics;
-  return outcome;
-}
-
-PingAnswer PacketMedium::answer_of(const Flight& flight, SimTime at) const {
-  const Packet& ping = *flight.packet;
-  SendRequest answer;
-  answer.vehicle = flight.receiver;
-  answer.source_id = flight.receiver_id;
-  answer.destination_id = ping.request.source_id;
-  answer.session = ping.request.session;
-  answer.packet_sequence = ping.request.packet_sequence;
-  answer.start = std::max(flight.arrival() + ping.timing.duration + kPingTurnaround, at);
-  answer.kind = PacketKind::kPingReply;
-  answer.stamped = false;
-  return {answer, ping.departure, ping.timing.duration};
 }
 
 void PacketMedium::schedule(SimTime at, FlightPointer flight) {

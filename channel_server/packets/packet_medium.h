@@ -27,8 +27,7 @@
 // of them, and follows packets only to the receivers it serves. Only the answer to a ping depends on what another
 // shard's vehicle received; it leaves kPingTurnaround after that, and add_answer() passes it on meanwhile.
 //
-// Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet,
-// fading.
+// Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +39,7 @@
 #include <tuple>
 #include <vector>
 
+#include "acoustics/fading/path_fading.h"
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
@@ -57,6 +57,7 @@ struct MediumRule {
   SimDuration max_lateness = SimDuration::from_milliseconds(10'000);   // of a request; 0 and up
   SimDuration max_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
   std::uint64_t seed = 1;                                              // of all draws
+  acoustics::FadingModel fading = {};                                  // of every link
   Shard shard = {};  // of several media of one water, each with all requests
 };
 
@@ -115,9 +116,7 @@ class PacketMedium {
   void begin_reception(FlightPointer flight, SimTime at);
   void end_preamble(FlightPointer flight, SimTime at);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
-  PacketOutcome outcome_of(Flight& flight, SimTime at);
   OutcomeKind decide_outcome(Flight& flight, SimTime at);
-  PingAnswer answer_of(const Flight& flight, SimTime at) const;
   void schedule(SimTime at, FlightPointer flight);
   ReceiverState& state_of(VehicleId id);
 

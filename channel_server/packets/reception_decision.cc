@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "acoustics/reception/decoding.h"
 #include "core/random.h"
 
 namespace halocline::channel_server {
@@ -47,14 +50,57 @@ void for_each_stretch(const std::vector<Interference>& paths, SimTime begin, Sim
   stretch_to(end);
 }
 
-PowerRatio sinr(const ReceivedSignal& signal, double interference) {
-  return {signal.signal / (signal.noise + interference)};
+// Means of signal and own echoes over a part of the packet; of no duration, those of its first instant.
+struct SignalMeans {
+  double signal = 0, echoes = 0;
+};
+
+SignalMeans means_of(const ReceivedSignal& signal, SimTime begin, SimTime end) {
+  const acoustics::SignalHistory& history = signal.history;
+  const double from_s = (begin - signal.begin).seconds(), to_s = (end - signal.begin).seconds();
+  SignalMeans sums;
+  double weight = 0;
+  for (std::size_t i = 0; i < history.stretches(); ++i) {
+    const double a = std::max(history.edges_s[i], from_s), b = std::min(history.edges_s[i + 1], to_s);
+    const bool instant = to_s <= from_s && history.edges_s[i] <= from_s && from_s < history.edges_s[i + 1];
+    const double share = instant ? 1 : b - a;
+    if (!(share > 0)) continue;
+    sums.signal += share * history.mean_signal(i);
+    sums.echoes += share * history.echoes[i];
+    weight += share;
+  }
+  return weight > 0 ? SignalMeans{sums.signal / weight, sums.echoes / weight} : SignalMeans{};
 }
 
-std::vector<Interference> all_disturbances(const ReceivedSignal& signal, const Interferers& others) {
-  std::vector<Interference> all = signal.echoes;
-  all.insert(all.end(), others.paths.begin(), others.paths.end());
-  return all;
+PowerRatio mean_sinr(const ReceivedSignal& signal, const std::vector<Interference>& others, SimTime begin,
+                     SimTime end) {
+  const SignalMeans means = means_of(signal, begin, end);
+  return {means.signal / (signal.noise + means.echoes + mean_power(others, begin, end))};
+}
+
+// Adds what falls into [begin, end), `whole_s` long, to the block's decoder.
+void add_cells(const ReceivedSignal& signal, const std::vector<Interference>& others, SimTime begin,
+               SimTime end, acoustics::BlockDecoder& block) {
+  const acoustics::SignalHistory& history = signal.history;
+  const double whole_s = (end - begin).seconds();
+  for (std::size_t i = 0; i < history.stretches(); ++i) {
+    const SimTime from = std::max(begin, signal.begin + SimDuration::from_seconds(history.edges_s[i]));
+    const SimTime to = std::min(end, signal.begin + SimDuration::from_seconds(history.edges_s[i + 1]));
+    if (to <= from) continue;
+    for_each_stretch(others, from, to, [&](double seconds, double interference) {
+      const double disturbance = signal.noise + history.echoes[i] + interference;
+      const double share = seconds / whole_s / static_cast<double>(history.frequencies);
+      for (std::size_t m = 0; m < history.frequencies; ++m) {
+        block.add(share, history.signal[i * history.frequencies + m] / disturbance);
+      }
+    });
+  }
+}
+
+bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& others,
+                 const PacketDraws& draws) {
+  return draws.acquisition < acquisition_probability(signal, others) &&
+         draws.success < success_probability(signal, others);
 }
 
 Decibels level_of(double power) {
@@ -69,11 +115,14 @@ PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receive
       {static_cast<std::uint64_t>(request.source_id), static_cast<std::uint64_t>(request.destination_id),
        static_cast<std::uint64_t>(request.kind), static_cast<std::uint64_t>(request.packet_sequence),
        static_cast<std::uint64_t>(packet.departure.nanoseconds())});
-  const auto draw = [&](std::uint32_t purpose) {
-    return uniform_at(
-        {.seed = seed, .purpose = purpose, .who = static_cast<std::uint32_t>(receiver), .which = identity});
+  const auto address = [&](std::string_view purpose) {
+    return DrawAddress{.seed = seed,
+                       .purpose = purpose_of(purpose),
+                       .who = static_cast<std::uint32_t>(receiver),
+                       .which = identity};
   };
-  return {draw(purpose_of("packet-acquisition")), draw(purpose_of("packet-bits"))};
+  return {uniform_at(address("packet-acquisition")), uniform_at(address("packet-bits")),
+          normal_at(address("packet-timing"))};
 }
 
 double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
@@ -88,20 +137,38 @@ double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime
   return energy;
 }
 
-double acquisition_probability(const ReceivedSignal& signal, const std::vector<Interference>& disturbances) {
-  const double interference = mean_power(disturbances, signal.begin, signal.preamble_end);
-  return acoustics::acquisition_probability(signal.packet->modem, sinr(signal, interference));
+double acquisition_probability(const ReceivedSignal& signal, const std::vector<Interference>& others) {
+  return acoustics::acquisition_probability(signal.packet->modem,
+                                            mean_sinr(signal, others, signal.begin, signal.preamble_end));
 }
 
-double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& disturbances) {
-  const double whole_s = (signal.end - signal.preamble_end).seconds();
-  const auto bits = static_cast<double>(signal.packet->timing.information_bits);
-  double log_success = 0;
-  for_each_stretch(disturbances, signal.preamble_end, signal.end, [&](double seconds, double interference) {
-    const double error = acoustics::bit_error_rate(signal.packet->modem, sinr(signal, interference));
-    log_success += bits * (seconds / whole_s) * std::log1p(-error);
-  });
-  return std::exp(log_success);
+double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& others) {
+  const acoustics::Modem& modem = signal.packet->modem;
+  const std::int64_t all_bits = signal.packet->timing.information_bits;
+  const double bits_s = (signal.end - signal.preamble_end).seconds();
+  double success = 1;
+  std::int64_t before = 0;
+  for (const std::int64_t bits : acoustics::coded_blocks(modem, all_bits)) {
+    const auto time_of = [&](std::int64_t bit) {
+      return signal.preamble_end +
+             SimDuration::from_seconds(bits_s * static_cast<double>(bit) / static_cast<double>(all_bits));
+    };
+    acoustics::BlockDecoder block(modem, signal.fades);
+    add_cells(signal, others, time_of(before), time_of(before + bits), block);
+    success *= block.success(bits);
+    before += bits;
+  }
+  return success;
+}
+
+double timing_error_s(const ReceivedSignal& signal, const Interferers& others, double standard_normal) {
+  if (!signal.fades) return 0;
+  const SimTime end = signal.preamble_end > signal.begin ? signal.preamble_end : signal.end;
+  const double bandwidth_hz = signal.packet->modem.bandwidth_hz;
+  const double energy = (end - signal.begin).seconds() * bandwidth_hz *
+                        mean_sinr(signal, others.paths, signal.begin, end).value;
+  if (!(energy > 0)) return 0;
+  return standard_normal / (2 * std::numbers::pi * (bandwidth_hz / std::sqrt(12)) * std::sqrt(2 * energy));
 }
 
 std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interferers& others) {
@@ -123,24 +190,27 @@ std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interfe
 
 bool acquires(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
               DecisionStatistics& statistics) {
-  statistics.acquisition_probability = acquisition_probability(signal, all_disturbances(signal, others));
+  statistics.acquisition_probability = acquisition_probability(signal, others.paths);
   return draws.acquisition < statistics.acquisition_probability;
 }
 
 OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& others,
                              const PacketDraws& draws, bool acquired, DecisionStatistics& statistics) {
-  const auto disturbances = all_disturbances(signal, others);
-  const double interference = mean_power(disturbances, signal.preamble_end, signal.end);
-  statistics.interference = level_of(interference);
-  statistics.sinr = level_of(sinr(signal, interference).value);
+  const SignalMeans means = means_of(signal, signal.preamble_end, signal.end);
+  statistics.interference =
+      level_of(means.echoes + mean_power(others.paths, signal.preamble_end, signal.end));
+  statistics.sinr = level_of(mean_sinr(signal, others.paths, signal.preamble_end, signal.end).value);
   statistics.colliders = colliders_of(signal, others);
   if (acquired) {
-    statistics.success_probability = success_probability(signal, disturbances);
+    statistics.success_probability = success_probability(signal, others.paths);
     if (draws.success < statistics.success_probability) return OutcomeKind::kReceived;
   }
-  const bool alone_received = draws.acquisition < acquisition_probability(signal, signal.echoes) &&
-                              draws.success < success_probability(signal, signal.echoes);
-  if (alone_received && !statistics.colliders.empty()) return OutcomeKind::kCollided;
+  if (!statistics.colliders.empty() && is_received(signal, {}, draws)) return OutcomeKind::kCollided;
+  if (signal.without_shift) {
+    ReceivedSignal corrected = signal;
+    corrected.history = *signal.without_shift;
+    if (is_received(corrected, others.paths, draws)) return OutcomeKind::kDoppler;
+  }
   return acquired ? OutcomeKind::kBitErrors : OutcomeKind::kNotAcquired;
 }
 

@@ -2,26 +2,30 @@
 // cut-off, in band, with an open path, at a receiver that does not transmit.
 //
 // Model. The first part of a packet is its preamble, the rest holds its information bits evenly. At every
-// instant SINR = S / (N + I) in the packet's band:
-//   S  the paths within the guard time after the first significant one, powers added;
+// instant and frequency SINR = S / (N + I) in the packet's band:
+//   S, and the packet's own echoes in I, from the history of the signal (acoustics/reception/signal_history.h): the
+//      power within the guard window, which fades;
 //   N  the noise over the band, less the receiver's directivity;
-//   I  everything else that sounds: the packet's own later and earlier echoes, all paths of all other packets,
-//      each during its own interval.
-//   acquired  when draw 1 < acquisition_probability(modem, S / (N + mean of I over the preamble)): a correlator
-//             gathers the interference of the whole preamble;
-//   received  when draw 2 < exp(sum over stretches of constant I of (bits in it) ln(1 - ber(SINR))): errors of
-//             bits do not depend on each other.
+//   I  besides its echoes all paths of all other packets, each during its own interval, with the large-scale fading of
+//      its link.
+//   acquired  when draw 1 < acquisition_probability(modem, mean S / (N + mean I)), means over the preamble: a correlator
+//             gathers what sounds during the whole of it;
+//   received  when draw 2 < the product over the blocks of the packet of their probability to be right
+//             (acoustics/reception/decoding.h).
 // Both curves are those of acoustics/modem/modem.h. Interference counts as noise that is white over the band.
 //
-// A loss counts as a collision when the same draws without the other packets give a reception.
+// A loss counts as a collision when the same draws without the other packets give a reception, and as the Doppler shift's
+// when they do without the shift that the receiver does not correct.
 //
 // Draws are addressed by the packet's contents and the receiver, never by turn and not by the sender's session,
 // which differs between runs of separate processes.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "acoustics/reception/signal_history.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -38,23 +42,32 @@ inline constexpr std::size_t kMaxColliders = 16;
 // A packet as one receiver gets it; powers in uPa^2 over the packet's band.
 struct ReceivedSignal {
   PacketPointer packet;
-  double signal = 0, noise = 0;
-  SimTime begin, preamble_end, end;
-  std::vector<Interference> echoes;  // its own, outside the guard time
+  double noise = 0;
+  SimTime begin, preamble_end, end;  // of the guard window's first path
+  bool fades = false;
+  acoustics::SignalHistory history;
+  // As if the receiver corrected every Doppler shift; only where it does not.
+  std::optional<acoustics::SignalHistory> without_shift = {};
 };
 
 struct PacketDraws {
   double acquisition, success;  // in (0, 1)
+  double timing;                // standard normal
 };
 PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver);
 
 // Mean over [begin, end) of the sum of powers; of no duration, the sum at that instant.
 double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime end);
 
-// `disturbances` in any order.
-double acquisition_probability(const ReceivedSignal& signal, const std::vector<Interference>& disturbances);
+// `others` in any order.
+double acquisition_probability(const ReceivedSignal& signal, const std::vector<Interference>& others);
 // Of all information bits being right.
-double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& disturbances);
+double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& others);
+
+// Of the measured time of arrival: normal, with the deviation that noise leaves a matched filter,
+//   sigma = 1 / (2 pi (B / sqrt(12)) sqrt(2 E/N)),  E/N = T B SINR over the preamble (over all of it without one)
+// (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, section 3.11). 0 without fading.
+double timing_error_s(const ReceivedSignal& signal, const Interferers& others, double standard_normal);
 
 // Loudest first, then by name; kMaxColliders at most.
 std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interferers& others);

@@ -71,16 +71,18 @@ Reception Propagation::reception_over(SimTime, const LinkEnd&, const LinkEnd&,
 }
 
 StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_models)
-    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)), max_models) {}
+    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)), acoustics::FadingModel(), max_models) {}
 
 StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                                         std::size_t max_models)
-    : waters_(std::move(waters)), models_(max_models) {}
+                                         const acoustics::FadingModel& fading, std::size_t max_models)
+    : waters_(std::move(waters)), fading_(fading), models_(max_models) {}
 
 Reception StraightPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   Reception reception;
   reception.budget = model_of(at, *from.modem, *to.modem)->budget(from.position_ned_m, to.position_ned_m);
-  reception.paths = {straight_path(waters_->at(at), reception.budget, from, to)};
+  SoundPath path = straight_path(waters_->at(at), reception.budget, from, to);
+  path.fading = path_fading(fading_, waters_->at(at).noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
+  reception.paths = {path};
   return reception;
 }
 

@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
@@ -50,15 +52,7 @@ struct LinkEnd {
   const acoustics::Modem* modem = nullptr;  // never null in a call; outlives it
 };
 
-// One path of sound from transmitter to receiver.
-struct SoundPath {
-  double delay_s = 0;
-  Decibels level;             // received, of this path alone
-  double doppler_factor = 1;  // f_rx / f_tx, above 0
-  double launch_angle_rad = 0;
-  double arrival_angle_rad = 0;
-  int surface_bounces = 0, bottom_bounces = 0;
-};
+using acoustics::SoundPath;
 
 // A link, one way.
 struct EndPair {
@@ -78,7 +72,7 @@ enum class PropagationUsed {
 };
 
 // What arrives over one link. In the budget, `delay_s` is that of the first significant path, `received_level`
-// sums the powers of all paths, and the rest follows from these. Without a path both levels are kSilence or
+// is the mean power of all paths together (acoustics/fading/link_fading.h; without fading, the sum of their powers), and the rest follows from these. Without a path both levels are kSilence or
 // a floor that the implementation states, and nothing is receivable.
 struct Reception {
   acoustics::LinkBudget budget;
@@ -133,6 +127,7 @@ class StraightPropagation : public Propagation {
   // Throws InvalidArgument when the environment is out of range.
   explicit StraightPropagation(acoustics::Environment environment, std::size_t max_models = kMaxModels);
   explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
+                               const acoustics::FadingModel& fading = {},
                                std::size_t max_models = kMaxModels);
 
   // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
@@ -154,6 +149,7 @@ class StraightPropagation : public Propagation {
   static ModemKey key_of(const acoustics::Modem& modem);
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
+  acoustics::FadingModel fading_;
   LruCache<PairKey, std::shared_ptr<const acoustics::LinkModel>> models_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "acoustics/fading/link_fading.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
@@ -31,6 +32,16 @@ acoustics::Arrival backwards(acoustics::Arrival path) {
   return path;
 }
 
+// Of a path as it was found, from the link's lower end: the same for both directions. Each count takes its low bits.
+std::uint64_t number_of(const acoustics::PathIdentity& identity) {
+  std::uint64_t number = identity.launched_up ? 1 : 0;
+  for (const int count : {identity.surface_bounces, identity.bottom_bounces, identity.upper_turns,
+                          identity.lower_turns}) {
+    number = number << 14 | (static_cast<std::uint64_t>(count) & 0x3FFF);
+  }
+  return number << 7 | (static_cast<std::uint64_t>(identity.branch) & 0x7F);
+}
+
 std::optional<acoustics::RaySolver> usable(std::optional<acoustics::RaySolver> wanted,
                                            const acoustics::RaySea& sea, const acoustics::RayLink& link) {
   using Solver = acoustics::RaySolver;
@@ -46,11 +57,12 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
     : waters_(std::move(waters)),
       bottoms_(std::move(bottoms)),
       model_(model),
-      straight_(waters_),
+      straight_(waters_, model.fading),
       ray_waters_(kMaxRayWaters),
       found_(kMaxFound) {
   validate(model.bottom);
   validate(model.options);
+  validate(model.fading);
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
 }
@@ -236,15 +248,22 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
     const double pressure = weighted_pressure(path, beams);
     if (!(pressure > 0)) continue;  // absorbed beyond what a double holds
     const Decibels level = from.modem->source_level + Decibels{20 * std::log10(pressure)};
+    const acoustics::PathFading fading =
+        path_fading(model_.fading, task.environment->noise.wind_mps, from.modem->centre_frequency_hz,
+                    path.surface_sine_squares, path.bottom_sine_squares);
     paths.push_back({path.delay_s, std::max(level, kSilence), doppler_factor(path, ends),
                      path.launch_angle_rad, path.arrival_angle_rad, path.surface_bounces,
-                     path.bottom_bounces});
+                     path.bottom_bounces, path.phase_rad, number_of(arrival.identity), fading});
   }
   return paths;
 }
 
 Decibels RayPropagation::received_level(const Task& task, const acoustics::Arrivals& arrivals,
                                         const std::vector<SoundPath>& paths) const {
+  if (model_.fading.enabled) {
+    const double power = mean_power(model_.fading, paths, task.ends.from.modem->band());
+    return power > 0 ? std::max(to_decibels(PowerRatio{power}), kSilence) : kSilence;
+  }
   if (!model_.coherent) return total_level(paths);
   const auto& [from, to] = task.ends;
   const LinkEnd &first = task.reversed ? to : from, &last = task.reversed ? from : to;

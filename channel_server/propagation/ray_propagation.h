@@ -30,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arrivals.h"
@@ -56,6 +57,7 @@ struct RayModel {
   std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
   std::optional<Decibels> shadow_loss;         // transmission loss where no ray gets; empty: silence
   bool coherent = false;                       // received level: sum of phasors at the centre frequency
+  acoustics::FadingModel fading;
   double speed_tolerance_mps = 0;              // knots of the water are thinned to that, 0..1
   double reuse_distance_m = 0;  // of ray_cells.h, 0..1000; 0: every link is searched for itself
 };

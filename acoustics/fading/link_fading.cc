@@ -1,0 +1,208 @@
+#include "acoustics/fading/link_fading.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "core/random.h"
+#include "core/units.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+constexpr std::size_t kSines = ComplexNoise::kSines;
+
+constexpr double kAngleScale = to_radians(2);  // within which paths cross the same water
+// Weaker than this share of the mean power, a component of a path is left out of the sum of sines: 1e-5 dB.
+constexpr double kNegligible = 1e-6;
+
+std::uint64_t pair_of(const FadingLink& link) { return std::uint64_t{link.lower_id} << 32 | link.higher_id; }
+
+DrawAddress address_of(const FadingLink& link, std::string_view purpose, std::uint64_t path = 0) {
+  // The pair and the path do not fit into `who`: they become part of the seed.
+  return {.seed = identity_of({link.seed, pair_of(link), path}), .purpose = purpose_of(purpose)};
+}
+
+// Place of a path in the water that its medium's fading is a function of.
+struct MediumPlace {
+  double delay, launch, arrival;
+};
+
+double mean_delay_s(const std::vector<SoundPath>& paths) {
+  double sum = 0, weight = 0;
+  for (const SoundPath& path : paths) {
+    const double power = to_power_ratio(path.level).value;
+    sum += power * (path.delay_s - paths.front().delay_s);
+    weight += power;
+  }
+  return paths.front().delay_s + (weight > 0 ? sum / weight : 0);
+}
+
+MediumPlace place_of(const SoundPath& path, double mean_delay_s, const Band& band, bool reversed) {
+  const double launch = reversed ? -path.arrival_angle_rad : path.launch_angle_rad;
+  const double arrival = reversed ? -path.launch_angle_rad : path.arrival_angle_rad;
+  return {2 * band.width_hz() * (path.delay_s - mean_delay_s), launch / kAngleScale, arrival / kAngleScale};
+}
+
+// A sum of sines that steps from instant to instant: each sine turns by a constant factor.
+class TurningSines {
+ public:
+  // Phases in cycles; `cycles_per_step` by which each turns.
+  void set(std::size_t k, double phase, double cycles_per_step) {
+    const double at = 2 * pi * (phase - std::floor(phase)), turn = 2 * pi * cycles_per_step;
+    re_[k] = std::cos(at);
+    im_[k] = std::sin(at);
+    turn_re_[k] = std::cos(turn);
+    turn_im_[k] = std::sin(turn);
+  }
+  Complex sum() const {
+    double re = 0, im = 0;
+    for (std::size_t k = 0; k < kSines; ++k) {
+      re += re_[k];
+      im += im_[k];
+    }
+    return Complex(re, im) / std::sqrt(static_cast<double>(kSines));
+  }
+  void step() {
+    for (std::size_t k = 0; k < kSines; ++k) {
+      const double re = re_[k] * turn_re_[k] - im_[k] * turn_im_[k];
+      im_[k] = re_[k] * turn_im_[k] + im_[k] * turn_re_[k];
+      re_[k] = re;
+    }
+  }
+
+ private:
+  std::array<double, kSines> re_{}, im_{}, turn_re_{}, turn_im_{};
+};
+
+// The medium's field: sines over time and place.
+struct MediumField {
+  ComplexNoise noise;
+  std::array<std::array<double, 3>, kSines> wave_numbers;  // rad per unit of each coordinate
+
+  explicit MediumField(const FadingLink& link) : noise(address_of(link, "fading-medium")) {
+    DrawAddress address = address_of(link, "fading-medium-place");
+    for (std::size_t k = 0; k < kSines; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        address.which = 3 * k + i;
+        wave_numbers[k][i] = normal_at(address);
+      }
+    }
+  }
+  TurningSines at(const MediumPlace& place, double time_s, double step_s, double spread_hz) const {
+    TurningSines sines;
+    for (std::size_t k = 0; k < kSines; ++k) {
+      const auto& w = wave_numbers[k];
+      const double rate_hz = noise.frequencies()[k] * spread_hz;
+      const double turned = (w[0] * place.delay + w[1] * place.launch + w[2] * place.arrival) / (2 * pi);
+      sines.set(k, noise.phases()[k] + rate_hz * time_s + turned, rate_hz * step_s);
+    }
+    return sines;
+  }
+};
+
+TurningSines scattered_sines(const FadingLink& link, const SoundPath& path, double time_s, double step_s) {
+  const ComplexNoise noise(address_of(link, "fading-scattered", path.identity));
+  TurningSines sines;
+  for (std::size_t k = 0; k < kSines; ++k) {
+    const double rate_hz = noise.frequencies()[k] * path.fading.doppler_spread_hz;
+    sines.set(k, noise.phases()[k] + rate_hz * time_s, rate_hz * step_s);
+  }
+  return sines;
+}
+
+// sin(pi x) / (pi x).
+double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(pi * x) / (pi * x); }
+
+}  // namespace
+
+LinkFading::LinkFading(const FadingModel& model, const FadingLink& link) : model_(model), link_(link) {
+  validate(model);
+}
+
+double LinkFading::large_scale(SimTime time) const {
+  if (!model_.enabled || model_.large_scale_db == 0) return 1;
+  const GaussMarkovProcess process(model_.large_scale_db, model_.large_scale_time_s,
+                                   address_of(link_, "fading-large-scale"));
+  const double sigma = model_.large_scale_db;
+  const double level_db = process.at(time) - sigma * sigma * std::numbers::ln10 / 20;
+  return std::pow(10, level_db / 20);
+}
+
+std::vector<Complex> LinkFading::responses(const std::vector<SoundPath>& paths, const Band& band,
+                                           SimTime start, const FadingTimes& times,
+                                           double large_scale) const {
+  std::vector<Complex> all;
+  all.reserve(paths.size() * static_cast<std::size_t>(times.count));
+  if (paths.empty()) return all;
+  const double time_s = start.seconds() + times.begin_s, mean_s = mean_delay_s(paths);
+  const double medium_spread_hz = doppler_spread_of(model_.medium_coherence_s);
+  std::optional<MediumField> medium;
+  for (const SoundPath& path : paths) {
+    // h = sqrt(P) 10^(X/20) (sqrt(c) e^(j phi) + e^(j phi) sqrt(m) g_m + sqrt(s) g_s): the medium turns what is coherent.
+    const PathFading& shares = path.fading;
+    const double pressure = std::sqrt(to_power_ratio(path.level).value) * large_scale;
+    const Complex phase = std::polar(1.0, path.phase_rad);
+    const Complex steady = pressure * std::sqrt(shares.coherent) * phase;
+    const bool turns = shares.medium > kNegligible, scatters = shares.scattered > kNegligible;
+    TurningSines in_medium, scattered;
+    if (turns) {
+      if (!medium) medium.emplace(link_);
+      in_medium =
+          medium->at(place_of(path, mean_s, band, link_.reversed), time_s, times.step_s, medium_spread_hz);
+    }
+    if (scatters) scattered = scattered_sines(link_, path, time_s, times.step_s);
+    for (int i = 0; i < times.count; ++i) {
+      Complex h = steady;
+      if (turns) {
+        h += pressure * std::sqrt(shares.medium) * phase * in_medium.sum();
+        in_medium.step();
+      }
+      if (scatters) {
+        h += pressure * std::sqrt(shares.scattered) * scattered.sum();
+        scattered.step();
+      }
+      all.push_back(h);
+    }
+  }
+  return all;
+}
+
+double mean_power(const FadingModel& model, const std::vector<SoundPath>& paths, const Band& band) {
+  double total = 0;
+  for (const SoundPath& path : paths) total += to_power_ratio(path.level).value;
+  if (!model.enabled || paths.size() < 2) return total;
+  const double mean_s = mean_delay_s(paths), centre_hz = band.centre_hz();
+  std::vector<double> pressures, cycles;
+  std::vector<MediumPlace> places;
+  for (const SoundPath& path : paths) {
+    pressures.push_back(std::sqrt(to_power_ratio(path.level).value));
+    cycles.push_back(path.phase_rad / (2 * pi) - std::fmod(centre_hz * path.delay_s, 1.0));
+    places.push_back(place_of(path, mean_s, band, false));
+  }
+  const auto squared = [](double x) { return x * x; };
+  double crossed = 0;
+  for (std::size_t p = 0; p < paths.size(); ++p) {
+    for (std::size_t q = 0; q < p; ++q) {
+      const PathFading &one = paths[p].fading, &other = paths[q].fading;
+      const double pressure = pressures[p] * pressures[q];
+      double coherence = std::sqrt(one.coherent * other.coherent);
+      if (pressure * (coherence + std::sqrt(one.medium * other.medium)) < kNegligible * total) continue;
+      const double apart = squared(places[p].delay - places[q].delay) +
+                           squared(places[p].launch - places[q].launch) +
+                           squared(places[p].arrival - places[q].arrival);
+      coherence += std::sqrt(one.medium * other.medium) * std::exp(-apart / 2);
+      crossed += 2 * pressure * coherence * std::cos(2 * pi * (cycles[p] - cycles[q])) *
+                 sinc(band.width_hz() * (paths[p].delay_s - paths[q].delay_s));
+    }
+  }
+  return std::max(total + crossed, 0.0);
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,63 @@
+#include "acoustics/fading/path_fading.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "acoustics/sea/boundary_reflection.h"
+#include "core/check.h"
+#include "core/units.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+using std::numbers::sqrt2;
+
+constexpr double kGravity = 9.81;        // m/s2
+constexpr double kSoundSpeedMps = 1500;  // of the wave number, as in Eckart's loss
+
+// Sum of the squared Rayleigh parameters: (2 k sigma)^2 sum sin^2(theta_i).
+double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares) {
+  const double one = 2 * (2 * pi * frequency_hz / kSoundSpeedMps) * rms_height_m;
+  return one * one * sine_squares;
+}
+
+}  // namespace
+
+void validate(const FadingModel& model) {
+  require_in_range(model.rice_factor_db, -20, 60, "Rice factor of the medium", "dB");
+  require_in_range(model.medium_coherence_s, 0.1, 1e6, "coherence time of the medium", "s");
+  require_in_range(model.large_scale_db, 0, 20, "standard deviation of large-scale fading", "dB");
+  require_in_range(model.large_scale_time_s, 0.1, 1e6, "correlation time of large-scale fading", "s");
+  require_in_range(model.bottom_roughness_m, 0, 1, "rms roughness of the bottom", "m");
+}
+
+// exp(-(2 pi B T)^2 / 2) = 1/e.
+double doppler_spread_of(double coherence_s) { return 1 / (sqrt2 * pi * coherence_s); }
+
+double coherence_time_of(double doppler_spread_hz) {
+  return doppler_spread_hz > 0 ? 1 / (sqrt2 * pi * doppler_spread_hz)
+                               : std::numeric_limits<double>::infinity();
+}
+
+double mean_wave_frequency_radps(double wind_mps) { return 0.877 * kGravity / wind_mps / 0.71; }
+
+PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,
+                       double surface_sine_squares, double bottom_sine_squares) {
+  if (!model.enabled) return {};
+  const double surface = rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares);
+  const double bottom = rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares);
+  const double steady = std::exp(-surface - bottom);  // E
+  const double rice = to_power_ratio(Decibels{model.rice_factor_db}).value;
+  PathFading fading;
+  fading.coherent = steady * rice / (1 + rice);
+  fading.medium = steady / (1 + rice);
+  fading.scattered = -std::expm1(-surface - bottom);
+  const double waves_hz =
+      surface > 0 ? mean_wave_frequency_radps(wind_mps) / (2 * pi) * std::sqrt(surface) : 0;
+  fading.doppler_spread_hz = std::hypot(waves_hz, doppler_spread_of(model.medium_coherence_s));
+  return fading;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,34 @@
+// Where a receiver synchronises: the guard interval that holds the greatest power, as a matched filter finds it.
+//
+// Model: the window begins at one of the paths and lasts the guard time. A path d after its begin has the weight
+//   w = 1 (0 <= d <= guard), (1 + cos(pi (d - guard) / taper)) / 2 (guard < d < guard + taper), 0 otherwise
+// on its pressure; the window is the one of greatest sum w^2 P, the earliest among equals. What it leaves out of a path,
+// 1 - w^2 of the power, interferes with the packet's later symbols. In frequency-hopped FSK it falls on other tones: it
+// takes nothing until the hop pattern returns (the clearing time), and 1/N of its power from then on, N tone pairs; the
+// change takes one more chip, by a raised cosine.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/modem/modem.h"
+
+namespace halocline::acoustics {
+
+struct GuardWindow {
+  std::size_t first = 0;             // path at which it begins
+  std::size_t strongest = 0;         // of the paths in it, by weighted power
+  std::vector<double> weights;       // of each path's pressure in the signal, 0..1
+  std::vector<double> interference;  // share of each path's power that interferes, 0..1
+};
+
+// `paths` by delay, not empty.
+GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem);
+
+// Sum over the window of w^2 P of mean powers, uPa^2.
+double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& window);
+// Sum of what interferes, uPa^2.
+double mean_interference(const std::vector<SoundPath>& paths, const GuardWindow& window);
+
+}  // namespace halocline::acoustics

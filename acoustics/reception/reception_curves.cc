@@ -1,0 +1,37 @@
+#include "acoustics/reception/reception_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/reception/decoding.h"
+#include "core/units.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kLeastDb = -40, kStepDb = 0.1;
+constexpr std::size_t kRows = 1001;
+
+}  // namespace
+
+ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
+    : modem_(modem),
+      timing_(packet_timing(modem, payload_bytes)),
+      blocks_(coded_blocks(modem, timing_.information_bits)) {
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const PowerRatio sinr = to_power_ratio(Decibels{kLeastDb + kStepDb * static_cast<double>(i)});
+    acquisition_.push_back(acquisition_probability(modem, sinr));
+    log_bit_success_.push_back(std::log1p(-bit_error_rate(modem, sinr)));
+  }
+}
+
+double ReceptionCurves::interpolated(const std::vector<double>& table, double sinr) {
+  if (!(sinr > 0)) return table.front();
+  const double place = (10 * std::log10(sinr) - kLeastDb) / kStepDb;
+  if (place <= 0) return table.front();
+  const auto row = static_cast<std::size_t>(place);
+  if (row + 1 >= kRows) return table.back();
+  return table[row] + (place - static_cast<double>(row)) * (table[row + 1] - table[row]);
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,38 @@
+// The curves of one modem for packets of one payload, tabulated so that a prediction costs microseconds.
+//
+// Detection of the preamble and the chance of a right bit over the ratio of signal to noise and interference in the band,
+// -40 to 60 dB in steps of 0.1 dB, linear between (error below 1e-3 of probability); beyond, the ends.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "acoustics/modem/modem.h"
+
+namespace halocline::acoustics {
+
+class ReceptionCurves {
+ public:
+  // Throws InvalidArgument as packet_timing().
+  ReceptionCurves(const Modem& modem, std::size_t payload_bytes);
+
+  const Modem& modem() const { return modem_; }
+  const PacketTiming& timing() const { return timing_; }
+  // Information bits of each coded block.
+  const std::vector<std::int64_t>& blocks() const { return blocks_; }
+
+  double acquisition(double sinr) const { return interpolated(acquisition_, sinr); }
+  // ln(1 - BER), at most 0.
+  double log_bit_success(double sinr) const { return interpolated(log_bit_success_, sinr); }
+
+ private:
+  static double interpolated(const std::vector<double>& table, double sinr);
+
+  Modem modem_;
+  PacketTiming timing_;
+  std::vector<std::int64_t> blocks_;
+  std::vector<double> acquisition_, log_bit_success_;
+};
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,229 @@
+#include "acoustics/reception/signal_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/units.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+constexpr std::size_t kFrequencies = kSignalFrequencies;
+constexpr double kLeastStretches = 8, kMostStretches = 64;  // of the bits
+constexpr double kTrackingTimeS = 0.05;                     // of phase-shift keying
+constexpr double kPhaseLockTimeS = 0.01;                    // likewise, against a residual Doppler shift
+
+double squared(double x) { return x * x; }
+
+// exp(-(2 pi B T)^2 / 2).
+double kept_over(double time_s, double spread_hz) {
+  return std::exp(-squared(2 * pi * spread_hz * time_s) / 2);
+}
+
+// When a path of the packet sounds, from the begin of the window.
+struct Sounding {
+  double begin_s, end_s;
+};
+
+Sounding sounding(const SoundPath& path, const SoundPath& first, const SoundPath& strongest,
+                  double duration_s) {
+  const double begin_s = path.delay_s - first.delay_s;
+  return {begin_s, begin_s + duration_s * strongest.doppler_factor / path.doppler_factor};
+}
+
+double share_within(const Sounding& sounding, double from_s, double to_s) {
+  if (!(to_s > from_s)) return from_s >= sounding.begin_s && from_s < sounding.end_s ? 1 : 0;
+  return std::clamp((std::min(sounding.end_s, to_s) - std::max(sounding.begin_s, from_s)) / (to_s - from_s),
+                    0.0, 1.0);
+}
+
+// Edges of `count` equal stretches from `from_s` to `to_s`, without the last.
+void add_edges(double from_s, double to_s, int count, std::vector<double>& edges) {
+  for (int i = 0; i < count; ++i) edges.push_back(from_s + (to_s - from_s) * i / count);
+}
+
+// Pressures of the signal in one stretch, at each frequency: paths turn by a constant factor from one to the next.
+class BandSum {
+ public:
+  BandSum(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band, std::size_t frequencies) {
+    const SoundPath& strongest = paths[lock.window.strongest];
+    const double spacing_hz = band.width_hz() / static_cast<double>(frequencies);
+    for (std::size_t p = 0; p < paths.size(); ++p) {
+      const double excess_s = paths[p].delay_s - strongest.delay_s;
+      const double cycles = std::fmod((band.low_hz + spacing_hz / 2) * excess_s, 1.0);
+      first_.push_back(std::polar(lock.window.weights[p], -2 * pi * cycles));
+      next_.push_back(std::polar(1.0, -2 * pi * spacing_hz * excess_s));
+    }
+  }
+  // Adds path `p` of response `h` to the sums, one a frequency.
+  void add(std::size_t p, Complex h, std::vector<Complex>& sums) const {
+    Complex term = h * first_[p];
+    for (Complex& sum : sums) {
+      sum += term;
+      term *= next_[p];
+    }
+  }
+
+ private:
+  std::vector<Complex> first_, next_;
+};
+
+// Equal stretches and what sounds in them, appended to the history.
+class HistoryMaker {
+ public:
+  HistoryMaker(const FadingModel& model, const FadingLink& link, double large_scale,
+               const std::vector<SoundPath>& paths, const Lock& lock, const Band& band, SimTime begin,
+               const ReceivedTiming& timing)
+      : fading_(model, link),
+        large_scale_(large_scale),
+        paths_(paths),
+        lock_(lock),
+        band_(band),
+        begin_(begin),
+        timing_(timing),
+        collects_band_(!is_frequency_shift_keying(lock.modem->error_model)),
+        doppler_share_(doppler_share(*lock.modem, paths[lock.window.strongest], band.centre_hz())),
+        sums_over_band_(paths, lock, band, kFrequencies) {
+    history_.frequencies = collects_band_ ? 1 : kFrequencies;
+    for (const SoundPath& path : paths) {
+      tracked_.push_back(tracked_share(*lock.modem, path));
+    }
+  }
+
+  void add(double from_s, double to_s, int count) {
+    const double step_s = (to_s - from_s) / count;
+    const FadingTimes times{from_s + step_s / 2, step_s, count};
+    const auto responses = fading_.responses(paths_, band_, begin_, times, large_scale_);
+    add_edges(from_s, to_s, count, history_.edges_s);
+    for (int i = 0; i < count; ++i) add_stretch(responses, times, i);
+  }
+  SignalHistory take() {
+    history_.edges_s.push_back(timing_.duration_s);
+    return std::move(history_);
+  }
+
+ private:
+  void add_stretch(const std::vector<Complex>& responses, const FadingTimes& times, int i) {
+    const SoundPath &first = paths_[lock_.window.first], &strongest = paths_[lock_.window.strongest];
+    const double at_s = times.begin_s + i * times.step_s;
+    std::vector<Complex> sums(kFrequencies);
+    double echoes = 0;
+    for (std::size_t p = 0; p < paths_.size(); ++p) {
+      const Complex h = responses[p * static_cast<std::size_t>(times.count) + static_cast<std::size_t>(i)];
+      const double power = std::norm(h), w2 = squared(lock_.window.weights[p]);
+      const Sounding when = sounding(paths_[p], first, strongest, timing_.duration_s);
+      echoes += (lock_.window.interference[p] + w2 * (1 - tracked_[p])) * power *
+                share_within(when, at_s - times.step_s / 2, at_s + times.step_s / 2);
+      if (!(w2 > 0)) continue;
+      const double turned = band_.centre_hz() * (paths_[p].doppler_factor - strongest.doppler_factor) * at_s;
+      sums_over_band_.add(p, h * std::polar(std::sqrt(tracked_[p]), 2 * pi * turned), sums);
+    }
+    double mean = 0;
+    for (const Complex& sum : sums) mean += std::norm(sum) / kFrequencies;
+    if (collects_band_) {
+      history_.signal.push_back(doppler_share_ * mean);
+    } else {
+      for (const Complex& sum : sums) history_.signal.push_back(doppler_share_ * std::norm(sum));
+    }
+    history_.echoes.push_back(echoes + (1 - doppler_share_) * mean);
+  }
+
+  LinkFading fading_;
+  double large_scale_;
+  const std::vector<SoundPath>& paths_;
+  const Lock& lock_;
+  Band band_;
+  SimTime begin_;
+  ReceivedTiming timing_;
+  bool collects_band_;
+  double doppler_share_;
+  BandSum sums_over_band_;
+  std::vector<double> tracked_;  // share of each path's power that the receiver follows
+  SignalHistory history_;
+};
+
+}  // namespace
+
+double SignalHistory::mean_signal(std::size_t stretch) const {
+  double sum = 0;
+  for (std::size_t m = 0; m < frequencies; ++m) sum += signal[stretch * frequencies + m];
+  return sum / static_cast<double>(frequencies);
+}
+
+double doppler_share(const Modem& receiver, const SoundPath& strongest, double centre_hz) {
+  const double residual_hz =
+      std::max(std::abs(strongest.doppler_factor - 1) - receiver.doppler_correction, 0.0) * centre_hz;
+  if (residual_hz == 0) return 1;
+  if (!is_frequency_shift_keying(receiver.error_model)) return kept_over(kPhaseLockTimeS, residual_hz);
+  const double chip_s = receiver.chip > SimDuration() ? receiver.chip.seconds() : 1 / receiver.bit_rate_bps;
+  const double x = pi * residual_hz * chip_s;
+  return squared(std::sin(x) / x);
+}
+
+double tracked_share(const Modem& receiver, const SoundPath& path) {
+  return is_frequency_shift_keying(receiver.error_model)
+             ? 1
+             : kept_over(kTrackingTimeS, path.fading.doppler_spread_hz);
+}
+
+double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& window) {
+  double weight = 0, squares = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const double power = squared(window.weights[i]) * to_power_ratio(paths[i].level).value;
+    weight += power;
+    squares += power * squared(paths[i].fading.doppler_spread_hz);
+  }
+  return coherence_time_of(weight > 0 ? std::sqrt(squares / weight) : 0);
+}
+
+SignalHistory signal_history(const FadingModel& model, const FadingLink& link, double large_scale,
+                             const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
+                             SimTime begin, const ReceivedTiming& timing) {
+  if (!model.enabled) return still_history(paths, lock, timing);
+  HistoryMaker maker(model, link, large_scale, paths, lock, band, begin, timing);
+  const double coherence_s = coherence_time_s(paths, lock.window),
+               bits_s = timing.duration_s - timing.preamble_s;
+  const auto stretches = [&](double span_s, double least) {
+    return static_cast<int>(std::clamp(std::ceil(4 * span_s / coherence_s), least, kMostStretches));
+  };
+  if (timing.preamble_s > 0) {
+    maker.add(0, timing.preamble_s, std::min(stretches(timing.preamble_s, 1), 8));
+  }
+  maker.add(timing.preamble_s, timing.duration_s, stretches(bits_s, kLeastStretches));
+  return maker.take();
+}
+
+SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& lock,
+                            const ReceivedTiming& timing) {
+  const SoundPath &first = paths[lock.window.first], &strongest = paths[lock.window.strongest];
+  SignalHistory history;
+  history.edges_s = {0, timing.preamble_s, timing.duration_s};
+  for (std::size_t p = 0; p < paths.size(); ++p) {
+    if (!(lock.window.interference[p] > 0)) continue;
+    const Sounding when = sounding(paths[p], first, strongest, timing.duration_s);
+    for (const double edge : {when.begin_s, when.end_s}) {
+      if (edge > 0 && edge < timing.duration_s) history.edges_s.push_back(edge);
+    }
+  }
+  std::sort(history.edges_s.begin(), history.edges_s.end());
+  history.edges_s.erase(std::unique(history.edges_s.begin(), history.edges_s.end()), history.edges_s.end());
+  const double signal = mean_signal(paths, lock.window);
+  for (std::size_t i = 0; i + 1 < history.edges_s.size(); ++i) {
+    double echoes = 0;
+    for (std::size_t p = 0; p < paths.size(); ++p) {
+      const Sounding when = sounding(paths[p], first, strongest, timing.duration_s);
+      echoes += lock.window.interference[p] * to_power_ratio(paths[p].level).value *
+                share_within(when, history.edges_s[i], history.edges_s[i + 1]);
+    }
+    history.signal.push_back(signal);
+    history.echoes.push_back(echoes);
+  }
+  return history;
+}
+
+}  // namespace halocline::acoustics

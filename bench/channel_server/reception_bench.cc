@@ -1,0 +1,82 @@
+// What a packet's judgement and a link's prediction cost with paths that fade.
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "acoustics/fading/link_fading.h"
+#include "acoustics/reception/link_prediction.h"
+#include "acoustics/reception/reception_curves.h"
+#include "acoustics/reception/signal_history.h"
+#include "channel_server/modems/modem_config.h"
+#include "channel_server/packets/reception_decision.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using acoustics::SoundPath;
+
+constexpr acoustics::FadingModel kSea{.enabled = true};
+constexpr double kNoise = 1e7;
+
+// Paths as a shallow sea has them: 0.7 ms apart, each 1 dB weaker, steeper and rougher.
+std::vector<SoundPath> paths_of(std::int64_t count, double frequency_hz) {
+  std::vector<SoundPath> paths;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double n = static_cast<double>(i);
+    SoundPath path{
+        .delay_s = 0.7 + 0.0007 * n, .level = {100 - n}, .identity = static_cast<std::uint64_t>(i)};
+    path.launch_angle_rad = 0.02 * n;
+    path.fading = path_fading(kSea, 5, frequency_hz, 0.0004 * n * n, 0.0002 * n * n);
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+void judgement(benchmark::State& state, const char* profile) {
+  const acoustics::Modem modem = load_modem(profile).modem;
+  const auto paths = paths_of(state.range(0), modem.centre_frequency_hz);
+  Packet packet;
+  packet.modem = modem;
+  packet.timing = packet_timing(modem, 32);
+  const auto shared = std::make_shared<const Packet>(packet);
+  const SimTime begin = SimTime::from_seconds(100);
+  const acoustics::FadingLink link{.seed = 1, .lower_id = 1, .higher_id = 2};
+  for (auto _ : state) {
+    const acoustics::Lock lock{&modem, best_window(paths, modem)};
+    const double large_scale = acoustics::LinkFading(kSea, link).large_scale(begin);
+    ReceivedSignal signal{
+        shared, kNoise, begin, begin + packet.timing.preamble, begin + packet.timing.duration, true, {}, {}};
+    signal.history = signal_history(kSea, link, large_scale, paths, lock, modem.band(), begin,
+                                    {packet.timing.preamble.seconds(), packet.timing.duration.seconds()});
+    benchmark::DoNotOptimize(acquisition_probability(signal, {}) * success_probability(signal, {}));
+  }
+}
+BENCHMARK_CAPTURE(judgement, fsk, "micromodem-fsk")->Arg(1)->Arg(5)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(judgement, psk, "micromodem-psk-1")->Arg(1)->Arg(5)->Arg(30)->Unit(benchmark::kMicrosecond);
+
+void prediction(benchmark::State& state, const char* profile) {
+  const acoustics::Modem modem = load_modem(profile).modem;
+  const auto paths = paths_of(state.range(0), modem.centre_frequency_hz);
+  const acoustics::ReceptionCurves curves(modem, 32);
+  for (auto _ : state) {
+    const acoustics::Lock lock{&modem, best_window(paths, modem)};
+    benchmark::DoNotOptimize(predict_link(kSea, paths, lock, modem.band(), kNoise, curves));
+  }
+}
+BENCHMARK_CAPTURE(prediction, fsk, "micromodem-fsk")->Arg(1)->Arg(5)->Arg(30)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(prediction, psk, "micromodem-psk-1")
+    ->Arg(1)
+    ->Arg(5)
+    ->Arg(30)
+    ->Unit(benchmark::kMicrosecond);
+
+void mean_level(benchmark::State& state) {
+  const auto paths = paths_of(state.range(0), 25'000);
+  for (auto _ : state) benchmark::DoNotOptimize(mean_power(kSea, paths, {22'500, 27'500}));
+}
+BENCHMARK(mean_level)->Arg(1)->Arg(5)->Arg(30)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace halocline::channel_server

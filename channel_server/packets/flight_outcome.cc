@@ -1,0 +1,94 @@
+#include "channel_server/packets/flight_outcome.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/frames.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+namespace {
+
+// Where the sound comes from, seen by the receiver.
+void set_direction(const Flight& flight, PacketOutcome& outcome) {
+  const Vec3 back = flight.packet->departure_ned_m - flight.place.position_ned_m;
+  outcome.arrival_azimuth_rad = std::atan2(back.y(), back.x());
+  const auto& paths = flight.reception.paths;
+  // Sound that travels downwards comes from above.
+  outcome.arrival_elevation_rad = paths.empty() ? std::atan2(-back.z(), std::hypot(back.x(), back.y()))
+                                                : paths[first_significant(paths)].arrival_angle_rad;
+}
+
+bool is_for(const SendRequest& request, VehicleId receiver) {
+  return request.destination_id == receiver || request.destination_id == kBroadcastId;
+}
+
+// Of a ping's answer: what its sender measures, less what both ends know of packets and turnaround.
+double two_way_travel_time_s(const Flight& answer) {
+  const Packet& ping = *answer.packet->answers;
+  const SimDuration waited =
+      answer.packet->departure - ping.departure - ping.timing.duration - kPingTurnaround;
+  return waited.seconds() + answer.travel_time_s;
+}
+
+// A time of arrival as the receiver's modem gives it: with its error, in steps of its quantum.
+double measured(const Flight& flight, double time_s) {
+  const double quantum_s = flight.modem.time_quantum.seconds(), noisy_s = time_s + flight.timing_error_s;
+  return quantum_s > 0 ? std::round(noisy_s / quantum_s) * quantum_s : noisy_s;
+}
+
+}  // namespace
+
+OutcomeKind outcome_before_acquisition(const Flight& flight) {
+  const Reception& reception = flight.reception;
+  if (flight.receiver_absent) return OutcomeKind::kReceiverGone;
+  if (!same_family(flight.packet->modem, flight.modem)) return OutcomeKind::kForeign;
+  if (band_share(flight.packet->modem.band(), flight.modem.band()) == 0) return OutcomeKind::kOutOfBand;
+  if (reception.state == PathState::kBlocked) return OutcomeKind::kBlocked;
+  if (reception.state == PathState::kShadow || reception.paths.empty()) return OutcomeKind::kShadow;
+  if (reception.budget.received_level < flight.modem.min_receivable_level) return OutcomeKind::kBelowCutoff;
+  return OutcomeKind::kReceived;
+}
+
+bool is_shifted_too_far(const Flight& flight) {
+  return !flight.signal.fades && std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
+}
+
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind) {
+  PacketOutcome outcome;
+  outcome.kind = kind;
+  outcome.packet = flight.packet;
+  outcome.receiver_id = flight.receiver_id;
+  outcome.receiver = flight.receiver;
+  outcome.deliver =
+      outcome.kind == OutcomeKind::kReceived && is_for(flight.packet->request, flight.receiver_id);
+  outcome.travel_time_s = flight.travel_time_s;
+  outcome.measured_travel_time_s = measured(flight, flight.travel_time_s);
+  if (flight.packet->answers) outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight));
+  outcome.budget = flight.reception.budget;
+  outcome.cutoff = flight.modem.min_receivable_level;
+  outcome.propagation = flight.reception.used;
+  outcome.path_count = flight.reception.paths.size();
+  outcome.delay_spread_s = flight.reception.delay_spread_s;
+  outcome.doppler_factor = flight.doppler_factor();
+  set_direction(flight, outcome);
+  outcome.statistics = flight.statistics;
+  return outcome;
+}
+
+PingAnswer answer_of(const Flight& flight, SimTime at) {
+  const Packet& ping = *flight.packet;
+  SendRequest answer;
+  answer.vehicle = flight.receiver;
+  answer.source_id = flight.receiver_id;
+  answer.destination_id = ping.request.source_id;
+  answer.session = ping.request.session;
+  answer.packet_sequence = ping.request.packet_sequence;
+  const SimTime measured_arrival = flight.arrival() + SimDuration::from_seconds(flight.timing_error_s);
+  answer.start = std::max(measured_arrival + ping.timing.duration + kPingTurnaround, at);
+  answer.kind = PacketKind::kPingReply;
+  answer.stamped = false;
+  return {answer, ping.departure, ping.timing.duration};
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,209 @@
+#include "acoustics/fading/link_fading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "core/units.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+constexpr Band kBand{22'500, 27'500};
+
+FadingModel small_scale() { return {.enabled = true, .large_scale_db = 0}; }
+
+SoundPath path_of(double level_db, const PathFading& fading) {
+  return {.delay_s = 1, .level = {level_db}, .identity = 17, .fading = fading};
+}
+
+std::complex<double> response(const FadingModel& model, const FadingLink& link, const SoundPath& path,
+                              double time_s) {
+  return LinkFading(model, link).responses({path}, kBand, SimTime::from_seconds(time_s), {}, 1).front();
+}
+
+// Kolmogorov's distance times the root of n is above 1.95 with the chance 1e-3.
+double kolmogorov(std::vector<double> samples, const std::function<double(double)>& distribution) {
+  std::sort(samples.begin(), samples.end());
+  const double n = static_cast<double>(samples.size());
+  double distance = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double p = distribution(samples[i]);
+    distance = std::max({distance, p - static_cast<double>(i) / n, static_cast<double>(i + 1) / n - p});
+  }
+  return distance * std::sqrt(n);
+}
+
+// Of the amplitude of a steady part of power c and complex Gaussian noise of power d: integral of Rice's density
+// 2 r / d exp(-(r^2 + c) / d) I0(2 r sqrt(c) / d), by Simpson's rule.
+double rice(double c, double d, double r) {
+  constexpr int kSteps = 400;
+  const auto density = [&](double x) {
+    return 2 * x / d * std::exp(-(x * x + c) / d) * std::cyl_bessel_i(0, 2 * x * std::sqrt(c) / d);
+  };
+  double sum = density(0) + density(r);
+  for (int i = 1; i < kSteps; ++i) sum += (i % 2 == 1 ? 4 : 2) * density(r * i / kSteps);
+  return sum * r / kSteps / 3;
+}
+
+TEST(LinkFading, AmplitudesFollowRiceOverIndependentLinks) {
+  for (const double steady : {0.0, 0.5, 0.9}) {
+    std::vector<double> amplitudes;
+    for (std::uint32_t pair = 1; pair <= 10'000; ++pair) {
+      amplitudes.push_back(
+          std::abs(response(small_scale(), {.seed = 5, .lower_id = pair, .higher_id = 20'000},
+                            path_of(0, {steady, (1 - steady) / 3, (1 - steady) * 2 / 3, 0.7}), 123.456)));
+    }
+    EXPECT_LT(kolmogorov(amplitudes, [&](double r) { return rice(steady, 1 - steady, r); }), 1.95)
+        << "steady share " << steady;
+  }
+}
+
+// Over 1e5 s a sum of sines has spent all its coherence times: the mean is that of the sines themselves.
+TEST(LinkFading, MeanPowerOverADayIsThePowerOfThePath) {
+  const SoundPath path = path_of(20 * std::log10(3), {0.3, 0.2, 0.5, 1.3});
+  const LinkFading fading(small_scale(), {.seed = 9, .lower_id = 1, .higher_id = 2});
+  const int count = 200'000;
+  double sum = 0;
+  for (const auto& h : fading.responses({path}, kBand, SimTime(), {0, 0.5, count}, 1)) sum += std::norm(h);
+  EXPECT_NEAR(to_decibels({sum / count / 9}).value, 0, 0.05);
+}
+
+TEST(LinkFading, LargeScaleFadingLeavesTheMeanPowerAndHasItsDeviation) {
+  const FadingModel model{.enabled = true};
+  double power = 0, level = 0, squares = 0;
+  const int links = 20'000;
+  for (std::uint32_t pair = 0; pair < links; ++pair) {
+    const double x = LinkFading(model, {.seed = 1, .lower_id = pair, .higher_id = 1})
+                         .large_scale(SimTime::from_seconds(77));
+    power += x * x / links;
+    level += 20 * std::log10(x) / links;
+    squares += std::pow(20 * std::log10(x), 2) / links;
+  }
+  // Power of a log-normal: relative deviation sqrt(exp((0.23 sigma)^2) - 1) = 0.78, of 20 000: 3.3 times 0.0055.
+  EXPECT_NEAR(power, 1, 0.019);
+  EXPECT_NEAR(level, -1.036, 3.3 * 3 / std::sqrt(links));
+  EXPECT_NEAR(std::sqrt(squares - level * level), 3, 3.3 * 3 / std::sqrt(2.0 * links));
+}
+
+// Mean over many paths of Re h(t) h*(t + tau); the chance deviation of 4000 is 0.016.
+TEST(LinkFading, AutocorrelationOfWhatIsScatteredIsGaussianInItsSpread) {
+  const double spread_hz = 2, lag_s = 1 / (std::numbers::sqrt2 * pi * spread_hz);
+  double correlation = 0;
+  const int links = 4000;
+  for (std::uint32_t pair = 0; pair < links; ++pair) {
+    const LinkFading fading(small_scale(), {.seed = 3, .lower_id = pair, .higher_id = 9999});
+    const auto h = fading.responses({path_of(0, {0, 0, 1, spread_hz})}, kBand, SimTime(), {5, lag_s, 2}, 1);
+    correlation += (h[0] * std::conj(h[1])).real() / links;
+  }
+  EXPECT_NEAR(correlation, std::exp(-1), 0.03);
+}
+
+// Rice's formula: upward crossings of the level rho (re rms) a second, 2 sqrt(pi) B rho exp(-rho^2).
+TEST(LinkFading, CrossesLevelsAsOftenAsRiceSays) {
+  const double spread_hz = 1, step_s = 0.01;
+  const int count = 100'000;
+  for (const double rho : {0.3, 0.7, 1.2}) {
+    int crossings = 0;
+    double time_s = 0;
+    for (std::uint32_t pair = 0; pair < 40; ++pair, time_s += count * step_s) {
+      const LinkFading fading(small_scale(), {.seed = 8, .lower_id = pair, .higher_id = 9999});
+      const auto h =
+          fading.responses({path_of(0, {0, 0, 1, spread_hz})}, kBand, SimTime(), {0, step_s, count}, 1);
+      for (std::size_t i = 1; i < h.size(); ++i)
+        crossings += std::abs(h[i - 1]) < rho && std::abs(h[i]) >= rho;
+    }
+    const double expected = 2 * std::sqrt(pi) * spread_hz * rho * std::exp(-rho * rho);
+    EXPECT_NEAR(crossings / time_s, expected, 0.05 * expected) << "level " << rho;
+  }
+}
+
+TEST(LinkFading, BothDirectionsFadeAlike) {
+  SoundPath there = path_of(0, {0.2, 0.5, 0.3, 1}), back = there;
+  there.launch_angle_rad = 0.1;
+  there.arrival_angle_rad = -0.2;
+  back.launch_angle_rad = 0.2;
+  back.arrival_angle_rad = -0.1;
+  FadingLink link{.seed = 4, .lower_id = 1, .higher_id = 2};
+  const auto one = response(small_scale(), link, there, 50);
+  link.reversed = true;
+  EXPECT_EQ(one, response(small_scale(), link, back, 50));
+}
+
+TEST(LinkFading, AValueDoesNotDependOnTheStepItIsReachedBy) {
+  const SoundPath path = path_of(0, {0.2, 0.5, 0.3, 1});
+  const LinkFading fading(small_scale(), {.seed = 4, .lower_id = 1, .higher_id = 2});
+  const auto stepped = fading.responses({path}, kBand, SimTime::from_seconds(1e6), {0, 0.01, 64}, 1);
+  const auto alone = fading.responses({path}, kBand, SimTime::from_seconds(1e6), {0.63, 1, 1}, 1);
+  EXPECT_LT(std::abs(stepped.back() - alone.front()), 1e-9);
+}
+
+// Mean over links of the product of two paths' medium against its Gaussian of the distance.
+TEST(LinkFading, PathsThroughTheSameWaterShareTheMedium) {
+  const double apart_rad = to_radians(2);
+  SoundPath one = path_of(0, {0, 1, 0, 0.01}), other = one;
+  other.arrival_angle_rad = apart_rad;
+  std::complex<double> product = 0;
+  const int links = 4000;
+  for (std::uint32_t pair = 0; pair < links; ++pair) {
+    const LinkFading fading(small_scale(), {.seed = 6, .lower_id = pair, .higher_id = 9999});
+    const auto h = fading.responses({one, other}, kBand, SimTime(), {}, 1);
+    product += h[0] * std::conj(h[1]) / static_cast<double>(links);
+  }
+  EXPECT_NEAR(product.real(), std::exp(-0.5), 4 / std::sqrt(links));
+}
+
+// Lloyd's mirror: direct path and one of opposite phase, with no roughness, over the band's middle.
+TEST(MeanPower, OfSteadyPathsIsTheSquareOfTheirPressures) {
+  const FadingModel model{.enabled = true, .rice_factor_db = 60};
+  const PathFading steady = path_fading(model, 0, 25'000, 0, 0);
+  const SoundPath direct{.delay_s = 1, .level = {0}, .fading = steady};
+  SoundPath mirrored = direct;
+  mirrored.phase_rad = pi;
+  mirrored.delay_s += 1e-6;  // an eighth of a cycle in the middle, the same over the band
+  const double expected = 4 * std::pow(std::sin(pi * 25'000 * 1e-6), 2);
+  EXPECT_NEAR(mean_power(model, {direct, mirrored}, kBand), expected, 1e-3);
+}
+
+TEST(MeanPower, OfPathsFarApartIsTheSumOfTheirPowers) {
+  const FadingModel model{.enabled = true};
+  const PathFading fading = path_fading(model, 0, 25'000, 0, 0);
+  const SoundPath early{.delay_s = 1, .level = {0}, .fading = fading};
+  SoundPath late = early;
+  late.delay_s += 100 / kBand.width_hz() + 0.2e-3;
+  EXPECT_NEAR(mean_power(model, {early, late}, kBand), 2, 2 / (pi * 100));
+}
+
+// The mean over 4000 links and the band of |sum of responses|^2 is what mean_power says.
+TEST(MeanPower, IsTheMeanOfWhatIsReceived) {
+  const FadingModel model = small_scale();
+  std::vector<SoundPath> paths{
+      {.delay_s = 1, .level = {0}, .identity = 1, .fading = {0.6, 0.3, 0.1, 0.5}},
+      {.delay_s = 1.00003, .level = {-3}, .phase_rad = pi, .identity = 2, .fading = {0.3, 0.2, 0.5, 0.5}},
+      {.delay_s = 1.0002, .level = {-1}, .phase_rad = 1, .identity = 3, .fading = {0.5, 0.5, 0, 0.1}}};
+  const int links = 4000, frequencies = 32;
+  double mean = 0;
+  for (std::uint32_t pair = 0; pair < links; ++pair) {
+    const LinkFading fading(model, {.seed = 2, .lower_id = pair, .higher_id = 9999});
+    const auto h = fading.responses(paths, kBand, SimTime(), {}, 1);
+    for (int m = 0; m < frequencies; ++m) {
+      const double f = kBand.low_hz + (m + 0.5) * kBand.width_hz() / frequencies;
+      std::complex<double> sum = 0;
+      for (std::size_t p = 0; p < paths.size(); ++p)
+        sum += h[p] * std::polar(1.0, -2 * pi * f * (paths[p].delay_s - 1));
+      mean += std::norm(sum) / (links * frequencies);
+    }
+  }
+  EXPECT_NEAR(mean / mean_power(model, paths, kBand), 1, 4 / std::sqrt(links));
+}
+
+}  // namespace
+}  // namespace halocline::acoustics

@@ -1,0 +1,90 @@
+#include "acoustics/reception/guard_window.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/units.h"
+
+namespace halocline::acoustics {
+namespace {
+
+// 10 ms of guard, as much of taper.
+Modem modem() { return {}; }
+
+SoundPath path_at(double delay_s, double level_db) { return {.delay_s = delay_s, .level = {level_db}}; }
+
+double share_db(double power) { return to_decibels({power}).value; }
+
+TEST(GuardWindow, LocksOnTheIntervalThatHoldsTheMostPowerNotOnAWeakPrecursor) {
+  const std::vector<SoundPath> paths{path_at(1, -15), path_at(1.1, 0), path_at(1.105, -3)};
+  const GuardWindow window = best_window(paths, modem());
+  EXPECT_EQ(window.first, 1u);
+  EXPECT_EQ(window.strongest, 1u);
+  EXPECT_EQ(window.weights, (std::vector<double>{0, 1, 1}));
+  EXPECT_NEAR(mean_signal(paths, window), 1 + std::pow(10, -0.3), 1e-12);
+  EXPECT_NEAR(mean_interference(paths, window), std::pow(10, -1.5), 1e-12);
+}
+
+TEST(GuardWindow, BeginsAtAPrecursorWithinTheGuardTime) {
+  const std::vector<SoundPath> paths{path_at(1, -15), path_at(1.008, 0)};
+  const GuardWindow window = best_window(paths, modem());
+  EXPECT_EQ(window.first, 0u);
+  EXPECT_EQ(window.strongest, 1u);
+  EXPECT_EQ(mean_interference(paths, window), 0);
+}
+
+TEST(GuardWindow, WeightsAnEchoByARaisedCosineAfterTheGuardTime) {
+  for (const double late : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const std::vector<SoundPath> paths{path_at(1, 0), path_at(1.010 + 0.010 * late, -10)};
+    const double w = (1 + std::cos(std::numbers::pi * late)) / 2;
+    const GuardWindow window = best_window(paths, modem());
+    EXPECT_NEAR(window.weights[1], w, 1e-9);
+    EXPECT_NEAR(window.interference[1], 1 - w * w, 1e-9);
+  }
+}
+
+// Shifting an echo by 15 us, 2 cm, anywhere around the window changes nothing by more than a hundredth.
+TEST(GuardWindow, HasNoWall) {
+  double last_signal = 0, last_interference = 0;
+  for (int i = -2000; i <= 2000; ++i) {
+    std::vector<SoundPath> paths{path_at(1, 0), path_at(1 + 15e-6 * i, -1)};
+    if (i < 0) std::swap(paths[0], paths[1]);
+    const GuardWindow window = best_window(paths, modem());
+    const double signal = mean_signal(paths, window), interference = mean_interference(paths, window);
+    EXPECT_NEAR(signal + interference, 1 + std::pow(10, -0.1), 1e-12);
+    if (i > -2000) {
+      EXPECT_NEAR(signal, last_signal, 0.01) << i;
+      EXPECT_NEAR(interference, last_interference, 0.01) << i;
+    }
+    last_signal = signal;
+    last_interference = interference;
+  }
+}
+
+TEST(GuardWindow, HoppingSparesAnEchoUntilThePatternReturns) {
+  Modem hopping = modem();
+  hopping.guard_time = SimDuration::from_milliseconds(3);
+  hopping.chip = SimDuration::from_milliseconds(6);
+  hopping.hop_count = 13;
+  hopping.hop_clearing = SimDuration::from_milliseconds(72);
+  const auto interference_after = [&](double echo_s) {
+    const std::vector<SoundPath> paths{path_at(1, 0), path_at(1 + echo_s, -6)};
+    return mean_interference(paths, best_window(paths, hopping));
+  };
+  EXPECT_EQ(interference_after(0.02), 0);
+  EXPECT_EQ(interference_after(0.072), 0);
+  EXPECT_NEAR(share_db(interference_after(0.1)), -6 - 10 * std::log10(13), 1e-9);
+}
+
+TEST(GuardWindow, OfOnePathIsThatPath) {
+  const std::vector<SoundPath> paths{path_at(1, -3)};
+  const GuardWindow window = best_window(paths, modem());
+  EXPECT_EQ(window.first, 0u);
+  EXPECT_NEAR(share_db(mean_signal(paths, window)), -3, 1e-12);
+}
+
+}  // namespace
+}  // namespace halocline::acoustics

@@ -1,0 +1,110 @@
+// The plainest coastal case: 171 links of frequency-hopped FSK in a summer column, 22 degC to 15 m, 15 degC at 30 m and
+// 13 degC at 50 m, over 100 m of medium sand. Each link is given the noise that makes its SNR what a row says.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "channel_server/modems/modem_config.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "core/random.h"
+#include "tests/channel_server/sea/still_link.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using testing::StillLink;
+
+constexpr double kDepthM = 100;
+constexpr int kNodes = 19, kPackets = 6;
+constexpr std::size_t kPayloadBytes = 32;
+
+acoustics::Environment column(double wind_mps) {
+  acoustics::Environment environment;
+  environment.profile = acoustics::SoundSpeedProfile::from_water(
+      {{0, 22, 38}, {15, 22, 38}, {30, 15, 38}, {50, 13, 38}, {100, 13, 38}},
+      acoustics::SoundSpeedModel::kMackenzie1981, 0);
+  environment.noise.wind_mps = wind_mps;
+  return environment;
+}
+
+// Nodes in a box of 3 km, 3 to 97 m deep.
+std::vector<Vec3> nodes() {
+  std::vector<Vec3> places;
+  for (std::uint64_t i = 0; i < kNodes; ++i) {
+    const auto u = [&](std::uint32_t who) { return uniform_at({.seed = 11, .who = who, .which = i}); };
+    places.push_back({3000 * u(0), 3000 * u(1), 3 + 94 * u(2)});
+  }
+  return places;
+}
+
+struct Column {
+  double received = 0;   // share of packets
+  double predicted = 0;  // the same, by the links' predictions
+  int perfect = 0, dead = 0, links = 0;
+};
+
+Column deliver(const acoustics::Modem& modem, double wind_mps, double snr_db) {
+  RayModel model;
+  model.bottom = *acoustics::sediment("MediumSand");
+  model.options.max_bounces = 60;
+  model.options.keep_steep_direct = true;
+  model.options.min_boundary_factor = std::pow(10, -1.5);
+  model.fading.enabled = true;
+  RayPropagation propagation(std::make_shared<EnvironmentTimeline>(column(wind_mps)),
+                             std::make_shared<SeabedProfileCache>(ProfileRule{}), model);
+  const auto seabed = std::make_shared<const SeabedProfile>(41, kDepthM);
+  const acoustics::ReceptionCurves curves(modem, kPayloadBytes);
+  const std::vector<Vec3> places = nodes();
+  Column column;
+  std::uint32_t pair = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Reception reception = propagation.reception_over(SimTime(), {0, places[i], Vec3::Zero(), &modem},
+                                                             {0, places[j], Vec3::Zero(), &modem}, seabed);
+      const StillLink link(reception, modem, kPayloadBytes, model.fading, ++pair,
+                           reception.budget.received_level - Decibels{snr_db});
+      int received = 0;
+      for (int n = 0; n < kPackets; ++n) received += link.delivers(600.0 * n);
+      column.received += static_cast<double>(received) / kPackets;
+      column.predicted += link.prediction(curves).delivery_probability;
+      column.perfect += received == kPackets;
+      column.dead += received == 0;
+      ++column.links;
+    }
+  }
+  column.received /= column.links;
+  column.predicted /= column.links;
+  return column;
+}
+
+TEST(SummerColumn, DeliversFrequencyHoppedPacketsAtEveryWindAndNeverBetterForIt) {
+  const acoustics::Modem modem = load_modem("micromodem-fsk").modem;
+  double calm = 0;
+  for (const double wind_mps : {0.0, 2.0, 5.0, 10.0}) {
+    double last = 0;
+    for (const double snr_db : {15.0, 25.0, 35.0, 45.0, 55.0}) {
+      const Column column = deliver(modem, wind_mps, snr_db);
+      std::printf(
+          "wind %4.1f m/s, SNR %2.0f dB: received %.3f, predicted %.3f; all %3d, none %3d of %d links\n",
+          wind_mps, snr_db, column.received, column.predicted, column.perfect, column.dead, column.links);
+      // 171 links of 6 packets: what fades by itself is the link, so 3.3 deviations are 3.3 sqrt(1/4 / 171) at most.
+      EXPECT_NEAR(column.received, column.predicted, 0.05);
+      EXPECT_GE(column.predicted, last - 1e-3) << "more source level delivers less";
+      last = column.predicted;
+      if (snr_db != 45) continue;
+      EXPECT_GT(column.received, 0.5);
+      EXPECT_LT(column.perfect, column.links) << "no link is perfect";
+      if (wind_mps == 0) calm = column.predicted;
+      EXPECT_LT(column.predicted - calm, 0.15) << "wind helps";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halocline::channel_server
