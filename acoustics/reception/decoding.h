@@ -7,7 +7,7 @@
 // - Coded frequency-shift keying, whose interleaver spreads a block over its time and whose hops spread it over the band,
 //   while it fades: the exponential effective ratio of a block's cells, of chips,
 //     gamma = -beta ln mean exp(-gamma_i / beta),  P = (1 - BER(gamma))^bits
-//   beta = 3 lands the JANUS code on its own curve for chips that fade by themselves (Rayleigh) to 0.1 dB
+//   beta = 2.95 lands the JANUS code on its own curve for chips that fade by themselves (Rayleigh) to 0.1 dB
 //   (convolutional_code.h).
 // A cell is a stretch of constant interference at one frequency.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace halocline::acoustics {
 
-inline constexpr double kEffectiveRatioBeta = 3;
+inline constexpr double kEffectiveRatioBeta = 2.95;
 
 // Information bits of the blocks of a packet with that many in all.
 std::vector<std::int64_t> coded_blocks(const Modem& modem, std::int64_t information_bits);

@@ -17,7 +17,9 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-constexpr std::size_t kFrequencies = kSignalFrequencies, kStrata = 24;
+constexpr std::size_t kFrequencies = kSignalFrequencies, kStrata = 24, kPairing = 5;
+constexpr double kCertain = 1e-100;    // of exp(-gamma / beta): no bit is wrong
+constexpr double kNegligible = 1e-12;  // of the power: of no effect
 constexpr double kIndependentAfter =
     1.2533;  // coherence times: sqrt(pi / 2), of the power's Gaussian correlation
 
@@ -48,15 +50,33 @@ constexpr std::array<Node, 5> kFive{{{-2.8569700138728056, 0.011257411327720689}
                                      {1.3556261799742659, 0.22207592200561266},
                                      {2.8569700138728056, 0.011257411327720689}}};
 
-// A log-normal value of `mean` and `variance`: at the normal quantile z.
-struct LogNormal {
-  double median, deviation;
+// A power of `mean` and `variance`, gamma distributed, at the normal quantile z: Wilson and Hilferty 1931,
+// x = mean (1 - 1 / (9 k) + z / (3 sqrt(k)))^3 with k = mean^2 / variance.
+class FadingPower {
+ public:
+  FadingPower(double mean, double variance)
+      : mean_(mean), spread_(mean > 0 ? std::sqrt(variance) / mean : 0) {}
+  double at(double z) const {
+    const double root = std::max(1 - spread_ * spread_ / 9 + z * spread_ / 3, 0.0);
+    return mean_ * root * root * root;
+  }
+
+ private:
+  double mean_, spread_;  // 1 / sqrt(k)
+};
+
+// A log-normal value likewise.
+class LogNormal {
+ public:
   LogNormal(double mean, double variance) {
     const double v = mean > 0 ? std::log1p(variance / (mean * mean)) : 0;
-    deviation = std::sqrt(v);
-    median = mean * std::exp(-v / 2);
+    deviation_ = std::sqrt(v);
+    median_ = mean * std::exp(-v / 2);
   }
-  double at(double z) const { return median * std::exp(deviation * z); }
+  double at(double z) const { return median_ * std::exp(deviation_ * z); }
+
+ private:
+  double median_, deviation_;
 };
 
 // What sounds in the window, on average over all fading.
@@ -128,7 +148,8 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     }
   }
   sound.slow_variance = std::max(sound.slow_variance, 0.0) + mean_square(medium);
-  if (sound.scattered > 0) sound.frequency_spans = squared(sound.scattered) / mean_square(scattered);
+  if (sound.scattered > kNegligible * sound.slow())
+    sound.frequency_spans = squared(sound.scattered) / mean_square(scattered);
   return sound;
 }
 
@@ -153,7 +174,7 @@ class PacketChances {
   // With all sound louder by `factor` and the steady part by `slow` besides.
   double acquisition(double factor, double slow) const {
     const double steady = factor * slow * sound_.slow(), fast = factor * sound_.scattered;
-    const LogNormal signal(steady + fast, (2 * steady * fast + fast * fast) / preamble_spans_);
+    const FadingPower signal(steady + fast, (2 * steady * fast + fast * fast) / preamble_spans_);
     double sum = 0;
     for (const Node& node : kThree) {
       sum += node.weight * curves_.acquisition(signal.at(node.z) / disturbance(factor));
@@ -176,6 +197,7 @@ class PacketChances {
       mean += std::exp(-c / (1 + d)) / (1 + d) / kFrequencies;
       square += std::exp(-2 * c / (1 + 2 * d)) / (1 + 2 * d) / kFrequencies;
     }
+    if (mean < kCertain) return 1;
     double sum = 0;
     // Blocks are long against the coherence time or share its state: each has its part of the spans.
     const double spans = std::max(1.0, time_spans_ / static_cast<double>(curves_.blocks().size()));
@@ -198,7 +220,7 @@ class PacketChances {
     const double bits = static_cast<double>(curves_.timing().information_bits) / spans;
     double chance = 0;
     const auto add = [&](double steady, double variance_share, double weight) {
-      const LogNormal signal(steady + fast, (2 * steady * fast + fast * fast) * variance_share);
+      const FadingPower signal(steady + fast, (2 * steady * fast + fast * fast) * variance_share);
       for (const Node& node : kFive) {
         chance +=
             weight * node.weight * std::exp(bits * curves_.log_bit_success(signal.at(node.z) / disturbed));
@@ -253,18 +275,18 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   const double slow = sound.slow();
   LinkPrediction prediction;
   prediction.sinr = (slow + sound.scattered) / (noise + sound.echoes);
-  // Both slow parts as one log-normal: large scale on everything, the medium on the steady part.
-  const double large = squared(std::numbers::ln10 / 10 * model.large_scale_db);
-  const double medium = slow > 0 ? std::log1p(sound.slow_variance / (slow * slow)) : 0;
-  const double deviation = std::sqrt(large + medium), of_large = deviation > 0 ? large / deviation : 0;
+  // Large scale on everything, the medium on the steady part: each by strata, paired so that both are spread evenly.
+  const double deviation = std::numbers::ln10 / 10 * model.large_scale_db;
+  const double medium = slow > kNegligible * sound.scattered ? sound.slow_variance / (slow * slow) : 0;
+  const FadingPower steady(1, medium);
   const PacketChances chances(curves, sound, noise, coherence_time_s(paths, lock.window));
-  for (const double z : normal_strata()) {
-    const double all = std::exp(deviation * z - deviation * deviation / 2);
-    const double factor = std::exp(of_large * z - of_large * of_large / 2), steady = all / factor;
-    const double acquired = chances.acquisition(factor, steady);
+  for (std::size_t i = 0; i < kStrata; ++i) {
+    const double factor = std::exp(deviation * normal_strata()[i] - deviation * deviation / 2);
+    const double of_steady = steady.at(normal_strata()[(kPairing * i + kPairing / 2) % kStrata]);
+    const double acquired = chances.acquisition(factor, of_steady);
     prediction.acquisition_probability += acquired / kStrata;
     if (acquired > 1e-9)
-      prediction.delivery_probability += acquired * chances.success(factor, steady) / kStrata;
+      prediction.delivery_probability += acquired * chances.success(factor, of_steady) / kStrata;
   }
   return prediction;
 }

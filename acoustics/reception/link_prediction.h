@@ -3,13 +3,13 @@
 //
 // Model. Within the guard window, at 8 frequencies over the band: steady pressures A_m of the coherent parts, the
 // medium's power M and the scattered power D, mean interference I of the packet's own echoes.
-// - Slow: large-scale fading and the medium hold through a packet. The power they make together is taken as log-normal
-//   with the variance that both have (that of the medium over the band from its correlation between frequencies), by 24
-//   strata of equal probability.
+// - Slow: large-scale fading, log-normal, and the medium, whose power over the band is taken as gamma distributed with
+//   the variance that the correlation of its frequencies leaves, hold through a packet: 24 strata of equal probability of
+//   each, in pairs.
 // - Fast: what is scattered fades within the packet, in n_t = T / (1.25 coherence time) independent spans and n_f
 //   independent parts of the band (from its delays). Coded frequency-shift keying: E exp(-gamma / beta) of Rician gamma is
 //   exp(-(c / beta) / (1 + d / beta)) / (1 + d / beta), and its finite mean is spread by 1 / (n_t n_f) of its variance.
-//   Others: the chance of a span's bits over a log-normal signal, to the power of the spans.
+//   Others: the chance of a span's bits over a gamma distributed signal, to the power of the spans.
 // Left out: other packets; the correlation of preamble and bits within one coherence time.
 #pragma once
 

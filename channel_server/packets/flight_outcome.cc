@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/frames.h"
+#include "core/names.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {

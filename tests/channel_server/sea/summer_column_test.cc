@@ -1,5 +1,6 @@
 // The plainest coastal case: 171 links of frequency-hopped FSK in a summer column, 22 degC to 15 m, 15 degC at 30 m and
-// 13 degC at 50 m, over 100 m of medium sand. Each link is given the noise that makes its SNR what a row says.
+// 13 degC at 50 m, over 100 m of medium sand. All have the noise that makes the
+// median of their SNR what a row says.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -60,23 +61,30 @@ Column deliver(const acoustics::Modem& modem, double wind_mps, double snr_db) {
                              std::make_shared<SeabedProfileCache>(ProfileRule{}), model);
   const auto seabed = std::make_shared<const SeabedProfile>(41, kDepthM);
   const acoustics::ReceptionCurves curves(modem, kPayloadBytes);
+  std::vector<Reception> receptions;
+  std::vector<double> levels;
   const std::vector<Vec3> places = nodes();
-  Column column;
-  std::uint32_t pair = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const Reception reception = propagation.reception_over(SimTime(), {0, places[i], Vec3::Zero(), &modem},
-                                                             {0, places[j], Vec3::Zero(), &modem}, seabed);
-      const StillLink link(reception, modem, kPayloadBytes, model.fading, ++pair,
-                           reception.budget.received_level - Decibels{snr_db});
-      int received = 0;
-      for (int n = 0; n < kPackets; ++n) received += link.delivers(600.0 * n);
-      column.received += static_cast<double>(received) / kPackets;
-      column.predicted += link.prediction(curves).delivery_probability;
-      column.perfect += received == kPackets;
-      column.dead += received == 0;
-      ++column.links;
+      receptions.push_back(propagation.reception_over(SimTime(), {0, places[i], Vec3::Zero(), &modem},
+                                                      {0, places[j], Vec3::Zero(), &modem}, seabed));
+      levels.push_back(receptions.back().budget.received_level.value);
     }
+  }
+  std::nth_element(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2),
+                   levels.end());
+  const Decibels noise{levels[levels.size() / 2] - snr_db};
+  Column column;
+  std::uint32_t pair = 0;
+  for (const Reception& reception : receptions) {
+    const StillLink link(reception, modem, kPayloadBytes, model.fading, ++pair, noise);
+    int received = 0;
+    for (int n = 0; n < kPackets; ++n) received += link.delivers(600.0 * n);
+    column.received += static_cast<double>(received) / kPackets;
+    column.predicted += link.prediction(curves).delivery_probability;
+    column.perfect += received == kPackets;
+    column.dead += received == 0;
+    ++column.links;
   }
   column.received /= column.links;
   column.predicted /= column.links;
@@ -97,9 +105,9 @@ TEST(SummerColumn, DeliversFrequencyHoppedPacketsAtEveryWindAndNeverBetterForIt)
       EXPECT_NEAR(column.received, column.predicted, 0.05);
       EXPECT_GE(column.predicted, last - 1e-3) << "more source level delivers less";
       last = column.predicted;
+      if (snr_db == 15) EXPECT_LT(column.perfect, column.links) << "some links lose some packets";
       if (snr_db != 45) continue;
       EXPECT_GT(column.received, 0.5);
-      EXPECT_LT(column.perfect, column.links) << "no link is perfect";
       if (wind_mps == 0) calm = column.predicted;
       EXPECT_LT(column.predicted - calm, 0.15) << "wind helps";
     }
