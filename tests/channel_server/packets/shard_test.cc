@@ -52,7 +52,8 @@ std::string text_of(const MediumEvent& event) {
 struct Server {
   Server(Shard shard, double until_s)
       : fleet({for_s(0.05), for_s(5)}, testing::busy_modems()),
-        medium(fleet, propagation, {for_s(10), for_s(until_s), 1, shard}) {
+        medium(fleet, propagation,
+               {.max_lateness = for_s(10), .max_earliness = for_s(until_s), .seed = 1, .shard = shard}) {
     for (const auto& timed : testing::busy_states(until_s)) {
       EXPECT_EQ(fleet.add_state(name_of(timed.id), timed.id, timed.state), "");
     }
