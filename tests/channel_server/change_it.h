@@ -40,6 +40,7 @@ inline VehicleModem weak_modem(bool rays) {
   VehicleModem modem = quick_modem();
   modem.modem.source_level = {rays ? 125.0 : 106.8};
   modem.modem.min_receivable_level = {0};
+  modem.modem.guard_taper = SimDuration();  // an echo is signal or interference
   modem.modem.bit_rate_bps = bit_rate_bps(rays);
   modem.modem.preamble = modem.modem.packet_overhead = for_s(preamble_s(rays));
   return modem;

@@ -39,10 +39,11 @@ acoustics::Environment water_of(const std::string& toml, const std::string& fold
   return make_environment(read(toml).environment, {}, folder);
 }
 
-TEST(ChannelServerConfig, AnEmptyScenarioHasTheWaterOfTheReferenceFigures) {
+TEST(ChannelServerConfig, AnEmptyScenarioHasTheWaterOfTheReferenceFiguresInABreeze) {
   const auto water = water_of("");
   EXPECT_EQ(water.noise.shipping, 0.5);
-  EXPECT_EQ(water.noise.wind_mps, 0);
+  EXPECT_EQ(water.noise.wind_mps, 5);
+  EXPECT_EQ(to_name(water.absorption_model), "francois-garrison");
   EXPECT_EQ(water.spreading_exponent, 1.5);
   EXPECT_EQ(water.profile.row_depths_m().size(), 15u);
 }
@@ -268,7 +269,8 @@ TEST(ChannelServerConfig, RaysOverSandAreTheDefault) {
   EXPECT_EQ(config.propagation.model, PropagationModel::kRays);
   EXPECT_EQ(make_rays(config).bottom, *acoustics::sediment("MediumSand"));
   EXPECT_FALSE(make_rays(config).solver);
-  EXPECT_FALSE(make_rays(config).shadow_loss);
+  EXPECT_EQ(make_rays(config).shadow_loss->value, 120);
+  EXPECT_TRUE(make_rays(config).fading.enabled);
 }
 
 TEST(ChannelServerConfig, ABottomIsGivenByNameOrByNumbers) {
@@ -281,7 +283,8 @@ TEST(ChannelServerConfig, ABottomIsGivenByNameOrByNumbers) {
 
 TEST(ChannelServerConfig, WhatRaysLookForIsTaken) {
   const auto rays = make_rays(
-      read("[propagation]\nsurface_loss_model = \"eckart\"\nsolver = \"arcs\"\nmax_bounces = 12\n"
+      read("[propagation]\nfading = \"none\"\nsurface_loss_model = \"eckart\"\nsolver = "
+           "\"arcs\"\nmax_bounces = 12\n"
            "max_launch_angle_deg = 60\nmin_amplitude_db = -80\nshadow_loss_db = 110\ncoherent = true"));
   EXPECT_EQ(rays.surface, acoustics::SurfaceModel::kEckart);
   EXPECT_EQ(rays.solver, acoustics::RaySolver::kArcs);
@@ -290,6 +293,26 @@ TEST(ChannelServerConfig, WhatRaysLookForIsTaken) {
   EXPECT_DOUBLE_EQ(rays.options.min_amplitude, 1e-4);
   EXPECT_EQ(rays.shadow_loss->value, 110);
   EXPECT_TRUE(rays.coherent);
+}
+
+TEST(ChannelServerConfig, ALossOfTheCoherentPartAloneIsRefusedInASeaThatFades) {
+  const std::string errors = errors_of("[propagation]\nsurface_loss_model = \"eckart\"");
+  EXPECT_THAT(errors, HasSubstr("test.toml:2: propagation.surface_loss_model"));
+  EXPECT_THAT(errors, HasSubstr("apl-bubbles"));
+}
+
+TEST(ChannelServerConfig, FadingIsTaken) {
+  const auto fading =
+      make_rays(read("[propagation]\nrice_factor_db = 3\nmedium_coherence_s = 5\nlarge_scale_fading_db = 1\n"
+                     "large_scale_fading_s = 60\nbottom_roughness_m = 0.1"))
+          .fading;
+  EXPECT_EQ(fading, (acoustics::FadingModel{.enabled = true,
+                                            .rice_factor_db = 3,
+                                            .medium_coherence_s = 5,
+                                            .large_scale_db = 1,
+                                            .large_scale_time_s = 60,
+                                            .bottom_roughness_m = 0.1}));
+  EXPECT_FALSE(make_rays(read("[propagation]\nfading = \"none\"")).fading.enabled);
 }
 
 TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed) {

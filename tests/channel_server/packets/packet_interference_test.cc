@@ -146,16 +146,21 @@ TEST_F(PacketInterferenceTest, ANegligibleInterfererIsNotNamed) {
 TEST_F(PacketInterferenceTest, EchoesWithinTheGuardTimeHelpAndLaterOnesHarm) {
   const double guard_s = quick_modem().modem.guard_time.seconds();
   water.set(1, 2, {path(1, 80), path(1 + 0.9 * guard_s, 77)});
-  water.set(1, 3, {path(1, 80), path(1 + 1.1 * guard_s, 77)});
+  water.set(1, 3, {path(1, 80), path(1 + 1.5 * guard_s, 77)});
   send(1, 10, 0, 1000);
   run();
   const DecisionStatistics &within = end_of(1, 0, 2).statistics, &beyond = end_of(1, 0, 3).statistics;
   EXPECT_LT(relative_error(power_of(within.sinr.value), (power_of(80) + power_of(77)) / noise_power()),
             tolerance(1e-9));
   EXPECT_EQ(within.interference, kSilence);
-  // The echo sounds during all but the first 1.1 guard times of the packet.
-  const double share = 1 - 1.1 * guard_s / 10;
-  EXPECT_LT(relative_error(power_of(beyond.interference.value), share * power_of(77)), tolerance(1e-9));
+  // Half way through the taper its weight is 1/2: of its power 1/4 is signal. The rest interferes while it sounds, all but
+  // the first 1.5 guard times of the packet.
+  const double share = 1 - 1.5 * guard_s / 10;
+  EXPECT_LT(relative_error(power_of(beyond.interference.value), 0.75 * share * power_of(77)),
+            tolerance(1e-9));
+  EXPECT_LT(relative_error(power_of(beyond.sinr.value), (power_of(80) + 0.25 * power_of(77)) /
+                                                            (noise_power() + 0.75 * share * power_of(77))),
+            tolerance(1e-9));
 }
 
 TEST_F(PacketInterferenceTest, ItsOwnEchoesCauseBitErrors) {

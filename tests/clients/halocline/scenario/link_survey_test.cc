@@ -45,12 +45,13 @@ TEST(LinkSurvey, DelayOfTheStraightPathIsThatOfThePapersFigure4) {
   EXPECT_NEAR(answer.reception.budget.delay_s, 0.660724, tolerance(1e-6));
 }
 
-// The paths are those that the budget sums up.
+// The paths are those that the budget sums up where nothing fades.
 TEST(LinkSurvey, PowersOfThePathsAddUpToTheReceivedLevel) {
   for (const auto model :
        {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
     ScenarioConfig config = two_vehicles();
     config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.fading.enabled = false;
     config.channel_server.propagation.model = model;
     const LinkSurvey answer =
         survey_link(config, link_end(config, "-500,0,40"), link_end(config, "500,0,60"));
@@ -85,6 +86,7 @@ TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
        {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
     ScenarioConfig config = two_vehicles();
     config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.fading.enabled = false;
     config.channel_server.propagation.model = model;
     LinkSurveyEnd from = link_end(config, "-500,0,40"), to = link_end(config, "500,0,60");
     const auto loss_db = [&] {
