@@ -73,7 +73,7 @@ struct PropagationConfig {
   std::string surface_loss_model = "apl-bubbles";
   std::string solver = "auto";  // or images, snell, arcs
   acoustics::RayOptions options{.max_bounces = 60};
-  double min_amplitude_db = -120;
+  double min_amplitude_db = -160;
   double max_bounce_loss_db = 30;  // of all bounces of a path together
   double shadow_loss_db = 120;     // our choice; 0: none stated
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;

@@ -166,8 +166,10 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
                {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
   v.number("min_amplitude_db", p.min_amplitude_db,
            {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
-  v.number("max_bounce_loss_db", p.max_bounce_loss_db,
-           {1, 200, "dB", "rays: of all bounces of a path; paths that lose more are dropped"});
+  v.number(
+      "max_bounce_loss_db", p.max_bounce_loss_db,
+      {1, 200, "dB",
+       "rays: of all bounces of a path beyond those of the strongest; paths that lose more are dropped"});
   v.number(
       "speed_tolerance_mps", p.speed_tolerance_mps,
       {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});

@@ -19,6 +19,11 @@ constexpr int kNodesPerPiece = 5;  // of gauss_legendre_5
 constexpr double kMetresPerKilometre = 1000;
 constexpr double kNepersPerDecibel = std::numbers::ln10 / 10;  // of power
 
+// Ends nearer to each other than where levels refer to count as that far apart.
+double held_distance_m(const Vec3& from_ned_m, const Vec3& to_ned_m) {
+  return std::max((to_ned_m - from_ned_m).norm(), kReferenceRange);
+}
+
 double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWater); }
 
 }  // namespace
@@ -158,7 +163,7 @@ PathLoss LinkModel::path_loss(double from_depth_m, double to_depth_m, double pat
 double LinkModel::delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
   return environment_.profile.travel_time_s(depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m),
                                             depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m),
-                                            (to_ned_m - from_ned_m).norm());
+                                            held_distance_m(from_ned_m, to_ned_m));
 }
 
 LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
@@ -169,7 +174,7 @@ LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const
 
   LinkBudget link;
   link.range_m = (to_ned_m - from_ned_m).norm();
-  link.delay_s = link.range_m * slowness;
+  link.delay_s = held_distance_m(from_ned_m, to_ned_m) * slowness;
   link.mean_sound_speed_mps = 1 / slowness;
   link.absorption_db_per_km = mean_absorption(samples, 0);
   // The receiver looks back along the line.

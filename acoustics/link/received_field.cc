@@ -71,7 +71,7 @@ double weighted_pressure(const Arrival& path, const Transducers& transducers) {
 
 ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options) {
   ReceivedField field;
-  field.shadow = arrivals.shadow();
+  field.silent = arrivals.silent();
   const std::vector<WeightedDelay> delays = weighted_delays(arrivals, options.transducers);
   double power = 0;
   for (const WeightedDelay& path : delays) power += path.power;

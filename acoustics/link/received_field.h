@@ -6,7 +6,7 @@
 // weighs each path by the angle in which it leaves or arrives.
 //
 // Levels are relative to the source level: dB, never positive in practice; transmission loss is their
-// negative. No path is -infinity dB: a shadow, see acoustics/rays/arrivals.h; a floor is the caller's to state.
+// negative. No path is -infinity dB, see PathLack in acoustics/rays/arrivals.h; a floor is the caller's to state.
 // The impulse response is that of the carrier's complex envelope: a tap per path, none of the modem's own
 // filter.
 #pragma once
@@ -37,9 +37,9 @@ struct FieldOptions {
 
 // Level and delays of all paths together.
 struct ReceivedField {
-  bool shadow = true;         // no path at all
+  bool silent = true;         // no path at all
   Decibels level{-1e300};     // sum of powers, dB re the source level
-  double first_delay_s = 0;   // of the first path; 0 in a shadow
+  double first_delay_s = 0;   // of the first path; 0 without one
   double mean_delay_s = 0;    // weighted by power
   double delay_spread_s = 0;  // rms about that mean, weighted by power
   double longest_echo_s = 0;  // last path within 30 dB of the strongest, after the first of those

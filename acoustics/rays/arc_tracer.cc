@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "acoustics/math/arc_math.h"
+#include "acoustics/rays/folds.h"
 #include "acoustics/rays/ray_water.h"
 #include "core/check.h"
 
@@ -15,8 +16,9 @@ namespace {
 constexpr double kOffBoundary = 1e-6;  // m, as in acoustics/rays/layered_path.cc
 constexpr double kGiveUp = 0.25;       // of the least factor
 constexpr std::size_t kLossSteps = 64;
-constexpr std::size_t kUsualEvents = 48;  // of one ray: its history rarely has to grow
-constexpr int kMaxSteps = 200'000;        // crossings of layers: a guard, never met
+constexpr std::size_t kUsualEvents = 48;       // of one ray: its history rarely has to grow
+constexpr std::uint64_t kTurnsFrom = 100'000;  // numbers of turns follow those of facets
+constexpr int kMaxSteps = 200'000;             // crossings of layers: a guard, never met
 
 }  // namespace
 
@@ -111,6 +113,7 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
   s.sine = -s.sine;
   s.orientation = -s.orientation;
   ray.events.push_back({RayEvent::kSurface, 0});
+  ray.family = continued_family(ray.family, 0);
   ++ray.surface_bounces;
   if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
   const double lost_db = surface_loss_.db_at_sine(std::min(sine, 1.0));
@@ -152,6 +155,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   s.images += s.orientation;
   s.orientation = -s.orientation;
   ray.events.push_back({RayEvent::kBottom, facet.smooth_group});
+  ray.family = continued_family(ray.family, 1 + facet.smooth_group);
   ++ray.bottom_bounces;
   if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
   if (details == nullptr) {
@@ -182,6 +186,7 @@ ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   ray.theta = theta;
   ray.arrived = false;
   ray.factor = 1;
+  ray.family = 0;
   ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
   ray.events.clear();
   ray.events.reserve(kUsualEvents);
@@ -193,8 +198,9 @@ ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   return s;
 }
 
-void ArcTracer::note_turn(bool lower, TracedRay& ray) {
+void ArcTracer::note_turn(bool lower, std::size_t layer, TracedRay& ray) {
   ray.events.push_back({lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
+  ray.family = continued_family(ray.family, kTurnsFrom + layer);
   ++(lower ? ray.lower_turns : ray.upper_turns);
 }
 
@@ -202,7 +208,7 @@ void ArcTracer::go_part(State& s, double dr, TracedRay& ray, TracedDetails* deta
   // ds/dr = -xi g; z2 - z1 = dr (s1 + s2) / (xi (c1 + c2)), c = cos / xi.
   const double sine = s.sine - s.xi * sea_.water.gradients_per_s()[s.layer] * dr;
   const double c = std::sqrt(std::max(1 - sine * sine, 0.0)) * s.per_xi;
-  if (s.sine * sine < 0) note_turn(s.sine > 0, ray);
+  if (s.sine * sine < 0) note_turn(s.sine > 0, s.layer, ray);
   go(s, dr, s.z + dr * (s.sine + sine) / (s.xi * (s.c + c)), sine, ray, details);
   s.c = c;
 }
@@ -217,7 +223,7 @@ bool ArcTracer::go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, Traced
 }
 
 bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const {
-  if (step.turns) note_turn(step.down, ray);
+  if (step.turns) note_turn(step.down, s.layer, ray);
   go(s, step.dr, step.z, step.sine, ray, details);
   while (sea_.profile.facets()[s.facet].r1 < s.r) ++s.facet;
   if (step.turns) return true;

@@ -39,6 +39,7 @@ struct ProfiledSea {
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
+  double core_speed_mps = 0;  // rays that nowhere go faster are left out: acoustics/rays/channel_core.h
 };
 
 // What happened to a ray, in order; what makes two rays members of one smooth family.
@@ -58,6 +59,7 @@ struct TracedRay {
   double q = 0, p = 0;             // of the ray tube
   double factor = 1;               // of pressure, by the bounces
   int surface_bounces = 0, bottom_bounces = 0, upper_turns = 0, lower_turns = 0, caustics = 0;
+  std::uint64_t family = 0;  // rays of the same events that turned in the same layers share it: folds.h
   std::vector<EventCode> events;
 };
 
@@ -97,7 +99,7 @@ class ArcTracer {
   State start(double theta, TracedRay& ray) const;
   void go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const;
   void add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const;
-  static void note_turn(bool lower, TracedRay& ray);
+  static void note_turn(bool lower, std::size_t layer, TracedRay& ray);
   // To a point within a step, to the bottom, to the end of a step; false when the ray is given up there.
   void go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const;
   bool go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const;

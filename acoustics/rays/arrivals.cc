@@ -98,6 +98,25 @@ std::string_view to_name(RaySolver solver) {
   return "";
 }
 
+std::string_view to_name(PathLack lack) {
+  switch (lack) {
+    case PathLack::kShadow:
+      return "shadow";
+    case PathLack::kTooWeak:
+      return "too weak";
+    case PathLack::kTooSteep:
+      return "too steep";
+  }
+  return "";
+}
+
+RayLink held_apart(RayLink link) {
+  const double down = link.receiver_depth_m - link.source_depth_m;
+  const double least = std::sqrt(std::max(kMinDistance * kMinDistance - down * down, 0.0));
+  link.range_m = std::max(link.range_m, least);
+  return link;
+}
+
 void validate(const RayOptions& options) {
   require_in_range(options.frequency_hz, 10, 1e6, "ray frequency", "Hz");
   require_in_range(options.max_launch_angle_rad, 1e-6, pi / 2, "greatest launch angle", "rad");

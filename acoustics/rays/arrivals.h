@@ -54,14 +54,26 @@ enum class RaySolver { kImages, kSnell, kArcs };
 // "images", "snell", "arcs".
 std::string_view to_name(RaySolver solver);
 
+// Why a link has no path.
+enum class PathLack {
+  kShadow,    // no ray arrives at all: the water bends every one away, or the bottom stands in every way
+  kTooWeak,   // rays arrive; their bounces, or RayOptions::min_amplitude, leave none of them
+  kTooSteep,  // rays arrive, all launched more steeply than RayOptions::max_launch_angle_rad
+};
+
+// "shadow", "too weak", "too steep".
+std::string_view to_name(PathLack lack);
+
 // All paths of one link in the order of their delays.
 struct Arrivals {
   RaySolver solver = RaySolver::kImages;  // the one that found them
   std::vector<Arrival> paths;
+  PathLack lack = PathLack::kShadow;  // holds when there is no path
 
-  // No ray at all: the receiver lies in a shadow zone. Diffraction and scattering, which ray theory leaves out, still
-  // bring some sound there; FieldOptions::floor stands for it.
-  bool shadow() const { return paths.empty(); }
+  bool silent() const { return paths.empty(); }
+  // The receiver lies in a shadow zone. Diffraction and scattering, which ray theory leaves out, still bring some sound
+  // there; FieldOptions::floor stands for it.
+  bool shadow() const { return silent() && lack == PathLack::kShadow; }
 };
 
 // Limits of the search. The defaults keep what can matter to a modem.
@@ -70,10 +82,12 @@ struct RayOptions {
   // Paths are kept when launched within this of the horizontal, (0, pi/2].
   double max_launch_angle_rad = to_radians(80);
   // Also the path that meets neither surface nor bottom however steep it is: a vehicle right above another.
-  bool keep_steep_direct = false;
-  int max_bounces = 400;               // surface and bottom together, 0..10 000
-  double min_boundary_factor = 0.005;  // paths whose bounces leave less of the pressure are dropped, [0, 1)
-  double min_amplitude = 0;            // paths of less amplitude are dropped, >= 0; 1e-6 is -120 dB
+  bool keep_steep_direct = true;
+  int max_bounces = 400;  // surface and bottom together, 0..10 000
+  // Paths are dropped whose bounces leave less than this of what those of the strongest path leave, [0, 1). The
+  // strongest is kept whatever it loses; while it loses less than 6 dB, paths are compared with one that does not bounce.
+  double min_boundary_factor = 0.005;
+  double min_amplitude = 0;  // paths of less amplitude are dropped, >= 0; 1e-6 is -120 dB
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
@@ -83,6 +97,12 @@ void validate(const RayOptions& options);
 struct RayLink {
   double source_depth_m = 0, receiver_depth_m = 0, range_m = 0;
 };
+
+// Ends nearer to each other than this count as this far apart, m: where a source level is defined. Delay, level and
+// angles are those of a link of 1 m.
+inline constexpr double kMinDistance = 1;
+// The same link with its range so great that the ends are that far apart.
+RayLink held_apart(RayLink link);
 
 // Last touches common to the solvers: drops what the options exclude, merges folds (paths alike, launched
 // within 0.02 degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the

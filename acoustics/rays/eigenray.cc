@@ -1,9 +1,12 @@
 #include "acoustics/rays/eigenray.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/channel_core.h"
 #include "acoustics/rays/image_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"
@@ -12,34 +15,173 @@
 namespace halocline::acoustics {
 namespace {
 
-FlatSea flat_sea(const RaySea& sea, const RayLink& link) {
-  return {sea.water, sea.bottom_profile.depth_at(link.range_m), sea.bottom, sea.surface, sea.options};
+constexpr double kNoLessDb = 250;                 // of bounces: what is left of a path then counts nowhere
+constexpr double kWidening = 3;                   // of the loss searched, while no path is found
+constexpr double kStrongestMayLoseDb = 6;         // before losses are compared with its own
+constexpr double kLoudestFocus = 10;              // of a path's amplitude over that of spherical spreading
+constexpr int kBouncesThatTell = 40;              // of rays that are searched only to know why none is kept
+const double kNearlyVertical = to_radians(89.5);  // rays over a profile stop at 89.9 degrees
+
+double factor_of(double loss_db) { return std::pow(10.0, -loss_db / 20); }
+double bounce_loss_db(const Arrival& path) { return path.surface_loss_db + path.bottom_loss_db; }
+
+// By received pressure, which is at most the amplitude.
+const Arrival& strongest(const std::vector<Arrival>& paths) {
+  const Arrival* best = &paths.front();
+  double most = best->received_pressure();
+  for (const Arrival& path : paths) {
+    if (path.amplitude <= most) continue;
+    const double pressure = path.received_pressure();
+    if (pressure <= most) continue;
+    best = &path;
+    most = pressure;
+  }
+  return *best;
 }
 
-ProfiledSea profiled_sea(const RaySea& sea) {
-  return {sea.water, sea.bottom_profile, sea.bottom, sea.surface, sea.options};
-}
+// One search: what depends on the options alone beside the sea and the link.
+class LinkSearch {
+ public:
+  LinkSearch(const RaySea& sea, const RayLink& link, RaySolver solver)
+      : sea_(sea),
+        link_(link),
+        solver_(solver),
+        core_(solver == RaySolver::kImages ? std::nullopt
+                                           : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
+                                                          sea.options.frequency_hz)) {}
 
-std::vector<Arrival> search(const RaySea& sea, const RayLink& link, RaySolver solver) {
-  switch (solver) {
+  // Within the limits, those on the bounces' loss relative to the strongest path.
+  std::vector<Arrival> paths() const;
+  // Why there are none.
+  PathLack lack() const;
+
+ private:
+  std::vector<Arrival> paths_with(const RayOptions& options) const;
+  std::vector<Arrival> solved(const RayOptions& options) const;
+  void add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const;
+  void add_axial(std::vector<Arrival>& paths) const;
+  double core_speed() const { return core_ ? core_->greatest_speed_mps : 0; }
+  FlatSea flat_sea(const RayOptions& options, double bottom_m) const {
+    return {sea_.water, bottom_m, sea_.bottom, sea_.surface, options, core_speed()};
+  }
+  RayOptions with_bounce_loss(double loss_db) const;
+  double most_bounce_loss_db() const;
+
+  const RaySea& sea_;
+  RayLink link_;
+  RaySolver solver_;
+  std::optional<ChannelCore> core_;
+};
+
+std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
+  switch (solver_) {
     case RaySolver::kImages:
-      return image_rays(flat_sea(sea, link), link);
+      return image_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
     case RaySolver::kSnell:
-      return layered_rays(flat_sea(sea, link), link);
+      return layered_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
     case RaySolver::kArcs:
-      return profile_rays(profiled_sea(sea), link);
+      return profile_rays({sea_.water, sea_.bottom_profile, sea_.bottom, sea_.surface, options, core_speed()},
+                          link_);
   }
   return {};
 }
 
-// The solvers find paths that do not bounce at every angle.
-std::vector<Arrival> within_launch_limit(std::vector<Arrival> paths, const RayOptions& options) {
-  if (!options.keep_steep_direct) {
-    std::erase_if(paths, [limit = options.max_launch_angle_rad](const Arrival& path) {
-      return std::abs(path.launch_angle_rad) > limit;
-    });
-  }
+// Rays over a profile are not followed where they all but stand: there the direct one is that of a flat sea.
+void LinkSearch::add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const {
+  const double down = std::abs(link_.receiver_depth_m - link_.source_depth_m);
+  if (solver_ != RaySolver::kArcs || std::atan2(down, link_.range_m) < kNearlyVertical) return;
+  RayOptions direct = options;
+  direct.max_bounces = 0;
+  std::erase_if(paths, [](const Arrival& path) { return path.surface_bounces + path.bottom_bounces == 0; });
+  const double bottom =
+      std::max(sea_.bottom_profile.depth_at(0), sea_.bottom_profile.depth_at(link_.range_m));
+  const std::vector<Arrival> vertical = layered_rays(flat_sea(direct, bottom), link_);
+  paths.insert(paths.end(), vertical.begin(), vertical.end());
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+}
+
+// In place of all rays within the core of a channel, unless a direct one runs outside of it.
+void LinkSearch::add_axial(std::vector<Arrival>& paths) const {
+  std::erase_if(paths, [&](const Arrival& path) { return runs_within(*core_, path); });
+  const bool is_direct = std::any_of(paths.begin(), paths.end(), [](const Arrival& path) {
+    return path.surface_bounces + path.bottom_bounces + path.identity.upper_turns +
+               path.identity.lower_turns ==
+           0;
+  });
+  if (is_direct) return;
+  const Arrival axial = axial_ray(sea_.water, *core_, link_);
+  const auto later = std::find_if(paths.begin(), paths.end(),
+                                  [&](const Arrival& path) { return path.delay_s > axial.delay_s; });
+  paths.insert(later, axial);
+}
+
+std::vector<Arrival> LinkSearch::paths_with(const RayOptions& options) const {
+  std::vector<Arrival> paths = solved(options);
+  add_vertical(options, paths);
+  if (core_) add_axial(paths);
+  if (options.keep_steep_direct) return paths;
+  // The solvers find paths that do not bounce at every angle.
+  std::erase_if(paths, [limit = options.max_launch_angle_rad](const Arrival& path) {
+    return std::abs(path.launch_angle_rad) > limit;
+  });
   return paths;
+}
+
+RayOptions LinkSearch::with_bounce_loss(double loss_db) const {
+  RayOptions options = sea_.options;
+  options.min_boundary_factor = factor_of(loss_db);
+  return options;
+}
+
+// Of a path that the least amplitude leaves.
+double LinkSearch::most_bounce_loss_db() const {
+  if (sea_.options.min_amplitude <= 0) return kNoLessDb;
+  const double spherical = kLoudestFocus / std::max(link_.range_m, kMinDistance);
+  return std::min(20 * std::log10(spherical / sea_.options.min_amplitude), kNoLessDb);
+}
+
+std::vector<Arrival> LinkSearch::paths() const {
+  std::vector<Arrival> paths = paths_with(sea_.options);
+  if (!(sea_.options.min_boundary_factor > 0)) return paths;
+  const double limit_db = -20 * std::log10(sea_.options.min_boundary_factor), most_db = most_bounce_loss_db();
+  double searched_db = limit_db;
+  while (paths.empty() && searched_db < most_db) {
+    searched_db = std::min(kWidening * searched_db, most_db);
+    paths = paths_with(with_bounce_loss(searched_db));
+  }
+  if (paths.empty()) return paths;
+  const double wanted_db = limit_db + bounce_loss_db(strongest(paths));
+  if (wanted_db > searched_db + kStrongestMayLoseDb) return paths_with(with_bounce_loss(wanted_db));
+  if (searched_db > limit_db)
+    std::erase_if(paths, [wanted_db](const Arrival& path) { return bounce_loss_db(path) > wanted_db; });
+  return paths;
+}
+
+PathLack LinkSearch::lack() const {
+  RayOptions all = sea_.options;
+  all.max_launch_angle_rad = std::numbers::pi / 2;
+  all.keep_steep_direct = true;
+  all.min_boundary_factor = factor_of(kNoLessDb);
+  all.min_amplitude = 0;
+  all.max_bounces = std::min(all.max_bounces, kBouncesThatTell);
+  const std::vector<Arrival> rays = paths_with(all);
+  if (rays.empty()) return PathLack::kShadow;
+  const bool some_too_steep = std::any_of(rays.begin(), rays.end(), [&](const Arrival& ray) {
+    return std::abs(ray.launch_angle_rad) > sea_.options.max_launch_angle_rad &&
+           ray.amplitude > sea_.options.min_amplitude;
+  });
+  return some_too_steep ? PathLack::kTooSteep : PathLack::kTooWeak;
+}
+
+// The link with its ends 1 m apart or more. What the bottom does within that metre is left out.
+RayLink held_apart_over(const BottomProfile& bottom, const RayLink& link) {
+  require_in_range(link.range_m, 0, 1e7, "range", "m");
+  RayLink held = held_apart(link);
+  if (held.range_m == link.range_m) return link;
+  require_in_range(link.receiver_depth_m, 0, bottom.depth_at(link.range_m), "depth of the receiver", "m");
+  held.receiver_depth_m = std::min(link.receiver_depth_m, bottom.depth_at(held.range_m));
+  return held;
 }
 
 }  // namespace
@@ -51,7 +193,8 @@ RayWater ray_water(const Environment& environment, double frequency_hz, double t
   };
   RayWater water = RayWater::from_profile(environment.profile, absorption);
   if (thinning_tolerance_mps <= 0) return water;
-  return RayWater(thinned(knots_of(water), thinning_tolerance_mps), absorption);
+  const std::vector<SpeedRow> few = thinned(knots_of(water), thinning_tolerance_mps);
+  return RayWater(rounded_channels(few, thinning_tolerance_mps), absorption);
 }
 
 RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
@@ -63,8 +206,12 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver) {
   require(!solver || *solver == RaySolver::kArcs || sea.bottom_profile.is_flat_until(link.range_m),
           "the ray solvers 'images' and 'snell' need a flat bottom");
-  const RaySolver chosen = solver.value_or(choose_solver(sea, link));
-  return {chosen, within_launch_limit(search(sea, link, chosen), sea.options)};
+  const RayLink held = held_apart_over(sea.bottom_profile, link);
+  const RaySolver chosen = solver.value_or(choose_solver(sea, held));
+  const LinkSearch search(sea, held, chosen);
+  Arrivals found{chosen, search.paths()};
+  if (found.silent()) found.lack = search.lack();
+  return found;
 }
 
 }  // namespace halocline::acoustics

@@ -43,9 +43,10 @@ RayWater ray_water(const Environment& environment, double frequency_hz, double t
 // The simplest solver that is exact for this link.
 RaySolver choose_solver(const RaySea& sea, const RayLink& link);
 
-// All paths; none in a shadow zone, which is no error. Depths of the link have to lie between surface and bottom,
-// each at its range (InvalidArgument otherwise), and the solver named has to be able to do it: images and Snell
-// refuse what they would get wrong.
+// All paths; none in a shadow zone, which is no error. Where no path is strong enough for the limits on bounces, they
+// are widened until there is one, to 250 dB of loss; why there is none in the end is found by one more search. Depths of
+// the link have to lie between surface and bottom, each at its range (InvalidArgument otherwise), and the solver named
+// has to be able to do it: images and Snell refuse what they would get wrong. Ends nearer than 1 m are held apart.
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver = std::nullopt);
 
 }  // namespace halocline::acoustics

@@ -83,18 +83,6 @@ double LayeredLegs::sine_at(double speed_mps, double sine) const {
   return SineAt{barrier_, inverse_barrier_squared_, sine * sine}(speed_mps);
 }
 
-double LayeredLegs::height_of_swing_m(double xi) const {
-  double height = 0;
-  const auto add = [&](const std::vector<LegLayer>& layers, std::size_t reach) {
-    for (std::size_t i = 0; i < reach; ++i) height += layers[i].height_m;
-    if (reach < layers.size()) height += (1 / xi - layers[reach].c1) / layers[reach].gradient;
-  };
-  add(up_, up_reach_);
-  add(between_, between_.size());
-  add(down_, down_reach_);
-  return height;
-}
-
 void LayeredLegs::add_sums(const std::vector<LegLayer>& layers, std::size_t reach, double squared_sine,
                            Leg leg, LegSums& sums, double& end_sine) const {
   if (layers.empty()) return;

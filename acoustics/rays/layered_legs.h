@@ -56,8 +56,6 @@ class LayeredLegs {
   LegDetails details(double sine, double cosine) const;
   // Sine of the angle at a speed that the ray reaches.
   double sine_at(double speed_mps, double sine) const;
-  // Distance between the turning depths of a ray that turns on both sides, m.
-  double height_of_swing_m(double xi) const;
 
  private:
   // One layer, or the piece of one, in the direction away from the start of its leg.

@@ -17,6 +17,8 @@ using std::numbers::pi;
 // a direction before and after: 1e-9 s of delay.
 constexpr double kOffBoundary = 1e-6;  // m
 
+constexpr double kMinRangeSlope = 1;  // m^2/s, of |dr/dxi|: a ray on a caustic to rounding
+
 struct Bounces {
   int surface, bottom, upper_turns, lower_turns;
 };
@@ -81,7 +83,7 @@ void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const Layer
   const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
   const double sines =
       legs.sine_at(link.source_speed_mps, ray.sine) * legs.sine_at(link.receiver_speed_mps, ray.sine);
-  const double tube = q * std::max(std::abs(m), ray.min_slope) * sines;
+  const double tube = q * std::max(std::abs(m), kMinRangeSlope) * sines;
   path.amplitude *= std::sqrt(link.source_speed_mps * link.receiver_speed_mps / tube);
   path.caustics = caustics_of(bounces, m);
   path.phase_rad = std::fmod(path.phase_rad + path.caustics * pi / 2, 2 * pi);

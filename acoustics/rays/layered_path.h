@@ -53,7 +53,6 @@ struct LayeredRay {
   Family family;
   int cycles;
   double sine, cosine;
-  double min_slope = 0;  // of |dr/dxi|, near a fold; 0 elsewhere
 };
 
 // Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays err

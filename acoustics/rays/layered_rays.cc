@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "acoustics/math/hermite_cubic.h"
+#include "acoustics/rays/folds.h"
 #include "acoustics/rays/layered_legs.h"
 #include "acoustics/rays/layered_path.h"
 #include "core/check.h"
@@ -15,7 +17,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNoFold = -1;            // no angle
 constexpr double kMinAngle = 1e-9;        // rad at the barrier: where tables begin
 constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
 constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
@@ -39,16 +40,12 @@ struct Bracket {
   double from, to;  // theta
   bool rising;
   double guess;
-  double fold_theta;      // of a turn of f at one end, or kNoFold
-  double mean_curvature;  // of r between the ends, d2r/dxi2
 };
 
 class Search {
  public:
   Search(const FlatSea& sea, const RayLink& link)
-      : link_(sea, link),
-        legs_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m),
-        omega_(2 * pi * sea.options.frequency_hz) {}
+      : link_(sea, link), legs_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m) {}
 
   std::vector<Arrival> run() {
     paths_.reserve(kUsualPaths);
@@ -56,6 +53,7 @@ class Search {
     do {
       scan_interval();
     } while (!past_steepest_ && legs_.advance());
+    bound_folds(ray_families_, link_.sea.options.frequency_hz, paths_);
     finish(paths_, link_.sea.options);
     return std::move(paths_);
   }
@@ -71,34 +69,22 @@ class Search {
   bool is_clear(const Node& a, const Node& b) const;
   void solve_cell(const Node& a, const Node& b);
   void solve_family(const Node& a, const Node& b, std::size_t family);
-  // Rays between two nodes between which f is monotone; `fold_theta` is the angle of a turn of f at one of
-  // them, or kNoFold.
-  void solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta);
+  // Rays between two nodes between which f is monotone.
+  void solve_monotone(const Node& a, const Node& b, std::size_t family);
   void polish(const Bracket& bracket, std::size_t family, int cycles);
   bool too_faint(const Node& a, const Node& b, std::size_t family, double min_f) const;
-  bool seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const;
-  double fold_slope(const Bracket& bracket, double range_slope, double xi) const;
+  void seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const;
 
   LayeredLink link_;
   LayeredLegs legs_;
-  double omega_;
   std::vector<Arrival> paths_;
+  std::vector<std::uint64_t> ray_families_;  // of the paths, as bound_folds() has them
+  int interval_ = 0;                         // between barriers
   bool direct_only_ = false, past_steepest_ = false;
 };
 
 HermiteCubic cubic_of(const Node& a, const Node& b, std::size_t family) {
   return {a.f[family], a.slope[family], b.f[family], b.slope[family], b.theta - a.theta};
-}
-
-// dr/dxi of n cycles.
-double range_slope(const Node& node, std::size_t family, int cycles) {
-  const RangeTerms terms = range_terms(node.sums, kFamilies[family]);
-  return terms.bm + cycles * terms.xm;
-}
-
-double mean_curvature(const Node& a, const Node& b, std::size_t family, int cycles) {
-  return std::abs((range_slope(b, family, cycles) - range_slope(a, family, cycles)) /
-                  (b.sums.xi - a.sums.xi));
 }
 
 void Search::add_horizontal() {
@@ -116,6 +102,7 @@ void Search::add_horizontal() {
   path.path_length_m = link_.range_m;
   path.absorption_db = link_.range_m * water.absorption_db_per_m(z);
   paths_.push_back(path);
+  ray_families_.push_back(0);
 }
 
 double Search::theta_reaching(double c) const {
@@ -130,10 +117,13 @@ void Search::scan_interval() {
   const double steepest = cosine > 1e-12
                               ? theta_reaching(std::max(link_.source_speed_mps / cosine, legs_.barrier_mps()))
                               : pi / 2;
+  ++interval_;
   double to = next > 0 ? theta_reaching(next) : pi / 2;
   past_steepest_ = next <= 0;
   const double limit = direct_only_ ? kMinAngle : std::min(to, steepest);
-  if (limit > kMinAngle) refine(node_at(kMinAngle), node_at(limit), 0);
+  const double core = link_.sea.core_speed_mps;
+  const double from = core > legs_.barrier_mps() ? theta_reaching(core) : kMinAngle;
+  if (limit > from) refine(node_at(from), node_at(limit), 0);
   if (limit >= to) return;
   direct_only_ = true;
   refine(node_at(std::max(limit, kMinAngle)), node_at(to), 0);
@@ -205,27 +195,23 @@ void Search::solve_cell(const Node& a, const Node& b) {
 void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
   const HermiteCubic cubic = cubic_of(a, b, family);
   Node from = a;
-  double fold_theta = kNoFold;
   for (const double t : cubic.turns()) {
     const double expected = cubic(t);
     Node turn = node_at(a.theta + t * (b.theta - a.theta));
     if (turn.theta <= from.theta) continue;
-    const bool fold =
-        std::abs(expected - std::round(expected)) < kNearFold && seek_turn(from, b, family, turn);
-    const double at = fold ? turn.theta : kNoFold;
-    solve_monotone(from, turn, family, at);
-    fold_theta = at;
+    if (std::abs(expected - std::round(expected)) < kNearFold) seek_turn(from, b, family, turn);
+    solve_monotone(from, turn, family);
     from = turn;
   }
-  solve_monotone(from, b, family, fold_theta);
+  solve_monotone(from, b, family);
 }
 
-// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by bisection that follows the secant;
-// false when there is no such place.
-bool Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const {
+// Moves `turn`, a guess between two nodes, to where the slope of f is 0, by bisection that follows the secant; leaves
+// it where there is no such place.
+void Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const {
   const auto rises = [family](const Node& node) { return node.slope[family] > 0; };
   const bool before = rises(a) != rises(turn);
-  if (!before && rises(turn) == rises(b)) return false;
+  if (!before && rises(turn) == rises(b)) return;
   Node low = before ? a : turn, high = before ? turn : b;
   for (int i = 0; i < 40; ++i) {
     const double share = low.slope[family] / (low.slope[family] - high.slope[family]);
@@ -234,10 +220,9 @@ bool Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& t
     if (std::abs(turn.slope[family]) * (high.theta - low.theta) < 1e-12) break;
     (rises(turn) == rises(low) ? low : high) = turn;
   }
-  return true;
 }
 
-void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, double fold_theta) {
+void Search::solve_monotone(const Node& a, const Node& b, std::size_t family) {
   const double low = std::min(a.f[family], b.f[family]), high = std::max(a.f[family], b.f[family]);
   if (!(high >= 0)) return;
   const int most = direct_only_ ? 0 : link_.sea.options.max_bounces;
@@ -248,9 +233,7 @@ void Search::solve_monotone(const Node& a, const Node& b, std::size_t family, do
   const HermiteCubic cubic = cubic_of(a, b, family);
   for (int n = first; n <= last; ++n) {
     const double t = cubic.crossing(n);
-    const double bend = fold_theta == kNoFold ? 0 : mean_curvature(a, b, family, n);
-    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta), fold_theta, bend},
-           family, n);
+    polish({a.theta, b.theta, b.f[family] > a.f[family], a.theta + t * (b.theta - a.theta)}, family, n);
   }
 }
 
@@ -275,23 +258,11 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     theta = next > low && next < high ? next : 0.5 * (low + high);
     if (high - low < 1e-15 * high) break;
   }
-  ray.min_slope = fold_slope(bracket, t.bm + cycles * t.xm, sums.xi);
-  const bool trapped = cycles > 0 && !legs_.meets_surface() && !legs_.meets_bottom();
-  const double wavelength = 2 * pi * legs_.barrier_mps() / omega_;
-  if (trapped && legs_.height_of_swing_m(sums.xi) < wavelength) return;
   append_arrival(link_, legs_, ray, sums, paths_);
-}
-
-// Least |dr/dxi| beside a fold, 0.555 omega^(-1/3) (|r''| / 2)^(2/3): where the amplitude of ray theory meets the peak
-// of the Airy function, Ai'(-1.0188) = 0, shared between the two rays.
-// A turn of f beside a ray need not be a fold of its r = b + n X: near a barrier X' is so large that f may turn
-// where r does not. There |r'| / off is far above the mean curvature of the cell.
-double Search::fold_slope(const Bracket& bracket, double range_slope, double xi) const {
-  if (bracket.fold_theta == kNoFold) return 0;
-  const double off_fold = xi - std::cos(bracket.fold_theta) / legs_.barrier_mps();
-  if (off_fold == 0) return 0;
-  const double curvature = std::min(std::abs(range_slope / off_fold), 2 * bracket.mean_curvature);
-  return 0.555 * std::cbrt(curvature * curvature / (4 * omega_));
+  if (ray_families_.size() == paths_.size()) return;  // excluded
+  ray_families_.push_back(
+      continued_family(continued_family(continued_family(0, family), static_cast<std::uint64_t>(cycles)),
+                       static_cast<std::uint64_t>(interval_)));
 }
 
 }  // namespace

@@ -8,12 +8,10 @@
 // of what is left of the range. Amplitude from dr/dxi in closed form,
 //   A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r),
 // which is the same with the ends swapped. A ray of m turns in the water has touched m - 1 caustics, and one
-// more when dr/dxi > 0. At a fold |dr/dxi| is kept above 0.555 omega^(-1/3) (|d2r/dxi2| / 2)^(2/3): the peak
-// of the Airy function (shared between the two rays), so that levels there go with the wavelength and stay
-// finite.
+// more when dr/dxi > 0. At a fold levels are those of acoustics/rays/folds.h; a family ends at each barrier.
 //
 // Accuracy: exact for the knots given (delays to 1e-9 s). Left out: diffraction into shadows, beam
-// displacement at the bottom, rays trapped within less than a wavelength of a speed minimum.
+// displacement at the bottom, rays within the core of a channel.
 #pragma once
 
 #include <vector>
@@ -32,6 +30,7 @@ struct FlatSea {
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
+  double core_speed_mps = 0;  // rays that nowhere go faster are left out: acoustics/rays/channel_core.h
 };
 
 // All rays of `link`, whose depths are within 0..bottom_depth_m (at a boundary: a micrometre off it).

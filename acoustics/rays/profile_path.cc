@@ -14,24 +14,12 @@ using std::numbers::pi;
 constexpr double kFarOff = 1e-2;         // m of unfolded depth: a ray further off did not converge
 constexpr double kBesideGrazing = 1e-9;  // rad
 
-// The phase between the two rays of a fold below which their amplitude stays that of the Airy function's peak
-// (see acoustics/rays/layered_rays.h: omega |r'|^3 / r''^2 = 0.555^3 / 4).
-constexpr double kPeakPhase = 2.0 / 3 * 0.555 * 0.555 * 0.555 / 4;
-
-// Least |q| of a ray `theta` beside a fold: off it by `off`, zeta = zeta_e + zeta'' off^2 / 2, the two rays differ in
-// time by (2/3) p cos zeta'' off^3.
-double min_tube(const TracedRay& ray, double theta, const Fold& fold, double frequency_hz) {
-  if (fold.none() || theta == fold.theta) return 0;
-  const double cosine = std::sqrt(1 - ray.sine * ray.sine);
-  const double bend = std::min(std::abs(ray.q / (cosine * (theta - fold.theta))), 2 * fold.bend);
-  const double omega = 2 * pi * frequency_hz;
-  return cosine * bend * std::cbrt(kPeakPhase * 1.5 / (omega * std::abs(ray.p) * cosine * bend));
-}
+constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic to rounding
 
 }  // namespace
 
-void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& fold, double target,
-                            std::vector<Arrival>& paths) {
+void append_profile_arrival(const ArcTracer& tracer, double theta, double target, std::vector<Arrival>& paths,
+                            std::vector<std::uint64_t>& families) {
   TracedRay ray;
   TracedDetails details;
   tracer.trace(theta, ray, &details);
@@ -40,7 +28,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
   if (ray.surface_bounces + ray.bottom_bounces > options.max_bounces) return;
   if (std::abs(ray.zeta - target) > kFarOff) return;
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
-  const double tube = std::max(std::abs(ray.q), min_tube(ray, theta, fold, options.frequency_hz));
+  const double tube = std::max(std::abs(ray.q), kMinTube);
   const double speed = std::sqrt(1 - ray.sine * ray.sine) / ray.xi;
   Arrival path;
   // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.
@@ -65,6 +53,7 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& f
   path.caustics = ray.caustics;
   path.identity = {theta < 0, ray.surface_bounces, ray.bottom_bounces, ray.upper_turns, ray.lower_turns, 0};
   paths.push_back(path);
+  families.push_back(ray.family);
 }
 
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {

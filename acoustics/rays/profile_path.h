@@ -3,6 +3,7 @@
 // Equations: acoustics/rays/profile_rays.h.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
@@ -10,18 +11,10 @@
 
 namespace halocline::acoustics {
 
-// A turn of zeta beside a ray: the launch angle there, rad, and |d2zeta/dtheta2|, the mean from there to the
-// next ray beyond. None by default.
-struct Fold {
-  double theta = 10;  // no launch angle
-  double bend = 0;
-  bool none() const { return bend == 0; }
-};
-
 // Traces the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of
-// unfolded depth, and appends its arrival unless the options exclude it.
-void append_profile_arrival(const ArcTracer& tracer, double theta, const Fold& fold, double target,
-                            std::vector<Arrival>& paths);
+// unfolded depth, and appends its arrival and its family (acoustics/rays/folds.h) unless the options exclude it.
+void append_profile_arrival(const ArcTracer& tracer, double theta, double target, std::vector<Arrival>& paths,
+                            std::vector<std::uint64_t>& families);
 
 // Launch angles above -steepest and up to `steepest`, rising, rad: close near the horizontal, where rays are
 // many and far apart in range; and just on both sides of the angles at which rays graze a knot of the water

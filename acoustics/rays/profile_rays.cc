@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/fan_tracer.h"
+#include "acoustics/rays/folds.h"
 #include "acoustics/rays/profile_path.h"
 
 namespace halocline::acoustics {
@@ -19,7 +21,8 @@ constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounc
 constexpr double kMinParting = 1e-11;          // rad: between the rays on both sides of a parting
 constexpr double kNextToEachOther = 4e-9;      // rad: the two rays of a fan beside one that grazes a knot
 constexpr int kDeepestHalving = 14;
-constexpr int kDeepestEdgeHalving = 7;    // towards where rays become too faint
+constexpr int kDeepestEdgeHalving = 10;   // towards where rays become too faint or turn back
+constexpr int kDeepestWindowHalving = 5;  // between rays that do not arrive
 constexpr double kFinestGraze = 1e-7;     // rad: nearest to the ray that grazes
 constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
 constexpr double kCubicTolerance = 0.02;  // of the water depth
@@ -38,8 +41,9 @@ class Search {
   explicit Search(const ArcTracer& tracer)
       : tracer_(tracer), fan_(tracer), depth_(tracer.bottom_at_receiver_m()) {}
 
-  // Rays launched between the first and the last of `angles`, as they are found.
-  std::vector<Arrival> run(const std::vector<double>& angles);
+  // Rays launched between the first and the last of `angles`, as they are found; none within `core_edge` of the
+  // horizontal, which is one of the angles, as is its opposite.
+  std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
 
  private:
   FanRay traced(double theta);
@@ -54,10 +58,10 @@ class Search {
   // less they bounce: they are looked at in steps that shrink towards the edge.
   void scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, int depth);
   void solve(const FanRay& a, const FanRay& b);
-  // Rays between two between which zeta is monotone; `fold` is one of them or none.
-  void solve_monotone(const FanRay& a, const FanRay& b, const Fold& fold);
-  void polish(const FanRay& a, const FanRay& b, double target, const Fold& fold);
-  bool seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
+  // Rays between two between which zeta is monotone.
+  void solve_monotone(const FanRay& a, const FanRay& b);
+  void polish(const FanRay& a, const FanRay& b, double target);
+  void seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
   double off_nearest_image(double zeta) const;
   bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const;
 
@@ -66,6 +70,7 @@ class Search {
   double depth_;
   int traces_ = 0;
   std::vector<Arrival> paths_;
+  std::vector<std::uint64_t> families_;  // of the paths
 };
 
 HermiteCubic cubic_of(const FanRay& a, const FanRay& b) {
@@ -76,8 +81,6 @@ HermiteCubic cubic_of(const FanRay& a, const FanRay& b) {
 double bend_between(const FanRay& a, const FanRay& b) {
   return std::abs((b.zeta_slope - a.zeta_slope) / (b.theta - a.theta));
 }
-
-Fold fold_between(const FanRay& turn, const FanRay& other) { return {turn.theta, bend_between(turn, other)}; }
 
 // The first event at which two rays differ; empty when one history begins with the other.
 std::optional<std::size_t> Search::parting(const FanRay& a, const FanRay& b) const {
@@ -104,7 +107,7 @@ FanRay Search::traced(double theta) {
   return fan_.trace(theta);
 }
 
-std::vector<Arrival> Search::run(const std::vector<double>& angles) {
+std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_edge) {
   std::vector<FanRay> fan;
   fan.reserve(angles.size());
   for (const double theta : angles) fan.push_back(traced(theta));
@@ -114,12 +117,14 @@ std::vector<Arrival> Search::run(const std::vector<double>& angles) {
                         is_predicted(fan[i - 1], fan[i], fan[i + 1], kShareBeforehand));
   }
   for (std::size_t i = 1; i < fan.size(); ++i) {
+    if (fan[i - 1].theta < 0 && fan[i].theta > 0 && fan[i].theta <= core_edge) continue;
     if (predicted[i - 1] && predicted[i]) {
       solve(fan[i - 1], fan[i]);
     } else {
       scan(fan[i - 1], fan[i], 0);
     }
   }
+  bound_folds(families_, tracer_.sea().options.frequency_hz, paths_);
   return std::move(paths_);
 }
 
@@ -138,17 +143,24 @@ void Search::scan(const FanRay& a, const FanRay& b, int depth) {
 }
 
 void Search::look_between(const FanRay& a, const FanRay& b, int depth) {
-  if (!a.arrived && !b.arrived) return;
   if (b.theta - a.theta < 4 * kMinParting || traces_ > kMaxTraces) return;
+  const bool both = a.arrived && b.arrived, neither = !a.arrived && !b.arrived;
   const auto event = parting(a, b);
-  if (depth == 0 && b.theta - a.theta < kNextToEachOther) {
-    if (!event && a.arrived && b.arrived) solve_monotone(a, b, Fold{});
-    return;
-  }
-  if (event) return part(a, b, *event, depth);
-  if (depth >= kDeepestHalving || (!(a.arrived && b.arrived) && depth >= kDeepestEdgeHalving)) {
-    if (a.arrived && b.arrived) solve(a, b);
-    return;
+  if (neither) {
+    // Over steep bottoms rays that arrive come through windows between others that turn back. Two rays that were given
+    // up with the same history have none between them, as a rule.
+    const bool alike = !event && a.events == b.events;
+    if (alike || depth >= kDeepestWindowHalving) return;
+  } else {
+    if (depth == 0 && b.theta - a.theta < kNextToEachOther) {
+      if (!event && both) solve_monotone(a, b);
+      return;
+    }
+    if (event) return part(a, b, *event, depth);
+    if (depth >= (both ? kDeepestHalving : kDeepestEdgeHalving)) {
+      if (both) solve(a, b);
+      return;
+    }
   }
   const FanRay middle = traced(0.5 * (a.theta + b.theta));
   if (is_predicted(a, middle, b, 1)) {
@@ -201,34 +213,31 @@ void Search::solve(const FanRay& a, const FanRay& b) {
   const HermiteCubic cubic = cubic_of(a, b);
   const HermiteCubic::Turns turns = cubic.turns();
   FanRay from = a;
-  Fold before;
   for (const double t : turns) {
     const double theta = a.theta + t * (b.theta - a.theta);
     if (theta <= from.theta) continue;
     FanRay turn;
-    bool folds = false;
     if (turns.count > 1 || off_nearest_image(cubic(t)) < kNearFold * depth_) {
       turn = traced(theta);
       if (!turn.arrived) continue;
-      folds = off_nearest_image(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn);
+      if (off_nearest_image(cubic(t)) < kNearFold * depth_) seek_turn(from, b, turn);
     } else {  // this ray separates the images on both sides as well as the one that turns
       turn.theta = theta;
       turn.zeta = cubic(t);
     }
-    solve_monotone(from, turn, folds ? fold_between(turn, from) : Fold{});
-    before = folds ? fold_between(turn, b) : Fold{};
+    solve_monotone(from, turn);
     from = turn;
   }
-  solve_monotone(from, b, before);
+  solve_monotone(from, b);
 }
 
-// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; false when there is no such place. False
+// Moves `turn`, a guess between two rays, to where the slope of zeta is 0; leaves it where there is no such place. False
 // position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time, so both ends
 // close in; every third step halves where that does not.
-bool Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
+void Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
   const auto rises = [](const FanRay& ray) { return ray.zeta_slope > 0; };
   const bool before = rises(a) != rises(turn);
-  if (!before && rises(turn) == rises(b)) return false;
+  if (!before && rises(turn) == rises(b)) return;
   const FanRay &first = before ? a : turn, &last = before ? turn : b;
   double low = first.theta, high = last.theta, at_low = first.zeta_slope, at_high = last.zeta_slope;
   const bool rises_at_low = rises(first);
@@ -249,20 +258,19 @@ bool Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
     replaced = slope;
     (beside_low ? low : high) = turn.theta;
   }
-  return true;
 }
 
-void Search::solve_monotone(const FanRay& a, const FanRay& b, const Fold& fold) {
+void Search::solve_monotone(const FanRay& a, const FanRay& b) {
   const double low = std::min(a.zeta, b.zeta), high = std::max(a.zeta, b.zeta), period = 2 * depth_;
   for (const double image : {tracer_.receiver_depth_m(), -tracer_.receiver_depth_m()}) {
     for (double k = std::ceil((low - image) / period); image + k * period < high;
          ++k) {  // low <= target < high
-      polish(a, b, image + k * period, fold);
+      polish(a, b, image + k * period);
     }
   }
 }
 
-void Search::polish(const FanRay& a, const FanRay& b, double target, const Fold& fold) {
+void Search::polish(const FanRay& a, const FanRay& b, double target) {
   const bool rising = b.zeta > a.zeta;
   double low = a.theta, high = b.theta;
   double theta = low + cubic_of(a, b).crossing(target) * (high - low);
@@ -282,7 +290,17 @@ void Search::polish(const FanRay& a, const FanRay& b, double target, const Fold&
     theta = inside ? next : 0.5 * (low + high);
     if (high - low < 1e-15) break;
   }
-  append_profile_arrival(tracer_, theta, fold, target, paths_);
+  append_profile_arrival(tracer_, theta, target, paths_, families_);
+}
+
+// Takes the launch angles out within which rays nowhere go faster than the core's speed, and puts those of its edges in.
+double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
+  const double core = tracer.sea().core_speed_mps;
+  if (core <= tracer.source_speed_mps()) return 0;
+  const double edge = std::acos(tracer.source_speed_mps() / core);
+  std::erase_if(angles, [edge](double theta) { return std::abs(theta) < edge; });
+  angles.insert(std::upper_bound(angles.begin(), angles.end(), 0.0), {-edge, edge});
+  return edge;
 }
 
 }  // namespace
@@ -295,7 +313,8 @@ std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
     if (theta < kSteepest) angles.push_back(theta);
   }
   angles.push_back(kSteepest);
-  std::vector<Arrival> paths = Search(tracer).run(angles);
+  const double core_edge = leave_out_core(tracer, angles);
+  std::vector<Arrival> paths = Search(tracer).run(angles, core_edge);
   finish(paths, sea.options);
   return paths;
 }

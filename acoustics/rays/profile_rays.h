@@ -5,9 +5,10 @@
 // cell is halved until a cubic through values and slopes predicts its middle. Every image of the receiver,
 // +-z + 2 H k, that lies between two rays is a bracket; a turn of zeta (a fold) is sought first and split at.
 // Histories that part (a ray that grazes the surface or a crest, or meets the other side of a corner) part
-// the cell there, by bisection. Newton with the ray tube polishes; what is left of the depth is taken off the
+// the cell there, by bisection; between rays that do not arrive it is halved five times where their histories differ.
+// Newton with the ray tube polishes; what is left of the depth is taken off the
 // delay to first order, so delays err by its square. Amplitude A^2 = c_r cos_s / (c_s r |q|) times the
-// bounces; at a fold |q| is kept above the Airy function's peak as in acoustics/rays/layered_rays.h.
+// bounces; at a fold levels are those of acoustics/rays/folds.h.
 //
 // Accuracy: exact for knots and facets given. Left out: rays that turn back, slopes across the link,
 // diffraction.

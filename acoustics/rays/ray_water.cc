@@ -13,6 +13,10 @@ constexpr double kTallestSample =
     250.0;  // m: nor coarser, so that a bump between two probes is not passed over
 constexpr double kTallestProbe = 5000.0;  // m: below it formulas and tables are taken as constant
 
+constexpr double kLeastRounding = 1.0;        // m: half-height of what takes the place of a kink
+constexpr double kFinestRounding = 1.0 / 32;  // of it, between knots at the axis
+constexpr double kInside = 0.98;              // of it: knots further out would be next to the last
+
 // a0 + a1 u + a2 u^2 through the values at u = 0, 1/2 and 1.
 LayerAbsorption parabola(double top, double middle, double bottom) {
   return {top, 4 * middle - 3 * top - bottom, 2 * (top + bottom) - 4 * middle};
@@ -43,6 +47,37 @@ std::vector<SpeedRow> sampled_knots(const SoundSpeedProfile& profile, double tol
     if (depth > knots.back().depth_m) sample(profile, depth, tolerance, knots);
   }
   return knots;
+}
+
+// Adds knots in place of `knot` if it is the axis of a channel whose kink is mild enough; false otherwise. With x = z -
+// z_knot, g1 and g2 the gradients above and below:
+//   c = c_knot + (g1 + g2) x / 2 + (g2 - g1) (x^2 / d + d) / 4  within |x| <= d.
+bool round_off(const SpeedRow& above, const SpeedRow& knot, const SpeedRow& below, double tolerance,
+               std::vector<SpeedRow>& rounded) {
+  const double height_above = knot.depth_m - above.depth_m, height_below = below.depth_m - knot.depth_m;
+  const double g1 = (knot.sound_speed_mps - above.sound_speed_mps) / height_above;
+  const double g2 = (below.sound_speed_mps - knot.sound_speed_mps) / height_below;
+  if (!(g1 < 0 && g2 > 0)) return false;
+  const double d = std::min({height_above / 2, height_below / 2, 4 * tolerance / (g2 - g1)});
+  if (d < kLeastRounding) return false;
+  const auto add = [&](double x) {
+    const double curve = (g2 - g1) * (x * x / d + d) / 4;
+    rounded.push_back({knot.depth_m + x, knot.sound_speed_mps + (g1 + g2) * x / 2 + curve});
+  };
+  // Knots close together about the axis, where rays swing little.
+  const double axis = -(g1 + g2) * d / (g2 - g1);
+  std::vector<double> offsets;
+  for (double y = 0; y < 2 * d; y += std::max(kFinestRounding * d, y / 3)) offsets.push_back(y);
+  const double last = rounded.back().depth_m;
+  if (knot.depth_m - d > last) add(-d);
+  for (std::size_t i = offsets.size(); i-- > 1;) {
+    if (axis - offsets[i] > -kInside * d) add(axis - offsets[i]);
+  }
+  for (const double y : offsets) {
+    if (axis + y < kInside * d) add(axis + y);
+  }
+  add(d);
+  return true;
 }
 
 std::vector<SpeedRow> table_knots(const SoundSpeedProfile& profile) {
@@ -79,9 +114,9 @@ RayWater::RayWater(std::vector<SpeedRow> knots, const AbsorptionAtDepth& absorpt
 RayWater RayWater::from_profile(const SoundSpeedProfile& profile,
                                 const AbsorptionAtDepth& absorption_db_per_km, double speed_tolerance_mps) {
   require_in_range(speed_tolerance_mps, 1e-6, 10, "speed tolerance of a profile for rays", "m/s");
-  return RayWater(
-      is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps),
-      absorption_db_per_km);
+  const std::vector<SpeedRow> knots =
+      is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps);
+  return RayWater(rounded_channels(knots, speed_tolerance_mps), absorption_db_per_km);
 }
 
 std::size_t RayWater::layer_at(double depth_m) const {
@@ -105,6 +140,17 @@ bool RayWater::is_isovelocity_above(double bottom_depth_m) const {
     if (speed_[i + 1] != speed_[i]) return false;
   }
   return true;
+}
+
+std::vector<SpeedRow> rounded_channels(const std::vector<SpeedRow>& knots, double tolerance_mps) {
+  require_in_range(tolerance_mps, 0, 100, "tolerance of rounding", "m/s");
+  std::vector<SpeedRow> rounded;
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const bool inner = i > 0 && i + 1 < knots.size();
+    if (!inner || !round_off(knots[i - 1], knots[i], knots[i + 1], tolerance_mps, rounded))
+      rounded.push_back(knots[i]);
+  }
+  return rounded;
 }
 
 std::vector<SpeedRow> knots_of(const RayWater& water) {

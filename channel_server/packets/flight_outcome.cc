@@ -39,6 +39,21 @@ double measured(const Flight& flight, double time_s) {
   return quantum_s > 0 ? std::round(noisy_s / quantum_s) * quantum_s : noisy_s;
 }
 
+OutcomeKind outcome_without_path(PathState state) {
+  switch (state) {
+    case PathState::kBlocked:
+      return OutcomeKind::kBlocked;
+    case PathState::kTooWeak:
+      return OutcomeKind::kTooWeak;
+    case PathState::kTooSteep:
+      return OutcomeKind::kTooSteep;
+    case PathState::kOpen:
+    case PathState::kShadow:
+      break;
+  }
+  return OutcomeKind::kShadow;
+}
+
 }  // namespace
 
 OutcomeKind outcome_before_acquisition(const Flight& flight) {
@@ -46,8 +61,7 @@ OutcomeKind outcome_before_acquisition(const Flight& flight) {
   if (flight.receiver_absent) return OutcomeKind::kReceiverGone;
   if (!same_family(flight.packet->modem, flight.modem)) return OutcomeKind::kForeign;
   if (band_share(flight.packet->modem.band(), flight.modem.band()) == 0) return OutcomeKind::kOutOfBand;
-  if (reception.state == PathState::kBlocked) return OutcomeKind::kBlocked;
-  if (reception.state == PathState::kShadow || reception.paths.empty()) return OutcomeKind::kShadow;
+  if (reception.paths.empty()) return outcome_without_path(reception.state);
   if (reception.budget.received_level < flight.modem.min_receivable_level) return OutcomeKind::kBelowCutoff;
   return OutcomeKind::kReceived;
 }

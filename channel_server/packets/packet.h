@@ -108,7 +108,7 @@ enum class OutcomeKind {
   kReceived,      // [12] none of the others
   kBelowCutoff,   // [5] all paths together are below the receiver's least receivable level
   kReceiverGone,  // [1] the receiver's state had grown too old at the first bit or at the last
-  kShadow,        // [4] no path: the water bends all away
+  kShadow,        // [4] no path: the water bends every ray away
   kBlocked,       // [4] no path: the terrain stands in all
   kOutOfBand,     // [3] the bands of the two modems share nothing
   kCollided,      // [8] the receiver followed another packet; [9, 10] or without others it had been received
@@ -117,6 +117,8 @@ enum class OutcomeKind {
   kBitErrors,     // [10] acquired, with bits that were wrong
   kNotAcquired,   // [9] its preamble was not acquired
   kForeign,       // [2] the waveform families of the two modems differ: its detector does not know this sound
+  kTooWeak,       // [4] no path: the bounces leave too little of every ray
+  kTooSteep,      // [4] no path: every ray that arrives is launched more steeply than is searched
 };
 
 // What the outcome was decided by.

@@ -86,6 +86,17 @@ Reception StraightPropagation::reception(SimTime at, const LinkEnd& from, const 
   return reception;
 }
 
+Reception StraightPropagation::blocked(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Reception reception;
+  reception.state = PathState::kBlocked;
+  const double distance_m = (to.position_ned_m - from.position_ned_m).norm();
+  reception.budget = model_of(at, *from.modem, *to.modem)
+                         ->budget_of_path(from.position_ned_m, to.position_ned_m,
+                                          from.modem->source_level - kSilence, distance_m);
+  reception.budget.receivable = false;
+  return reception;
+}
+
 bool StraightPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
                                              const acoustics::Modem& receiver, const Vec3& from_ned_m,
                                              const Vec3& to_ned_m,

@@ -60,9 +60,11 @@ struct EndPair {
 };
 
 enum class PathState {
-  kOpen,     // there is at least one path
-  kShadow,   // the water bends every path away from the receiver
-  kBlocked,  // the terrain stands in every path
+  kOpen,      // there is at least one path
+  kShadow,    // no ray at all: the water bends every one away from the receiver
+  kBlocked,   // no ray at all, and the terrain stands in the straight line
+  kTooWeak,   // rays arrive, but their bounces leave less of them than counts
+  kTooSteep,  // rays arrive, but only launched more steeply than is searched
 };
 
 enum class PropagationUsed {
@@ -132,6 +134,8 @@ class StraightPropagation : public Propagation {
 
   // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  // The same link where the terrain is known to stand in the line: no path, silence.
+  Reception blocked(SimTime at, const LinkEnd& from, const LinkEnd& to);
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
                           const std::vector<acoustics::BottomPoint>& points) override;

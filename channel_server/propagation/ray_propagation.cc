@@ -83,10 +83,12 @@ Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const 
 
 acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                                   const std::shared_ptr<const SeabedProfile>& seabed) {
-  acoustics::Arrivals all = found(task_of(at, from, to, seabed, /*reversed=*/false))->arrivals;
+  const FoundPaths found_paths = found(task_of(at, from, to, seabed, /*reversed=*/false));
+  acoustics::Arrivals all = found_paths->arrivals;
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::erase_if(all.paths,
                 [&](const acoustics::Arrival& path) { return !(weighted_pressure(path, beams) > 0); });
+  if (all.silent() && !found_paths->arrivals.silent()) all.lack = acoustics::PathLack::kTooWeak;
   return all;
 }
 
@@ -156,8 +158,8 @@ RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, co
   const LinkEnd &first = reversed ? to : from, &last = reversed ? from : to;
   const Vec3 way = last.position_ned_m - first.position_ned_m;
   const double frequency_hz = from.modem->centre_frequency_hz;
-  const acoustics::RayLink link{depth_of(first, environment), depth_of(last, environment),
-                                std::hypot(way.x(), way.y())};
+  const acoustics::RayLink link = acoustics::held_apart(
+      {depth_of(first, environment), depth_of(last, environment), std::hypot(way.x(), way.y())});
   return {{from, to},
           &environment,
           water_of(at, frequency_hz),
@@ -216,10 +218,18 @@ Reception RayPropagation::answer(const Task& task, const Found& found) const {
   if (!reception.paths.empty()) {
     set_open(task, arrivals, reception);
   } else {
-    reception.state = found.blocked ? PathState::kBlocked : PathState::kShadow;
+    reception.state = state_without_path(found);
     set_silent(task, reception);
   }
   return reception;
+}
+
+PathState RayPropagation::state_without_path(const Found& found) {
+  using acoustics::PathLack;
+  if (!found.arrivals.silent()) return PathState::kTooWeak;  // absorbed beyond what a double holds
+  if (found.arrivals.lack == PathLack::kTooWeak) return PathState::kTooWeak;
+  if (found.arrivals.lack == PathLack::kTooSteep) return PathState::kTooSteep;
+  return found.blocked ? PathState::kBlocked : PathState::kShadow;
 }
 
 acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const Found& found) const {
@@ -285,7 +295,7 @@ void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arriv
   budget = task.budget->budget_of_path(from, to, task.ends.from.modem->source_level - level,
                                        arrival->path_length_m);
   budget.delay_s = first.delay_s;
-  if (budget.range_m > 0) budget.mean_sound_speed_mps = budget.range_m / first.delay_s;
+  budget.mean_sound_speed_mps = std::max(budget.range_m, acoustics::kMinDistance) / first.delay_s;
   if (arrival->path_length_m > 0) {
     budget.absorption_db_per_km = 1000 * arrival->absorption_db / arrival->path_length_m;
   }
@@ -293,7 +303,8 @@ void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arriv
 
 void RayPropagation::set_silent(const Task& task, Reception& reception) const {
   const Vec3 &from = task.ends.from.position_ned_m, &to = task.ends.to.position_ned_m;
-  const bool leaks = reception.state == PathState::kShadow && model_.shadow_loss.has_value();
+  const bool leaks = (reception.state == PathState::kShadow || reception.state == PathState::kTooWeak) &&
+                     model_.shadow_loss.has_value();
   const Decibels silent = task.ends.from.modem->source_level - kSilence;
   reception.budget =
       task.budget->budget_of_path(from, to, leaks ? *model_.shadow_loss : silent, (to - from).norm());

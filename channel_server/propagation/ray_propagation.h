@@ -9,9 +9,9 @@
 // capacity takes that loss at the centre of the band, and elsewhere in the band as much more or less as water
 // between the two depths absorbs more or less over the length of the first significant path
 // (LinkModel::budget_of_path). Doppler of each path is that of acoustics/rays/ray_doppler.h.
-// Where no ray arrives: blocked when the bottom cuts the straight line between the ends, in a shadow otherwise;
-// the level is kSilence or, in a shadow, that of the stated floor, the delay that of the straight line, and
-// nothing is receivable.
+// Where there is no path: too weak or too steep when rays arrive beyond the limits of the search, blocked when none does
+// and the bottom cuts the straight line between the ends, in a shadow otherwise; the level is kSilence or, in a shadow
+// and where rays are too weak, that of the stated floor, the delay that of the straight line, and nothing is receivable.
 // Where the bottom is not known (no profile for the instant, or between positions): the straight path.
 //
 // Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
@@ -55,11 +55,12 @@ struct RayModel {
   acoustics::SurfaceModel surface = acoustics::SurfaceModel::kAplBubbles;
   acoustics::RayOptions options;               // its frequency is not used: the transmitter's is
   std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
-  std::optional<Decibels> shadow_loss;         // transmission loss where no ray gets; empty: silence
-  bool coherent = false;                       // received level: sum of phasors at the centre frequency
+  std::optional<Decibels>
+      shadow_loss;        // transmission loss where no ray gets, or too little of it; empty: silence
+  bool coherent = false;  // received level: sum of phasors at the centre frequency
   acoustics::FadingModel fading;
-  double speed_tolerance_mps = 0;              // knots of the water are thinned to that, 0..1
-  double reuse_distance_m = 0;  // of ray_cells.h, 0..1000; 0: every link is searched for itself
+  double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
+  double reuse_distance_m = 0;     // of ray_cells.h, 0..1000; 0: every link is searched for itself
 };
 
 class RayPropagation : public Propagation {
@@ -124,6 +125,7 @@ class RayPropagation : public Propagation {
   FoundPaths found(const Task& task);
   Reception without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to);
   Reception answer(const Task& task, const Found& found) const;
+  static PathState state_without_path(const Found& found);
   // What was found, at the ends of the task.
   acoustics::Arrivals arrivals_at(const Task& task, const Found& found) const;
   std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;

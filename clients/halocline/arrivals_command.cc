@@ -89,10 +89,12 @@ void add_boundary_options(CLI::App& command, SeaDescription& sea) {
 
 void add_ray_options(CLI::App& command, ArrivalsArguments& arguments) {
   command.add_option("--max-launch-angle-deg", arguments.sea.max_launch_angle_deg, "from the horizontal");
-  command.add_flag("--steep-direct", arguments.sea.keep_steep_direct, "keep the direct path however steep");
+  command.add_flag("--steep-direct,!--no-steep-direct", arguments.sea.keep_steep_direct,
+                   "keep the direct path however steep");
   command.add_option("--max-bounces", arguments.sea.max_bounces, "surface and bottom together");
-  command.add_option("--min-boundary-factor", arguments.sea.min_boundary_factor,
-                     "paths whose bounces leave less of the pressure are dropped");
+  command.add_option(
+      "--min-boundary-factor", arguments.sea.min_boundary_factor,
+      "paths whose bounces leave less than this of what those of the strongest leave are dropped");
   command.add_option("--min-amplitude-db", arguments.sea.min_amplitude_db, "paths below are dropped");
   command.add_option("--solver", arguments.solver, "auto, images, snell or arcs");
 }

@@ -45,7 +45,7 @@ const char* name_of(channel_server::Multipath multipath) {
 }
 
 const char* name_of(channel_server::PathState state) {
-  constexpr std::array kNames{"open", "shadow", "blocked"};
+  constexpr std::array kNames{"open", "shadow", "blocked", "too weak", "too steep"};
   return kNames.at(static_cast<std::size_t>(state));
 }
 
@@ -130,7 +130,7 @@ void print_paths(const LinkOptions& options, const LinkSurveyEnd& from, const Li
     write_plot(arrival_plot({found}, options.from + " to " + options.to), options.plot);
   if (options.impulse_rate_hz > 0) {
     print_impulse_response(std::cout, found, from.modem.modem.centre_frequency_hz, options.impulse_rate_hz);
-    if (found.arrivals.shadow()) std::cerr << why_silent(found) << "\n";
+    if (found.arrivals.silent()) std::cerr << why_silent(found) << "\n";
     return;
   }
   const bool json = options.json || options.format == "json";
@@ -150,6 +150,7 @@ int link(const LinkOptions& options) {
     from.velocity_ned_mps = parse_vector(options.from_velocity, "--from-velocity");
   if (!options.to_velocity.empty()) to.velocity_ned_mps = parse_vector(options.to_velocity, "--to-velocity");
   const LinkSurvey answer = survey_link(config, from, to);
+  for (const std::string& note : answer.notes) std::cerr << "note: " << note << "\n";
   if (options.arrivals)
     print_paths(options, from, answer.arrivals);
   else if (options.json || options.format == "json")

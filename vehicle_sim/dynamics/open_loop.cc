@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "core/check.h"
 
@@ -30,6 +31,11 @@ double unwrapped(double angle, double near) {
 
 }  // namespace
 
+Diverged::Diverged(SimTime at)
+    : std::runtime_error("the vehicle's motion diverged: its state is not finite at " +
+                         std::to_string(at.seconds()) + " s"),
+      at_(at) {}
+
 std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun& run) {
   check(run);
   const SimTime end = SimTime() + run.duration;
@@ -48,6 +54,7 @@ std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun&
     now.state = rk4_step(model, now.state, now.command, run.water, (until - now.time).seconds());
     now.yaw_unwrapped_rad = unwrapped(to_euler(now.state.orientation).yaw, now.yaw_unwrapped_rad);
     now.time = until;
+    if (!is_finite(now.state)) throw Diverged(now.time);
   }
 }
 

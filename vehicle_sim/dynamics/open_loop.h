@@ -5,6 +5,7 @@
 // number of threads.
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "core/sim_time.h"
@@ -36,8 +37,18 @@ struct OpenLoopSample {
   ActuatorValues command;        // that holds from this instant on, as given
 };
 
+// The state was no longer finite: the step is too long for the model, or its coefficients are impossible.
+class Diverged : public std::runtime_error {
+ public:
+  explicit Diverged(SimTime at);
+  SimTime at() const { return at_; }  // the end of the step that had no finite result
+
+ private:
+  SimTime at_;
+};
+
 // One sample at 0 and one each period to the end of the duration. Commands are held to the model's limits: see
-// without_limits. Throws InvalidArgument where a field is out of its range.
+// without_limits. Throws InvalidArgument where a field is out of its range, Diverged where there is no more result.
 std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun& run);
 
 // The same vehicle with actuators without limits (fins to a right angle).

@@ -84,9 +84,13 @@ std::string deciding_numbers(const packet_outcome_t& o,
     case packet_outcome_t::RECEIVER_GONE:
       return "the receiver's states had grown too old";
     case packet_outcome_t::SHADOW:
-      return "no path: all rays are refracted away";
+      return "no path: the water bends every ray away";
     case packet_outcome_t::BLOCKED:
       return "no path: the terrain blocks all";
+    case packet_outcome_t::TOO_WEAK:
+      return "no path: the bounces leave too little of every ray";
+    case packet_outcome_t::TOO_STEEP:
+      return "no path: every ray is launched more steeply than is searched";
     case packet_outcome_t::OUT_OF_BAND:
       return "the bands of the two modems do not overlap";
     case packet_outcome_t::FOREIGN:

@@ -15,7 +15,7 @@
 
 namespace halocline::clients {
 
-inline constexpr std::size_t kOutcomes = 12;  // packet_outcome_t.RECEIVED to FOREIGN
+inline constexpr std::size_t kOutcomes = 14;  // packet_outcome_t.RECEIVED to TOO_STEEP
 
 struct LogStatistics {
   static constexpr std::size_t kReceiptResults = 9;  // modem_receipt_t.ACCEPTED to REFUSED_QUEUE_FULL

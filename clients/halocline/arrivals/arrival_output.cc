@@ -69,14 +69,20 @@ std::string finder_of(const LinkArrivals& found) {
   return found.found_by.empty() ? std::string(to_name(found.arrivals.solver)) : found.found_by;
 }
 
+std::string cause_of_silence(const LinkArrivals& found) {
+  return found.blocked ? "blocked" : std::string(to_name(found.arrivals.lack));
+}
+
 nlohmann::ordered_json to_json(const LinkArrivals& found) {
   nlohmann::ordered_json json{{"src_depth_m", found.link.source_depth_m},
                               {"rcv_depth_m", found.link.receiver_depth_m},
                               {"rcv_range_m", found.link.range_m},
                               {"solver", finder_of(found)},
-                              {"shadow", found.arrivals.shadow()}};
-  if (found.arrivals.shadow()) json["blocked"] = found.blocked;
-  if (!found.arrivals.shadow()) {
+                              {"shadow", found.arrivals.shadow() && !found.blocked}};
+  if (found.arrivals.silent()) {
+    json["blocked"] = found.blocked;
+    json["cause"] = cause_of_silence(found);
+  } else {
     const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
     json["transmission_loss_db"] = -field.level.value;
     json["first_delay_s"] = field.first_delay_s;
@@ -113,7 +119,7 @@ void print_table(std::ostream& out, const LinkArrivals& found) {
   out << std::fixed << std::setprecision(2) << "from " << found.link.source_depth_m << " m to "
       << found.link.receiver_depth_m << " m deep, " << found.link.range_m
       << " m away: " << found.arrivals.paths.size() << " paths, by " << finder_of(found) << '\n';
-  if (found.arrivals.shadow()) {
+  if (found.arrivals.silent()) {
     out << why_silent(found) << '\n';
     return;
   }
@@ -137,13 +143,22 @@ double path_level_db(const LinkArrivals& found, std::size_t index) {
 }
 
 std::string why_silent(const LinkArrivals& found) {
-  return found.blocked ? "blocked: the bottom stands in every way" : "shadow: no ray gets there";
+  if (found.blocked) return "blocked: the bottom stands in every way";
+  switch (found.arrivals.lack) {
+    case acoustics::PathLack::kTooWeak:
+      return "too weak: the bounces leave too little of every ray";
+    case acoustics::PathLack::kTooSteep:
+      return "too steep: every ray is launched more steeply than the limit";
+    case acoustics::PathLack::kShadow:
+      break;
+  }
+  return "shadow: no ray gets there";
 }
 
 void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz) {
   const acoustics::Arrivals& arrivals = found.arrivals;
   out << "delay_s,real,imaginary,magnitude_db\n";
-  if (arrivals.shadow()) return;
+  if (arrivals.silent()) return;
   require_in_range(rate_hz, 1, 1e7, "the rate of the impulse response", "Hz");
   const double first = std::round(arrivals.paths.front().delay_s * rate_hz) - 1;
   const double count = std::round(arrivals.paths.back().delay_s * rate_hz) + 2 - first;

@@ -31,8 +31,9 @@ struct LinkArrivals {
 // CSV: one row a path: src_depth_m, rcv_depth_m, rcv_range_m, index (by delay, from 0), delay_s, amplitude (re 1 m,
 // without absorption), phase_deg (0..360), launch_angle_deg, arrival_angle_deg (positive down), n_surface, n_bottom,
 // n_caustic, path_length_m, absorption_db, surface_loss_db, bottom_loss_db; with known modems also level_db and
-// doppler_factor. A link in a shadow has no row.
-// JSON: a list of links, each with its solver, shadow (true or false), summary and paths, by the same names.
+// doppler_factor. A link without a path has no row.
+// JSON: a list of links, each with its solver, shadow (true or false), summary and paths, by the same
+// names; without a path its cause: shadow, blocked, too weak or too steep.
 // Level of a path: received, dB re 1 uPa, where the modems are known, else dB re the source level.
 double path_level_db(const LinkArrivals& found, std::size_t index);
 
@@ -41,7 +42,7 @@ std::string why_silent(const LinkArrivals& found);
 
 // CSV: delay_s, real, imaginary and magnitude_db of each sample of acoustics::impulse_response about the
 // carrier, from the sample before the first path to the one after the last; pressure re that at 1 m, beams in
-// it. In a shadow no row.
+// it. Without a path no row.
 void print_impulse_response(std::ostream& out, const LinkArrivals& found, double carrier_hz, double rate_hz);
 
 void print_arrivals(std::ostream& out, const std::vector<LinkArrivals>& links, OutputFormat format);

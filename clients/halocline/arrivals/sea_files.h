@@ -36,7 +36,7 @@ struct SeaDescription {
   double ph = 8;                           // likewise
   double frequency_khz = 25;               // 0.01..1000
   double max_launch_angle_deg = 80;        // 0..90
-  bool keep_steep_direct = false;          // also the direct path when it is steeper than that
+  bool keep_steep_direct = true;           // also the direct path when it is steeper than that
   double crease_angle_deg = 5;             // of the bottom: above it a corner, below a bend; 0..180
   int max_bounces = 400;                   // 0..10 000
   double min_boundary_factor = 0.005;      // of the pressure, product over all bounces, 0..1

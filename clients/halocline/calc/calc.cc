@@ -6,6 +6,7 @@
 #include <optional>
 #include <ostream>
 
+#include "clients/halocline/calc/published.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 
@@ -93,6 +94,38 @@ std::vector<double> read_row(const CsvTable& table, const CsvLine& row, const Qu
   return values;
 }
 
+// The first value beyond the range for which its formula was published, and how many there are.
+class PublishedCheck {
+ public:
+  PublishedCheck(const std::string& quantity, const QuantityForm& form) : model_(form.model) {
+    for (const InputColumn& input : form.inputs)
+      ranges_.push_back(input.names.empty() ? acoustics::PublishedRange{}
+                                            : published_range(quantity, form.model, input.names.front()));
+  }
+
+  void look_at(const CsvTable& table, const CsvLine& row, const ColumnMap& map,
+               const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!map[i] || ranges_[i].holds(values[i]) || count_++ > 0) continue;
+      first_ = "line " + std::to_string(row.number) + ", column " + table.header.cells[*map[i]] + ": " +
+               format_number(values[i]) + " lies outside of the range for which " + model_ +
+               " was published, " + format_number(ranges_[i].lowest) + " to " +
+               format_number(ranges_[i].highest);
+    }
+  }
+  // Empty where all are within.
+  std::string note() const {
+    if (count_ == 0) return {};
+    return "note: " + first_ +
+           (count_ == 1 ? "" : "; there are " + std::to_string(count_) + " values outside of theirs");
+  }
+
+ private:
+  std::string model_, first_;
+  std::vector<acoustics::PublishedRange> ranges_;
+  int count_ = 0;
+};
+
 std::vector<std::string> output_names(const CsvTable& table, const QuantityForm& form) {
   std::vector<std::string> names;
   for (std::string name : form.outputs) {
@@ -110,7 +143,7 @@ std::string result_cells(const std::vector<double>& values) {
 
 // The lines to write; lines in `errors` when rows cannot be computed.
 std::vector<std::string> compute(const CsvTable& table, const QuantityForm& form, const RowFunction& function,
-                                 std::vector<std::string>& errors) {
+                                 PublishedCheck& published, std::vector<std::string>& errors) {
   std::string header = table.header.text;
   for (const std::string& name : output_names(table, form)) header += "," + name;
   std::vector<std::string> lines = {header};
@@ -119,6 +152,7 @@ std::vector<std::string> compute(const CsvTable& table, const QuantityForm& form
     const std::size_t before = errors.size();
     const std::vector<double> values = read_row(table, row, form, map, errors);
     if (errors.size() > before) continue;
+    published.look_at(table, row, map, values);
     try {
       lines.push_back(row.text + result_cells(function(values)));
     } catch (const InvalidArgument& error) {
@@ -165,7 +199,8 @@ int list_quantities(const Quantity* only, std::ostream& out) {
 const std::vector<Quantity>& all_quantities() {
   static const std::vector<Quantity> all = [] {
     std::vector<Quantity> list = water_quantities();
-    for (const auto& part : {link_quantities(), delay_quantities(), packet_quantities()})
+    for (const auto& part :
+         {boundary_quantities(), link_quantities(), delay_quantities(), packet_quantities()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();
@@ -216,8 +251,10 @@ int run_calc(const CalcOptions& options, std::istream& in, std::ostream& out, st
   } catch (const InvalidArgument& error) {
     return report({error.what()}, kCalcBadRequest, err);
   }
-  const std::vector<std::string> lines = compute(table, *form, function, errors);
+  PublishedCheck published(quantity->name, *form);
+  const std::vector<std::string> lines = compute(table, *form, function, published, errors);
   if (!errors.empty()) return report(errors, kCalcBadTable, err);
+  if (const std::string note = published.note(); !note.empty()) err << note << '\n';
   for (const std::string& line : lines) out << line << '\n';
   return kCalcDone;
 }

@@ -3,7 +3,8 @@
 // Rows keep their order, columns their text. A result whose column is already there is written as `computed_<name>`,
 // so that a reference table comes back with both side by side. Numbers are written in the shortest form that reads
 // back as the same double. Every bad cell is reported with line, column and what is allowed, all in one run, and then
-// nothing is written.
+// nothing is written. Values beyond the range for which a formula was published are computed all the same; one line of
+// messages says so.
 //
 //   std::istringstream in("T_degC,S_ppt,depth_m\n25,35,1000\n");
 //   const int code = run_calc({.quantity = "sound-speed"}, in, std::cout, std::cerr);

@@ -54,6 +54,7 @@ const std::vector<Quantity>& all_quantities();
 
 // The parts of it, one a file.
 std::vector<Quantity> water_quantities();
+std::vector<Quantity> boundary_quantities();
 std::vector<Quantity> link_quantities();
 std::vector<Quantity> delay_quantities();
 std::vector<Quantity> packet_quantities();

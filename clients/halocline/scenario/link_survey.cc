@@ -1,5 +1,6 @@
 #include "clients/halocline/scenario/link_survey.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/sea/published_range.h"
 #include "bathymetry/ray_service.h"
 #include "bathymetry/terrain/terrain.h"
 #include "bus/runtime/scenario.h"
@@ -21,6 +23,7 @@
 #include "channel_server/propagation/seabed_profile_cache.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "core/check.h"
+#include "core/csv_table.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -91,6 +94,24 @@ acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
   return {.paths = {path}};
 }
 
+void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end) {
+  const RayAnswer below =
+      query(terrain, bathymetry::QueryMode::kDepth, {channel_server::depth_ray(end.position_ned_m)}).front();
+  const bool known = below.kind == RayAnswer::Kind::kHit;
+  require(!known || end.position_ned_m.z() <= below.result_m,
+          "'" + end.name + "' lies inside the seabed: z is " + format_number(end.position_ned_m.z()) +
+              " m, that of the seabed there " + format_number(below.result_m) + " m");
+}
+
+// Whether the terrain stands in the straight line between two points; false where it is not known.
+bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from, const Vec3& to) {
+  const Vec3 way = to - from;
+  const double length = way.norm() - channel_server::EchoSurvey::kShortOfBottomM;
+  if (length <= 0) return false;
+  return query(terrain, bathymetry::QueryMode::kOccluded, {{from, way, length}}).front().kind ==
+         RayAnswer::Kind::kHit;
+}
+
 // The paths of a reception, whichever propagation found them.
 LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
                            const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
@@ -157,7 +178,13 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
       make_environment(config.channel_server.environment, config.scenario, config.folder));
   const channel_server::ServerRules& rules = config.channel_server.rules;
   const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
+  require_above_seabed(*terrain, from);
+  require_above_seabed(*terrain, to);
   LinkSurvey answer;
+  answer.notes = acoustics::beyond_published_ranges(
+      waters->at(SimTime()), from.modem.modem.band(),
+      std::max(depth_below_surface_m(from.position_ned_m, config.scenario.sea_surface_z_m),
+               depth_below_surface_m(to.position_ned_m, config.scenario.sea_surface_z_m)));
   if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
     channel_server::RayPropagation propagation(
         waters, std::make_shared<channel_server::SeabedProfileCache>(rules.profile),
@@ -173,9 +200,11 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
     return answer;
   }
   channel_server::StraightPropagation propagation(waters);
-  answer.reception = propagation.reception(SimTime(), here, there);
-  answer.arrivals =
-      link_arrivals(config, from, to, answer.reception, straight_arrival(answer.reception, beams));
+  const bool cut = is_cut(*terrain, from.position_ned_m, to.position_ned_m);
+  answer.reception =
+      cut ? propagation.blocked(SimTime(), here, there) : propagation.reception(SimTime(), here, there);
+  answer.arrivals = link_arrivals(config, from, to, answer.reception,
+                                  cut ? acoustics::Arrivals() : straight_arrival(answer.reception, beams));
   const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
   answer.multipath =
       multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);

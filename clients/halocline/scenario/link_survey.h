@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_table.h"
@@ -27,7 +28,8 @@ struct LinkSurveyEnd {
 struct LinkSurvey {
   channel_server::Reception reception;
   channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
-  LinkArrivals arrivals;  // the paths of the reception with all that is known of them
+  LinkArrivals arrivals;           // the paths of the reception with all that is known of them
+  std::vector<std::string> notes;  // formulas taken beyond the range they were published for
 };
 
 // An end by the name of a vehicle of the scenario (where it starts, with its modem) or by "north,east,down" in metres
@@ -37,6 +39,7 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text);
 // "1,2,3" as three numbers; throws InvalidArgument, naming `what`, when `text` is something else.
 Vec3 parse_vector(const std::string& text, const std::string& what);
 
+// Throws InvalidArgument when an end lies inside the seabed. A straight path that the terrain cuts is blocked.
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to);
 
 // Which echoes the bottom can send between two points of a terrain.

@@ -34,7 +34,7 @@ Arrivals of(std::vector<Arrival> paths) { return {RaySolver::kImages, std::move(
 TEST(ReceivedField, PowersOfPathsAdd) {
   const ReceivedField field = received_field(of({path_of(1, 0.003), path_of(1.1, 0.004)}));
   EXPECT_NEAR(field.level.value, 20 * std::log10(0.005), tolerance(1e-12));
-  EXPECT_FALSE(field.shadow);
+  EXPECT_FALSE(field.silent);
 }
 
 TEST(ReceivedField, SpreadOfTwoEqualPathsIsHalfTheirDistance) {
@@ -57,12 +57,12 @@ TEST(ReceivedField, AbsorptionCounts) {
 }
 
 TEST(ReceivedField, AShadowIsMarkedAndHasNoFloorUnlessOneIsStated) {
-  EXPECT_TRUE(received_field(of({})).shadow);
+  EXPECT_TRUE(received_field(of({})).silent);
   EXPECT_TRUE(std::isinf(received_field(of({})).level.value));
   FieldOptions options;
   options.floor = Decibels{-120};
   EXPECT_EQ(received_field(of({}), options).level.value, -120);
-  EXPECT_TRUE(received_field(of({}), options).shadow);
+  EXPECT_TRUE(received_field(of({}), options).silent);
   EXPECT_EQ(received_field(of({path_of(1, 1e-9)}), options).level.value, -120);
 }
 

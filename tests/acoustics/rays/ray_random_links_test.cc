@@ -4,13 +4,8 @@
 // HALOCLINE_RAY_FAN=200000 sets the angles of the fan.
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
-#include <functional>
-#include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,14 +16,13 @@
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/random.h"
+#include "tests/acoustics/rays/arrival_comparison.h"
 #include "tests/acoustics/rays/brute_fan.h"
 #include "tests/acoustics/rays/brute_ray.h"
 #include "tests/acoustics/rays/ray_reference.h"
 
 namespace halocline::acoustics {
 namespace {
-
-using std::numbers::pi;
 
 struct RandomWaters {
   const char* name;
@@ -87,115 +81,7 @@ RayLink random_link(const RandomWaters& waters, std::uint32_t index) {
   return link;
 }
 
-struct Count {
-  int links = 0, expected = 0, matched = 0, as_sum = 0, missing = 0, extra = 0, confirmed = 0;
-  double delay_s = 0, level_db = 0, phase_deg = 0, angle_deg = 0;
-};
-
-BruteArrival brute_of(const Arrival& a) {
-  return {a.delay_s,           a.amplitude,       a.phase_rad,      a.launch_angle_rad,
-          a.arrival_angle_rad, a.surface_bounces, a.bottom_bounces, a.caustics};
-}
-
-bool near(const BruteArrival& a, const BruteArrival& b, double degrees) {
-  return a.surface == b.surface && a.bottom == b.bottom &&
-         std::abs(a.launch_rad - b.launch_rad) <= to_radians(degrees);
-}
-
-std::complex<double> phasor(const BruteArrival& a) {
-  return std::polar(a.amplitude, a.phase_rad - 2 * pi * std::fmod(25'000 * a.delay_s, 1.0));
-}
-
-std::complex<double> sum_near(const std::vector<BruteArrival>& all, const BruteArrival& at) {
-  std::complex<double> sum = 0;
-  for (const BruteArrival& one : all) {
-    if (near(one, at, 0.02)) sum += phasor(one);
-  }
-  return sum;
-}
-
-int number_near(const std::vector<BruteArrival>& all, const BruteArrival& at) {
-  return static_cast<int>(
-      std::count_if(all.begin(), all.end(), [&](const BruteArrival& one) { return near(one, at, 0.02); }));
-}
-
-std::string describe(const BruteArrival& a) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%.9f s %.2f dB phase %.2f launch %.6f arrival %.5f %d+%d caustics %d",
-                a.delay_s, 20 * std::log10(a.amplitude), to_degrees(a.phase_rad), to_degrees(a.launch_rad),
-                to_degrees(a.arrival_rad), a.surface, a.bottom, a.caustics);
-  return text;
-}
-
-// Whether `all` has `wanted` alone within the tolerances, or a bundle launched within 0.02 degrees of it sums
-// to the same level.
-bool has(const std::vector<BruteArrival>& all, const std::vector<BruteArrival>& others,
-         const BruteArrival& wanted, Count& count) {
-  const BruteArrival* best = nullptr;
-  for (const BruteArrival& one : all) {
-    if (!near(one, wanted, 0.01) || std::abs(one.delay_s - wanted.delay_s) > 1e-6) continue;
-    if (std::abs(20 * std::log10(one.amplitude / wanted.amplitude)) > 0.05) continue;
-    if (best == nullptr ||
-        std::abs(one.delay_s - wanted.delay_s) < std::abs(best->delay_s - wanted.delay_s)) {
-      best = &one;
-    }
-  }
-  if (best != nullptr) {
-    const double phase = degrees_between(to_degrees(best->phase_rad), to_degrees(wanted.phase_rad));
-    const double angle = to_degrees(std::abs(best->arrival_rad - wanted.arrival_rad));
-    if (phase <= 1 && angle <= 0.01) {
-      count.delay_s = std::max(count.delay_s, std::abs(best->delay_s - wanted.delay_s));
-      count.level_db =
-          std::max(count.level_db, std::abs(20 * std::log10(best->amplitude / wanted.amplitude)));
-      count.phase_deg = std::max(count.phase_deg, phase);
-      count.angle_deg = std::max(count.angle_deg, angle);
-      ++count.matched;
-      return true;
-    }
-  }
-  if (number_near(all, wanted) == 0 || number_near(all, wanted) + number_near(others, wanted) < 3)
-    return false;
-  const double off = 20 * std::log10(std::abs(sum_near(all, wanted)) / std::abs(sum_near(others, wanted)));
-  if (std::abs(off) > 0.05) return false;
-  ++count.as_sum;
-  return true;
-}
-
-double loudest(const std::vector<BruteArrival>& all) {
-  double most = 0;
-  for (const BruteArrival& one : all) most = std::max(most, one.amplitude);
-  return most;
-}
-
-// What `found` lacks of `expected` and has besides.
-void compare(const std::string& where, const std::vector<BruteArrival>& found,
-             const std::vector<BruteArrival>& expected,
-             const std::function<std::optional<BruteArrival>(double)>& trace, Count& count) {
-  const double threshold = loudest(expected) * std::pow(10, -30.0 / 20);
-  ++count.links;
-  for (const BruteArrival& one : expected) {
-    if (one.amplitude < threshold) continue;
-    ++count.expected;
-    if (has(found, expected, one, count)) continue;
-    ++count.missing;
-    ADD_FAILURE() << where << "\n  missing " << describe(one);
-  }
-  Count ignored;
-  for (const BruteArrival& one : found) {
-    if (one.amplitude < threshold * 1.01 || std::abs(one.launch_rad) > to_radians(79.99)) continue;
-    if (one.launch_rad == 0 || has(expected, found, one, ignored)) continue;
-    // What the fan has not resolved may be a ray all the same.
-    const auto again = trace(one.launch_rad);
-    if (again && has({*again}, found, one, ignored)) {
-      ++count.confirmed;
-      continue;
-    }
-    ++count.extra;
-    ADD_FAILURE() << where << "\n  extra   " << describe(one);
-  }
-}
-
-void compare_link(const RandomWaters& waters, const RayLink& link, int fan, Count& count) {
+void compare_link(const RandomWaters& waters, const RayLink& link, int fan, ComparisonCount& count) {
   const RaySea sea = sea_of(waters.knots, BottomProfile(waters.bottom));
   const BruteSea brute{waters.knots, waters.bottom, waters.curved, sea.bottom, 0.005};
   const std::vector<BruteArrival> expected = brute_arrivals(brute, link, to_radians(80), fan);
@@ -206,7 +92,7 @@ void compare_link(const RandomWaters& waters, const RayLink& link, int fan, Coun
   for (const RaySolver solver : solvers) {
     std::vector<BruteArrival> found;
     for (const Arrival& path : arrivals(sea, link, solver).paths) found.push_back(brute_of(path));
-    compare(
+    compare_arrivals(
         where + " by " + std::string(to_name(solver)), found, expected,
         [&](double launch_rad) { return brute_arrival(brute, link, launch_rad); }, count);
   }
@@ -214,7 +100,7 @@ void compare_link(const RandomWaters& waters, const RayLink& link, int fan, Coun
 
 TEST(RandomLinks, TheLinkAtAKnotThatAnEarlyBuildMissed) {
   const RandomWaters munk{"munk", munk_knots(), {{0, 5000}}, false, 0, 0, 0, 0};
-  Count count;
+  ComparisonCount count;
   compare_link(munk, {1650, 2434.53, 91893.275}, 1500, count);
   EXPECT_GT(count.expected, 20);
 }
@@ -235,15 +121,10 @@ TEST_P(RandomWatersLinks, HaveTheArrivalsOfADenseFan) {
   const RandomWaters& waters = GetParam();
   const int links = from_environment("HALOCLINE_RAY_LINKS", waters.links);
   const int fan = from_environment("HALOCLINE_RAY_FAN", waters.fan);
-  Count count;
+  ComparisonCount count;
   for (int i = 0; i < links; ++i)
     compare_link(waters, random_link(waters, static_cast<std::uint32_t>(i)), fan, count);
-  std::printf(
-      "%s: %d links, %d arrivals within 30 dB, %d matched, %d as a sum, %d missing, %d extra, %d not "
-      "resolved by the fan but confirmed; largest errors "
-      "%.2g s, %.2g dB, %.2g deg of phase, %.2g deg\n",
-      waters.name, count.links, count.expected, count.matched, count.as_sum, count.missing, count.extra,
-      count.confirmed, count.delay_s, count.level_db, count.phase_deg, count.angle_deg);
+  print(waters.name, count);
 }
 
 const std::vector<SpeedRow> kSummer = {{0, 1520},  {15, 1521}, {25, 1514},  {40, 1500},

@@ -48,14 +48,19 @@ TEST_F(PacketOutcomeTest, LoudAndAloneItIsReceivedForCertain) {
   EXPECT_GT(end.statistics.success_draw, 0);
 }
 
-TEST_F(PacketOutcomeTest, WithoutAPathItIsShadowedOrBlocked) {
+TEST_F(PacketOutcomeTest, WithoutAPathItHasTheCauseOfTheLink) {
   water.set(1, 2, {}, PathState::kShadow);
   water.set(1, 3, {}, PathState::kBlocked);
+  water.set(2, 1, {}, PathState::kTooWeak);
+  water.set(2, 3, {}, PathState::kTooSteep);
   send(1, 10, 0, 10);
+  send(2, 20, 0, 10);
   run();
   EXPECT_EQ(end_of(1, 0, 2).kind, OutcomeKind::kShadow);
   EXPECT_EQ(end_of(1, 0, 2).path_count, 0u);
   EXPECT_EQ(end_of(1, 0, 3).kind, OutcomeKind::kBlocked);
+  EXPECT_EQ(end_of(2, 0, 1).kind, OutcomeKind::kTooWeak);
+  EXPECT_EQ(end_of(2, 0, 3).kind, OutcomeKind::kTooSteep);
 }
 
 TEST_F(PacketOutcomeTest, BandsThatShareNothingAreOutOfBand) {

@@ -195,6 +195,39 @@ TEST_F(RayPropagationTest, WhereNoRayGetsIsAShadowWithTheStatedLevel) {
   }
 }
 
+TEST_F(RayPropagationTest, WithoutAPathTheStateIsTheCause) {
+  RayModel steep, weak;
+  steep.options.max_launch_angle_rad = to_radians(1);
+  steep.options.keep_steep_direct = false;
+  weak.options.min_amplitude = 0.5;
+  weak.shadow_loss = steep.shadow_loss = Decibels{95};
+  const Reception too_steep = over_flat(steep, {0, 0, 30}, {100, 0, 90});
+  EXPECT_EQ(too_steep.state, PathState::kTooSteep);
+  EXPECT_EQ(too_steep.budget.received_level, kSilence);
+  const Reception too_weak = over_flat(weak, {0, 0, 30}, {100, 0, 90});
+  EXPECT_EQ(too_weak.state, PathState::kTooWeak);
+  EXPECT_NEAR(too_weak.budget.received_level.value, 185 - 95, tolerance(1e-9));
+  for (const Reception& reception : {too_steep, too_weak}) {
+    EXPECT_TRUE(reception.paths.empty());
+    EXPECT_FALSE(reception.budget.receivable);
+  }
+}
+
+TEST_F(RayPropagationTest, EndsAtOnePlaceAreHeldAMetreApart) {
+  for (const double off_m : {0.0, 0.001, 0.5}) {
+    for (const double reuse_m : {0.0, 5.0}) {
+      RayModel model;
+      model.reuse_distance_m = reuse_m;
+      const Reception reception = over_flat(model, {0, 0, 30}, {off_m, 0, 30});
+      EXPECT_EQ(reception.state, PathState::kOpen);
+      // The direct path at 1 m, and echoes 30 dB and more below.
+      EXPECT_NEAR(reception.budget.received_level.value, 185, 0.05) << off_m;
+      EXPECT_NEAR(reception.budget.delay_s, 1 / kSpeedMps, tolerance(1e-9)) << off_m;
+      EXPECT_NEAR(reception.budget.mean_sound_speed_mps, kSpeedMps, tolerance(1e-6)) << off_m;
+    }
+  }
+}
+
 TEST_F(RayPropagationTest, MultipathIsLikelyWhenAPathOffTheBottomIsAboveTheCutoff) {
   const Reception reception = over_flat({}, {0, 0, 30}, {500, 0, 60});
   Decibels loudest = kSilence;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -68,6 +69,20 @@ TEST(OpenLoop, WithoutLimitsCommandsActAsGiven) {
       run_open_loop(Model(without_limits(kTorpedo.parameters())), run).back().state.actuators.rudder_rad;
   EXPECT_NEAR(held, to_radians(15), tolerance(1e-9));
   EXPECT_NEAR(free, to_radians(20), tolerance(1e-9));
+}
+
+TEST(OpenLoop, ARunThatDivergesStopsAndNamesTheTime) {
+  OpenLoopRun run = turn(60'000);
+  run.start.velocity_body[0] = 1e160;  // whose drag no double holds
+  try {
+    run_open_loop(kTorpedo, run);
+    FAIL() << "no result is to be had";
+  } catch (const Diverged& diverged) {
+    EXPECT_GT(diverged.at(), SimTime());
+    EXPECT_LT(diverged.at(), at_ms(60'000));
+    EXPECT_NE(std::string(diverged.what()).find(std::to_string(diverged.at().seconds()) + " s"),
+              std::string::npos);
+  }
 }
 
 TEST(OpenLoop, ImpossibleRunsAreRefused) {

@@ -186,6 +186,24 @@ TEST(ArrivalOutput, JsonDistinguishesAShadowFromALinkWithPaths) {
   EXPECT_FALSE(json[1].contains("first_delay_s"));
 }
 
+TEST(ArrivalOutput, JsonAndTableNameTheCauseOfALinkWithoutPaths) {
+  LinkArrivals weak, steep, blocked;
+  weak.arrivals.lack = acoustics::PathLack::kTooWeak;
+  steep.arrivals.lack = acoustics::PathLack::kTooSteep;
+  blocked.blocked = true;
+  std::ostringstream text, table;
+  print_arrivals(text, {LinkArrivals{}, weak, steep, blocked}, OutputFormat::kJson);
+  const auto json = nlohmann::json::parse(text.str());
+  EXPECT_EQ(json[0]["cause"], "shadow");
+  EXPECT_EQ(json[1]["cause"], "too weak");
+  EXPECT_EQ(json[2]["cause"], "too steep");
+  EXPECT_EQ(json[3]["cause"], "blocked");
+  EXPECT_TRUE(json[0]["shadow"]);
+  for (const int i : {1, 2, 3}) EXPECT_FALSE(json[i]["shadow"]) << i;
+  print_arrivals(table, {weak}, OutputFormat::kTable);
+  EXPECT_THAT(table.str(), ::testing::HasSubstr("too weak"));
+}
+
 TEST(ArrivalOutput, TheTableNamesAShadow) {
   std::ostringstream text;
   print_arrivals(text, {{{30, 10, 1000}, {}}}, OutputFormat::kTable);

@@ -97,6 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"per_janus_like_conv_union_bound.csv", {.quantity = "coded-error-rate"}},
         Case{"conv_code_753_561_spectrum.csv", {.quantity = "code-spectrum"}},
         Case{"janus_frame_durations.csv", {.quantity = "packet-duration"}},
+        Case{"bottom_reflection_rayleigh_apl9407.csv", {.quantity = "bottom-reflection"}},
+        Case{"surface_loss.csv", {.quantity = "surface-loss"}},
         Case{"doppler_colinear.csv", {.quantity = "doppler"}}),
     [](const ::testing::TestParamInfo<Case>& test) {
       std::string name = test.param.file.substr(0, test.param.file.find('.'));

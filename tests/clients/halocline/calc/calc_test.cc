@@ -1,5 +1,6 @@
 #include "clients/halocline/calc/calc.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -143,6 +144,54 @@ TEST(Calc, AModemIsFoundByNameAndByTheFileOfItsProfile) {
 TEST(Calc, ModelNamesAreThoseOfTheForms) {
   EXPECT_THAT(model_names("sound-speed"), Contains("teos10"));
   EXPECT_THAT(model_names("nothing"), IsEmpty());
+}
+
+TEST(Calc, ValuesBeyondAPublishedRangeAreComputedAndSaidOnce) {
+  const Outcome inside = run({.quantity = "sound-speed"}, "T_degC,S_ppt,depth_m\n30,40,8000\n");
+  EXPECT_EQ(inside.err, "");
+  const Outcome one = run({.quantity = "sound-speed"}, "T_degC,S_ppt,depth_m\n10,35,0\n31,35,0\n");
+  EXPECT_EQ(one.code, kCalcDone);
+  EXPECT_THAT(one.out, HasSubstr("31,35,0,15"));
+  EXPECT_EQ(
+      one.err,
+      "note: line 3, column T_degC: 31 lies outside of the range for which mackenzie was published, -2 to "
+      "30\n");
+  const Outcome three = run({.quantity = "sound-speed"}, "T_degC,S_ppt,depth_m\n31,41,0\n10,35,9000\n");
+  EXPECT_EQ(std::count(three.err.begin(), three.err.end(), '\n'), 1);
+  EXPECT_THAT(three.err, HasSubstr("there are 3 values outside of theirs"));
+}
+
+TEST(Calc, PublishedRangesAreInTheUnitsOfTheColumns) {
+  EXPECT_THAT(
+      run({.quantity = "absorption", .model = "fisher-simmons"}, "f_kHz,T_degC\n9,10\n").err,
+      HasSubstr("column f_kHz: 9 lies outside of the range for which fisher-simmons was published, 10 to "
+                "400"));
+  EXPECT_EQ(
+      run({.quantity = "sound-speed", .model = "del-grosso"}, "T90_degC,S_psu,P_kg_per_cm2\n10,35,1000\n")
+          .err,
+      "");
+  EXPECT_NE(
+      run({.quantity = "sound-speed", .model = "del-grosso"}, "T90_degC,S_psu,P_kg_per_cm2\n10,35,1001\n")
+          .err,
+      "");
+  EXPECT_NE(run({.quantity = "surface-loss"}, "f_kHz,wind_m_per_s,grazing_deg\n5,7,10\n").err, "");
+  EXPECT_NE(run({.quantity = "munk"}, "depth_m\n5001\n").err, "");
+}
+
+TEST(Calc, RoughnessIsThatOfTheWavesAtTheGrazingAngle) {
+  EXPECT_THAT(run({.quantity = "wave-height"}, "wind_m_per_s\n10\n").out, HasSubstr("10,0.5612244"));
+  // 2 k sigma sin G = 5.10 at 25 kHz, 5 m/s and 10 degrees.
+  EXPECT_THAT(run({.quantity = "rayleigh-parameter"}, "f_kHz,wind_m_per_s,grazing_deg\n25,5,10\n").out,
+              HasSubstr("25,5,10,5.10"));
+}
+
+TEST(Calc, ASedimentByNameReflectsAsItsNumbersDo) {
+  const Outcome by_name = run({.quantity = "bottom-reflection", .model = "MediumSand"}, "grazing_deg\n20\n");
+  const Outcome by_numbers =
+      run({.quantity = "bottom-reflection"},
+          "density_ratio,sound_speed_ratio,loss_parameter_delta,grazing_deg\n1.845,1.1782,0.01624,20\n");
+  EXPECT_EQ(by_name.code, kCalcDone) << by_name.err;
+  EXPECT_THAT(by_numbers.out, HasSubstr(by_name.out.substr(by_name.out.find("\n20,") + 1)));
 }
 
 TEST(Calc, ATableWithoutRowsGivesItsHeader) {

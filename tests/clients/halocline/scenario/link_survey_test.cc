@@ -123,5 +123,49 @@ TEST(LinkSurvey, EchoIsLikelyOverAShallowBottomAndUnknownBeyondTheTerrain) {
   EXPECT_EQ(survey_link(config, outside, farther).multipath, channel_server::Multipath::kUnknown);
 }
 
+constexpr auto kBothModels = {channel_server::PropagationModel::kRays,
+                              channel_server::PropagationModel::kStraight};
+
+TEST(LinkSurvey, AnEndInsideTheSeabedIsRefused) {
+  for (const auto model : kBothModels) {
+    ScenarioConfig config = two_vehicles();
+    config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.model = model;
+    const LinkSurveyEnd above = link_end(config, "0,0,99.9"), inside = link_end(config, "200,0,101");
+    EXPECT_NO_THROW(survey_link(config, above, link_end(config, "200,0,100")));
+    EXPECT_THROW(survey_link(config, above, inside), InvalidArgument);
+    EXPECT_THROW(survey_link(config, inside, above), InvalidArgument);
+  }
+}
+
+TEST(LinkSurvey, AStraightPathThroughTheTerrainIsBlocked) {
+  ScenarioConfig config = two_vehicles();
+  config.terrain.kind = bathymetry::TerrainKind::kRidge;
+  config.terrain.ridge = {.depth_m = 200, .height_m = 150, .half_width_m = 100, .azimuth_rad = 1.5707963};
+  config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
+  const LinkSurvey over = survey_link(config, link_end(config, "-600,0,20"), link_end(config, "600,0,20"));
+  EXPECT_EQ(over.reception.state, channel_server::PathState::kOpen);
+  const LinkSurvey through =
+      survey_link(config, link_end(config, "-600,0,150"), link_end(config, "600,0,150"));
+  EXPECT_EQ(through.reception.state, channel_server::PathState::kBlocked);
+  EXPECT_TRUE(through.arrivals.arrivals.silent());
+  EXPECT_TRUE(through.arrivals.blocked);
+  EXPECT_FALSE(through.reception.budget.receivable);
+  EXPECT_LT(through.reception.budget.received_level.value, -200);
+}
+
+TEST(LinkSurvey, NotesFormulasBeyondTheRangeTheyWerePublishedFor) {
+  ScenarioConfig config = two_vehicles();
+  const auto notes = [&config] {
+    return survey_link(config, link_end(config, "0,0,10"), link_end(config, "500,0,20")).notes;
+  };
+  EXPECT_TRUE(notes().empty());
+  config.channel_server.environment.sound_speed_model = "del-grosso";
+  config.channel_server.environment.absorption_model = "ainslie-mccolm";
+  config.channel_server.environment.ph = 8.6;
+  ASSERT_EQ(notes().size(), 1u);
+  EXPECT_NE(notes().front().find("a pH of 8.6"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace halocline::clients
