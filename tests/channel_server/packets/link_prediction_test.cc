@@ -87,9 +87,9 @@ INSTANTIATE_TEST_SUITE_P(Seas, PredictedLink,
                                            Case{"micromodem-fsk", 2}, Case{"janus", 1}, Case{"janus", 2},
                                            Case{"micromodem-psk-1", 0}, Case{"micromodem-psk-1", 1},
                                            Case{"micromodem-psk-5", 0}, Case{"generic", 1}),
-                         [](const auto& info) {
-                           std::string name =
-                               std::string(info.param.profile) + "_sea" + std::to_string(info.param.sea);
+                         [](const auto& parameter) {
+                           std::string name = std::string(parameter.param.profile) + "_sea" +
+                                              std::to_string(parameter.param.sea);
                            for (char& c : name) c = c == '-' ? '_' : c;
                            return name;
                          });

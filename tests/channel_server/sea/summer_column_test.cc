@@ -105,7 +105,9 @@ TEST(SummerColumn, DeliversFrequencyHoppedPacketsAtEveryWindAndNeverBetterForIt)
       EXPECT_NEAR(column.received, column.predicted, 0.05);
       EXPECT_GE(column.predicted, last - 1e-3) << "more source level delivers less";
       last = column.predicted;
-      if (snr_db == 15) EXPECT_LT(column.perfect, column.links) << "some links lose some packets";
+      if (snr_db == 15) {
+        EXPECT_LT(column.perfect, column.links) << "some links lose some packets";
+      }
       if (snr_db != 45) continue;
       EXPECT_GT(column.received, 0.5);
       if (wind_mps == 0) calm = column.predicted;

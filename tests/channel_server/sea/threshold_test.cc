@@ -81,8 +81,8 @@ TEST_P(Threshold, LosesPacketsInBursts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Modems, Threshold, ::testing::Values("micromodem-fsk", "janus", "micromodem-psk-1"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
                            for (char& c : name) c = c == '-' ? '_' : c;
                            return name;
                          });
