@@ -44,7 +44,6 @@ TEST(ChannelServerConfig, AnEmptyScenarioHasTheWaterOfTheReferenceFiguresInABree
   EXPECT_EQ(water.noise.shipping, 0.5);
   EXPECT_EQ(water.noise.wind_mps, 5);
   EXPECT_EQ(to_name(water.absorption_model), "francois-garrison");
-  EXPECT_EQ(water.spreading_exponent, 1.5);
   EXPECT_EQ(water.profile.row_depths_m().size(), 15u);
 }
 
