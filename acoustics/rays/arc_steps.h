@@ -8,8 +8,8 @@
 
 #include <cstddef>
 
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 

@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "acoustics/math/arc_math.h"
-#include "acoustics/rays/folds.h"
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {

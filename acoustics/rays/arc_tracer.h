@@ -26,9 +26,9 @@
 
 #include "acoustics/rays/arc_steps.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 
@@ -59,7 +59,7 @@ struct TracedRay {
   double q = 0, p = 0;             // of the ray tube
   double factor = 1;               // of pressure, by the bounces
   int surface_bounces = 0, bottom_bounces = 0, upper_turns = 0, lower_turns = 0, caustics = 0;
-  std::uint64_t family = 0;  // rays of the same events that turned in the same layers share it: folds.h
+  std::uint64_t family = 0;  // rays of the same events that turned in the same layers share it: arrivals.h
   std::vector<EventCode> events;
 };
 

@@ -17,6 +17,9 @@ using std::numbers::pi;
 constexpr double kMergedDelay = 1e-6;  // s
 const double kMergedAngle = to_radians(0.02);
 
+constexpr double kPeakPhase = 2.0 / 3 * 0.555 * 0.555 * 0.555 / 4;  // omega dt of Airy's greatest value
+constexpr double kLeastTime = 1e-13;                                // s: rounding of a delay
+
 // What sorting looks at: paths themselves are large and are moved once.
 struct Key {
   std::uint64_t kind;
@@ -82,6 +85,35 @@ void number_branches(const std::vector<Key>& keys, std::vector<Arrival>& paths) 
   }
 }
 
+// What a fold leaves of the amplitude of its rays, `time_s` apart.
+double fold_factor(double time_s, double frequency_hz) {
+  const double phase = 2 * std::numbers::pi * frequency_hz * std::max(time_s, kLeastTime);
+  return phase < kPeakPhase ? std::pow(phase / kPeakPhase, 1.0 / 6) : 1;
+}
+
+void bound_folds(std::vector<Arrival>& paths, const std::vector<std::uint64_t>& families,
+                 double frequency_hz) {
+  ensure(families.size() == paths.size(), "a family for each path");
+  std::vector<std::size_t> order(paths.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return families[a] != families[b] ? families[a] < families[b]
+                                      : paths[a].launch_angle_rad < paths[b].launch_angle_rad;
+  });
+  double before = 1;  // of the fold with the ray before
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    Arrival& path = paths[order[i]];
+    double after = 1;
+    if (i + 1 < order.size() && families[order[i + 1]] == families[order[i]]) {
+      const Arrival& next = paths[order[i + 1]];
+      if (std::abs(next.caustics - path.caustics) == 1)
+        after = fold_factor(std::abs(next.delay_s - path.delay_s), frequency_hz);
+    }
+    path.amplitude *= std::min(before, after);
+    before = after;
+  }
+}
+
 }  // namespace
 
 double Arrival::received_pressure() const { return amplitude * std::pow(10.0, -absorption_db / 20); }
@@ -125,7 +157,9 @@ void validate(const RayOptions& options) {
   require_in_range(options.min_amplitude, 0, 1e6, "least amplitude");
 }
 
-void finish(std::vector<Arrival>& paths, const RayOptions& options) {
+void finish(std::vector<Arrival>& paths, const std::vector<std::uint64_t>& families,
+            const RayOptions& options) {
+  bound_folds(paths, families, options.frequency_hz);
   std::vector<Key> keys = keys_by_kind(paths, options);
   number_branches(keys, paths);
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {

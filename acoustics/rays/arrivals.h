@@ -8,6 +8,7 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -104,9 +105,26 @@ inline constexpr double kMinDistance = 1;
 // The same link with its range so great that the ends are that far apart.
 RayLink held_apart(RayLink link);
 
-// Last touches common to the solvers: drops what the options exclude, merges folds (paths alike, launched
-// within 0.02 degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the
-// carrier), sorts by delay, numbers branches.
-void finish(std::vector<Arrival>& paths, const RayOptions& options);
+// A number for `family` continued by `what`: rays between whose launch angles range and depth of arrival change smoothly
+// share theirs.
+constexpr std::uint64_t continued_family(std::uint64_t family, std::uint64_t what) {
+  // A step like those of SplitMix64 (Steele and others 2014).
+  family = (family ^ (what + 1)) * 0x9E3779B97F4A7C15ULL;
+  return family ^ (family >> 29);
+}
+
+// Last touches common to the solvers: bounds the levels of folds, drops what the options exclude, merges folds (paths
+// alike, launched within 0.02 degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the
+// carrier), sorts by delay, numbers branches. `families` of all paths.
+//
+// A fold is a caustic, on the lit side of which two rays of one family pass: next to each other in launch angle, one has
+// touched one caustic more. Towards it they come nearer to each other in time, by dt, and the amplitude that ray theory
+// gives each grows as (omega dt)^(-1/6) without bound. The field is that of Airy's function, whose greatest value,
+// Ai(-1.0188) = 0.5357, is the amplitude of a ray where omega dt = (2/3) 0.555^3 / 4 (Brekhovskikh and Godin 1999,
+// chapter 3). Nearer to the caustic each keeps that amplitude, so that levels go with the wavelength and stay finite. A
+// ray whose partner is missing, because its family ends before the caustic (at a kink of the water, at an edge of the
+// bottom), keeps the level of its tube.
+void finish(std::vector<Arrival>& paths, const std::vector<std::uint64_t>& families,
+            const RayOptions& options);
 
 }  // namespace halocline::acoustics

@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 

@@ -191,9 +191,9 @@ RayWater ray_water(const Environment& environment, double frequency_hz, double t
   const auto absorption = [&](double depth_m) {
     return absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz);
   };
-  RayWater water = RayWater::from_profile(environment.profile, absorption);
-  if (thinning_tolerance_mps <= 0) return water;
-  const std::vector<SpeedRow> few = thinned(knots_of(water), thinning_tolerance_mps);
+  if (thinning_tolerance_mps <= 0) return RayWater::from_profile(environment.profile, absorption);
+  const std::vector<SpeedRow> few =
+      thinned(knots_of(environment.profile, kSpeedTolerance), thinning_tolerance_mps);
   return RayWater(rounded_channels(few, thinning_tolerance_mps), absorption);
 }
 

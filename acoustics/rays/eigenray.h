@@ -20,10 +20,10 @@
 #include <optional>
 
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 

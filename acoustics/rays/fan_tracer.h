@@ -15,8 +15,8 @@
 #include "acoustics/rays/arc_steps.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/ray_column.h"
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 

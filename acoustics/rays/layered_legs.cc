@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "acoustics/math/arc_math.h"
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 namespace {

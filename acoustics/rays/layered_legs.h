@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 

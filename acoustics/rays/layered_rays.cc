@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/folds.h"
 #include "acoustics/rays/layered_legs.h"
 #include "acoustics/rays/layered_path.h"
 #include "core/check.h"
@@ -53,8 +52,7 @@ class Search {
     do {
       scan_interval();
     } while (!past_steepest_ && legs_.advance());
-    bound_folds(ray_families_, link_.sea.options.frequency_hz, paths_);
-    finish(paths_, link_.sea.options);
+    finish(paths_, ray_families_, link_.sea.options);
     return std::move(paths_);
   }
 
@@ -78,7 +76,7 @@ class Search {
   LayeredLink link_;
   LayeredLegs legs_;
   std::vector<Arrival> paths_;
-  std::vector<std::uint64_t> ray_families_;  // of the paths, as bound_folds() has them
+  std::vector<std::uint64_t> ray_families_;  // of the paths, as finish() has them
   int interval_ = 0;                         // between barriers
   bool direct_only_ = false, past_steepest_ = false;
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 namespace {

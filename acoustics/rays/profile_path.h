@@ -12,7 +12,7 @@
 namespace halocline::acoustics {
 
 // Traces the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of
-// unfolded depth, and appends its arrival and its family (acoustics/rays/folds.h) unless the options exclude it.
+// unfolded depth, and appends its arrival and its family (acoustics/rays/arrivals.h) unless the options exclude it.
 void append_profile_arrival(const ArcTracer& tracer, double theta, double target, std::vector<Arrival>& paths,
                             std::vector<std::uint64_t>& families);
 

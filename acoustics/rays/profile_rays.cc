@@ -9,7 +9,6 @@
 
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/fan_tracer.h"
-#include "acoustics/rays/folds.h"
 #include "acoustics/rays/profile_path.h"
 
 namespace halocline::acoustics {
@@ -41,7 +40,7 @@ class Search {
   explicit Search(const ArcTracer& tracer)
       : tracer_(tracer), fan_(tracer), depth_(tracer.bottom_at_receiver_m()) {}
 
-  // Rays launched between the first and the last of `angles`, as they are found; none within `core_edge` of the
+  // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
   // horizontal, which is one of the angles, as is its opposite.
   std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
 
@@ -124,7 +123,7 @@ std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_
       scan(fan[i - 1], fan[i], 0);
     }
   }
-  bound_folds(families_, tracer_.sea().options.frequency_hz, paths_);
+  finish(paths_, families_, tracer_.sea().options);
   return std::move(paths_);
 }
 
@@ -314,9 +313,7 @@ std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
   }
   angles.push_back(kSteepest);
   const double core_edge = leave_out_core(tracer, angles);
-  std::vector<Arrival> paths = Search(tracer).run(angles, core_edge);
-  finish(paths, sea.options);
-  return paths;
+  return Search(tracer).run(angles, core_edge);
 }
 
 }  // namespace halocline::acoustics

@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
 

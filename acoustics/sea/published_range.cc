@@ -1,5 +1,6 @@
 #include "acoustics/sea/published_range.h"
 
+#include <cmath>
 #include <string_view>
 
 #include "acoustics/sea/pressure.h"
@@ -27,6 +28,9 @@ class Inputs {
   std::string formula_, note_;
 };
 
+// Ranges of salinity are stated in whole psu: the hundredths of a mean ocean do not count.
+double stated_salinity(double salinity_psu) { return std::round(10 * salinity_psu) / 10; }
+
 std::vector<double> depths_to(const SoundSpeedProfile& profile, double deepest_m) {
   std::vector<double> depths = {0, deepest_m};
   for (const double depth : profile.row_depths_m()) {
@@ -43,7 +47,7 @@ std::string note_of_speed(const Environment& environment, double deepest_m) {
   for (const double depth : depths_to(profile, deepest_m)) {
     const WaterSample water = profile.water(depth);
     inputs.check("a temperature", water.temperature_degc, range.temperature_degc, "degC");
-    inputs.check("a salinity", water.salinity_psu, range.salinity_psu, "psu");
+    inputs.check("a salinity", stated_salinity(water.salinity_psu), range.salinity_psu, "psu");
     inputs.check("a depth", depth, range.depth_m, "m");
     inputs.check("a pressure", standard_ocean_pressure_dbar(depth, environment.latitude_rad),
                  range.pressure_dbar, "dbar");
@@ -59,7 +63,7 @@ std::string note_of_absorption(const Environment& environment, const Band& band,
   for (const double depth : depths_to(environment.profile, deepest_m)) {
     const WaterSample water = environment.profile.water(depth);
     inputs.check("a temperature", water.temperature_degc, range.temperature_degc, "degC");
-    inputs.check("a salinity", water.salinity_psu, range.salinity_psu, "psu");
+    inputs.check("a salinity", stated_salinity(water.salinity_psu), range.salinity_psu, "psu");
     inputs.check("a depth", depth, range.depth_m, "m");
   }
   inputs.check("a pH", environment.ph, range.ph, "");

@@ -13,9 +13,9 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
 
 namespace halocline::acoustics {

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <utility>
 
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/pressure.h"
 #include "acoustics/sea/profile_reader.h"
+#include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"

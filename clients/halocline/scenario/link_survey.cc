@@ -100,7 +100,7 @@ void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEn
   const bool known = below.kind == RayAnswer::Kind::kHit;
   require(!known || end.position_ned_m.z() <= below.result_m,
           "'" + end.name + "' lies inside the seabed: z is " + format_number(end.position_ned_m.z()) +
-              " m, that of the seabed there " + format_number(below.result_m) + " m");
+              " m, that of the seabed there " + format_number(std::round(100 * below.result_m) / 100) + " m");
 }
 
 // Whether the terrain stands in the straight line between two points; false where it is not known.

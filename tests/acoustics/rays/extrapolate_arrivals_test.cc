@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/random.h"
 #include "tests/support/tolerance.h"

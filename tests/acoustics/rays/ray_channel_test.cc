@@ -9,8 +9,9 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/channel_core.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "tests/acoustics/rays/brute_fan.h"
 #include "tests/acoustics/rays/brute_ray.h"
@@ -74,6 +75,17 @@ TEST(SoundChannel, NearTheAxisTheLevelStaysThatOfTheSmoothMunk) {
       EXPECT_NEAR(level_without_bounces_db(found), munk_axial_level_db(10'000), 1.0)
           << off << " m by " << to_name(solver);
     }
+  }
+}
+
+TEST(SoundChannel, AThinnedTableKeepsTheLevelOnTheAxis) {
+  Environment environment;
+  environment.profile = SoundSpeedProfile::from_speeds(munk_rows(50), {4, 35});
+  for (const double tolerance_mps : {0.02, 0.1}) {
+    RaySea sea = sea_of({{0, 1500}}, BottomProfile::flat(5000));
+    sea.water = ray_water(environment, 25'000, tolerance_mps);
+    const Arrivals found = arrivals(sea, {1300, 1300, 10'000});
+    EXPECT_NEAR(level_without_bounces_db(found), munk_axial_level_db(10'000), 1.0) << tolerance_mps;
   }
 }
 

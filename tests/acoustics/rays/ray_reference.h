@@ -12,9 +12,9 @@
 
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/ray_water.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "tests/support/csv.h"
 #include "tests/support/tolerance.h"

@@ -1,4 +1,4 @@
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "acoustics/rays/ray_water.h"
+#include "acoustics/sea/ray_water.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,9 +113,7 @@ RayWater::RayWater(std::vector<SpeedRow> knots, const AbsorptionAtDepth& absorpt
 
 RayWater RayWater::from_profile(const SoundSpeedProfile& profile,
                                 const AbsorptionAtDepth& absorption_db_per_km, double speed_tolerance_mps) {
-  require_in_range(speed_tolerance_mps, 1e-6, 10, "speed tolerance of a profile for rays", "m/s");
-  const std::vector<SpeedRow> knots =
-      is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps);
+  const std::vector<SpeedRow> knots = knots_of(profile, speed_tolerance_mps);
   return RayWater(rounded_channels(knots, speed_tolerance_mps), absorption_db_per_km);
 }
 
@@ -153,12 +151,9 @@ std::vector<SpeedRow> rounded_channels(const std::vector<SpeedRow>& knots, doubl
   return rounded;
 }
 
-std::vector<SpeedRow> knots_of(const RayWater& water) {
-  std::vector<SpeedRow> knots;
-  for (std::size_t i = 0; i < water.depths_m().size(); ++i) {
-    knots.push_back({water.depths_m()[i], water.speeds_mps()[i]});
-  }
-  return knots;
+std::vector<SpeedRow> knots_of(const SoundSpeedProfile& profile, double speed_tolerance_mps) {
+  require_in_range(speed_tolerance_mps, 1e-6, 10, "speed tolerance of a profile for rays", "m/s");
+  return is_table_of_speeds(profile) ? table_knots(profile) : sampled_knots(profile, speed_tolerance_mps);
 }
 
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps) {

@@ -43,6 +43,8 @@ inline LayerAbsorption restricted(const LayerAbsorption& layer, double from, dou
 // Absorption, dB/km, at a depth, m.
 using AbsorptionAtDepth = std::function<double(double)>;
 
+inline constexpr double kSpeedTolerance = 0.01;  // m/s: of sampling and of rounding, unless stated
+
 class RayWater {
  public:
   // `knots` as the rows of SoundSpeedProfile::from_speeds; throws InvalidArgument where those would.
@@ -51,7 +53,7 @@ class RayWater {
   // Samples a profile: exact for a table of speeds, but for the axes of channels.
   static RayWater from_profile(const SoundSpeedProfile& profile,
                                const AbsorptionAtDepth& absorption_db_per_km,
-                               double speed_tolerance_mps = 0.01);
+                               double speed_tolerance_mps = kSpeedTolerance);
 
   // From 0 to kDeepestWater; speeds at each.
   const std::vector<double>& depths_m() const { return depth_; }
@@ -81,7 +83,7 @@ std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double toleran
 // second it takes half-height d to where the speed changes by Delta g d / 4 <= tolerance_mps; kinks for which d is below
 // 1 m stay. Throws when tolerance_mps < 0.
 std::vector<SpeedRow> rounded_channels(const std::vector<SpeedRow>& knots, double tolerance_mps);
-// The knots of a water.
-std::vector<SpeedRow> knots_of(const RayWater& water);
+// The rows of a table of speeds, or samples of another profile between which it stays within the tolerance.
+std::vector<SpeedRow> knots_of(const SoundSpeedProfile& profile, double speed_tolerance_mps);
 
 }  // namespace halocline::acoustics
