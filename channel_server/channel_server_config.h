@@ -21,6 +21,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/replay_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -79,6 +80,7 @@ struct PropagationConfig {
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
   bool coherent = false;
   acoustics::FadingModel fading{.enabled = true};
+  ReplayConfig replay;
 };
 
 // One [[environment_change]]; what is not given stays as it was.

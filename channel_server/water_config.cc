@@ -179,6 +179,7 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
   visit_fading(v, p);
   v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
+  visit_replay(v, p.replay);
 }
 
 void visit_optional(bus::ConfigVisitor& v, std::string_view key, std::optional<double>& value,

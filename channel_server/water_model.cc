@@ -27,6 +27,12 @@ WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenar
   WaterModel water = config.propagation.model == PropagationModel::kRays
                          ? ray_model(environment, make_rays(config), config.rules.profile)
                          : straight_model(environment, config.propagation.fading);
+  const ReplayConfig& replay = config.propagation.replay;
+  if (replay.is_wanted()) {
+    water.propagation = std::make_unique<MeasuredPropagation>(
+        std::move(water.propagation), water.waters,
+        make_measured_links(replay, make_modems(config), scenario, folder));
+  }
   schedule_changes(config, scenario, folder, *water.waters);
   return water;
 }

@@ -12,6 +12,7 @@ find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # inlined
 find_package(GDAL REQUIRED)
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
 
 # LCM 1.3.1 (Debian) has no CMake package, 1.5 (upstream) has one whose target differs: find the header,

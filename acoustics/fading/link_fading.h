@@ -17,6 +17,7 @@
 
 #include "acoustics/fading/complex_noise.h"
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/path_responses.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/math/frequency_band.h"
 #include "core/gauss_markov.h"
@@ -31,13 +32,7 @@ struct FadingLink {
   bool reversed = false;
 };
 
-// Instants of equal distance, seconds from a start.
-struct FadingTimes {
-  double begin_s = 0, step_s = 0;  // the first instant and the distance to the next
-  int count = 1;
-};
-
-class LinkFading {
+class LinkFading : public PathResponses {
  public:
   // Throws InvalidArgument as validate(FadingModel).
   LinkFading(const FadingModel& model, const FadingLink& link);
@@ -45,11 +40,9 @@ class LinkFading {
   // 10^(X/20) at `time`; 1 when nothing fades.
   double large_scale(SimTime time) const;
 
-  // h of each path at each instant after `start`, by path, then instant: pressures re 1 uPa with the phase of
-  // reflections and fading, without that of the delay. `large_scale` is that of the link at the time.
   std::vector<std::complex<double>> responses(const std::vector<SoundPath>& paths, const Band& band,
                                               SimTime start, const FadingTimes& times,
-                                              double large_scale) const;
+                                              double large_scale) const override;
 
  private:
   FadingModel model_;

@@ -76,10 +76,9 @@ class BandSum {
 // Equal stretches and what sounds in them, appended to the history.
 class HistoryMaker {
  public:
-  HistoryMaker(const FadingModel& model, const FadingLink& link, double large_scale,
-               const std::vector<SoundPath>& paths, const Lock& lock, const Band& band, SimTime begin,
-               const ReceivedTiming& timing)
-      : fading_(model, link),
+  HistoryMaker(const PathResponses& fading, double large_scale, const std::vector<SoundPath>& paths,
+               const Lock& lock, const Band& band, SimTime begin, const ReceivedTiming& timing)
+      : fading_(fading),
         large_scale_(large_scale),
         paths_(paths),
         lock_(lock),
@@ -133,7 +132,7 @@ class HistoryMaker {
     history_.echoes.push_back(echoes + (1 - doppler_share_) * mean);
   }
 
-  LinkFading fading_;
+  const PathResponses& fading_;
   double large_scale_;
   const std::vector<SoundPath>& paths_;
   const Lock& lock_;
@@ -185,7 +184,13 @@ SignalHistory signal_history(const FadingModel& model, const FadingLink& link, d
                              const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
                              SimTime begin, const ReceivedTiming& timing) {
   if (!model.enabled) return still_history(paths, lock, timing);
-  HistoryMaker maker(model, link, large_scale, paths, lock, band, begin, timing);
+  return signal_history(LinkFading(model, link), large_scale, paths, lock, band, begin, timing);
+}
+
+SignalHistory signal_history(const PathResponses& fading, double large_scale,
+                             const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
+                             SimTime begin, const ReceivedTiming& timing) {
+  HistoryMaker maker(fading, large_scale, paths, lock, band, begin, timing);
   const double coherence_s = coherence_time_s(paths, lock.window),
                bits_s = timing.duration_s - timing.preamble_s;
   const auto stretches = [&](double span_s, double least) {

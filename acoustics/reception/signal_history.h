@@ -1,6 +1,6 @@
 // A packet as one receiver gets it: signal and own interference over its time and band.
 //
-// Model, with the paths' responses h_p(t) (acoustics/fading/link_fading.h), the window's weights w_p
+// Model, with the paths' responses h_p(t) (acoustics/fading/path_responses.h), the window's weights w_p
 // (acoustics/reception/guard_window.h), excess delays tau_p and Doppler factors D_p relative to the window's strongest path:
 //   S(t, f) = |sum_p w_p sqrt(rho_p) h_p(t) exp(-j 2 pi (f tau_p - f_c (D_p - D) t))|^2
 //   I(t)    = sum_p i_p |h_p(t)|^2 while path p of the packet sounds
@@ -18,6 +18,7 @@
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/path_responses.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
@@ -51,6 +52,10 @@ struct Lock {
 };
 
 // Of a packet that begins at `begin` in the window; `band` is the packet's. `large_scale` is 10^(X/20).
+SignalHistory signal_history(const PathResponses& fading, double large_scale,
+                             const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
+                             SimTime begin, const ReceivedTiming& timing);
+// By the model, or without fading where it is not enabled.
 SignalHistory signal_history(const FadingModel& model, const FadingLink& link, double large_scale,
                              const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
                              SimTime begin, const ReceivedTiming& timing);

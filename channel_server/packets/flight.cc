@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "acoustics/fading/link_fading.h"
+#include "acoustics/fading/measured_fading.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/frames.h"
@@ -128,23 +129,30 @@ double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading,
                                std::uint64_t seed) {
   const double factor = flight.doppler_factor();
-  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fading.enabled, {}};
+  const auto& measured = flight.reception.measured;
+  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fading.enabled || measured, {}};
   signal.preamble_end = signal.begin + shrunk(flight.packet->timing.preamble, factor);
   signal.end = signal.begin + shrunk(flight.packet->timing.duration, factor);
   if (flight.reception.paths.empty()) return signal;
   // The receiver gets what lies within its own band.
   const double shared = to_power_ratio(-band_loss(flight.packet->modem, flight.modem)).value;
   const auto history = [&](const acoustics::Modem& receiver) {
-    acoustics::SignalHistory received = signal_history(
-        fading, fading_link(flight, seed), flight.large_scale, flight.reception.paths,
-        {&receiver, flight.window}, flight.packet->modem.band(), signal.begin,
-        {(signal.preamble_end - signal.begin).seconds(), (signal.end - signal.begin).seconds()});
+    const auto& paths = flight.reception.paths;
+    const acoustics::FadingLink link = fading_link(flight, seed);
+    const acoustics::Lock lock{&receiver, flight.window};
+    const acoustics::Band band = flight.packet->modem.band();
+    const acoustics::ReceivedTiming timing{(signal.preamble_end - signal.begin).seconds(),
+                                           (signal.end - signal.begin).seconds()};
+    acoustics::SignalHistory received =
+        measured ? signal_history(acoustics::MeasuredFading(measured, link), flight.large_scale, paths, lock,
+                                  band, signal.begin, timing)
+                 : signal_history(fading, link, flight.large_scale, paths, lock, band, signal.begin, timing);
     for (double& power : received.signal) power *= shared;
     for (double& power : received.echoes) power *= shared;
     return received;
   };
   signal.history = history(flight.modem);
-  if (fading.enabled && std::abs(factor - 1) > flight.modem.doppler_correction) {
+  if (signal.fades && std::abs(factor - 1) > flight.modem.doppler_correction) {
     acoustics::Modem corrects = flight.modem;
     corrects.doppler_correction = 1;
     signal.without_shift = history(corrects);

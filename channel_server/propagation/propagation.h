@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/measured_channel.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
@@ -82,6 +83,8 @@ struct Reception {
   PropagationUsed used = PropagationUsed::kStraight;
   double delay_spread_s = 0;     // from the first significant path to the last
   std::vector<SoundPath> paths;  // by delay; empty unless the state is kOpen
+  // The paths are its taps, and fade as it does; null: they fade by the model.
+  std::shared_ptr<const acoustics::MeasuredChannel> measured = {};
 };
 
 // Index of the first path within kSignificantBelowStrongest of the strongest; `paths` by delay, not empty.

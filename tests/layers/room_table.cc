@@ -194,6 +194,7 @@ const std::vector<Exemption>& exemptions() {
       {"bathymetry/rasters/gdal_", "ogr", "the module that reads rasters"},
       {"bathymetry/rasters/gdal_", "cpl_", "the module that reads rasters"},
       {"acoustics/sea/profile_grid_reader", "gdal", "the module that reads grids of profiles"},
+      {"acoustics/fading/channel_record_hdf5", "hdf5.h", "the module that reads measured channels"},
       {"vehicle_sim/world/ode_", "ode/", "the one place of the Open Dynamics Engine"},
       {"clients/halocline/sweep/sweep_netcdf", "netcdf.h", "the module that writes sweeps"},
       {"vehicle_sim/main.cc", "bathymetry/rasters/terrain_recipe.h",

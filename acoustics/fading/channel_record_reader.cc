@@ -1,0 +1,16 @@
+#include "acoustics/fading/channel_record_reader.h"
+
+#include <memory>
+#include <utility>
+
+#include "core/shared_module.h"
+
+namespace halocline::acoustics {
+
+ChannelRecord read_channel_record(const std::string& path, std::size_t receiver) {
+  static const auto read = reinterpret_cast<ChannelRecordReader*>(
+      module_symbol("halocline_channel_records.so", "halocline_read_channel_record"));
+  return std::move(*std::unique_ptr<ChannelRecord>(read(path, receiver)));
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,69 @@
+// Propagation in which measured channels take the place of modelled paths, for all links or for some.
+//
+// A reception of such a link is that of the model with other paths: those of acoustics/fading/measured_fading.h for the
+// transmitter's band, the first of which arrives when the model's first significant path does. The level is the model's,
+// or the record's, whose h is then the pressure at the receiver over that at 1 m from the source. A link stays as
+// modelled to or from a position (id 0), where the model has no path, and for a band that the record does not hold.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "acoustics/fading/channel_record.h"
+#include "acoustics/fading/measured_channel.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/lru_cache.h"
+#include "core/sim_time.h"
+
+namespace halocline::channel_server {
+
+struct MeasuredLinks {
+  using Record = std::shared_ptr<const acoustics::ChannelRecord>;
+
+  Record all = {};  // of links without one of their own; null: modelled
+  // From, to; also of the way back unless that has its own.
+  std::map<std::pair<VehicleId, VehicleId>, Record> pairs = {};
+  bool level_of_record = false;  // else the model's
+
+  // Null: the link is modelled.
+  Record of(VehicleId from, VehicleId to) const;
+};
+
+class MeasuredPropagation : public Propagation {
+ public:
+  static constexpr std::size_t kMaxChannels = 64;  // kept, of different records and bands
+
+  // `waters` are those of `model`.
+  MeasuredPropagation(std::unique_ptr<Propagation> model, std::shared_ptr<const EnvironmentTimeline> waters,
+                      MeasuredLinks links);
+
+  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
+                                    const ForEach& for_each) override;
+  bool uses_bottom() const override { return model_->uses_bottom(); }
+  Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                           const std::shared_ptr<const SeabedProfile>& seabed) override;
+  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
+                          const Vec3& from_ned_m, const Vec3& to_ned_m,
+                          const std::vector<acoustics::BottomPoint>& points) override {
+    return model_->echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
+  }
+  const acoustics::Environment& environment(SimTime at) const override { return model_->environment(at); }
+
+ private:
+  Reception measured(SimTime at, const LinkEnd& from, const LinkEnd& to, Reception modelled);
+  void set_level(SimTime at, const LinkEnd& from, const LinkEnd& to, Decibels level, Reception& reception);
+
+  std::unique_ptr<Propagation> model_;
+  StraightPropagation straight_;  // whose budgets are those of a stated loss
+  MeasuredLinks links_;
+  LruCache<std::tuple<const acoustics::ChannelRecord*, double, double>,
+           std::shared_ptr<const acoustics::MeasuredChannel>>
+      channels_;
+};
+
+}  // namespace halocline::channel_server
