@@ -5,7 +5,10 @@
 #include <memory>
 #include <utility>
 
+#include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/channel_record_reader.h"
+#include "acoustics/math/frequency_band.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {

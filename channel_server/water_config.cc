@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -136,20 +137,26 @@ void visit_boundaries(bus::ConfigVisitor& v, PropagationConfig& p) {
 }
 
 // Losses of the coherent part alone: a sea that fades scatters what they take away.
-bool is_coherent_loss(std::string_view surface_model) { return surface_model != "flat" && surface_model != "apl-bubbles"; }
+bool is_coherent_loss(std::string_view surface_model) {
+  return surface_model != "flat" && surface_model != "apl-bubbles";
+}
 
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::FadingModel& f = p.fading;
-  bus::choice(v, "fading", f.enabled, kFading,
-              "sea: paths fade by waves, rough bottom and medium (docs/packets.md); none: powers of paths add");
-  v.number("rice_factor_db", f.rice_factor_db, {-20, 60, "dB", "fading: steady over varying power of the medium"});
-  v.number("medium_coherence_s", f.medium_coherence_s, {0.1, 1e6, "s", "fading: coherence time of the medium"});
+  bus::choice(
+      v, "fading", f.enabled, kFading,
+      "sea: paths fade by waves, rough bottom and medium (docs/packets.md); none: powers of paths add");
+  v.number("rice_factor_db", f.rice_factor_db,
+           {-20, 60, "dB", "fading: steady over varying power of the medium"});
+  v.number("medium_coherence_s", f.medium_coherence_s,
+           {0.1, 1e6, "s", "fading: coherence time of the medium"});
   v.number("large_scale_fading_db", f.large_scale_db,
            {0, 20, "dB", "fading: standard deviation of a link's level over minutes"});
   v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
   v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "fading: rms height of the bottom"});
   if (f.enabled && is_coherent_loss(p.surface_loss_model)) {
-    v.problem("surface_loss_model", "with fading = \"sea\" what a rough surface takes from the coherent sound is scattered, "
+    v.problem("surface_loss_model",
+              "with fading = \"sea\" what a rough surface takes from the coherent sound is scattered, "
               "not lost; allowed are \"flat\" and \"apl-bubbles\", or fading = \"none\"");
   }
 }

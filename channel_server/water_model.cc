@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "channel_server/propagation/measured_propagation.h"
+#include "channel_server/replay_config.h"
+
 namespace halocline::channel_server {
 
 WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {

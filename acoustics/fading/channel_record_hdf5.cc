@@ -1,6 +1,8 @@
 // Measured channels from HDF5 files. Part of the module halocline_channel_records.so, which only
 // channel_record_reader.cc loads.
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 
 #include <hdf5.h>
 
+#include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/channel_record_reader.h"
 #include "core/check.h"
 

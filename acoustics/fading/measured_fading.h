@@ -16,6 +16,8 @@
 #include "acoustics/fading/measured_channel.h"
 #include "acoustics/fading/path_responses.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/math/frequency_band.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {

@@ -20,6 +20,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/path_responses.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
 #include "core/sim_time.h"

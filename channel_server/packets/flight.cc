@@ -5,6 +5,8 @@
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_fading.h"
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/math/frequency_band.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "acoustics/reception/signal_history.h"
 #include "core/frames.h"

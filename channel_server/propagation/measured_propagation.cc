@@ -3,6 +3,9 @@
 #include <utility>
 
 #include "acoustics/fading/measured_fading.h"
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/link/link_budget.h"
+#include "acoustics/math/frequency_band.h"
 
 namespace halocline::channel_server {
 

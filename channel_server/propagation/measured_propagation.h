@@ -8,16 +8,24 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/measured_channel.h"
+#include "acoustics/link/multipath.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "core/for_each.h"
+#include "core/frames.h"
 #include "core/lru_cache.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

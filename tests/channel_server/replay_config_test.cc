@@ -5,9 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/modem.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/water_model.h"
 #include "core/check.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 #include "tests/support/channel_file.h"
 
 namespace halocline::channel_server {

@@ -2,18 +2,25 @@
 
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/complex_noise.h"
+#include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_fading.h"
+#include "acoustics/fading/path_responses.h"
+#include "acoustics/fading/sound_path.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 namespace {

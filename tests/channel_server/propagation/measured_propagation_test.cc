@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/measured_fading.h"
+#include "acoustics/link/link_budget.h"
 #include "tests/channel_server/scripted_water.h"
 
 namespace halocline::channel_server {
