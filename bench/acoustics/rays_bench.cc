@@ -1,7 +1,7 @@
 // What the eigenrays of one link cost on one core: searched for, and extrapolated from a search near by.
 //
 // Claims (microseconds, searched for): isovelocity 3, layered of 3 and 7 knots 20, deep water thinned from 101 knots
-// 80, a slope 150, a bottom of many facets 1500.
+// 80, a slope 170, a bottom of many facets 1500.
 #include <cmath>
 #include <cstdint>
 #include <numbers>
