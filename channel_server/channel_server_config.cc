@@ -43,10 +43,10 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               {1, 64, "", "points of the bottom surveyed for each link"});
   v.number("echo_reuse_distance_m", r.echo_reuse_distance_m,
            {0, 1e5, "m", "how far the ends of a link may move before its echoes are surveyed again"});
-  v.number("profile_reuse_distance_m", r.profile.reuse_distance_m,
-           {0.1, 1000, "m", "rays: lattice of the ends of bottom profiles"});
-  v.number("profile_spacing_m", r.profile.spacing_m,
-           {1, 1000, "m", "rays: samples of the bottom lie no further apart (16 to 256 of a link)"});
+  v.number("profile_reuse_distance_m", r.profile_reuse_distance_m,
+           {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
+  v.number("profile_spacing_m", r.seabed.spacing_m,
+           {1, 1000, "m", "rays: between samples of the bottom (more beyond 256 of them)"});
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});
   visit_count(v, "shards", r.medium.shard.count,
               {1, kMaxShards, "", "channel servers that share the vehicles (id mod shards = shard)"});

@@ -19,7 +19,7 @@
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/replay_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -101,7 +101,8 @@ struct ServerRules {
   int bottom_points = 9;  // under each link, for its echoes
   double echo_reuse_distance_m =
       5;  // how far the ends of a link may move before its echoes are surveyed again
-  ProfileRule profile{.reuse_distance_m = 25, .spacing_m = 25};
+  SeabedRule seabed;
+  double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
   int threads = 1;  // that compute link tables
 };
 

@@ -5,6 +5,7 @@
 
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
+#include "channel_server/links/link_table.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/world_messages.h"
@@ -41,11 +42,11 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       echoes_(rules.echo_reuse_distance_m),
       rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, echoes_, rays_,
-               {rules.bottom_points, rules.profile, rules.ray_queries.answer_deadline}),
+               {rules.bottom_points, rules.ray_queries.answer_deadline}),
       publisher_(bus()),
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard),
-      seabed_(bus(), {rays_, queries_, echoes_, *water_.bottoms, *water_.propagation}, rules.medium.shard,
+      seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.medium.shard,
               rules.bottom_points),
       packets_(bus(), journal_),
       tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, echoes_}, rules.medium.shard,
@@ -62,7 +63,8 @@ void ChannelServerNode::open_journal(const std::string& path) {
 bus::Due ChannelServerNode::on_due() const {
   if (recovery_ && !recovery_->has_begun()) return {.sim = kBeforeAll};
   if (recovery_) return {.steady = std::min(seabed_.due(), recovery_->due())};
-  return {.sim = std::min({next_instant(), medium_.next_event(), inbox_.due()}),
+  const SimTime instant = table_waits_ ? SimTime::never() : next_instant();
+  return {.sim = std::min({instant, medium_.next_event(), inbox_.due()}),
           .steady = std::min(seabed_.due(), queries_.due())};
 }
 
@@ -73,7 +75,8 @@ void ChannelServerNode::on_step(const bus::Now& now) {
     journal_.write_inputs(now.sim);
     apply(inbox_.take_inputs(), now.sim);
     set_first_instants(now.sim);
-    while (next_instant() <= now.sim) run_instant(next_instant());
+    table_waits_ = false;
+    while (next_instant() <= now.sim && !table_waits_) table_waits_ = !run_instant(next_instant());
     advance_medium(now.sim);
     forget_old(now.sim);
   }
@@ -93,22 +96,23 @@ void ChannelServerNode::set_first_instants(SimTime now) {
 }
 
 // What holds from an instant on counts for what leaves at that very instant, so it is published before.
-void ChannelServerNode::run_instant(SimTime instant) {
-  const bool is_tick = instant == next_tick_;
-  if (is_tick) water_.bottoms->open_tick(instant);
+bool ChannelServerNode::run_instant(SimTime instant) {
   if (instant == next_environment_) publish_environment(instant);
   advance_medium(instant);
-  if (!is_tick) return;
-  run_tick(instant);
+  if (instant != next_tick_) return true;
+  if (!run_tick(instant)) return false;
   next_tick_ = next_on_grid(instant, rules_.link_period);
+  return true;
 }
 
 // No table of a tick that passed while the server was away is published.
-void ChannelServerNode::run_tick(SimTime tick) {
+bool ChannelServerNode::run_tick(SimTime tick) {
+  if (recovery_) return true;
   const auto present = place_all(vehicles_, tick);
-  if (recovery_) return seabed_.begin_past_tick(present);
+  if (!tables_are_ready(tick, present, *water_.propagation, rules_.medium.shard)) return false;
   tables_.publish(tick, present);
   seabed_.begin_tick(present);
+  return true;
 }
 
 void ChannelServerNode::advance_medium(SimTime time) {
@@ -131,7 +135,6 @@ void ChannelServerNode::forget_old(SimTime now) {
   const SimTime horizon = now - rules_.medium.max_lateness - kKeptLonger;
   medium_.forget_before(horizon);
   water_.waters->forget_before(horizon - kLongestFlight);
-  water_.bottoms->forget_before(horizon - kLongestFlight);
   vehicles_.forget_before(horizon - rules_.position.state_timeout - rules_.position.state_lag);
 }
 
@@ -152,14 +155,17 @@ bool ChannelServerNode::recover(const bus::Now& now) {
     recovery_.reset();
     return true;
   }
-  while (!(seabed_.is_waiting() && recovery_->may_wait_for_seabed(now.steady))) {
+  for (;;) {
     const SimTime reached = recovery_->reached();
     set_first_instants(reached);
-    if (next_instant() <= reached) {
-      run_instant(next_instant());
-      continue;
+    const bool is_instant = next_instant() <= reached;
+    if (is_instant) {
+      table_waits_ = !run_instant(next_instant());
+    } else {
+      advance_medium(reached);
     }
-    advance_medium(reached);
+    if (medium_.is_waiting()) return false;
+    if (is_instant) continue;
     if (recovery_->is_done()) {
       bus().log().info("resumed", "late=" + std::to_string(packets_.published_late()));
       recovery_.reset();
@@ -170,7 +176,6 @@ bool ChannelServerNode::recover(const bus::Now& now) {
     if (!inputs) return false;
     apply(std::move(*inputs), recovery_->reached());
   }
-  return false;
 }
 
 void ChannelServerNode::on_restart(const bus::Now& now) {
@@ -184,6 +189,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   recovery_.reset();
   inbox_.forget_after(now.sim + InputProcessor::kMaxAhead);
   next_tick_ = next_environment_ = kBeforeAll;
+  table_waits_ = false;
 }
 
 std::string ChannelServerNode::status_text() const {

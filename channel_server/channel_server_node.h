@@ -51,8 +51,9 @@ class ChannelServerNode : public bus::Node {
   // The instants at which something is published by itself: tables, and the environment where it changes.
   SimTime next_instant() const { return std::min(next_tick_, next_environment_); }
   void set_first_instants(SimTime now);
-  void run_instant(SimTime instant);
-  void run_tick(SimTime tick);
+  // False when a table waits for the seabed.
+  [[nodiscard]] bool run_instant(SimTime instant);
+  [[nodiscard]] bool run_tick(SimTime tick);
   void advance_medium(SimTime time);
   void apply(StepInputs inputs, SimTime now);
   void publish_environment(SimTime instant);
@@ -79,6 +80,7 @@ class ChannelServerNode : public bus::Node {
   std::unique_ptr<ServerRecovery> recovery_;
 
   SimTime next_tick_, next_environment_;
+  bool table_waits_ = false;
 };
 
 // The node of a scenario whose file lies in `folder`. Throws InvalidArgument when the water or a modem is

@@ -6,12 +6,14 @@
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/links/echo_survey.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_map.h"
 
 namespace halocline::channel_server {
 namespace {
 
 namespace channels = bus::channels;
+
+constexpr SimDuration kRetryPeriod = SimDuration::from_milliseconds(1000);
 
 std::string in_base_36(std::uint64_t number) {
   std::string digits;
@@ -41,6 +43,7 @@ std::string SeabedClient::client_name(std::int64_t session) {
 
 bool SeabedClient::take_replies() {
   bool is_other_terrain = false;
+  has_news_ = false;
   for (const ray_reply_t& reply : std::exchange(replies_, {})) {
     if (reply.terrain_version != terrain_version_) {
       forget_terrain();
@@ -62,13 +65,20 @@ bool SeabedClient::take_replies() {
 void SeabedClient::forget_terrain() {
   if (terrain_version_.empty()) return;
   models_.echoes.clear();
-  models_.profiles.clear();
+  models_.seabed.clear();
   surveyed_pairs_.clear();
+  surveyed_tiles_.clear();
 }
 
 void SeabedClient::take_finished_surveys() {
   for (RayQueryClient::Finished& finished : models_.rays.take_finished()) {
     if (models_.queries.finish(finished)) continue;
+    if (surveyed_tiles_.erase(finished.id) > 0) {
+      const TileSurvey& tile = std::get<TileSurvey>(finished.survey);
+      finished.answered ? models_.seabed.store(tile) : models_.seabed.note_failed(tile);
+      has_news_ = true;
+      continue;
+    }
     const auto pair = surveyed_pairs_.extract(finished.id);
     if (!pair.empty()) store(pair.mapped(), std::move(finished));
   }
@@ -76,31 +86,13 @@ void SeabedClient::take_finished_surveys() {
 
 void SeabedClient::store(const VehiclePair& pair, RayQueryClient::Finished finished) {
   models_.echoes.note_queried(pair);
-  models_.profiles.note_queried(pair);
-  if (!finished.answered) return;
-  if (auto* echoes = std::get_if<EchoSurvey>(&finished.survey)) {
-    models_.echoes.store(pair, std::move(*echoes));
-  } else {
-    models_.profiles.store(pair, std::get<ProfileSurvey>(finished.survey));
-  }
+  if (finished.answered) models_.echoes.store(pair, std::move(std::get<EchoSurvey>(finished.survey)));
 }
 
 void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles) {
-  if (models_.propagation.uses_bottom()) return begin_past_tick(vehicles);
-  drop_waiting_surveys();
-  request_echoes(vehicles);
-}
-
-void SeabedClient::begin_past_tick(const std::vector<PlacedVehicle>& vehicles) {
-  drop_waiting_surveys();
-  if (models_.propagation.uses_bottom()) request_profiles(vehicles);
-}
-
-void SeabedClient::drop_waiting_surveys() {
+  models_.seabed.forget_unused();
   for (const RayQueryClient::SurveyId dropped : models_.rays.begin_tick()) surveyed_pairs_.erase(dropped);
-}
-
-void SeabedClient::request_echoes(const std::vector<PlacedVehicle>& vehicles) {
+  if (models_.propagation.uses_bottom()) return;  // rays hold the echoes
   for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, shard_)) {
     const EchoSurvey survey(models_.echoes.place(pair.first), models_.echoes.place(pair.second),
                             bottom_points_);
@@ -108,18 +100,23 @@ void SeabedClient::request_echoes(const std::vector<PlacedVehicle>& vehicles) {
   }
 }
 
-void SeabedClient::request_profiles(const std::vector<PlacedVehicle>& vehicles) {
-  for (const VehiclePair& pair : models_.profiles.take_geometry(vehicles, shard_)) {
-    surveyed_pairs_.emplace(models_.rays.submit_routine(models_.profiles.survey_of(pair)), pair);
-  }
-}
-
 void SeabedClient::publish_queries(const bus::Now& now) {
+  retry_failed_tiles(now.steady);
+  for (const TileSurvey& tile : models_.seabed.take_requests()) {
+    surveyed_tiles_.insert(models_.rays.submit_urgent(tile));
+  }
   for (const RayQueryBatch& batch : models_.rays.take_batches(now.steady)) {
     bus_.publish(channels::kRayQuery, to_message(batch, client_name_, now.sim));
   }
   take_finished_surveys();
   report_presence();
+}
+
+void SeabedClient::retry_failed_tiles(SimTime steady) {
+  const bool is_back = reported_away_ && !models_.rays.is_away();
+  if (steady < next_retry_ && !is_back) return;
+  next_retry_ = steady + kRetryPeriod;
+  models_.seabed.forget_failures();
 }
 
 void SeabedClient::report_presence() {
@@ -137,8 +134,9 @@ void SeabedClient::report_presence() {
 void SeabedClient::clear() {
   models_.rays.clear();
   models_.echoes.clear();
-  models_.profiles.clear();
+  models_.seabed.clear();
   surveyed_pairs_.clear();
+  surveyed_tiles_.clear();
 }
 
 std::string SeabedClient::status_text() const {

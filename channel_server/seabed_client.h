@@ -1,5 +1,6 @@
-// Queries the bathymetry service for what the models need of the seabed, and hands its answers to them: echo
-// surveys to the multipath cache, profiles to the profile cache, and those of link queries to their service.
+// Queries the bathymetry service for what the models need of the seabed, and hands its answers to them: tiles to the
+// map of the seabed, urgently, because packets wait for them; echo surveys to the multipath cache; and those of link
+// queries to their service. Tiles that failed are queried again a second later, or once the service is back.
 //
 // Publishes RAY_QUERY, subscribes to RAY_REPLY of a client name that contains the server's session, so that a
 // recorded reply is not taken for its own. Batches, repetitions, time-outs: links/ray_query_client.h.
@@ -7,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,7 @@
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -31,7 +33,7 @@ class SeabedClient {
     RayQueryClient& rays;
     LinkQueryService& queries;
     MultipathCache& echoes;
-    SeabedProfileCache& profiles;
+    SeabedMap& seabed;
     const Propagation& propagation;
   };
   // `bottom_points`: of an echo survey.
@@ -44,16 +46,13 @@ class SeabedClient {
 
   // True when the replies received are of another terrain than those before: what was known of that is forgotten.
   [[nodiscard]] bool take_replies();
-  // Surveys that no batch has taken yet make room for those of `vehicles`, which are present at the tick.
+  // Echo surveys that no batch has taken yet make room for those of `vehicles`, which are present at the tick.
   void begin_tick(const std::vector<PlacedVehicle>& vehicles);
-  // The same for a tick that is done again: without echoes, which only link tables show.
-  void begin_past_tick(const std::vector<PlacedVehicle>& vehicles);
   void publish_queries(const bus::Now& now);
 
-  // Steady time at which take_replies() or publish_queries() has something to do.
-  SimTime due() const { return replies_.empty() ? models_.rays.due() : SimTime::at_once(); }
-  // Whether answers for vehicles are expected.
-  bool is_waiting() const { return !surveyed_pairs_.empty() && !models_.rays.is_away(); }
+  // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed may
+  // go on.
+  SimTime due() const { return has_news_ || !replies_.empty() ? SimTime::at_once() : models_.rays.due(); }
   // Empty before the first reply.
   const std::string& terrain_version() const { return terrain_version_; }
   // Another run has begun.
@@ -64,9 +63,7 @@ class SeabedClient {
   void forget_terrain();
   void take_finished_surveys();
   void store(const VehiclePair& pair, RayQueryClient::Finished finished);
-  void drop_waiting_surveys();
-  void request_echoes(const std::vector<PlacedVehicle>& vehicles);
-  void request_profiles(const std::vector<PlacedVehicle>& vehicles);
+  void retry_failed_tiles(SimTime steady);
   void report_presence();
 
   bus::Bus& bus_;
@@ -76,6 +73,9 @@ class SeabedClient {
   std::string client_name_;
   std::vector<ray_reply_t> replies_;
   std::map<RayQueryClient::SurveyId, VehiclePair> surveyed_pairs_;
+  std::set<RayQueryClient::SurveyId> surveyed_tiles_;
+  SimTime next_retry_;     // steady
+  bool has_news_ = false;  // of the seabed, since the last take_replies()
   std::string terrain_version_;
   bool reported_away_ = false;
 };

@@ -14,7 +14,6 @@ namespace channels = bus::channels;
 // How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not resumed, nor
 // is anything after a longer absence.
 constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
-constexpr SimDuration kSeabedTimeout = SimDuration::from_milliseconds(1500);
 constexpr SimDuration kInstant = SimDuration::from_nanoseconds(1);
 
 bool is_input(std::string_view channel) {
@@ -39,7 +38,6 @@ bool ServerRecovery::begin(const bus::Now& now) {
   if (!journal_.resume(now.sim)) return false;
   begun_ = true;
   repair_ends_ = now.steady + bus::CrashJournal::kRepairTime;
-  seabed_ends_ = now.steady + kSeabedTimeout;
   reached_ = steps_.front().at;
   journal_.redo_step(reached_);
   return true;
@@ -60,12 +58,6 @@ std::optional<StepInputs> ServerRecovery::next_step(const bus::Now& now) {
   reached_ = step.at;
   journal_.redo_step(reached_);
   return std::move(step.inputs);
-}
-
-bool ServerRecovery::may_wait_for_seabed(SimTime steady) {
-  if (steady >= seabed_ends_) return false;
-  due_ = seabed_ends_;
-  return true;
 }
 
 }  // namespace halocline::channel_server

@@ -3,7 +3,7 @@
 // The journal holds the inputs and outputs of the last minute (bus/runtime/crash_journal.h). The steps of that time
 // are done again, from their inputs: decisions depend on contents and instants alone, so they are the same. The
 // last step is the present one: it takes what was published while the server was away, once repair had its time.
-// Two things take wall time: that, and the seabed under the links, which is queried anew, tick by tick.
+// Two things take wall time: that, and the seabed under the links, which is queried anew.
 #pragma once
 
 #include <deque>
@@ -36,9 +36,7 @@ class ServerRecovery {
   // The present step was taken.
   bool is_done() const { return took_present_ && steps_.empty(); }
 
-  // Whether there is time to wait for the seabed: 1.5 s in all, then paths are straight where it is unknown.
-  bool may_wait_for_seabed(SimTime steady);
-  // Steady time at which one of the waits ends; never() without one.
+  // Steady time at which the wait for repair ends; never() without one.
   SimTime due() const { return due_; }
 
  private:
@@ -51,7 +49,7 @@ class ServerRecovery {
   Inbox& inbox_;
   std::deque<Step> steps_;
   SimTime reached_;
-  SimTime repair_ends_, seabed_ends_, due_ = SimTime::never();  // steady
+  SimTime repair_ends_, due_ = SimTime::never();  // steady
   bool begun_ = false, took_present_ = false;
 };
 

@@ -301,6 +301,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.options.min_boundary_factor = std::pow(10.0, -p.max_bounce_loss_db / 20);
   rays.speed_tolerance_mps = p.speed_tolerance_mps;
   rays.reuse_distance_m = p.reuse_distance_m;
+  rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;
   using Solver = acoustics::RaySolver;
   for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs}) {
     if (p.solver == to_name(solver)) rays.solver = solver;

@@ -11,24 +11,24 @@ WaterModel straight_model(const acoustics::Environment& environment, const acous
   auto waters = std::make_shared<EnvironmentTimeline>(environment);
   auto propagation = std::make_unique<StraightPropagation>(waters, fading);
   return {waters,
-          std::make_shared<SeabedProfileCache>(ProfileRule{}),
+          std::make_shared<SeabedMap>(SeabedRule{}),
           std::move(propagation),
           {"straight", {}, {}}};
 }
 
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
-                     const ProfileRule& rule) {
+                     const SeabedRule& rule) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);
-  auto bottoms = std::make_shared<SeabedProfileCache>(rule);
-  auto propagation = std::make_unique<RayPropagation>(waters, bottoms, rays);
-  return {waters, bottoms, std::move(propagation), {"rays", rays.bottom, rays.surface}};
+  auto seabed = std::make_shared<SeabedMap>(rule);
+  auto propagation = std::make_unique<RayPropagation>(waters, seabed, rays);
+  return {waters, seabed, std::move(propagation), {"rays", rays.bottom, rays.surface}};
 }
 
 WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
                             const std::string& folder) {
   const acoustics::Environment environment = make_environment(config.environment, scenario, folder);
   WaterModel water = config.propagation.model == PropagationModel::kRays
-                         ? ray_model(environment, make_rays(config), config.rules.profile)
+                         ? ray_model(environment, make_rays(config), config.rules.seabed)
                          : straight_model(environment, config.propagation.fading);
   const ReplayConfig& replay = config.propagation.replay;
   if (replay.is_wanted()) {

@@ -9,25 +9,24 @@
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/world_messages.h"
 
 namespace halocline::channel_server {
 
-// The propagation reads the waters and the seabed profiles, which the node keeps up to date.
+// The propagation reads the waters and the map of the seabed, which the node keeps up to date.
 struct WaterModel {
   std::shared_ptr<EnvironmentTimeline> waters;
-  std::shared_ptr<SeabedProfileCache> bottoms;
+  std::shared_ptr<SeabedMap> seabed;
   std::unique_ptr<Propagation> propagation;
   WaterDescription description;  // for ENVIRONMENT
 };
 WaterModel straight_model(const acoustics::Environment& environment,
                           const acoustics::FadingModel& fading = {});
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
-                     const ProfileRule& rule);
+                     const SeabedRule& rule);
 
 // As a scenario whose file lies in `folder` describes it. Throws InvalidArgument when that is impossible.
 WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,

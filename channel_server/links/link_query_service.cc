@@ -117,63 +117,67 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Wa
     waiting.reply.answers.push_back(std::move(answer));
     return;
   }
-  const Reception reception =
-      propagation_.reception(waiting.reply.at, link_end(from.placed()), link_end(to.placed()));
   answer.row.transmitter_id = from.id;
   answer.row.receiver_id = to.id;
   answer.row.transmitter_age = from.placement.age;
   answer.row.receiver_age = to.placement.age;
-  answer.row.set(reception);
-  answer.row.multipath = multipath_of(reception, to.modem.modem.min_receivable_level);
+  set_reception(from, to, waiting.reply.at, answer.row);
   const bool tables_know = from.id != 0 && to.id != 0 && from.id != to.id && !propagation_.uses_bottom();
   if (tables_know) {
     answer.row.multipath = echoes_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
   }
   waiting.reply.answers.push_back(answer);
-  if (answer.row.multipath == Multipath::kUnknown) query_terrain(from, to, waiting);
+  if (answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
 }
 
-void LinkQueryService::query_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
-  const Vec3 &here = from.placement.position_ned_m, &there = to.placement.position_ned_m;
-  const TerrainSurvey survey =
-      propagation_.uses_bottom()
-          ? TerrainSurvey(ProfileSurvey(cells_of(here, there, rule_.profile), rule_.profile))
-          : TerrainSurvey(EchoSurvey(here, there, rule_.bottom_points));
+void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at,
+                                     LinkRow& row) {
+  const Reception reception = propagation_.reception(at, link_end(from.placed()), link_end(to.placed()));
+  row.set(reception);
+  row.multipath = multipath_of(reception, to.modem.modem.min_receivable_level);
+}
+
+void LinkQueryService::wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {
   const std::size_t index = waiting.reply.answers.size() - 1;
-  waiting.surveys.emplace(rays_.submit_urgent(survey), index);
   waiting.ends.emplace(index, std::pair(from, to));
+  if (propagation_.uses_bottom()) {
+    waiting.bottoms.insert(index);
+    return take_bottoms(waiting);
+  }
+  const EchoSurvey survey(from.placement.position_ned_m, to.placement.position_ned_m, rule_.bottom_points);
+  waiting.surveys.emplace(rays_.submit_urgent(survey), index);
 }
 
 bool LinkQueryService::finish(const RayQueryClient::Finished& finished) {
   for (Waiting& waiting : waiting_) {
     const auto survey = waiting.surveys.find(finished.id);
     if (survey == waiting.surveys.end()) continue;
-    if (finished.answered) take(finished.survey, survey->second, waiting);
+    const auto& [from, to] = waiting.ends.at(survey->second);
+    if (finished.answered) {
+      waiting.reply.answers[survey->second].row.multipath =
+          multipath_of(std::get<EchoSurvey>(finished.survey), /*reversed=*/false, waiting.reply.at, propagation_,
+                       from.modem.modem, to.modem.modem);
+    }
     waiting.surveys.erase(survey);
     return true;
   }
   return false;
 }
 
-void LinkQueryService::take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting) {
-  const auto& [from, to] = waiting.ends.at(index);
-  LinkRow& row = waiting.reply.answers[index].row;
-  if (const auto* echoes = std::get_if<EchoSurvey>(&survey)) {
-    row.multipath = multipath_of(*echoes, /*reversed=*/false, waiting.reply.at, propagation_,
-                                 from.modem.modem, to.modem.modem);
-    return;
-  }
-  const Reception reception =
-      propagation_.reception_over(waiting.reply.at, link_end(from.placed()), link_end(to.placed()),
-                                  std::get<ProfileSurvey>(survey).profile());
-  row.set(reception);
-  row.multipath = multipath_of(reception, to.modem.modem.min_receivable_level);
+void LinkQueryService::take_bottoms(Waiting& waiting) {
+  std::erase_if(waiting.bottoms, [&](std::size_t index) {
+    const auto& [from, to] = waiting.ends.at(index);
+    if (!propagation_.is_ready(waiting.reply.at, link_end(from.placed()), link_end(to.placed()))) return false;
+    set_reception(from, to, waiting.reply.at, waiting.reply.answers[index].row);
+    return true;
+  });
 }
 
 std::vector<LinkReply> LinkQueryService::take_replies(SimTime steady) {
   std::vector<LinkReply> replies;
   std::erase_if(waiting_, [&](Waiting& waiting) {
-    if (!waiting.surveys.empty() && steady < waiting.deadline) return false;
+    take_bottoms(waiting);
+    if (!waiting.is_done() && steady < waiting.deadline) return false;
     replies.push_back(std::move(waiting.reply));
     return true;
   });
@@ -183,7 +187,7 @@ std::vector<LinkReply> LinkQueryService::take_replies(SimTime steady) {
 SimTime LinkQueryService::due() const {
   SimTime due = SimTime::never();
   for (const Waiting& waiting : waiting_) {
-    due = std::min(due, waiting.surveys.empty() ? SimTime::at_once() : waiting.deadline);
+    due = std::min(due, waiting.is_done() ? SimTime::at_once() : waiting.deadline);
   }
   return due;
 }

@@ -1,9 +1,9 @@
 // Answers link queries: between vehicles by name, and between positions and modems that need not exist.
 //
 // Every link is answered or refused on its own. A straight budget is computed at once; whether an echo is likely,
-// and rays, need the terrain, which is queried urgently: a reply waits for it no longer than `timeout` of steady
-// time, then holds unknown (and the straight path). For two vehicles whose echoes or whose bottom the link
-// tables know already, the terrain is not queried.
+// and rays, need the terrain: a reply waits for it no longer than `timeout` of steady time, then holds unknown (and the
+// straight path). Echoes are surveyed urgently, unless the link tables know those of the two vehicles; the bottom that
+// rays need is requested by the propagation itself.
 //
 // The position of a named vehicle is that of state_history.h at the simulation time of the query; while no
 // simulation time is known, no vehicle is. Not thread-safe.
@@ -13,14 +13,13 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
-#include "channel_server/links/terrain_survey.h"
-#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
@@ -66,7 +65,6 @@ class LinkQueryService {
 
   struct Rule {
     int bottom_points = 9;  // of an echo survey
-    ProfileRule profile;
     SimDuration timeout = SimDuration::from_milliseconds(250);
   };
 
@@ -96,8 +94,11 @@ class LinkQueryService {
   struct Waiting {
     LinkReply reply;
     SimTime deadline;
-    std::map<RayQueryClient::SurveyId, std::size_t> surveys;          // to the index of the answer
-    std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;  // of those answers
+    // What is waited for, by the index of the answer.
+    std::map<RayQueryClient::SurveyId, std::size_t> surveys;
+    std::set<std::size_t> bottoms;
+    std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;
+    bool is_done() const { return surveys.empty() && bottoms.empty(); }
   };
   std::string refusal_of(const LinkQuery& query) const;
   bool is_waiting(const LinkQuery& query) const;
@@ -105,8 +106,9 @@ class LinkQueryService {
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
-  void query_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
-  void take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting);
+  void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, LinkRow& row);
+  void wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
+  void take_bottoms(Waiting& waiting);
 
   const VehicleRegistry& fleet_;
   Propagation& propagation_;

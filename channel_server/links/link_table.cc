@@ -3,6 +3,21 @@
 #include <algorithm>
 
 namespace halocline::channel_server {
+namespace {
+
+// Sender by sender, the receivers by id.
+std::vector<EndPair> links_between(const std::vector<PlacedVehicle>& vehicles, Shard shard) {
+  std::vector<EndPair> links;
+  for (const PlacedVehicle& from : vehicles) {
+    if (!shard.serves(from.id)) continue;
+    for (const PlacedVehicle& to : vehicles) {
+      if (to.id != from.id) links.push_back({link_end(from), link_end(to)});
+    }
+  }
+  return links;
+}
+
+}  // namespace
 
 Multipath multipath_of(const Reception& reception, Decibels cutoff) {
   if (reception.used != PropagationUsed::kRays) return Multipath::kUnknown;
@@ -27,17 +42,16 @@ LinkEnd link_end(const PlacedVehicle& vehicle) {
           &vehicle.modem->modem};
 }
 
+bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicles, Propagation& propagation,
+                      Shard shard) {
+  return propagation.are_ready(instant, links_between(vehicles, shard));
+}
+
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    Propagation& propagation, const MultipathFunction& multipath,
                                    const ForEach& for_each, Shard shard) {
-  std::vector<EndPair> links;
-  for (const PlacedVehicle& from : vehicles) {
-    if (!shard.serves(from.id)) continue;
-    for (const PlacedVehicle& to : vehicles) {
-      if (to.id != from.id) links.push_back({link_end(from), link_end(to)});
-    }
-  }
-  const std::vector<Reception> receptions = propagation.receptions(instant, links, for_each);
+  const std::vector<Reception> receptions =
+      propagation.receptions(instant, links_between(vehicles, shard), for_each);
   auto reception = receptions.begin();
   std::vector<LinkTable> tables;
   for (const PlacedVehicle& from : vehicles) {

@@ -53,6 +53,10 @@ LinkEnd link_end(const PlacedVehicle& vehicle);
 using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
+// Whether link_tables() need not wait for what the propagation lacks.
+bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicles, Propagation& propagation,
+                      Shard shard = {});
+
 // One table a vehicle that `shard` serves, by id, of links whose sound leaves at `instant`; a vehicle alone has an
 // empty one. `multipath` is called where paths are straight by choice: rays hold the echoes of the bottom.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "channel_server/links/echo_survey.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/terrain_rays.h"
 
 namespace halocline::channel_server {
 
-using TerrainSurvey = std::variant<EchoSurvey, ProfileSurvey>;
+using TerrainSurvey = std::variant<EchoSurvey, TileSurvey>;
 
 // The kind of its next query; empty after the last.
 inline std::optional<RayKind> next_query(const TerrainSurvey& survey) {

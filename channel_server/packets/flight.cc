@@ -111,6 +111,17 @@ void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fl
   }
 }
 
+bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                 Propagation& propagation) {
+  const auto predicted = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
+  if (!predicted) return true;
+  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, flight.arrival()).modem;
+  return serves(flight, *predicted, modem) ||
+         propagation.is_ready(
+             flight.packet->departure, flight.packet->link_end(),
+             {flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps, &modem});
+}
+
 AudiblePacket audible_packet(const Flight& flight) {
   AudiblePacket audible{flight.packet, flight.signal.begin, flight.signal.end, {}};
   for (const SoundPath& path : flight.reception.paths) {

@@ -71,6 +71,10 @@ struct Flight {
 void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                    Propagation& propagation);
 
+// Whether the propagation knows all that solve_arrival() needs of it; what it does not is on its way.
+bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                 Propagation& propagation);
+
 // All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);
 // The same as signal and echoes; `noise` in uPa^2 over the packet's band, less the receiver's directivity.

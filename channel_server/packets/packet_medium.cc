@@ -66,6 +66,7 @@ void PacketMedium::add_departure(SimTime at, Departure departure) {
 
 SimTime PacketMedium::next_event() const {
   SimTime next = SimTime::never();
+  if (waiting_) return next;
   if (!departures_.empty()) next = std::get<0>(departures_.begin()->first);
   if (!flights_.empty()) next = std::min(next, std::get<0>(flights_.begin()->first));
   return next;
@@ -73,14 +74,19 @@ SimTime PacketMedium::next_event() const {
 
 std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   std::vector<MediumEvent> events;
+  waiting_ = false;
+  SimTime reached = time;
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
     if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
       depart(std::move(departures_.extract(departures_.begin()).mapped()), events);
+    } else if (must_wait(*flights_.begin()->second, next)) {
+      waiting_ = true;
+      reached = next;
     } else {
       on_flight_event(std::move(flights_.extract(flights_.begin()).mapped()), next, events);
     }
   }
-  advanced_to_ = std::max(advanced_to_, time);
+  advanced_to_ = std::max(advanced_to_, reached);
   return events;
 }
 
@@ -153,10 +159,12 @@ void PacketMedium::launch(const PacketPointer& packet) {
     flight->packet = packet;
     flight->receiver_id = receiver;
     flight->receiver = fleet_.name_of(receiver);
-    solve_arrival(*flight, departure, fleet_, propagation_);
-    const SimTime first_sound = flight->first_sound();
-    schedule(first_sound, std::move(flight));
+    schedule(departure, std::move(flight));  // solved there
   }
+}
+
+bool PacketMedium::must_wait(const Flight& flight, SimTime at) const {
+  return flight.stage == Flight::Stage::kTravelling && !is_solvable(flight, at, fleet_, propagation_);
 }
 
 void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events) {
@@ -271,6 +279,7 @@ void PacketMedium::clear() {
   receivers_.clear();
   answered_.clear();
   advanced_to_ = SimTime::at_once();
+  waiting_ = false;
 }
 
 }  // namespace halocline::channel_server

@@ -20,6 +20,9 @@
 // What was decided before it was received stays: packets it would have disturbed, and a receiver that would have
 // acquired it.
 //
+// Waiting. Where the propagation is not ready for an arrival (Propagation::is_ready), that event and all after it wait,
+// and happen at their exact instants once it is: waiting changes when events are known, never what happens.
+//
 // Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time at
 // most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
 //
@@ -75,10 +78,14 @@ class PacketMedium {
   // A modem that another shard serves will answer a ping; a repetition changes nothing.
   void add_answer(const PingAnswer& answer);
 
-  // When something next happens; SimTime::never() when the water is silent.
+  // When something next happens; SimTime::never() when the water is silent, or waits.
   SimTime next_event() const;
-  // Everything that happens up to and including `time`, which does not decrease from call to call.
+  // Everything that happens up to and including `time`, which does not decrease from call to call; up to the first
+  // event that waits.
   std::vector<MediumEvent> advance_to(SimTime time);
+  // Whether the last advance_to() ended at an event that waits for the propagation: to be called again when that may
+  // be ready.
+  bool is_waiting() const { return waiting_; }
 
   // Forgets receipts and occupations from before `time`; the owner gives an instant at least
   // max_lateness ago.
@@ -112,6 +119,7 @@ class PacketMedium {
   PacketPointer at_its_departure(const Packet& queued) const;
 
   using FlightPointer = std::unique_ptr<Flight>;
+  bool must_wait(const Flight& flight, SimTime at) const;
   void on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
   void begin_reception(FlightPointer flight, SimTime at);
   void end_preamble(FlightPointer flight, SimTime at);
@@ -131,6 +139,7 @@ class PacketMedium {
   std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
       answered_;  // see add_answer
   SimTime advanced_to_ = SimTime::at_once();
+  bool waiting_ = false;
 };
 
 }  // namespace halocline::channel_server

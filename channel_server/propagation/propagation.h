@@ -25,7 +25,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/for_each.h"
 #include "core/frames.h"
@@ -71,7 +71,7 @@ enum class PathState {
 enum class PropagationUsed {
   kStraight,               // one straight path
   kRays,                   // rays in the water above the known bottom
-  kStraightWithoutBottom,  // rays were wanted, the bottom was not known (yet): one straight path
+  kStraightWithoutBottom,  // rays were wanted, the bottom is not known: one straight path
 };
 
 // What arrives over one link. In the budget, `delay_s` is that of the first significant path, `received_level`
@@ -103,13 +103,17 @@ class Propagation {
 
   // Throws InvalidArgument when a modem is out of range.
   virtual Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
-  // The same for many links that leave at one instant, shared out by `for_each`; as reception() one by one,
-  // whatever the sharing.
+  // For many links that leave at one instant, shared out by `for_each`: as reception() one by one, or nearly where
+  // an implementation lets links near each other share a search; the same whatever the sharing out.
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                             const ForEach& for_each);
-  // Whether answers depend on the bottom along the link: then reception() uses what is known of it between
-  // vehicles, and reception_over() the one that is given, from the one end to the other (null: unknown). The latter
-  // is not to be called otherwise.
+  // Whether all is known that reception() needs, or receptions(). What is not is on its way, so the answer becomes
+  // true; who asks before uses less than there is to know.
+  virtual bool is_ready(SimTime /*at*/, const LinkEnd& /*from*/, const LinkEnd& /*to*/) { return true; }
+  virtual bool are_ready(SimTime /*at*/, const std::vector<EndPair>& /*links*/) { return true; }
+  // Whether answers depend on the bottom along the link: then reception() uses what is known of it, and
+  // reception_over() the one that is given, from the one end to the other (null: unknown). The latter is not to be
+  // called otherwise.
   virtual bool uses_bottom() const { return false; }
   virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                    const std::shared_ptr<const SeabedProfile>& seabed);

@@ -53,9 +53,9 @@ std::optional<acoustics::RaySolver> usable(std::optional<acoustics::RaySolver> w
 }  // namespace
 
 RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                               std::shared_ptr<const SeabedProfileCache> bottoms, const RayModel& model)
+                               std::shared_ptr<SeabedMap> seabed, const RayModel& model)
     : waters_(std::move(waters)),
-      bottoms_(std::move(bottoms)),
+      seabed_(std::move(seabed)),
       model_(model),
       straight_(waters_, model.fading),
       ray_waters_(kMaxRayWaters),
@@ -65,25 +65,25 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
   validate(model.fading);
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
+  require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
 }
 
 Reception RayPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  const auto seabed = seabed_between(at, from, to);
-  if (!seabed) return without_bottom(at, from, to);
-  const Task task = shared_task_of(at, from, to, seabed);
-  return answer(task, *found(task));
+  const Task task = task_of(at, from, to, from.id > to.id);
+  const FoundPaths paths = found(task);
+  return paths ? answer(task, *paths) : without_bottom(at, from, to);
 }
 
 Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                          const std::shared_ptr<const SeabedProfile>& seabed) {
   if (!seabed) return without_bottom(at, from, to);
-  const Task task = task_of(at, from, to, seabed, /*reversed=*/false);
+  const Task task = task_over(at, from, to, seabed);
   return answer(task, *found(task));
 }
 
 acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                                   const std::shared_ptr<const SeabedProfile>& seabed) {
-  const FoundPaths found_paths = found(task_of(at, from, to, seabed, /*reversed=*/false));
+  const FoundPaths found_paths = found(task_over(at, from, to, seabed));
   acoustics::Arrivals all = found_paths->arrivals;
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::erase_if(all.paths,
@@ -92,38 +92,53 @@ acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& fro
   return all;
 }
 
-// The cache is read and written in turn; searches and results are shared out.
+// The caches are read and written in turn; searches and results are shared out.
 std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                   const ForEach& for_each) {
-  std::vector<Reception> receptions(links.size());
+  struct Search {
+    std::size_t task, place;
+    std::shared_ptr<const SeabedProfile> seabed;
+  };
   std::vector<Task> tasks;
-  std::vector<std::size_t> link_of;     // of each task
   std::map<Key, std::size_t> place_of;  // of each query, among `paths`
-  std::vector<FoundPaths> paths;
-  std::vector<std::pair<std::size_t, std::size_t>> to_search;  // place and a task that needs it
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    const auto& [from, to] = links[i];
-    const auto seabed = seabed_between(at, from, to);
-    if (!seabed) {
-      receptions[i] = without_bottom(at, from, to);
-      continue;
-    }
-    tasks.push_back(shared_task_of(at, from, to, seabed));
-    link_of.push_back(i);
-    const Key key = key_of(tasks.back().query);
-    if (!place_of.emplace(key, paths.size()).second) continue;
-    const FoundPaths* known = found_.find(key);
+  std::vector<FoundPaths> paths;        // null where the bottom is not known
+  std::vector<Search> searches;
+  for (const auto& [from, to] : links) {
+    tasks.push_back(shared_task_of(at, from, to));
+    const PathQuery& query = tasks.back().query;
+    if (!place_of.emplace(key_of(query), paths.size()).second) continue;
+    const FoundPaths* known = found_.find(key_of(query));
     paths.push_back(known == nullptr ? nullptr : *known);
-    if (known == nullptr) to_search.emplace_back(paths.size() - 1, tasks.size() - 1);
+    if (known != nullptr) continue;
+    if (auto seabed = seabed_of(query)) searches.push_back({tasks.size() - 1, paths.size() - 1, std::move(seabed)});
   }
-  for_each(to_search.size(),
-           [&](std::size_t i) { paths[to_search[i].first] = search(tasks[to_search[i].second]); });
-  for (const auto& [place, task] : to_search) found_.insert(key_of(tasks[task].query), paths[place]);
-  searches_ += static_cast<std::int64_t>(to_search.size());
-  for_each(tasks.size(), [&](std::size_t i) {
-    receptions[link_of[i]] = answer(tasks[i], *paths[place_of.at(key_of(tasks[i].query))]);
+  for_each(searches.size(), [&](std::size_t i) {
+    paths[searches[i].place] = search(tasks[searches[i].task], *searches[i].seabed);
   });
+  for (const Search& done : searches) found_.insert(key_of(tasks[done.task].query), paths[done.place]);
+  searches_ += static_cast<std::int64_t>(searches.size());
+  std::vector<Reception> receptions(links.size());
+  const auto paths_of = [&](std::size_t i) -> const FoundPaths& { return paths[place_of.at(key_of(tasks[i].query))]; };
+  for_each(tasks.size(), [&](std::size_t i) {
+    if (paths_of(i)) receptions[i] = answer(tasks[i], *paths_of(i));
+  });
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!paths_of(i)) receptions[i] = without_bottom(at, links[i].from, links[i].to);
+  }
   return receptions;
+}
+
+bool RayPropagation::is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  return is_surveyed(task_of(at, from, to, from.id > to.id).query.places);
+}
+
+// Every link is looked at, so that all that is missing is requested together.
+bool RayPropagation::are_ready(SimTime at, const std::vector<EndPair>& links) {
+  bool ready = true;
+  for (const auto& [from, to] : links) {
+    ready = is_surveyed(shared_task_of(at, from, to).query.places) && ready;
+  }
+  return ready;
 }
 
 bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
@@ -134,14 +149,13 @@ bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& tran
 }
 
 RayPropagation::Key RayPropagation::key_of(const PathQuery& q) {
-  return {q.water_id,    q.frequency_hz, q.seabed.get(), q.link.source_depth_m, q.link.receiver_depth_m,
-          q.link.range_m};
+  return {q.water_id,     q.frequency_hz,        q.places,          q.seabed_version,
+          q.given.get(), q.link.source_depth_m, q.link.receiver_depth_m, q.link.range_m};
 }
 
-std::shared_ptr<const SeabedProfile> RayPropagation::seabed_between(SimTime at, const LinkEnd& from,
-                                                                    const LinkEnd& to) const {
-  if (from.id == 0 || to.id == 0 || from.id == to.id) return nullptr;
-  return bottoms_->at(at, pair_of(from.id, to.id));
+std::shared_ptr<const SeabedProfile> RayPropagation::seabed_of(const PathQuery& q) const {
+  if (q.given) return q.given;
+  return seabed_->between({q.places[0], q.places[1], 0}, {q.places[2], q.places[3], 0});
 }
 
 std::shared_ptr<const acoustics::RayWater> RayPropagation::water_of(SimTime at, double frequency_hz) {
@@ -152,7 +166,6 @@ std::shared_ptr<const acoustics::RayWater> RayPropagation::water_of(SimTime at, 
 }
 
 RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                                             const std::shared_ptr<const SeabedProfile>& seabed,
                                              bool reversed) {
   const acoustics::Environment& environment = waters_->at(at);
   const LinkEnd &first = reversed ? to : from, &last = reversed ? from : to;
@@ -160,47 +173,60 @@ RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, co
   const double frequency_hz = from.modem->centre_frequency_hz;
   const acoustics::RayLink link = acoustics::held_apart(
       {depth_of(first, environment), depth_of(last, environment), std::hypot(way.x(), way.y())});
+  const Places places{first.position_ned_m.x(), first.position_ned_m.y(), last.position_ned_m.x(),
+                      last.position_ned_m.y()};
   return {{from, to},
           &environment,
           water_of(at, frequency_hz),
           straight_.model_of(at, *from.modem, *to.modem),
-          {waters_->water_at(at), frequency_hz, seabed, link},
+          {waters_->water_at(at), frequency_hz, places, seabed_->version(), nullptr, link},
           link,
           reversed};
 }
 
-RayPropagation::Task RayPropagation::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                                                    const std::shared_ptr<const SeabedProfile>& seabed) {
-  Task task = task_of(at, from, to, seabed, from.id > to.id);
+RayPropagation::Task RayPropagation::task_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                               const std::shared_ptr<const SeabedProfile>& seabed) {
+  Task task = task_of(at, from, to, /*reversed=*/false);
+  task.query.places = {};
+  task.query.given = seabed;
+  return task;
+}
+
+RayPropagation::Task RayPropagation::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Task task = task_of(at, from, to, from.id > to.id);
   // The phase of a path turns within centimetres.
   if (model_.reuse_distance_m <= 0 || model_.coherent) return task;
   if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
     shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
     shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
     task.query.link = *shared;
+    const double apart_m = model_.profile_reuse_distance_m;
+    for (double& place_m : task.query.places) place_m = std::round(place_m / apart_m) * apart_m;
   }
   return task;
 }
 
-RayPropagation::FoundPaths RayPropagation::search(const Task& task) const {
+RayPropagation::FoundPaths RayPropagation::search(const Task& task, const SeabedProfile& seabed) const {
   const PathQuery& q = task.query;
   acoustics::RayOptions options = model_.options;
   options.frequency_hz = q.frequency_hz;
   const acoustics::RaySea sea{
-      *task.water, bottom_under(*q.seabed, q.link, task.environment->sea_surface_z_m), model_.bottom,
+      *task.water, bottom_under(seabed, q.link, task.environment->sea_surface_z_m), model_.bottom,
       acoustics::RaySurface{model_.surface, task.environment->noise.wind_mps}, options};
   auto found = std::make_shared<Found>();
-  found->seabed = q.seabed;
+  found->given = q.given;
   found->arrivals = arrivals(sea, q.link, usable(model_.solver, sea, q.link));
   found->blocked = cuts_straight_line(sea.bottom_profile, q.link);
   return found;
 }
 
 RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
-  return found_.find_or_make(key_of(task.query), [&] {
-    ++searches_;
-    return search(task);
-  });
+  const Key key = key_of(task.query);
+  if (const FoundPaths* known = found_.find(key)) return *known;
+  const auto seabed = seabed_of(task.query);
+  if (!seabed) return nullptr;
+  ++searches_;
+  return found_.insert(key, search(task, *seabed));
 }
 
 Reception RayPropagation::without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to) {

@@ -12,17 +12,19 @@
 // Where there is no path: too weak or too steep when rays arrive beyond the limits of the search, blocked when none does
 // and the bottom cuts the straight line between the ends, in a shadow otherwise; the level is kSilence or, in a shadow
 // and where rays are too weak, that of the stated floor, the delay that of the straight line, and nothing is receivable.
-// Where the bottom is not known (no profile for the instant, or between positions): the straight path.
+// Where the bottom is not known (no terrain there, or no answer of who knows it): the straight path.
 //
 // Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
-// the same paths backwards, so the two are reciprocal to the last bit. With a distance of reuse, the search is
-// for the middle of the cell that the link lies in (ray_cells.h), and its paths are extrapolated from there to the
-// link (acoustics/rays/extrapolate_arrivals.h); not for given bottoms and coherent levels, which need a search of
-// their own. Results are functions of environment, profile and ends alone: a search is kept for the very same query,
-// and done again when it was forgotten. Ends above the surface are taken at it. Left out: motion of the bottom's slope across
-// the link (acoustics/rays/eigenray.h).
+// the same paths backwards, so the two are reciprocal to the last bit. reception() searches every link for itself, over
+// the bottom between its very ends. receptions(), for tables, may let links share: with a distance of reuse, both
+// ends go to the nearest points of a horizontal lattice for the bottom, the search is for the middle of the cell that the
+// link lies in (ray_cells.h), and its paths are extrapolated from there to the link
+// (acoustics/rays/extrapolate_arrivals.h); not for coherent levels. Results are functions of environment, terrain and ends
+// alone: a search is kept for the very same query, and done again when it was forgotten. Ends above the surface are
+// taken at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -39,9 +41,9 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "core/for_each.h"
 #include "core/frames.h"
 #include "core/lru_cache.h"
@@ -60,18 +62,21 @@ struct RayModel {
   bool coherent = false;  // received level: sum of phasors at the centre frequency
   acoustics::FadingModel fading;
   double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
-  double reuse_distance_m = 0;     // of ray_cells.h, 0..1000; 0: every link is searched for itself
+  double reuse_distance_m = 0;     // of ray_cells.h, 0..1000; 0: every link of a table is searched for itself
+  double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
 };
 
 class RayPropagation : public Propagation {
  public:
   // Throws InvalidArgument when the model is out of range.
   RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                 std::shared_ptr<const SeabedProfileCache> bottoms, const RayModel& model);
+                 std::shared_ptr<SeabedMap> seabed, const RayModel& model);
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
+  bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  bool are_ready(SimTime at, const std::vector<EndPair>& links) override;
   bool uses_bottom() const override { return true; }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
@@ -87,21 +92,26 @@ class RayPropagation : public Propagation {
   std::int64_t searches() const { return searches_; }  // of paths, since the start
 
  private:
+  // Horizontal places of the ends of a bottom profile: north and east of the first, of the last, m.
+  using Places = std::array<double, 4>;
   // What paths depend on. The link runs from the profile's first end.
   struct PathQuery {
     EnvironmentTimeline::WaterId water_id;
     double frequency_hz;
-    std::shared_ptr<const SeabedProfile> seabed;
+    Places places;       // of the bottom, unless it is given
+    std::int64_t seabed_version;
+    std::shared_ptr<const SeabedProfile> given;
     acoustics::RayLink link;
   };
-  using Key = std::tuple<EnvironmentTimeline::WaterId, double, const SeabedProfile*, double, double, double>;
+  using Key = std::tuple<EnvironmentTimeline::WaterId, double, Places, std::int64_t, const SeabedProfile*,
+                         double, double, double>;
   struct Found {
-    std::shared_ptr<const SeabedProfile> seabed;  // whose address is in the key
+    std::shared_ptr<const SeabedProfile> given;  // whose address is in the key
     acoustics::Arrivals arrivals;
     bool blocked = false;  // the bottom cuts the straight line
   };
   using FoundPaths = std::shared_ptr<const Found>;
-  // A link over a known bottom, ready to be computed without touching the caches.
+  // A link, ready to be computed without touching the caches once its bottom is there.
   struct Task {
     EndPair ends;
     const acoustics::Environment* environment;
@@ -113,15 +123,18 @@ class RayPropagation : public Propagation {
   };
 
   static Key key_of(const PathQuery& query);
-  std::shared_ptr<const SeabedProfile> seabed_between(SimTime at, const LinkEnd& from,
-                                                      const LinkEnd& to) const;
+  std::shared_ptr<const SeabedProfile> seabed_of(const PathQuery& query) const;
   std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
-  Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
-               const std::shared_ptr<const SeabedProfile>& seabed, bool reversed);
-  // For two vehicles: the query may be that of a cell, shared by links near it.
-  Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                      const std::shared_ptr<const SeabedProfile>& seabed);
-  FoundPaths search(const Task& task) const;
+  Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed);
+  Task task_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                 const std::shared_ptr<const SeabedProfile>& seabed);
+  bool is_surveyed(const Places& places) {
+    return seabed_->is_surveyed({places[0], places[1], 0}, {places[2], places[3], 0});
+  }
+  // For a table: the query may be that of a cell, shared by links near it.
+  Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  FoundPaths search(const Task& task, const SeabedProfile& seabed) const;
+  // Null where the bottom is not known.
   FoundPaths found(const Task& task);
   Reception without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to);
   Reception answer(const Task& task, const Found& found) const;
@@ -135,7 +148,7 @@ class RayPropagation : public Propagation {
   void set_silent(const Task& task, Reception& reception) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
-  std::shared_ptr<const SeabedProfileCache> bottoms_;
+  std::shared_ptr<SeabedMap> seabed_;
   RayModel model_;
   StraightPropagation straight_;
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>

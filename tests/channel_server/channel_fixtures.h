@@ -11,9 +11,8 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
-#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
@@ -87,23 +86,27 @@ inline std::vector<PacketOutcome> outcomes_in(const std::vector<MediumEvent>& ev
   return outcomes;
 }
 
-// The bottom between vehicle 1 at `one` and vehicle 2 at `other`, `depth_at(north)` metres deep, known from 1 s on.
+// Answers what is missing of the seabed between two places: `depth_at(place)` metres.
 template <class DepthAt>
-std::shared_ptr<SeabedProfileCache> bottoms_between(const Vec3& one, const Vec3& other, DepthAt depth_at) {
-  auto bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
-  PlacedVehicle low, high;
-  low.id = 1, high.id = 2;
-  low.placement.position_ned_m = one, high.placement.position_ned_m = other;
-  bottoms->take_geometry({low, high});
-  ProfileSurvey survey = bottoms->survey_of({1, 2});
-  std::vector<RayAnswer> answers;
-  for (const TerrainRay& ray : survey.rays()) {
-    answers.push_back({RayAnswer::Kind::kHit, depth_at(ray.origin_ned_m.x())});
+void survey(SeabedMap& seabed, const Vec3& one, const Vec3& other, DepthAt depth_at) {
+  while (!seabed.is_surveyed(one, other)) {
+    for (TileSurvey& tile : seabed.take_requests()) {
+      std::vector<RayAnswer> answers;
+      for (const TerrainRay& ray : tile.rays()) {
+        answers.push_back({RayAnswer::Kind::kHit, depth_at(ray.origin_ned_m)});
+      }
+      tile.take(answers);
+      seabed.store(tile);
+    }
   }
-  survey.take(answers);
-  bottoms->store({1, 2}, survey);
-  bottoms->open_tick(at_s(1));
-  return bottoms;
+}
+
+// The seabed around two places, `depth_at(north)` metres deep.
+template <class DepthAt>
+std::shared_ptr<SeabedMap> seabed_around(const Vec3& one, const Vec3& other, DepthAt depth_at) {
+  auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  survey(*seabed, one, other, [&](const Vec3& place) { return depth_at(place.x()); });
+  return seabed;
 }
 
 }  // namespace halocline::channel_server::testing

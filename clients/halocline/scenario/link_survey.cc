@@ -20,7 +20,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "core/check.h"
 #include "core/csv_table.h"
@@ -163,11 +163,17 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
   return survey;
 }
 
-channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
-                                             const Vec3& to_ned_m, const channel_server::ProfileRule& rule) {
-  channel_server::ProfileSurvey survey(cells_of(from_ned_m, to_ned_m, rule), rule);
-  survey.take(query(terrain, bathymetry::QueryMode::kDepth, survey.rays()));
-  return survey;
+std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
+                                                                   const Vec3& from_ned_m, const Vec3& to_ned_m,
+                                                                   const channel_server::SeabedRule& rule) {
+  channel_server::SeabedMap seabed(rule);
+  while (!seabed.is_surveyed(from_ned_m, to_ned_m)) {
+    for (channel_server::TileSurvey& tile : seabed.take_requests()) {
+      tile.take(query(terrain, bathymetry::QueryMode::kDepth, tile.rays()));
+      seabed.store(tile);
+    }
+  }
+  return seabed.between(from_ned_m, to_ned_m);
 }
 
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
@@ -187,10 +193,8 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
                depth_below_surface_m(to.position_ned_m, config.scenario.sea_surface_z_m)));
   if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
     channel_server::RayPropagation propagation(
-        waters, std::make_shared<channel_server::SeabedProfileCache>(rules.profile),
-        make_rays(config.channel_server));
-    const auto seabed =
-        survey_profile(*terrain, from.position_ned_m, to.position_ned_m, rules.profile).profile();
+        waters, std::make_shared<channel_server::SeabedMap>(rules.seabed), make_rays(config.channel_server));
+    const auto seabed = survey_bottom(*terrain, from.position_ned_m, to.position_ned_m, rules.seabed);
     answer.reception = propagation.reception_over(SimTime(), here, there, seabed);
     const bool rays = answer.reception.used == channel_server::PropagationUsed::kRays;
     answer.arrivals = link_arrivals(config, from, to, answer.reception,

@@ -5,12 +5,13 @@
 // scenario's terrain.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_table.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/scenario/composition.h"
@@ -46,8 +47,9 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                          const Vec3& to_ned_m, int bottom_points);
 
-// How the bottom runs between them.
-channel_server::ProfileSurvey survey_profile(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
-                                             const Vec3& to_ned_m, const channel_server::ProfileRule& rule);
+// How the bottom runs between them; null where the terrain does not reach.
+std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
+                                                                   const Vec3& from_ned_m, const Vec3& to_ned_m,
+                                                                   const channel_server::SeabedRule& rule);
 
 }  // namespace halocline::clients

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "channel_server/links/echo_survey.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 
@@ -203,30 +203,26 @@ TEST(RayQueryClient, ImpossibleRulesAreRefused) {
   EXPECT_THROW(RayQueryClient({.answer_deadline = for_s(0)}), InvalidArgument);
 }
 
-ProfileSurvey profile(std::int64_t cells_long) {
-  return ProfileSurvey({{0, 0}, {cells_long, 0}}, ProfileRule{});
-}
-
-TEST(RayQueryClient, AProfileSurveyIsThroughAfterItsDepths) {
+TEST(RayQueryClient, ATileIsThroughAfterItsDepths) {
   RayQueryClient rays(kRule);
-  rays.submit_routine(profile(40));
+  rays.submit_urgent(TileSurvey({3, -4}, 25));
   const auto depths = rays.take_batches(at_s(0));
   ASSERT_EQ(depths.size(), 1u);
-  EXPECT_EQ(depths[0].rays.size(), 17u);  // 400 m, 25 m apart
+  EXPECT_EQ(depths[0].rays.size(), 64u);
   answer(rays, depths[0]);
   const auto finished = rays.take_finished();
   ASSERT_EQ(finished.size(), 1u);
-  EXPECT_NE(std::get<ProfileSurvey>(finished[0].survey).profile(), nullptr);
+  EXPECT_EQ(std::get<TileSurvey>(finished[0].survey).z_m(), std::vector<double>(64, 100));
   EXPECT_EQ(rays.due(), SimTime::never());
 }
 
-TEST(RayQueryClient, ProfilesAndEchoesShareABatchOfDepths) {
+TEST(RayQueryClient, TilesAndEchoesShareABatchOfDepths) {
   RayQueryClient rays(kRule);
   rays.submit_routine(survey());
-  rays.submit_routine(profile(40));
+  rays.submit_routine(TileSurvey({0, 0}, 25));
   const auto batches = rays.take_batches(at_s(0));
   ASSERT_EQ(batches.size(), 1u);
-  EXPECT_EQ(batches[0].rays.size(), 8u + 17u);
+  EXPECT_EQ(batches[0].rays.size(), 8u + 64u);
   answer(rays, batches[0]);
   EXPECT_EQ(rays.take_batches(at_s(0)).at(0).kind, Kind::kWays);  // the echoes'
 }
@@ -234,7 +230,7 @@ TEST(RayQueryClient, ProfilesAndEchoesShareABatchOfDepths) {
 TEST(RayQueryClient, ASurveyLongerThanABatchGoesWhole) {
   RayQueryClient rays(kRule);
   rays.submit_routine(survey());
-  rays.submit_routine(profile(500));
+  rays.submit_routine(EchoSurvey({0, 0, 50}, {1000, 0, 50}, 201));
   const auto batches = rays.take_batches(at_s(0));
   ASSERT_EQ(batches.size(), 2u);
   EXPECT_EQ(batches[1].rays.size(), 201u);  // kRule allows 128

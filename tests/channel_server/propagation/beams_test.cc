@@ -13,10 +13,9 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"
@@ -57,8 +56,8 @@ struct Sea {
 
 Reception by_rays(const Sea& sea, const LinkEnd& from, const LinkEnd& to) {
   RayPropagation rays(std::make_shared<EnvironmentTimeline>(sea.water),
-                      std::make_shared<SeabedProfileCache>(ProfileRule{}), sea.model);
-  return rays.reception_over(at_s(0), from, to, std::make_shared<const SeabedProfile>(41, sea.depth_m));
+                      std::make_shared<SeabedMap>(SeabedRule{}), sea.model);
+  return rays.reception_over(at_s(0), from, to, std::make_shared<const SeabedProfile>(SeabedProfile::flat(sea.depth_m)));
 }
 
 Reception by_line(const LinkEnd& from, const LinkEnd& to) {
@@ -132,10 +131,10 @@ TEST(Beams, ArrivalsAreThoseOfTheReceptionAlsoWhereABeamSilencesThem) {
   plain.centre_frequency_hz = 1e6;
   acoustics::Modem insensitive = plain;
   insensitive.beam = acoustics::BeamPattern({{0, 200}});
-  const auto bottom = std::make_shared<const SeabedProfile>(41, 5000);
+  const auto bottom = std::make_shared<const SeabedProfile>(SeabedProfile::flat(5000));
   const Vec3 from(0, 0, 2400), to(19'000, 0, 2500);
   RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()),
-                      std::make_shared<SeabedProfileCache>(ProfileRule{}), {});
+                      std::make_shared<SeabedMap>(SeabedRule{}), {});
   const auto counts = [&](const acoustics::Modem& modem) {
     const LinkEnd here = end_at(from, modem), there = end_at(to, modem);
     return std::pair(rays.reception_over(at_s(0), here, there, bottom).paths.size(),
@@ -159,22 +158,6 @@ TEST(Beams, TheLevelIsTheSumOfWeighedPathsAndTheBudgetFollows) {
             by_rays({}, end_at(from, plain), end_at(to, plain)).budget.noise_level.value);
 }
 
-// Vehicles 1 and 2 there, with 100 m of water between them known from 1 s on.
-std::shared_ptr<SeabedProfileCache> known_bottom(const Vec3& at_1, const Vec3& at_2) {
-  auto bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
-  PlacedVehicle one, two;
-  one.id = 1;
-  two.id = 2;
-  one.placement.position_ned_m = at_1;
-  two.placement.position_ned_m = at_2;
-  bottoms->take_geometry({one, two});
-  ProfileSurvey survey = bottoms->survey_of({1, 2});
-  survey.take(std::vector<RayAnswer>(survey.rays().size(), {RayAnswer::Kind::kHit, 100}));
-  bottoms->store({1, 2}, survey);
-  bottoms->open_tick(at_s(1));
-  return bottoms;
-}
-
 TEST(Beams, BothWaysAreTheSameToTheLastBitWithThePatternsExchanged) {
   const acoustics::Modem one = flat_looking(), other = down_looking();
   const LinkEnd a{1, {0, 0, 20}, Vec3::Zero(), &one}, b{2, {60, 0, 70}, Vec3::Zero(), &other};
@@ -182,7 +165,7 @@ TEST(Beams, BothWaysAreTheSameToTheLastBitWithThePatternsExchanged) {
     RayModel model;
     model.coherent = coherent;
     RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()),
-                        known_bottom(a.position_ned_m, b.position_ned_m), model);
+                        testing::seabed_around(a.position_ned_m, b.position_ned_m, [](double) { return 100; }), model);
     const Reception there = rays.reception(at_s(1), a, b), back = rays.reception(at_s(1), b, a);
     ASSERT_EQ(there.used, PropagationUsed::kRays);
     EXPECT_EQ(there.budget.received_level.value, back.budget.received_level.value) << coherent;

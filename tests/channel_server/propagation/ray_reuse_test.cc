@@ -11,11 +11,10 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/frames.h"
 #include "core/random.h"
@@ -57,7 +56,7 @@ TEST(RayCells, AShortLinkIsSearchedItself) {
 class RayReuseTest : public ::testing::Test {
  protected:
   static double slope(double north_m) { return 150 - north_m / 100; }
-  RayPropagation rays(const std::shared_ptr<SeabedProfileCache>& bottoms, double reuse_distance_m,
+  RayPropagation rays(const std::shared_ptr<SeabedMap>& bottoms, double reuse_distance_m,
                       bool coherent = false) const {
     RayModel model;
     model.reuse_distance_m = reuse_distance_m;
@@ -67,7 +66,7 @@ class RayReuseTest : public ::testing::Test {
   LinkEnd end(VehicleId id, const Vec3& place) const { return {id, place, Vec3::Zero(), &modem_}; }
 
   const Vec3 first_ = Vec3(0, 0, 31), second_ = Vec3(1000, 0, 62);
-  std::shared_ptr<SeabedProfileCache> bottoms_ = testing::bottoms_between(first_, second_, slope);
+  std::shared_ptr<SeabedMap> bottoms_ = testing::seabed_around(first_, second_, slope);
   acoustics::Modem modem_;
 };
 
@@ -128,7 +127,7 @@ TEST_F(RayReuseTest, DelayAndLevelAreCloseToThoseOfASearchOfItsOwn) {
   std::vector<double> delays_s, levels_db;
   for (std::uint32_t i = 0; i < 60; ++i) {
     const Vec3 one(0, 0, 20 + 80 * draw(i, 6)), other(200 + 1300 * draw(i, 7), 0, 20 + 80 * draw(i, 8));
-    const auto bottoms = testing::bottoms_between(one, other, slope);
+    const auto bottoms = testing::seabed_around(one, other, slope);
     auto shared = rays(bottoms, kCellM), own = rays(bottoms, 0);
     const Reception a = shared.reception(at_s(1), end(1, one), end(2, other)),
                     b = own.reception(at_s(1), end(1, one), end(2, other));
@@ -155,7 +154,7 @@ TEST_F(RayReuseTest, CoherentLevelsAreSearchedForThemselves) {
 
 TEST_F(RayReuseTest, AGivenBottomIsSearchedForItself) {
   auto propagation = rays(bottoms_, kCellM), own = rays(bottoms_, 0);
-  const auto seabed = std::make_shared<const SeabedProfile>(41, 140.0);
+  const auto seabed = std::make_shared<const SeabedProfile>(SeabedProfile::flat(140));
   const LinkEnd a = end(1, first_), b = end(2, second_ + Vec3(3, 4, 1));
   EXPECT_EQ(propagation.reception_over(at_s(1), a, b, seabed).budget.delay_s,
             own.reception_over(at_s(1), a, b, seabed).budget.delay_s);

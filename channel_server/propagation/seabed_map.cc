@@ -1,0 +1,197 @@
+#include "channel_server/propagation/seabed_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/check.h"
+
+namespace halocline::channel_server {
+namespace {
+
+constexpr std::int64_t kSide = TileSurvey::kPoints;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Floor of the quotient.
+std::int64_t tile_of(std::int64_t point) { return point >= 0 ? point / kSide : (point - kSide + 1) / kSide; }
+
+// What is known of four weighed depths, together: the weights of the others are shared out. NaN of none.
+double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 4>& weights) {
+  double sum = 0, weight = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (std::isnan(z_m[i])) continue;
+    sum += weights[i] * z_m[i];
+    weight += weights[i];
+  }
+  return weight > 0 ? sum / weight : kUnknown;
+}
+
+}  // namespace
+
+std::optional<RayKind> TileSurvey::next_query() const {
+  return z_m_.empty() ? std::optional(RayKind::kDepths) : std::nullopt;
+}
+
+std::vector<TerrainRay> TileSurvey::rays() const {
+  std::vector<TerrainRay> rays;
+  for (std::int64_t north = 0; north < kSide; ++north) {
+    for (std::int64_t east = 0; east < kSide; ++east) {
+      rays.push_back(depth_ray({static_cast<double>(kSide * tile_.north + north) * spacing_m_,
+                                static_cast<double>(kSide * tile_.east + east) * spacing_m_, 0}));
+    }
+  }
+  return rays;
+}
+
+void TileSurvey::take(std::span<const RayAnswer> answers) {
+  require(answers.size() == static_cast<std::size_t>(kSide * kSide), "one answer a depth");
+  for (const RayAnswer& answer : answers) {
+    z_m_.push_back(answer.kind == RayAnswer::Kind::kHit ? answer.result_m : kUnknown);
+  }
+}
+
+// Reads the lattice along a line; the tile of the last point is most often that of the next.
+class SeabedMap::Reader {
+ public:
+  explicit Reader(const SeabedMap& map) : map_(map) {}
+
+  // Null when it was not answered; one that failed is there.
+  const Tile* tile_at(std::int64_t north, std::int64_t east) {
+    const TileIndex index{tile_of(north), tile_of(east)};
+    if (known_ && index == index_) return tile_;
+    const auto found = map_.tiles_.find(index);
+    known_ = true;
+    index_ = index;
+    tile_ = found == map_.tiles_.end() ? nullptr : &found->second;
+    return tile_;
+  }
+  double point(std::int64_t north, std::int64_t east) {
+    const Tile* tile = tile_at(north, east);
+    if (tile == nullptr || !tile->answered) return kUnknown;
+    return tile->z_m[static_cast<std::size_t>((north - kSide * index_.north) * kSide + east - kSide * index_.east)];
+  }
+  double seabed(const Line& line, int sample) {
+    const double way = sample * line.spacing_m;
+    const double north = (line.north_m + way * line.along_north) / map_.rule_.spacing_m,
+                 east = (line.east_m + way * line.along_east) / map_.rule_.spacing_m;
+    const double i = std::floor(north), j = std::floor(east), u = north - i, v = east - j;
+    const auto n = static_cast<std::int64_t>(i), e = static_cast<std::int64_t>(j);
+    const double z00 = point(n, e), z10 = point(n + 1, e), z01 = point(n, e + 1), z11 = point(n + 1, e + 1);
+    // Of differences, so that level ground stays level to the last bit.
+    const double z = z00 + (z10 - z00) * u + ((z01 - z00) + ((z00 - z10) + (z11 - z01)) * u) * v;
+    if (!std::isnan(z)) return z;
+    return mean_of_known({z00, z10, z01, z11}, {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
+  }
+
+ private:
+  const SeabedMap& map_;
+  bool known_ = false;
+  TileIndex index_;
+  const Tile* tile_ = nullptr;
+};
+
+SeabedMap::SeabedMap(const SeabedRule& rule) : rule_(rule) {
+  require_in_range(rule.spacing_m, 1, 1000, "spacing of the seabed's samples", "m");
+}
+
+SeabedMap::Line SeabedMap::line_between(const Vec3& from, const Vec3& to) const {
+  const double north = to.x() - from.x(), east = to.y() - from.y(), range = std::hypot(north, east);
+  Line line{from.x(), from.y(), 1, 0, std::max(rule_.spacing_m, range / SeabedRule::kMaxSamples), 0};
+  if (range > 0) {
+    line.along_north = north / range;
+    line.along_east = east / range;
+  }
+  line.last = static_cast<int>(std::ceil(range / line.spacing_m));
+  return line;
+}
+
+std::shared_ptr<const SeabedProfile> SeabedMap::between(const Vec3& from, const Vec3& to) const {
+  const Line line = line_between(from, to);
+  Reader reader(*this);
+  SeabedProfile profile{-kBeyond * line.spacing_m, line.spacing_m, {}};
+  for (int sample = -kBeyond; sample <= line.last + kBeyond; ++sample) {
+    profile.z_m.push_back(reader.seabed(line, sample));
+  }
+  const auto first = profile.z_m.begin() + kBeyond, last = profile.z_m.end() - 1 - kBeyond;
+  if (std::any_of(first, std::max(last, first + 1), [](double z) { return std::isnan(z); })) return nullptr;
+  for (auto z = first - 1;; --z) {
+    if (std::isnan(*z)) *z = *std::next(z);
+    if (z == profile.z_m.begin()) break;
+  }
+  for (auto z = std::max(last, first + 1); z != profile.z_m.end(); ++z) {
+    if (std::isnan(*z)) *z = *std::prev(z);
+  }
+  return std::make_shared<const SeabedProfile>(std::move(profile));
+}
+
+bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
+  const Line line = line_between(from, to);
+  const auto tile_coordinate = [&](double at_m) {
+    return static_cast<std::int64_t>(std::floor(at_m / rule_.spacing_m));
+  };
+  bool surveyed = true;
+  TileIndex last{std::numeric_limits<std::int64_t>::min(), 0};
+  const auto visit = [&](const TileIndex& index) {
+    if (index == last) return;
+    last = index;
+    const auto tile = tiles_.find(index);
+    if (tile != tiles_.end()) {
+      tile->second.used_at = epoch_;
+      return;
+    }
+    surveyed = false;
+    if (!queried_.contains(index)) requested_.insert(index);
+  };
+  for (int sample = -kBeyond; sample <= line.last + kBeyond; ++sample) {
+    const double way = sample * line.spacing_m;
+    const std::int64_t north = tile_coordinate(line.north_m + way * line.along_north),
+                       east = tile_coordinate(line.east_m + way * line.along_east);
+    const TileIndex near{tile_of(north), tile_of(east)}, far{tile_of(north + 1), tile_of(east + 1)};
+    visit(near);
+    if (near == far) continue;
+    visit({far.north, near.east});
+    visit({near.north, far.east});
+    visit(far);
+  }
+  return surveyed;
+}
+
+std::vector<TileSurvey> SeabedMap::take_requests() {
+  std::vector<TileSurvey> surveys;
+  for (const TileIndex& tile : requested_) surveys.emplace_back(tile, rule_.spacing_m);
+  queried_.merge(std::exchange(requested_, {}));
+  return surveys;
+}
+
+void SeabedMap::store(const TileSurvey& answered) {
+  queried_.erase(answered.tile());
+  Tile& tile = tiles_[answered.tile()];
+  tile.answered = true;
+  tile.used_at = epoch_;
+  std::copy(answered.z_m().begin(), answered.z_m().end(), tile.z_m.begin());
+}
+
+void SeabedMap::note_failed(const TileSurvey& survey) {
+  queried_.erase(survey.tile());
+  tiles_.try_emplace(survey.tile()).first->second.used_at = epoch_;
+}
+
+void SeabedMap::forget_failures() {
+  std::erase_if(tiles_, [](const auto& one) { return !one.second.answered; });
+}
+
+void SeabedMap::forget_unused() {
+  ++epoch_;
+  if (tiles_.size() <= kMaxTiles) return;
+  std::erase_if(tiles_, [&](const auto& one) { return one.second.used_at < epoch_ - 2; });
+}
+
+void SeabedMap::clear() {
+  tiles_.clear();
+  requested_.clear();
+  queried_.clear();
+  ++version_;
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,125 @@
+// What is known of the seabed: its depth at the points of a world-wide horizontal lattice, from which the bottom under
+// any link follows.
+//
+// Rule. Lattice points lie `spacing_m` apart, one in the world's origin; between four of them the seabed is
+// bilinear. The bottom under a link is sampled from its first end on, every `spacing_m` (every 1/256 of the range
+// where that is more: beyond 6.4 km by default), from kBeyond samples before the first end to as many beyond the
+// other. So it is a function of the two ends and the terrain, whatever was queried before, and continuous in both
+// ends: it changes where an end moves, by as much as the seabed differs there. Past the edge of the known terrain the
+// last known depth goes on; between the ends a point is unknown when none of the four points around it is known.
+//
+// The depths are queried tile by tile, 8 x 8 points together, and kept. Vehicles that stay in one area need no query
+// after the first, wherever they move. Unknown is said of a link until all its tiles are answered; a tile whose query
+// failed counts as answered without a depth until forget_failures().
+//
+// Error. Against the terrain: that of linear interpolation over the spacing, curvature spacing^2 / 8. Not thread-safe.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/terrain_rays.h"
+#include "core/frames.h"
+
+namespace halocline::channel_server {
+
+struct SeabedRule {
+  double spacing_m = 25;  // of the lattice, and between samples of a profile, 1..1000
+  static constexpr int kMaxSamples = 256;  // between the ends
+};
+
+// 8 x 8 points of the lattice; tile (0, 0) begins in the world's origin and goes north and east.
+struct TileIndex {
+  std::int64_t north = 0, east = 0;
+  auto operator<=>(const TileIndex&) const = default;
+};
+
+// Queries the depths of one tile.
+class TileSurvey {
+ public:
+  static constexpr int kPoints = 8;  // along each side
+
+  TileSurvey() = default;
+  TileSurvey(TileIndex tile, double spacing_m) : tile_(tile), spacing_m_(spacing_m) {}
+
+  // As EchoSurvey's: there is one question.
+  std::optional<RayKind> next_query() const;
+  std::vector<TerrainRay> rays() const;
+  void take(std::span<const RayAnswer> answers);
+
+  const TileIndex& tile() const { return tile_; }
+  // z of the seabed, m, eastwards row by row; NaN: outside, no data. Empty until answered.
+  const std::vector<double>& z_m() const { return z_m_; }
+
+ private:
+  TileIndex tile_;
+  double spacing_m_ = 0;
+  std::vector<double> z_m_;
+};
+
+class SeabedMap {
+ public:
+  static constexpr int kBeyond = 3;  // samples outside of each end
+  // When more are kept, those that no link needed since the last tick but one make room: 33 MB.
+  static constexpr std::size_t kMaxTiles = 65'536;
+
+  // Throws InvalidArgument when the rule is out of range.
+  explicit SeabedMap(const SeabedRule& rule);
+
+  // From one end to the other; null where it is unknown.
+  std::shared_ptr<const SeabedProfile> between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
+  // Whether every tile that between() needs is answered. Those that are not are requested.
+  bool is_surveyed(const Vec3& from_ned_m, const Vec3& to_ned_m);
+
+  // The tiles requested since the last call, by index.
+  std::vector<TileSurvey> take_requests();
+  void store(const TileSurvey& answered);
+  void note_failed(const TileSurvey& survey);
+  // Tiles that failed are requested again when they are needed.
+  void forget_failures();
+  void forget_unused();
+  // Another run, or another terrain: forgets everything.
+  void clear();
+
+  // Another number after each clear().
+  std::int64_t version() const { return version_; }
+  std::size_t tiles_kept() const { return tiles_.size(); }
+  const SeabedRule& rule() const { return rule_; }
+
+ private:
+  static constexpr std::size_t kTilePoints = TileSurvey::kPoints * TileSurvey::kPoints;
+  struct Tile {
+    bool answered = false;  // else it failed
+    std::array<double, kTilePoints> z_m;
+    std::int64_t used_at = 0;
+  };
+  struct TileHash {
+    std::size_t operator()(const TileIndex& tile) const {
+      return static_cast<std::size_t>(tile.north) * 0x9E3779B97F4A7C15u ^ static_cast<std::size_t>(tile.east);
+    }
+  };
+  // Where the samples of a link lie.
+  struct Line {
+    double north_m, east_m;              // its first end
+    double along_north, along_east;      // to the other, length 1; north for a vertical link
+    double spacing_m;
+    int last = 0;  // the first sample at the other end or beyond
+  };
+  Line line_between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
+  class Reader;
+
+  SeabedRule rule_;
+  std::unordered_map<TileIndex, Tile, TileHash> tiles_;  // looked up, never walked where it matters
+  std::set<TileIndex> requested_, queried_;
+  std::int64_t version_ = 0, epoch_ = 0;
+};
+
+}  // namespace halocline::channel_server

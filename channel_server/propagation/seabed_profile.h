@@ -1,0 +1,32 @@
+// How the seabed runs under one link, at even places along it, and the bottom that rays meet.
+//
+// Places along a link are horizontal distances from its first end, m; the link's other end lies at its range. The
+// samples of seabed_map.h begin before the first end and go on beyond the other, so the facets of the bottom between
+// the ends never depend on where the samples stop. Where an end of the link lies below the bottom, the samples beside
+// it are lowered, in proportion to what they count there, until the bottom lies just below the end; nowhere else is it
+// changed. Land counts as 0.1 m of water.
+#pragma once
+
+#include <vector>
+
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/sea/bottom_profile.h"
+
+namespace halocline::channel_server {
+
+struct SeabedProfile {
+  double first_m = 0;        // place of the first sample, -1e6..0
+  double spacing_m = 1;      // between samples, above 0
+  std::vector<double> z_m;  // of the seabed, two samples at least
+
+  static SeabedProfile flat(double z_m) { return {-1e5, 1e6, {z_m, z_m}}; }
+};
+
+// The bottom along a link whose ends are those of `seabed` in its order.
+acoustics::BottomProfile bottom_under(const SeabedProfile& seabed, const acoustics::RayLink& link,
+                                      double sea_surface_z_m);
+
+// Whether the bottom reaches up to the straight line between the ends of the link.
+bool cuts_straight_line(const acoustics::BottomProfile& bottom, const acoustics::RayLink& link);
+
+}  // namespace halocline::channel_server
