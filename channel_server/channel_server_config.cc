@@ -46,7 +46,7 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   v.number("profile_reuse_distance_m", r.profile_reuse_distance_m,
            {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
   v.number("profile_spacing_m", r.seabed.spacing_m,
-           {1, 1000, "m", "rays: between samples of the bottom (more beyond 256 of them)"});
+           {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});
   visit_count(v, "shards", r.medium.shard.count,
               {1, kMaxShards, "", "channel servers that share the vehicles (id mod shards = shard)"});

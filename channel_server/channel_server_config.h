@@ -19,8 +19,8 @@
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/replay_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
@@ -103,7 +103,7 @@ struct ServerRules {
       5;  // how far the ends of a link may move before its echoes are surveyed again
   SeabedRule seabed;
   double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
-  int threads = 1;  // that compute link tables
+  int threads = 1;                       // that compute link tables
 };
 
 struct ChannelServerConfig {

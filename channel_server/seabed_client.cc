@@ -75,7 +75,11 @@ void SeabedClient::take_finished_surveys() {
     if (models_.queries.finish(finished)) continue;
     if (surveyed_tiles_.erase(finished.id) > 0) {
       const TileSurvey& tile = std::get<TileSurvey>(finished.survey);
-      finished.answered ? models_.seabed.store(tile) : models_.seabed.note_failed(tile);
+      if (finished.answered) {
+        models_.seabed.store(tile);
+      } else {
+        models_.seabed.note_failed(tile);
+      }
       has_news_ = true;
       continue;
     }

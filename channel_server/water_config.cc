@@ -180,8 +180,9 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   v.number(
       "speed_tolerance_mps", p.speed_tolerance_mps,
       {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});
-  v.number("reuse_distance_m", p.reuse_distance_m,
-           {0, 1000, "m", "rays: length of the cells that share a search, a tenth high; 0: none"});
+  v.number(
+      "reuse_distance_m", p.reuse_distance_m,
+      {0, 1000, "m", "rays, link tables: length of the cells that share a search, a tenth high; 0: none"});
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
   visit_fading(v, p);

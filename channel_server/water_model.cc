@@ -10,10 +10,7 @@ namespace halocline::channel_server {
 WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);
   auto propagation = std::make_unique<StraightPropagation>(waters, fading);
-  return {waters,
-          std::make_shared<SeabedMap>(SeabedRule{}),
-          std::move(propagation),
-          {"straight", {}, {}}};
+  return {waters, std::make_shared<SeabedMap>(SeabedRule{}), std::move(propagation), {"straight", {}, {}}};
 }
 
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,

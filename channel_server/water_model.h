@@ -25,8 +25,7 @@ struct WaterModel {
 };
 WaterModel straight_model(const acoustics::Environment& environment,
                           const acoustics::FadingModel& fading = {});
-WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays,
-                     const SeabedRule& rule);
+WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays, const SeabedRule& rule);
 
 // As a scenario whose file lies in `folder` describes it. Throws InvalidArgument when that is impossible.
 WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,

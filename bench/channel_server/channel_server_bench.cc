@@ -15,10 +15,9 @@
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
-#include "channel_server/propagation/seabed_profile_cache.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -73,25 +72,26 @@ double seamount_z_m(const Vec3& place) {
   return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
 }
 
-void store_profiles(SeabedProfileCache& profiles, const std::vector<PlacedVehicle>& vehicles, SimTime tick) {
-  for (const VehiclePair& pair : profiles.take_geometry(vehicles)) {
-    ProfileSurvey survey = profiles.survey_of(pair);
-    std::vector<RayAnswer> answers;
-    for (const TerrainRay& ray : survey.rays()) {
-      answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
+void survey_tables(RayPropagation& propagation, SeabedMap& seabed, const std::vector<PlacedVehicle>& vehicles,
+                   SimTime now) {
+  while (!tables_are_ready(now, vehicles, propagation)) {
+    for (TileSurvey& tile : seabed.take_requests()) {
+      std::vector<RayAnswer> answers;
+      for (const TerrainRay& ray : tile.rays()) {
+        answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
+      }
+      tile.take(answers);
+      seabed.store(tile);
     }
-    survey.take(answers);
-    profiles.store(pair, survey);
   }
-  profiles.open_tick(tick);
 }
 
 // The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
 // pair's paths are searched. Items are links (both ways of a pair share a search).
 void ray_link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
-  const auto bottoms = std::make_shared<SeabedProfileCache>(ProfileRule{});
-  RayPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), bottoms, {});
+  const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  RayPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), seabed, {});
   const VehicleModem modem;
   std::vector<PlacedVehicle> placed;
   SimTime now = SimTime::from_seconds(100);
@@ -106,8 +106,7 @@ void ray_link_table(benchmark::State& state) {
     state.PauseTiming();
     now = now + SimDuration::from_milliseconds(1000);
     for (PlacedVehicle& vehicle : placed) vehicle.placement.position_ned_m.x() += 2e-3 * (vehicle.id % 3 + 1);
-    store_profiles(*bottoms, placed, now);
-    bottoms->forget_before(now - SimDuration::from_milliseconds(5000));
+    survey_tables(propagation, *seabed, placed, now);
     state.ResumeTiming();
     benchmark::DoNotOptimize(
         link_tables(now, placed, propagation, [](const auto&, const auto&) { return Multipath::kUnknown; }));

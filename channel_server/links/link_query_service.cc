@@ -155,8 +155,8 @@ bool LinkQueryService::finish(const RayQueryClient::Finished& finished) {
     const auto& [from, to] = waiting.ends.at(survey->second);
     if (finished.answered) {
       waiting.reply.answers[survey->second].row.multipath =
-          multipath_of(std::get<EchoSurvey>(finished.survey), /*reversed=*/false, waiting.reply.at, propagation_,
-                       from.modem.modem, to.modem.modem);
+          multipath_of(std::get<EchoSurvey>(finished.survey), /*reversed=*/false, waiting.reply.at,
+                       propagation_, from.modem.modem, to.modem.modem);
     }
     waiting.surveys.erase(survey);
     return true;
@@ -167,7 +167,8 @@ bool LinkQueryService::finish(const RayQueryClient::Finished& finished) {
 void LinkQueryService::take_bottoms(Waiting& waiting) {
   std::erase_if(waiting.bottoms, [&](std::size_t index) {
     const auto& [from, to] = waiting.ends.at(index);
-    if (!propagation_.is_ready(waiting.reply.at, link_end(from.placed()), link_end(to.placed()))) return false;
+    if (!propagation_.is_ready(waiting.reply.at, link_end(from.placed()), link_end(to.placed())))
+      return false;
     set_reception(from, to, waiting.reply.at, waiting.reply.answers[index].row);
     return true;
   });

@@ -9,7 +9,7 @@
 namespace halocline::channel_server {
 namespace {
 
-SimDuration half(SimDuration duration) { return SimDuration::from_nanoseconds(duration.nanoseconds() / 2); }
+constexpr int kSendings = 4;  // of a batch without an answer
 
 }  // namespace
 
@@ -79,7 +79,7 @@ std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
 
 // Surveys are not split: all rays of one stage of one survey go in one batch.
 RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
-  InFlight sent{{++last_request_, *next_query(queue.front().survey), {}}, {}, steady, false};
+  InFlight sent{{++last_request_, *next_query(queue.front().survey), {}}, {}, steady, 0};
   if (!queue.front().urgent) ++sent_this_tick_;
   while (!queue.empty()) {
     const auto rays = rays_of(queue.front().survey);
@@ -94,7 +94,8 @@ RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
 }
 
 SimTime RayQueryClient::next_action(const InFlight& batch) const {
-  return batch.sent + (batch.repeated ? rule_.answer_deadline : half(rule_.answer_deadline));
+  return batch.sent +
+         SimDuration::from_nanoseconds(rule_.answer_deadline.nanoseconds() * (batch.repeats + 1) / kSendings);
 }
 
 void RayQueryClient::repeat_and_give_up(SimTime steady, std::vector<RayQueryBatch>& repeated) {
@@ -107,7 +108,7 @@ void RayQueryClient::repeat_and_give_up(SimTime steady, std::vector<RayQueryBatc
       continue;
     }
     if (steady >= next_action(batch->second)) {
-      batch->second.repeated = true;
+      ++batch->second.repeats;
       ++counters_.batches_repeated;
       repeated.push_back(batch->second.batch);
     }

@@ -7,7 +7,7 @@
 // counted: their rows hold unknown, and they come first then. Urgent surveys go before routine ones and
 // do not count.
 //
-// A batch without an answer is sent again after half of the deadline, and given up at the deadline: the
+// A batch without an answer is sent again after each quarter of the deadline, and given up at the deadline: the
 // service is away then. While it is away urgent surveys fail at once, and one batch at a time keeps probing;
 // the first answer ends it.
 //
@@ -89,7 +89,7 @@ class RayQueryClient {
     RayQueryBatch batch;
     std::vector<Waiting> surveys;
     SimTime sent;
-    bool repeated = false;
+    int repeats = 0;
   };
   using Queue = std::deque<Waiting>;
   Queue& queue_of(const Waiting& waiting);

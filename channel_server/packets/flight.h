@@ -71,7 +71,7 @@ struct Flight {
 void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                    Propagation& propagation);
 
-// Whether the propagation knows all that solve_arrival() needs of it; what it does not is on its way.
+// Whether the propagation knows all that solve_arrival() needs of it (Propagation::is_ready).
 bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                  Propagation& propagation);
 

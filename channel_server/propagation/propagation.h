@@ -107,8 +107,8 @@ class Propagation {
   // an implementation lets links near each other share a search; the same whatever the sharing out.
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                             const ForEach& for_each);
-  // Whether all is known that reception() needs, or receptions(). What is not is on its way, so the answer becomes
-  // true; who asks before uses less than there is to know.
+  // Whether all is known that reception() needs, or receptions(). What is not is requested here, and becomes known or
+  // turns out to be unavailable: to be called again then.
   virtual bool is_ready(SimTime /*at*/, const LinkEnd& /*from*/, const LinkEnd& /*to*/) { return true; }
   virtual bool are_ready(SimTime /*at*/, const std::vector<EndPair>& /*links*/) { return true; }
   // Whether answers depend on the bottom along the link: then reception() uses what is known of it, and

@@ -15,8 +15,8 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr std::size_t kMaxFound = 32'768;   // searches, 7 kB each
-constexpr std::size_t kMaxRayWaters = 256;  // 20 kB each
+constexpr std::size_t kMaxFound = 4096, kMaxSharedFound = 32'768;  // searches, 7 kB each
+constexpr std::size_t kMaxRayWaters = 256;                         // 20 kB each
 // The deepest that an end may be, m: there has to be bottom below it.
 constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;
 
@@ -59,7 +59,8 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
       model_(model),
       straight_(waters_, model.fading),
       ray_waters_(kMaxRayWaters),
-      found_(kMaxFound) {
+      found_(kMaxFound),
+      shared_found_(kMaxSharedFound) {
   validate(model.bottom);
   validate(model.options);
   validate(model.fading);
@@ -107,18 +108,21 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
     tasks.push_back(shared_task_of(at, from, to));
     const PathQuery& query = tasks.back().query;
     if (!place_of.emplace(key_of(query), paths.size()).second) continue;
-    const FoundPaths* known = found_.find(key_of(query));
+    const FoundPaths* known = shared_found_.find(key_of(query));
     paths.push_back(known == nullptr ? nullptr : *known);
     if (known != nullptr) continue;
-    if (auto seabed = seabed_of(query)) searches.push_back({tasks.size() - 1, paths.size() - 1, std::move(seabed)});
+    if (auto seabed = seabed_of(query))
+      searches.push_back({tasks.size() - 1, paths.size() - 1, std::move(seabed)});
   }
   for_each(searches.size(), [&](std::size_t i) {
     paths[searches[i].place] = search(tasks[searches[i].task], *searches[i].seabed);
   });
-  for (const Search& done : searches) found_.insert(key_of(tasks[done.task].query), paths[done.place]);
+  for (const Search& done : searches) shared_found_.insert(key_of(tasks[done.task].query), paths[done.place]);
   searches_ += static_cast<std::int64_t>(searches.size());
   std::vector<Reception> receptions(links.size());
-  const auto paths_of = [&](std::size_t i) -> const FoundPaths& { return paths[place_of.at(key_of(tasks[i].query))]; };
+  const auto paths_of = [&](std::size_t i) -> const FoundPaths& {
+    return paths[place_of.at(key_of(tasks[i].query))];
+  };
   for_each(tasks.size(), [&](std::size_t i) {
     if (paths_of(i)) receptions[i] = answer(tasks[i], *paths_of(i));
   });
@@ -149,8 +153,14 @@ bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& tran
 }
 
 RayPropagation::Key RayPropagation::key_of(const PathQuery& q) {
-  return {q.water_id,     q.frequency_hz,        q.places,          q.seabed_version,
-          q.given.get(), q.link.source_depth_m, q.link.receiver_depth_m, q.link.range_m};
+  return {q.water_id,
+          q.frequency_hz,
+          q.places,
+          q.seabed_version,
+          q.given.get(),
+          q.link.source_depth_m,
+          q.link.receiver_depth_m,
+          q.link.range_m};
 }
 
 std::shared_ptr<const SeabedProfile> RayPropagation::seabed_of(const PathQuery& q) const {

@@ -69,8 +69,8 @@ struct RayModel {
 class RayPropagation : public Propagation {
  public:
   // Throws InvalidArgument when the model is out of range.
-  RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                 std::shared_ptr<SeabedMap> seabed, const RayModel& model);
+  RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters, std::shared_ptr<SeabedMap> seabed,
+                 const RayModel& model);
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
@@ -98,7 +98,7 @@ class RayPropagation : public Propagation {
   struct PathQuery {
     EnvironmentTimeline::WaterId water_id;
     double frequency_hz;
-    Places places;       // of the bottom, unless it is given
+    Places places;  // of the bottom, unless it is given
     std::int64_t seabed_version;
     std::shared_ptr<const SeabedProfile> given;
     acoustics::RayLink link;
@@ -153,7 +153,7 @@ class RayPropagation : public Propagation {
   StraightPropagation straight_;
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
       ray_waters_;
-  LruCache<Key, FoundPaths> found_;
+  LruCache<Key, FoundPaths> found_, shared_found_;  // of links for themselves; of tables
   std::int64_t searches_ = 0;
 };
 

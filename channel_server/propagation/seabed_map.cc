@@ -16,6 +16,18 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Floor of the quotient.
 std::int64_t tile_of(std::int64_t point) { return point >= 0 ? point / kSide : (point - kSide + 1) / kSide; }
 
+// The lattice points that weigh at a place between points 0 and 1: -2 to 3.
+constexpr int kReachBefore = 2, kReach = 6;
+
+// Their weights at `u` of the way from point 0 to point 1, 0..1: cubic B-splines b of coefficients that are
+// (8 f_i - f_(i-1) - f_(i+1)) / 6.
+std::array<double, kReach> weights_at(double u) {
+  const double rest = 1 - u, b0 = rest * rest * rest / 6, b3 = u * u * u / 6,
+               b1 = (4 + u * u * (3 * u - 6)) / 6, b2 = 1 - b0 - b1 - b3;
+  return {-b0 / 6, (8 * b0 - b1) / 6, (8 * b1 - b0 - b2) / 6, (8 * b2 - b1 - b3) / 6, (8 * b3 - b2) / 6,
+          -b3 / 6};
+}
+
 // What is known of four weighed depths, together: the weights of the others are shared out. NaN of none.
 double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 4>& weights) {
   double sum = 0, weight = 0;
@@ -69,22 +81,35 @@ class SeabedMap::Reader {
   double point(std::int64_t north, std::int64_t east) {
     const Tile* tile = tile_at(north, east);
     if (tile == nullptr || !tile->answered) return kUnknown;
-    return tile->z_m[static_cast<std::size_t>((north - kSide * index_.north) * kSide + east - kSide * index_.east)];
+    return tile
+        ->z_m[static_cast<std::size_t>((north - kSide * index_.north) * kSide + east - kSide * index_.east)];
   }
   double seabed(const Line& line, int sample) {
     const double way = sample * line.spacing_m;
     const double north = (line.north_m + way * line.along_north) / map_.rule_.spacing_m,
                  east = (line.east_m + way * line.along_east) / map_.rule_.spacing_m;
-    const double i = std::floor(north), j = std::floor(east), u = north - i, v = east - j;
-    const auto n = static_cast<std::int64_t>(i), e = static_cast<std::int64_t>(j);
-    const double z00 = point(n, e), z10 = point(n + 1, e), z01 = point(n, e + 1), z11 = point(n + 1, e + 1);
-    // Of differences, so that level ground stays level to the last bit.
-    const double z = z00 + (z10 - z00) * u + ((z01 - z00) + ((z00 - z10) + (z11 - z01)) * u) * v;
-    if (!std::isnan(z)) return z;
-    return mean_of_known({z00, z10, z01, z11}, {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
+    const double i = std::floor(north), j = std::floor(east);
+    return seabed_in_cell(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), north - i, east - j);
   }
 
  private:
+  // At `u` of the way north and `v` of the way east of point (n, e).
+  double seabed_in_cell(std::int64_t n, std::int64_t e, double u, double v) {
+    const auto wn = weights_at(u), we = weights_at(v);
+    const double z0 = point(n, e);
+    // Of differences, so that level ground stays level to the last bit.
+    double z = z0;
+    for (int i = 0; i < kReach; ++i) {
+      double row = 0;
+      for (int j = 0; j < kReach; ++j)
+        row += we[j] * (point(n - kReachBefore + i, e - kReachBefore + j) - z0);
+      z += wn[i] * row;
+    }
+    if (!std::isnan(z)) return z;
+    return mean_of_known({z0, point(n + 1, e), point(n, e + 1), point(n + 1, e + 1)},
+                         {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
+  }
+
   const SeabedMap& map_;
   bool known_ = false;
   TileIndex index_;
@@ -97,7 +122,12 @@ SeabedMap::SeabedMap(const SeabedRule& rule) : rule_(rule) {
 
 SeabedMap::Line SeabedMap::line_between(const Vec3& from, const Vec3& to) const {
   const double north = to.x() - from.x(), east = to.y() - from.y(), range = std::hypot(north, east);
-  Line line{from.x(), from.y(), 1, 0, std::max(rule_.spacing_m, range / SeabedRule::kMaxSamples), 0};
+  Line line{from.x(),
+            from.y(),
+            1,
+            0,
+            std::max(rule_.spacing_m / rule_.samples_per_point, range / rule_.max_samples),
+            0};
   if (range > 0) {
     line.along_north = north / range;
     line.along_east = east / range;
@@ -147,7 +177,8 @@ bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
     const double way = sample * line.spacing_m;
     const std::int64_t north = tile_coordinate(line.north_m + way * line.along_north),
                        east = tile_coordinate(line.east_m + way * line.along_east);
-    const TileIndex near{tile_of(north), tile_of(east)}, far{tile_of(north + 1), tile_of(east + 1)};
+    const TileIndex near{tile_of(north - kReachBefore), tile_of(east - kReachBefore)},
+        far{tile_of(north - kReachBefore + kReach - 1), tile_of(east - kReachBefore + kReach - 1)};
     visit(near);
     if (near == far) continue;
     visit({far.north, near.east});

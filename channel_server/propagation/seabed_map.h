@@ -1,18 +1,22 @@
 // What is known of the seabed: its depth at the points of a world-wide horizontal lattice, from which the bottom under
 // any link follows.
 //
-// Rule. Lattice points lie `spacing_m` apart, one in the world's origin; between four of them the seabed is
-// bilinear. The bottom under a link is sampled from its first end on, every `spacing_m` (every 1/256 of the range
-// where that is more: beyond 6.4 km by default), from kBeyond samples before the first end to as many beyond the
-// other. So it is a function of the two ends and the terrain, whatever was queried before, and continuous in both
-// ends: it changes where an end moves, by as much as the seabed differs there. Past the edge of the known terrain the
-// last known depth goes on; between the ends a point is unknown when none of the four points around it is known.
+// Rule. Lattice points lie `spacing_m` apart, one in the world's origin. The seabed between them is the tensor product
+// of cubic B-splines (de Boor 1978, A Practical Guide to Splines, ch. XII) with the coefficients
+// c_i = (8 f_i - f_(i-1) - f_(i+1)) / 6: slope and curvature are continuous, and polynomials up to cubics exact. Where
+// one of the 36 points in reach is unknown it is bilinear between the known ones of the nearest four.
+// The bottom under a link is sampled from its first end on, samples_per_point times in `spacing_m` (1024 times between
+// the ends where that makes more: beyond 6.4 km by default), from kBeyond samples before the first end to as many
+// beyond the other. So it is a function of the two ends and the terrain, whatever was queried before, and
+// continuous in both ends: it changes where an end moves, by as much as the seabed differs there. Past the edge of the
+// known terrain the last known depth goes on; between the ends a place is unknown when the four points around it are.
 //
 // The depths are queried tile by tile, 8 x 8 points together, and kept. Vehicles that stay in one area need no query
-// after the first, wherever they move. Unknown is said of a link until all its tiles are answered; a tile whose query
-// failed counts as answered without a depth until forget_failures().
+// after the first, wherever they move. A tile whose query failed counts as answered without a depth until
+// forget_failures().
 //
-// Error. Against the terrain: that of linear interpolation over the spacing, curvature spacing^2 / 8. Not thread-safe.
+// Error. Against a smooth seabed: of fourth order in the spacing. Relief shorter than two spacings is lost. Not
+// thread-safe.
 #pragma once
 
 #include <array>
@@ -32,8 +36,9 @@
 namespace halocline::channel_server {
 
 struct SeabedRule {
-  double spacing_m = 25;  // of the lattice, and between samples of a profile, 1..1000
-  static constexpr int kMaxSamples = 256;  // between the ends
+  double spacing_m = 25;      // of the lattice, 1..1000
+  int samples_per_point = 4;  // of a profile in a spacing, 1..16
+  int max_samples = 1024;     // of it between the ends, 16..4096
 };
 
 // 8 x 8 points of the lattice; tile (0, 0) begins in the world's origin and goes north and east.
@@ -50,7 +55,7 @@ class TileSurvey {
   TileSurvey() = default;
   TileSurvey(TileIndex tile, double spacing_m) : tile_(tile), spacing_m_(spacing_m) {}
 
-  // As EchoSurvey's: there is one question.
+  // As EchoSurvey's: there is one query.
   std::optional<RayKind> next_query() const;
   std::vector<TerrainRay> rays() const;
   void take(std::span<const RayAnswer> answers);
@@ -108,8 +113,8 @@ class SeabedMap {
   };
   // Where the samples of a link lie.
   struct Line {
-    double north_m, east_m;              // its first end
-    double along_north, along_east;      // to the other, length 1; north for a vertical link
+    double north_m, east_m;          // its first end
+    double along_north, along_east;  // to the other, length 1; north for a vertical link
     double spacing_m;
     int last = 0;  // the first sample at the other end or beyond
   };

@@ -15,8 +15,8 @@
 namespace halocline::channel_server {
 
 struct SeabedProfile {
-  double first_m = 0;        // place of the first sample, -1e6..0
-  double spacing_m = 1;      // between samples, above 0
+  double first_m = 0;       // place of the first sample, -1e6..0
+  double spacing_m = 1;     // between samples, above 0
   std::vector<double> z_m;  // of the seabed, two samples at least
 
   static SeabedProfile flat(double z_m) { return {-1e5, 1e6, {z_m, z_m}}; }

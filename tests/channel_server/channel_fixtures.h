@@ -93,7 +93,7 @@ void survey(SeabedMap& seabed, const Vec3& one, const Vec3& other, DepthAt depth
     for (TileSurvey& tile : seabed.take_requests()) {
       std::vector<RayAnswer> answers;
       for (const TerrainRay& ray : tile.rays()) {
-        answers.push_back({RayAnswer::Kind::kHit, depth_at(ray.origin_ned_m)});
+        answers.push_back({RayAnswer::Kind::kHit, static_cast<double>(depth_at(ray.origin_ned_m))});
       }
       tile.take(answers);
       seabed.store(tile);

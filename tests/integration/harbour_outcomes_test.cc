@@ -80,5 +80,29 @@ TEST_F(HarbourOutcomesTest, EveryAcceptedPacketEndsOnceAtEachOfTheFourOthers) {
   }
 }
 
+// A rate of reports decides nothing: every packet requests the bottom under it, from the first one on.
+TEST_F(HarbourOutcomesTest, OutcomesDoNotDependOnTheRateOfLinkTables) {
+  const auto outcomes_at = [&](const std::string& rate_hz) {
+    std::vector<packet_outcome_t> outcomes;
+    const auto config = load("harbour", {"scenario.duration_s=60", "channel_server.link_rate_hz=" + rate_hz});
+    for (auto& [channel, outcome] : messages_in<packet_outcome_t>(run(config, "harbour-" + rate_hz))) {
+      outcomes.push_back(outcome);
+    }
+    return outcomes;
+  };
+  const auto often = outcomes_at("5"), seldom = outcomes_at("0.0167");
+  ASSERT_GT(often.size(), 50u);
+  ASSERT_EQ(often.size(), seldom.size());
+  for (std::size_t i = 0; i < often.size(); ++i) {
+    EXPECT_EQ(often[i].propagation_used, packet_outcome_t::RAYS);
+    EXPECT_EQ(seldom[i].propagation_used, packet_outcome_t::RAYS);
+    EXPECT_EQ(often[i].utime, seldom[i].utime);
+    EXPECT_EQ(often[i].receiver_id, seldom[i].receiver_id);
+    EXPECT_EQ(often[i].outcome, seldom[i].outcome);
+    EXPECT_EQ(often[i].received_level_db, seldom[i].received_level_db);
+    EXPECT_EQ(often[i].success_probability, seldom[i].success_probability);
+  }
+}
+
 }  // namespace
 }  // namespace halocline::clients

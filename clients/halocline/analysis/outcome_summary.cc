@@ -41,6 +41,7 @@ void OutcomeSummary::count(const packet_outcome_t& outcome) {
   const std::int64_t departure = outcome.departure_utime;
   const std::int64_t into_window = ((departure % window_us_) + window_us_) % window_us_;
   ++total_.at(number);
+  ++by_propagation_.at(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.propagation_used)));
   ++by_pair_[{outcome.source_id, outcome.receiver_id}].at(number);
   ++by_window_[departure - into_window].at(number);
   outcomes_.push_back(outcome);
@@ -49,6 +50,11 @@ void OutcomeSummary::count(const packet_outcome_t& outcome) {
 std::string OutcomeSummary::name(std::int32_t vehicle_id) const {
   const auto found = names_.find(vehicle_id);
   return found != names_.end() ? found->second : std::to_string(vehicle_id);
+}
+
+const char* propagation_name(std::size_t propagation) {
+  constexpr std::array<const char*, kPropagations> kNames{"straight", "rays", "straight without bottom"};
+  return propagation < kPropagations ? kNames[propagation] : "?";
 }
 
 OutcomeSummary summary_of(LogReader& log, std::int64_t window_us) {

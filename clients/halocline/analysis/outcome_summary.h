@@ -1,7 +1,8 @@
 // The packet outcomes of a run: one for every packet at every possible receiver, counted by outcome, pair and time.
 //
 // Counted from the OUTCOMEs of a log; each (packet, receiver) counts once, however often its outcome stands in the
-// log (a recorder may receive a repetition). Vehicles go by the names of their STATE channels, or by their ids where no
+// log (a recorder may receive a repetition). Counted by what their paths were computed with as well: packets of one
+// run differ in it where the seabed was not known to some. Vehicles go by the names of their STATE channels, or by their ids where no
 // state was recorded.
 #pragma once
 
@@ -23,6 +24,8 @@
 namespace halocline::clients {
 
 using OutcomeCounts = std::array<std::int64_t, kOutcomes>;  // by packet_outcome_t.outcome
+inline constexpr std::size_t kPropagations = 3;  // packet_outcome_t.STRAIGHT to STRAIGHT_WITHOUT_BOTTOM
+using PropagationCounts = std::array<std::int64_t, kPropagations>;  // by packet_outcome_t.propagation_used
 
 class OutcomeSummary {
  public:
@@ -37,6 +40,7 @@ class OutcomeSummary {
   const OutcomeCounts& total() const { return total_; }
   const std::map<Pair, OutcomeCounts>& by_pair() const { return by_pair_; }
   const std::map<std::int64_t, OutcomeCounts>& by_window() const { return by_window_; }  // by its start, us
+  const PropagationCounts& by_propagation() const { return by_propagation_; }
   // In the order of the log.
   const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
   std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
@@ -55,6 +59,7 @@ class OutcomeSummary {
 
   std::int64_t window_us_;
   OutcomeCounts total_{};
+  PropagationCounts by_propagation_{};
   std::map<Pair, OutcomeCounts> by_pair_;
   std::map<std::int64_t, OutcomeCounts> by_window_;
   std::vector<packet_outcome_t> outcomes_;
@@ -63,11 +68,14 @@ class OutcomeSummary {
   std::int64_t repeated_ = 0;
 };
 
+// "straight", "rays", "straight without bottom".
+const char* propagation_name(std::size_t propagation);
+
 OutcomeSummary summary_of(LogReader& log, std::int64_t window_us);
 
-// As text: outcomes, pairs, windows, each with counts and shares.
+// As text: outcomes, propagations, pairs, windows, each with counts and shares.
 void print(std::ostream& out, const OutcomeSummary& summary);
-// One object: "by_outcome", "pairs", "windows".
+// One object: "by_outcome", "by_propagation", "pairs", "windows".
 std::string to_json(const OutcomeSummary& summary);
 // One row a pair and outcome that occurred: sender, receiver, outcome, packets.
 void print_csv(std::ostream& out, const OutcomeSummary& summary);

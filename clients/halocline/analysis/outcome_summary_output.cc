@@ -77,6 +77,12 @@ void print(std::ostream& out, const OutcomeSummary& summary) {
     fmt::print(out, "  {:<24}{:>9}{:>8.1f} %\n", outcome_name(outcome), count,
                100.0 * static_cast<double>(count) / static_cast<double>(all));
   }
+  for (std::size_t propagation = 0; propagation < kPropagations; ++propagation) {
+    const std::int64_t count = summary.by_propagation()[propagation];
+    if (count == 0) continue;
+    fmt::print(out, "  {:<24}{:>9}{:>8.1f} %\n", fmt::format("paths: {}", propagation_name(propagation)),
+               count, 100.0 * static_cast<double>(count) / static_cast<double>(all));
+  }
   if (summary.repeated() > 0) fmt::print(out, "{} repetitions were left out\n", summary.repeated());
   if (all == 0) return;
   print_heading(out, "from -> to", outcomes);
@@ -92,6 +98,11 @@ std::string to_json(const OutcomeSummary& summary) {
   json["outcomes"] = sum(summary.total());
   json["repeated"] = summary.repeated();
   json["by_outcome"] = to_json(summary.total());
+  json["by_propagation"] = nlohmann::ordered_json::object();
+  for (std::size_t propagation = 0; propagation < kPropagations; ++propagation) {
+    const std::int64_t count = summary.by_propagation()[propagation];
+    if (count > 0) json["by_propagation"][propagation_name(propagation)] = count;
+  }
   json["pairs"] = nlohmann::ordered_json::array();
   for (const auto& [pair, counts] : summary.by_pair()) {
     json["pairs"].push_back({{"from", summary.name(pair.first)},
@@ -123,7 +134,7 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
          "received_level_db,cutoff_level_db,noise_level_db,snr_db,interference_level_db,sinr_db,doppler_"
          "factor,"
          "num_paths,delay_spread_s,acquisition_probability,acquisition_draw,success_probability,success_draw,"
-         "colliders\n";
+         "propagation,colliders\n";
   for (const packet_outcome_t& o : summary.outcomes()) {
     fmt::print(out, "{:.3f},{:.3f},{},{},{},{},{}", in_seconds(o.departure_utime), in_seconds(o.utime),
                summary.name(o.source_id), summary.name(o.receiver_id),
@@ -136,7 +147,8 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
           o.success_probability, o.success_draw}) {
       out << ',' << format_number(number);
     }
-    out << ',' << colliders_text(summary, o) << '\n';
+    out << ',' << propagation_name(static_cast<std::size_t>(o.propagation_used)) << ','
+        << colliders_text(summary, o) << '\n';
   }
 }
 

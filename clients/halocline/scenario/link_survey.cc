@@ -164,7 +164,8 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
 }
 
 std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
-                                                                   const Vec3& from_ned_m, const Vec3& to_ned_m,
+                                                                   const Vec3& from_ned_m,
+                                                                   const Vec3& to_ned_m,
                                                                    const channel_server::SeabedRule& rule) {
   channel_server::SeabedMap seabed(rule);
   while (!seabed.is_surveyed(from_ned_m, to_ned_m)) {

@@ -49,7 +49,8 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
 
 // How the bottom runs between them; null where the terrain does not reach.
 std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
-                                                                   const Vec3& from_ned_m, const Vec3& to_ned_m,
+                                                                   const Vec3& from_ned_m,
+                                                                   const Vec3& to_ned_m,
                                                                    const channel_server::SeabedRule& rule);
 
 }  // namespace halocline::clients

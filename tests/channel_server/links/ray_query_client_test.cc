@@ -98,18 +98,20 @@ TEST(RayQueryClient, UrgentSurveysGoFirstAndDoNotCount) {
   EXPECT_EQ(rays.take_finished().at(0).id, urgent);
 }
 
-TEST(RayQueryClient, ALostBatchIsRepeatedOnceWithItsNumber) {
+TEST(RayQueryClient, ALostBatchIsRepeatedWithItsNumberThreeTimes) {
   RayQueryClient rays(kRule);
   rays.submit_routine(survey());
   const auto sent = rays.take_batches(at_s(0));
-  EXPECT_EQ(rays.due(), at_s(0.1));
-  const auto repeated = rays.take_batches(at_s(0.1));
-  ASSERT_EQ(repeated.size(), 1u);
-  EXPECT_EQ(repeated[0].request_id, sent[0].request_id);
+  for (const double at : {0.05, 0.1, 0.15}) {
+    EXPECT_EQ(rays.due(), at_s(at));
+    const auto repeated = rays.take_batches(at_s(at));
+    ASSERT_EQ(repeated.size(), 1u);
+    EXPECT_EQ(repeated[0].request_id, sent[0].request_id);
+  }
   EXPECT_EQ(rays.due(), at_s(0.2));
-  answer(rays, repeated[0]);
+  answer(rays, sent[0]);
   EXPECT_FALSE(rays.is_away());
-  EXPECT_EQ(rays.counters().batches_repeated, 1);
+  EXPECT_EQ(rays.counters().batches_repeated, 3);
 }
 
 TEST(RayQueryClient, AtTheDeadlineASurveyFailsAndTheServiceIsAway) {
@@ -172,7 +174,7 @@ TEST(RayQueryClient, AnswersToNoQueryAreIgnored) {
   const auto sent = rays.take_batches(at_s(0));
   rays.answer(sent[0].request_id + 1, std::vector<RayAnswer>(8));
   EXPECT_TRUE(rays.take_finished().empty());
-  EXPECT_EQ(rays.due(), at_s(0.1));
+  EXPECT_EQ(rays.due(), at_s(0.05));
 }
 
 TEST(RayQueryClient, AnAnswerOfAnotherCountAndARefusalAreNoAnswers) {

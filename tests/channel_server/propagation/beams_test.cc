@@ -13,9 +13,9 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"
@@ -57,7 +57,8 @@ struct Sea {
 Reception by_rays(const Sea& sea, const LinkEnd& from, const LinkEnd& to) {
   RayPropagation rays(std::make_shared<EnvironmentTimeline>(sea.water),
                       std::make_shared<SeabedMap>(SeabedRule{}), sea.model);
-  return rays.reception_over(at_s(0), from, to, std::make_shared<const SeabedProfile>(SeabedProfile::flat(sea.depth_m)));
+  return rays.reception_over(at_s(0), from, to,
+                             std::make_shared<const SeabedProfile>(SeabedProfile::flat(sea.depth_m)));
 }
 
 Reception by_line(const LinkEnd& from, const LinkEnd& to) {
@@ -164,8 +165,9 @@ TEST(Beams, BothWaysAreTheSameToTheLastBitWithThePatternsExchanged) {
   for (const bool coherent : {false, true}) {
     RayModel model;
     model.coherent = coherent;
-    RayPropagation rays(std::make_shared<EnvironmentTimeline>(even_water()),
-                        testing::seabed_around(a.position_ned_m, b.position_ned_m, [](double) { return 100; }), model);
+    RayPropagation rays(
+        std::make_shared<EnvironmentTimeline>(even_water()),
+        testing::seabed_around(a.position_ned_m, b.position_ned_m, [](double) { return 100; }), model);
     const Reception there = rays.reception(at_s(1), a, b), back = rays.reception(at_s(1), b, a);
     ASSERT_EQ(there.used, PropagationUsed::kRays);
     EXPECT_EQ(there.budget.received_level.value, back.budget.received_level.value) << coherent;

@@ -290,8 +290,10 @@ TEST_F(RayPropagationTest, TwoThreadsGiveTheSameBitsAsOneAndAsOneByOne) {
     vehicles[i].placement.position_ned_m = {300.0 * i, 170.0 * (i % 3), 20 + 7.0 * i};
   }
   vehicles[5].placement.position_ned_m.x() = 90'000;  // far from all that is known
-  testing::survey(*seabed, {-300, 150, 0}, {1500, 150, 0}, [](const Vec3& place) { return 120 + 0.02 * place.x(); });
-  testing::survey(*seabed, {-300, 350, 0}, {1500, 350, 0}, [](const Vec3& place) { return 120 + 0.02 * place.x(); });
+  testing::survey(*seabed, {-300, 150, 0}, {1500, 150, 0},
+                  [](const Vec3& place) { return 120 + 0.02 * place.x(); });
+  testing::survey(*seabed, {-300, 350, 0}, {1500, 350, 0},
+                  [](const Vec3& place) { return 120 + 0.02 * place.x(); });
   std::vector<EndPair> links;
   for (const auto& a : vehicles) {
     for (const auto& b : vehicles) {

@@ -11,10 +11,10 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_map.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/frames.h"
 #include "core/random.h"
@@ -63,6 +63,9 @@ class RayReuseTest : public ::testing::Test {
     model.coherent = coherent;
     return {std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), bottoms, model};
   }
+  static Reception in_table(RayPropagation& propagation, const LinkEnd& from, const LinkEnd& to) {
+    return propagation.receptions(at_s(1), {{from, to}}, one_after_the_other).front();
+  }
   LinkEnd end(VehicleId id, const Vec3& place) const { return {id, place, Vec3::Zero(), &modem_}; }
 
   const Vec3 first_ = Vec3(0, 0, 31), second_ = Vec3(1000, 0, 62);
@@ -73,7 +76,7 @@ class RayReuseTest : public ::testing::Test {
 TEST_F(RayReuseTest, LinksOfOneCellShareASearch) {
   auto propagation = rays(bottoms_, kCellM);
   for (int step = 0; step < 6; ++step) {
-    propagation.reception(at_s(1), end(1, first_), end(2, second_ + Vec3(2.0 * step, 0, 0.05 * step)));
+    in_table(propagation, end(1, first_), end(2, second_ + Vec3(2.0 * step, 0, 0.05 * step)));
   }
   EXPECT_EQ(propagation.searches(), 1);
 }
@@ -81,7 +84,18 @@ TEST_F(RayReuseTest, LinksOfOneCellShareASearch) {
 TEST_F(RayReuseTest, WithoutADistanceEveryLinkIsSearched) {
   auto propagation = rays(bottoms_, 0);
   for (int step = 0; step < 6; ++step) {
-    propagation.reception(at_s(1), end(1, first_), end(2, second_ + Vec3(2.0 * step, 0, 0.05 * step)));
+    in_table(propagation, end(1, first_), end(2, second_ + Vec3(2.0 * step, 0, 0.05 * step)));
+  }
+  EXPECT_EQ(propagation.searches(), 6);
+}
+
+// Packets and queries depend on no cell.
+TEST_F(RayReuseTest, OutsideOfTablesEveryLinkIsSearchedForItself) {
+  auto propagation = rays(bottoms_, kCellM), own = rays(bottoms_, 0);
+  for (int step = 0; step < 6; ++step) {
+    const LinkEnd a = end(1, first_), b = end(2, second_ + Vec3(2.0 * step, 0, 0.05 * step));
+    EXPECT_EQ(propagation.reception(at_s(1), a, b).budget.received_level.value,
+              own.reception(at_s(1), a, b).budget.received_level.value);
   }
   EXPECT_EQ(propagation.searches(), 6);
 }
@@ -94,11 +108,11 @@ TEST_F(RayReuseTest, ResultsDependOnTheQueryAlone) {
     places.emplace_back(second_ + Vec3(60 * draw(i, 3), 30 * draw(i, 4), 6 * draw(i, 5)));
   }
   std::vector<Reception> one;
-  for (const Vec3& place : places) one.push_back(forwards.reception(at_s(1), end(1, first_), end(2, place)));
+  for (const Vec3& place : places) one.push_back(in_table(forwards, end(1, first_), end(2, place)));
   for (std::size_t i = places.size(); i-- > 0;) {
     auto fresh = rays(bottoms_, kCellM);
-    const Reception late = backwards.reception(at_s(1), end(1, first_), end(2, places[i])),
-                    alone = fresh.reception(at_s(1), end(1, first_), end(2, places[i]));
+    const Reception late = in_table(backwards, end(1, first_), end(2, places[i])),
+                    alone = in_table(fresh, end(1, first_), end(2, places[i]));
     ASSERT_EQ(one[i].paths.size(), late.paths.size());
     EXPECT_EQ(one[i].budget.delay_s, late.budget.delay_s);
     EXPECT_EQ(one[i].budget.received_level.value, late.budget.received_level.value);
@@ -110,7 +124,7 @@ TEST_F(RayReuseTest, ResultsDependOnTheQueryAlone) {
 TEST_F(RayReuseTest, BothWaysHaveTheSamePathsToTheLastBit) {
   auto propagation = rays(bottoms_, kCellM);
   const LinkEnd a = end(1, first_), b = end(2, second_ + Vec3(3, 4, 1));
-  const Reception there = propagation.reception(at_s(1), a, b), back = propagation.reception(at_s(1), b, a);
+  const Reception there = in_table(propagation, a, b), back = in_table(propagation, b, a);
   ASSERT_EQ(there.used, PropagationUsed::kRays);
   ASSERT_EQ(there.paths.size(), back.paths.size());
   for (std::size_t i = 0; i < there.paths.size(); ++i) {
@@ -129,8 +143,8 @@ TEST_F(RayReuseTest, DelayAndLevelAreCloseToThoseOfASearchOfItsOwn) {
     const Vec3 one(0, 0, 20 + 80 * draw(i, 6)), other(200 + 1300 * draw(i, 7), 0, 20 + 80 * draw(i, 8));
     const auto bottoms = testing::seabed_around(one, other, slope);
     auto shared = rays(bottoms, kCellM), own = rays(bottoms, 0);
-    const Reception a = shared.reception(at_s(1), end(1, one), end(2, other)),
-                    b = own.reception(at_s(1), end(1, one), end(2, other));
+    const Reception a = in_table(shared, end(1, one), end(2, other)),
+                    b = in_table(own, end(1, one), end(2, other));
     ASSERT_FALSE(a.paths.empty() || b.paths.empty());
     delays_s.push_back(std::abs(a.paths.front().delay_s - b.paths.front().delay_s));
     levels_db.push_back(std::abs(a.budget.received_level.value - b.budget.received_level.value));
@@ -148,8 +162,8 @@ TEST_F(RayReuseTest, DelayAndLevelAreCloseToThoseOfASearchOfItsOwn) {
 TEST_F(RayReuseTest, CoherentLevelsAreSearchedForThemselves) {
   auto propagation = rays(bottoms_, kCellM, /*coherent=*/true), own = rays(bottoms_, 0, /*coherent=*/true);
   const LinkEnd a = end(1, first_), b = end(2, second_ + Vec3(3, 4, 1));
-  EXPECT_EQ(propagation.reception(at_s(1), a, b).budget.received_level.value,
-            own.reception(at_s(1), a, b).budget.received_level.value);
+  EXPECT_EQ(in_table(propagation, a, b).budget.received_level.value,
+            in_table(own, a, b).budget.received_level.value);
 }
 
 TEST_F(RayReuseTest, AGivenBottomIsSearchedForItself) {
@@ -164,9 +178,7 @@ TEST_F(RayReuseTest, AGivenBottomIsSearchedForItself) {
 TEST_F(RayReuseTest, DelayFollowsTheReceiverWithinItsCell) {
   auto propagation = rays(bottoms_, kCellM);
   const auto delay_s = [&](double moved_m) {
-    return propagation.reception(at_s(1), end(1, first_), end(2, second_ + Vec3(moved_m, 0, 0)))
-        .paths.front()
-        .delay_s;
+    return in_table(propagation, end(1, first_), end(2, second_ + Vec3(moved_m, 0, 0))).paths.front().delay_s;
   };
   const double slowness = delay_s(1) - delay_s(0);
   EXPECT_NEAR(1 / slowness, 1500, 40);

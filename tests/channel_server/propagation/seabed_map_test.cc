@@ -26,8 +26,8 @@ double slope(const Vec3& place) { return 100 + 0.05 * place.x() - 0.02 * place.y
 class SeabedMapTest : public ::testing::Test {
  protected:
   template <class DepthAt>
-  SeabedProfile surveyed(const Vec3& from, const Vec3& to, DepthAt depth_at) {
-    survey(map_, from, to, depth_at);
+  SeabedProfile surveyed(const Vec3& from, const Vec3& to, DepthAt seabed) {
+    survey(map_, from, to, seabed);
     return *map_.between(from, to);
   }
   static double depth_at(const SeabedProfile& profile, double range_m) {
@@ -53,15 +53,15 @@ TEST_F(SeabedMapTest, LevelGroundStaysLevelToTheLastBit) {
 
 TEST_F(SeabedMapTest, SamplesLieASpacingApartAndGoOnBeyondBothEnds) {
   const SeabedProfile profile = surveyed({0, 0, 20}, {1010, 0, 50}, slope);
-  EXPECT_EQ(profile.first_m, -75);
-  EXPECT_EQ(profile.spacing_m, 25);
-  EXPECT_EQ(profile.z_m.size(), 3u + 42u + 3u);
+  EXPECT_EQ(profile.first_m, -18.75);
+  EXPECT_EQ(profile.spacing_m, 6.25);
+  EXPECT_EQ(profile.z_m.size(), 3u + 163u + 3u);
 }
 
 TEST_F(SeabedMapTest, BeyondItsMostSamplesTheyLieFurtherApart) {
   const SeabedProfile profile = surveyed({0, 0, 20}, {12'800, 0, 50}, slope);
-  EXPECT_EQ(profile.spacing_m, 50);
-  EXPECT_EQ(profile.z_m.size(), 3u + 257u + 3u);
+  EXPECT_EQ(profile.spacing_m, 12.5);
+  EXPECT_EQ(profile.z_m.size(), 3u + 1025u + 3u);
 }
 
 // Wherever the ends are, and whichever sample comes or goes: a seabed of at most 6 in 100 changes by no more than that
@@ -72,7 +72,8 @@ TEST_F(SeabedMapTest, AProfileChangesByNoMoreThanItsEndsMove) {
     const Vec3 from(north, 0.3 * north, 20), moved = from + Vec3(0.1, 0.03, 0);
     const SeabedProfile one = surveyed(from, to, hill), other = surveyed(moved, to, hill);
     for (double range_m = 0; range_m < 1400; range_m += 12.5) {
-      ASSERT_NEAR(depth_at(one, range_m), depth_at(other, range_m), 0.06 * 0.11 * 1.1) << north << " " << range_m;
+      ASSERT_NEAR(depth_at(one, range_m), depth_at(other, range_m), 0.06 * 0.11 * 1.1)
+          << north << " " << range_m;
     }
   }
 }

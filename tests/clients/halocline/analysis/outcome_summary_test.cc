@@ -123,6 +123,28 @@ TEST_F(OutcomeSummaryTest, ThePrintedTableNamesEveryOutcomeThatOccurred) {
                                ::testing::HasSubstr("half duplex"), ::testing::HasSubstr("1 -> 3")));
 }
 
+TEST_F(OutcomeSummaryTest, TextJsonAndRowsNameWhatThePathsWereComputedWith) {
+  packet_outcome_t rays = outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED), straight = rays;
+  rays.propagation_used = packet_outcome_t::RAYS;
+  straight.receiver_id = 3;
+  straight.propagation_used = packet_outcome_t::STRAIGHT_WITHOUT_BOTTOM;
+  add(rays);
+  add(straight);
+  const OutcomeSummary sums = summary();
+  std::ostringstream text;
+  print(text, sums);
+  EXPECT_THAT(text.str(), ::testing::AllOf(::testing::HasSubstr("paths: rays  "),
+                                           ::testing::HasSubstr("paths: straight without bottom")));
+  const auto json = nlohmann::json::parse(to_json(sums));
+  EXPECT_EQ(json["by_propagation"]["rays"], 1);
+  EXPECT_EQ(json["by_propagation"]["straight without bottom"], 1);
+  std::stringstream csv;
+  print_outcomes_csv(csv, sums);
+  std::vector<std::string> errors;
+  const CsvTable table = read_csv(csv, errors);
+  EXPECT_EQ(table.rows.at(1).cells[*table.column("propagation")], "straight without bottom");
+}
+
 TEST_F(OutcomeSummaryTest, ThePlotHoldsABarAnOutcomeAndItsCourseOverTheWindows) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
