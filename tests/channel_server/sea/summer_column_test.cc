@@ -58,8 +58,8 @@ Column deliver(const acoustics::Modem& modem, double wind_mps, double snr_db) {
   model.options.min_boundary_factor = std::pow(10, -1.5);
   model.fading.enabled = true;
   RayPropagation propagation(std::make_shared<EnvironmentTimeline>(column(wind_mps)),
-                             std::make_shared<SeabedProfileCache>(ProfileRule{}), model);
-  const auto seabed = std::make_shared<const SeabedProfile>(41, kDepthM);
+                             std::make_shared<SeabedMap>(SeabedRule{}), model);
+  const auto seabed = std::make_shared<const SeabedProfile>(SeabedProfile::flat(kDepthM));
   const acoustics::ReceptionCurves curves(modem, kPayloadBytes);
   std::vector<Reception> receptions;
   std::vector<double> levels;
