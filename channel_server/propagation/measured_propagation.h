@@ -18,8 +18,8 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/profile_survey.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/for_each.h"
 #include "core/frames.h"
@@ -52,6 +52,12 @@ class MeasuredPropagation : public Propagation {
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
+  bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return model_->is_ready(at, from, to);
+  }
+  bool are_ready(SimTime at, const std::vector<EndPair>& links) override {
+    return model_->are_ready(at, links);
+  }
   bool uses_bottom() const override { return model_->uses_bottom(); }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
