@@ -148,7 +148,7 @@ TEST_F(EmbeddedMissionsTest, FollowersWithoutALeaderDegradeAndResume) {
   EXPECT_THAT(status_at(log, 140), ::testing::HasSubstr("port: follows its leader"));
   EXPECT_THAT(status_at(log, 185), ::testing::HasSubstr("port: leader lost: keeps its course"));
   EXPECT_THAT(status_at(log, 280), ::testing::HasSubstr("starboard: leader lost: circles at its safe depth"));
-  EXPECT_THAT(status_at(log, 320), ::testing::HasSubstr("starboard: follows its leader"));
+  EXPECT_THAT(status_at(log, 380), ::testing::HasSubstr("starboard: follows its leader"));
   EXPECT_FALSE(was_on_the_seabed(log));
 }
 

@@ -29,7 +29,7 @@ std::map<int, std::vector<packet_outcome_t>> by_outcome(
 }
 
 TEST_F(HarbourOutcomesTest, FourOutcomesOccurAndTheNumbersConfirmEach) {
-  auto outcomes = by_outcome(messages_in<packet_outcome_t>(log()));
+  auto outcomes = by_outcome(messages_in<packet_outcome_t>(run(load("harbour", {}), "harbour")));
   for (const int kind : {packet_outcome_t::RECEIVED, packet_outcome_t::HALF_DUPLEX,
                          packet_outcome_t::COLLIDED, packet_outcome_t::BIT_ERRORS}) {
     EXPECT_GE(outcomes[kind].size(), 5u) << kind;

@@ -72,16 +72,19 @@ TEST_F(ReplayTest, TheSameLogAndScenarioRepeatEveryNumberOfEveryOutcome) {
   }
 }
 
+// Bubbles take from every bounce at the surface. One link may gain: where calm paths cancel, a rough surface fills the null.
 TEST_F(ReplayTest, WindMovesTheNoiseAndTheSurface) {
   const Comparison comparison = replayed_with({"environment.wind_mps=14"});
   int weaker = 0;
+  double change_db = 0;
   for (const auto& row : comparison.rows()) {
     ASSERT_TRUE(row.before && row.after);
-    EXPECT_GT(row.after->noise_level_db, row.before->noise_level_db + 5);    // 4 to 14 m/s
-    EXPECT_LE(row.after->received_level_db, row.before->received_level_db);  // a rough surface scatters
+    EXPECT_GT(row.after->noise_level_db, row.before->noise_level_db + 5);  // 4 to 14 m/s
+    change_db += row.after->received_level_db - row.before->received_level_db;
     weaker += row.after->received_level_db < row.before->received_level_db - 0.1 ? 1 : 0;
   }
   EXPECT_GT(weaker, static_cast<int>(comparison.rows().size()) / 2);
+  EXPECT_LT(change_db / static_cast<double>(comparison.rows().size()), -0.1);
 }
 
 TEST_F(ReplayTest, AnotherProfileMovesTravelTimesByItsSpeedOfSound) {
@@ -117,14 +120,11 @@ TEST_F(ReplayTest, TheModemMovesDurationsAndLevels) {
   }
 }
 
-TEST_F(ReplayTest, TheSeedMovesTheDrawsAndNothingOfTheWater) {
+// Fading is drawn, too: what is received moves, its mean level does not.
+TEST_F(ReplayTest, TheSeedMovesDrawsAndFadingAndNothingElseOfTheWater) {
   const Comparison comparison = replayed_with({"scenario.seed=8"});
   std::set<std::string> names;
-  for (const auto& row : comparison.rows()) {
-    if (row.moved.empty()) continue;
-    EXPECT_EQ(row.moved.front(), "draws");
-    names.insert(row.moved.begin(), row.moved.end());
-  }
+  for (const auto& row : comparison.rows()) names.insert(row.moved.begin(), row.moved.end());
   EXPECT_TRUE(names.contains("draws"));
   for (const char* of_water : {"level", "noise", "paths", "range", "duration", "doppler", "cutoff"})
     EXPECT_FALSE(names.contains(of_water)) << of_water;
