@@ -19,7 +19,7 @@ namespace halocline::acoustics {
 
 // Numbers of the model; defaults are our choices unless a source is named.
 struct FadingModel {
-  bool enabled = false;  // false: nothing fades, powers of paths add
+  bool enabled = false;            // false: nothing fades, powers of paths add
   double rice_factor_db = 10;      // K of the medium, -20..60
   double medium_coherence_s = 20;  // time in which the medium's autocorrelation falls to 1/e, 0.1..1e6
   double large_scale_db = 3;  // standard deviation of X, 0..20 (Qarabaqi and Stojanovic 2013: log-normal)

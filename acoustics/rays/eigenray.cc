@@ -10,6 +10,7 @@
 #include "acoustics/rays/image_rays.h"
 #include "acoustics/rays/layered_rays.h"
 #include "acoustics/rays/profile_rays.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {

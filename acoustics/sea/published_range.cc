@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "acoustics/sea/pressure.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/csv_table.h"
 
 namespace halocline::acoustics {

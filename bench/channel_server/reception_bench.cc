@@ -6,11 +6,16 @@
 #include <benchmark/benchmark.h>
 
 #include "acoustics/fading/link_fading.h"
+#include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/modem/modem.h"
 #include "acoustics/reception/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/modems/modem_config.h"
+#include "channel_server/packets/packet.h"
 #include "channel_server/packets/reception_decision.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "acoustics/fading/sound_path.h"
+
 namespace halocline::channel_server {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/frames.h"
 #include "core/names.h"

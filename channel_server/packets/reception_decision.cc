@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "acoustics/modem/modem.h"
 #include "acoustics/reception/decoding.h"
 #include "core/random.h"
 

@@ -71,7 +71,8 @@ Reception Propagation::reception_over(SimTime, const LinkEnd&, const LinkEnd&,
 }
 
 StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_models)
-    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)), acoustics::FadingModel(), max_models) {}
+    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)),
+                          acoustics::FadingModel(), max_models) {}
 
 StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
                                          const acoustics::FadingModel& fading, std::size_t max_models)

@@ -35,8 +35,8 @@ acoustics::Arrival backwards(acoustics::Arrival path) {
 // Of a path as it was found, from the link's lower end: the same for both directions. Each count takes its low bits.
 std::uint64_t number_of(const acoustics::PathIdentity& identity) {
   std::uint64_t number = identity.launched_up ? 1 : 0;
-  for (const int count : {identity.surface_bounces, identity.bottom_bounces, identity.upper_turns,
-                          identity.lower_turns}) {
+  for (const int count :
+       {identity.surface_bounces, identity.bottom_bounces, identity.upper_turns, identity.lower_turns}) {
     number = number << 14 | (static_cast<std::uint64_t>(count) & 0x3FFF);
   }
   return number << 7 | (static_cast<std::uint64_t>(identity.branch) & 0x7F);
@@ -298,8 +298,8 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
         path_fading(model_.fading, task.environment->noise.wind_mps, from.modem->centre_frequency_hz,
                     path.surface_sine_squares, path.bottom_sine_squares);
     paths.push_back({path.delay_s, std::max(level, kSilence), doppler_factor(path, ends),
-                     path.launch_angle_rad, path.arrival_angle_rad, path.surface_bounces,
-                     path.bottom_bounces, path.phase_rad, number_of(arrival.identity), fading});
+                     path.launch_angle_rad, path.arrival_angle_rad, path.surface_bounces, path.bottom_bounces,
+                     path.phase_rad, number_of(arrival.identity), fading});
   }
   return paths;
 }

@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arrivals.h"

@@ -166,7 +166,7 @@ TEST_F(RayNodeTest, AVehicleAtRestIsQueriedOnce) {
   FlatBottom bottom(rays_.lcm(), 100);
   two_at_rest();
   rays_.run_to(14);
-  EXPECT_EQ(bottom.queries().size(), 1u);  // depths
+  EXPECT_EQ(bottom.queries().size(), 1u);           // depths
   EXPECT_EQ(bottom.queries()[0].num_rays % 64, 0);  // whole tiles
 }
 

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"

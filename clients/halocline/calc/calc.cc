@@ -6,6 +6,7 @@
 #include <optional>
 #include <ostream>
 
+#include "acoustics/sea/published_range.h"
 #include "clients/halocline/calc/published.h"
 #include "core/check.h"
 #include "core/csv_table.h"

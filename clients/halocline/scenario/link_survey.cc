@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arrivals.h"

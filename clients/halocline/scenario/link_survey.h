@@ -12,6 +12,7 @@
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/scenario/composition.h"

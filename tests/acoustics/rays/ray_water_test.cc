@@ -1,6 +1,7 @@
 #include "acoustics/sea/ray_water.h"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {

@@ -1,11 +1,13 @@
 #include "acoustics/reception/signal_history.h"
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/error_model.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {

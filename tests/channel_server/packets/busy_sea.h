@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/ray_doppler.h"

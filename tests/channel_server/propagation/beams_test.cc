@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/beam_pattern.h"
@@ -16,6 +17,7 @@
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"

@@ -15,6 +15,7 @@
 #include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/frames.h"
 #include "core/random.h"

@@ -4,13 +4,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "acoustics/fading/link_fading.h"
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/link_prediction.h"
+#include "acoustics/reception/reception_curves.h"
+#include "acoustics/reception/signal_history.h"
+#include "channel_server/packets/packet.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/random.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::channel_server::testing {

@@ -10,9 +10,15 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/modems/modem_config.h"
+#include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
+#include "core/frames.h"
 #include "core/random.h"
 #include "tests/channel_server/sea/still_link.h"
 

@@ -1,10 +1,12 @@
 // A link at rest near its threshold: how wide the transition is, and how losses hang together in time.
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/sound_path.h"
 #include "channel_server/modems/modem_config.h"
 #include "tests/channel_server/sea/still_link.h"
 

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/beam_pattern.h"
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/propagation/propagation.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 
