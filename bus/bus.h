@@ -6,8 +6,8 @@
 // LCM's C frames: it is kept, and thrown by rethrow_if_failed().
 //
 //   Bus bus(lcm, {"channel-server", session});
-//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s)
-//   {...}); bus.publish(channels::kOutcome, outcome);
+//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
+//   bus.publish(channels::kOutcome, outcome);
 //
 // One Bus belongs to one node; several may share an lcm::LCM (memq has one queue per LCM object, so nodes in
 // one process must share it). Not thread-safe. The lcm::LCM must outlive the Bus.

@@ -3,8 +3,8 @@
 //   const auto lcm = bus::open_transport(bus::effective_url(""));
 //   BlockingModem modem(*lcm, {.vehicle = "auv-1", .vehicle_id = 1, .session = my_session});
 //   const auto sequence = modem.send(kBroadcastId, payload);
-//   if (sequence && modem.wait_receipt(*sequence, SimDuration::from_seconds(2))) ...
-//   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) ...
+//   if (sequence && modem.wait_receipt(*sequence, SimDuration::from_seconds(2))) { ... }
+//   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) { ... }
 //
 // Time-outs are of steady (wall) time. While a call waits, everything on the LCM is dispatched, so other
 // subscriptions made on it are served too. Not thread-safe; the LCM must outlive the modem.
