@@ -87,6 +87,17 @@ inline std::vector<PacketOutcome> outcomes_in(const std::vector<MediumEvent>& ev
   return outcomes;
 }
 
+// Surveys the bottom of one pair, `depth_at(north)` metres deep.
+template <class DepthAt>
+void survey_bottom(SeabedProfileCache& bottoms, const VehiclePair& pair, DepthAt depth_at) {
+  ProfileSurvey survey = bottoms.survey_of(pair);
+  std::vector<RayAnswer> answers;
+  for (const TerrainRay& ray : survey.rays())
+    answers.push_back({RayAnswer::Kind::kHit, depth_at(ray.origin_ned_m.x())});
+  survey.take(answers);
+  bottoms.store(pair, survey);
+}
+
 // The bottom between vehicle 1 at `one` and vehicle 2 at `other`, `depth_at(north)` metres deep, known from 1 s on.
 template <class DepthAt>
 std::shared_ptr<SeabedProfileCache> bottoms_between(const Vec3& one, const Vec3& other, DepthAt depth_at) {
@@ -95,15 +106,21 @@ std::shared_ptr<SeabedProfileCache> bottoms_between(const Vec3& one, const Vec3&
   low.id = 1, high.id = 2;
   low.placement.position_ned_m = one, high.placement.position_ned_m = other;
   bottoms->take_geometry({low, high});
-  ProfileSurvey survey = bottoms->survey_of({1, 2});
-  std::vector<RayAnswer> answers;
-  for (const TerrainRay& ray : survey.rays()) {
-    answers.push_back({RayAnswer::Kind::kHit, depth_at(ray.origin_ned_m.x())});
-  }
-  survey.take(answers);
-  bottoms->store({1, 2}, survey);
+  survey_bottom(*bottoms, {1, 2}, depth_at);
   bottoms->open_tick(at_s(1));
   return bottoms;
+}
+
+// Along rays, of the bottom known from 1 s on.
+inline void expect_same_paths_both_ways(Propagation& propagation, const LinkEnd& a, const LinkEnd& b) {
+  const Reception there = propagation.reception(at_s(1), a, b), back = propagation.reception(at_s(1), b, a);
+  ASSERT_EQ(there.used, PropagationUsed::kRays);
+  ASSERT_EQ(there.paths.size(), back.paths.size());
+  for (std::size_t i = 0; i < there.paths.size(); ++i) {
+    EXPECT_EQ(there.paths[i].delay_s, back.paths[i].delay_s);
+    EXPECT_EQ(there.paths[i].level.value, back.paths[i].level.value);
+    EXPECT_EQ(there.paths[i].launch_angle_rad, -back.paths[i].arrival_angle_rad);
+  }
 }
 
 }  // namespace halocline::channel_server::testing

@@ -138,14 +138,7 @@ TEST_F(RayPropagationTest, BothWaysHaveTheSamePathsToTheLastBit) {
       testing::bottoms_between({0, 0, 30}, {1000, 0, 60}, [](double north_m) { return 150 - north_m / 25; });
   auto propagation = rays({}, acoustics::Environment{}, bottoms);
   const LinkEnd a = end({0, 0, 30}, modem_, 1), b = end({1000, 0, 60}, modem_, 2);
-  const Reception there = propagation.reception(at_s(1), a, b), back = propagation.reception(at_s(1), b, a);
-  ASSERT_EQ(there.used, PropagationUsed::kRays);
-  ASSERT_EQ(there.paths.size(), back.paths.size());
-  for (std::size_t i = 0; i < there.paths.size(); ++i) {
-    EXPECT_EQ(there.paths[i].delay_s, back.paths[i].delay_s);
-    EXPECT_EQ(there.paths[i].level.value, back.paths[i].level.value);
-    EXPECT_EQ(there.paths[i].launch_angle_rad, -back.paths[i].arrival_angle_rad);
-  }
+  testing::expect_same_paths_both_ways(propagation, a, b);
   EXPECT_EQ(propagation.searches(), 1);
   EXPECT_EQ(propagation.reception(at_s(0.9), a, b).used, PropagationUsed::kStraightWithoutBottom);
 }
@@ -260,13 +253,7 @@ TEST_F(RayPropagationTest, TwoThreadsGiveTheSameBitsAsOneAndAsOneByOne) {
   }
   for (const VehiclePair& pair : bottoms->take_geometry(vehicles)) {
     if (pair == VehiclePair(1, 2)) continue;  // one pair of unknown bottom among them
-    ProfileSurvey survey = bottoms->survey_of(pair);
-    std::vector<RayAnswer> answers;
-    for (const TerrainRay& ray : survey.rays()) {
-      answers.push_back({RayAnswer::Kind::kHit, 120 + 0.02 * ray.origin_ned_m.x()});
-    }
-    survey.take(answers);
-    bottoms->store(pair, survey);
+    testing::survey_bottom(*bottoms, pair, [](double north_m) { return 120 + 0.02 * north_m; });
   }
   bottoms->open_tick(at_s(1));
   std::vector<EndPair> links;
