@@ -119,7 +119,7 @@ class Bus {
   // `regular_expression` matches channels; a repair on REPAIR.<channel> is handled as if received there.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
   template <class Message>
-  bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
+  [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
   bool is_subscribed_to(std::string_view channel) const;
   void resend(const repair_request_t& request);

@@ -61,7 +61,7 @@ class Sequencer {
   // Lookahead ends before this; at_once(): there is none.
   void set_furthest(SimTime furthest) { furthest_ = furthest; }
   // False when the instant is over, or, after end_run, when nobody is left.
-  bool begin_round();
+  [[nodiscard]] bool begin_round();
   bool in_round() const { return !round_.empty(); }
   const std::vector<std::string>& round() const { return round_; }
   lockstep_turn_t turn_of(const std::string& name) const;

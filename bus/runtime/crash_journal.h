@@ -117,8 +117,8 @@ class CrashJournal {
     Bytes message;
   };
   static Bytes to_bytes(const Output& output);
-  static std::optional<Output> to_output(const JournalledMessage& entry);
-  bool claim(const std::string& channel, const std::string& identity);
+  [[nodiscard]] static std::optional<Output> to_output(const JournalledMessage& entry);
+  [[nodiscard]] bool claim(const std::string& channel, const std::string& identity);
   void restore(Output output);
   template <class Message>
   void write_output(const std::string& channel, const std::string& identity, std::int64_t session,

@@ -77,7 +77,7 @@ class LinkQueryService {
   // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
   void submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady);
   // A survey has ended; true when it was one of this service's.
-  bool finish(const RayQueryClient::Finished& finished);
+  [[nodiscard]] bool finish(const RayQueryClient::Finished& finished);
   // What is ready at `steady`, or has waited long enough.
   std::vector<LinkReply> take_replies(SimTime steady);
   // at_once() while a reply is ready.
@@ -99,11 +99,11 @@ class LinkQueryService {
     std::map<RayQueryClient::SurveyId, std::size_t> surveys;          // to the index of the answer
     std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;  // of those answers
   };
-  std::string refusal_of(const LinkQuery& query) const;
+  [[nodiscard]] std::string refusal_of(const LinkQuery& query) const;
   bool is_waiting(const LinkQuery& query) const;
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
-  std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
+  [[nodiscard]] std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void query_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void take(const TerrainSurvey& survey, std::size_t index, Waiting& waiting);

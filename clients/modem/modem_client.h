@@ -125,7 +125,7 @@ class ModemClient {
 
   void take_receipt(const modem_receipt_t& receipt);
   void take_packet(const modem_receive_t& packet);
-  bool is_new(const PacketName& packet);
+  [[nodiscard]] bool is_new(const PacketName& packet);
 
   bus::Bus& bus_;
   ModemAddress address_;
