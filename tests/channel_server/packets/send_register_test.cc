@@ -76,7 +76,7 @@ TEST(SendRegister, TwoPacketsWithoutDurationDoNotStartTogether) {
 
 TEST(SendRegister, OldPacketsAreForgotten) {
   SendRegister sends;
-  for (int i = 0; i < 100; ++i) sends.enter(request_of(1, i, i));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(sends.enter(request_of(1, i, i)));
   sends.forget_before(at_s(90));
   EXPECT_EQ(sends.size(), 10u);
 }
