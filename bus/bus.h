@@ -6,8 +6,8 @@
 // LCM's C frames: it is kept, and thrown by rethrow_if_failed().
 //
 //   Bus bus(lcm, {"channel-server", session});
-//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s)
-//   {...}); bus.publish(channels::kOutcome, outcome);
+//   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
+//   bus.publish(channels::kOutcome, outcome);
 //
 // One Bus belongs to one node; several may share an lcm::LCM (memq has one queue per LCM object, so nodes in
 // one process must share it). Not thread-safe. The lcm::LCM must outlive the Bus.
@@ -119,7 +119,7 @@ class Bus {
   // `regular_expression` matches channels; a repair on REPAIR.<channel> is handled as if received there.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
   template <class Message>
-  bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
+  [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
   bool is_subscribed_to(std::string_view channel) const;
   void resend(const repair_request_t& request);

@@ -14,19 +14,19 @@ namespace halocline::bus {
 
 // An empty string, or the field and what it may hold. For each type of the bus.
 template <class Message>
-std::string problem_in(const Message& message);
+[[nodiscard]] std::string problem_in(const Message& message);
 
 // The part that lcmtypes/*.lcm cannot state: relations between fields. An overload for each type that has some.
 template <class Message>
-std::string problem_between_fields(const Message&) {
+[[nodiscard]] std::string problem_between_fields(const Message&) {
   return "";
 }
-std::string problem_between_fields(const vehicle_state_t& message);
-std::string problem_between_fields(const environment_change_t& message);
-std::string problem_between_fields(const modem_config_t& message);
-std::string problem_between_fields(const modem_send_t& message);
-std::string problem_between_fields(const lockstep_grant_t& message);
-std::string problem_between_fields(const lockstep_answer_t& message);
-std::string problem_between_fields(const lockstep_join_t& message);
+[[nodiscard]] std::string problem_between_fields(const vehicle_state_t& message);
+[[nodiscard]] std::string problem_between_fields(const environment_change_t& message);
+[[nodiscard]] std::string problem_between_fields(const modem_config_t& message);
+[[nodiscard]] std::string problem_between_fields(const modem_send_t& message);
+[[nodiscard]] std::string problem_between_fields(const lockstep_grant_t& message);
+[[nodiscard]] std::string problem_between_fields(const lockstep_answer_t& message);
+[[nodiscard]] std::string problem_between_fields(const lockstep_join_t& message);
 
 }  // namespace halocline::bus

@@ -36,21 +36,21 @@ Bytes encoded(const Message& message) {
 // Both return the problem of the bytes, empty when `message` holds one whole message. decode_unchecked leaves the
 // values unchecked.
 template <class Message>
-std::string decode_unchecked(std::span<const std::uint8_t> bytes, Message& message) {
+[[nodiscard]] std::string decode_unchecked(std::span<const std::uint8_t> bytes, Message& message) {
   std::string problem = misfit(wire_layout<Message>(), bytes.data(), bytes.size());
   if (problem.empty() && message.decode(bytes.data(), 0, static_cast<int>(bytes.size())) < 0)
     problem = "another type";
   return problem;
 }
 template <class Message>
-std::string decode(std::span<const std::uint8_t> bytes, Message& message) {
+[[nodiscard]] std::string decode(std::span<const std::uint8_t> bytes, Message& message) {
   std::string problem = decode_unchecked(bytes, message);
   return problem.empty() ? problem_in(message) : problem;
 }
 
 // Empty when the bytes are not one whole valid message of that type.
 template <class Message>
-std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
+[[nodiscard]] std::optional<Message> decoded(std::span<const std::uint8_t> bytes) {
   Message message;
   return decode(bytes, message).empty() ? std::optional(std::move(message)) : std::nullopt;
 }

@@ -29,6 +29,6 @@ std::string effective_url(const std::string& given);
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url);
 
 // A warning for the user when the kernel grants less receive buffer than requested; empty when it grants enough.
-std::string receive_buffer_warning(const std::string& url);
+[[nodiscard]] std::string receive_buffer_warning(const std::string& url);
 
 }  // namespace halocline::bus

@@ -29,7 +29,7 @@ struct WireField {
 
 // An empty string when `size` bytes at `data` (with the 8-byte fingerprint in front) fit `layout` exactly;
 // otherwise what is wrong with them.
-std::string misfit(const WireLayout& layout, const void* data, std::size_t size);
+[[nodiscard]] std::string misfit(const WireLayout& layout, const void* data, std::size_t size);
 
 // The layout of each type of the bus, from its fields (bus/message_fields.h).
 template <class Message>

@@ -60,7 +60,7 @@ class ChannelServerNode : public bus::Node {
   void forget_old(SimTime now);
   void answer_queries(const bus::Now& now);
   // True when the present is reached.
-  bool recover(const bus::Now& now);
+  [[nodiscard]] bool recover(const bus::Now& now);
 
   ServerRules rules_;
   WaterModel water_;

@@ -32,7 +32,7 @@ class ServerRecovery {
   // The instant up to which the medium advances before the next step.
   SimTime reached() const { return reached_; }
   // The inputs of the next step, at reached() then; empty while repair is given its time, and after the last.
-  std::optional<StepInputs> next_step(const bus::Now& now);
+  [[nodiscard]] std::optional<StepInputs> next_step(const bus::Now& now);
   // The present step was taken.
   bool is_done() const { return took_present_ && steps_.empty(); }
 

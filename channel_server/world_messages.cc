@@ -73,7 +73,7 @@ constexpr std::size_t kMaxLayers = 2000;  // environment_t
 
 std::vector<double> depths_to_publish(const acoustics::SoundSpeedProfile& profile) {
   const std::vector<double> rows = profile.row_depths_m();
-  const std::size_t stride = rows.size() / kMaxLayers + 1;
+  const std::size_t stride = (rows.size() + kMaxLayers - 1) / kMaxLayers;
   std::vector<double> depths;
   for (std::size_t i = 0; i < rows.size(); i += stride) depths.push_back(rows[i]);
   if (!depths.empty()) return depths;

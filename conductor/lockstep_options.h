@@ -14,7 +14,7 @@ class LockstepOptions {
   std::vector<bus::ProgramOption> options();
   // Coordinates a lockstep run when --lockstep was given; false when it was not. Throws InvalidArgument for impossible
   // values.
-  bool run_if_requested(const bus::NodeProgram::Context& context) const;
+  [[nodiscard]] bool run_if_requested(const bus::NodeProgram::Context& context) const;
 
  private:
   bool lockstep_ = false, no_lookahead_ = false, bridge_bus_ = false;

@@ -5,8 +5,8 @@
 //   void archive(Archive& a) { a(position_, velocity_, waiting_); }
 //
 //   Archive saved;
-//   saved(navigator);                      // saves
-//   Archive(saved.bytes())(navigator);     // loads into another one
+//   saved(navigator);
+//   Archive(saved.bytes())(another);  // loads
 //
 // Known besides: trivially copyable types (as they lie in memory; no pointers among them), strings, vectors, deques,
 // maps, sets, optional, pairs and tuples, Eigen's matrices and quaternions of fixed size, messages of lcm-gen. No

@@ -37,7 +37,7 @@ std::string csv_cell(std::string_view text);
 
 // The number a cell holds: a decimal number, finite, with nothing before or after it. Does not depend on the
 // locale.
-std::optional<double> parse_number(std::string_view cell);
+[[nodiscard]] std::optional<double> parse_number(std::string_view cell);
 
 // The shortest text that reads back as the same double (up to 17 digits).
 std::string format_number(double value);

@@ -10,7 +10,7 @@ namespace halocline {
 inline constexpr std::int32_t kBroadcastId = 0;  // as a destination: every vehicle
 
 // True when `name` matches [a-z0-9_-]{1,24}.
-bool is_valid_name(std::string_view name);
+[[nodiscard]] bool is_valid_name(std::string_view name);
 
 // What is_valid_name accepts, in words for error messages.
 inline constexpr std::string_view kNameRule = "1 to 24 characters of a-z, 0-9, '_' and '-'";

@@ -4,8 +4,8 @@
 // "Parallel random numbers: as easy as 1, 2, 3"), a counter-based generator. There is no state: two threads,
 // two processes or two runs that compute the same draw get the same number, in whatever order they draw.
 //
-//   const double u = uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which =
-//   sequence});
+//   const double u =
+//       uniform_at({.seed = 7, .purpose = purpose_of("bit-error"), .who = sender, .which = sequence});
 //
 // The distributions are our own, because those of the standard library differ between implementations.
 #pragma once

@@ -67,7 +67,7 @@ class Fleet {
 
   // Schedules a command for a vehicle; it holds from the first physics step at or after its time. Fixed vehicles
   // ignore commands.
-  CommandVerdict command(std::size_t index, const TimedCommand& command);
+  [[nodiscard]] CommandVerdict command(std::size_t index, const TimedCommand& command);
 
   // Schedules another current; it holds from the first physics step at or after `from`, of two for one
   // instant the one scheduled later. Throws InvalidArgument where it is impossible; false, and no change, when
@@ -111,7 +111,7 @@ class Fleet {
 
   bool moves(std::size_t index) const { return members_[index].model != nullptr; }
   void tie(const FleetTether& tether);
-  bool take_due_current();  // true when one was due
+  [[nodiscard]] bool take_due_current();  // true when one was due
   void take_due_faults();
   void archive_currents(Archive& a);
   void set_broken_model(std::size_t member);

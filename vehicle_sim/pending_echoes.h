@@ -21,10 +21,10 @@ class PendingEchoes {
 
   // The tick that waits for this answer, to write its echoes into; null when none does (any more). It then counts
   // as answered.
-  SensorTick* answer(std::int64_t request_id);
+  [[nodiscard]] SensorTick* answer(std::int64_t request_id);
 
   // The oldest tick if it is complete at `steady`, taken out.
-  std::optional<SensorTick> take(SimTime steady);
+  [[nodiscard]] std::optional<SensorTick> take(SimTime steady);
 
   bool has_complete() const { return !waiting_.empty() && waiting_.front().answered; }
   // When the oldest tick is given up; never() when none waits.

@@ -41,8 +41,8 @@ struct ArcHit {
 ArcStep next_step(const RayWater& water, const ArcPoint& at);
 
 // Whether the bottom is met within `until` m of range, before `step` ends; where, if so.
-bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoint& at, const ArcStep& step,
-              double until, ArcHit& hit);
+[[nodiscard]] bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoint& at,
+                            const ArcStep& step, double until, ArcHit& hit);
 
 // What a ray does at a facet. The direction that reflects is the facet's own or, where it is bent and that throws no
 // ray into it, the bent one; `bend_per_m` is its change along the facet.

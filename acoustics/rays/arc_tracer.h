@@ -102,11 +102,11 @@ class ArcTracer {
   static void note_turn(bool lower, std::size_t layer, TracedRay& ray);
   // To a point within a step, to the bottom, to the end of a step; false when the ray is given up there.
   void go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const;
-  bool go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const;
-  bool go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const;
+  [[nodiscard]] bool go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const;
+  [[nodiscard]] bool go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const;
   void cross_knot(State& s, bool down) const;
-  bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
-  bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;
+  [[nodiscard]] bool meet_surface(State& s, TracedRay& ray, TracedDetails* details) const;
+  [[nodiscard]] bool meet_bottom(State& s, std::size_t facet, TracedRay& ray, TracedDetails* details) const;
   void arrive(const State& s, TracedRay& ray) const;
   double rough_bottom_factor(double sine) const;
 

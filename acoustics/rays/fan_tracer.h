@@ -49,17 +49,17 @@ class FanTracer {
   void trace_from(State& s, FanRay& ray);
   void go(State& s, double dr, double z, double sine) const;
   void go_part(State& s, double dr);
-  bool go_to_bottom(State& s, ArcHit hit);
-  bool bounce(State& s, const Facet& facet) const;
-  bool go_to_knot(State& s, const ArcStep& step);
+  [[nodiscard]] bool go_to_bottom(State& s, ArcHit hit);
+  [[nodiscard]] bool bounce(State& s, const Facet& facet) const;
+  [[nodiscard]] bool go_to_knot(State& s, const ArcStep& step);
   // From a knot through whole layers to the last knot before the ray turns, meets the bottom or arrives.
-  bool run_through_layers(State& s, std::size_t knot);
+  [[nodiscard]] bool run_through_layers(State& s, std::size_t knot);
   void stand_at_knot(State& s, std::size_t knot, bool down) const;
   // Whether the ray crosses the layer beside `knot` from end to end. Near the bottom the state is brought to
   // that knot.
   bool next_layer_is_whole(State& s, std::size_t knot, bool down) const;
   bool clears_bottom(double sine, double next_sine) const;
-  bool meet_surface(State& s, double sine);
+  [[nodiscard]] bool meet_surface(State& s, double sine);
   void note_turn(bool lower);
   bool is_near_bottom(std::size_t layer) const { return water_.depths_m()[layer + 1] > shallowest_; }
 

@@ -46,7 +46,7 @@ class LayeredLegs {
   // The speed at which rays meet the next barrier, m/s; 0 when surface and bottom are all that is left.
   double next_barrier_mps() const;
   // Moves on to it; false when there is none.
-  bool advance();
+  [[nodiscard]] bool advance();
 
   bool meets_surface() const { return up_reach_ == up_.size(); }
   bool meets_bottom() const { return down_reach_ == down_.size(); }

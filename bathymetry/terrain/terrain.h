@@ -11,8 +11,8 @@
 // never made up: what is not known has a status, and NaN where the number would be.
 //
 //   const Terrain terrain(make_grid(geometry, FlatShape{.depth_m = 100}));
-//   const RayHit hit = terrain.closest_hit({.origin_ned_m = {0, 0, 20}, .direction = {0, 0, 1}, .max_range_m
-//   = 500});
+//   const RayHit hit =
+//       terrain.closest_hit({.origin_ned_m = {0, 0, 20}, .direction = {0, 0, 1}, .max_range_m = 500});
 //
 // Immutable: const calls may overlap between threads. All coordinates are local NED, metres, z down from the
 // datum.

@@ -17,37 +17,19 @@
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "tests/acoustics/rays/layered_waters.h"
 
 namespace halocline::acoustics {
 namespace {
 
 double some_absorption(double depth_m) { return 4.5 - 1e-4 * depth_m; }
 
-std::vector<SpeedRow> munk_of_101_knots() {
-  std::vector<SpeedRow> knots;
-  for (int i = 0; i <= 100; ++i) knots.push_back({50.0 * i, munk_sound_speed_mps(50.0 * i)});
-  return knots;
-}
-
 RaySea sea_of(const std::vector<SpeedRow>& knots, BottomProfile bottom) {
   return {RayWater(knots, some_absorption), std::move(bottom), fluid_bottom(1.9, 1650, 0.8),
           RaySurface{SurfaceModel::kFlat, 0}, RayOptions{}};
 }
 
-const std::vector<SpeedRow> kThreeKnots = {{0, 1520}, {50, 1490}, {100, 1490}};
-const std::vector<SpeedRow> kSevenKnots = {{0, 1522},  {10, 1521}, {20, 1512}, {35, 1500},
-                                           {50, 1494}, {70, 1492}, {100, 1493}};
 const std::vector<SpeedRow> kSeamountWater = {{0, 1520}, {50, 1490}, {200, 1492}};
-
-BottomProfile hill_of_facets() {  // a cosine hill in 100 facets of 50 m
-  std::vector<ProfiledDepth> points;
-  for (int i = 0; i <= 100; ++i) {
-    const double along = (50.0 * i - 2500) / 1000;
-    points.push_back(
-        {50.0 * i, std::abs(along) < 1 ? 200 - 60 * (1 + std::cos(std::numbers::pi * along)) : 200});
-  }
-  return BottomProfile(std::move(points));
-}
 
 struct Situation {
   RaySea sea;
@@ -59,20 +41,20 @@ Situation situation(int which) {
     case 0:
       return {sea_of({{0, 1500}}, BottomProfile::flat(100)), {30, 50, 3000}};
     case 1:
-      return {sea_of(kThreeKnots, BottomProfile::flat(100)), {20, 50, 2000}};
+      return {sea_of(kThermocline, BottomProfile::flat(100)), {20, 50, 2000}};
     case 2:
-      return {sea_of(kSevenKnots, BottomProfile::flat(100)), {25, 60, 2000}};
+      return {sea_of(kShelf, BottomProfile::flat(100)), {25, 60, 2000}};
     case 3:
-      return {sea_of(thinned(munk_of_101_knots(), 0.1), BottomProfile::flat(5000)), {1000, 800, 50000}};
+      return {sea_of(thinned(munk_knots(), 0.1), BottomProfile::flat(5000)), {1000, 800, 50000}};
     case 4:
-      return {sea_of(munk_of_101_knots(), BottomProfile::flat(5000)), {1000, 800, 50000}};
+      return {sea_of(munk_knots(), BottomProfile::flat(5000)), {1000, 800, 50000}};
     case 5:
       return {sea_of({{0, 1500}}, BottomProfile({{0, 100}, {5000, 40}})), {20, 30, 2000}};
     case 6:
       return {sea_of(kSeamountWater, BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}})),
               {20, 50, 3000}};
     default:
-      return {sea_of(kSeamountWater, hill_of_facets()), {20, 50, 3000}};
+      return {sea_of(kSeamountWater, cosine_hill()), {20, 50, 3000}};
   }
 }
 

@@ -115,31 +115,44 @@ void ray_link_table(benchmark::State& state) {
 }
 BENCHMARK(ray_link_table)->Arg(3)->Arg(20)->Unit(benchmark::kMillisecond);
 
+// A medium and its fleet, whose time moves on while the clock of the benchmark stands.
+struct BusyWater {
+  void move_on(benchmark::State& state, int vehicles, SimDuration states_ahead) {
+    state.PauseTiming();
+    now = now + SimDuration::from_milliseconds(20'000);
+    add_states(fleet, vehicles, now + states_ahead);
+    fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
+    medium.forget_before(now - SimDuration::from_milliseconds(11'000));
+    state.ResumeTiming();
+  }
+  void send(VehicleId id, SimTime start, std::size_t bytes) {
+    SendRequest request;
+    request.vehicle = "v" + std::to_string(id);
+    request.source_id = id;
+    request.session = 1;
+    request.packet_sequence = sequence++;
+    request.start = start;
+    request.payload.resize(bytes);
+    benchmark::DoNotOptimize(medium.transmit(request, now));
+  }
+  void run(SimDuration time) { benchmark::DoNotOptimize(medium.advance_to(now + time)); }
+
+  VehicleRegistry fleet{{}, {}};
+  StraightPropagation propagation{acoustics::Environment{}};
+  PacketMedium medium{fleet, propagation, {}};
+  SimTime now = SimTime::from_seconds(100);
+  std::int64_t sequence = 0;
+};
+
 // A broadcast to a whole fleet from request to the last of its ends. Items are packets; each ends at
 // (vehicles - 1) receivers.
 void packet(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
-  VehicleRegistry fleet({}, {});
-  StraightPropagation propagation(acoustics::Environment{});
-  PacketMedium medium(fleet, propagation, {});
-  SimTime now = SimTime::from_seconds(100);
-  std::int64_t sequence = 0;
+  BusyWater water;
   for (auto _ : state) {
-    state.PauseTiming();
-    now = now + SimDuration::from_milliseconds(20'000);
-    add_states(fleet, vehicles, now);
-    fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
-    medium.forget_before(now - SimDuration::from_milliseconds(10'000));
-    SendRequest request;
-    request.vehicle = "v1";
-    request.source_id = 1;
-    request.session = 1;
-    request.packet_sequence = sequence++;
-    request.start = now;
-    request.payload.resize(16);
-    state.ResumeTiming();
-    medium.transmit(request, now);
-    benchmark::DoNotOptimize(medium.advance_to(now + SimDuration::from_milliseconds(10'000)));
+    water.move_on(state, vehicles, SimDuration());
+    water.send(1, water.now, 16);
+    water.run(SimDuration::from_milliseconds(10'000));
   }
   state.SetItemsProcessed(state.iterations());
   state.counters["outcomes_per_second"] = benchmark::Counter(
@@ -151,30 +164,14 @@ BENCHMARK(packet)->Arg(3)->Arg(20)->Arg(100);
 // packets overlap. Items are packets; each ends at (vehicles - 1) receivers.
 void packets_that_overlap(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
-  VehicleRegistry fleet({}, {});
-  StraightPropagation propagation(acoustics::Environment{});
-  PacketMedium medium(fleet, propagation, {});
-  SimTime now = SimTime::from_seconds(100);
-  std::int64_t sequence = 0;
+  BusyWater water;
   for (auto _ : state) {
-    state.PauseTiming();
-    now = now + SimDuration::from_milliseconds(20'000);
-    add_states(fleet, vehicles, now + SimDuration::from_milliseconds(4'000));
-    fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
-    medium.forget_before(now - SimDuration::from_milliseconds(11'000));
-    state.ResumeTiming();
+    water.move_on(state, vehicles, SimDuration::from_milliseconds(4'000));
     for (int packet = 0; packet < 2 * vehicles; ++packet) {
-      const VehicleId id = 1 + packet % vehicles;
-      SendRequest request;
-      request.vehicle = "v" + std::to_string(id);
-      request.source_id = id;
-      request.session = 1;
-      request.packet_sequence = sequence++;
-      request.start = now + SimDuration::from_milliseconds(2000 * packet / (2 * vehicles));
-      request.payload.resize(8);
-      medium.transmit(request, now);
+      water.send(1 + packet % vehicles,
+                 water.now + SimDuration::from_milliseconds(2000 * packet / (2 * vehicles)), 8);
     }
-    benchmark::DoNotOptimize(medium.advance_to(now + SimDuration::from_milliseconds(15'000)));
+    water.run(SimDuration::from_milliseconds(15'000));
   }
   state.SetItemsProcessed(state.iterations() * 2 * vehicles);
   state.counters["outcomes_per_second"] = benchmark::Counter(

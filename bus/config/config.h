@@ -1,12 +1,12 @@
 // Describes a configuration struct once, to be read from TOML, printed, and explained in an example.
 //
 // Each `*_config.h` declares a plain struct with defaults and a function
-//     void visit(ConfigVisitor& v, MyConfig& c) { v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "wind at 10
-//     m height"}); }
-// A reader fills the struct and collects every error (wrong type, impossible value, unknown key) with file,
-// line, key and what is allowed; a writer prints the effective configuration, or an example with comments.
-// Configuration holds degrees, hours and kilohertz only where its key says so; the struct is SI: convert in
-// visit.
+//
+//   void visit(ConfigVisitor& v, MyConfig& c) { v.number("wind_mps", c.wind_mps, {0, 60, "m/s", "10 m above the sea"}); }
+//
+// A reader fills the struct and collects every error (wrong type, impossible value, unknown key) with file, line, key and
+// what is allowed; a writer prints the effective configuration, or an example with comments. Configuration holds degrees,
+// hours and kilohertz only where its key says so; the struct is SI: convert in visit.
 #pragma once
 
 #include <array>

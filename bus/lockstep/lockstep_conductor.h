@@ -74,13 +74,13 @@ class LockstepConductor {
  private:
   bool is_present(const std::string& name) const;
   void advance(SimTime steady);
-  bool begin_running();
-  bool begin_next_round();
-  bool begin_next_instant();
+  [[nodiscard]] bool begin_running();
+  [[nodiscard]] bool begin_next_round();
+  [[nodiscard]] bool begin_next_instant();
   void admit_and_dismiss();
   void end_at(SimTime instant);
   void begin_exchange(SimTime steady);
-  bool finish_round();
+  [[nodiscard]] bool finish_round();
   void finish();
   void drop_silent(SimTime steady);
   SimTime dropped_at(const ParticipantLink& link) const;

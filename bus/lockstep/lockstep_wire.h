@@ -26,7 +26,7 @@ std::span<const std::uint8_t> slice_of(const Bytes& body, int number);
 class SliceCollector {
  public:
   // `key` identifies the body: slices of another key are discarded. Returns the body when it is whole.
-  std::optional<Bytes> add(std::int64_t key, int number, int count, const Bytes& slice);
+  [[nodiscard]] std::optional<Bytes> add(std::int64_t key, int number, int count, const Bytes& slice);
 
  private:
   std::int64_t key_ = -1;

@@ -44,9 +44,9 @@ class Membership {
  private:
   void on_repeated_join(const lockstep_join_t& join, ParticipantLink& link, const RunState& run,
                         SimTime steady);
-  bool is_too_late(const lockstep_join_t& join, const RunState& run) const;
-  std::string objection_to(const lockstep_join_t& join, const ParticipantLink& link,
-                           const RunState& run) const;
+  [[nodiscard]] bool is_too_late(const lockstep_join_t& join, const RunState& run) const;
+  [[nodiscard]] std::string objection_to(const lockstep_join_t& join, const ParticipantLink& link,
+                                         const RunState& run) const;
   void grant_next(ParticipantLink& link, SimTime steady);
   void expel(std::int64_t incarnation, const std::string& name, const RunState& run,
              const std::string& reason) const;

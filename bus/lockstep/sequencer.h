@@ -6,10 +6,11 @@
 // admitted, results of rounds, ...) and of nothing else. So replaying a journal of the inputs restores it, and the
 // turns of a participant can be replayed to a new incarnation of it.
 //
-//   sequencer.admit(join); ...
-//   while ((next = sequencer.next_instant()) <= end) {
-//     sequencer.begin_instant(next);
+//   sequencer.admit(join);
+//   while (sequencer.next_instant() <= end) {
+//     sequencer.begin_instant(sequencer.next_instant());
 //     while (sequencer.begin_round()) {
+//       std::vector<lockstep_result_t> results;
 //       for (const std::string& name : sequencer.round()) results.push_back(take(sequencer.turn_of(name)));
 //       sequencer.complete(results);
 //     }
@@ -60,7 +61,7 @@ class Sequencer {
   // Lookahead ends before this; at_once(): there is none.
   void set_furthest(SimTime furthest) { furthest_ = furthest; }
   // False when the instant is over, or, after end_run, when nobody is left.
-  bool begin_round();
+  [[nodiscard]] bool begin_round();
   bool in_round() const { return !round_.empty(); }
   const std::vector<std::string>& round() const { return round_; }
   lockstep_turn_t turn_of(const std::string& name) const;

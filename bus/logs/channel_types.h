@@ -34,7 +34,7 @@ inline std::string_view family_of(std::string_view channel) { return channel.sub
 
 // Decodes bytes as bus::Bus does, without counting or reporting; false when they are not a valid Message.
 template <class Message>
-bool decode_checked(const std::vector<std::uint8_t>& bytes, Message& message) {
+[[nodiscard]] bool decode_checked(const std::vector<std::uint8_t>& bytes, Message& message) {
   return bus::decode(bytes, message).empty();
 }
 

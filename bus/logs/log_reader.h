@@ -42,7 +42,7 @@ class LogReader {
   explicit LogReader(const std::vector<std::string>& paths);
 
   // False at the end of the last file.
-  bool next(LoggedEvent& event);
+  [[nodiscard]] bool next(LoggedEvent& event);
 
   const std::vector<std::string>& files() const { return files_; }
   // What was met so far, in order; not more than kMaxStretchesKept.
@@ -54,7 +54,7 @@ class LogReader {
   std::int64_t bytes() const { return bytes_; }  // of the files begun so far
 
  private:
-  bool open_next_file();
+  [[nodiscard]] bool open_next_file();
   void note(const Damage& damage);
 
   std::vector<std::string> files_;

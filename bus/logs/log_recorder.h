@@ -44,7 +44,7 @@ class LogRecorder {
  private:
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void rotate_before(SimTime stamp, std::int64_t bytes);
-  bool open_part(int part);
+  [[nodiscard]] bool open_part(int part);
   void end_part();
 
   lcm::LCM& lcm_;

@@ -7,21 +7,25 @@
 // Inputs and outputs are written before anything that follows from them is published (message_journal.h). For a bus
 // that repairs losses, not for lockstep, where the conductor replays.
 //
-//   CrashJournal journal(bus(), publisher);          // does nothing until it is open: publish_once() publishes
-//
-//   journal.open(rule);                              // when the node is made, before anything is dispatched
+//   CrashJournal journal(bus(), publisher);  // does nothing until it is open: publish_once() publishes
+//   journal.open(rule);                      // when the node is made, before anything is dispatched
 //   journal.replay_inputs([&](const ReplayedStep& step) { history.push_back({step.at, take_inbox()}); });
 //
-//   on_step:                                         // the first one whose simulation time is known
-//     if (!history.empty() && !journal.resume(now.sim)) forget_all();   // it belongs to another run
-//     for (step : history) { journal.redo_step(step.at); take(step.inbox); run_to(step.at); }
-//     // until kRepairTime has passed nothing more: inputs published meanwhile come by repair
-//   on_step:                                         // each later one
-//     journal.write_inputs(now.sim);                 // before it acts on them
-//     ...
-//     journal.end_recovery();                        // the first time: the present is reached
-//     journal.publish_once(channels::kState.of(name), state, std::to_string(state.utime));
-//   on_restart: journal.clear();
+// In the first step whose simulation time is known, and nothing more until kRepairTime has passed (inputs published
+// meanwhile come by repair):
+//
+//   if (!history.empty() && !journal.resume(now.sim)) forget_all();  // it belongs to another run
+//   for (const auto& [at, inbox] : history) {
+//     journal.redo_step(at);
+//     run_to(at, inbox);
+//   }
+//
+// In each later step; clear() when another run begins:
+//
+//   journal.write_inputs(now.sim);  // before the node acts on them
+//   ...
+//   journal.end_recovery();         // the first time: the present is reached
+//   journal.publish_once(channels::kState.of(name), state, std::to_string(state.utime));
 //
 // The Bus and the NumberedPublisher must outlive it. Not thread-safe.
 #pragma once
@@ -113,8 +117,8 @@ class CrashJournal {
     Bytes message;
   };
   static Bytes to_bytes(const Output& output);
-  static std::optional<Output> to_output(const JournalledMessage& entry);
-  bool claim(const std::string& channel, const std::string& identity);
+  [[nodiscard]] static std::optional<Output> to_output(const JournalledMessage& entry);
+  [[nodiscard]] bool claim(const std::string& channel, const std::string& identity);
   void restore(Output output);
   template <class Message>
   void write_output(const std::string& channel, const std::string& identity, std::int64_t session,

@@ -28,6 +28,7 @@ struct NodeRun {
 
 // Empty when the command line only requested output (--help, --example, --interface, --version, --print-config), which
 // was printed. Throws InvalidArgument for a wrong command line and ConfigErrors for a wrong file.
-std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const NodeProgram& program);
+[[nodiscard]] std::optional<NodeRun> parse_node_command_line(int argc, char** argv,
+                                                             const NodeProgram& program);
 
 }  // namespace halocline::bus

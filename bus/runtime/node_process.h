@@ -64,7 +64,7 @@ struct NodeProgram {
 };
 
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
-int run_node_program(int argc, char** argv, const NodeProgram& program);
+[[nodiscard]] int run_node_program(int argc, char** argv, const NodeProgram& program);
 
 // The loop alone. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource.
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop);

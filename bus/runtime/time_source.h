@@ -32,7 +32,7 @@ class TimeSource {
   // The steady time at which simulation time will reach `sim`; never() where that is unknown.
   virtual SimTime steady_at(SimTime sim) const = 0;
   // True once after simulation time jumped back: another run has begun, state of the old one is void.
-  virtual bool restarted() { return false; }
+  [[nodiscard]] virtual bool restarted() { return false; }
 
  protected:
   SimTime steady_;
@@ -48,7 +48,7 @@ class ConductorTime : public TimeSource {
   explicit ConductorTime(lcm::LCM& lcm, std::string process_name);
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
-  bool restarted() override { return std::exchange(restarted_, false); }
+  [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
 
   // A CLOCK that was received at `received` (steady).
   void on_clock(const sim_clock_t& clock, SimTime received);
@@ -77,7 +77,7 @@ class MessageTime : public TimeSource {
   explicit MessageTime(lcm::LCM& lcm, std::string process_name);
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
-  bool restarted() override { return std::exchange(restarted_, false); }
+  [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
 
   void on_utime(std::int64_t utime);
 

@@ -75,7 +75,7 @@ class LinkQueryService {
   // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
   void submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady);
   // A survey has ended; true when it was one of this service's.
-  bool finish(const RayQueryClient::Finished& finished);
+  [[nodiscard]] bool finish(const RayQueryClient::Finished& finished);
   // What is ready at `steady`, or has waited long enough.
   std::vector<LinkReply> take_replies(SimTime steady);
   // at_once() while a reply is ready.
@@ -100,11 +100,11 @@ class LinkQueryService {
     std::map<std::size_t, std::pair<ResolvedEnd, ResolvedEnd>> ends;
     bool is_done() const { return surveys.empty() && bottoms.empty(); }
   };
-  std::string refusal_of(const LinkQuery& query) const;
+  [[nodiscard]] std::string refusal_of(const LinkQuery& query) const;
   bool is_waiting(const LinkQuery& query) const;
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
-  std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
+  [[nodiscard]] std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, LinkRow& row);
   void wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);

@@ -73,7 +73,7 @@ class PacketMedium {
 
   // A request received at `now`. A receipt when it can be given without waiting for the start:
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
-  std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
+  [[nodiscard]] std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
 
   // A modem that another shard serves will answer a ping; a repetition changes nothing.
   void add_answer(const PingAnswer& answer);

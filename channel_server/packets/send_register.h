@@ -38,7 +38,7 @@ class SendRegister {
   static constexpr std::size_t kMaxPackets = 100'000;
 
   // True for a packet that is new; it is known from now on, its receipt outstanding.
-  bool enter(const SendRequest& request);
+  [[nodiscard]] bool enter(const SendRequest& request);
   void decide(const SendRequest& request, const Receipt& receipt);
   // Null while undecided.
   const Receipt* receipt_of(const SendRequest& request) const;

@@ -48,7 +48,8 @@ struct LeaderReport {
 std::vector<std::uint8_t> encode_report(const LeaderReport& report);
 
 // Empty when it is no such report. `received_s`: simulation time of the reception.
-std::optional<LeaderReport> decode_report(std::span<const std::uint8_t> payload, double received_s);
+[[nodiscard]] std::optional<LeaderReport> decode_report(std::span<const std::uint8_t> payload,
+                                                        double received_s);
 
 enum class FollowPhase { kWaiting, kFollowing, kKeepingCourse, kSafe };
 

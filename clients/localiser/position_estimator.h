@@ -82,7 +82,7 @@ class PositionEstimator {
   // What the vehicle measures of itself, in the order of time.
   void move(const OwnMotion& motion);
   // A range, as soon as it is known.
-  RangeVerdict take(const RangeMeasurement& range);
+  [[nodiscard]] RangeVerdict take(const RangeMeasurement& range);
   // The best hypothesis as of `at`, which is not before the last motion; empty before there is one.
   std::optional<PositionEstimate> estimate(SimTime at) const;
 
@@ -107,7 +107,7 @@ class PositionEstimator {
 
   Hypothesis carried_on(const Hypothesis& from, SimTime at) const;
   Expected expected(const State& state, const RangeMeasurement& range) const;
-  bool weigh(Hypothesis& hypothesis, const RangeMeasurement& range) const;
+  [[nodiscard]] bool weigh(Hypothesis& hypothesis, const RangeMeasurement& range) const;
   void update(Hypothesis& hypothesis, const RangeMeasurement& range) const;
   void drop_unlikely();
   void start_from_ranges(const RangeMeasurement& latest);

@@ -3,8 +3,8 @@
 //   const auto lcm = bus::open_transport(bus::effective_url(""));
 //   BlockingModem modem(*lcm, {.vehicle = "auv-1", .vehicle_id = 1, .session = my_session});
 //   const auto sequence = modem.send(kBroadcastId, payload);
-//   if (sequence && modem.wait_receipt(*sequence, SimDuration::from_seconds(2))) ...
-//   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) ...
+//   if (sequence && modem.wait_receipt(*sequence, SimDuration::from_seconds(2))) { ... }
+//   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) { ... }
 //
 // Time-outs are of steady (wall) time. While a call waits, everything on the LCM is dispatched, so other
 // subscriptions made on it are served too. Not thread-safe; the LCM must outlive the modem.
@@ -27,22 +27,24 @@ class BlockingModem {
 
   // The simulation time by the conductor's CLOCK; waits for the first CLOCK up to `timeout`. Empty
   // when none came.
-  std::optional<SimTime> sim_now(SimDuration timeout);
+  [[nodiscard]] std::optional<SimTime> sim_now(SimDuration timeout);
 
   // Sends at simulation time `start`, or now (empty when there is no CLOCK within a second); returns the
   // packet_sequence at once. Throws as ModemClient::send.
   std::int64_t send_at(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                        SendOptions options = {});
-  std::optional<std::int64_t> send(std::int32_t destination, std::span<const std::uint8_t> payload,
-                                   SendOptions options = {});
+  [[nodiscard]] std::optional<std::int64_t> send(std::int32_t destination,
+                                                 std::span<const std::uint8_t> payload,
+                                                 SendOptions options = {});
   // Sends a PING and waits for its answer: the travel time out and back, s; empty after `timeout`. Packets that
   // arrive meanwhile wait for wait_receive().
-  std::optional<double> ping(std::int32_t destination, SimDuration timeout);
+  [[nodiscard]] std::optional<double> ping(std::int32_t destination, SimDuration timeout);
 
   // Waits for the packet's receipt, repeating the SEND meanwhile; empty after `timeout`.
-  std::optional<modem_receipt_t> wait_receipt(std::int64_t packet_sequence, SimDuration timeout);
+  [[nodiscard]] std::optional<modem_receipt_t> wait_receipt(std::int64_t packet_sequence,
+                                                            SimDuration timeout);
   // Waits for a packet to arrive; empty after `timeout`. A timeout of 0 takes what is there.
-  std::optional<modem_receive_t> wait_receive(SimDuration timeout);
+  [[nodiscard]] std::optional<modem_receive_t> wait_receive(SimDuration timeout);
 
   const ModemClient& client() const { return client_; }
 

@@ -9,9 +9,9 @@
 // next_resend() into its due time (steady):
 //
 //   ModemClient modem(bus(), {.vehicle = "auv-1", .vehicle_id = 1, .session = session});
-//   const std::int64_t packet = modem.send(now.steady, now.sim, kBroadcastId, payload);
+//   const std::int64_t sequence = modem.send(now.steady, now.sim, kBroadcastId, payload);
 //   ...
-//   if (const auto receipt = modem.receipt_of(packet)) { ... }
+//   if (const auto receipt = modem.receipt_of(sequence)) { ... }
 //   while (const auto packet = modem.take_received()) { ... }
 //
 // A program without nodes uses BlockingModem (blocking_modem.h). The Bus must outlive the client, and the
@@ -125,7 +125,7 @@ class ModemClient {
 
   void take_receipt(const modem_receipt_t& receipt);
   void take_packet(const modem_receive_t& packet);
-  bool is_new(const PacketName& packet);
+  [[nodiscard]] bool is_new(const PacketName& packet);
 
   bus::Bus& bus_;
   ModemAddress address_;

@@ -1,13 +1,7 @@
-// The examples in the comments of the headers of acoustics/, compiled and run; one test per header. An example is a run
-// of comment lines indented by three spaces whose first line begins with `const`.
-#include <cctype>
+// The examples in the comments of the headers of acoustics/, compiled and run (tests/docs/check_examples).
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -26,7 +20,6 @@
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "core/units.h"
-#include "tests/support/csv.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -98,51 +91,6 @@ TEST(HeaderExamples, SoundSpeedProfile) {
   const auto water = SoundSpeedProfile::global_mean();
   const double delay_s = water.travel_time_s(100, 900, std::hypot(2000, 800));
   EXPECT_NEAR(delay_s, std::hypot(2000, 800) / 1490, 0.02);
-}
-
-std::string without_spaces(const std::string& text) {
-  std::string packed;
-  for (const char c : text) {
-    if (std::isspace(static_cast<unsigned char>(c)) == 0) packed += c;
-  }
-  return packed;
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-// The examples of a header, each without spaces and comments.
-std::vector<std::string> examples_in(const std::filesystem::path& header) {
-  const std::string indent = "//   ";
-  std::vector<std::string> examples;
-  std::istringstream lines(text_of(header));
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    const bool indented = line.starts_with(indent);
-    if (indented && !inside && line.starts_with(indent + "const ")) examples.emplace_back();
-    inside = indented && (inside || line.starts_with(indent + "const "));
-    if (!inside) continue;
-    const std::string code = line.substr(indent.size());
-    examples.back() += without_spaces(code.substr(0, code.find("//")));
-  }
-  return examples;
-}
-
-TEST(HeaderExamples, EveryExampleOfAHeaderIsInThisFile) {
-  const std::filesystem::path root = HALOCLINE_SOURCE_DIR;
-  const std::string compiled = without_spaces(text_of(root / "tests/acoustics/header_examples_test.cc"));
-  int examples = 0;
-  for (const auto& file : std::filesystem::recursive_directory_iterator(root / "acoustics")) {
-    if (file.path().extension() != ".h") continue;
-    for (const std::string& example : examples_in(file.path())) {
-      ++examples;
-      EXPECT_NE(compiled.find(example), std::string::npos) << file.path() << ": " << example;
-    }
-  }
-  EXPECT_EQ(examples, 9);
 }
 
 }  // namespace

@@ -109,4 +109,16 @@ std::shared_ptr<SeabedMap> seabed_around(const Vec3& one, const Vec3& other, Dep
   return seabed;
 }
 
+// Along rays, of the bottom known from 1 s on.
+inline void expect_same_paths_both_ways(Propagation& propagation, const LinkEnd& a, const LinkEnd& b) {
+  const Reception there = propagation.reception(at_s(1), a, b), back = propagation.reception(at_s(1), b, a);
+  ASSERT_EQ(there.used, PropagationUsed::kRays);
+  ASSERT_EQ(there.paths.size(), back.paths.size());
+  for (std::size_t i = 0; i < there.paths.size(); ++i) {
+    EXPECT_EQ(there.paths[i].delay_s, back.paths[i].delay_s);
+    EXPECT_EQ(there.paths[i].level.value, back.paths[i].level.value);
+    EXPECT_EQ(there.paths[i].launch_angle_rad, -back.paths[i].arrival_angle_rad);
+  }
+}
+
 }  // namespace halocline::channel_server::testing

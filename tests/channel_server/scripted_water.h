@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -94,7 +95,7 @@ class ScriptedWater : public ::testing::Test {
     for (VehicleId id = 1; id <= 4; ++id)
       move_steadily(fleet, id, {1000.0 * id, 0, 50}, Vec3::Zero(), 0, 120);
   }
-  void send(const SendRequest& request) { medium.transmit(request, SimTime()); }
+  void send(const SendRequest& request) { EXPECT_FALSE(medium.transmit(request, SimTime())); }
   // `bytes` take 10 ms each with the quick modem.
   void send(VehicleId source, double start_s, std::int64_t sequence, std::size_t bytes) {
     send(request_of(source, start_s, sequence, bytes));
@@ -119,6 +120,19 @@ class ScriptedWater : public ::testing::Test {
       if (receipt.packet_sequence == sequence) return receipt.result;
     }
     throw std::runtime_error("no receipt of packet " + std::to_string(sequence));
+  }
+  using Colliders = std::vector<std::pair<VehicleId, std::int64_t>>;  // source and sequence number
+  static Colliders colliders_of(const PacketOutcome& end) {
+    Colliders names;
+    for (const PacketName& name : end.statistics.colliders)
+      names.emplace_back(name.source_id, name.packet_sequence);
+    return names;
+  }
+  // These vehicles carry the big modem, but for `change`.
+  void change_modem(const std::vector<VehicleId>& ids, const std::function<void(acoustics::Modem&)>& change) {
+    VehicleModem modem = big_modem();
+    change(modem.modem);
+    for (const VehicleId id : ids) fleet.announce_modem(name_of(id), at_s(0), modem, at_s(0));
   }
   static VehicleModem big_modem() {
     VehicleModem modem = quick_modem();

@@ -136,7 +136,7 @@ TEST_F(ReplayTest, AMissionFromSeaWithUnixTimesAndNothingButStatesAndTransmissio
   const std::string original = run(harbour(), "original");
   const std::string at_sea = filtered(original, "at-sea", [&](LoggedEvent& event) {
     const auto move = [&]<class Message>(Message message) {
-      decode_checked(event.data, message);
+      EXPECT_TRUE(decode_checked(event.data, message));
       message.utime += kZero_us;
       message.encode(event.data.data(), 0, static_cast<int>(event.data.size()));
     };

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/model_library.h"
@@ -144,7 +145,7 @@ TEST(Faults, WithoutItsPropellerAVehicleCoastsAgainstItsDrag) {
   p.propeller = remus100_pvs_parameters(CurrentTreatment::kGalilean).propeller;
   Fleet fleet = fleet_of(p, 2);
   EXPECT_TRUE(fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kLostPropeller}));
-  fleet.command(0, {SimTime(), {.propeller_hz = 20}});
+  EXPECT_EQ(fleet.command(0, {SimTime(), {.propeller_hz = 20}}), CommandVerdict::kTaken);
   const double c = 0.5 * kDensity * 0.1 * 0.2;
   for (const double t : {0.5, 1.0, 1.9}) {
     fleet.advance(at_s(t));
@@ -162,7 +163,7 @@ TEST(Faults, AMendedPropellerDrivesAgain) {
       EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kLostPropeller, .mended = true}));
     }
     for (int s = 0; s < 30; ++s) {
-      fleet.command(0, {at_s(s), {.propeller_hz = 20}});
+      EXPECT_EQ(fleet.command(0, {at_s(s), {.propeller_hz = 20}}), CommandVerdict::kTaken);
       fleet.advance(at_s(s + 1));
     }
     return fleet.state_at(0, at_s(30)).velocity_body[0];
@@ -174,7 +175,8 @@ TEST(Faults, AMendedPropellerDrivesAgain) {
 // Runs `seconds` with the rudder commanded and 1525 rpm.
 void run(Fleet& fleet, double from_s, double seconds, double rudder_rad) {
   for (double s = from_s; s < from_s + seconds; ++s) {
-    fleet.command(0, {at_s(s), {.rudder_rad = rudder_rad, .propeller_hz = 1525.0 / 60}});
+    EXPECT_EQ(fleet.command(0, {at_s(s), {.rudder_rad = rudder_rad, .propeller_hz = 1525.0 / 60}}),
+              CommandVerdict::kTaken);
     fleet.advance(at_s(s + 1));
   }
 }

@@ -49,7 +49,8 @@ TEST(Fleet, AdvancesInWholeStepsOnly) {
 
 TEST(Fleet, LookingBetweenStepsChangesNothing) {
   Fleet watched = fleet_of_one(), unwatched = fleet_of_one();
-  for (Fleet* fleet : {&watched, &unwatched}) fleet->command(0, {SimTime(), kAhead});
+  for (Fleet* fleet : {&watched, &unwatched})
+    EXPECT_EQ(fleet->command(0, {SimTime(), kAhead}), CommandVerdict::kTaken);
   for (int ms = 0; ms <= 1500; ms += 7) {
     watched.advance(at_ms(ms));
     watched.state_at(0, at_ms(ms));
@@ -63,7 +64,7 @@ TEST(Fleet, LookingBetweenStepsChangesNothing) {
 
 TEST(Fleet, BetweenStepsTheMotionIsContinuous) {
   Fleet fleet = fleet_of_one();
-  fleet.command(0, {SimTime(), kAhead});
+  EXPECT_EQ(fleet.command(0, {SimTime(), kAhead}), CommandVerdict::kTaken);
   fleet.advance(at_ms(1500));
   const Vec3 before = fleet.state_at(0, at_ms(1509)).position_ned_m;
   fleet.advance(at_ms(1510));
@@ -73,7 +74,7 @@ TEST(Fleet, BetweenStepsTheMotionIsContinuous) {
 
 TEST(Fleet, ACommandIsObeyedFromTheFirstStepAtOrAfterItsTime) {
   Fleet fleet = fleet_of_one();
-  fleet.command(0, {at_ms(105), kAhead});
+  EXPECT_EQ(fleet.command(0, {at_ms(105), kAhead}), CommandVerdict::kTaken);
   fleet.advance(at_ms(110));
   EXPECT_EQ(fleet.state_at(0, at_ms(110)).actuators.propeller_hz, 0);
   fleet.advance(at_ms(120));
@@ -82,7 +83,7 @@ TEST(Fleet, ACommandIsObeyedFromTheFirstStepAtOrAfterItsTime) {
 
 TEST(Fleet, WithoutCommandsThePropellerRunsDown) {
   Fleet fleet = fleet_of_one();
-  fleet.command(0, {SimTime(), kAhead});
+  EXPECT_EQ(fleet.command(0, {SimTime(), kAhead}), CommandVerdict::kTaken);
   fleet.advance(at_ms(2000));
   EXPECT_FALSE(fleet.reading_at(0, at_ms(2000)).safe_state);
   fleet.advance(at_ms(12000));
@@ -124,7 +125,7 @@ TEST(Fleet, ACurrentThatChangesWithTimeOnlyCarriesThePathAlong) {
   for (int ms = 0; ms < 60'000; ms += 10) drift += 0.005 * (velocity(ms) + velocity(ms + 10));
   for (Fleet* fleet : {&carried, &still}) {
     for (int ms = 0; ms < 60'000; ms += 1000) {
-      fleet->command(0, {at_ms(ms), kAhead});
+      EXPECT_EQ(fleet->command(0, {at_ms(ms), kAhead}), CommandVerdict::kTaken);
       fleet->advance(at_ms(ms + 1000));
     }
   }

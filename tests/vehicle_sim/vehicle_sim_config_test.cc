@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
@@ -200,7 +201,7 @@ TEST(VehicleSimConfig, InTheScenarioTowTheBodyFollowsOnItsRope) {
   double longest = 0;
   for (int tenth = 0; tenth < 600; ++tenth) {
     const SimTime now = SimTime::from_utime(tenth * 100'000);
-    fleet.command(0, {now, {0, 0, 20}});
+    EXPECT_EQ(fleet.command(0, {now, {0, 0, 20}}), CommandVerdict::kTaken);
     fleet.advance(now);
     longest = std::max(longest, fleet.tether_distance_m(0));
   }

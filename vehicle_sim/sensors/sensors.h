@@ -87,7 +87,7 @@ class SensorSuite {
   const BasicSensor& sensor(SensorKind kind) const;
   SensorIdentity identity(SensorKind kind) const { return {seed_, vehicle_id_, kind}; }
   std::int64_t sample(SensorKind kind, SimTime when) const;
-  bool fires(SensorKind kind, SimTime when, bool dead);
+  [[nodiscard]] bool fires(SensorKind kind, SimTime when, bool dead);
   // Of one axis at `when`.
   double error(SensorKind kind, SimTime when, int axis = 0);
 

@@ -37,6 +37,6 @@ void write_samples(std::ostream& out, const std::vector<vehicle_sim::OpenLoopSam
                    std::size_t thrusters, bool wrap_yaw);
 
 // All of it: reads, runs and writes. Returns the exit code; throws InvalidArgument for what the user got wrong.
-int replay_vehicle(const VehicleReplay& replay);
+[[nodiscard]] int replay_vehicle(const VehicleReplay& replay);
 
 }  // namespace halocline::clients

@@ -20,7 +20,7 @@ std::string run_identity(const std::string& effective_configuration);
 
 std::string run_folder(const std::string& out, const std::string& identity);
 // Empty while there is none, or none that can be read.
-std::optional<RunMetrics> result_in(const std::string& folder);
+[[nodiscard]] std::optional<RunMetrics> result_in(const std::string& folder);
 void write_result(const std::string& folder, const RunMetrics& metrics);
 
 std::string plan_path(const std::string& out);

@@ -12,6 +12,7 @@
 #include "acoustics/rays/ray_column.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "tests/acoustics/rays/layered_waters.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::acoustics {
@@ -23,21 +24,9 @@ RayWater water_of(const std::vector<SpeedRow>& knots) {
   return {knots, [](double) { return 4.0; }};
 }
 
-const std::vector<SpeedRow> kSummer = {{0, 1522},  {10, 1521}, {20, 1512}, {35, 1500},
-                                       {50, 1494}, {70, 1492}, {100, 1493}};
 const std::vector<SpeedRow> kDuct = {{0, 1500}, {60, 1480}, {200, 1510}};
 // Its last knot is a level bottom's own depth: the ray meets both at once.
 const std::vector<SpeedRow> kOneGradient = {{0, 1500}, {5000, 1580}};
-
-BottomProfile cosine_hill() {
-  std::vector<ProfiledDepth> points;
-  for (int i = 0; i <= 100; ++i) {
-    const double along = (50.0 * i - 2500) / 1000;
-    points.push_back(
-        {50.0 * i, std::abs(along) < 1 ? 200 - 60 * (1 + std::cos(std::numbers::pi * along)) : 200});
-  }
-  return BottomProfile(std::move(points));
-}
 
 struct Sea {
   const char* name;
@@ -78,15 +67,15 @@ TEST_P(FanOverSeas, RaysArriveAsByTheExactTracerWithTheSameEvents) {
 INSTANTIATE_TEST_SUITE_P(
     Seas, FanOverSeas,
     ::testing::Values(
-        Sea{"summer_flat", kSummer, BottomProfile::flat(120), {25, 60, 3000}},
-        Sea{"summer_hill", kSummer, cosine_hill(), {20, 50, 4000}},
+        Sea{"summer_flat", kShelf, BottomProfile::flat(120), {25, 60, 3000}},
+        Sea{"summer_hill", kShelf, cosine_hill(), {20, 50, 4000}},
         Sea{"duct_hill", kDuct, cosine_hill(), {60, 70, 4500}},
         Sea{"ridge", kDuct, BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}}), {20, 120, 5000}},
         Sea{"one_gradient", kOneGradient, BottomProfile::flat(5000), {0, 100, 10000}}),
     [](const auto& sea) { return std::string(sea.param.name); });
 
 TEST(FanTracer, ForgetsTheEventsOfRaysTracedSince) {
-  const RayWater water = water_of(kSummer);
+  const RayWater water = water_of(kShelf);
   const BottomProfile bottom = BottomProfile::flat(120);
   const ProfiledSea sea{water, bottom, fluid_bottom(1.9, 1650, 0.8), RaySurface{}, RayOptions{}};
   const ArcTracer exact(sea, {25, 60, 2000});
@@ -101,7 +90,7 @@ TEST(FanTracer, ForgetsTheEventsOfRaysTracedSince) {
 
 // d range / d xi of each layer against the difference of ranges: central differences of 1e-6 of xi err by 1e-9.
 TEST(RayColumn, RangeThroughALayerGrowsByItsSlope) {
-  const RayWater water = water_of(kSummer);
+  const RayWater water = water_of(kShelf);
   RayColumn column(water, 90, 119), before(water, 90, 119), after(water, 90, 119);
   const double xi = std::cos(0.4) / 1500, step = 1e-6 * xi;
   column.set(xi);
@@ -115,7 +104,7 @@ TEST(RayColumn, RangeThroughALayerGrowsByItsSlope) {
 
 // Up and down again: twice all layers above, or through a turn.
 TEST(RayColumn, AnExcursionIsTwiceTheWayUp) {
-  const RayWater water = water_of(kSummer);
+  const RayWater water = water_of(kShelf);
   RayColumn column(water, 72, 119);
   column.set(std::cos(0.4) / 1500);
   double up = 0;

@@ -19,12 +19,13 @@ using testing::kFloatM;
 using testing::TestRaster;
 using testing::write_raster;
 
+TestRaster local_raster(const char* name, int columns, int rows, const std::array<double, 6>& geotransform) {
+  return {
+      .name = name, .columns = columns, .rows = rows, .geotransform = geotransform, .coordinate_system = ""};
+}
+
 TEST(LocalRaster, IsTakenPostByPost) {
-  TestRaster raster{.name = "local",
-                    .columns = 4,
-                    .rows = 3,
-                    .geotransform = std::array<double, 6>{-105, 10, 0, 215, 0, -10},
-                    .coordinate_system = ""};
+  const TestRaster raster = local_raster("local", 4, 3, {-105, 10, 0, 215, 0, -10});
   const auto path = write_raster(raster, [](int c, int r) { return -(100.0 * r + c + 1); });
   const LoadedRaster loaded = load_local_raster({.path = path, .coordinate_system = "local"});
   EXPECT_EQ(loaded.grid.geometry(), (GridGeometry{190, -100, 10, 3, 4}));
@@ -33,11 +34,7 @@ TEST(LocalRaster, IsTakenPostByPost) {
 }
 
 TEST(LocalRaster, CanBeResampledToo) {
-  TestRaster raster{.name = "local_resampled",
-                    .columns = 40,
-                    .rows = 30,
-                    .geotransform = std::array<double, 6>{-200, 10, 0, 150, 0, -10},
-                    .coordinate_system = ""};
+  const TestRaster raster = local_raster("local_resampled", 40, 30, {-200, 10, 0, 150, 0, -10});
   const auto path = write_raster(raster, [](int c, int r) {
     const double east = -195 + 10 * c, north = 145 - 10 * r;
     return -(500 + north + 0.1 * east);
@@ -49,11 +46,7 @@ TEST(LocalRaster, CanBeResampledToo) {
 }
 
 TEST(LocalRaster, NeedsSquarePixels) {
-  TestRaster raster{.name = "oblong",
-                    .columns = 4,
-                    .rows = 3,
-                    .geotransform = std::array<double, 6>{0, 10, 0, 0, 0, -20},
-                    .coordinate_system = ""};
+  const TestRaster raster = local_raster("oblong", 4, 3, {0, 10, 0, 0, 0, -20});
   const auto path = write_raster(raster, [](int, int) { return -1.0; });
   EXPECT_THROW(load_local_raster({.path = path, .coordinate_system = "local"}), InvalidArgument);
 }

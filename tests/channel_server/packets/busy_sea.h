@@ -162,7 +162,7 @@ VehicleRegistry run_busy_sea(const BusyRun& run, Visitor&& visit) {
   auto requests = busy_requests(run.packets);
   if (run.turn > 0) shuffle(states, run.turn), shuffle(requests, run.turn);
   for (const auto& timed : states) EXPECT_EQ(fleet.add_state(name_of(timed.id), timed.id, timed.state), "");
-  for (const auto& request : requests) medium.transmit(request, SimTime());
+  for (const auto& request : requests) EXPECT_FALSE(medium.transmit(request, SimTime()));
   for (double t = 0; t <= until_s; t += run.step_s) {
     for (const MediumEvent& event : medium.advance_to(at_s(t))) visit(event);
     medium.forget_before(at_s(t - 11));

@@ -122,10 +122,10 @@ class PingTest : public ::testing::Test {
     SendRequest request = request_of(from, start_s, sequence, 0);
     request.kind = PacketKind::kPing;
     request.destination_id = to;
-    medium_.transmit(request, SimTime());
+    EXPECT_FALSE(medium_.transmit(request, SimTime()));
   }
   void send(VehicleId from, double start_s, std::int64_t sequence, std::size_t bytes) {
-    medium_.transmit(request_of(from, start_s, sequence, bytes), SimTime());
+    EXPECT_FALSE(medium_.transmit(request_of(from, start_s, sequence, bytes), SimTime()));
   }
   std::vector<PacketOutcome> run() {
     events_ = medium_.advance_to(at_s(40));
@@ -215,7 +215,7 @@ TEST_F(PingTest, AnswersToTwoSendersWithoutSessionsAreDistinguished) {
     request.session = 0;
     request.kind = PacketKind::kPing;
     request.destination_id = 2;
-    medium_.transmit(request, SimTime());
+    EXPECT_FALSE(medium_.transmit(request, SimTime()));
   }
   std::set<PacketName> names;
   for (const PacketOutcome& reply : replies_in(run())) names.insert(reply.packet->name());

@@ -20,7 +20,6 @@ using halocline::testing::relative_error;
 using halocline::testing::tolerance;
 using testing::at_s;
 using testing::bit_error;
-using ::testing::ElementsAre;
 using testing::path;
 using testing::quick_modem;
 
@@ -51,9 +50,7 @@ TEST_F(PacketInterferenceTest, APacketReceivedWithoutTheOthersCollided) {
   run();
   const PacketOutcome& weak = end_of(1, 0, 2);
   EXPECT_EQ(weak.kind, OutcomeKind::kCollided);
-  ASSERT_EQ(weak.statistics.colliders.size(), 1u);
-  EXPECT_EQ(weak.statistics.colliders[0].source_id, 3);
-  EXPECT_EQ(weak.statistics.colliders[0].packet_sequence, 5);
+  ASSERT_EQ(colliders_of(weak), (Colliders{{3, 5}}));
   EXPECT_EQ(weak.statistics.colliders[0].departure, at_s(11));
 }
 
@@ -65,8 +62,7 @@ TEST_F(PacketInterferenceTest, AModemThatFollowsOnePacketMissesAStrongerOne) {
   run();
   const PacketOutcome& strong = end_of(3, 5, 2);
   EXPECT_EQ(strong.kind, OutcomeKind::kCollided);
-  ASSERT_EQ(strong.statistics.colliders.size(), 1u);
-  EXPECT_EQ(strong.statistics.colliders[0].source_id, 1);
+  EXPECT_EQ(colliders_of(strong), (Colliders{{1, 0}}));
   EXPECT_EQ(strong.statistics.acquisition_probability, 0);  // it never came to that
 }
 
@@ -103,9 +99,8 @@ TEST_F(PacketInterferenceTest, ATransmissionOfItsOwnFreesAModemForTheNextPacket)
 }
 
 TEST_F(PacketInterferenceTest, InterferenceCountsByTheShareOfItsBand) {
-  VehicleModem shifted = big_modem();
-  shifted.modem.centre_frequency_hz = 27'500;  // 25..30 kHz; the packet's band is 22.5..27.5
-  fleet.announce_modem("v3", at_s(0), shifted, at_s(0));
+  // 25..30 kHz; the packet's band is 22.5..27.5.
+  change_modem({3}, [](acoustics::Modem& m) { m.centre_frequency_hz = 27'500; });
   water.set(1, 2, {path(1, 100)});
   water.set(3, 2, {path(1, 95)});
   send(1, 10, 0, 100);
@@ -126,9 +121,7 @@ TEST_F(PacketInterferenceTest, ThreeInterferersAddTheirPowersAndAreNamedByLoudne
   const PacketOutcome& end = end_of(1, 0, 2);
   EXPECT_LT(relative_error(power_of(end.statistics.interference.value), power_of(80) / 3 + power_of(90)),
             tolerance(1e-9));
-  std::vector<std::pair<VehicleId, std::int64_t>> names;
-  for (const auto& name : end.statistics.colliders) names.emplace_back(name.source_id, name.packet_sequence);
-  EXPECT_THAT(names, ElementsAre(std::pair(4, 0), std::pair(4, 1), std::pair(3, 0)));
+  EXPECT_EQ(colliders_of(end), (Colliders{{4, 0}, {4, 1}, {3, 0}}));
 }
 
 TEST_F(PacketInterferenceTest, ANegligibleInterfererIsNotNamed) {
@@ -139,8 +132,7 @@ TEST_F(PacketInterferenceTest, ANegligibleInterfererIsNotNamed) {
   send(3, 10, 0, 100);
   send(4, 10, 0, 100);
   run();
-  ASSERT_EQ(end_of(1, 0, 2).statistics.colliders.size(), 1u);
-  EXPECT_EQ(end_of(1, 0, 2).statistics.colliders[0].source_id, 4);
+  EXPECT_EQ(colliders_of(end_of(1, 0, 2)), (Colliders{{4, 0}}));
 }
 
 TEST_F(PacketInterferenceTest, EchoesWithinTheGuardTimeHelpAndLaterOnesHarm) {

@@ -49,7 +49,7 @@ class PacketMediumTest : public ::testing::Test {
 TEST_F(PacketMediumTest, APacketArrivesAfterItsDelayAndEndsAfterItsDuration) {
   stay(1, {0, 0, 50});
   stay(2, {3000, 0, 50});
-  medium_.transmit(request_of(1, 10, 0, /*bytes=*/5), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, /*bytes=*/5), at_s(10)));
   const auto receipt = receipts_in(medium_.advance_to(at_s(10))).at(0);
   EXPECT_EQ(receipt.result, SendResult::kAccepted);
   EXPECT_EQ(receipt.start, at_s(10));
@@ -67,7 +67,7 @@ TEST_F(PacketMediumTest, NextEventIsTheInstantOfTheNextChange) {
   stay(1, {0, 0, 50});
   stay(2, {3000, 0, 50});
   EXPECT_EQ(medium_.next_event(), SimTime::never());
-  medium_.transmit(request_of(1, 10, 0, 5), at_s(9));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 5), at_s(9)));
   EXPECT_EQ(medium_.next_event(), at_s(10));
   medium_.advance_to(at_s(10));
   EXPECT_EQ(medium_.next_event(), at_s(12));  // the first bit: the arrival is solved again
@@ -82,7 +82,7 @@ TEST_F(PacketMediumTest, TheOverheadIsPartOfTheDuration) {
   slow.modem.packet_overhead = for_s(1.5);
   fleet_.announce_modem("v1", at_s(0), slow, at_s(0));
   stay(1, {0, 0, 50});
-  medium_.transmit(request_of(1, 10, 0, 10), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 10), at_s(10)));
   EXPECT_EQ(receipts_in(medium_.advance_to(at_s(10))).at(0).duration, for_s(1.6));
 }
 
@@ -91,7 +91,7 @@ TEST_F(PacketMediumTest, AMovingReceiverIsMetWhereItIsByThen) {
   const double recede_mps = 20;
   stay(1, {0, 0, 50});
   move_steadily(fleet_, 2, {3000 - 10 * recede_mps, 0, 50}, {recede_mps, 0, 0}, 0, 30);
-  medium_.transmit(request_of(1, 10, 0), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
   const auto end = outcomes_in(medium_.advance_to(at_s(30))).at(0);
   const double expected_s = 3000 / (kSpeedMps - recede_mps);
   EXPECT_NEAR(end.travel_time_s, expected_s, tolerance(kNanosecondsS));
@@ -107,7 +107,7 @@ TEST_F(PacketMediumTest, ATurnDuringTheTravelCounts) {
     EXPECT_EQ(fleet_.add_state("v2", 2, state_at(time_s, {3000 + (time_s - 10) * 10, 0, 50}, {10, 0, 0})),
               "");
   }
-  medium_.transmit(request_of(1, 10, 0), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
   const auto end = outcomes_in(medium_.advance_to(at_s(20))).at(0);
   EXPECT_NEAR(end.travel_time_s, 3000 / (kSpeedMps - 10), tolerance(kNanosecondsS));
 }
@@ -120,7 +120,7 @@ TEST_F(PacketMediumTest, AReceiverThatCameCloserIsMetAtItsTrueInstant) {
     EXPECT_EQ(fleet_.add_state("v2", 2, state_at(time_s, {3000 - (time_s - 10) * 10, 0, 50}, {-10, 0, 0})),
               "");
   }
-  medium_.transmit(request_of(1, 10, 0, 5), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 5), at_s(10)));
   const auto events = medium_.advance_to(at_s(20));
   const auto end = outcomes_in(events).at(0);
   // Solved at the predicted first bit, 13 ms after the true one: then the true one counts.
@@ -131,7 +131,7 @@ TEST_F(PacketMediumTest, AReceiverThatCameCloserIsMetAtItsTrueInstant) {
 
 TEST_F(PacketMediumTest, EachOtherVehicleGetsExactlyOneEnd) {
   for (VehicleId id = 1; id <= 5; ++id) stay(id, {100.0 * id, 0, 50});
-  medium_.transmit(request_of(3, 10, 0), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(3, 10, 0), at_s(10)));
   std::vector<VehicleId> receivers;
   for (const auto& end : outcomes_in(medium_.advance_to(at_s(20)))) receivers.push_back(end.receiver_id);
   std::sort(receivers.begin(), receivers.end());
@@ -142,7 +142,7 @@ TEST_F(PacketMediumTest, APacketForOneIsDeliveredToThatOneAndDecidedForAll) {
   for (VehicleId id = 1; id <= 3; ++id) stay(id, {100.0 * id, 0, 50});
   SendRequest request = request_of(1, 10, 0);
   request.destination_id = 3;
-  medium_.transmit(request, at_s(10));
+  EXPECT_FALSE(medium_.transmit(request, at_s(10)));
   const auto outcomes = outcomes_in(medium_.advance_to(at_s(20)));
   ASSERT_EQ(outcomes.size(), 2u);
   EXPECT_FALSE(outcomes[0].deliver);
@@ -156,7 +156,7 @@ TEST_F(PacketMediumTest, BelowTheCutoffAPacketIsLost) {
   fleet_.announce_modem("v2", at_s(0), insensitive, at_s(0));
   stay(1, {0, 0, 50});
   stay(2, {5000, 0, 50});
-  medium_.transmit(request_of(1, 10, 0), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
   const auto end = outcomes_in(medium_.advance_to(at_s(20))).at(0);
   EXPECT_EQ(end.kind, OutcomeKind::kBelowCutoff);
   EXPECT_FALSE(end.deliver);
@@ -167,7 +167,7 @@ TEST_F(PacketMediumTest, BelowTheCutoffAPacketIsLost) {
 TEST_F(PacketMediumTest, AReceiverWhoseStatesEndedIsAbsent) {
   stay(1, {0, 0, 50});
   stay(2, {9000, 0, 50}, /*until_s=*/10);  // the packet arrives at 16
-  medium_.transmit(request_of(1, 10, 0), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
   const auto end = outcomes_in(medium_.advance_to(at_s(30))).at(0);
   EXPECT_EQ(end.kind, OutcomeKind::kReceiverGone);
   EXPECT_FALSE(end.deliver);
@@ -177,7 +177,7 @@ TEST_F(PacketMediumTest, AReceiverWhoseStatesEndedIsAbsent) {
 TEST_F(PacketMediumTest, AReceiverThatIsForgottenMidwayStillGetsItsEnd) {
   stay(1, {0, 0, 50}, 100);
   stay(2, {60000, 0, 50}, 10);
-  medium_.transmit(request_of(1, 10, 0), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
   medium_.advance_to(at_s(40));
   fleet_.forget_before(at_s(30));
   ASSERT_FALSE(fleet_.id_of("v2"));
@@ -228,7 +228,7 @@ TEST_F(PacketMediumTest, ARepetitionGetsTheSameReceiptAndIsNotTransmittedAgain) 
   stay(1, {0, 0, 50});
   stay(2, {3000, 0, 50});
   const SendRequest request = request_of(1, 10, 0, 5);
-  medium_.transmit(request, at_s(10));
+  EXPECT_FALSE(medium_.transmit(request, at_s(10)));
   EXPECT_FALSE(medium_.transmit(request, at_s(10)));  // undecided yet: one receipt will come
   const auto first = receipts_in(medium_.advance_to(at_s(10)));
   ASSERT_EQ(first.size(), 1u);
@@ -244,10 +244,10 @@ TEST_F(PacketMediumTest, ARequestReceivedLateIsProcessedAsOfItsStart) {
   stay(1, {0, 0, 50});
   move_steadily(fleet_, 2, {3000, 0, 50}, {5, 0, 0}, 0, 30);
   PacketMedium punctual(fleet_, propagation_, {});
-  punctual.transmit(request_of(1, 10, 0, 5), at_s(10));
+  EXPECT_FALSE(punctual.transmit(request_of(1, 10, 0, 5), at_s(10)));
   const auto expected = punctual.advance_to(at_s(30));
   medium_.advance_to(at_s(15));
-  medium_.transmit(request_of(1, 10, 0, 5), at_s(15));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 5), at_s(15)));
   const auto late = medium_.advance_to(at_s(15));
   ASSERT_EQ(late.size(), expected.size());
   for (std::size_t i = 0; i < late.size(); ++i) {
@@ -269,7 +269,7 @@ TEST_F(PacketMediumTest, ALateRequestDoesNotOverlapWhatWasAcceptedMeanwhile) {
 TEST_F(PacketMediumTest, ClearingSilencesTheWater) {
   stay(1, {0, 0, 50});
   stay(2, {3000, 0, 50});
-  medium_.transmit(request_of(1, 10, 0), at_s(10));
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
   medium_.advance_to(at_s(10));
   EXPECT_EQ(medium_.packets_in_flight(), 1u);
   medium_.clear();

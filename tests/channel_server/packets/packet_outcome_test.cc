@@ -64,9 +64,7 @@ TEST_F(PacketOutcomeTest, WithoutAPathItHasTheCauseOfTheLink) {
 }
 
 TEST_F(PacketOutcomeTest, BandsThatShareNothingAreOutOfBand) {
-  VehicleModem low = big_modem();
-  low.modem.centre_frequency_hz = 12'000;
-  fleet.announce_modem("v2", at_s(0), low, at_s(0));
+  change_modem({2}, [](acoustics::Modem& m) { m.centre_frequency_hz = 12'000; });
   water.set(1, 2, {path(1, 120)});
   send(1, 10, 0, 10);
   run();
@@ -89,9 +87,7 @@ TEST_F(PacketOutcomeTest, AModemThatTransmitsReceivesNothing) {
   run();
   const PacketOutcome& end = end_of(1, 0, 2);
   EXPECT_EQ(end.kind, OutcomeKind::kHalfDuplex);
-  ASSERT_EQ(end.statistics.colliders.size(), 1u);
-  EXPECT_EQ(end.statistics.colliders[0].source_id, 2);
-  EXPECT_EQ(end.statistics.colliders[0].packet_sequence, 7);
+  EXPECT_EQ(colliders_of(end), (Colliders{{2, 7}}));
 }
 
 TEST_F(PacketOutcomeTest, ATransmissionThatStartsDuringAReceptionEndsIt) {
@@ -112,10 +108,7 @@ TEST_F(PacketOutcomeTest, TransmissionsThatTouchAReceptionOnlyAtItsEndsDoNoHarm)
 }
 
 TEST_F(PacketOutcomeTest, BeyondTheModemsToleranceDopplerLosesIt) {
-  VehicleModem strict = big_modem();
-  strict.modem.doppler_tolerance = 0.003;
-  fleet.announce_modem("v2", at_s(0), strict, at_s(0));
-  fleet.announce_modem("v3", at_s(0), strict, at_s(0));
+  change_modem({2, 3}, [](acoustics::Modem& m) { m.doppler_tolerance = 0.003; });
   water.set(1, 2, {path(1, 120, 1.0031)});
   water.set(1, 3, {path(1, 120, 0.9971)});
   send(1, 10, 0, 10);
@@ -138,9 +131,7 @@ TEST_F(PacketOutcomeTest, DopplerStretchesThePacketAtTheReceiver) {
 }
 
 TEST_F(PacketOutcomeTest, InNoiseAloneALostPacketHasBitErrors) {
-  VehicleModem deep = big_modem();
-  deep.modem.min_receivable_level = {-100};
-  fleet.announce_modem("v2", at_s(0), deep, at_s(0));
+  change_modem({2}, [](acoustics::Modem& m) { m.min_receivable_level = {-100}; });
   water.set(1, 2, {path(1, level_with_bit_error(0.01, noise_power()))});
   send(1, 10, 0, 1000);
   run();
@@ -151,11 +142,10 @@ TEST_F(PacketOutcomeTest, InNoiseAloneALostPacketHasBitErrors) {
 }
 
 TEST_F(PacketOutcomeTest, APreambleBelowTheNoiseIsNotAcquired) {
-  VehicleModem shy = big_modem();
-  shy.modem.preamble = shy.modem.packet_overhead = for_s(0.1);
-  shy.modem.min_receivable_level = {-100};
-  fleet.announce_modem("v1", at_s(0), shy, at_s(0));
-  fleet.announce_modem("v2", at_s(0), shy, at_s(0));
+  change_modem({1, 2}, [](acoustics::Modem& m) {
+    m.preamble = m.packet_overhead = for_s(0.1);
+    m.min_receivable_level = {-100};
+  });
   water.set(1, 2, {path(1, 20)});
   send(1, 10, 0, 10);
   run();
@@ -166,9 +156,7 @@ TEST_F(PacketOutcomeTest, APreambleBelowTheNoiseIsNotAcquired) {
 }
 
 TEST_F(PacketOutcomeTest, DirectivityLowersTheNoise) {
-  VehicleModem keen = big_modem();
-  keen.modem.directivity_index = {6};
-  fleet.announce_modem("v2", at_s(0), keen, at_s(0));
+  change_modem({2}, [](acoustics::Modem& m) { m.directivity_index = {6}; });
   water.set(1, 2, {path(1, 100)});
   water.set(1, 3, {path(1, 100)});
   send(1, 10, 0, 10);
@@ -185,8 +173,8 @@ TEST_F(PacketOutcomeTest, TheDrawsAreThoseOfTheContentsNotOfTheSession) {
   PacketMedium again(fleet, water, {for_s(10), for_s(200)}), other(fleet, water, {for_s(10), for_s(200), 2});
   SendRequest request = request_of(1, 10, 3, 10);
   request.session = 999'999;
-  again.transmit(request, SimTime());
-  other.transmit(request, SimTime());
+  EXPECT_FALSE(again.transmit(request, SimTime()));
+  EXPECT_FALSE(other.transmit(request, SimTime()));
   const auto same = testing::outcomes_in(again.advance_to(at_s(110))).at(0).statistics;
   const auto seeded = testing::outcomes_in(other.advance_to(at_s(110))).at(0).statistics;
   EXPECT_EQ(same.acquisition_draw, first.acquisition_draw);
@@ -234,8 +222,8 @@ TEST(NearFar, TheNearSenderIsReceivedAndTheFarOneIsNot) {
   testing::move_steadily(fleet, 3, {3000, 0, 50}, Vec3::Zero(), 0, 30);
   StraightPropagation propagation(even_water());
   PacketMedium medium(fleet, propagation, {});
-  medium.transmit(request_of(3, 10, 0, 60), at_s(10));    // at 2 from 12 to 12.6
-  medium.transmit(request_of(1, 11.9, 0, 20), at_s(10));  // at 2 from 11.97 to 12.17
+  EXPECT_FALSE(medium.transmit(request_of(3, 10, 0, 60), at_s(10)));    // at 2 from 12 to 12.6
+  EXPECT_FALSE(medium.transmit(request_of(1, 11.9, 0, 20), at_s(10)));  // at 2 from 11.97 to 12.17
   std::map<VehicleId, OutcomeKind> at_two;
   for (const auto& end : testing::outcomes_in(medium.advance_to(at_s(25)))) {
     if (end.receiver_id == 2) at_two[end.packet->request.source_id] = end.kind;

@@ -49,7 +49,7 @@ TEST(SendRegister, AModemThatQueuesIsFreeWhenAllBeforeHaveEnded) {
 TEST(SendRegister, AReceiptIsKeptOnceDecided) {
   SendRegister sends;
   const SendRequest request = request_of(1, 10, 5);
-  sends.enter(request);
+  EXPECT_TRUE(sends.enter(request));
   EXPECT_EQ(sends.receipt_of(request), nullptr);
   sends.decide(request, {.vehicle = "v1", .result = SendResult::kBusy});
   ASSERT_NE(sends.receipt_of(request), nullptr);
@@ -76,7 +76,7 @@ TEST(SendRegister, TwoPacketsWithoutDurationDoNotStartTogether) {
 
 TEST(SendRegister, OldPacketsAreForgotten) {
   SendRegister sends;
-  for (int i = 0; i < 100; ++i) sends.enter(request_of(1, i, i));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(sends.enter(request_of(1, i, i)));
   sends.forget_before(at_s(90));
   EXPECT_EQ(sends.size(), 10u);
 }
@@ -84,7 +84,7 @@ TEST(SendRegister, OldPacketsAreForgotten) {
 TEST(SendRegister, AFloodDoesNotGrowMemoryWithoutBound) {
   SendRegister sends;
   for (std::size_t i = 0; i < SendRegister::kMaxPackets + 100; ++i) {
-    sends.enter(request_of(1, 0.001 * static_cast<double>(i), static_cast<std::int64_t>(i)));
+    EXPECT_TRUE(sends.enter(request_of(1, 0.001 * static_cast<double>(i), static_cast<std::int64_t>(i))));
   }
   EXPECT_EQ(sends.size(), SendRegister::kMaxPackets);
 }

@@ -57,7 +57,8 @@ struct Server {
     for (const auto& timed : testing::busy_states(until_s)) {
       EXPECT_EQ(fleet.add_state(name_of(timed.id), timed.id, timed.state), "");
     }
-    for (const auto& request : testing::busy_requests(kPackets)) medium.transmit(request, SimTime());
+    for (const auto& request : testing::busy_requests(kPackets))
+      EXPECT_FALSE(medium.transmit(request, SimTime()));
   }
   VehicleRegistry fleet;
   testing::ThreePaths propagation;

@@ -138,14 +138,7 @@ TEST_F(RayPropagationTest, BothWaysHaveTheSamePathsToTheLastBit) {
       testing::seabed_around({0, 0, 30}, {1000, 0, 60}, [](double north_m) { return 150 - north_m / 25; });
   auto propagation = rays({}, acoustics::Environment{}, seabed);
   const LinkEnd a = end({0, 0, 30}, modem_, 1), b = end({1000, 0, 60}, modem_, 2);
-  const Reception there = propagation.reception(at_s(1), a, b), back = propagation.reception(at_s(1), b, a);
-  ASSERT_EQ(there.used, PropagationUsed::kRays);
-  ASSERT_EQ(there.paths.size(), back.paths.size());
-  for (std::size_t i = 0; i < there.paths.size(); ++i) {
-    EXPECT_EQ(there.paths[i].delay_s, back.paths[i].delay_s);
-    EXPECT_EQ(there.paths[i].level.value, back.paths[i].level.value);
-    EXPECT_EQ(there.paths[i].launch_angle_rad, -back.paths[i].arrival_angle_rad);
-  }
+  testing::expect_same_paths_both_ways(propagation, a, b);
   EXPECT_EQ(propagation.searches(), 1);
 }
 

@@ -17,6 +17,7 @@
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/faults.h"
 #include "vehicle_sim/fleet.h"
@@ -78,7 +79,7 @@ Way way_with(const SensorSettings& sensors, double minutes = kMinutes) {
   std::optional<vehicle_dvl_t> ping;
   const SimTime end = SimTime::from_seconds(60 * minutes);
   for (SimTime now = station.next(); now <= end; now = station.next()) {
-    fleet.command(0, {now, {.propeller_hz = 15}});
+    EXPECT_EQ(fleet.command(0, {now, {.propeller_hz = 15}}), vehicle_sim::CommandVerdict::kTaken);
     fleet.advance(now);
     for (SensorTick& tick : station.take(fleet, 4096)) {
       answer(tick);
@@ -171,7 +172,8 @@ Kept way_without_compass(double gyro_bias_radps) {
                                           {m.depth_m, a.yaw, a.pitch, m.angular_rate_body_radps[1],
                                            m.angular_rate_body_radps[2], m.water_speed_mps},
                                           kPeriod.seconds(), integrals);
-        fleet.command(0, {now, {c.rudder_rad, c.stern_plane_rad, c.propeller_rpm / 60}});
+        EXPECT_EQ(fleet.command(0, {now, {c.rudder_rad, c.stern_plane_rad, c.propeller_rpm / 60}}),
+                  vehicle_sim::CommandVerdict::kTaken);
         kept.max_off_rad = std::max(kept.max_off_rad, std::abs(a.yaw - truth));
       }
     }

@@ -199,8 +199,8 @@ TEST(PositionEstimator, CovarianceOfTwoCrossingRangesIsThatOfTheGeometry) {
   PositionEstimator estimator({}, StatedStart{{500, 500}, 1000});
   estimator.move({SimTime(), 0, 0, 0, 50});
   const double length = std::hypot(500, 500);
-  estimator.take({kWest, {SimTime()}, length, 1});
-  estimator.take({kEast, {SimTime()}, length, 1});
+  EXPECT_EQ(estimator.take({kWest, {SimTime()}, length, 1}), RangeVerdict::kUsed);
+  EXPECT_EQ(estimator.take({kEast, {SimTime()}, length, 1}), RangeVerdict::kUsed);
   const auto estimate = estimator.estimate(SimTime());
   ASSERT_TRUE(estimate.has_value());
   EXPECT_LT((estimate->position_ne_m - Vec2(500, 500)).norm(), 1e-3);
@@ -237,7 +237,8 @@ TEST(PositionEstimator, StartsAnewWhenNothingFits) {
     estimator.move({now, 1.5, heading, 0, kDepthM});
     if (i == 30) truth += Vec2(3.75, -3.75);  // the turn, by the trapezium rule
     const Vec3& beacon = i % 2 == 0 ? kWest : kEast;
-    estimator.take({beacon, {now}, (Vec3(truth.x(), truth.y(), kDepthM) - beacon).norm(), 1});
+    EXPECT_NE(estimator.take({beacon, {now}, (Vec3(truth.x(), truth.y(), kDepthM) - beacon).norm(), 1}),
+              RangeVerdict::kTooOld);
     truth += 7.5 * Vec2(std::cos(heading), std::sin(heading));
   }
   const auto estimate = estimator.estimate(SimTime::from_seconds(300.0));
@@ -258,7 +259,7 @@ TEST(PositionEstimator, HasNoEstimateBeforeRangesToTwoBeacons) {
 TEST(PositionEstimator, DoesNotStartFromRangesThatDoNotMeet) {
   PositionEstimator estimator({});
   estimator.move({SimTime(), 1.5, 0, 0, kDepthM});
-  estimator.take({kWest, {SimTime()}, 100, 1});
+  EXPECT_EQ(estimator.take({kWest, {SimTime()}, 100, 1}), RangeVerdict::kWaiting);
   EXPECT_EQ(estimator.take({kEast, {SimTime()}, 200, 1}), RangeVerdict::kWaiting);
 }
 
