@@ -112,7 +112,9 @@ TEST_F(MeasuredWater, ADeepFadeOfTheRecordLosesThePacketsInIt) {
       fleet, replay,
       {.max_lateness = testing::for_s(10), .max_earliness = testing::for_s(200), .seed = seed});
   const int packets = 90;
-  for (int n = 0; n < packets; ++n) judge.transmit(testing::request_of(1, 1 + n, n, 64), SimTime());
+  for (int n = 0; n < packets; ++n) {
+    EXPECT_FALSE(judge.transmit(testing::request_of(1, 1 + n, n, 64), SimTime()));
+  }
   const double offset_s =
       acoustics::MeasuredFading(reception(1, 2).measured, {.seed = seed, .lower_id = 1, .higher_id = 2})
           .offset_s();
@@ -140,7 +142,9 @@ TEST_F(MeasuredWater, TheSameSeedGivesTheSameOutcomesAndAnotherOthers) {
     PacketMedium judge(
         fleet, replay,
         {.max_lateness = testing::for_s(10), .max_earliness = testing::for_s(200), .seed = seed});
-    for (int n = 0; n < 40; ++n) judge.transmit(testing::request_of(1, 1 + n, n, 16), SimTime());
+    for (int n = 0; n < 40; ++n) {
+      EXPECT_FALSE(judge.transmit(testing::request_of(1, 1 + n, n, 16), SimTime()));
+    }
     std::vector<OutcomeKind> all;
     for (const auto& outcome : testing::outcomes_in(judge.advance_to(at_s(110)))) all.push_back(outcome.kind);
     return all;
