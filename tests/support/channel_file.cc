@@ -1,9 +1,12 @@
 #include "tests/support/channel_file.h"
 
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <unistd.h>
 
 namespace halocline::testing {
 namespace {
@@ -53,8 +56,14 @@ ChannelFile channel_file(std::size_t instants, std::size_t receivers, std::size_
   return file;
 }
 
+std::string channel_file_folder() {
+  const std::string folder = ::testing::TempDir() + "halocline-channels-" + std::to_string(getpid()) + "/";
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
 std::string write_channel_file(const ChannelFile& contents, const std::string& name) {
-  const std::string path = ::testing::TempDir() + name;
+  const std::string path = channel_file_folder() + name;
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   check(file >= 0, path);
   write_number(file, contents, "version", contents.version);
