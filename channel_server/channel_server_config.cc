@@ -48,6 +48,8 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   v.number("profile_spacing_m", r.seabed.spacing_m,
            {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});
+  visit_count(v, "predicted_payload_bytes", r.predicted_payload_bytes,
+              {1, acoustics::kMaxPayloadBytes, "bytes", "of the packets whose delivery link tables predict"});
   visit_count(v, "shards", r.medium.shard.count,
               {1, kMaxShards, "", "channel servers that share the vehicles (id mod shards = shard)"});
   visit_count(v, "shard", r.medium.shard.index,
@@ -86,6 +88,12 @@ ConfiguredModems make_modems(const ChannelServerConfig& config) {
     modems.of_vehicle.emplace(vehicle.name, vehicle.modem);
   }
   return modems;
+}
+
+LinkPredictor make_predictor(const ServerRules& rules) {
+  LinkPredictor::Rule rule{static_cast<std::size_t>(rules.predicted_payload_bytes), rules.medium.fading, {}};
+  for (const std::string& name : built_in_modems()) rule.profiles.push_back(load_modem(name).modem);
+  return LinkPredictor(std::move(rule));
 }
 
 }  // namespace halocline::channel_server

@@ -16,6 +16,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/config/config.h"
 #include "bus/runtime/scenario.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
@@ -104,6 +105,7 @@ struct ServerRules {
   SeabedRule seabed;
   double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
   int threads = 1;                       // that compute link tables
+  int predicted_payload_bytes = 32;  // of the packets whose delivery link tables predict
 };
 
 struct ChannelServerConfig {
@@ -137,5 +139,8 @@ void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& sc
                       const std::string& folder, EnvironmentTimeline& timeline);
 
 ConfiguredModems make_modems(const ChannelServerConfig& config);
+
+// What link tables predict of packets, with the profiles of models/modems.
+LinkPredictor make_predictor(const ServerRules& rules);
 
 }  // namespace halocline::channel_server

@@ -19,6 +19,7 @@
 #include "channel_server/inbox.h"
 #include "channel_server/input_processor.h"
 #include "channel_server/link_table_publisher.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
@@ -66,6 +67,7 @@ class ChannelServerNode : public bus::Node {
   WaterModel water_;
   VehicleRegistry vehicles_;
   PacketMedium medium_;
+  LinkPredictor predictor_;
   MultipathCache echoes_;
   RayQueryClient rays_;
   LinkQueryService queries_;

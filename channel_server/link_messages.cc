@@ -68,6 +68,14 @@ link_t to_message(const LinkRow& row) {
   message.num_paths = row.path_count;
   message.delay_spread_s = row.delay_spread_s;
   message.first_path_doppler_factor = row.doppler_factor;
+  message.first_path_delay_s = row.forecast.first_path_delay_s;
+  message.sinr_db = row.forecast.sinr_db;
+  message.acquisition_probability = row.forecast.acquisition_probability;
+  message.delivery_probability = row.forecast.delivery_probability;
+  message.coherence_time_s = row.forecast.coherence_time_s;
+  message.doppler_spread_hz = row.forecast.doppler_spread_hz;
+  message.rms_delay_spread_s = row.forecast.rms_delay_spread_s;
+  message.best_rate_bps = row.forecast.best_rate_bps;
   return message;
 }
 

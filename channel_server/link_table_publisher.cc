@@ -21,7 +21,7 @@ void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>&
     pool_.for_each(count, body);
   };
   for (const LinkTable& table :
-       link_tables(tick, vehicles, models_.propagation, multipath, for_each, shard_)) {
+       link_tables(tick, vehicles, models_.propagation, models_.predictor, multipath, for_each, shard_)) {
     const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
     for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());

@@ -9,6 +9,7 @@
 #include "bus/event_log.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/thread_pool.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/shard.h"
@@ -23,6 +24,7 @@ class LinkTablePublisher {
   struct Models {
     const VehicleRegistry& vehicles;
     Propagation& propagation;
+    LinkPredictor& predictor;
     MultipathCache& echoes;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, Shard shard,

@@ -51,6 +51,7 @@ void link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
   VehicleRegistry fleet({}, {});
   StraightPropagation propagation(acoustics::Environment{});
+  LinkPredictor predictor({});
   MultipathCache echoes(5);
   const SimTime end = SimTime::from_seconds(100);
   add_states(fleet, vehicles, end);
@@ -58,9 +59,9 @@ void link_table(benchmark::State& state) {
   for (auto _ : state) {
     now = now + SimDuration::from_microseconds(1);
     const auto placed = place_all(fleet, now);
-    benchmark::DoNotOptimize(link_tables(now, placed, propagation, [&](const auto& from, const auto& to) {
-      return echoes.at_last_tick(now, from, to, propagation);
-    }));
+    benchmark::DoNotOptimize(link_tables(
+        now, placed, propagation, predictor,
+        [&](const auto& from, const auto& to) { return echoes.at_last_tick(now, from, to, propagation); }));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
 }
@@ -92,6 +93,7 @@ void ray_link_table(benchmark::State& state) {
   const int vehicles = static_cast<int>(state.range(0));
   const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
   RayPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), seabed, {});
+  LinkPredictor predictor({});
   const VehicleModem modem;
   std::vector<PlacedVehicle> placed;
   SimTime now = SimTime::from_seconds(100);
@@ -108,8 +110,8 @@ void ray_link_table(benchmark::State& state) {
     for (PlacedVehicle& vehicle : placed) vehicle.placement.position_ned_m.x() += 2e-3 * (vehicle.id % 3 + 1);
     survey_tables(propagation, *seabed, placed, now);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(
-        link_tables(now, placed, propagation, [](const auto&, const auto&) { return Multipath::kUnknown; }));
+    benchmark::DoNotOptimize(link_tables(now, placed, propagation, predictor,
+                                         [](const auto&, const auto&) { return Multipath::kUnknown; }));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
 }

@@ -27,8 +27,14 @@ std::string problem_of_modem(const acoustics::Modem& modem) {
 }  // namespace
 
 LinkQueryService::LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation,
-                                   MultipathCache& echoes, RayQueryClient& rays, Rule rule)
-    : fleet_(fleet), propagation_(propagation), echoes_(echoes), rays_(rays), rule_(rule) {
+                                   LinkPredictor& predictor, MultipathCache& echoes, RayQueryClient& rays,
+                                   Rule rule)
+    : fleet_(fleet),
+      propagation_(propagation),
+      predictor_(predictor),
+      echoes_(echoes),
+      rays_(rays),
+      rule_(rule) {
   require(rule.bottom_points >= 1, "at least one bottom point is needed");
 }
 
@@ -133,8 +139,10 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Wa
 void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at,
                                      LinkRow& row) {
   const Reception reception = propagation_.reception(at, link_end(from.placed()), link_end(to.placed()));
-  row.set(reception);
-  row.multipath = multipath_of(reception, to.modem.modem.min_receivable_level);
+  const acoustics::Modem &transmitter = from.modem.modem, &receiver = to.modem.modem;
+  row.set(reception,
+          predictor_.forecast(*predictor_.rates_of(transmitter), transmitter, receiver, reception));
+  row.multipath = multipath_of(reception, receiver.min_receivable_level);
 }
 
 void LinkQueryService::wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting) {

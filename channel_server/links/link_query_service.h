@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
@@ -69,8 +70,8 @@ class LinkQueryService {
   };
 
   // All of them must outlive the service.
-  LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, MultipathCache& echoes,
-                   RayQueryClient& rays, Rule rule);
+  LinkQueryService(const VehicleRegistry& fleet, Propagation& propagation, LinkPredictor& predictor,
+                   MultipathCache& echoes, RayQueryClient& rays, Rule rule);
 
   // A repetition of a query that is still waiting changes nothing. `sim` is empty while unknown.
   void submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady);
@@ -112,6 +113,7 @@ class LinkQueryService {
 
   const VehicleRegistry& fleet_;
   Propagation& propagation_;
+  LinkPredictor& predictor_;
   MultipathCache& echoes_;
   RayQueryClient& rays_;
   Rule rule_;

@@ -1,6 +1,7 @@
 #include "channel_server/links/link_table.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "acoustics/fading/sound_path.h"
 
@@ -29,7 +30,8 @@ Multipath multipath_of(const Reception& reception, Decibels cutoff) {
   return echoes ? Multipath::kLikely : Multipath::kUnlikely;
 }
 
-void LinkRow::set(const Reception& reception) {
+void LinkRow::set(const Reception& reception, const LinkForecast& predicted) {
+  forecast = predicted;
   budget = reception.budget;
   state = reception.state;
   used = reception.used;
@@ -50,11 +52,18 @@ bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicle
 }
 
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
-                                   Propagation& propagation, const MultipathFunction& multipath,
-                                   const ForEach& for_each, Shard shard) {
-  const std::vector<Reception> receptions =
-      propagation.receptions(instant, links_between(vehicles, shard), for_each);
+                                   Propagation& propagation, LinkPredictor& predictor,
+                                   const MultipathFunction& multipath, const ForEach& for_each, Shard shard) {
+  const std::vector<EndPair> links = links_between(vehicles, shard);
+  std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;  // of each link's transmitter
+  for (const EndPair& link : links) rates.push_back(predictor.rates_of(*link.from.modem));
+  const std::vector<Reception> receptions = propagation.receptions(instant, links, for_each);
+  std::vector<LinkForecast> forecasts(links.size());
+  for_each(links.size(), [&](std::size_t i) {
+    forecasts[i] = predictor.forecast(*rates[i], *links[i].from.modem, *links[i].to.modem, receptions[i]);
+  });
   auto reception = receptions.begin();
+  auto forecast = forecasts.begin();
   std::vector<LinkTable> tables;
   for (const PlacedVehicle& from : vehicles) {
     if (!shard.serves(from.id)) continue;
@@ -66,12 +75,13 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
       row.receiver_id = to.id;
       row.transmitter_age = from.placement.age;
       row.receiver_age = to.placement.age;
-      row.set(*reception);
+      row.set(*reception, *forecast);
       row.multipath = reception->used == PropagationUsed::kStraight
                           ? multipath(from, to)
                           : multipath_of(*reception, to.modem->modem.min_receivable_level);
       table.rows.push_back(row);
       ++reception;
+      ++forecast;
     }
     tables.push_back(std::move(table));
   }

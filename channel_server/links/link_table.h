@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "acoustics/link/link_budget.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
@@ -38,8 +39,10 @@ struct LinkRow {
   double delay_spread_s = 0;
   double doppler_factor = 1;  // of the first significant path; 1 without one
 
-  // Takes over budget and paths.
-  void set(const Reception& reception);
+  LinkForecast forecast;
+
+  // Takes over budget, paths and what they deliver.
+  void set(const Reception& reception, const LinkForecast& predicted);
 };
 
 struct LinkTable {
@@ -60,7 +63,8 @@ bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicle
 // One table a vehicle that `shard` serves, by id, of links whose sound leaves at `instant`; a vehicle alone has an
 // empty one. `multipath` is called where paths are straight by choice: rays hold the echoes of the bottom.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
-                                   Propagation& propagation, const MultipathFunction& multipath,
+                                   Propagation& propagation, LinkPredictor& predictor,
+                                   const MultipathFunction& multipath,
                                    const ForEach& for_each = one_after_the_other, Shard shard = {});
 
 }  // namespace halocline::channel_server

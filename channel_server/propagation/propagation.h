@@ -74,9 +74,10 @@ enum class PropagationUsed {
   kStraightWithoutBottom,  // rays were wanted, the bottom is not known: one straight path
 };
 
-// What arrives over one link. In the budget, `delay_s` is that of the first significant path, `received_level`
-// is the mean power of all paths together (acoustics/fading/link_fading.h; without fading, the sum of their powers), and the rest follows from these. Without a path both levels are kSilence or
-// a floor that the implementation states, and nothing is receivable.
+// What arrives over one link. In the budget, `delay_s` is that of the strongest path in the receiver's guard window,
+// `received_level` is the mean power of all paths together (acoustics/fading/link_fading.h; without fading, the sum of
+// their powers), and the rest follows from these. Without a path the delay is that of the straight line, both levels are
+// kSilence or a floor that the implementation states, and nothing is receivable.
 struct Reception {
   acoustics::LinkBudget budget;
   PathState state = PathState::kOpen;

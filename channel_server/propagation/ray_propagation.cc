@@ -9,6 +9,7 @@
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/rays/ray_doppler.h"
+#include "acoustics/reception/guard_window.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "core/check.h"
 
@@ -330,7 +331,7 @@ void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arriv
   acoustics::LinkBudget& budget = reception.budget;
   budget = task.budget->budget_of_path(from, to, task.ends.from.modem->source_level - level,
                                        arrival->path_length_m);
-  budget.delay_s = first.delay_s;
+  budget.delay_s = reception.paths[best_window(reception.paths, *task.ends.to.modem).strongest].delay_s;
   budget.mean_sound_speed_mps = std::max(budget.range_m, acoustics::kMinDistance) / first.delay_s;
   if (arrival->path_length_m > 0) {
     budget.absorption_db_per_km = 1000 * arrival->absorption_db / arrival->path_length_m;

@@ -87,6 +87,15 @@ void print_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSu
   json["propagation"] = name_of(answer.reception.used);
   json["num_paths"] = answer.reception.paths.size();
   json["delay_spread_s"] = answer.reception.delay_spread_s;
+  const channel_server::LinkForecast& f = answer.forecast;
+  json["first_path_delay_s"] = f.first_path_delay_s;
+  json["sinr_db"] = f.sinr_db;
+  json["acquisition_probability"] = f.acquisition_probability;
+  json["delivery_probability"] = f.delivery_probability;
+  json["coherence_time_s"] = f.coherence_time_s;
+  json["doppler_spread_hz"] = f.doppler_spread_hz;
+  json["rms_delay_spread_s"] = f.rms_delay_spread_s;
+  json["best_rate_bps"] = f.best_rate_bps;
   std::cout << json.dump(2) << "\n";
 }
 
@@ -114,6 +123,15 @@ void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkS
              b.receivable ? "yes" : "no", name_of(answer.multipath), answer.reception.paths.size(),
              name_of(answer.reception.state), name_of(answer.reception.used));
   line("delay spread", answer.reception.delay_spread_s, 6, "s");
+  const channel_server::LinkForecast& f = answer.forecast;
+  line("rms delay spread", f.rms_delay_spread_s, 6, "s");
+  line("first path's delay", f.first_path_delay_s, 6, "s");
+  line("coherence time", f.coherence_time_s, 3, "s");
+  line("Doppler spread", f.doppler_spread_hz, 3, "Hz");
+  line("SINR", f.sinr_db, 3, "dB");
+  line("acquisition", f.acquisition_probability, 4, "of preambles");
+  line("delivery", f.delivery_probability, 4, "of packets");
+  line("best rate", f.best_rate_bps, 0, "bit/s");
 }
 
 void check(const LinkOptions& options) {

@@ -63,7 +63,7 @@ using Numbers = std::map<std::string, double>;
 
 inline Numbers numbers_of(const link_t& row) {
   return {{"link range", row.range_m},
-          {"link delay", row.delay_s},
+          {"link delay", row.first_path_delay_s},
           {"link loss", row.transmission_loss_db},
           {"link level", row.received_level_db},
           {"link noise", row.noise_level_db},

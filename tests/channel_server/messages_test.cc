@@ -271,9 +271,14 @@ TEST(ChannelServerMessages, AReceiptHoldsStartAndDuration) {
 }
 
 TEST(ChannelServerMessages, ALinkTableHoldsEveryFieldOfItsRows) {
-  LinkRow row{
-      1,          2,          acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5}), Multipath::kLikely,
-      for_s(0.5), for_s(0.25)};
+  LinkRow row;
+  row.transmitter_id = 1;
+  row.receiver_id = 2;
+  row.budget = acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5});
+  row.multipath = Multipath::kLikely;
+  row.transmitter_age = for_s(0.5);
+  row.receiver_age = for_s(0.25);
+  row.forecast = {0.5, -3, 0.75, 0.5, 0.125, 2, 0.0625, 80};
   const std::vector<link_table_t> messages = to_messages(LinkTable{1, {row}}, at_s(4));
   ASSERT_EQ(messages.size(), 1u);
   const link_table_t& message = messages.front();
@@ -293,6 +298,14 @@ TEST(ChannelServerMessages, ALinkTableHoldsEveryFieldOfItsRows) {
   EXPECT_EQ(link.multipath, link_t::MULTIPATH_LIKELY);
   EXPECT_EQ(link.transmitter_age_s, 0.5);
   EXPECT_EQ(link.receiver_age_s, 0.25);
+  EXPECT_EQ(link.first_path_delay_s, 0.5);
+  EXPECT_EQ(link.sinr_db, -3);
+  EXPECT_EQ(link.acquisition_probability, 0.75);
+  EXPECT_EQ(link.delivery_probability, 0.5);
+  EXPECT_EQ(link.coherence_time_s, 0.125);
+  EXPECT_EQ(link.doppler_spread_hz, 2);
+  EXPECT_EQ(link.rms_delay_spread_s, 0.0625);
+  EXPECT_EQ(link.best_rate_bps, 80);
 }
 
 TEST(ChannelServerMessages, ALinkTableOf4095PeersComesInPartsBelowSixtyKilobytes) {
@@ -314,10 +327,10 @@ TEST(ChannelServerMessages, ALinkTableOf4095PeersComesInPartsBelowSixtyKilobytes
   EXPECT_EQ(expected, 4097);
 }
 
-TEST(ChannelServerMessages, ATableUpToFourHundredPeersIsOneMessage) {
+TEST(ChannelServerMessages, ATableUpToThreeHundredPeersIsOneMessage) {
   EXPECT_EQ(to_messages(LinkTable{1, {}}, at_s(4)).size(), 1u);
-  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(400)}, at_s(4)).size(), 1u);
-  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(401)}, at_s(4)).size(), 2u);
+  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(300)}, at_s(4)).size(), 1u);
+  EXPECT_EQ(to_messages(LinkTable{1, std::vector<LinkRow>(301)}, at_s(4)).size(), 2u);
 }
 
 TEST(ChannelServerMessages, AModemThatCannotBeReadIsTheProblemOfItsEndAlone) {

@@ -184,7 +184,13 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &to.modem.modem};
   const auto waters = std::make_shared<channel_server::EnvironmentTimeline>(
       make_environment(config.channel_server.environment, config.scenario, config.folder));
-  const channel_server::ServerRules& rules = config.channel_server.rules;
+  channel_server::ServerRules rules = config.channel_server.rules;
+  rules.medium.fading = config.channel_server.propagation.fading;
+  channel_server::LinkPredictor predictor = make_predictor(rules);
+  const auto forecast = [&](const channel_server::Reception& reception) {
+    const acoustics::Modem& transmitter = from.modem.modem;
+    return predictor.forecast(*predictor.rates_of(transmitter), transmitter, to.modem.modem, reception);
+  };
   const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
   require_above_seabed(*terrain, from);
   require_above_seabed(*terrain, to);
@@ -198,6 +204,7 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
         waters, std::make_shared<channel_server::SeabedMap>(rules.seabed), make_rays(config.channel_server));
     const auto seabed = survey_bottom(*terrain, from.position_ned_m, to.position_ned_m, rules.seabed);
     answer.reception = propagation.reception_over(SimTime(), here, there, seabed);
+    answer.forecast = forecast(answer.reception);
     const bool rays = answer.reception.used == channel_server::PropagationUsed::kRays;
     answer.arrivals = link_arrivals(config, from, to, answer.reception,
                                     rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
@@ -205,10 +212,11 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
     answer.multipath = multipath_of(answer.reception, to.modem.modem.min_receivable_level);
     return answer;
   }
-  channel_server::StraightPropagation propagation(waters);
+  channel_server::StraightPropagation propagation(waters, rules.medium.fading);
   const bool cut = is_cut(*terrain, from.position_ned_m, to.position_ned_m);
   answer.reception =
       cut ? propagation.blocked(SimTime(), here, there) : propagation.reception(SimTime(), here, there);
+  answer.forecast = forecast(answer.reception);
   answer.arrivals = link_arrivals(config, from, to, answer.reception,
                                   cut ? acoustics::Arrivals() : straight_arrival(answer.reception, beams));
   const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "channel_server/links/echo_survey.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
@@ -29,6 +30,7 @@ struct LinkSurveyEnd {
 
 struct LinkSurvey {
   channel_server::Reception reception;
+  channel_server::LinkForecast forecast;
   channel_server::Multipath multipath = channel_server::Multipath::kUnknown;
   LinkArrivals arrivals;           // the paths of the reception with all that is known of them
   std::vector<std::string> notes;  // formulas taken beyond the range they were published for

@@ -24,10 +24,11 @@ const MultipathFunction kUnknownMultipath = [](const PlacedVehicle&, const Place
 class LinkTableTest : public ::testing::Test {
  protected:
   std::vector<LinkTable> tables_at(double time_s, const MultipathFunction& multipath = kUnknownMultipath) {
-    return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, multipath);
+    return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, predictor_, multipath);
   }
   VehicleRegistry fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
   StraightPropagation propagation_{even_water()};
+  LinkPredictor predictor_{{}};
 };
 
 TEST_F(LinkTableTest, HoldsARowForEveryOtherVehicleById) {
@@ -49,6 +50,21 @@ TEST_F(LinkTableTest, RangeAndDelayAreThoseOfThePositionsAtTheInstant) {
   EXPECT_NEAR(row.budget.range_m, 1530, tolerance(1e-9));
   EXPECT_NEAR(row.budget.delay_s, 1530 / kSpeedMps, tolerance(1e-12));
   EXPECT_EQ(row.transmitter_age, for_s(3));
+}
+
+TEST_F(LinkTableTest, RowsHoldTheForecastOfTheirPaths) {
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {1500, 0, 50})), "");
+  const auto placed = place_all(fleet_, at_s(1));
+  const acoustics::Modem& modem = placed[0].modem->modem;
+  const Reception reception = propagation_.reception(at_s(1), link_end(placed[0]), link_end(placed[1]));
+  const LinkForecast by_hand =
+      predictor_.forecast(*predictor_.rates_of(modem), modem, placed[1].modem->modem, reception);
+  const LinkForecast forecast = tables_at(1)[0].rows[0].forecast;
+  EXPECT_EQ(forecast.first_path_delay_s, reception.budget.delay_s);
+  EXPECT_EQ(forecast.sinr_db, by_hand.sinr_db);
+  EXPECT_EQ(forecast.delivery_probability, by_hand.delivery_probability);
+  EXPECT_EQ(forecast.best_rate_bps, by_hand.best_rate_bps);
 }
 
 TEST_F(LinkTableTest, AVehicleAloneHasAnEmptyTable) {

@@ -104,6 +104,28 @@ TEST(LinkSurvey, PathsWithTheBeamsOfTheModemsHaveTheLossOfTheBudget) {
   }
 }
 
+// As a link table of the scenario's channel server has it.
+TEST(LinkSurvey, ForecastIsThatOfTheChannelServersPredictor) {
+  for (const auto model :
+       {channel_server::PropagationModel::kRays, channel_server::PropagationModel::kStraight}) {
+    ScenarioConfig config = two_vehicles();
+    config.terrain.flat.depth_m = 100;
+    config.channel_server.propagation.model = model;
+    const LinkSurveyEnd from = link_end(config, "-500,0,40"), to = link_end(config, "500,0,60");
+    const LinkSurvey answer = survey_link(config, from, to);
+    channel_server::ServerRules rules;
+    rules.medium.fading = config.channel_server.propagation.fading;
+    channel_server::LinkPredictor predictor = make_predictor(rules);
+    const acoustics::Modem& modem = from.modem.modem;
+    const auto row = predictor.forecast(*predictor.rates_of(modem), modem, to.modem.modem, answer.reception);
+    EXPECT_EQ(answer.forecast.delivery_probability, row.delivery_probability);
+    EXPECT_EQ(answer.forecast.sinr_db, row.sinr_db);
+    EXPECT_EQ(answer.forecast.best_rate_bps, row.best_rate_bps);
+    EXPECT_GT(answer.forecast.delivery_probability, 0.9);
+    EXPECT_LT(answer.forecast.coherence_time_s, 1e6);
+  }
+}
+
 // A receiver that comes closer at 2 m/s along a straight horizontal way receives 1 + v / c.
 TEST(LinkSurvey, DopplerIsThatOfTheGivenVelocities) {
   ScenarioConfig config = two_vehicles();

@@ -1,0 +1,110 @@
+#include "channel_server/links/link_predictor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "acoustics/reception/guard_window.h"
+#include "acoustics/reception/link_prediction.h"
+#include "acoustics/reception/signal_history.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using acoustics::Modem;
+using acoustics::ReceptionCurves;
+
+constexpr double kMaxCoherenceS = 1e6;
+constexpr double kLeastDelivery = 1e-3;  // of a rate that counts
+
+// What the curves of a modem depend on; the rest as in the generic one.
+Modem of_packets(const Modem& modem) {
+  Modem packets;
+  packets.bandwidth_hz = modem.bandwidth_hz;
+  packets.centre_frequency_hz = modem.centre_frequency_hz;
+  packets.bit_rate_bps = modem.bit_rate_bps;
+  packets.packet_overhead = modem.packet_overhead;
+  packets.preamble = modem.preamble;
+  packets.preamble_pieces = modem.preamble_pieces;
+  packets.error_model = modem.error_model;
+  packets.layout = modem.layout;
+  packets.family = modem.family;
+  return packets;
+}
+
+// As channel_server/packets decides before the preamble.
+bool is_impossible(const Modem& receiver, const Reception& reception, const SoundPath& strongest,
+                   bool fades) {
+  return !reception.budget.receivable ||
+         (!fades && std::abs(strongest.doppler_factor - 1) > receiver.doppler_tolerance);
+}
+
+}  // namespace
+
+LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
+  Rates rates;
+  const auto add = [&](const Modem& modem) {
+    rates.emplace_back(modem, std::min(rule_.payload_bytes, max_payload_bytes(modem)));
+  };
+  add(transmitter);
+  const auto of_family = [&](const Modem& modem) { return same_family(modem, transmitter); };
+  if (std::count_if(rule_.profiles.begin(), rule_.profiles.end(), of_family) < 2) return rates;
+  for (const Modem& profile : rule_.profiles) {
+    if (!of_family(profile) || profile.bit_rate_bps == transmitter.bit_rate_bps) continue;
+    Modem rate = of_packets(profile);
+    rate.bandwidth_hz = transmitter.bandwidth_hz;
+    rate.centre_frequency_hz = transmitter.centre_frequency_hz;
+    add(rate);
+  }
+  return rates;
+}
+
+std::shared_ptr<const LinkPredictor::Rates> LinkPredictor::rates_of(const Modem& transmitter) {
+  const Modem packets = of_packets(transmitter);
+  auto known =
+      std::find_if(kept_.begin(), kept_.end(), [&](const auto& entry) { return entry.first == packets; });
+  if (known == kept_.end()) {
+    if (kept_.size() == kMaxModems) kept_.pop_back();
+    kept_.emplace_front(packets, std::make_shared<const Rates>(make_rates(packets)));
+  } else {
+    kept_.splice(kept_.begin(), kept_, known);
+  }
+  return kept_.front().second;
+}
+
+LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitter, const Modem& receiver,
+                                     const Reception& reception) const {
+  const auto& paths = reception.paths;
+  if (paths.empty()) return {};
+  const acoustics::Lock lock{&receiver, best_window(paths, receiver)};
+  const Decibels noise =
+      reception.budget.noise_level - receiver.directivity_index + band_loss(transmitter, receiver);
+  const double coherence_s = coherence_time_s(paths, lock.window);
+  LinkForecast forecast;
+  forecast.first_path_delay_s = paths[first_significant(paths)].delay_s;
+  forecast.coherence_time_s = std::min(coherence_s, kMaxCoherenceS);
+  forecast.doppler_spread_hz = acoustics::doppler_spread_of(coherence_s);
+  forecast.rms_delay_spread_s = rms_delay_spread_s(paths);
+  const bool impossible =
+      is_impossible(receiver, reception, paths[lock.window.strongest], rule_.fading.enabled);
+  double best = 0;
+  for (const ReceptionCurves& curves : rates) {
+    const acoustics::LinkPrediction predicted =
+        predict_link(rule_.fading, paths, lock, transmitter.band(), to_power_ratio(noise).value, curves);
+    const bool own = &curves == &rates.front();
+    if (own) {
+      forecast.sinr_db = std::max(10 * std::log10(predicted.sinr), kSilence.value);
+      if (impossible) break;
+      forecast.acquisition_probability = predicted.acquisition_probability;
+      forecast.delivery_probability = predicted.delivery_probability;
+    }
+    const double rate_bps = curves.modem().bit_rate_bps;
+    if (predicted.delivery_probability < kLeastDelivery || rate_bps * predicted.delivery_probability <= best)
+      continue;
+    best = rate_bps * predicted.delivery_probability;
+    forecast.best_rate_bps = rate_bps;
+  }
+  return forecast;
+}
+
+}  // namespace halocline::channel_server

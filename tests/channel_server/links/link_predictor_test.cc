@@ -1,0 +1,117 @@
+// Rows state what acoustics/reception/link_prediction.h predicts of their paths.
+#include "channel_server/links/link_predictor.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/reception/link_prediction.h"
+#include "acoustics/reception/signal_history.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using acoustics::FadingModel;
+using acoustics::Modem;
+
+constexpr FadingModel kSea{.enabled = true};
+
+Modem modem_of(const char* family, double bit_rate_bps) {
+  Modem modem;
+  modem.family = family;
+  modem.bit_rate_bps = bit_rate_bps;
+  modem.preamble = modem.packet_overhead = SimDuration::from_milliseconds(100);
+  return modem;
+}
+
+// A weak early path before two strong ones.
+Reception reception_of(double noise_db) {
+  const auto path = [](double delay_s, double level_db, double surface_sine_squares, std::uint64_t identity) {
+    SoundPath one{.delay_s = delay_s, .level = {level_db}, .identity = identity};
+    one.fading = path_fading(kSea, 5, 25'000, surface_sine_squares, 0.01);
+    return one;
+  };
+  Reception reception;
+  reception.paths = {path(0.9, 85, 0, 1), path(1, 100, 0.01, 2), path(1.004, 97, 0.05, 3)};
+  reception.budget.noise_level = {noise_db};
+  reception.budget.receivable = true;
+  return reception;
+}
+
+LinkForecast forecast_of(LinkPredictor& predictor, const Modem& from, const Modem& to,
+                         const Reception& reception) {
+  return predictor.forecast(*predictor.rates_of(from), from, to, reception);
+}
+
+TEST(LinkPredictor, ForecastIsThePredictionOfTheReceiversWindow) {
+  LinkPredictor predictor({.payload_bytes = 20, .fading = kSea, .profiles = {}});
+  const Modem from = modem_of("a", 100);
+  Modem to = from;
+  to.directivity_index = {3};
+  to.bandwidth_hz = 2500;
+  const Reception reception = reception_of(105);
+  const LinkForecast forecast = forecast_of(predictor, from, to, reception);
+  const acoustics::Lock lock{&to, best_window(reception.paths, to)};
+  const double noise = std::pow(10, (105 - 3 + 10 * std::log10(2)) / 10);
+  const auto predicted = predict_link(kSea, reception.paths, lock, from.band(), noise, {from, 20});
+  EXPECT_EQ(forecast.first_path_delay_s, 0.9);
+  EXPECT_NEAR(forecast.sinr_db, 10 * std::log10(predicted.sinr), 1e-9);
+  EXPECT_NEAR(forecast.acquisition_probability, predicted.acquisition_probability, 1e-9);
+  EXPECT_NEAR(forecast.delivery_probability, predicted.delivery_probability, 1e-9);
+  EXPECT_GT(forecast.delivery_probability, 0.01);
+  EXPECT_LT(forecast.delivery_probability, 0.99);
+  EXPECT_EQ(forecast.coherence_time_s, coherence_time_s(reception.paths, lock.window));
+  EXPECT_NEAR(forecast.doppler_spread_hz * forecast.coherence_time_s, 1 / (std::sqrt(2) * M_PI), 1e-12);
+  EXPECT_EQ(forecast.rms_delay_spread_s, rms_delay_spread_s(reception.paths));
+  EXPECT_EQ(forecast.best_rate_bps, 100);
+}
+
+TEST(LinkPredictor, NothingIsForecastWithoutPathsAndNothingDeliveredToAnotherFamily) {
+  LinkPredictor predictor({.fading = kSea, .profiles = {}});
+  const Modem modem = modem_of("a", 100);
+  for (const double value : [&] {
+         const LinkForecast f = forecast_of(predictor, modem, modem, Reception());
+         return std::vector{f.first_path_delay_s,   f.sinr_db,          f.acquisition_probability,
+                            f.delivery_probability, f.coherence_time_s, f.doppler_spread_hz,
+                            f.rms_delay_spread_s,   f.best_rate_bps};
+       }())
+    EXPECT_EQ(value, 0);
+  Reception reception = reception_of(60);
+  EXPECT_GT(forecast_of(predictor, modem, modem, reception).delivery_probability, 0.5);
+  reception.budget.receivable = false;
+  const LinkForecast foreign = forecast_of(predictor, modem, modem_of("b", 100), reception);
+  EXPECT_EQ(foreign.acquisition_probability, 0);
+  EXPECT_EQ(foreign.delivery_probability, 0);
+  EXPECT_EQ(foreign.best_rate_bps, 0);
+  EXPECT_GT(foreign.sinr_db, 0);
+}
+
+TEST(LinkPredictor, BestRateFallsWithTheNoiseDownToNone) {
+  const Modem slow = modem_of("a", 50), fast = modem_of("a", 400);
+  LinkPredictor predictor({.fading = kSea, .profiles = {slow, fast, modem_of("b", 5000)}});
+  const auto best = [&](const Modem& from, double noise_db) {
+    return forecast_of(predictor, from, from, reception_of(noise_db)).best_rate_bps;
+  };
+  for (const Modem& from : {slow, fast}) {
+    EXPECT_EQ(best(from, 60), 400);
+    EXPECT_EQ(best(from, 100), 50);
+    EXPECT_EQ(best(from, 150), 0);
+  }
+  EXPECT_EQ(best(modem_of("c", 70), 60), 70);
+}
+
+TEST(LinkPredictor, WithoutFadingCoherenceIsTheLongestStatedAndTheToleranceOfDopplerCounts) {
+  LinkPredictor predictor({});
+  Modem modem = modem_of("a", 100);
+  Reception reception = reception_of(60);
+  for (SoundPath& path : reception.paths) path.fading = {};
+  EXPECT_EQ(forecast_of(predictor, modem, modem, reception).coherence_time_s, 1e6);
+  EXPECT_EQ(forecast_of(predictor, modem, modem, reception).doppler_spread_hz, 0);
+  EXPECT_NEAR(forecast_of(predictor, modem, modem, reception).delivery_probability, 1, 1e-6);
+  for (SoundPath& path : reception.paths) path.doppler_factor = 1.01;
+  modem.doppler_tolerance = 0.005;
+  EXPECT_EQ(forecast_of(predictor, modem, modem, reception).delivery_probability, 0);
+}
+
+}  // namespace
+}  // namespace halocline::channel_server
