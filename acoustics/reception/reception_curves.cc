@@ -25,13 +25,23 @@ ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
   }
 }
 
-double ReceptionCurves::interpolated(const std::vector<double>& table, double sinr) {
-  if (!(sinr > 0)) return table.front();
-  const double place = (10 * std::log10(sinr) - kLeastDb) / kStepDb;
-  if (place <= 0) return table.front();
+double ReceptionCurves::decibels(double sinr) { return sinr > 0 ? 10 * std::log10(sinr) : kLeastDb; }
+
+double ReceptionCurves::interpolated(const std::vector<double>& table, double sinr_db) {
+  const double place = (sinr_db - kLeastDb) / kStepDb;
+  if (!(place > 0)) return table.front();
+  if (place >= static_cast<double>(kRows - 1)) return table.back();
   const auto row = static_cast<std::size_t>(place);
-  if (row + 1 >= kRows) return table.back();
   return table[row] + (place - static_cast<double>(row)) * (table[row + 1] - table[row]);
+}
+
+double ReceptionCurves::ratio_db_of(double log_bit_success) const {
+  const auto above = std::upper_bound(log_bit_success_.begin(), log_bit_success_.end(), log_bit_success);
+  if (above == log_bit_success_.begin()) return kLeastDb;
+  const auto row = static_cast<double>(above - log_bit_success_.begin()) - 1;
+  if (above == log_bit_success_.end()) return kLeastDb + kStepDb * row;
+  const double rise = *above - *(above - 1);
+  return kLeastDb + kStepDb * (row + (log_bit_success - *(above - 1)) / rise);
 }
 
 }  // namespace halocline::acoustics

@@ -22,12 +22,17 @@ class ReceptionCurves {
   // Information bits of each coded block.
   const std::vector<std::int64_t>& blocks() const { return blocks_; }
 
-  double acquisition(double sinr) const { return interpolated(acquisition_, sinr); }
+  double acquisition(double sinr) const { return acquisition_at(decibels(sinr)); }
+  double acquisition_at(double sinr_db) const { return interpolated(acquisition_, sinr_db); }
   // ln(1 - BER), at most 0.
-  double log_bit_success(double sinr) const { return interpolated(log_bit_success_, sinr); }
+  double log_bit_success(double sinr) const { return log_bit_success_at(decibels(sinr)); }
+  double log_bit_success_at(double sinr_db) const { return interpolated(log_bit_success_, sinr_db); }
+  // The ratio, dB, of that ln(1 - BER).
+  double ratio_db_of(double log_bit_success) const;
 
  private:
-  static double interpolated(const std::vector<double>& table, double sinr);
+  static double decibels(double sinr);
+  static double interpolated(const std::vector<double>& table, double sinr_db);
 
   Modem modem_;
   PacketTiming timing_;
