@@ -1,16 +1,24 @@
 // What a link will deliver on average over its fading: the expectation of what acoustics/reception/signal_history.h and
 // decoding.h decide of single packets.
 //
-// Model. Within the guard window, at 8 frequencies over the band: steady pressures A_m of the coherent parts, the
-// medium's power M and the scattered power D, mean interference I of the packet's own echoes.
-// - Slow: large-scale fading, log-normal, and the medium, whose power over the band is taken as gamma distributed with
-//   the variance that the correlation of its frequencies leaves, hold through a packet: 24 strata of equal probability of
-//   each, in pairs.
-// - Fast: what is scattered fades within the packet, in n_t = T / (1.25 coherence time) independent spans and n_f
-//   independent parts of the band (from its delays). Coded frequency-shift keying: E exp(-gamma / beta) of Rician gamma is
-//   exp(-(c / beta) / (1 + d / beta)) / (1 + d / beta), and its finite mean is spread by 1 / (n_t n_f) of its variance.
-//   Others: the chance of a span's bits over a gamma distributed signal, to the power of the spans.
-// Left out: other packets; the correlation of preamble and bits within one coherence time.
+// Model. Within the guard window, at 8 frequencies over the band: steady pressures A_m of the coherent parts, the medium's
+// M_m of covariance K, the scattered D_m; interference of the packet's own echoes, each by its overlap with the preamble and
+// with the bits, at its mean power.
+// - Slow, for a packet: large-scale fading, and the medium together with what is scattered more slowly than a packet lasts.
+//   The medium takes 8 states along K A / sqrt(A^H K A), the direction that changes the power most; its rest counts as
+//   diffuse. In each, what becomes of a packet is computed at 4 levels of large-scale fading as constant ratios that decide
+//   alike, and averaged over 32 strata between them.
+// - Preamble: a steady constant and a gamma distributed rest, with the variance that the mean over its time and the band
+//   leaves.
+// - Coded frequency-shift keying: E exp(-gamma / beta) of Rician gamma is exp(-(c / beta) / (1 + d / beta)) / (1 + d / beta);
+//   the finite mean of a block is log-normal about it.
+// - Phase-shift keying: the power of the band, likewise distributed, must not fall below what the bits of a fade need, nor
+//   cross it (Rice 1944). What the receiver does not track fades as the signal does.
+// - Other frequency-shift keying: single errors, each frequency Rician.
+// The same numbers for every link, so that predictions vary smoothly. tests/channel_server/packets/link_prediction_test.cc
+// compares with judged packets.
+// Left out: other packets; the correlation of preamble and bits within one coherence time; paths that share the medium's
+// fading; beats of coherent paths of different Doppler; measured channels, which fade as recorded.
 #pragma once
 
 #include <vector>

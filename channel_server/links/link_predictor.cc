@@ -56,6 +56,9 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
     rate.centre_frequency_hz = transmitter.centre_frequency_hz;
     add(rate);
   }
+  std::sort(rates.begin() + 1, rates.end(), [](const ReceptionCurves& a, const ReceptionCurves& b) {
+    return a.modem().bit_rate_bps > b.modem().bit_rate_bps;
+  });
   return rates;
 }
 
@@ -89,16 +92,17 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
       is_impossible(receiver, reception, paths[lock.window.strongest], rule_.fading.enabled);
   double best = 0;
   for (const ReceptionCurves& curves : rates) {
+    const double rate_bps = curves.modem().bit_rate_bps;
+    const bool own = &curves == &rates.front();
+    if (!own && rate_bps <= best) break;  // nor are those that follow better
     const acoustics::LinkPrediction predicted =
         predict_link(rule_.fading, paths, lock, transmitter.band(), to_power_ratio(noise).value, curves);
-    const bool own = &curves == &rates.front();
     if (own) {
       forecast.sinr_db = std::max(10 * std::log10(predicted.sinr), kSilence.value);
       if (impossible) break;
       forecast.acquisition_probability = predicted.acquisition_probability;
       forecast.delivery_probability = predicted.delivery_probability;
     }
-    const double rate_bps = curves.modem().bit_rate_bps;
     if (predicted.delivery_probability < kLeastDelivery || rate_bps * predicted.delivery_probability <= best)
       continue;
     best = rate_bps * predicted.delivery_probability;

@@ -38,7 +38,7 @@ class LinkPredictor {
     acoustics::FadingModel fading;
     std::vector<acoustics::Modem> profiles;  // known ones
   };
-  // Of one transmitter: its own curves first, then those of the family's other rates.
+  // Of one transmitter: its own curves first, then those of the family's other rates, the greatest first.
   using Rates = std::vector<acoustics::ReceptionCurves>;
 
   explicit LinkPredictor(Rule rule) : rule_(std::move(rule)) {}
