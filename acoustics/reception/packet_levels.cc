@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "acoustics/reception/decoding.h"
@@ -14,6 +15,7 @@ using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kDbPerNeper = 10 / std::numbers::ln10;
+constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
 
 double squared(double x) { return x * x; }
 
@@ -106,15 +108,19 @@ double PacketLevels::mean_db(const SlowSound& slow, double quiet) const {
 Level PacketLevels::interleaved(const SlowSound& slow, double noise) const {
   const double disturbed = noise + sound_.bits_echoes + sound_.untracked * slow.mean;
   const double scale = chip_ / disturbed, scattered = scale * sound_.scattered_power();
+  double least = std::numeric_limits<double>::infinity();  // exponent, taken out: loud cells underflow
+  for (std::size_t m = 0; m < kFrequencies; ++m) {
+    least = std::min(least, scale * slow.steady[m] / (1 + scale * slow.diffuse[m]));
+  }
   double mean = 0, all = 0, steady = 0;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     const double c = scale * slow.steady[m], d = scale * slow.diffuse[m];
-    const double one = std::exp(-c / (1 + d)) / (1 + d);
+    const double one = std::exp(least - c / (1 + d)) / (1 + d);
     mean += one / kFrequencies;
-    all += (std::exp(-2 * c / (1 + 2 * d)) / (1 + 2 * d) - one * one) / kFrequencies;
+    all += (std::exp(std::min(2 * least - 2 * c / (1 + 2 * d), kMaxExponent)) / (1 + 2 * d) - one * one) /
+           kFrequencies;
     steady += slow.steady[m] / kFrequencies;
   }
-  mean = std::max(mean, 1e-300);
   const double single = scattered > 0 ? squared(scattered) + 2 * scattered * scale * steady : 0;
   const double kept = sound_.bits_variance;
   const double of_mean =
@@ -122,7 +128,7 @@ Level PacketLevels::interleaved(const SlowSound& slow, double noise) const {
   // Deep fades, which count most, are shorter than the power's coherence, in time and in frequency.
   const double shorter = std::cbrt(squared((1 + 2 * scattered) / squared(1 + scattered)));
   const double v = std::log1p(all * of_mean * shorter / (mean * mean));
-  const double nepers = -std::log(mean) + v / 2;
+  const double nepers = least - std::log(mean) + v / 2;
   return {kDbPerNeper * std::log(std::max(nepers, 1e-12) / chip_), kDbPerNeper * std::sqrt(v) / nepers, 0};
 }
 
