@@ -1,6 +1,7 @@
 #include "channel_server/channel_server_config.h"
 
 #include <string_view>
+#include <utility>
 
 #include "channel_server/modems/modem_config.h"
 #include "core/check.h"

@@ -105,7 +105,7 @@ struct ServerRules {
   SeabedRule seabed;
   double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
   int threads = 1;                       // that compute link tables
-  int predicted_payload_bytes = 32;  // of the packets whose delivery link tables predict
+  int predicted_payload_bytes = 32;      // of the packets whose delivery link tables predict
 };
 
 struct ChannelServerConfig {

@@ -186,7 +186,8 @@ double PacketLevels::below_linear(double mean, double variance, double quiet, do
 double PacketLevels::again(double v, double least) const {
   if (!(v > 0)) return 0;
   const double x = std::min(least / (1 + v), 1.0);
-  return -std::expm1(-1.3 * crossings_ / std::sqrt(v * least) * (1 - x + std::sqrt(2 * v / pi)));
+  return std::min(8 * v, 1.0) *
+         -std::expm1(-1.3 * crossings_ / std::sqrt(v * least) * (1 - x + std::sqrt(2 * v / pi)));
 }
 
 // Errors of single bits, a exp(-slope ratio), on average over each frequency's Rician fading: they are far apart.

@@ -10,6 +10,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/links/echo_survey.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/packets/packet.h"

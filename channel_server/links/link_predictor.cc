@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/link_prediction.h"
 #include "acoustics/reception/signal_history.h"

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <list>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"

@@ -10,6 +10,7 @@
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/modem.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/propagation/propagation.h"
 #include "clients/halocline/arrivals/arrival_output.h"

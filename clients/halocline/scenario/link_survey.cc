@@ -12,6 +12,7 @@
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
+#include "acoustics/modem/modem.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/published_range.h"
 #include "bathymetry/ray_service.h"

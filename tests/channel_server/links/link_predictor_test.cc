@@ -2,11 +2,14 @@
 #include "channel_server/links/link_predictor.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/sound_path.h"
 #include "acoustics/reception/link_prediction.h"
 #include "acoustics/reception/signal_history.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
 namespace {

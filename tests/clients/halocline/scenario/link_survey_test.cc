@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/beam_pattern.h"
+#include "acoustics/modem/modem.h"
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/propagation.h"
