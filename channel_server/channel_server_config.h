@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/reverberation.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
@@ -73,8 +74,8 @@ struct PropagationConfig {
   std::string sediment = "MediumSand";  // of acoustics/sea/boundary_reflection.h; "custom": the three numbers
   double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
   std::string surface_loss_model = "apl-bubbles";
-  std::string solver = "auto";  // or images, snell, arcs
-  acoustics::RayOptions options{.max_bounces = 60};
+  std::string solver = "auto";                      // or images, snell, arcs
+  acoustics::RayOptions options{.max_bounces = 0};  // 0: by range over depth
   double min_amplitude_db = -160;
   double max_bounce_loss_db = 30;  // of all bounces of a path together
   double shadow_loss_db = 120;     // our choice; 0: none stated
@@ -82,6 +83,7 @@ struct PropagationConfig {
   bool coherent = false;
   acoustics::FadingModel fading{.enabled = true};
   ReplayConfig replay;
+  acoustics::Reverberation reverberation;
 };
 
 // One [[environment_change]]; what is not given stays as it was.

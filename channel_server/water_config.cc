@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/reverberation.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -108,6 +109,7 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
 const std::vector<std::string> kFading{"none", "sea"};
+const std::vector<std::string> kReverberation{"none", "lambert"};
 constexpr std::string_view kCustom = "custom", kAnySolver = "auto";
 
 std::vector<std::string> sediments() {
@@ -161,14 +163,28 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   }
 }
 
+void visit_reverberation(bus::ConfigVisitor& v, PropagationConfig& p) {
+  acoustics::Reverberation& r = p.reverberation;
+  bus::choice(v, "reverberation", r.enabled, kReverberation,
+              "rays: lambert: rough boundaries leave a tail behind every packet (docs/packets.md)");
+  v.number("bottom_scattering_db", r.bottom_scattering_db,
+           {-80, -5, "dB", "reverberation: of the bottom, by Lambert's law"});
+  v.number("surface_scattering_db", r.surface_scattering_db,
+           {-80, -5, "dB", "reverberation: of the surface, likewise"});
+  v.number("reverberation_bounce_loss_db", r.bounce_loss_db,
+           {0.01, 100, "dB", "reverberation: that the tail loses at each bounce off the bottom"});
+  if (r.enabled && !p.fading.enabled) v.problem("reverberation", "\"lambert\" needs fading = \"sea\"");
+}
+
 void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   bus::choice(v, "model", p.model, kPropagationModels,
               "rays where the bottom is known, or one straight path (the paper's)");
   visit_boundaries(v, p);
   v.text("solver", p.solver, {std::string(kAnySolver), "images", "snell", "arcs"},
          "rays: how paths are found, where that way can; auto: the simplest that is exact");
-  bus::integer_as(v, "max_bounces", p.options.max_bounces,
-                  {0, 10'000, "", "rays: surface and bottom together"});
+  bus::integer_as(
+      v, "max_bounces", p.options.max_bounces,
+      {0, 10'000, "", "rays: surface and bottom together; 0: 0.6 of range over depth, 60 at least"});
   bus::degrees(v, "max_launch_angle_deg", p.options.max_launch_angle_rad,
                {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
   v.number("min_amplitude_db", p.min_amplitude_db,
@@ -186,6 +202,7 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
   visit_fading(v, p);
+  visit_reverberation(v, p);
   v.boolean("coherent", p.coherent, "rays: add paths as phasors at the centre frequency, not their powers");
   visit_replay(v, p.replay);
 }
@@ -297,6 +314,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   require(surface.has_value(), "no model of the surface is called " + p.surface_loss_model);
   rays.surface = *surface;
   rays.options = p.options;
+  rays.bounces_follow_range = p.options.max_bounces == 0;
   rays.options.keep_steep_direct = true;
   rays.options.min_amplitude = std::pow(10.0, p.min_amplitude_db / 20);
   rays.options.min_boundary_factor = std::pow(10.0, -p.max_bounce_loss_db / 20);
@@ -309,6 +327,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   }
   if (p.shadow_loss_db > 0) rays.shadow_loss = Decibels{p.shadow_loss_db};
   rays.fading = p.fading;
+  rays.reverberation = p.reverberation;
   rays.coherent = p.coherent;
   return rays;
 }

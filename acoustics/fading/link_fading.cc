@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 using std::numbers::pi;
 constexpr std::size_t kSines = ComplexNoise::kSines;
 
-constexpr double kAngleScale = to_radians(2);  // within which paths cross the same water
+constexpr double kAngleScale = to_radians(4);  // so that paths within 2 degrees cross the same water
 // Weaker than this share of the mean power, a component of a path is left out of the sum of sines: 1e-5 dB.
 constexpr double kNegligible = 1e-6;
 

@@ -7,8 +7,8 @@
 //   g_s  scattered: complex noise of the path's own (acoustics/fading/complex_noise.h)
 //   g_m  medium: one field of the pair over time, delay and the angles at both ends. Paths close in all of them cross the
 //        same water and fade together: their correlation is exp(-|x - y|^2 / 2), x = (2 B (delay - mean delay), launch
-//        angle / 2 degrees, arrival angle / 2 degrees), B the bandwidth and the mean delay weighted by power (our choice
-//        of scales; smooth, so that no path changes its fading suddenly).
+//        angle / 4 degrees, arrival angle / 4 degrees), B the bandwidth and the mean delay weighted by power (our choice
+//        of scales: within 2 degrees the correlation is above 0.88; smooth, so that no path changes its fading suddenly).
 #pragma once
 
 #include <complex>

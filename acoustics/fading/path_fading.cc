@@ -1,5 +1,6 @@
 #include "acoustics/fading/path_fading.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,12 +17,6 @@ using std::numbers::sqrt2;
 
 constexpr double kGravity = 9.81;        // m/s2
 constexpr double kSoundSpeedMps = 1500;  // of the wave number, as in Eckart's loss
-
-// Sum of the squared Rayleigh parameters: (2 k sigma)^2 sum sin^2(theta_i).
-double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares) {
-  const double one = 2 * (2 * pi * frequency_hz / kSoundSpeedMps) * rms_height_m;
-  return one * one * sine_squares;
-}
 
 }  // namespace
 
@@ -43,17 +38,23 @@ double coherence_time_of(double doppler_spread_hz) {
 
 double mean_wave_frequency_radps(double wind_mps) { return 0.877 * kGravity / wind_mps / 0.71; }
 
+double rayleigh_squares(double rms_height_m, double frequency_hz, double sine_squares) {
+  const double one = 2 * (2 * pi * frequency_hz / kSoundSpeedMps) * rms_height_m;
+  return one * one * sine_squares;
+}
+
 PathFading path_fading(const FadingModel& model, double wind_mps, double frequency_hz,
-                       double surface_sine_squares, double bottom_sine_squares) {
+                       double surface_sine_squares, double bottom_sine_squares, double kept) {
   if (!model.enabled) return {};
   const double surface = rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares);
   const double bottom = rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares);
-  const double steady = std::exp(-surface - bottom);  // E
+  const double log_kept = std::log(kept);
+  const double steady = std::exp(std::min(-surface - bottom - log_kept, 0.0));  // E / kept
   const double rice = to_power_ratio(Decibels{model.rice_factor_db}).value;
   PathFading fading;
   fading.coherent = steady * rice / (1 + rice);
   fading.medium = steady / (1 + rice);
-  fading.scattered = -std::expm1(-surface - bottom);
+  fading.scattered = -std::expm1(std::min(-surface - bottom - log_kept, 0.0));
   const double waves_hz =
       surface > 0 ? mean_wave_frequency_radps(wind_mps) / (2 * pi) * std::sqrt(surface) : 0;
   fading.doppler_spread_hz = std::hypot(waves_hz, doppler_spread_of(model.medium_coherence_s));

@@ -5,12 +5,15 @@
 #include <map>
 
 #include "acoustics/fading/link_fading.h"
+#include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "acoustics/reception/guard_window.h"
+#include "acoustics/sea/bottom_profile.h"
 #include "channel_server/propagation/ray_cells.h"
+#include "channel_server/propagation/ray_limits.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -33,24 +36,6 @@ acoustics::Arrival backwards(acoustics::Arrival path) {
   return path;
 }
 
-// Of a path as it was found, from the link's lower end: the same for both directions. Each count takes its low bits.
-std::uint64_t number_of(const acoustics::PathIdentity& identity) {
-  std::uint64_t number = identity.launched_up ? 1 : 0;
-  for (const int count :
-       {identity.surface_bounces, identity.bottom_bounces, identity.upper_turns, identity.lower_turns}) {
-    number = number << 14 | (static_cast<std::uint64_t>(count) & 0x3FFF);
-  }
-  return number << 7 | (static_cast<std::uint64_t>(identity.branch) & 0x7F);
-}
-
-std::optional<acoustics::RaySolver> usable(std::optional<acoustics::RaySolver> wanted,
-                                           const acoustics::RaySea& sea, const acoustics::RayLink& link) {
-  using Solver = acoustics::RaySolver;
-  const Solver simplest = choose_solver(sea, link);
-  if (!wanted || *wanted == Solver::kArcs || simplest == Solver::kImages) return wanted;
-  return *wanted == Solver::kSnell && simplest == Solver::kSnell ? wanted : simplest;
-}
-
 }  // namespace
 
 RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
@@ -58,6 +43,7 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
     : waters_(std::move(waters)),
       seabed_(std::move(seabed)),
       model_(model),
+      trapped_share_(acoustics::trapped_share(model.bottom)),
       straight_(waters_, model.fading),
       ray_waters_(kMaxRayWaters),
       found_(kMaxFound),
@@ -65,6 +51,7 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
   validate(model.bottom);
   validate(model.options);
   validate(model.fading);
+  validate(model.reverberation);
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
   require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
@@ -221,12 +208,16 @@ RayPropagation::FoundPaths RayPropagation::search(const Task& task, const Seabed
   const PathQuery& q = task.query;
   acoustics::RayOptions options = model_.options;
   options.frequency_hz = q.frequency_hz;
-  const acoustics::RaySea sea{
-      *task.water, bottom_under(seabed, q.link, task.environment->sea_surface_z_m), model_.bottom,
-      acoustics::RaySurface{model_.surface, task.environment->noise.wind_mps}, options};
+  const acoustics::BottomProfile bottom = bottom_under(seabed, q.link, task.environment->sea_surface_z_m);
+  const double depth_m = mean_depth_m(bottom, q.link.range_m);
+  if (model_.bounces_follow_range) options.max_bounces = bounces_for(q.link.range_m, depth_m);
+  const acoustics::RaySea sea{*task.water, bottom, model_.bottom,
+                              acoustics::RaySurface{model_.surface, task.environment->noise.wind_mps},
+                              options};
   auto found = std::make_shared<Found>();
   found->given = q.given;
-  found->arrivals = arrivals(sea, q.link, usable(model_.solver, sea, q.link));
+  found->mean_depth_m = depth_m;
+  found->arrivals = arrivals(sea, q.link, usable_solver(model_.solver, sea, q.link));
   found->blocked = cuts_straight_line(sea.bottom_profile, q.link);
   return found;
 }
@@ -250,7 +241,8 @@ Reception RayPropagation::answer(const Task& task, const Found& found) const {
   Reception reception;
   reception.used = PropagationUsed::kRays;
   const acoustics::Arrivals arrivals = arrivals_at(task, found);
-  reception.paths = sound_paths(task, arrivals);
+  reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, trapped_share_},
+                                       sound_paths(task, arrivals));
   reception.delay_spread_s = delay_spread_s(reception.paths);
   if (!reception.paths.empty()) {
     set_open(task, arrivals, reception);
@@ -295,12 +287,18 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
     const double pressure = weighted_pressure(path, beams);
     if (!(pressure > 0)) continue;  // absorbed beyond what a double holds
     const Decibels level = from.modem->source_level + Decibels{20 * std::log10(pressure)};
+    const double frequency_hz = from.modem->centre_frequency_hz;
+    const double kept = kept_share(
+        model_.fading, task.environment->noise.wind_mps, frequency_hz, trapped_share_,
+        {path.surface_bounces, path.bottom_bounces, path.surface_sine_squares, path.bottom_sine_squares});
+    if (!(kept > 0)) continue;
     const acoustics::PathFading fading =
-        path_fading(model_.fading, task.environment->noise.wind_mps, from.modem->centre_frequency_hz,
-                    path.surface_sine_squares, path.bottom_sine_squares);
-    paths.push_back({path.delay_s, std::max(level, kSilence), doppler_factor(path, ends),
-                     path.launch_angle_rad, path.arrival_angle_rad, path.surface_bounces, path.bottom_bounces,
-                     path.phase_rad, number_of(arrival.identity), fading});
+        path_fading(model_.fading, task.environment->noise.wind_mps, frequency_hz, path.surface_sine_squares,
+                    path.bottom_sine_squares, kept);
+    paths.push_back({path.delay_s, std::max(level + to_decibels(PowerRatio{kept}), kSilence),
+                     doppler_factor(path, ends), path.launch_angle_rad, path.arrival_angle_rad,
+                     path.surface_bounces, path.bottom_bounces, path.phase_rad, number_of(arrival.identity),
+                     fading});
   }
   return paths;
 }

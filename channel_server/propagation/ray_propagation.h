@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/reverberation.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
@@ -57,11 +58,13 @@ struct RayModel {
   acoustics::FluidBottom bottom;
   acoustics::SurfaceModel surface = acoustics::SurfaceModel::kAplBubbles;
   acoustics::RayOptions options;               // its frequency is not used: the transmitter's is
+  bool bounces_follow_range = false;           // bounces_for() a link instead of options.max_bounces
   std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
   std::optional<Decibels>
       shadow_loss;        // transmission loss where no ray gets, or too little of it; empty: silence
   bool coherent = false;  // received level: sum of phasors at the centre frequency
   acoustics::FadingModel fading;
+  acoustics::Reverberation reverberation;
   double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
   double reuse_distance_m = 0;     // of ray_cells.h, 0..1000; 0: every link of a table is searched for itself
   double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
@@ -81,8 +84,8 @@ class RayPropagation : public Propagation {
   bool uses_bottom() const override { return true; }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
-  // The paths behind reception_over(), one for each of its own and in their order. Amplitudes are without the
-  // beams of the modems.
+  // The paths behind reception_over(), one for each of its own but those of reverberation, in their order. Amplitudes
+  // are without the beams of the modems.
   acoustics::Arrivals arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                     const std::shared_ptr<const SeabedProfile>& seabed);
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
@@ -109,7 +112,8 @@ class RayPropagation : public Propagation {
   struct Found {
     std::shared_ptr<const SeabedProfile> given;  // whose address is in the key
     acoustics::Arrivals arrivals;
-    bool blocked = false;  // the bottom cuts the straight line
+    double mean_depth_m = 0;  // between the ends
+    bool blocked = false;     // the bottom cuts the straight line
   };
   using FoundPaths = std::shared_ptr<const Found>;
   // A link, ready to be computed without touching the caches once its bottom is there.
@@ -151,6 +155,7 @@ class RayPropagation : public Propagation {
   std::shared_ptr<const EnvironmentTimeline> waters_;
   std::shared_ptr<SeabedMap> seabed_;
   RayModel model_;
+  double trapped_share_;
   StraightPropagation straight_;
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
       ray_waters_;

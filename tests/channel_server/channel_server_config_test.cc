@@ -270,6 +270,8 @@ TEST(ChannelServerConfig, RaysOverSandAreTheDefault) {
   EXPECT_FALSE(make_rays(config).solver);
   EXPECT_EQ(make_rays(config).shadow_loss->value, 120);
   EXPECT_TRUE(make_rays(config).fading.enabled);
+  EXPECT_FALSE(make_rays(config).reverberation.enabled);
+  EXPECT_TRUE(make_rays(config).bounces_follow_range);
 }
 
 TEST(ChannelServerConfig, ABottomIsGivenByNameOrByNumbers) {
@@ -288,6 +290,7 @@ TEST(ChannelServerConfig, WhatRaysLookForIsTaken) {
   EXPECT_EQ(rays.surface, acoustics::SurfaceModel::kEckart);
   EXPECT_EQ(rays.solver, acoustics::RaySolver::kArcs);
   EXPECT_EQ(rays.options.max_bounces, 12);
+  EXPECT_FALSE(rays.bounces_follow_range);
   EXPECT_DOUBLE_EQ(rays.options.max_launch_angle_rad, to_radians(60));
   EXPECT_DOUBLE_EQ(rays.options.min_amplitude, 1e-4);
   EXPECT_EQ(rays.shadow_loss->value, 110);
@@ -312,6 +315,12 @@ TEST(ChannelServerConfig, FadingIsTaken) {
                                             .large_scale_time_s = 60,
                                             .bottom_roughness_m = 0.1}));
   EXPECT_FALSE(make_rays(read("[propagation]\nfading = \"none\"")).fading.enabled);
+  EXPECT_EQ(make_rays(read("[propagation]\nreverberation = \"lambert\"\nbottom_scattering_db = -30\n"
+                           "surface_scattering_db = -35\nreverberation_bounce_loss_db = 2"))
+                .reverberation,
+            (acoustics::Reverberation{true, -30, -35, 2}));
+  EXPECT_THAT(errors_of("[propagation]\nfading = \"none\"\nreverberation = \"lambert\""),
+              HasSubstr("reverberation"));
 }
 
 TEST(ChannelServerConfig, AnUnknownSedimentIsRefusedWithLineKeyAndWhatIsAllowed) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/reverberation.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
@@ -127,8 +128,9 @@ LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& fr
   all.beams = {from.modem.modem.beam, to.modem.modem.beam};
   all.blocked = reception.state == channel_server::PathState::kBlocked;
   if (reception.used != channel_server::PropagationUsed::kRays) all.found_by = "straight";
-  for (const channel_server::SoundPath& path : reception.paths)
-    all.received.push_back({path.level.value, path.doppler_factor});
+  for (const channel_server::SoundPath& path : reception.paths) {
+    if (!is_reverberation(path)) all.received.push_back({path.level.value, path.doppler_factor});
+  }
   return all;
 }
 

@@ -148,7 +148,7 @@ TEST(LinkFading, AValueDoesNotDependOnTheStepItIsReachedBy) {
 
 // Mean over links of the product of two paths' medium against its Gaussian of the distance.
 TEST(LinkFading, PathsThroughTheSameWaterShareTheMedium) {
-  const double apart_rad = to_radians(2);
+  const double apart_rad = to_radians(4);
   SoundPath one = path_of(0, {0, 1, 0, 0.01}), other = one;
   other.arrival_angle_rad = apart_rad;
   std::complex<double> product = 0;

@@ -1,0 +1,60 @@
+#include "acoustics/fading/scattering_loss.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kSoundSpeedMps = 1500;
+
+// Integral over slopes a above `from` of (tangent + a) times the normal density of deviation `slope`.
+double facing(double tangent, double slope, double from) {
+  const double x = from / slope;
+  return tangent * std::erfc(x / std::numbers::sqrt2) / 2 +
+         slope * std::exp(-x * x / 2) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+}
+
+// What is left of the power after bounces of Gamma^2 in all, of which each loses `share` of what it scatters.
+double kept_of_bounces(int count, double rayleigh_squares, double share) {
+  return count == 0 ? 1 : std::pow(1 + share * std::expm1(-rayleigh_squares / count), count);
+}
+
+double kept_at_surface(double wind_mps, double frequency_hz, double trapped_share,
+                       const RoughBounces& bounces) {
+  const int count = std::min(bounces.surface_count, bounces.bottom_count);
+  if (count == 0 || !(wind_mps > 0)) return 1;
+  const double mean_square = bounces.surface_sine_squares / bounces.surface_count;
+  if (!(mean_square < trapped_share)) return 1;
+  const double lost =
+      steepened_share(wind_mps, std::sqrt(mean_square), trapped_share) * (1 - mean_square / trapped_share);
+  return kept_of_bounces(
+      count, rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, count * mean_square), lost);
+}
+
+}  // namespace
+
+double trapped_share(const FluidBottom& bottom) {
+  const double ratio =
+      bottom.sound_speed_ratio > 0 ? bottom.sound_speed_ratio : bottom.sound_speed_mps / kSoundSpeedMps;
+  return ratio > 1 ? 1 - 1 / (ratio * ratio) : 0;
+}
+
+double steepened_share(double wind_mps, double sine, double trapped_share) {
+  const double slope = std::sqrt((0.003 + 5.12e-3 * wind_mps) / 2);
+  const double grazing = std::asin(std::clamp(sine, 1e-9, 1.0)),
+               critical = std::asin(std::sqrt(trapped_share));
+  const double tangent = std::tan(grazing), steep = std::tan((critical - grazing) / 2);
+  return facing(tangent, slope, std::max(steep, -tangent)) / facing(tangent, slope, -tangent);
+}
+
+double kept_share(const FadingModel& model, double wind_mps, double frequency_hz, double trapped_share,
+                  const RoughBounces& bounces) {
+  if (!model.enabled) return 1;
+  const double bottom = rayleigh_squares(model.bottom_roughness_m, frequency_hz, bounces.bottom_sine_squares);
+  return kept_of_bounces(bounces.bottom_count, bottom, 1 - trapped_share) *
+         kept_at_surface(wind_mps, frequency_hz, trapped_share, bounces);
+}
+
+}  // namespace halocline::acoustics
