@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "acoustics/reception/steady_band.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -14,6 +15,7 @@ using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kNegligible = 1e-12;  // of the power: of no effect
+constexpr double kIncoherent = 1e-6;   // of the power of a path
 
 double squared(double x) { return x * x; }
 
@@ -81,6 +83,7 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
   const double kept = doppler_share(*lock.modem, strongest, band.centre_hz());
   const double preamble_s = timing.preamble.seconds(), end_s = timing.duration.seconds();
   MeanSound sound;
+  SteadyBand steady(*lock.modem, band);
   double signal = 0, untracked = 0, squares = 0, products = 0, untracked_squares = 0, spread = 0,
          preamble_root = 0, bits_root = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
@@ -100,9 +103,10 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     untracked_squares += rest * rest;
     const double excess_s = path.delay_s - strongest.delay_s;
     const Complex turn = std::polar(1.0, -2 * pi * std::fmod(spacing_hz * excess_s, 1.0));
-    const double cycles = std::fmod((band.low_hz + spacing_hz / 2) * excess_s, 1.0);
-    Complex pressure =
-        std::polar(std::sqrt(of_path * path.fading.coherent), path.phase_rad - 2 * pi * cycles);
+    const double coherent = std::sqrt(of_path * path.fading.coherent);
+    const double at_low = path.phase_rad - 2 * pi * std::fmod(band.low_hz * excess_s, 1.0);
+    if (path.fading.coherent > kIncoherent) steady.add(coherent, at_low, excess_s);
+    Complex pressure = std::polar(coherent, at_low - pi * std::fmod(spacing_hz * excess_s, 2.0));
     for (Complex& sum : sound.steady) {
       sum += pressure;
       pressure *= turn;
@@ -116,6 +120,12 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     spread += scattered * squared(path.fading.doppler_spread_hz);
     preamble_root += scattered * std::sqrt(kept_variance(rate * preamble_s));
     bits_root += scattered * std::sqrt(kept_variance(rate * (end_s - preamble_s)));
+  }
+  const auto parts = steady.parts();
+  for (std::size_t m = 0; m < kFrequencies; ++m) {
+    const double middle = std::abs(sound.steady[m]);
+    sound.steady[m] *= middle > 0 ? std::sqrt(parts[m].constant) / middle : 0;
+    sound.varying[m] = parts[m].varying;
   }
   if (untracked > kNegligible * signal) {
     sound.untracked = untracked / signal;
@@ -137,7 +147,7 @@ SlowSound slow_sound(const MeanSound& sound, const BandPressures& direction, Com
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     steady[m] = sound.steady[m] + state * direction[m];
     slow.steady[m] = std::norm(steady[m]);
-    slow.diffuse[m] = std::max(medium - std::norm(direction[m]), 0.0) + scattered;
+    slow.diffuse[m] = std::max(medium - std::norm(direction[m]), 0.0) + scattered + sound.varying[m];
     slow.mean += (slow.steady[m] + slow.diffuse[m]) / kFrequencies;
   }
   slow.own = mean_square(sound.scattered);

@@ -20,7 +20,8 @@ using BandPressures = std::array<std::complex<double>, kSignalFrequencies>;
 using BandCorrelation = std::array<std::complex<double>, kSignalFrequencies>;
 
 struct MeanSound {
-  BandPressures steady{};       // A_m
+  BandPressures steady{};  // A_m, constant within its part of the band (steady_band.h)
+  std::array<double, kSignalFrequencies> varying{};  // power of coherent paths that varies within each part
   BandCorrelation medium{};     // of what the medium turns, and of what is scattered so slowly that it holds
   BandCorrelation scattered{};  // of what fades within a packet
   double spread_hz = 0;         // rms, of the latter
