@@ -5,7 +5,7 @@
 // of cubic B-splines (de Boor 1978, A Practical Guide to Splines, ch. XII) with the coefficients
 // c_i = (8 f_i - f_(i-1) - f_(i+1)) / 6: slope and curvature are continuous, and polynomials up to cubics exact. Where
 // one of the 36 points in reach is unknown it is bilinear between the known ones of the nearest four.
-// The bottom under a link is sampled from its first end on, samples_per_point times in `spacing_m` (1024 times between
+// The bottom under a link is sampled from its first end on, samples_per_point times in `spacing_m` (512 times between
 // the ends where that makes more: beyond 6.4 km by default), from kBeyond samples before the first end to as many
 // beyond the other. So it is a function of the two ends and the terrain, whatever was queried before, and
 // continuous in both ends: it changes where an end moves, by as much as the seabed differs there. Past the edge of the
@@ -37,8 +37,8 @@ namespace halocline::channel_server {
 
 struct SeabedRule {
   double spacing_m = 25;      // of the lattice, 1..1000
-  int samples_per_point = 4;  // of a profile in a spacing, 1..16
-  int max_samples = 1024;     // of it between the ends, 16..4096
+  int samples_per_point = 2;  // of a profile in a spacing, 1..16
+  int max_samples = 512;      // of it between the ends, 16..4096
 };
 
 // 8 x 8 points of the lattice; tile (0, 0) begins in the world's origin and goes north and east.

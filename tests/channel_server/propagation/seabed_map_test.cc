@@ -53,15 +53,15 @@ TEST_F(SeabedMapTest, LevelGroundStaysLevelToTheLastBit) {
 
 TEST_F(SeabedMapTest, SamplesLieASpacingApartAndGoOnBeyondBothEnds) {
   const SeabedProfile profile = surveyed({0, 0, 20}, {1010, 0, 50}, slope);
-  EXPECT_EQ(profile.first_m, -18.75);
-  EXPECT_EQ(profile.spacing_m, 6.25);
-  EXPECT_EQ(profile.z_m.size(), 3u + 163u + 3u);
+  EXPECT_EQ(profile.first_m, -37.5);
+  EXPECT_EQ(profile.spacing_m, 12.5);
+  EXPECT_EQ(profile.z_m.size(), 3u + 82u + 3u);
 }
 
 TEST_F(SeabedMapTest, BeyondItsMostSamplesTheyLieFurtherApart) {
   const SeabedProfile profile = surveyed({0, 0, 20}, {12'800, 0, 50}, slope);
-  EXPECT_EQ(profile.spacing_m, 12.5);
-  EXPECT_EQ(profile.z_m.size(), 3u + 1025u + 3u);
+  EXPECT_EQ(profile.spacing_m, 25);
+  EXPECT_EQ(profile.z_m.size(), 3u + 513u + 3u);
 }
 
 // Wherever the ends are, and whichever sample comes or goes: a seabed of at most 6 in 100 changes by no more than that
