@@ -90,7 +90,7 @@ bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoin
   std::size_t i = s.facet;
   if (slope > 0) {  // before it is as deep as the shallowest bottom there is nothing to meet
     const double reach = std::min(s.r + (profile.shallowest_m() - margin - s.z) / slope, end);
-    while (facets[i].r1 < reach) ++i;
+    i = profile.facet_from(i, reach);
   }
   while (i < facets.size() && facets[i].r0 <= end) {
     if (i % BottomProfile::kBlock == 0) {

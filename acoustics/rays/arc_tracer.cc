@@ -224,7 +224,7 @@ bool ArcTracer::go_to_bottom(State& s, const ArcHit& hit, TracedRay& ray, Traced
 bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, TracedDetails* details) const {
   if (step.turns) note_turn(step.down, s.layer, ray);
   go(s, step.dr, step.z, step.sine, ray, details);
-  while (sea_.profile.facets()[s.facet].r1 < s.r) ++s.facet;
+  s.facet = sea_.profile.facet_from(s.facet, s.r);
   if (step.turns) return true;
   if (!step.down && s.layer == 0) return meet_surface(s, ray, details);
   cross_knot(s, step.down);

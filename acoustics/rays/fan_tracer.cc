@@ -135,7 +135,7 @@ bool FanTracer::meet_surface(State& s, double sine) {
 
 bool FanTracer::go_to_knot(State& s, const ArcStep& step) {
   go(s, step.dr, step.z, step.sine);
-  while (profile_.facets()[s.facet].r1 < s.r) ++s.facet;
+  s.facet = profile_.facet_from(s.facet, s.r);
   if (step.turns) {
     note_turn(step.down);
     return true;
@@ -148,7 +148,7 @@ void FanTracer::stand_at_knot(State& s, std::size_t knot, bool down) const {
   s.z = water_.depths_m()[knot];
   s.c = water_.speeds_mps()[knot];
   s.sine = down ? column_.sine_at(knot) : -column_.sine_at(knot);
-  while (profile_.facets()[s.facet].r1 < s.r) ++s.facet;
+  s.facet = profile_.facet_from(s.facet, s.r);
 }
 
 // A ray that rises more steeply than the bottom does anywhere leaves it behind; within a layer its sine lies between
@@ -209,8 +209,9 @@ bool FanTracer::run_through_layers(State& s, std::size_t knot) {
   return true;
 }
 
-void FanTracer::trace_from(State& s, FanRay& ray) {
+void FanTracer::trace_from(State& s, std::size_t enough_events, FanRay& ray) {
   for (int steps = 0; steps < kMaxSteps; ++steps) {
+    if (events_.size() - ray.first_event >= enough_events) return;
     if (s.hits) {
       if (!go_to_bottom(s, s.hit)) return;
       continue;
@@ -232,10 +233,10 @@ void FanTracer::trace_from(State& s, FanRay& ray) {
   }
 }
 
-FanRay FanTracer::trace(double theta) {
+FanRay FanTracer::trace(double theta, std::size_t enough_events) {
   FanRay ray{.theta = theta, .first_event = events_.size()};
   State s = start(theta);
-  trace_from(s, ray);
+  trace_from(s, enough_events, ray);
   ray.events = events_.size() - ray.first_event;
   return ray;
 }

@@ -9,6 +9,8 @@
 // Keeps a column and the rays' events between calls: one for each search, not shared between threads.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -33,8 +35,9 @@ class FanTracer {
   // Refers to the tracer, which has to outlive this.
   explicit FanTracer(const ArcTracer& exact);
 
-  // Traces the ray of `theta` to the receiver's range.
-  FanRay trace(double theta);
+  static constexpr std::size_t kAllEvents = std::numeric_limits<std::size_t>::max();
+  // Traces the ray of `theta` to the receiver's range, or until it has `enough_events`; then it has not arrived.
+  FanRay trace(double theta, std::size_t enough_events = kAllEvents);
   // The events of a ray of this tracer, in order.
   std::span<const EventCode> events_of(const FanRay& ray) const {
     return std::span(events_).subspan(ray.first_event, ray.events);
@@ -46,7 +49,7 @@ class FanTracer {
  private:
   struct State;
   State start(double theta) const;
-  void trace_from(State& s, FanRay& ray);
+  void trace_from(State& s, std::size_t enough_events, FanRay& ray);
   void go(State& s, double dr, double z, double sine) const;
   void go_part(State& s, double dr);
   [[nodiscard]] bool go_to_bottom(State& s, ArcHit hit);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -32,6 +33,10 @@ constexpr double kDepthTolerance = 1e-4;     // m before the last step of Newton
 constexpr double kLastStepTolerance = 1e-5;  // m after it, as foreseen
 constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from where it turns
 constexpr double kFoldZone = 0.01;  // of the water depth: further from all images a turn need not be exact
+// A cubic between two rays, whose error was found at one of them, errs between them by no more than this many times that;
+// besides, a share of what it spans.
+constexpr double kErrorReach = 2, kSpanReach = 0.25;
+constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 constexpr int kMaxTurnSteps = 40;
 constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of endless detail
 
@@ -45,13 +50,13 @@ class Search {
   std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
 
  private:
-  FanRay traced(double theta);
+  FanRay traced(double theta, std::size_t enough_events = FanTracer::kAllEvents);
   std::optional<std::size_t> parting(const FanRay& a, const FanRay& b) const;
   bool shares_event(const FanRay& ray, const FanRay& other, std::size_t event) const;
   bool meets_bottom_at(const FanRay& ray, std::size_t event) const;
-  // All rays between two; what is traced for it is forgotten.
-  void scan(const FanRay& a, const FanRay& b, int depth);
-  void look_between(const FanRay& a, const FanRay& b, int depth);
+  // All rays between two; what is traced for it is forgotten. `error`: of a cubic, at one of the two.
+  void scan(const FanRay& a, const FanRay& b, int depth, double error = kUnknownError);
+  void look_between(const FanRay& a, const FanRay& b, int depth, double error);
   void part(const FanRay& a, const FanRay& b, std::size_t event, int depth);
   // From a ray to one at the edge of its family. Rays that all but graze the bottom there change the faster the
   // less they bounce: they are looked at in steps that shrink towards the edge.
@@ -62,7 +67,14 @@ class Search {
   void polish(const FanRay& a, const FanRay& b, double target);
   void seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
   double off_nearest_image(double zeta) const;
-  bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const;
+  bool passes_image(double low, double high) const;
+  // How far a cubic through two rays is off where one between them arrives; infinite where their histories differ.
+  double error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const;
+  // Whether it is no more than a share of the tolerance.
+  bool is_predicted(double error, const FanRay& a, const FanRay& b, double share) const {
+    return error <= share * (kCubicTolerance * depth_ + 0.01 * std::abs(b.zeta - a.zeta));
+  }
+  bool may_pass_image(const FanRay& a, const FanRay& b, double error) const;
 
   const ArcTracer& tracer_;
   FanTracer fan_;
@@ -101,9 +113,9 @@ bool Search::meets_bottom_at(const FanRay& ray, std::size_t event) const {
   return fan_.events_of(ray)[event].event == RayEvent::kBottom;
 }
 
-FanRay Search::traced(double theta) {
+FanRay Search::traced(double theta, std::size_t enough_events) {
   ++traces_;
-  return fan_.trace(theta);
+  return fan_.trace(theta, enough_events);
 }
 
 std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_edge) {
@@ -112,8 +124,9 @@ std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_
   for (const double theta : angles) fan.push_back(traced(theta));
   std::vector<bool> predicted;  // by the rays on both sides
   for (std::size_t i = 0; i < fan.size(); ++i) {
-    predicted.push_back(i > 0 && i + 1 < fan.size() &&
-                        is_predicted(fan[i - 1], fan[i], fan[i + 1], kShareBeforehand));
+    predicted.push_back(
+        i > 0 && i + 1 < fan.size() &&
+        is_predicted(error_at(fan[i - 1], fan[i], fan[i + 1]), fan[i - 1], fan[i + 1], kShareBeforehand));
   }
   for (std::size_t i = 1; i < fan.size(); ++i) {
     if (fan[i - 1].theta < 0 && fan[i].theta > 0 && fan[i].theta <= core_edge) continue;
@@ -127,21 +140,29 @@ std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_
   return std::move(paths_);
 }
 
-// Whether a cubic through two rays predicts where one between them arrives, to a share of the tolerance.
-bool Search::is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b, double share) const {
-  if (!(a.arrived && b.arrived && middle.arrived) || parting(a, middle) || parting(middle, b)) return false;
+double Search::error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const {
+  if (!(a.arrived && b.arrived && middle.arrived) || parting(a, middle) || parting(middle, b)) {
+    return kUnknownError;
+  }
   const double width = b.theta - a.theta, t = (middle.theta - a.theta) / width;
-  const double error = cubic_of(a, b).error_at(t, middle.zeta, middle.zeta_slope, width);
-  return error <= share * (kCubicTolerance * depth_ + 0.01 * std::abs(b.zeta - a.zeta));
+  return cubic_of(a, b).error_at(t, middle.zeta, middle.zeta_slope, width);
 }
 
-void Search::scan(const FanRay& a, const FanRay& b, int depth) {
+// Whether there may be an image between where two rays of one history arrive.
+bool Search::may_pass_image(const FanRay& a, const FanRay& b, double error) const {
+  const double steepest = std::max(std::abs(a.zeta_slope), std::abs(b.zeta_slope));
+  const double span = std::abs(b.zeta - a.zeta) + steepest * (b.theta - a.theta);
+  const double beyond = kErrorReach * error + kSpanReach * span;
+  return passes_image(std::min(a.zeta, b.zeta) - beyond, std::max(a.zeta, b.zeta) + beyond);
+}
+
+void Search::scan(const FanRay& a, const FanRay& b, int depth, double error) {
   const std::size_t before = fan_.kept_events();
-  look_between(a, b, depth);
+  look_between(a, b, depth, error);
   fan_.forget_since(before);
 }
 
-void Search::look_between(const FanRay& a, const FanRay& b, int depth) {
+void Search::look_between(const FanRay& a, const FanRay& b, int depth, double error) {
   if (b.theta - a.theta < 4 * kMinParting || traces_ > kMaxTraces) return;
   const bool both = a.arrived && b.arrived, neither = !a.arrived && !b.arrived;
   const auto event = parting(a, b);
@@ -156,27 +177,31 @@ void Search::look_between(const FanRay& a, const FanRay& b, int depth) {
       return;
     }
     if (event) return part(a, b, *event, depth);
+    if (both && !may_pass_image(a, b, error)) return;
     if (depth >= (both ? kDeepestHalving : kDeepestEdgeHalving)) {
       if (both) solve(a, b);
       return;
     }
   }
   const FanRay middle = traced(0.5 * (a.theta + b.theta));
-  if (is_predicted(a, middle, b, 1)) {
+  const double found_error = error_at(a, middle, b);
+  if (is_predicted(found_error, a, b, 1)) {
     solve(a, middle);
     solve(middle, b);
   } else {
-    scan(a, middle, depth + 1);
-    scan(middle, b, depth + 1);
+    scan(a, middle, depth + 1, found_error);
+    scan(middle, b, depth + 1, found_error);
   }
 }
 
 void Search::part(const FanRay& a, const FanRay& b, std::size_t event, int depth) {
   FanRay low = a, high = b;
   while (high.theta - low.theta > kMinParting && traces_ <= kMaxTraces) {
-    FanRay middle = traced(0.5 * (low.theta + high.theta));
+    FanRay middle = traced(0.5 * (low.theta + high.theta), event + 1);
     std::swap(shares_event(middle, a, event) ? low : high, middle);
   }
+  low = traced(low.theta);  // all the way
+  high = traced(high.theta);
   const bool bounce_below = meets_bottom_at(a, event), bounce_above = meets_bottom_at(b, event);
   depth = std::max(0, depth - 4);
   scan_to_edge(a, low, bounce_below && !bounce_above, depth);
@@ -206,6 +231,12 @@ void Search::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, 
 double Search::off_nearest_image(double zeta) const {
   const double period = 2 * depth_, z = tracer_.receiver_depth_m();
   return std::min(std::abs(std::remainder(zeta - z, period)), std::abs(std::remainder(zeta + z, period)));
+}
+
+bool Search::passes_image(double low, double high) const {
+  const double period = 2 * depth_, z = tracer_.receiver_depth_m();
+  return std::ceil((low - z) / period) * period + z <= high ||
+         std::ceil((low + z) / period) * period - z <= high;
 }
 
 void Search::solve(const FanRay& a, const FanRay& b) {

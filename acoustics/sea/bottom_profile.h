@@ -57,6 +57,12 @@ class BottomProfile {
   const std::vector<ProfiledDepth>& points() const { return points_; }
   const std::vector<Facet>& facets() const { return facets_; }
   std::size_t facet_at(double range_m) const;
+  // The same, at facet `from` or after; of two that meet there, the first.
+  std::size_t facet_from(std::size_t from, double range_m) const {
+    while (from + kBlock < facets_.size() && facets_[from + kBlock].r0 < range_m) from += kBlock;
+    while (facets_[from].r1 < range_m) ++from;
+    return from;
+  }
   double shallowest_m() const { return shallowest_; }
   double deepest_m() const { return deepest_; }
   // Shallowest of the facets [kBlock block, kBlock (block + 1)), m.
