@@ -78,6 +78,19 @@ acoustics::FadingLink fading_link(const Flight& flight, std::uint64_t seed) {
           static_cast<std::uint32_t>(std::max(from, to)), from > to};
 }
 
+// When the receiver is looked for: until there is a reception, as long after the departure as sound takes along the
+// straight line to where the receiver is then.
+SimTime expected_arrival(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                         Propagation& propagation) {
+  if (flight.propagation_calls > 0) return flight.arrival();
+  const SimTime departure = flight.packet->departure;
+  const auto place = fleet.prediction(flight.receiver_id, departure, decided_at);
+  if (!place) return flight.arrival();
+  const Vec3& from = flight.packet->departure_ned_m;
+  const double speed_mps = sound_speed_at(propagation.environment(departure), from);
+  return departure + SimDuration::from_seconds((place->position_ned_m - from).norm() / speed_mps);
+}
+
 }  // namespace
 
 SimTime Flight::first_sound() const {
@@ -96,9 +109,10 @@ double Flight::doppler_factor() const {
 void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                    Propagation& propagation) {
   ++flight.solutions;
-  const auto predicted = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
+  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
+  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
   if (!predicted) return;
-  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, flight.arrival()).modem;
+  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, expected).modem;
   if (!serves(flight, *predicted, modem)) evaluate(flight, *predicted, modem, propagation);
   const Vec3 slowness = slowness_at(flight, propagation);
   for (int round = 0; round < kMaxRounds; ++round) {
@@ -113,9 +127,10 @@ void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fl
 
 bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                  Propagation& propagation) {
-  const auto predicted = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
+  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
+  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
   if (!predicted) return true;
-  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, flight.arrival()).modem;
+  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, expected).modem;
   return serves(flight, *predicted, modem) ||
          propagation.is_ready(
              flight.packet->departure, flight.packet->link_end(),

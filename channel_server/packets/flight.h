@@ -2,14 +2,14 @@
 //
 // Model. The first significant path arrives at the t that solves
 //     t = s + delay(sender at s, receiver at t).
-// The propagation is evaluated at the receiver's predicted position; from there the delay to a position nearby is
-// taken to first order, delay + (direction of arrival / sound speed) . (displacement), and t found by fixed
-// point (a contraction: the error falls by v/c, 1e-3 for a submarine, each round). When the sound is about to
-// arrive, the propagation is evaluated again where it will meet the receiver, so that second-order terms
-// (displacement^2 / (2 range c)) are those of the 0.1 m within which a reception is reused: below a nanosecond
-// beyond 2 km.
+// The propagation is evaluated where the receiver is predicted to be after the straight line's travel time; from there
+// the delay to a position nearby is taken to first order, delay + (direction of arrival / sound speed) .
+// (displacement), and t found by fixed point (a contraction: the error falls by v/c, 1e-3 for a submarine, each round).
+// When the sound is about to arrive more than 0.1 m from there, the propagation is evaluated again where it will meet
+// the receiver, so that second-order terms (displacement^2 / (2 range c)) are those of the 0.1 m within which a
+// reception is reused: below a nanosecond beyond 2 km.
 //
-// Evaluations of the propagation: one for a receiver at rest, two for one that keeps its course, three at most for
+// Evaluations of the propagation: one for a receiver at rest or on a straight course, three at most for
 // one that turns. All paths of a flight hold for the one place of its first significant path.
 #pragma once
 
