@@ -19,6 +19,9 @@ constexpr double kIncoherent = 1e-6;   // of the power of a path
 
 double squared(double x) { return x * x; }
 
+// sin(pi x) / (pi x).
+double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(pi * x) / (pi * x); }
+
 void add_to(BandCorrelation& correlation, double power, Complex turn) {
   Complex term = power;
   for (Complex& value : correlation) {
@@ -117,6 +120,7 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     const double scattered = of_path * path.fading.scattered * (1 - holds);
     add_to(sound.medium, of_path * (path.fading.medium + path.fading.scattered * holds), turn);
     add_to(sound.scattered, scattered, turn);
+    add_to(sound.beating, scattered * squared(sinc(spacing_hz * excess_s)), turn);
     spread += scattered * squared(path.fading.doppler_spread_hz);
     preamble_root += scattered * std::sqrt(kept_variance(rate * preamble_s));
     bits_root += scattered * std::sqrt(kept_variance(rate * (end_s - preamble_s)));
@@ -151,7 +155,7 @@ SlowSound slow_sound(const MeanSound& sound, const BandPressures& direction, Com
     slow.mean += (slow.steady[m] + slow.diffuse[m]) / kFrequencies;
   }
   slow.own = mean_square(sound.scattered);
-  slow.mixed = scattered > 0 ? 2 * mean_product(steady, times(sound.scattered, steady)) : 0;
+  slow.mixed = scattered > 0 ? 2 * mean_product(steady, times(sound.beating, steady)) : 0;
   if (scattered > 0) slow.constant = std::max(slow.mean - scattered - slow.mixed / (2 * scattered), 0.0);
   return slow;
 }

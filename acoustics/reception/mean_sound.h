@@ -24,7 +24,9 @@ struct MeanSound {
   std::array<double, kSignalFrequencies> varying{};  // power of coherent paths that varies within each part
   BandCorrelation medium{};     // of what the medium turns, and of what is scattered so slowly that it holds
   BandCorrelation scattered{};  // of what fades within a packet
-  double spread_hz = 0;         // rms, of the latter
+  // Of that what beats with A_m: its mean over a part, the less the later or earlier than the strongest path it arrives.
+  BandCorrelation beating{};
+  double spread_hz = 0;                             // rms, of the latter
   double preamble_variance = 1, bits_variance = 1;  // shares of its variance that its mean over them keeps
   // Interference by what the receiver does not track, in units of the signal; its covariance with the signal and its
   // variance, relative to the signal's.
