@@ -24,8 +24,8 @@ class LruCache {
   explicit LruCache(std::size_t capacity) : capacity_(capacity) {
     require(capacity > 0, "a cache has room for at least one entry");
   }
-  LruCache(LruCache&&) = default;
-  LruCache& operator=(LruCache&&) = default;
+  LruCache(LruCache&&) noexcept = default;
+  LruCache& operator=(LruCache&&) noexcept = default;
 
   // The value of `key`, null when there is none. Valid until its entry is replaced, evicted or cleared.
   Value* find(const Key& key) {

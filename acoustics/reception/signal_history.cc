@@ -86,7 +86,6 @@ class HistoryMaker {
         begin_(begin),
         timing_(timing),
         collects_band_(!is_frequency_shift_keying(lock.modem->error_model)),
-        doppler_share_(doppler_share(*lock.modem, paths[lock.window.strongest], band.centre_hz())),
         sums_over_band_(paths, lock, band, kFrequencies) {
     history_.frequencies = collects_band_ ? 1 : kFrequencies;
     for (const SoundPath& path : paths) {
@@ -122,14 +121,14 @@ class HistoryMaker {
       const double turned = band_.centre_hz() * (paths_[p].doppler_factor - strongest.doppler_factor) * at_s;
       sums_over_band_.add(p, h * std::polar(std::sqrt(tracked_[p]), 2 * pi * turned), sums);
     }
-    double mean = 0;
-    for (const Complex& sum : sums) mean += std::norm(sum) / kFrequencies;
     if (collects_band_) {
-      history_.signal.push_back(doppler_share_ * mean);
+      double mean = 0;
+      for (const Complex& sum : sums) mean += std::norm(sum) / kFrequencies;
+      history_.signal.push_back(mean);
     } else {
-      for (const Complex& sum : sums) history_.signal.push_back(doppler_share_ * std::norm(sum));
+      for (const Complex& sum : sums) history_.signal.push_back(std::norm(sum));
     }
-    history_.echoes.push_back(echoes + (1 - doppler_share_) * mean);
+    history_.echoes.push_back(echoes);
   }
 
   const PathResponses& fading_;
@@ -140,7 +139,6 @@ class HistoryMaker {
   SimTime begin_;
   ReceivedTiming timing_;
   bool collects_band_;
-  double doppler_share_;
   BandSum sums_over_band_;
   std::vector<double> tracked_;  // share of each path's power that the receiver follows
   SignalHistory history_;
@@ -203,14 +201,28 @@ SignalHistory signal_history(const PathResponses& fading, double large_scale,
   return maker.take();
 }
 
+SignalHistory shifted_history(SignalHistory history, double share) {
+  for (std::size_t i = 0; i < history.stretches(); ++i) {
+    history.echoes[i] += (1 - share) * history.mean_signal(i);
+  }
+  for (double& power : history.signal) power *= share;
+  return history;
+}
+
 SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& lock,
                             const ReceivedTiming& timing) {
   const SoundPath &first = paths[lock.window.first], &strongest = paths[lock.window.strongest];
   SignalHistory history;
   history.edges_s = {0, timing.preamble_s, timing.duration_s};
+  struct Echo {
+    Sounding when;
+    double power;
+  };
+  std::vector<Echo> own_echoes;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     if (!(lock.window.interference[p] > 0)) continue;
     const Sounding when = sounding(paths[p], first, strongest, timing.duration_s);
+    own_echoes.push_back({when, lock.window.interference[p] * to_power_ratio(paths[p].level).value});
     for (const double edge : {when.begin_s, when.end_s}) {
       if (edge > 0 && edge < timing.duration_s) history.edges_s.push_back(edge);
     }
@@ -220,10 +232,8 @@ SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& loc
   const double signal = mean_signal(paths, lock.window);
   for (std::size_t i = 0; i + 1 < history.edges_s.size(); ++i) {
     double echoes = 0;
-    for (std::size_t p = 0; p < paths.size(); ++p) {
-      const Sounding when = sounding(paths[p], first, strongest, timing.duration_s);
-      echoes += lock.window.interference[p] * to_power_ratio(paths[p].level).value *
-                share_within(when, history.edges_s[i], history.edges_s[i + 1]);
+    for (const Echo& echo : own_echoes) {
+      echoes += echo.power * share_within(echo.when, history.edges_s[i], history.edges_s[i + 1]);
     }
     history.signal.push_back(signal);
     history.echoes.push_back(echoes);

@@ -10,6 +10,7 @@
 // band, so S is the mean over the frequencies. Elsewhere rho = 1.
 // A Doppler shift beyond what the receiver corrects leaves e = (|D - 1| - correction) f_c: frequency-shift keying loses
 // 1 - sinc^2(e T_chip) of the signal to the next tone, phase-shift keying 1 - exp(-(2 pi e 0.01 s)^2 / 2) (our choice).
+// signal_history() is as if all were corrected; shifted_history() has the loss.
 // Without fading nothing varies but which echoes sound: powers of paths add, S = sum w^2 P, at no frequency in particular.
 #pragma once
 
@@ -60,6 +61,8 @@ SignalHistory signal_history(const PathResponses& fading, double large_scale,
 SignalHistory signal_history(const FadingModel& model, const FadingLink& link, double large_scale,
                              const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
                              SimTime begin, const ReceivedTiming& timing);
+// The same after a Doppler shift that leaves `share` of the signal (doppler_share()): the rest interferes.
+SignalHistory shifted_history(SignalHistory history, double share);
 // Without fading.
 SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& lock,
                             const ReceivedTiming& timing);

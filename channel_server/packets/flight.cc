@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_fading.h"
@@ -154,38 +155,38 @@ double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading
   return acoustics::LinkFading(fading, fading_link(flight, seed)).large_scale(flight.lock());
 }
 
-ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading,
-                               std::uint64_t seed) {
+ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading) {
   const double factor = flight.doppler_factor();
-  const auto& measured = flight.reception.measured;
-  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fading.enabled || measured, {}};
+  const bool fades = fading.enabled || flight.reception.measured;
+  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fades, {}};
   signal.preamble_end = signal.begin + shrunk(flight.packet->timing.preamble, factor);
   signal.end = signal.begin + shrunk(flight.packet->timing.duration, factor);
-  if (flight.reception.paths.empty()) return signal;
+  return signal;
+}
+
+void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed) {
+  if (flight.reception.paths.empty()) return;
+  const auto& measured = flight.reception.measured;
+  ReceivedSignal& signal = flight.signal;
   // The receiver gets what lies within its own band.
   const double shared = to_power_ratio(-band_loss(flight.packet->modem, flight.modem)).value;
-  const auto history = [&](const acoustics::Modem& receiver) {
-    const auto& paths = flight.reception.paths;
-    const acoustics::FadingLink link = fading_link(flight, seed);
-    const acoustics::Lock lock{&receiver, flight.window};
-    const acoustics::Band band = flight.packet->modem.band();
-    const acoustics::ReceivedTiming timing{(signal.preamble_end - signal.begin).seconds(),
-                                           (signal.end - signal.begin).seconds()};
-    acoustics::SignalHistory received =
-        measured ? signal_history(acoustics::MeasuredFading(measured, link), flight.large_scale, paths, lock,
-                                  band, signal.begin, timing)
-                 : signal_history(fading, link, flight.large_scale, paths, lock, band, signal.begin, timing);
-    for (double& power : received.signal) power *= shared;
-    for (double& power : received.echoes) power *= shared;
-    return received;
-  };
-  signal.history = history(flight.modem);
-  if (signal.fades && std::abs(factor - 1) > flight.modem.doppler_correction) {
-    acoustics::Modem corrects = flight.modem;
-    corrects.doppler_correction = 1;
-    signal.without_shift = history(corrects);
+  const auto& paths = flight.reception.paths;
+  const acoustics::FadingLink link = fading_link(flight, seed);
+  const acoustics::Lock lock{&flight.modem, flight.window};
+  const acoustics::Band band = flight.packet->modem.band();
+  const acoustics::ReceivedTiming timing{(signal.preamble_end - signal.begin).seconds(),
+                                         (signal.end - signal.begin).seconds()};
+  signal.history =
+      measured ? signal_history(acoustics::MeasuredFading(measured, link), flight.large_scale, paths, lock,
+                                band, signal.begin, timing)
+               : signal_history(fading, link, flight.large_scale, paths, lock, band, signal.begin, timing);
+  for (double& power : signal.history.signal) power *= shared;
+  for (double& power : signal.history.echoes) power *= shared;
+  const double kept = doppler_share(flight.modem, paths[flight.window.strongest], band.centre_hz());
+  if (signal.fades && kept < 1) {
+    signal.without_shift = signal.history;
+    signal.history = shifted_history(std::move(signal.history), kept);
   }
-  return signal;
 }
 
 }  // namespace halocline::channel_server

@@ -77,9 +77,10 @@ bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry
 
 // All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);
-// The same as signal and echoes; `noise` in uPa^2 over the packet's band, less the receiver's directivity.
-ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading,
-                               std::uint64_t seed);
+// The packet's times at the receiver; `noise` in uPa^2 over the packet's band, less the receiver's directivity.
+ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading);
+// Sets signal and echoes over those times. Of no path: they stay empty.
+void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
 // 10^(X/20) of the flight's link when it locks.
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
 

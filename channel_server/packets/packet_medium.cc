@@ -78,7 +78,7 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   SimTime reached = time;
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
     if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
-      depart(std::move(departures_.extract(departures_.begin()).mapped()), events);
+      depart(departures_.extract(departures_.begin()).mapped(), events);
     } else if (must_wait(*flights_.begin()->second, next)) {
       waiting_ = true;
       reached = next;
@@ -191,7 +191,7 @@ void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
   budget.snr = budget.received_level - noise - band_loss(flight->packet->modem, flight->modem);
   flight->receiver_absent = !fleet_.placement(flight->receiver_id, arrival, at);
   flight->large_scale = large_scale_of(*flight, rule_.fading, rule_.seed);
-  flight->signal = received_signal(*flight, to_power_ratio(noise).value, rule_.fading, rule_.seed);
+  flight->signal = received_signal(*flight, to_power_ratio(noise).value, rule_.fading);
   state_of(flight->receiver_id).open(audible_packet(*flight));
   flight->stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
@@ -206,6 +206,7 @@ void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight->followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight->followed) {
+    evaluate_signal(*flight, rule_.fading, rule_.seed);
     const auto others = receiver.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
     const PacketDraws draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
     flight->acquired = acquires(signal, others, draws, flight->statistics);

@@ -99,8 +99,9 @@ TEST(SignalHistory, AResidualDopplerShiftCostsFrequencyShiftKeyingBySincSquared)
   modem.chip = SimDuration::from_milliseconds(6);
   modem.doppler_correction = 0.001;
   const double residual = 0.0016;  // 40 Hz at 25 kHz
+  const SoundPath path{.delay_s = 1, .level = {0}, .doppler_factor = 1.001 + residual};
   const SignalHistory history =
-      history_of(model, {{.delay_s = 1, .level = {0}, .doppler_factor = 1.001 + residual}}, modem);
+      shifted_history(history_of(model, {path}, modem), doppler_share(modem, path, 25'000));
   const double x = std::numbers::pi * 25'000 * residual * 0.006, share = std::pow(std::sin(x) / x, 2);
   EXPECT_NEAR(history.signal[0], share, 1e-9);
   EXPECT_NEAR(history.echoes[0], 1 - share, 1e-9);

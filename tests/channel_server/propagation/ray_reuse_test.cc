@@ -125,14 +125,7 @@ TEST_F(RayReuseTest, ResultsDependOnTheQueryAlone) {
 TEST_F(RayReuseTest, BothWaysHaveTheSamePathsToTheLastBit) {
   auto propagation = rays(bottoms_, kCellM);
   const LinkEnd a = end(1, first_), b = end(2, second_ + Vec3(3, 4, 1));
-  const Reception there = in_table(propagation, a, b), back = in_table(propagation, b, a);
-  ASSERT_EQ(there.used, PropagationUsed::kRays);
-  ASSERT_EQ(there.paths.size(), back.paths.size());
-  for (std::size_t i = 0; i < there.paths.size(); ++i) {
-    EXPECT_EQ(there.paths[i].delay_s, back.paths[i].delay_s);
-    EXPECT_EQ(there.paths[i].level.value, back.paths[i].level.value);
-    EXPECT_EQ(there.paths[i].launch_angle_rad, -back.paths[i].arrival_angle_rad);
-  }
+  testing::expect_same_paths(in_table(propagation, a, b), in_table(propagation, b, a));
   EXPECT_EQ(propagation.searches(), 1);
 }
 
