@@ -159,7 +159,9 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   const BandPressures direction = sound.medium_direction();
   const PacketLevels packet(curves, sound);
   const StrataMean mean(curves, sound.bits_variance);
-  const double deviation = std::numbers::ln10 / 10 * model.large_scale_db;
+  // What changes as the ends sway holds through a packet too.
+  const double deviation =
+      std::hypot(std::numbers::ln10 / 10 * model.large_scale_db, std::sqrt(std::log1p(sound.sway_variance)));
   LinkPrediction prediction;
   double signal = 0;
   for (std::size_t i = 0; i < kMediumStates; ++i) {

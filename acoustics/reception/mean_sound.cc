@@ -108,7 +108,9 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     const Complex turn = std::polar(1.0, -2 * pi * std::fmod(spacing_hz * excess_s, 1.0));
     const double coherent = std::sqrt(of_path * path.fading.coherent);
     const double at_low = path.phase_rad - 2 * pi * std::fmod(band.low_hz * excess_s, 1.0);
-    if (path.fading.coherent > kIncoherent) steady.add(coherent, at_low, excess_s);
+    if (path.fading.coherent > kIncoherent)
+      steady.add(
+          {coherent, at_low, excess_s, std::sin(path.launch_angle_rad), std::sin(path.arrival_angle_rad)});
     Complex pressure = std::polar(coherent, at_low - pi * std::fmod(spacing_hz * excess_s, 2.0));
     for (Complex& sum : sound.steady) {
       sum += pressure;
@@ -126,11 +128,14 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     bits_root += scattered * std::sqrt(kept_variance(rate * (end_s - preamble_s)));
   }
   const auto parts = steady.parts();
+  double mean = sound.medium[0].real() + sound.scattered_power();
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     const double middle = std::abs(sound.steady[m]);
     sound.steady[m] *= middle > 0 ? std::sqrt(parts[m].constant) / middle : 0;
     sound.varying[m] = parts[m].varying;
+    mean += (parts[m].constant + parts[m].varying) / kFrequencies;
   }
+  if (mean > 0) sound.sway_variance = steady.sway_variance() / squared(mean);
   if (untracked > kNegligible * signal) {
     sound.untracked = untracked / signal;
     sound.shared_fading = products / squares / sound.untracked;

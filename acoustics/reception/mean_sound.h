@@ -22,6 +22,7 @@ using BandCorrelation = std::array<std::complex<double>, kSignalFrequencies>;
 struct MeanSound {
   BandPressures steady{};  // A_m, constant within its part of the band (steady_band.h)
   std::array<double, kSignalFrequencies> varying{};  // power of coherent paths that varies within each part
+  double sway_variance = 0;                          // relative, of the mean over the band as the ends sway
   BandCorrelation medium{};     // of what the medium turns, and of what is scattered so slowly that it holds
   BandCorrelation scattered{};  // of what fades within a packet
   // Of that what beats with A_m: its mean over a part, the less the later or earlier than the strongest path it arrives.

@@ -10,22 +10,34 @@ namespace {
 
 using std::numbers::pi;
 
+// Twice as many for chips at single frequencies, of which the square counts, as for an equaliser that collects the band.
 std::size_t samples_for(const Modem& receiver, double part_hz, std::size_t most) {
   const double longest_s = (receiver.guard_time + receiver.guard_taper_or_default()).seconds();
+  const double apart = is_frequency_shift_keying(receiver.error_model) ? 0.5 : 1;
   return static_cast<std::size_t>(
-      std::clamp(std::ceil(2 * part_hz * longest_s), 1.0, static_cast<double>(most)));
+      std::clamp(std::ceil(part_hz * longest_s / apart), 1.0, static_cast<double>(most)));
 }
+
+constexpr double kSoundSpeedMps = 1500;  // of the wave number
+
+double squared(double x) { return x * x; }
+
+// sin(pi x) / (pi x).
+double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(pi * x) / (pi * x); }
 
 }  // namespace
 
 SteadyBand::SteadyBand(const Modem& receiver, const Band& band)
-    : spacing_hz_(band.width_hz() / kSignalFrequencies),
+    : band_(band),
+      spacing_hz_(band.width_hz() / kSignalFrequencies),
       samples_(samples_for(receiver, spacing_hz_, kMaxSamples)) {
   spacing_hz_ /= static_cast<double>(samples_);
 }
 
 // The phase falls by 2 pi f delay. Samples of a part turn together from part to part.
-void SteadyBand::add(double pressure, double phase_rad, double excess_s) {
+void SteadyBand::add(const Path& path) {
+  paths_.push_back(path);
+  const auto& [pressure, phase_rad, excess_s, launch_sine, arrival_sine] = path;
   Samples re{}, im{};
   const double half_step = pi * std::fmod(spacing_hz_ * excess_s, 2.0);
   const std::complex<double> turn = std::polar(1.0, -2 * half_step);
@@ -61,7 +73,59 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts() const {
     parts[m].constant = std::sqrt(std::max(2 * mean * mean - squares, 0.0));
     parts[m].varying = mean - parts[m].constant;
   }
+  add_sway(parts);
   return parts;
+}
+
+// Pairs that interfere few enough times over the band.
+template <typename Take>
+void SteadyBand::for_near_pairs(Take take) const {
+  const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps;
+  for (std::size_t p = 0; p < paths_.size(); ++p) {
+    for (std::size_t q = 0; q < p; ++q) {
+      const Path &one = paths_[p], &other = paths_[q];
+      const double apart_s = one.excess_s - other.excess_s;
+      if (std::abs(apart_s) * band_.width_hz() >= kNearCycles) continue;
+      const double sines =
+          squared(one.launch_sine - other.launch_sine) + squared(one.arrival_sine - other.arrival_sine);
+      take(Pair{2 * one.pressure * other.pressure,
+                one.phase_rad - other.phase_rad - pi * band_.width_hz() * apart_s, apart_s,
+                std::exp(-squared(wave_number * kSwayM) * sines / 2)});
+    }
+  }
+}
+
+// What sway takes of the interference, by parts.
+void SteadyBand::add_sway(std::array<Part, kSignalFrequencies>& parts) const {
+  std::array<double, kSignalFrequencies> change{};
+  const double part_hz = band_.width_hz() / kSignalFrequencies;
+  for_near_pairs([&](const Pair& pair) {
+    const double lost = pair.interference * (1 - pair.kept) * sinc(part_hz * pair.apart_s);
+    for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
+      const double from_middle_hz = part_hz * (static_cast<double>(m) - (kSignalFrequencies - 1) / 2.0);
+      change[m] -= lost * std::cos(pair.phase_rad - 2 * pi * from_middle_hz * pair.apart_s);
+    }
+  });
+  for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
+    const double power = parts[m].constant + parts[m].varying;
+    if (change[m] >= 0) {
+      parts[m].constant += change[m];
+    } else if (power > 0) {
+      const double left = std::max(power + change[m], 0.0) / power;
+      parts[m].constant *= left;
+      parts[m].varying *= left;
+    }
+  }
+}
+
+double SteadyBand::sway_variance() const {
+  double sum = 0;
+  for_near_pairs([&](const Pair& pair) {
+    const double kept = squared(pair.kept);
+    sum += squared(pair.interference * sinc(band_.width_hz() * pair.apart_s)) * (1 - kept) *
+           (1 - kept * std::cos(2 * pair.phase_rad)) / 2;
+  });
+  return sum;
 }
 
 }  // namespace halocline::acoustics

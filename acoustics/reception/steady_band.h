@@ -1,21 +1,31 @@
 // Power of a link's coherent paths over the band, by the parts of it in which a signal is evaluated (signal_history.h).
 //
 // Model: paths whose delays differ by d interfere with a period of 1 / d over the band. Each part is sampled at places
-// apart by no more than half of 1 / (guard time + taper), so that neither the power of two paths in the window nor its square
-// seems to be the same at all of them. Of a part's mean power S and its variance V over the samples,
+// apart by no more than 1 / (guard time + taper), so that no two paths in the window seem to be in step at all of them, and by
+// half of that for frequency-shift keying, where the same holds for the square of their power. Of a part's mean power S and its
+// variance V over the samples,
 //   constant = sqrt(S^2 - V), varying = S - constant
 // are those of a steady and a diffuse signal (Rice 1945) of the same S and V. Both follow the delays, not the phases, of
 // paths that interfere many times over a part: a vehicle that moves by a wavelength does not change them.
+// Paths that interfere less than kNearCycles times over the band do change with it, by their angles. Both ends sway up and down
+// by kSwayM rms (our choice) from packet to packet, so that the interference of two paths p, q is
+//   g = exp(-(k kSwayM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) / 2)
+// of what it is where the ends are, and 2 a_p a_q cos(phase) sinc(cycles) varies by
+//   4 a_p^2 a_q^2 sinc(cycles)^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2.
+// Close paths, as of a buoy just below the surface and far away, keep g near 1: Lloyd's mirror stays.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/signal_history.h"
 
 namespace halocline::acoustics {
+
+inline constexpr double kSwayM = 0.2, kNearCycles = 4;
 
 class SteadyBand {
  public:
@@ -24,14 +34,30 @@ class SteadyBand {
   };
 
   SteadyBand(const Modem& receiver, const Band& band);
-  // A path of this pressure, phase at the band's low end and delay relative to all the others'.
-  void add(double pressure, double phase_rad, double excess_s);
+  struct Path {
+    double pressure = 0, phase_rad = 0,
+           excess_s = 0;  // phase at the band's low end; delay after that of the reference
+    double launch_sine = 0, arrival_sine = 0;
+  };
+
+  void add(const Path& path);
   // From low to high.
   std::array<Part, kSignalFrequencies> parts() const;
+  // Variance of the mean over the band as the ends sway, uPa^4.
+  double sway_variance() const;
 
  private:
   static constexpr std::size_t kMaxSamples = 32;  // of a part
 
+  struct Pair {
+    double interference = 0, phase_rad = 0, apart_s = 0, kept = 0;  // 2 a_p a_q; at the middle of the band; g
+  };
+  template <typename Take>
+  void for_near_pairs(Take take) const;
+  void add_sway(std::array<Part, kSignalFrequencies>& parts) const;
+
+  Band band_;
+  std::vector<Path> paths_;
   double spacing_hz_;  // of samples
   std::size_t samples_;
   using Samples = std::array<double, kMaxSamples>;

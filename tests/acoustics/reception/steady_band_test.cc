@@ -1,12 +1,14 @@
 #include "acoustics/reception/steady_band.h"
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
+#include "core/random.h"
 #include "core/sim_time.h"
 
 namespace halocline::acoustics {
@@ -24,14 +26,14 @@ Modem receiver() {
 // Two paths of pressures 1 and r, `cycles` of interference over the band, apart by a phase.
 SteadyBand two_paths(double r, double cycles, double phase_rad) {
   SteadyBand band(receiver(), {23'000, 23'000 + kBandwidthHz});
-  band.add(1, 0, 0);
-  band.add(r, phase_rad, cycles / kBandwidthHz);
+  band.add({1, 0, 0});
+  band.add({r, phase_rad, cycles / kBandwidthHz});
   return band;
 }
 
 TEST(SteadyBand, OnePathIsConstant) {
   SteadyBand band(receiver(), {23'000, 27'000});
-  band.add(3, 1, 0.004);
+  band.add({3, 1, 0.004});
   for (const SteadyBand::Part& part : band.parts()) {
     EXPECT_NEAR(part.constant, 9, 1e-9);
     EXPECT_NEAR(part.varying, 0, 1e-9);
@@ -63,6 +65,31 @@ TEST(SteadyBand, ClosePathsInterfere) {
       // The midpoint rule over 160 samples.
       EXPECT_NEAR(mean, 2 + 2 * sinc * std::cos(phase_rad - x), 1e-3 * (1 + cycles)) << cycles;
     }
+  }
+}
+
+// In antiphase at the middle of the band, at sines of the angles apart by d: with g = exp(-(k 0.2 m d)^2 / 2) the mean is
+// 2 - 2 g sinc and its variance that of 200 000 ends that sway.
+TEST(SteadyBand, SwayTurnsPathsOfOtherAnglesAgainstEachOther) {
+  constexpr double kWaveNumber = 2 * pi * 25'000 / 1500, kCycles = 0.4;
+  const double sinc = std::sin(pi * kCycles) / (pi * kCycles);
+  for (const double apart : {0.0, 0.02, 0.06, 0.3}) {
+    SteadyBand band(receiver(), {23'000, 23'000 + kBandwidthHz});
+    band.add({1, 0, 0, 0.1, 0});
+    band.add({1, pi + pi * kCycles, kCycles / kBandwidthHz, 0.1 + apart, 0});
+    double mean = 0, swayed = 0, square = 0;
+    for (const SteadyBand::Part& part : band.parts()) {
+      mean += (part.constant + part.varying) / kSignalFrequencies;
+    }
+    constexpr int kEnds = 200'000;
+    for (int i = 0; i < kEnds; ++i) {
+      const double sway_m = kSwayM * normal_at({.seed = 3, .which = static_cast<std::uint64_t>(i)});
+      const double power = 2 + 2 * sinc * std::cos(pi + kWaveNumber * apart * sway_m);
+      swayed += power / kEnds;
+      square += power * power / kEnds;
+    }
+    EXPECT_NEAR(mean, swayed, 0.02) << apart;
+    EXPECT_NEAR(band.sway_variance(), square - swayed * swayed, 0.02) << apart;
   }
 }
 
