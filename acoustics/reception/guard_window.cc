@@ -1,5 +1,6 @@
 #include "acoustics/reception/guard_window.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,11 @@
 
 namespace halocline::acoustics {
 namespace {
+
+constexpr double kEqualDb =
+    1;  // between windows, of which fading makes now one and now the other the stronger
+constexpr double kShared =
+    0.5;  // weight of a window's strongest path in another that is the same for a receiver
 
 // 1 before 0, 0 after 1, half a cosine between.
 double raised_cosine(double x) {
@@ -36,13 +42,11 @@ std::vector<double> powers_of(const std::vector<SoundPath>& paths) {
   return powers;
 }
 
-}  // namespace
-
-GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem) {
-  const std::vector<double> powers = powers_of(paths);
+// Sum of w^2 P of the window that begins at each path.
+std::vector<double> window_powers(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
+                                  const Modem& modem) {
   const double longest_s = (modem.guard_time + modem.guard_taper_or_default()).seconds();
-  GuardWindow window;
-  double most = -1;
+  std::vector<double> sums;
   for (std::size_t first = 0; first < paths.size(); ++first) {
     double sum = 0;
     for (std::size_t i = first; i < paths.size(); ++i) {
@@ -51,16 +55,18 @@ GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem)
       const double w = weight(modem, after_s);
       sum += w * w * powers[i];
     }
-    if (sum > most) {
-      most = sum;
-      window.first = first;
-    }
+    sums.push_back(sum);
   }
-  window.strongest = window.first;
+  return sums;
+}
+
+GuardWindow window_from(std::size_t first, const std::vector<SoundPath>& paths,
+                        const std::vector<double>& powers, const Modem& modem) {
+  GuardWindow window{.first = first, .strongest = first, .weights = {}, .interference = {}};
   double strongest = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const double after_s = paths[i].delay_s - paths[window.first].delay_s;
-    const double w = i < window.first ? 0 : weight(modem, after_s);
+    const double after_s = paths[i].delay_s - paths[first].delay_s;
+    const double w = i < first ? 0 : weight(modem, after_s);
     window.weights.push_back(w);
     window.interference.push_back((1 - w * w) * (w < 1 ? hop_overlap(modem, std::abs(after_s)) : 0));
     if (w * w * powers[i] > strongest) {
@@ -69,6 +75,32 @@ GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem)
     }
   }
   return window;
+}
+
+}  // namespace
+
+GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem) {
+  const std::vector<double> powers = powers_of(paths), sums = window_powers(paths, powers, modem);
+  const auto best = std::max_element(sums.begin(), sums.end());
+  return window_from(static_cast<std::size_t>(best - sums.begin()), paths, powers, modem);
+}
+
+std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, const Modem& modem) {
+  const std::vector<double> powers = powers_of(paths), sums = window_powers(paths, powers, modem);
+  const auto best = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  std::vector<LikelyWindow> windows{{window_from(best, paths, powers, modem), 1}};
+  const double strongest_s = paths[windows[0].window.strongest].delay_s;
+  std::size_t other = best;
+  for (std::size_t first = 0; first < paths.size(); ++first) {
+    if (weight(modem, strongest_s - paths[first].delay_s) > kShared) continue;
+    if (other == best || sums[first] > sums[other]) other = first;
+  }
+  if (other == best || !(sums[other] > 0)) return windows;
+  const double close = 1 - to_decibels({sums[best] / sums[other]}).value / kEqualDb;
+  if (!(close > 0)) return windows;
+  windows.push_back({window_from(other, paths, powers, modem), close * close / 2});
+  windows[0].probability -= windows[1].probability;
+  return windows;
 }
 
 double mean_signal(const std::vector<SoundPath>& paths, const GuardWindow& window) {

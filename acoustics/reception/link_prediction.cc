@@ -183,4 +183,19 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   return prediction;
 }
 
+LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+                            const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
+                            double noise, const ReceptionCurves& curves) {
+  LinkPrediction mean;
+  for (const LikelyWindow& likely : windows) {
+    const Lock lock{&receiver, likely.window};
+    const LinkPrediction one = predict_link(model, paths, lock, band, noise, curves);
+    if (!model.enabled) return one;
+    mean.sinr += likely.probability * one.sinr;
+    mean.acquisition_probability += likely.probability * one.acquisition_probability;
+    mean.delivery_probability += likely.probability * one.delivery_probability;
+  }
+  return mean;
+}
+
 }  // namespace halocline::acoustics

@@ -26,6 +26,8 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/math/frequency_band.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 
@@ -41,6 +43,11 @@ struct LinkPrediction {
 // of the packet's.
 LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths, const Lock& lock,
                             const Band& band, double noise, const ReceptionCurves& curves);
+
+// The mean over the windows that the receiver may lock to; without fading, of the best.
+LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
+                            const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
+                            double noise, const ReceptionCurves& curves);
 
 // Delay spread, s rms about the mean, weighted by power; 0 of no path.
 double rms_delay_spread_s(const std::vector<SoundPath>& paths);

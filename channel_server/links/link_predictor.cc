@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/reception/guard_window.h"
@@ -80,24 +81,24 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
                                      const Reception& reception) const {
   const auto& paths = reception.paths;
   if (paths.empty()) return {};
-  const acoustics::Lock lock{&receiver, best_window(paths, receiver)};
+  const std::vector<acoustics::LikelyWindow> windows = likely_windows(paths, receiver);
+  const acoustics::GuardWindow& window = windows.front().window;
   const Decibels noise =
       reception.budget.noise_level - receiver.directivity_index + band_loss(transmitter, receiver);
-  const double coherence_s = coherence_time_s(paths, lock.window);
+  const double coherence_s = coherence_time_s(paths, window);
   LinkForecast forecast;
   forecast.first_path_delay_s = paths[first_significant(paths)].delay_s;
   forecast.coherence_time_s = std::min(coherence_s, kMaxCoherenceS);
   forecast.doppler_spread_hz = acoustics::doppler_spread_of(coherence_s);
   forecast.rms_delay_spread_s = rms_delay_spread_s(paths);
-  const bool impossible =
-      is_impossible(receiver, reception, paths[lock.window.strongest], rule_.fading.enabled);
+  const bool impossible = is_impossible(receiver, reception, paths[window.strongest], rule_.fading.enabled);
   double best = 0;
   for (const ReceptionCurves& curves : rates) {
     const double rate_bps = curves.modem().bit_rate_bps;
     const bool own = &curves == &rates.front();
     if (!own && rate_bps <= best) break;  // nor are those that follow better
-    const acoustics::LinkPrediction predicted =
-        predict_link(rule_.fading, paths, lock, transmitter.band(), to_power_ratio(noise).value, curves);
+    const acoustics::LinkPrediction predicted = predict_link(
+        rule_.fading, paths, receiver, windows, transmitter.band(), to_power_ratio(noise).value, curves);
     if (own) {
       forecast.sinr_db = std::max(10 * std::log10(predicted.sinr), kSilence.value);
       if (impossible) break;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -45,6 +46,20 @@ TEST(GuardWindow, WeightsAnEchoByARaisedCosineAfterTheGuardTime) {
     EXPECT_NEAR(window.weights[1], w, 1e-9);
     EXPECT_NEAR(window.interference[1], 1 - w * w, 1e-9);
   }
+}
+
+// Of two windows without a path in common the weaker one is as likely where both are equal, and never chosen 1 dB below.
+TEST(GuardWindow, WeighsTwoWindowsOfNearlyTheSamePower) {
+  for (const auto& [lower_db, likely] : {std::pair(0.0, 0.5), std::pair(0.5, 0.125)}) {
+    const auto windows = likely_windows({path_at(1, -lower_db), path_at(1.1, 0)}, modem());
+    ASSERT_EQ(windows.size(), 2u) << lower_db;
+    const LikelyWindow& weaker = windows[lower_db > 0 || windows[1].window.first == 0 ? 1 : 0];
+    EXPECT_NEAR(weaker.probability, likely, 1e-12);
+    EXPECT_NEAR(windows[0].probability + windows[1].probability, 1, 1e-15);
+  }
+  EXPECT_EQ(likely_windows({path_at(1, -1.01), path_at(1.1, 0)}, modem()).size(), 1u);
+  // The echo is part of both windows.
+  EXPECT_EQ(likely_windows({path_at(1, -20), path_at(1.002, 0)}, modem()).size(), 1u);
 }
 
 // Shifting an echo by 15 us, 2 cm, anywhere around the window changes nothing by more than a hundredth.
