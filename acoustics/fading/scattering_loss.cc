@@ -43,9 +43,10 @@ double trapped_share(const FluidBottom& bottom) {
 
 double steepened_share(double wind_mps, double sine, double trapped_share) {
   const double slope = std::sqrt((0.003 + 5.12e-3 * wind_mps) / 2);
-  const double grazing = std::asin(std::clamp(sine, 1e-9, 1.0)),
-               critical = std::asin(std::sqrt(trapped_share));
-  const double tangent = std::tan(grazing), steep = std::tan((critical - grazing) / 2);
+  const double grazing = std::clamp(sine, 1e-9, 1 - 1e-9), cosine = std::sqrt(1 - grazing * grazing);
+  // tan((critical - grazing) / 2) by sines and cosines.
+  const double tangent = grazing / cosine,
+               steep = (std::sqrt(trapped_share) - grazing) / (std::sqrt(1 - trapped_share) + cosine);
   return facing(tangent, slope, std::max(steep, -tangent)) / facing(tangent, slope, -tangent);
 }
 
