@@ -21,6 +21,7 @@ constexpr std::size_t kSines = ComplexNoise::kSines;
 constexpr double kAngleScale = to_radians(4);  // so that paths within 2 degrees cross the same water
 // Weaker than this share of the mean power, a component of a path is left out of the sum of sines: 1e-5 dB.
 constexpr double kNegligible = 1e-6;
+constexpr double kFarApart = 60;  // square of a distance at which nothing is shared: e^-30
 
 std::uint64_t pair_of(const FadingLink& link) { return std::uint64_t{link.lower_id} << 32 | link.higher_id; }
 
@@ -117,8 +118,42 @@ TurningSines scattered_sines(const FadingLink& link, const SoundPath& path, doub
   return sines;
 }
 
-// sin(pi x) / (pi x).
-double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(pi * x) / (pi * x); }
+// What the mean power of two paths together depends on, of each: products of these take the place of sines of differences.
+struct CrossingPath {
+  double coherent, medium;      // pressures
+  double cos_phase, sin_phase;  // at the centre of the band
+  double turns;                 // W (delay - mean delay), W the band's width
+  double cos_half, sin_half;    // of pi times that
+  MediumPlace place;
+};
+
+CrossingPath crossing_path(const SoundPath& path, double mean_delay_s, const Band& band) {
+  const double power = to_power_ratio(path.level).value;
+  const double phase = path.phase_rad - 2 * pi * std::fmod(band.centre_hz() * path.delay_s, 1.0);
+  const double turns = band.width_hz() * (path.delay_s - mean_delay_s);
+  return {std::sqrt(power * path.fading.coherent),
+          std::sqrt(power * path.fading.medium),
+          std::cos(phase),
+          std::sin(phase),
+          turns,
+          std::cos(pi * turns),
+          std::sin(pi * turns),
+          place_of(path, mean_delay_s, band, false)};
+}
+
+// Real part of the mean of h_p h_q* over the band: sqrt(P_p P_q) (sqrt(c_p c_q) + sqrt(m_p m_q) e^(-apart^2 / 2)) cos(phase
+// difference) sinc(W (delay difference)); 0 where it is at most `negligible`.
+double cross_power(const CrossingPath& p, const CrossingPath& q, double negligible) {
+  const double coherent = p.coherent * q.coherent, medium = p.medium * q.medium;
+  if (coherent + medium < negligible) return 0;
+  const auto squared = [](double x) { return x * x; };
+  const double apart = squared(p.place.delay - q.place.delay) + squared(p.place.launch - q.place.launch) +
+                       squared(p.place.arrival - q.place.arrival);
+  const double shared = apart < kFarApart ? medium * std::exp(-apart / 2) : 0;
+  const double x = pi * (p.turns - q.turns);
+  const double sinc = std::abs(x) < 1e-9 ? 1 : (p.sin_half * q.cos_half - p.cos_half * q.sin_half) / x;
+  return (coherent + shared) * (p.cos_phase * q.cos_phase + p.sin_phase * q.sin_phase) * sinc;
+}
 
 }  // namespace
 
@@ -178,31 +213,15 @@ double mean_power(const FadingModel& model, const std::vector<SoundPath>& paths,
   double total = 0;
   for (const SoundPath& path : paths) total += to_power_ratio(path.level).value;
   if (!model.enabled || paths.size() < 2) return total;
-  const double mean_s = mean_delay_s(paths), centre_hz = band.centre_hz();
-  std::vector<double> pressures, cycles;
-  std::vector<MediumPlace> places;
-  for (const SoundPath& path : paths) {
-    pressures.push_back(std::sqrt(to_power_ratio(path.level).value));
-    cycles.push_back(path.phase_rad / (2 * pi) - std::fmod(centre_hz * path.delay_s, 1.0));
-    places.push_back(place_of(path, mean_s, band, false));
-  }
-  const auto squared = [](double x) { return x * x; };
+  const double mean_s = mean_delay_s(paths);
+  std::vector<CrossingPath> crossing;
+  crossing.reserve(paths.size());
+  for (const SoundPath& path : paths) crossing.push_back(crossing_path(path, mean_s, band));
   double crossed = 0;
-  for (std::size_t p = 0; p < paths.size(); ++p) {
-    for (std::size_t q = 0; q < p; ++q) {
-      const PathFading &one = paths[p].fading, &other = paths[q].fading;
-      const double pressure = pressures[p] * pressures[q];
-      double coherence = std::sqrt(one.coherent * other.coherent);
-      if (pressure * (coherence + std::sqrt(one.medium * other.medium)) < kNegligible * total) continue;
-      const double apart = squared(places[p].delay - places[q].delay) +
-                           squared(places[p].launch - places[q].launch) +
-                           squared(places[p].arrival - places[q].arrival);
-      coherence += std::sqrt(one.medium * other.medium) * std::exp(-apart / 2);
-      crossed += 2 * pressure * coherence * std::cos(2 * pi * (cycles[p] - cycles[q])) *
-                 sinc(band.width_hz() * (paths[p].delay_s - paths[q].delay_s));
-    }
+  for (std::size_t p = 1; p < crossing.size(); ++p) {
+    for (std::size_t q = 0; q < p; ++q) crossed += cross_power(crossing[p], crossing[q], kNegligible * total);
   }
-  return std::max(total + crossed, 0.0);
+  return std::max(total + 2 * crossed, 0.0);
 }
 
 }  // namespace halocline::acoustics
