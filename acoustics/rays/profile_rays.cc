@@ -35,7 +35,7 @@ constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from 
 constexpr double kFoldZone = 0.01;  // of the water depth: further from all images a turn need not be exact
 // A cubic between two rays, whose error was found at one of them, errs between them by no more than this many times that;
 // besides, a share of what it spans.
-constexpr double kErrorReach = 2, kSpanReach = 0.25;
+constexpr double kErrorReach = 2, kSpanReach = 0.5;
 constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 constexpr int kMaxTurnSteps = 40;
 constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of endless detail
