@@ -93,18 +93,19 @@ bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoin
     i = profile.facet_from(i, reach);
   }
   while (i < facets.size() && facets[i].r0 <= end) {
-    if (i % BottomProfile::kBlock == 0) {
-      const std::size_t last = std::min(i + BottomProfile::kBlock, facets.size()) - 1;
-      if (below(blocks[i / BottomProfile::kBlock], facets[i].r0, facets[last].r1)) {
-        i += BottomProfile::kBlock;
-        continue;
+    const std::size_t block = i / BottomProfile::kBlock,
+                      next = std::min((block + 1) * BottomProfile::kBlock, facets.size());
+    if (below(blocks[block], facets[i].r0, facets[next - 1].r1)) {
+      i = next;
+      continue;
+    }
+    for (; i < next && facets[i].r0 <= end; ++i) {
+      if (misses(facets[i])) continue;
+      if (solve_facet(water, facets[i], s, s.on_facet && i == s.facet, until, hit.dr)) {
+        hit.facet = i;
+        return true;
       }
     }
-    if (!misses(facets[i]) && solve_facet(water, facets[i], s, s.on_facet && i == s.facet, until, hit.dr)) {
-      hit.facet = i;
-      return true;
-    }
-    ++i;
   }
   return false;
 }
