@@ -9,6 +9,7 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kTouching = 1e-9;  // m: nearer than that to a facet is on it
+constexpr double kMargin = 1e-7;    // m: added to bounds of depth
 
 // sin(x) to 1e-16 by its series for |x| up to 0.3, which is more than half of any bend but those of a wide crease
 // angle.
@@ -24,6 +25,13 @@ double deepest_slope(const RayWater& water, const ArcPoint& s, const ArcStep& st
   const double g = water.gradients_per_s()[s.layer];
   if (g < 0 && step.dr > 0) return (step.z - s.z) / step.dr;
   return g == 0 && step.z == s.z ? 0 : s.sine * s.per_xi / s.c;
+}
+
+// An arc that curves down has d2z/dr2 = kappa / cos^3 >= kappa = -xi g, so it stays above its chord by at least
+// kappa / 2 x (dr - x) after the way x: kappa / 2.
+double bow_of(const RayWater& water, const ArcPoint& s, const ArcStep& step) {
+  const double g = water.gradients_per_s()[s.layer];
+  return g < 0 && step.dr > 0 ? -s.xi * g / 2 : 0;
 }
 
 // Where the ray's circle meets the facet's line y = d + b x, x and y from the ray along r and down. With kappa = -xi g
@@ -77,19 +85,20 @@ bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoin
               double until, ArcHit& hit) {
   const std::vector<Facet>& facets = profile.facets();
   const std::vector<double>& blocks = profile.block_shallowest_m();
-  const double end = s.r + until, margin = kTouching, slope = deepest_slope(water, s, step);
+  const double end = s.r + until, slope = deepest_slope(water, s, step), bow = bow_of(water, s, step);
+  // The deepest that the arc can be after `way`; a line or curving down, so deepest at an end of any interval.
+  const auto deepest = [&](double way) { return s.z + way * (slope - bow * (step.dr - way)) + kMargin; };
   const auto below = [&](double shallowest, double r0, double r1) {  // the arc cannot reach down there
-    const double far = slope > 0 ? std::min(r1, end) - s.r : std::max(r0 - s.r, 0.0);
-    return s.z + slope * far + margin < shallowest;
+    return std::max(deepest(std::max(r0 - s.r, 0.0)), deepest(std::min(r1, end) - s.r)) < shallowest;
   };
   const auto misses = [&](const Facet& facet) {  // its line, above which the arc stays at both its ends
     const double first = std::max(facet.r0, s.r), last = std::min(facet.r1, end);
-    return s.z + slope * (first - s.r) + margin < facet.z0 + facet.slope * (first - facet.r0) &&
-           s.z + slope * (last - s.r) + margin < facet.z0 + facet.slope * (last - facet.r0);
+    return deepest(first - s.r) < facet.z0 + facet.slope * (first - facet.r0) &&
+           deepest(last - s.r) < facet.z0 + facet.slope * (last - facet.r0);
   };
   std::size_t i = s.facet;
   if (slope > 0) {  // before it is as deep as the shallowest bottom there is nothing to meet
-    const double reach = std::min(s.r + (profile.shallowest_m() - margin - s.z) / slope, end);
+    const double reach = std::min(s.r + (profile.shallowest_m() - kMargin - s.z) / slope, end);
     i = profile.facet_from(i, reach);
   }
   while (i < facets.size() && facets[i].r0 <= end) {
