@@ -7,10 +7,12 @@
 #include <numbers>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "core/units.h"
+#include "tests/support/doc_table.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -62,8 +64,13 @@ TEST(LinkFading, AmplitudesFollowRiceOverIndependentLinks) {
           std::abs(response(small_scale(), {.seed = 5, .lower_id = pair, .higher_id = 20'000},
                             path_of(0, {steady, (1 - steady) / 3, (1 - steady) * 2 / 3, 0.7}), 123.456)));
     }
-    EXPECT_LT(kolmogorov(amplitudes, [&](double r) { return rice(steady, 1 - steady, r); }), 1.95)
-        << "steady share " << steady;
+    const double distance = kolmogorov(amplitudes, [&](double r) { return rice(steady, 1 - steady, r); });
+    EXPECT_LT(distance, 1.95) << "steady share " << steady;
+    testing::doc_row(
+        "fading",
+        {fmt::format("root of n times Kolmogorov's distance to Rice's distribution, steady share {:.1f}",
+                     steady),
+         "< 1.95 (p > 1e-3)", fmt::format("{:.2f}", distance)});
   }
 }
 
@@ -74,7 +81,10 @@ TEST(LinkFading, MeanPowerOverADayIsThePowerOfThePath) {
   const int count = 200'000;
   double sum = 0;
   for (const auto& h : fading.responses({path}, kBand, SimTime(), {0, 0.5, count}, 1)) sum += std::norm(h);
-  EXPECT_NEAR(to_decibels({sum / count / 9}).value, 0, 0.05);
+  const double excess_db = to_decibels({sum / count / 9}).value;
+  EXPECT_NEAR(excess_db, 0, 0.05);
+  testing::doc_row("fading",
+                   {"mean power over 1e5 s", "0.05 dB", fmt::format("{:.3f} dB", std::abs(excess_db))});
 }
 
 TEST(LinkFading, LargeScaleFadingLeavesTheMeanPowerAndHasItsDeviation) {
@@ -105,6 +115,8 @@ TEST(LinkFading, AutocorrelationOfWhatIsScatteredIsGaussianInItsSpread) {
     correlation += (h[0] * std::conj(h[1])).real() / links;
   }
   EXPECT_NEAR(correlation, std::exp(-1), 0.03);
+  testing::doc_row(
+      "fading", {"autocorrelation at 1 / (sqrt2 pi B)", "0.368 ± 0.03", fmt::format("{:.3f}", correlation)});
 }
 
 // Rice's formula: upward crossings of the level rho (re rms) a second, 2 sqrt(pi) B rho exp(-rho^2).
@@ -123,6 +135,9 @@ TEST(LinkFading, CrossesLevelsAsOftenAsRiceSays) {
     }
     const double expected = 2 * std::sqrt(pi) * spread_hz * rho * std::exp(-rho * rho);
     EXPECT_NEAR(crossings / time_s, expected, 0.05 * expected) << "level " << rho;
+    testing::doc_row("fading",
+                     {fmt::format("crossings of {:.1f} times the rms over those of Rice's formula", rho),
+                      "1 ± 0.05", fmt::format("{:.3f}", crossings / time_s / expected)});
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
@@ -38,9 +39,12 @@ inline double busy_draw(const char* purpose, std::uint32_t who, std::uint64_t wh
 }
 
 // Three paths a link: the direct one (spherical spreading), and two echoes whose delays follow from the
-// range; some pairs in a shadow, some behind terrain. Cheap, so that a test may evaluate it millions of times.
+// range; some pairs in a shadow, some behind terrain. Cheap, so that a test may evaluate it millions of times. With
+// `fades` the echoes come off a moving surface.
 class ThreePaths : public Propagation {
  public:
+  explicit ThreePaths(bool fades = false) : fades_(fades) {}
+
   Reception reception(SimTime, const LinkEnd& from, const LinkEnd& to) override {
     Reception reception;
     auto& budget = reception.budget;
@@ -60,6 +64,11 @@ class ThreePaths : public Propagation {
          {std::pair(0.0, 0.0), std::pair(9.0, 5.0), std::pair(60.0, 9.0)}) {
       path.delay_s = std::sqrt(std::pow(budget.range_m, 2) + std::pow(longer_m, 2) * 30) / kSpeedMps;
       path.level = {level_db - weaker_db};
+      if (fades_) {
+        path.identity = reception.paths.size() + 1;
+        path.fading =
+            acoustics::path_fading({.enabled = true}, 5, from.modem->centre_frequency_hz, 1e-5 * longer_m, 0);
+      }
       reception.paths.push_back(path);
     }
     budget.received_level = total_level(reception.paths);
@@ -73,6 +82,7 @@ class ThreePaths : public Propagation {
   const acoustics::Environment& environment(SimTime) const override { return water_; }
 
  private:
+  bool fades_;
   acoustics::Environment water_ = even_water();
 };
 
@@ -148,6 +158,7 @@ struct BusyRun {
   std::uint32_t turn = 0;  // decides the order in which states and requests are handed in; 0: by time
   double step_s = 1;       // of advance_to
   std::uint64_t seed = 1;
+  bool fades = false;
 };
 
 // Runs it, every event given to `visit`, and returns the fleet for questions of who was there. In order of time
@@ -156,8 +167,10 @@ template <class Visitor>
 VehicleRegistry run_busy_sea(const BusyRun& run, Visitor&& visit) {
   const double until_s = static_cast<double>(run.packets) / kPacketsPerSecond + 30;
   VehicleRegistry fleet({for_s(0.05), for_s(5)}, busy_modems());
-  ThreePaths propagation;
-  PacketMedium medium(fleet, propagation, {for_s(10), for_s(until_s), run.seed});
+  ThreePaths propagation(run.fades);
+  MediumRule rule{for_s(10), for_s(until_s), run.seed};
+  rule.fading.enabled = run.fades;
+  PacketMedium medium(fleet, propagation, rule);
   auto states = busy_states(until_s);
   auto requests = busy_requests(run.packets);
   if (run.turn > 0) shuffle(states, run.turn), shuffle(requests, run.turn);

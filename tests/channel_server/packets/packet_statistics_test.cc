@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "channel_server/packets/packet.h"
@@ -15,6 +17,7 @@
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
 #include "tests/channel_server/packets/busy_sea.h"
+#include "tests/support/doc_table.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -25,9 +28,9 @@ using testing::run_busy_sea;
 
 // Builds without optimization run a tenth of it, in about the same time.
 #ifdef NDEBUG
-constexpr std::size_t kManyPackets = 100'000;
+constexpr std::size_t kManyPackets = 100'000, kPacketsThatFade = 10'000;
 #else
-constexpr std::size_t kManyPackets = 10'000;
+constexpr std::size_t kManyPackets = 10'000, kPacketsThatFade = 1000;
 #endif
 
 // Successes where each had a probability of its own.
@@ -104,11 +107,11 @@ void expect_one_end_at_every_possible_receiver(const Tally& tally, const Vehicle
   EXPECT_GT(answers, 0);
 }
 
-void expect_counts_that_add_up(const Tally& tally) {
+void expect_counts_that_add_up(const Tally& tally, std::size_t packets) {
   std::int64_t receipts = 0, packet_outcomes = 0;
   for (const auto& [result, count] : tally.receipts) receipts += count;
   for (const auto& [kind, count] : tally.outcomes) packet_outcomes += count;
-  EXPECT_EQ(receipts, static_cast<std::int64_t>(kManyPackets));
+  EXPECT_EQ(receipts, static_cast<std::int64_t>(packets));
   EXPECT_EQ(packet_outcomes, tally.packet_outcomes);
 }
 
@@ -123,15 +126,22 @@ void expect_every_outcome_and_refusal(const Tally& tally) {
   }
 }
 
-void expect_odds_kept(const std::map<int, Trials>& bins, int min_bins) {
+void expect_odds_kept(const std::string& what, const std::map<int, Trials>& bins, int min_bins) {
   int compared = 0;
+  std::int64_t cases = 0;
+  double farthest = 0;  // standard deviations
   for (const auto& [decibels, trials] : bins) {
     if (!trials.says_anything()) continue;
     ++compared;
+    cases += trials.count;
+    farthest = std::max(farthest, std::abs(static_cast<double>(trials.successes) - trials.expected) /
+                                      std::sqrt(trials.variance));
     EXPECT_TRUE(trials.agrees()) << decibels << " dB: " << trials.successes << " of " << trials.count
                                  << ", expected " << trials.expected << " +- " << std::sqrt(trials.variance);
   }
   EXPECT_GE(compared, min_bins);
+  halocline::testing::doc_row(
+      "odds", {what, fmt::format("{}", compared), fmt::format("{}", cases), fmt::format("{:.1f}", farthest)});
 }
 
 // One run for all of it, because it takes a quarter of a minute.
@@ -139,10 +149,19 @@ TEST(PacketStatistics, OfAHundredThousandPacketsEachEndsOnceEverywhereWithTheOdd
   Tally tally;
   const VehicleRegistry fleet = run_busy_sea({.packets = kManyPackets}, tally);
   expect_one_end_at_every_possible_receiver(tally, fleet);
-  expect_counts_that_add_up(tally);
+  expect_counts_that_add_up(tally, kManyPackets);
   expect_every_outcome_and_refusal(tally);
-  expect_odds_kept(tally.bits_by_sinr, 5);
-  expect_odds_kept(tally.preambles_by_snr, 3);
+  expect_odds_kept("bits right, by SINR, no fading", tally.bits_by_sinr, 5);
+  expect_odds_kept("preambles acquired, by SNR, no fading", tally.preambles_by_snr, 3);
+}
+
+TEST(PacketStatistics, OfTenThousandPacketsThatFadeEachEndsOnceEverywhereWithTheOddsOfTheModel) {
+  Tally tally;
+  const VehicleRegistry fleet = run_busy_sea({.packets = kPacketsThatFade, .fades = true}, tally);
+  expect_one_end_at_every_possible_receiver(tally, fleet);
+  expect_counts_that_add_up(tally, kPacketsThatFade);
+  expect_odds_kept("bits right, by SINR", tally.bits_by_sinr, 5);
+  expect_odds_kept("preambles acquired, by SNR", tally.preambles_by_snr, 3);
 }
 
 // FNV-1a over everything that an event holds.
@@ -191,9 +210,12 @@ std::uint64_t hash_of(const BusyRun& run) {
 }
 
 TEST(PacketRepeatability, TheOrderOfArrivalChangesNothing) {
-  const std::uint64_t expected = hash_of({.packets = 1500});
-  for (std::uint32_t turn = 1; turn <= 3; ++turn) {
-    EXPECT_EQ(hash_of({.packets = 1500, .turn = turn}), expected);
+  for (const bool fades : {false, true}) {
+    const std::size_t packets = fades ? 300 : 1500;
+    const std::uint64_t expected = hash_of({.packets = packets, .fades = fades});
+    for (std::uint32_t turn = 1; turn <= 3; ++turn) {
+      EXPECT_EQ(hash_of({.packets = packets, .turn = turn, .fades = fades}), expected);
+    }
   }
 }
 

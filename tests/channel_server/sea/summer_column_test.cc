@@ -3,10 +3,10 @@
 // median of their SNR what a row says.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "acoustics/sea/boundary_reflection.h"
@@ -21,6 +21,7 @@
 #include "core/frames.h"
 #include "core/random.h"
 #include "tests/channel_server/sea/still_link.h"
+#include "tests/support/doc_table.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -104,9 +105,10 @@ TEST(SummerColumn, DeliversFrequencyHoppedPacketsAtEveryWindAndNeverBetterForIt)
     double last = 0;
     for (const double snr_db : {15.0, 25.0, 35.0, 45.0, 55.0}) {
       const Column column = deliver(modem, wind_mps, snr_db);
-      std::printf(
-          "wind %4.1f m/s, SNR %2.0f dB: received %.3f, predicted %.3f; all %3d, none %3d of %d links\n",
-          wind_mps, snr_db, column.received, column.predicted, column.perfect, column.dead, column.links);
+      halocline::testing::doc_row(
+          "summer", {fmt::format("{:g}", wind_mps), fmt::format("{:g}", snr_db),
+                     fmt::format("{:.3f}", column.received), fmt::format("{:.3f}", column.predicted),
+                     fmt::format("{}", column.links - column.perfect), fmt::format("{}", column.dead)});
       // 171 links of 6 packets: what fades by itself is the link, so 3.3 deviations are 3.3 sqrt(1/4 / 171) at most.
       EXPECT_NEAR(column.received, column.predicted, 0.05);
       EXPECT_GE(column.predicted, last - 1e-3) << "more source level delivers less";

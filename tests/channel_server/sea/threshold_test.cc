@@ -1,14 +1,15 @@
 // A link at rest near its threshold: how wide the transition is, and how losses hang together in time.
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/sound_path.h"
 #include "channel_server/modems/modem_config.h"
 #include "tests/channel_server/sea/still_link.h"
+#include "tests/support/doc_table.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -56,7 +57,8 @@ class Threshold : public ::testing::TestWithParam<const char*> {};
 TEST_P(Threshold, IsMoreThanSixDecibelsWide) {
   const acoustics::Modem modem = load_modem(GetParam()).modem;
   const double width_db = noise_for(modem, 0.1) - noise_for(modem, 0.9);
-  std::printf("%s: from 10 to 90 %% in %.1f dB\n", GetParam(), width_db);
+  halocline::testing::doc_row("threshold",
+                              {GetParam(), "from 10 to 90 %", "> 6 dB", fmt::format("{:.1f} dB", width_db)});
   EXPECT_GT(width_db, 6);
   EXPECT_LT(width_db, 13);  // what is measured at sea
 }
@@ -78,7 +80,9 @@ TEST_P(Threshold, LosesPacketsInBursts) {
     }
   }
   const double mean = ones / count, correlation = (both / count - mean * mean) / (mean * (1 - mean));
-  std::printf("%s: losses 10 s apart correlate by %.2f at %.2f delivered\n", GetParam(), correlation, mean);
+  halocline::testing::doc_row(
+      "threshold", {GetParam(), fmt::format("correlation of losses 10 s apart, {:.2f} received", mean),
+                    "> 0.15", fmt::format("{:.2f}", correlation)});
   EXPECT_GT(correlation, 0.15);
 }
 

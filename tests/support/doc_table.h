@@ -1,0 +1,13 @@
+// Tables of docs/validation.md that tests measure (scripts/validate_sea puts them together).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace halocline::testing {
+
+// Prints the row and keeps it as one of the running test's, in the order of calls. `table` names a table of
+// scripts/validate_sea; the cells are its columns. Throws std::runtime_error where it cannot be kept.
+void doc_row(const std::string& table, const std::vector<std::string>& cells);
+
+}  // namespace halocline::testing
