@@ -109,7 +109,7 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
 const std::vector<std::string> kFading{"none", "sea"};
-const std::vector<std::string> kReverberation{"none", "lambert"};
+const std::vector<std::string> kScattering{"none", "lambert"};  // of the loss and of reverberation
 constexpr std::string_view kCustom = "custom", kAnySolver = "auto";
 
 std::vector<std::string> sediments() {
@@ -156,6 +156,8 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
            {0, 20, "dB", "fading: standard deviation of a link's level over minutes"});
   v.number("large_scale_fading_s", f.large_scale_time_s, {0.1, 1e6, "s", "fading: its correlation time"});
   v.number("bottom_roughness_m", f.bottom_roughness_m, {0, 1, "m", "fading: rms height of the bottom"});
+  bus::choice(v, "scattering_loss", f.scattering_loss, kScattering,
+              "fading: lambert: what rough boundaries scatter beyond the bottom's critical angle is lost");
   if (f.enabled && is_coherent_loss(p.surface_loss_model)) {
     v.problem("surface_loss_model",
               "with fading = \"sea\" what a rough surface takes from the coherent sound is scattered, "
@@ -165,8 +167,8 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
 
 void visit_reverberation(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::Reverberation& r = p.reverberation;
-  bus::choice(v, "reverberation", r.enabled, kReverberation,
-              "rays: lambert: rough boundaries leave a tail behind every packet (docs/packets.md)");
+  bus::choice(v, "reverberation", r.enabled, kScattering,
+              "rays: lambert: rough boundaries leave a tail behind every packet (docs/scenarios.md)");
   v.number("bottom_scattering_db", r.bottom_scattering_db,
            {-80, -5, "dB", "reverberation: of the bottom, by Lambert's law"});
   v.number("surface_scattering_db", r.surface_scattering_db,

@@ -25,6 +25,7 @@ struct FadingModel {
   double large_scale_db = 3;  // standard deviation of X, 0..20 (Qarabaqi and Stojanovic 2013: log-normal)
   double large_scale_time_s = 120;   // correlation time of X, 0.1..1e6
   double bottom_roughness_m = 0.02;  // rms height of the bottom, 0..1
+  bool scattering_loss = false;      // acoustics/fading/scattering_loss.h
   bool operator==(const FadingModel&) const = default;
 };
 

@@ -52,7 +52,7 @@ double steepened_share(double wind_mps, double sine, double trapped_share) {
 
 double kept_share(const FadingModel& model, double wind_mps, double frequency_hz, double trapped_share,
                   const RoughBounces& bounces) {
-  if (!model.enabled) return 1;
+  if (!model.enabled || !model.scattering_loss) return 1;
   const double bottom = rayleigh_squares(model.bottom_roughness_m, frequency_hz, bounces.bottom_sine_squares);
   return kept_of_bounces(bounces.bottom_count, bottom, 1 - trapped_share) *
          kept_at_surface(wind_mps, frequency_hz, trapped_share, bounces);

@@ -1,5 +1,5 @@
-// What rough boundaries scatter out of shallow water: steeper than the bottom's critical angle, sound is gone within a few
-// bounces. Forward and below that angle it goes on (acoustics/fading/path_fading.h).
+// Optional: what rough boundaries scatter out of shallow water. Steeper than the bottom's critical angle, sound is gone within a
+// few bounces; forward and below that angle it goes on. Without this all of it goes on (acoustics/fading/path_fading.h).
 //
 // Model, q = sin^2 of the critical angle, cos(critical) = c_water / c_bottom, and Gamma^2 of one bounce as there:
 // - Bottom: what is scattered, 1 - exp(-Gamma^2), leaves by Lambert's law (Urick 1983, section 8.5; the law is our choice
@@ -34,7 +34,7 @@ struct RoughBounces {
 // f: share of the sound at a grazing angle of this sine, 0..1, that waves turn beyond the critical angle, q above 0.
 double steepened_share(double wind_mps, double sine, double trapped_share);
 
-// Share of the path's power that is left of what both boundaries scatter, 0..1; 1 for a model that is not enabled.
+// Share of the path's power that is left of what both boundaries scatter, 0..1; 1 for a model without this loss.
 double kept_share(const FadingModel& model, double wind_mps, double frequency_hz, double trapped_share,
                   const RoughBounces& bounces);
 

@@ -186,6 +186,10 @@ void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
   }
   const SimTime arrival = flight->arrival();
   auto& budget = flight->reception.budget;
+  // The reception holds for a place within a decimetre.
+  if (const auto place = fleet_.prediction(flight->receiver_id, arrival, at)) {
+    budget.range_m = (place->position_ned_m - flight->packet->departure_ned_m).norm();
+  }
   budget.noise_level = noise_.level(flight->packet->modem.band(), propagation_.environment(arrival).noise);
   const Decibels noise = budget.noise_level - flight->modem.directivity_index;
   budget.snr = budget.received_level - noise - band_loss(flight->packet->modem, flight->modem);

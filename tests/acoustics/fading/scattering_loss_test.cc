@@ -13,7 +13,7 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kHz = 25'000;
-constexpr FadingModel kSea{.enabled = true};
+constexpr FadingModel kSea{.enabled = true, .scattering_loss = true};
 
 double squared_sine(double degrees) { return std::pow(std::sin(to_radians(degrees)), 2); }
 
@@ -35,7 +35,8 @@ TEST(ScatteringLoss, ABottomLosesWhatItScattersBeyondItsCriticalAngle) {
   const PathFading fading = path_fading(kSea, 0, kHz, 0, squared_sine(10), kept);
   EXPECT_NEAR(kept * (1 - fading.scattered), 1 - 0.4108, 1e-4);
   EXPECT_NEAR(fading.coherent + fading.medium + fading.scattered, 1, 1e-15);
-  EXPECT_EQ(kept_share({.enabled = false}, 5, kHz, of_sand(), bounces(3, 3, 10)), 1);
+  EXPECT_EQ(kept_share({.enabled = true}, 5, kHz, of_sand(), bounces(3, 3, 10)), 1);
+  EXPECT_EQ(kept_share({.enabled = false, .scattering_loss = true}, 5, kHz, of_sand(), bounces(3, 3, 10)), 1);
 }
 
 // The share by a sum over facets in steps of 1e-5 of slope.
