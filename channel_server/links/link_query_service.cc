@@ -14,6 +14,8 @@ namespace {
 
 // Beyond it a position is a unit mixed up (the same bound as for vehicles).
 constexpr double kFarthestM = 1e7;
+// By so much the smooth seabed of rays may lie above that of the terrain, m: a place less far inside is taken as on it.
+constexpr double kSeabedErrorM = 1;
 
 std::string problem_of_modem(const acoustics::Modem& modem) {
   try {
@@ -127,17 +129,33 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Wa
   answer.row.receiver_id = to.id;
   answer.row.transmitter_age = from.placement.age;
   answer.row.receiver_age = to.placement.age;
-  set_reception(from, to, waiting.reply.at, answer.row);
+  set_reception(from, to, waiting.reply.at, answer);
   const bool tables_know = from.id != 0 && to.id != 0 && from.id != to.id && !propagation_.uses_bottom();
   if (tables_know) {
     answer.row.multipath = echoes_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
   }
   waiting.reply.answers.push_back(answer);
-  if (answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
+  const bool refused = answer.status != LinkAnswer::Status::kAnswered;
+  if (!refused && answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
+}
+
+// Vehicles rest on the seabed as the terrain has it, which may lie below the smooth one.
+std::string LinkQueryService::problem_with_seabed(const ResolvedEnd& end) const {
+  const double inside_m = end.id == 0 ? propagation_.depth_inside_seabed_m(end.placement.position_ned_m) : 0;
+  if (inside_m <= kSeabedErrorM) return {};
+  return "position_ned_m lies " + std::to_string(std::lround(inside_m)) + " m inside the seabed";
 }
 
 void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at,
-                                     LinkRow& row) {
+                                     LinkAnswer& answer) {
+  const std::string at_from = problem_with_seabed(from), at_to = problem_with_seabed(to);
+  if (!at_from.empty() || !at_to.empty()) {
+    answer = {LinkAnswer::Status::kBadInput,
+              at_from.empty() ? "receiver: " + at_to : "transmitter: " + at_from,
+              {}};
+    return;
+  }
+  LinkRow& row = answer.row;
   const Reception reception = propagation_.reception(at, link_end(from.placed()), link_end(to.placed()));
   const acoustics::Modem &transmitter = from.modem.modem, &receiver = to.modem.modem;
   row.set(reception,
@@ -177,7 +195,7 @@ void LinkQueryService::take_bottoms(Waiting& waiting) {
     const auto& [from, to] = waiting.ends.at(index);
     if (!propagation_.is_ready(waiting.reply.at, link_end(from.placed()), link_end(to.placed())))
       return false;
-    set_reception(from, to, waiting.reply.at, waiting.reply.answers[index].row);
+    set_reception(from, to, waiting.reply.at, waiting.reply.answers[index]);
     return true;
   });
 }

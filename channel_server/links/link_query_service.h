@@ -107,7 +107,9 @@ class LinkQueryService {
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   [[nodiscard]] std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
-  void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, LinkRow& row);
+  // Or why there can be none.
+  void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, LinkAnswer& answer);
+  [[nodiscard]] std::string problem_with_seabed(const ResolvedEnd& end) const;
   void wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void take_bottoms(Waiting& waiting);
 

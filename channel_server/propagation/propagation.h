@@ -116,6 +116,8 @@ class Propagation {
   // reception_over() the one that is given, from the one end to the other (null: unknown). The latter is not to be
   // called otherwise.
   virtual bool uses_bottom() const { return false; }
+  // How far a place lies inside the seabed, m; 0 or less in the water, and where the seabed is not known.
+  virtual double depth_inside_seabed_m(const Vec3& /*place_ned_m*/) const { return 0; }
   virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                    const std::shared_ptr<const SeabedProfile>& seabed);
   // Whether an echo off one of these points of the bottom reaches the receiver above its cut-off.

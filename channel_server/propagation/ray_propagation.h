@@ -82,6 +82,9 @@ class RayPropagation : public Propagation {
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool are_ready(SimTime at, const std::vector<EndPair>& links) override;
   bool uses_bottom() const override { return true; }
+  double depth_inside_seabed_m(const Vec3& place_ned_m) const override {
+    return place_ned_m.z() - seabed_->seabed_z_m(place_ned_m).value_or(place_ned_m.z());
+  }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
   // The paths behind reception_over(), one for each of its own but those of reverberation, in their order. Amplitudes

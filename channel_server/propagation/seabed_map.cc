@@ -155,6 +155,11 @@ std::shared_ptr<const SeabedProfile> SeabedMap::between(const Vec3& from, const 
   return std::make_shared<const SeabedProfile>(std::move(profile));
 }
 
+std::optional<double> SeabedMap::seabed_z_m(const Vec3& place) const {
+  const double z_m = Reader(*this).seabed(line_between(place, place), 0);
+  return std::isnan(z_m) ? std::nullopt : std::optional(z_m);
+}
+
 bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
   const Line line = line_between(from, to);
   const auto tile_coordinate = [&](double at_m) {

@@ -10,6 +10,7 @@
 
 #include "bus/event_log.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/water_model.h"
 #include "core/sim_time.h"
 #include "tests/channel_server/node_bench.h"
 #include "tests/support/tolerance.h"
@@ -198,6 +199,24 @@ TEST_F(LinkQueryTest, TheReplyGoesToItsClientWithItsNumber) {
   EXPECT_EQ(bench_.replies.at(0).message.request_id, 123456789);
   EXPECT_EQ(bench_.replies.at(0).message.utime, 7'000'000);
   EXPECT_EQ(bench_.replies.at(0).message.session, NodeBench::kSession);
+}
+
+TEST(LinkQueryOverASeabed, APositionInsideItIsRefused) {
+  bus::set_log_level(bus::LogLevel::kSilent);
+  NodeBench bench({}, {testing::quick_modem(), {}}, ray_model(testing::even_water(), {}, {}));
+  FlatBottom bottom(bench.lcm(), 100);
+  link_query_t query{};
+  query.client_name = "tester";
+  query.num_links = 3;
+  query.transmitters = {at(0, 50), at(0, 130), at(0, 50)};
+  query.receivers = {at(500, 60), at(500, 60), at(500, 108)};
+  bench.bus().publish("LINK_QUERY", query);
+  for (int step = 1; step <= 5 && bench.replies.empty(); ++step) bench.step(step);
+  const auto& answers = bench.replies.at(0).message.answers;
+  EXPECT_EQ(answers.at(0).answer_status, link_answer_t::ANSWERED);
+  EXPECT_EQ(answers.at(1).answer_status, link_answer_t::BAD_INPUT);
+  EXPECT_EQ(answers.at(1).problem, "transmitter: position_ned_m lies 30 m inside the seabed");
+  EXPECT_EQ(answers.at(2).problem, "receiver: position_ned_m lies 8 m inside the seabed");
 }
 
 }  // namespace
