@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <numbers>
 
-#include <boost/math/special_functions/erf.hpp>
-
+#include "acoustics/math/functions.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/mean_sound.h"
 #include "acoustics/reception/packet_levels.h"
+#include "core/random.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -19,9 +19,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t kMediumStates = 8, kLevels = 4, kStrata = 32;
-
-double squared(double x) { return x * x; }
+constexpr std::size_t kPowers = 8, kPatterns = 16, kLevels = 7, kStrata = 32;
+constexpr double kAlike = 0.03;  // slow fading of less than this share of the signal counts as none
 
 // The middles of strata of equal probability of a standard normal, scaled to its variance.
 template <std::size_t count>
@@ -29,8 +28,8 @@ std::array<double, count> normal_strata() {
   std::array<double, count> strata{};
   double squares = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double p = (2.0 * static_cast<double>(i) + 1) / count;
-    strata[i] = std::numbers::sqrt2 * boost::math::erf_inv(p - 1);
+    const double p = (static_cast<double>(i) + 0.5) / count;
+    strata[i] = normal_quantile(p);
     squares += squared(strata[i]) / count;
   }
   for (double& value : strata) value /= std::sqrt(squares);
@@ -38,26 +37,56 @@ std::array<double, count> normal_strata() {
 }
 
 // The slow states: levels of large-scale fading at which a packet's fate is computed, the strata between which it is
-// interpolated (by Lagrange's polynomial), each with normals for what fades fast, and the medium's states.
+// interpolated, each with normals for what fades fast, and the medium's states.
 struct SlowStates {
-  std::array<double, kLevels> levels{-2.1, -0.7, 0.7, 2.1};  // standard deviations
+  std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // standard deviations
   std::array<double, kStrata> strata = normal_strata<kStrata>();
-  std::array<std::array<double, kLevels>, kStrata> weights{};
-  std::array<Complex, kMediumStates> medium{};
+  std::array<std::size_t, kStrata> below{};  // the level below, and how far between
+  std::array<double, kStrata> part{};
+  std::array<double, kPowers> powers = normal_strata<kPowers>();  // scores of the slow power
+  std::array<double, kPatterns> pattern_powers = normal_strata<kPatterns>();
+  std::array<BandPressures, kPatterns> patterns{};  // normals of the medium
 
   SlowStates() {
     for (std::size_t i = 0; i < kStrata; ++i) {
-      for (std::size_t k = 0; k < kLevels; ++k) {
-        weights[i][k] = 1;
-        for (std::size_t n = 0; n < kLevels; ++n) {
-          if (n != k) weights[i][k] *= (strata[i] - levels[n]) / (levels[k] - levels[n]);
+      const double place = (strata[i] - levels[0]) / (levels[1] - levels[0]);
+      below[i] = static_cast<std::size_t>(place);
+      part[i] = place - static_cast<double>(below[i]);
+    }
+    for (std::size_t c = 0; c < 2 * kSignalFrequencies; ++c) add_coordinate(c);
+  }
+  // Coordinate `c` of the patterns' normals: each stratum once, in the one of many random orders that is correlated least
+  // with those before, by itself and by squares.
+  void add_coordinate(std::size_t c) {
+    constexpr std::uint64_t kTrials = 300;
+    const auto value = [&](std::size_t i, std::size_t k) {
+      return k % 2 == 0 ? patterns[i][k / 2].real() : patterns[i][k / 2].imag();
+    };
+    std::array<double, kPatterns> best{};
+    double least = 1e300;
+    for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+      std::array<double, kPatterns> order = pattern_powers;
+      for (std::size_t i = kPatterns - 1; i > 0; --i) {
+        const DrawAddress address{.purpose = purpose_of("medium-states"), .which = (trial * 64 + c) * 64 + i};
+        std::swap(order[i], order[bits_at(address) % (i + 1)]);
+      }
+      double correlated = 0;
+      for (std::size_t k = 0; k < c; ++k) {
+        double products = 0, squares = 0;
+        for (std::size_t i = 0; i < kPatterns; ++i) {
+          products += order[i] * value(i, k);
+          squares += (squared(order[i]) - 1) * (2 * squared(value(i, k)) - 1);
         }
+        correlated += squared(products) + squared(squares);
+      }
+      if (correlated < least) {
+        least = correlated;
+        best = order;
       }
     }
-    const auto normals = normal_strata<kMediumStates>();
-    constexpr std::array<std::size_t, kMediumStates> kOther{4, 1, 6, 3, 7, 0, 5, 2};  // nearly uncorrelated
-    for (std::size_t i = 0; i < kMediumStates; ++i) {
-      medium[i] = Complex(normals[i], normals[kOther[i]]) / std::numbers::sqrt2;
+    for (std::size_t i = 0; i < kPatterns; ++i) {
+      const double normal = best[i] / std::numbers::sqrt2;
+      patterns[i][c / 2] += c % 2 == 0 ? Complex(normal, 0) : Complex(0, normal);
     }
   }
   // Normals of fast fading beside stratum i, in another order in each state: of the preamble, of even and odd blocks.
@@ -74,29 +103,48 @@ const SlowStates& slow_states() {
   return states;
 }
 
-// Adds the mean over the strata of large-scale fading, between the levels at which the ratios are known.
+// One of the medium's states: the preamble's level, and the bits' ratios at kLevels of large-scale fading.
+struct SlowLevels {
+  Level preamble;
+  std::array<Level, kLevels> bits;
+};
+
+// Means over the strata of large-scale fading.
 class StrataMean {
  public:
-  StrataMean(const ReceptionCurves& curves, double kept) : curves_(curves) {
+  StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double signal,
+             double noise)
+      : curves_(curves) {
+    const double echoes = sound.preamble_echoes + sound.untracked * signal;
+    for (std::size_t i = 0; i < kStrata; ++i) {
+      const double quiet = noise / loudness(deviation, slow_states().strata[i]);
+      preamble_db_[i] = 10 * std::log10(quiet + echoes);
+    }
+    const auto all_bits = static_cast<double>(curves.timing().information_bits);
     for (const std::int64_t bits : curves.blocks()) {
-      const double part = static_cast<double>(bits) / static_cast<double>(curves.timing().information_bits);
+      const double part = static_cast<double>(bits) / all_bits, kept = sound.bits_variance;
       blocks_.push_back({static_cast<double>(bits), std::sqrt(kept_of_part(kept, part) / kept)});
     }
   }
-  // In one of the medium's states.
-  void add(const std::array<Level, kLevels>& preamble, const std::array<Level, kLevels>& bits,
-           std::size_t state, LinkPrediction& prediction) const {
-    constexpr double kWeight = 1.0 / (kStrata * kMediumStates);
+  // All sound is louder by this factor, at a score of large-scale fading of `deviation` nepers of power.
+  static double loudness(double deviation, double z) {
+    return std::exp(deviation * z - deviation * deviation / 2);
+  }
+  // Adds those in one of the medium's states.
+  void add(const SlowLevels& levels, std::size_t state, std::size_t states,
+           LinkPrediction& prediction) const {
+    const double weight = 1.0 / static_cast<double>(kStrata * states);
     const SlowStates& slow = slow_states();
     for (std::size_t i = 0; i < kStrata; ++i) {
-      const double acquired = curves_.acquisition_at(between(preamble, i, slow.preamble(i, state)));
-      prediction.acquisition_probability += kWeight * acquired;
+      const double acquired =
+          curves_.acquisition_at(levels.preamble.at(slow.preamble(i, state)) - preamble_db_[i]);
+      prediction.acquisition_probability += weight * acquired;
       double log_success = 0;
       for (std::size_t b = 0; b < blocks_.size(); ++b) {
         const double z = slow.block(i, state, b) * blocks_[b].wider;
-        log_success += blocks_[b].bits * curves_.log_bit_success_at(between(bits, i, z));
+        log_success += blocks_[b].bits * curves_.log_bit_success_at(between(levels.bits, i, z));
       }
-      prediction.delivery_probability += kWeight * acquired * std::exp(log_success);
+      prediction.delivery_probability += weight * acquired * std::exp(log_success);
     }
   }
 
@@ -105,13 +153,29 @@ class StrataMean {
     double bits, wider;
   };
   static double between(const std::array<Level, kLevels>& levels, std::size_t i, double z) {
-    double db = 0;
-    for (std::size_t k = 0; k < kLevels; ++k) db += slow_states().weights[i][k] * levels[k].at(z);
-    return db;
+    const SlowStates& slow = slow_states();
+    const double low = levels[slow.below[i]].at(z), high = levels[slow.below[i] + 1].at(z);
+    return low + slow.part[i] * (high - low);
   }
   const ReceptionCurves& curves_;
+  std::array<double, kStrata> preamble_db_{};  // noise and interference over large-scale fading
   std::vector<Block> blocks_;
 };
+
+// The medium's states over the band, the quietest first, with the strata of the slow power.
+std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
+  const MediumStates medium(sound);
+  const PowerLaw slow = sound.slow_power();
+  std::array<SlowSound, kPatterns> patterns;
+  for (std::size_t i = 0; i < kPatterns; ++i) patterns[i] = medium.state(slow_states().patterns[i]);
+  std::sort(patterns.begin(), patterns.end(),
+            [](const SlowSound& a, const SlowSound& b) { return a.slow_power < b.slow_power; });
+  for (std::size_t i = 0; i < kPatterns; ++i) {
+    const double power = std::max(slow.at(slow_states().pattern_powers[i]), 0.0);
+    if (patterns[i].slow_power > 0) patterns[i].scale(power / patterns[i].slow_power);
+  }
+  return patterns;
+}
 
 // Without fading nothing varies but which echoes sound.
 LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Lock& lock, double noise,
@@ -156,25 +220,40 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   if (paths.empty()) return {};
   if (!model.enabled) return predict_still(paths, lock, noise, curves);
   const MeanSound sound = mean_sound(paths, lock, band, curves.timing());
-  const BandPressures direction = sound.medium_direction();
   const PacketLevels packet(curves, sound);
-  const StrataMean mean(curves, sound.bits_variance);
+  const PowerLaw slow = sound.slow_power();
+  const double signal = slow.mean + sound.scattered_power();
   // What changes as the ends sway holds through a packet too.
   const double deviation =
       std::hypot(std::numbers::ln10 / 10 * model.large_scale_db, std::sqrt(std::log1p(sound.sway_variance)));
+  const StrataMean mean(deviation, curves, sound, signal, noise);
+  std::array<double, kLevels> loudness{};
+  for (std::size_t k = 0; k < kLevels; ++k) {
+    loudness[k] = StrataMean::loudness(deviation, slow_states().levels[k]);
+  }
   LinkPrediction prediction;
-  double signal = 0;
-  for (std::size_t i = 0; i < kMediumStates; ++i) {
-    const SlowSound slow = slow_sound(sound, direction, slow_states().medium[i]);
-    signal += slow.mean / kMediumStates;
-    std::array<Level, kLevels> preamble, bits;
-    for (std::size_t k = 0; k < kLevels; ++k) {
-      // All sound is louder by a factor: as if the noise were weaker.
-      const double factor = std::exp(deviation * slow_states().levels[k] - deviation * deviation / 2);
-      preamble[k] = packet.preamble(slow, noise / factor);
-      bits[k] = packet.bits(slow, noise / factor);
+  SlowLevels levels;
+  if (packet.collects_band()) {
+    const double interference = sound.bits_echoes + sound.untracked * signal;
+    const bool alike = slow.variance < squared(kAlike * signal);
+    for (std::size_t i = 0; i < kPowers; ++i) {
+      if (i == 0 || !alike) {
+        const double power = alike ? slow.mean : std::max(slow.at(slow_states().powers[i]), 0.0);
+        const FadingSignal fading = packet.fading_signal(power);
+        levels.preamble = packet.preamble(power);
+        for (std::size_t k = 0; k < kLevels; ++k) {
+          levels.bits[k] = packet.bits(fading, noise / loudness[k] + interference);
+        }
+      }
+      mean.add(levels, i, kPowers, prediction);
     }
-    mean.add(preamble, bits, i, prediction);
+  } else {
+    const auto patterns = patterns_of(sound);
+    for (std::size_t i = 0; i < kPatterns; ++i) {
+      levels.preamble = packet.preamble(patterns[i].slow_power);
+      for (std::size_t k = 0; k < kLevels; ++k) levels.bits[k] = packet.bits(patterns[i], noise / loudness[k]);
+      mean.add(levels, i, kPatterns, prediction);
+    }
   }
   prediction.sinr = signal / (noise + sound.bits_echoes + sound.untracked * signal);
   // Sums of rounded parts.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Dense>
+
+#include "acoustics/math/functions.h"
 #include "acoustics/reception/steady_band.h"
 #include "core/units.h"
 
@@ -17,11 +20,6 @@ constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kNegligible = 1e-12;  // of the power: of no effect
 constexpr double kIncoherent = 1e-6;   // of the power of a path
 
-double squared(double x) { return x * x; }
-
-// sin(pi x) / (pi x).
-double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(pi * x) / (pi * x); }
-
 void add_to(BandCorrelation& correlation, double power, Complex turn) {
   Complex term = power;
   for (Complex& value : correlation) {
@@ -30,11 +28,21 @@ void add_to(BandCorrelation& correlation, double power, Complex turn) {
   }
 }
 
-// Mean over all pairs of frequencies of |correlation|^2.
-double mean_square(const BandCorrelation& correlation) {
+void add_to(SharedFading& shared, double x, double y, double squared_spread) {
+  shared.y += y;
+  shared.xy += x * y;
+  shared.yy += y * y;
+  shared.xyy += x * y * y;
+  shared.yyy += y * y * y;
+  shared.xy_spread += x * y * squared_spread;
+  shared.yy_spread += y * y * squared_spread;
+}
+
+// Mean over all pairs of frequencies of a b*.
+double mean_correlation(const BandCorrelation& a, const BandCorrelation& b) {
   double sum = 0;
   for (std::size_t k = 0; k < kFrequencies; ++k) {
-    sum += (k == 0 ? 1.0 : 2.0) * static_cast<double>(kFrequencies - k) * std::norm(correlation[k]);
+    sum += (k == 0 ? 1.0 : 2.0) * static_cast<double>(kFrequencies - k) * (a[k] * std::conj(b[k])).real();
   }
   return sum / (kFrequencies * kFrequencies);
 }
@@ -57,6 +65,45 @@ double mean_product(const BandPressures& a, const BandPressures& b) {
   return sum / (kFrequencies * kFrequencies);
 }
 
+// A path whose untracked part interferes: its turn of phase from frequency to frequency, and the product of both powers.
+struct SharedPath {
+  Complex turn;
+  double xy;
+};
+
+// E_j = sum of x y |v^H w_j|^2 / (8 lambda_j) over paths of steering vectors v, for modes K w_j = 8 lambda_j w_j.
+void add_modes(const std::vector<SharedPath>& paths, MeanSound& sound) {
+  using Matrix = Eigen::Matrix<Complex, kFrequencies, kFrequencies>;
+  Matrix scattered;
+  for (std::size_t m = 0; m < kFrequencies; ++m) {
+    for (std::size_t n = 0; n <= m; ++n) {
+      scattered(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(n)) = sound.scattered[m - n];
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(scattered);
+  sound.apart = sound.shared.y;
+  sound.shared.own = mean_correlation(sound.scattered, sound.scattered);
+  for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(kFrequencies); ++j) {
+    BandMode mode{.scattered = solver.eigenvalues()(j) / kFrequencies};
+    if (!(mode.scattered > 1e-4 * sound.scattered_power())) continue;
+    BandPressures w{};
+    for (std::size_t m = 0; m < kFrequencies; ++m) w[m] = solver.eigenvectors()(static_cast<Eigen::Index>(m), j);
+    for (const SharedPath& path : paths) {
+      if (!(path.xy > 0)) continue;
+      Complex sum = 0, turn = 1;
+      for (std::size_t m = 0; m < kFrequencies; ++m, turn *= path.turn) sum += std::conj(turn) * w[m];
+      mode.interference += path.xy * std::norm(sum) / (kFrequencies * mode.scattered);
+    }
+    Complex steady = 0;
+    for (std::size_t m = 0; m < kFrequencies; ++m) steady += std::conj(w[m]) * sound.steady[m];
+    const double medium = mean_product(w, times(sound.medium, w)) * kFrequencies;
+    mode.rest = std::norm(steady) / kFrequencies + medium;
+    sound.apart -= mode.interference;
+    sound.modes.push_back(mode);
+  }
+  sound.apart = std::max(sound.apart, 0.0);
+}
+
 double share_within(double begin_s, double end_s, double from_s, double to_s) {
   return to_s > from_s
              ? std::clamp((std::min(end_s, to_s) - std::max(begin_s, from_s)) / (to_s - from_s), 0.0, 1.0)
@@ -68,15 +115,9 @@ double share_within(double begin_s, double end_s, double from_s, double to_s) {
 double kept_variance(double x) { return 1 / std::sqrt(1 + x * x / pi); }
 
 double kept_of_longer(double kept) { return kept / std::sqrt(kept * kept + (1 - kept * kept) / 2); }
+double third_share(double kept) { return kept > 0.5 ? (3 * kept - 1) / 2 : kept * kept; }
 double kept_of_part(double kept, double part) {
   return kept / std::sqrt(kept * kept + part * part * (1 - kept * kept));
-}
-
-BandPressures MeanSound::medium_direction() const {
-  BandPressures direction = times(medium, steady);
-  const double along = mean_product(steady, direction) * kFrequencies * kFrequencies;
-  for (Complex& value : direction) value *= along > 0 ? 1 / std::sqrt(along) : 0;
-  return direction;
 }
 
 MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,
@@ -87,39 +128,46 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
   const double preamble_s = timing.preamble.seconds(), end_s = timing.duration.seconds();
   MeanSound sound;
   SteadyBand steady(*lock.modem, band);
-  double signal = 0, untracked = 0, squares = 0, products = 0, untracked_squares = 0, spread = 0,
-         preamble_root = 0, bits_root = 0;
+  double signal = 0, untracked = 0, spread = 0, all = 0, all_spread = 0, preamble_root = 0, bits_root = 0;
+  std::vector<SharedPath> shares;
+  shares.reserve(paths.size());
   for (std::size_t p = 0; p < paths.size(); ++p) {
     const SoundPath& path = paths[p];
     const double power = to_power_ratio(path.level).value, begin_s = path.delay_s - first.delay_s;
-    if (const double late = lock.window.interference[p] * power; late > 0) {
-      sound.preamble_echoes += late * share_within(begin_s, begin_s + end_s, 0, preamble_s);
-      sound.bits_echoes += late * share_within(begin_s, begin_s + end_s, preamble_s, end_s);
-    }
-    const double within = squared(lock.window.weights[p]) * power;
-    if (!(within > 0)) continue;
+    const double rate = 2 * pi * path.fading.doppler_spread_hz;  // 1 / L of its power
+    // What is scattered so slowly that it holds through a packet fades as the medium does.
+    const double holds = 1 / (1 + squared(rate * (end_s - preamble_s)));
+    const double fast = path.fading.scattered * (1 - holds), within = squared(lock.window.weights[p]) * power;
     const double of_path = within * kept * tracked_share(*lock.modem, path), rest = within - of_path;
+    double interference = rest;
+    if (const double late = lock.window.interference[p] * power; late > 0) {
+      const double of_bits = late * share_within(begin_s, begin_s + end_s, preamble_s, end_s);
+      sound.preamble_echoes += late * share_within(begin_s, begin_s + end_s, 0, preamble_s);
+      sound.bits_echoes += of_bits;
+      interference += of_bits;
+    }
+    add_to(sound.shared, of_path * fast, interference * fast, squared(path.fading.doppler_spread_hz));
+    if (!(within > 0)) continue;
+    shares.push_back({Complex{}, of_path * interference * fast * fast});
     signal += of_path;
     untracked += rest;
-    squares += of_path * of_path;
-    products += of_path * rest;
-    untracked_squares += rest * rest;
+    all += within;
+    all_spread += within * squared(path.fading.doppler_spread_hz);
     const double excess_s = path.delay_s - strongest.delay_s;
     const Complex turn = std::polar(1.0, -2 * pi * std::fmod(spacing_hz * excess_s, 1.0));
+    shares.back().turn = turn;
     const double coherent = std::sqrt(of_path * path.fading.coherent);
     const double at_low = path.phase_rad - 2 * pi * std::fmod(band.low_hz * excess_s, 1.0);
-    if (path.fading.coherent > kIncoherent)
+    if (path.fading.coherent > kIncoherent) {
       steady.add(
           {coherent, at_low, excess_s, std::sin(path.launch_angle_rad), std::sin(path.arrival_angle_rad)});
+    }
     Complex pressure = std::polar(coherent, at_low - pi * std::fmod(spacing_hz * excess_s, 2.0));
     for (Complex& sum : sound.steady) {
       sum += pressure;
       pressure *= turn;
     }
-    // What is scattered so slowly that it holds through a packet fades as the medium does.
-    const double rate = 2 * pi * path.fading.doppler_spread_hz;  // 1 / L of its power
-    const double holds = 1 / (1 + squared(rate * (end_s - preamble_s)));
-    const double scattered = of_path * path.fading.scattered * (1 - holds);
+    const double scattered = of_path * fast;
     add_to(sound.medium, of_path * (path.fading.medium + path.fading.scattered * holds), turn);
     add_to(sound.scattered, scattered, turn);
     add_to(sound.beating, scattered * squared(sinc(spacing_hz * excess_s)), turn);
@@ -128,40 +176,93 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     bits_root += scattered * std::sqrt(kept_variance(rate * (end_s - preamble_s)));
   }
   const auto parts = steady.parts();
-  double mean = sound.medium[0].real() + sound.scattered_power();
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     const double middle = std::abs(sound.steady[m]);
     sound.steady[m] *= middle > 0 ? std::sqrt(parts[m].constant) / middle : 0;
     sound.varying[m] = parts[m].varying;
-    mean += (parts[m].constant + parts[m].varying) / kFrequencies;
   }
+  const double mean = sound.coherent_power() + sound.medium[0].real() + sound.scattered_power();
   if (mean > 0) sound.sway_variance = steady.sway_variance() / squared(mean);
-  if (untracked > kNegligible * signal) {
-    sound.untracked = untracked / signal;
-    sound.shared_fading = products / squares / sound.untracked;
-    sound.own_fading = untracked_squares / squares / squared(sound.untracked);
+  for (const SharedPath& one : shares) {
+    if (!(one.xy > 0)) continue;
+    BandCorrelation alone{};
+    add_to(alone, 1, one.turn);
+    sound.shared.xxy += one.xy * mean_correlation(sound.scattered, alone);
   }
+  if (untracked > kNegligible * signal) sound.untracked = untracked / signal;
+  sound.window_spread_hz = all > 0 ? std::sqrt(all_spread / all) : 0;
   if (const double scattered = sound.scattered_power(); scattered > kNegligible * signal) {
     sound.spread_hz = std::sqrt(spread / scattered);
     sound.preamble_variance = squared(preamble_root / scattered);
     sound.bits_variance = squared(bits_root / scattered);
+    const double others = sound.medium[0].real() + sound.coherent_power();
+    if (!is_frequency_shift_keying(lock.modem->error_model)) add_modes(shares, sound);
+    if (others > 0) {
+      sound.beats = 2 *
+                    (mean_product(sound.steady, times(sound.beating, sound.steady)) +
+                     mean_correlation(sound.scattered, sound.medium)) /
+                    others;
+    }
   }
   return sound;
 }
 
-SlowSound slow_sound(const MeanSound& sound, const BandPressures& direction, Complex state) {
-  SlowSound slow;
-  BandPressures steady{};
-  const double medium = sound.medium[0].real(), scattered = sound.scattered_power();
+double MeanSound::coherent_power() const {
+  double sum = 0;
+  for (std::size_t m = 0; m < kFrequencies; ++m) sum += (std::norm(steady[m]) + varying[m]) / kFrequencies;
+  return sum;
+}
+
+PowerLaw MeanSound::slow_power() const {
+  const double turned = medium[0].real(), coherent = coherent_power();
+  if (!(turned > kNegligible * coherent)) return {coherent + turned};
+  const double own = mean_correlation(medium, medium), mixed = 2 * mean_product(steady, times(medium, steady));
+  const double kept = own / squared(turned), share = third_share(kept);
+  return {coherent + turned, own + mixed, turned * share * (2 * turned * turned + 3 * mixed / kept)};
+}
+
+PowerLaw MeanSound::power(double slow_power, double kept) const {
+  const double fast = scattered_power();
+  if (!(fast > kNegligible * slow_power)) return {slow_power + fast};
+  const double own = mean_correlation(scattered, scattered), mixed = beats * slow_power;
+  const double over_band = own / squared(fast), longer = kept_of_longer(kept);
+  return {slow_power + fast, kept * own + longer * mixed,
+          fast * third_share(over_band) *
+              (2 * fast * fast * third_share(kept) + 3 * mixed / over_band * third_share(longer))};
+}
+
+void SlowSound::scale(double factor) {
+  for (double& power : steady) power *= factor;
+  for (double& power : varying) power *= factor;
+  slow_power *= factor;
+}
+
+MediumStates::MediumStates(const MeanSound& sound) : sound_(sound) {
+  // Cholesky's root. Few paths leave the correlation without full rank: pivots of rounding's size count as none.
+  const auto& correlation = sound.medium;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    steady[m] = sound.steady[m] + state * direction[m];
-    slow.steady[m] = std::norm(steady[m]);
-    slow.diffuse[m] = std::max(medium - std::norm(direction[m]), 0.0) + scattered + sound.varying[m];
-    slow.mean += (slow.steady[m] + slow.diffuse[m]) / kFrequencies;
+    for (std::size_t n = 0; n <= m; ++n) {
+      Complex rest = correlation[m - n];
+      for (std::size_t k = 0; k < n; ++k) rest -= rows_[m][k] * std::conj(rows_[n][k]);
+      const double pivot = rows_[n][n].real();
+      if (n < m) {
+        rows_[m][n] = pivot > 0 ? rest / pivot : 0;
+      } else {
+        rows_[m][m] = rest.real() > 1e-9 * correlation[0].real() ? std::sqrt(rest.real()) : 0;
+      }
+    }
   }
-  slow.own = mean_square(sound.scattered);
-  slow.mixed = scattered > 0 ? 2 * mean_product(steady, times(sound.beating, steady)) : 0;
-  if (scattered > 0) slow.constant = std::max(slow.mean - scattered - slow.mixed / (2 * scattered), 0.0);
+}
+
+SlowSound MediumStates::state(const BandPressures& normals) const {
+  SlowSound slow;
+  for (std::size_t m = 0; m < kFrequencies; ++m) {
+    Complex pressure = sound_.steady[m];
+    for (std::size_t k = 0; k <= m; ++k) pressure += rows_[m][k] * normals[k];
+    slow.steady[m] = std::norm(pressure);
+    slow.varying[m] = sound_.varying[m];
+    slow.slow_power += (slow.steady[m] + slow.varying[m]) / kFrequencies;
+  }
   return slow;
 }
 

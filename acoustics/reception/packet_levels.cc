@@ -1,11 +1,11 @@
 #include "acoustics/reception/packet_levels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "acoustics/math/functions.h"
 #include "acoustics/reception/decoding.h"
 
 namespace halocline::acoustics {
@@ -15,191 +15,213 @@ using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kDbPerNeper = 10 / std::numbers::ln10;
-constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
+constexpr double kMaxExponent = 300;   // of a ratio of variances: no packet of it is lost
 
-double squared(double x) { return x * x; }
+constexpr double kNarrow = 0.15;       // of the mean: 0.65 dB
+constexpr double kSofter = 0.17;       // 1 / dB
+constexpr double kGammaShare = 0.15;
+constexpr double kLeastLoss = 1e-6;    // of packets
 
-// Gauss-Hermite nodes of a standard normal (Abramowitz and Stegun 1964, table 25.10, scaled).
-struct Node {
-  double z, weight;
-};
-constexpr std::array<Node, 5> kFive{{{-2.8569700138728056, 0.011257411327720689},
-                                     {-1.3556261799742659, 0.22207592200561266},
-                                     {0, 0.53333333333333333},
-                                     {1.3556261799742659, 0.22207592200561266},
-                                     {2.8569700138728056, 0.011257411327720689}}};
-
-// P(X < x) of a gamma distributed X of shape k: the series, or Wilson and Hilferty 1931 where it is accurate.
-double gamma_below(double k, double x) {
-  if (k > 4) {
-    const double z = 3 * std::sqrt(k) * (std::cbrt(x / k) - 1 + 1 / (9 * k));
-    return std::erfc(-z / std::numbers::sqrt2) / 2;
-  }
-  if (x > k + 12) return 1;
-  double term = 1, sum = 1;
-  for (int n = 1; n < 60 && term > 1e-4 * sum; ++n) sum += term *= x / (k + n);
-  return std::min(std::exp(k * std::log(x) - x) / std::tgamma(k + 1) * sum, 1.0);
+constexpr double kMostScore = 6;
+// By steps of 0.05, linear: within 1e-4.
+double tabulated_probability(double score) {
+  constexpr std::size_t kRows = 241;
+  constexpr double kStep = 0.05;
+  static const std::array<double, kRows> table = [] {
+    std::array<double, kRows> made{};
+    for (std::size_t i = 0; i < kRows; ++i) {
+      made[i] = normal_probability(-kMostScore + kStep * static_cast<double>(i));
+    }
+    return made;
+  }();
+  const double place = (std::clamp(score, -kMostScore, kMostScore) + kMostScore) / kStep;
+  const auto i = std::min(static_cast<std::size_t>(place), kRows - 2);
+  return table[i] + (place - static_cast<double>(i)) * (table[i + 1] - table[i]);
 }
 
-// Of a power of mean 1 whose part `constant` stays and whose rest is gamma distributed (Wilson and Hilferty 1931),
-//   x = mean (1 - v / 9 + z sqrt(v) / 3)^3, v the relative variance,
-// in dB by the parabola through z = -1.5, 0 and 1.5.
-Level level_of(double mean_db, double variance, double constant) {
-  if (!(variance > 1e-9)) return {mean_db};
-  const double rest = std::max(1 - constant, 1e-6), root = std::sqrt(variance) / rest;
-  const auto at = [&](double z) {
-    const double x = std::max(1 - root * root / 9 + z * root / 3, 0.05);
-    return kDbPerNeper * std::log(constant + rest * x * x * x);
-  };
-  const double low = at(-1.5), middle = at(0), high = at(1.5);
-  return {mean_db + middle, (high - low) / 3, (high + low - 2 * middle) / 4.5};
+double halvings(double parts) {
+  return std::clamp(std::log2(parts), 0.0, ReceptionCurves::kHalvings - 1.001);
 }
+
+double decibels(double power) { return kDbPerNeper * std::log(std::max(power, 1e-30)); }
 
 }  // namespace
+
+FadingSignal::FadingSignal(const BandLaw& low, const BandLaw& high,
+                           const std::array<double, kFadeScores>& parts_low,
+                           const std::array<double, kFadeScores>& parts_high)
+    : mean_(low.mean()), deviation_(std::sqrt(high.variance())) {
+  low_ = {low.points(), {}, parts_low};
+  high_ = {high.points(), {}, parts_high};
+  for (Side* side : {&low_, &high_}) {
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      side->logs[i] = side->points[i].power > 0 ? std::log(side->points[i].power) : 0;
+    }
+  }
+}
+
+double FadingSignal::Side::score(double power, double log, std::size_t& above) const {
+  while (above < kPoints && points[above].power <= power) ++above;
+  if (above == 0) return -kMostScore;
+  if (above == kPoints) return kMostScore;
+  const BandPoint &low = points[above - 1], &high = points[above];
+  const double part = low.power > 0 ? (log - logs[above - 1]) / (logs[above] - logs[above - 1])
+                                    : (power - low.power) / (high.power - low.power);
+  return low.score + part * (high.score - low.score);
+}
+
+double FadingSignal::Scores::next(double power, double log, double part) {
+  const double low = signal_.low_.score(power, log, low_);
+  return low + part * (signal_.high_.score(power, log, high_) - low);
+}
+
+double FadingSignal::parts(double score, double part) const {
+  const double place = std::clamp(score - kLeastFadeScore, 0.0, kFadeScores - 1.001);
+  const auto k = static_cast<std::size_t>(place);
+  const auto at = [&](const Side& side) {
+    return side.parts[k] + (place - static_cast<double>(k)) * (side.parts[k + 1] - side.parts[k]);
+  };
+  return std::max(at(low_) + part * (at(high_) - at(low_)), 1.0);
+}
 
 PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound)
     : curves_(curves),
       sound_(sound),
       chip_(chip_energy(curves.modem()) / kEffectiveRatioBeta),
       bits_(static_cast<double>(curves.timing().information_bits)),
+      bits_s_((curves.timing().duration - curves.timing().preamble).seconds()),
       coded_(is_coded_frequency_shift_keying(curves.modem().error_model)),
       collects_band_(!is_frequency_shift_keying(curves.modem().error_model)) {
   // The stretches of signal_history.h.
-  const double bits_s = (curves.timing().duration - curves.timing().preamble).seconds();
-  stretches_ = std::clamp(std::ceil(4 * bits_s / coherence_time_of(sound.spread_hz)), 8.0, 64.0);
-  const double step = bits_s / stretches_ * sound.spread_hz;
-  crossings_ = 2 * std::sqrt(pi) * step;
-  const auto ratio_of = [&](double loss, double bits) {
-    return std::pow(10, curves.ratio_db_of(-loss / bits) / 10);
-  };
+  stretches_ = std::clamp(std::ceil(4 * bits_s_ / coherence_time_of(sound.window_spread_hz)), 8.0, 64.0);
+  const auto ratio_db = [&](double loss) { return curves.ratio_db_of(-loss / bits_); };
   if (collects_band_) {
-    fade_bits_ = std::max(bits_ / stretches_ * std::min(stretches_, 1 / -std::expm1(-3 * crossings_)), 2.0);
-    threshold_ = ratio_of(-std::log(0.5), fade_bits_);
-    width_ = std::log(ratio_of(-std::log(0.84), fade_bits_) / ratio_of(-std::log(0.16), fade_bits_)) / 2;
+    const ReceptionCurves::Parts& parts = curves.parts();
+    softness_db_ = decibels(parts.thresholds.front() / parts.thresholds.back());
+    low_threshold_ = parts.thresholds[5];
+    high_threshold_ = parts.thresholds[1];
+    for (std::size_t k = 0; k < between_.size(); ++k) {
+      logs_[k] = std::log(parts.ratios[k]);
+      between_[k] =
+          std::clamp(std::log(parts.ratios[k] / low_threshold_) / std::log(high_threshold_ / low_threshold_), -0.5, 1.5);
+    }
   } else if (!coded_) {
-    const double low = ratio_of(4, bits_);
-    slope_ = std::log(20) / std::max(ratio_of(0.2, bits_) - low, 1e-9);
+    const double low = std::pow(10, ratio_db(4) / 10);
+    slope_ = std::log(20) / std::max(std::pow(10, ratio_db(0.2) / 10) - low, 1e-9);
     errors_at_zero_ = 4 * std::exp(slope_ * low);
   }
 }
 
-Level PacketLevels::preamble(const SlowSound& slow, double noise) const {
-  const double kept = sound_.preamble_variance, quiet = noise + sound_.preamble_echoes;
-  const double variance = kept * slow.own + kept_of_longer(kept) * slow.mixed;
-  return level_of(mean_db(slow, quiet), relative_variance(slow.mean, variance, quiet),
-                  slow.constant / slow.mean);
+Level PacketLevels::preamble(double slow_power) const {
+  const PowerLaw law = sound_.power(slow_power, sound_.preamble_variance);
+  const double low = decibels(law.at(-1.5)), middle = decibels(law.at(0)), high = decibels(law.at(1.5));
+  return {middle, (high - low) / 3, (high + low - 2 * middle) / 4.5};
+}
+
+// By the spread B of a power whose autocorrelation is exp(-(2 pi B tau)^2) and that changes as fast.
+std::array<double, kFadeScores> PacketLevels::parts_of(const BandLaw& law, double threshold,
+                                                       double slow_power) const {
+  const SharedFading& shared = sound_.shared;
+  const double squares = (shared.own + sound_.beats * slow_power / 2) * squared(sound_.spread_hz) +
+                         threshold * (threshold * shared.yy_spread - 2 * shared.xy_spread);
+  const double spread_hz = law.variance() > 0 ? std::sqrt(std::max(squares, 0.0) / law.variance()) : 0;
+  return independent_parts(law.skewness(), stretches_, bits_s_ / stretches_ * spread_hz);
+}
+
+FadingSignal PacketLevels::fading_signal(double slow_power) const {
+  const BandLaw low(sound_, low_threshold_, slow_power), high(sound_, high_threshold_, slow_power);
+  return {low, high, parts_of(low, low_threshold_, slow_power), parts_of(high, high_threshold_, slow_power)};
+}
+
+// -ln of the chance of all bits where fading is less than the steps of ReceptionCurves::Parts: by Hermite's five points.
+double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance) const {
+  constexpr std::array<double, 5> kScores{-2.8569700138728056, -1.3556261799742659, 0, 1.3556261799742659,
+                                          2.8569700138728056};
+  constexpr std::array<double, 5> kWeights{0.011257411327720689, 0.22207592200561266, 0.53333333333333333,
+                                           0.22207592200561266, 0.011257411327720689};
+  const double parts = std::min(signal.parts(-1, 1), stretches_);
+  double success = 0;
+  for (std::size_t i = 0; i < kScores.size(); ++i) {
+    const double ratio = (signal.mean() + kScores[i] * signal.deviation()) / disturbance;
+    success += kWeights[i] * std::exp(bits_ / parts * curves_.log_bit_success(ratio));
+  }
+  return -parts * std::log(std::max(success, 1e-30));
+}
+
+// Of the parts of a packet that fade independently, each with its share of the bits, all have to be right.
+Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
+  if (signal.deviation() < kNarrow * signal.mean()) {
+    return {curves_.ratio_db_of(-std::max(narrow_loss(signal, disturbance), kLeastLoss) / bits_)};
+  }
+  constexpr std::size_t kRatios = ReceptionCurves::kRatios;
+  const ReceptionCurves::Parts& table = curves_.parts();
+  std::array<double, kRatios> below{};
+  double parts = 0;  // of the fades that decide
+  const double log = std::log(disturbance);
+  FadingSignal::Scores scores(signal);
+  for (std::size_t k = 0; k < kRatios; ++k) {
+    const double score = scores.next(table.ratios[k] * disturbance, logs_[k] + log, between_[k]);
+    below[k] = tabulated_probability(score);
+    if (parts > 0) continue;
+    const double here = std::min(signal.parts(score, between_[k]), stretches_);
+    const auto halved = static_cast<std::size_t>(halvings(here) + 0.5);
+    if (table.ratios[k] >= table.thresholds[halved] || k + 1 == kRatios) parts = here;
+  }
+  const double halved = halvings(1 + (parts - 1) / (1 + kSofter * softness_db_));
+  const auto low = static_cast<std::size_t>(halved);
+  double loss = 0;
+  for (const std::size_t h : {low, low + 1}) {
+    double success = below[0] * table.success[h][0] + (1 - below.back()) * table.success[h][kRatios];
+    for (std::size_t k = 1; k < kRatios; ++k) {
+      success += std::max(below[k] - below[k - 1], 0.0) * table.success[h][k];
+    }
+    const double share = h == low ? 1 - (halved - static_cast<double>(low)) : halved - static_cast<double>(low);
+    loss -= share * std::exp2(static_cast<double>(h)) * std::log(std::clamp(success, 1e-30, 1.0));
+  }
+  const double ratio_db = curves_.ratio_db_of(-std::max(loss, kLeastLoss) / bits_);
+  return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
 }
 
 Level PacketLevels::bits(const SlowSound& slow, double noise) const {
-  return coded_ ? interleaved(slow, noise) : Level{product(slow, noise)};
+  const double power = slow.slow_power + sound_.scattered_power();
+  const double disturbance = noise + sound_.bits_echoes + sound_.untracked * power;
+  const Cells cells = cells_of(slow, (coded_ ? chip_ : slope_) / disturbance);
+  if (coded_) {
+    const double v = std::log1p(cells.variance), nepers = cells.nepers + v / 2;
+    return {kDbPerNeper * std::log(std::max(nepers, 1e-12) / chip_), kDbPerNeper * std::sqrt(v) / nepers};
+  }
+  // Errors of single bits, a exp(-slope ratio): as if their number were gamma distributed over the fading,
+  // E exp(-X) = (1 + mean v)^(-1 / v). Its tail is longer: of its variance a part counts (our fit).
+  const double errors = errors_at_zero_ * std::exp(-cells.nepers), v = kGammaShare * cells.variance;
+  const double loss = v > 1e-6 ? std::log1p(errors * v) / v : errors;
+  return {std::min(curves_.ratio_db_of(-loss / bits_), decibels(power / disturbance))};
 }
 
-// Relative variance of the ratio: the signal's, less what the untracked part has in common with it.
-double PacketLevels::relative_variance(double mean, double variance, double quiet) const {
-  const double part = sound_.untracked * mean / (quiet + sound_.untracked * mean);
-  return variance / squared(mean) *
-         std::max(1 - 2 * part * sound_.shared_fading + part * part * sound_.own_fading, 0.0);
-}
-
-double PacketLevels::mean_db(const SlowSound& slow, double quiet) const {
-  return kDbPerNeper * std::log(std::max(slow.mean / (quiet + sound_.untracked * slow.mean), 1e-30));
-}
-
-Level PacketLevels::interleaved(const SlowSound& slow, double noise) const {
-  const double disturbed = noise + sound_.bits_echoes + sound_.untracked * slow.mean;
-  const double scale = chip_ / disturbed, scattered = scale * sound_.scattered_power();
+// Of exp(-scale power) over time and the band, each frequency Rician: E = exp(-c / (1 + d)) / (1 + d).
+PacketLevels::Cells PacketLevels::cells_of(const SlowSound& slow, double scale) const {
+  const double d = scale * sound_.scattered_power();
   double least = std::numeric_limits<double>::infinity();  // exponent, taken out: loud cells underflow
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    least = std::min(least, scale * slow.steady[m] / (1 + scale * slow.diffuse[m]));
+    least = std::min(least, scale * slow.steady[m] / (1 + d + scale * slow.varying[m]));
   }
-  double mean = 0, all = 0, steady = 0;
+  double mean = 0, all = 0;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    const double c = scale * slow.steady[m], d = scale * slow.diffuse[m];
-    const double one = std::exp(least - c / (1 + d)) / (1 + d);
+    const double c = scale * slow.steady[m], b = d + scale * slow.varying[m];
+    const double one = std::exp(least - c / (1 + b)) / (1 + b);
     mean += one / kFrequencies;
-    all += (std::exp(std::min(2 * least - 2 * c / (1 + 2 * d), kMaxExponent)) / (1 + 2 * d) - one * one) /
-           kFrequencies;
-    steady += slow.steady[m] / kFrequencies;
-  }
-  const double single = scattered > 0 ? squared(scattered) + 2 * scattered * scale * steady : 0;
-  const double kept = sound_.bits_variance;
-  const double of_mean =
-      single > 0 ? squared(scale) * (kept * slow.own + kept_of_longer(kept) * slow.mixed) / single : 0;
-  // Deep fades, which count most, are shorter than the power's coherence, in time and in frequency.
-  const double shorter = std::cbrt(squared((1 + 2 * scattered) / squared(1 + scattered)));
-  const double v = std::log1p(all * of_mean * shorter / (mean * mean));
-  const double nepers = least - std::log(mean) + v / 2;
-  return {kDbPerNeper * std::log(std::max(nepers, 1e-12) / chip_), kDbPerNeper * std::sqrt(v) / nepers, 0};
-}
-
-// Uncoded or coherent: the constant ratio, dB, that loses the packet as often; no more than the mean.
-double PacketLevels::product(const SlowSound& slow, double noise) const {
-  const double loss = collects_band_ ? fades(slow, noise) : errors(slow, noise);
-  return std::min(curves_.ratio_db_of(-loss / bits_), mean_db(slow, noise + sound_.bits_echoes));
-}
-
-// -ln of the chance that the power of the band does not fall below what its bits need.
-double PacketLevels::fades(const SlowSound& slow, double noise) const {
-  const double quiet = noise + sound_.bits_echoes, variance = slow.own + slow.mixed;
-  const double mean = slow.mean / (quiet + sound_.untracked * slow.mean),
-               constant = slow.constant / slow.mean;
-  const double v = relative_variance(slow.mean, variance, quiet), least = threshold_ / mean;
-  double loss = 0;  // of a stretch
-  if (v < 1.0 / 8) {
-    const Level level = level_of(mean_db(slow, quiet), v, constant);
-    double chance = 0;
-    for (const Node& node : kFive) {
-      chance += node.weight * std::exp(fade_bits_ * curves_.log_bit_success_at(level.at(node.z)));
+    if (d > 0) {
+      all += (std::exp(std::min(2 * least - 2 * c / (1 + 2 * b), kMaxExponent)) / (1 + 2 * b) - one * one) /
+             kFrequencies;
     }
-    loss = -std::log(std::clamp(chance, 1e-300, 1.0));
-  } else {
-    const double below =
-        std::max(below_threshold(v, least, constant), below_linear(slow.mean, variance, quiet, constant));
-    loss = -std::log1p(-std::min(below, 1 - 1e-12));
   }
-  return loss * (1 + (stretches_ - 1) * std::exp(-loss) * again(v, least));
-}
-
-// P(X < least) of an X as in level_of(), the threshold spread by its width.
-double PacketLevels::below_threshold(double v, double least, double constant) const {
-  const double rest = std::max(1 - constant, 1e-6), x = (least - constant) / rest,
-               of_rest = v / (rest * rest);
-  if (!(x > 0)) return 0;
-  if (of_rest >= 1.0 / 8) {
-    return gamma_below(1 / of_rest, x / of_rest * std::exp(squared(width_) / of_rest / 2));
-  }
-  const double wide = of_rest + squared(width_);
-  return gamma_below(1 / wide, x / wide);
-}
-
-// Of signal less threshold times untracked below threshold times the rest: exact of parts that all are above 0.
-double PacketLevels::below_linear(double mean, double variance, double quiet, double constant) const {
-  const double part = threshold_ * sound_.untracked;
-  if (part >= 1) return 1;
-  const double v = variance / squared(mean) *
-                   (1 - 2 * part * sound_.shared_fading + part * part * sound_.own_fading) /
-                   squared(1 - part);
-  return below_threshold(std::max(v, 1e-3), threshold_ * quiet / (mean * (1 - part)), constant);
-}
-
-// The chance that the next stretch is above the threshold, of one below (Rice 1944: crossings a second by the time below).
-double PacketLevels::again(double v, double least) const {
-  if (!(v > 0)) return 0;
-  const double x = std::min(least / (1 + v), 1.0);
-  return std::min(8 * v, 1.0) *
-         -std::expm1(-1.3 * crossings_ / std::sqrt(v * least) * (1 - x + std::sqrt(2 * v / pi)));
-}
-
-// Errors of single bits, a exp(-slope ratio), on average over each frequency's Rician fading: they are far apart.
-double PacketLevels::errors(const SlowSound& slow, double noise) const {
-  const double scale = slope_ / (noise + sound_.bits_echoes + sound_.untracked * slow.mean);
-  double loss = 0;
-  for (std::size_t m = 0; m < kFrequencies; ++m) {
-    const double d = scale * sound_.scattered_power();
-    const double c = scale * (slow.steady[m] + slow.diffuse[m]) - d;
-    loss += errors_at_zero_ * std::exp(-c / (1 + d)) / (1 + d) / kFrequencies;
-  }
-  return loss;
+  const double nepers = least - std::log(mean);
+  const double single = d * d + 2 * d * scale * slow.slow_power;
+  if (!(single > 0)) return {nepers, 0};
+  const double of_mean =
+      squared(scale) * sound_.power(slow.slow_power, sound_.bits_variance).variance / single;
+  // Deep fades, which count most, are shorter than the power's coherence, in time and in frequency.
+  const double shorter = std::cbrt(squared((1 + 2 * d) / squared(1 + d)));
+  return {nepers, all * of_mean * shorter / (mean * mean)};
 }
 
 }  // namespace halocline::acoustics

@@ -23,6 +23,41 @@ ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
     acquisition_.push_back(acquisition_probability(modem, sinr));
     log_bit_success_.push_back(std::log1p(-bit_error_rate(modem, sinr)));
   }
+  parts_ = make_parts();
+}
+
+ReceptionCurves::Parts ReceptionCurves::make_parts() const {
+  const auto bits_of = [&](std::size_t halvings) {
+    return static_cast<double>(timing_.information_bits) / std::exp2(static_cast<double>(halvings));
+  };
+  Parts parts;
+  std::array<double, kHalvings> thresholds_db{};
+  for (std::size_t h = 0; h < kHalvings; ++h) {
+    thresholds_db[h] = ratio_db_of(-std::log(2) / bits_of(h));
+    parts.thresholds[h] = std::pow(10, thresholds_db[h] / 10);
+  }
+  const double low_db = thresholds_db.back() - 4, high_db = thresholds_db.front() + 2.5;
+  std::array<double, kRatios> ratios_db{};
+  for (std::size_t k = 0; k < kRatios; ++k) {
+    ratios_db[k] = low_db + (high_db - low_db) * static_cast<double>(k) / (kRatios - 1);
+    parts.ratios[k] = std::pow(10, ratios_db[k] / 10);
+  }
+  constexpr int kSteps = 20;
+  for (std::size_t h = 0; h < kHalvings; ++h) {
+    const auto mean = [&](double from_db, double to_db) {
+      double sum = 0;
+      for (int i = 0; i < kSteps; ++i) {
+        sum += std::exp(bits_of(h) * log_bit_success_at(from_db + (to_db - from_db) * (i + 0.5) / kSteps));
+      }
+      return sum / kSteps;
+    };
+    for (std::size_t k = 0; k <= kRatios; ++k) {
+      parts.success[h][k] = k == 0         ? mean(ratios_db[0] - 3, ratios_db[0])
+                            : k == kRatios ? mean(ratios_db.back(), ratios_db.back() + 3)
+                                           : mean(ratios_db[k - 1], ratios_db[k]);
+    }
+  }
+  return parts;
 }
 
 double ReceptionCurves::decibels(double sinr) { return sinr > 0 ? 10 * std::log10(sinr) : kLeastDb; }

@@ -4,6 +4,7 @@
 // -40 to 60 dB in steps of 0.1 dB, linear between (error below 1e-3 of probability); beyond, the ends.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,8 @@ namespace halocline::acoustics {
 
 class ReceptionCurves {
  public:
+  static constexpr std::size_t kHalvings = 7, kRatios = 24;
+
   // Throws InvalidArgument as packet_timing().
   ReceptionCurves(const Modem& modem, std::size_t payload_bytes);
 
@@ -29,15 +32,25 @@ class ReceptionCurves {
   double log_bit_success_at(double sinr_db) const { return interpolated(log_bit_success_, sinr_db); }
   // The ratio, dB, of that ln(1 - BER).
   double ratio_db_of(double log_bit_success) const;
+  // Ratios at which parts of a packet's bits turn from wrong to right, each of 1 / 2^halvings of them, and the chance that
+  // all of such a part are right on average between one and the one before it (the first: below it; the last: above all).
+  struct Parts {
+    std::array<double, kRatios> ratios{};  // rising
+    std::array<double, kHalvings> thresholds{};  // where half of the parts are right, falling
+    std::array<std::array<double, kRatios + 1>, kHalvings> success{};
+  };
+  const Parts& parts() const { return parts_; }
 
  private:
   static double decibels(double sinr);
+  Parts make_parts() const;
   static double interpolated(const std::vector<double>& table, double sinr_db);
 
   Modem modem_;
   PacketTiming timing_;
   std::vector<std::int64_t> blocks_;
   std::vector<double> acquisition_, log_bit_success_;
+  Parts parts_;
 };
 
 }  // namespace halocline::acoustics

@@ -5,6 +5,8 @@
 #include <complex>
 #include <numbers>
 
+#include "acoustics/math/functions.h"
+
 namespace halocline::acoustics {
 namespace {
 
@@ -19,11 +21,6 @@ std::size_t samples_for(const Modem& receiver, double part_hz, std::size_t most)
 }
 
 constexpr double kSoundSpeedMps = 1500;  // of the wave number
-
-double squared(double x) { return x * x; }
-
-// sin(pi x) / (pi x).
-double sinc(double x) { return std::abs(x) < 1e-9 ? 1 : std::sin(pi * x) / (pi * x); }
 
 }  // namespace
 
