@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include <boost/math/special_functions/erf.hpp>
+#include "acoustics/math/functions.h"
 
 namespace halocline::acoustics {
 namespace {
 
 using std::numbers::pi;
-using std::numbers::sqrt2;
 
 // Normal quantiles of the middles of equal parts, as many in each stratum.
 constexpr std::size_t kQuantiles = 1024;
@@ -20,9 +19,7 @@ const std::array<double, kQuantiles>& normal_quantiles() {
   static const std::array<double, kQuantiles> table = [] {
     std::array<double, kQuantiles> quantiles{};
     for (std::size_t i = 0; i < kQuantiles; ++i) {
-      // Phi^-1(p) = sqrt(2) erf^-1(2 p - 1).
-      const double p = (static_cast<double>(i) + 0.5) / kQuantiles;
-      quantiles[i] = sqrt2 * boost::math::erf_inv(2 * p - 1);
+      quantiles[i] = normal_quantile((static_cast<double>(i) + 0.5) / kQuantiles);
     }
     return quantiles;
   }();

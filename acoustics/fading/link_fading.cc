@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "acoustics/math/functions.h"
 #include "core/random.h"
 #include "core/units.h"
 
@@ -146,7 +147,6 @@ CrossingPath crossing_path(const SoundPath& path, double mean_delay_s, const Ban
 double cross_power(const CrossingPath& p, const CrossingPath& q, double negligible) {
   const double coherent = p.coherent * q.coherent, medium = p.medium * q.medium;
   if (coherent + medium < negligible) return 0;
-  const auto squared = [](double x) { return x * x; };
   const double apart = squared(p.place.delay - q.place.delay) + squared(p.place.launch - q.place.launch) +
                        squared(p.place.arrival - q.place.arrival);
   const double shared = apart < kFarApart ? medium * std::exp(-apart / 2) : 0;

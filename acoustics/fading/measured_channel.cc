@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "acoustics/math/functions.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
@@ -18,8 +19,6 @@ constexpr double kLobes = 16;                        // of the sinc, to either s
 constexpr double kKeptPower = 0.999;                 // share of the mean power that the kept taps hold
 constexpr double kFirstTapPower = 0.01;              // of the strongest's: 20 dB below
 constexpr double kSameFromInstantToInstant = 1e-12;  // 1 - |R1| / R0 of a tap that stands still
-
-double sinc(double x) { return std::abs(x) < 1e-12 ? 1 : std::sin(pi * x) / (pi * x); }
 
 // Every tap of the band over all instants, from `first` samples after delay 0 on.
 struct BandTable {

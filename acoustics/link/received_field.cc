@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "acoustics/math/delay_profile.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
@@ -23,10 +24,6 @@ std::complex<double> phasor(const Arrival& path, double pressure, double frequen
   return std::polar(pressure, path.phase_rad - 2 * std::numbers::pi * cycles);
 }
 
-struct WeightedDelay {
-  double delay_s, power;
-};
-
 std::vector<WeightedDelay> weighted_delays(const Arrivals& arrivals, const Transducers& transducers) {
   std::vector<WeightedDelay> delays;
   for (const Arrival& path : arrivals.paths) {
@@ -34,19 +31,6 @@ std::vector<WeightedDelay> weighted_delays(const Arrivals& arrivals, const Trans
     delays.push_back({path.delay_s, pressure * pressure});
   }
   return delays;
-}
-
-void set_moments(const std::vector<WeightedDelay>& delays, double power, ReceivedField& field) {
-  // Power-weighted moments of the delay profile: mean = sum w t / sum w, spread^2 = sum w (t - mean)^2 / sum w.
-  double first_moment = 0, second_moment = 0;
-  for (const auto& [delay, weight] : delays) first_moment += weight * (delay - field.first_delay_s);
-  const double mean = first_moment / power;
-  for (const auto& [delay, weight] : delays) {
-    const double off = delay - field.first_delay_s - mean;
-    second_moment += weight * off * off;
-  }
-  field.mean_delay_s = field.first_delay_s + mean;
-  field.delay_spread_s = std::sqrt(second_moment / power);
 }
 
 double longest_echo_s(const std::vector<WeightedDelay>& delays) {
@@ -78,8 +62,9 @@ ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& optio
   field.level = level_of(power, options);
   if (delays.empty()) return field;
   field.first_delay_s = arrivals.paths.front().delay_s;
-  field.mean_delay_s = field.first_delay_s;
-  if (power > 0) set_moments(delays, power, field);
+  const DelayMoments moments = delay_moments(delays);
+  field.mean_delay_s = moments.mean_s;
+  field.delay_spread_s = moments.spread_s;
   field.longest_echo_s = longest_echo_s(delays);
   return field;
 }

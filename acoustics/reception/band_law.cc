@@ -27,8 +27,8 @@ BandLaw::BandLaw(const MeanSound& sound, double threshold, double slow_power) {
   }
   // What fades in no mode: as many equal terms as the variance of all tells.
   if (const double apart = threshold * sound.apart; apart > 1e-9 * slow_power) {
-    const double own = sound.shared.own - 2 * threshold * sound.shared.xy +
-                       squared(threshold) * sound.shared.yy - squares;
+    const double own =
+        sound.shared.own - 2 * threshold * sound.shared.xy + squared(threshold) * sound.shared.yy - squares;
     const double count = std::clamp(squared(apart) / std::max(own, 1e-30), 1.0, 100.0);
     terms_.push_back({-apart / count, 0, 0, count});
   }
@@ -48,7 +48,8 @@ BandLaw::Points BandLaw::points() const {
   Points points;
   points.fill({mean_, 0});
   if (!(variance_ > 1e-9 * squared(mean_))) {
-    for (std::size_t i = 0; i < kPoints; ++i) points[i].score = -4 + 7.0 * static_cast<double>(i) / (kPoints - 1);
+    for (std::size_t i = 0; i < kPoints; ++i)
+      points[i].score = -4 + 7.0 * static_cast<double>(i) / (kPoints - 1);
     return points;
   }
   const double deviation = std::sqrt(variance_);

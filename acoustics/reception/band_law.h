@@ -17,7 +17,8 @@
 namespace halocline::acoustics {
 
 struct BandPoint {
-  double power = 0, score = 0;  // Q is below the power with the probability that a standard normal is below the score
+  double power = 0,
+         score = 0;  // Q is below the power with the probability that a standard normal is below the score
 };
 
 class BandLaw {

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <numbers>
 
+#include "acoustics/math/delay_profile.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/mean_sound.h"
 #include "acoustics/reception/packet_levels.h"
+#include "acoustics/reception/power_law.h"
 #include "core/random.h"
 #include "core/units.h"
 
@@ -205,14 +207,10 @@ LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Lock& lo
 }  // namespace
 
 double rms_delay_spread_s(const std::vector<SoundPath>& paths) {
-  double power = 0, first = 0, second = 0;
-  for (const SoundPath& path : paths) {
-    const double p = to_power_ratio(path.level).value, delay_s = path.delay_s - paths.front().delay_s;
-    power += p;
-    first += p * delay_s;
-    second += p * delay_s * delay_s;
-  }
-  return power > 0 ? std::sqrt(std::max(second / power - squared(first / power), 0.0)) : 0;
+  std::vector<WeightedDelay> delays;
+  delays.reserve(paths.size());
+  for (const SoundPath& path : paths) delays.push_back({path.delay_s, to_power_ratio(path.level).value});
+  return delay_moments(delays).spread_s;
 }
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths, const Lock& lock,
@@ -251,7 +249,8 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
     const auto patterns = patterns_of(sound);
     for (std::size_t i = 0; i < kPatterns; ++i) {
       levels.preamble = packet.preamble(patterns[i].slow_power);
-      for (std::size_t k = 0; k < kLevels; ++k) levels.bits[k] = packet.bits(patterns[i], noise / loudness[k]);
+      for (std::size_t k = 0; k < kLevels; ++k)
+        levels.bits[k] = packet.bits(patterns[i], noise / loudness[k]);
       mean.add(levels, i, kPatterns, prediction);
     }
   }

@@ -32,8 +32,6 @@ void add_to(SharedFading& shared, double x, double y, double squared_spread) {
   shared.y += y;
   shared.xy += x * y;
   shared.yy += y * y;
-  shared.xyy += x * y * y;
-  shared.yyy += y * y * y;
   shared.xy_spread += x * y * squared_spread;
   shared.yy_spread += y * y * squared_spread;
 }
@@ -87,7 +85,8 @@ void add_modes(const std::vector<SharedPath>& paths, MeanSound& sound) {
     BandMode mode{.scattered = solver.eigenvalues()(j) / kFrequencies};
     if (!(mode.scattered > 1e-4 * sound.scattered_power())) continue;
     BandPressures w{};
-    for (std::size_t m = 0; m < kFrequencies; ++m) w[m] = solver.eigenvectors()(static_cast<Eigen::Index>(m), j);
+    for (std::size_t m = 0; m < kFrequencies; ++m)
+      w[m] = solver.eigenvectors()(static_cast<Eigen::Index>(m), j);
     for (const SharedPath& path : paths) {
       if (!(path.xy > 0)) continue;
       Complex sum = 0, turn = 1;
@@ -183,12 +182,6 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
   }
   const double mean = sound.coherent_power() + sound.medium[0].real() + sound.scattered_power();
   if (mean > 0) sound.sway_variance = steady.sway_variance() / squared(mean);
-  for (const SharedPath& one : shares) {
-    if (!(one.xy > 0)) continue;
-    BandCorrelation alone{};
-    add_to(alone, 1, one.turn);
-    sound.shared.xxy += one.xy * mean_correlation(sound.scattered, alone);
-  }
   if (untracked > kNegligible * signal) sound.untracked = untracked / signal;
   sound.window_spread_hz = all > 0 ? std::sqrt(all_spread / all) : 0;
   if (const double scattered = sound.scattered_power(); scattered > kNegligible * signal) {
@@ -216,7 +209,8 @@ double MeanSound::coherent_power() const {
 PowerLaw MeanSound::slow_power() const {
   const double turned = medium[0].real(), coherent = coherent_power();
   if (!(turned > kNegligible * coherent)) return {coherent + turned};
-  const double own = mean_correlation(medium, medium), mixed = 2 * mean_product(steady, times(medium, steady));
+  const double own = mean_correlation(medium, medium),
+               mixed = 2 * mean_product(steady, times(medium, steady));
   const double kept = own / squared(turned), share = third_share(kept);
   return {coherent + turned, own + mixed, turned * share * (2 * turned * turned + 3 * mixed / kept)};
 }

@@ -20,10 +20,10 @@ using BandPressures = std::array<std::complex<double>, kSignalFrequencies>;
 // Of pressures B_m that fade, by k = m - n: E B_m B_n* = sum of P exp(-j 2 pi k spacing delay); [0] is their power.
 using BandCorrelation = std::array<std::complex<double>, kSignalFrequencies>;
 
-// Sums over paths of products of what they scatter within a packet: x as signal, y as interference, uPa^2; x x with what
-// other paths have in common over the band.
+// Sums over paths of products of what they scatter within a packet: x as signal, y as interference, uPa^2.
 struct SharedFading {
-  double own = 0, y = 0, xy = 0, yy = 0, xxy = 0, xyy = 0, yyy = 0;
+  double own = 0;  // variance of the signal's mean over the band
+  double y = 0, xy = 0, yy = 0;
   double xy_spread = 0, yy_spread = 0;  // times the squared spread of the path, Hz^2
 };
 
@@ -47,9 +47,11 @@ struct MeanSound {
   double preamble_variance = 1, bits_variance = 1;  // shares of its variance that its mean over them keeps
   double untracked = 0;  // interference by what the receiver does not track, in units of the signal
   double preamble_echoes = 0, bits_echoes = 0;  // uPa^2, late ones, on average over preamble and bits
+  double beats =
+      0;  // variance by beats of what fades within a packet with the rest, over the power of the rest
   SharedFading shared;
-  std::vector<BandMode> modes;       // of what is scattered within a packet
-  double apart = 0;                  // of the interference that fades within a packet, what fades in no mode
+  std::vector<BandMode> modes;  // of what is scattered within a packet
+  double apart = 0;             // of the interference that fades within a packet, what fades in no mode
 
   double scattered_power() const { return scattered[0].real(); }
   double coherent_power() const;  // mean over the band
@@ -57,8 +59,6 @@ struct MeanSound {
   PowerLaw slow_power() const;
   // Of the power of the band while that is `slow_power`, by what fades within a packet: `kept` of its variance.
   PowerLaw power(double slow_power, double kept) const;
-  // Twice the mean product of what fades within a packet with the rest, over the power of the rest.
-  double beats = 0;
 };
 
 MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band,

@@ -15,12 +15,13 @@ using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kDbPerNeper = 10 / std::numbers::ln10;
-constexpr double kMaxExponent = 300;   // of a ratio of variances: no packet of it is lost
-
-constexpr double kNarrow = 0.15;       // of the mean: 0.65 dB
-constexpr double kSofter = 0.17;       // 1 / dB
-constexpr double kGammaShare = 0.15;
-constexpr double kLeastLoss = 1e-6;    // of packets
+constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
+constexpr double kLeastLoss = 1e-6;   // of packets
+constexpr double kNarrow =
+    0.15;  // deviation over mean, 0.65 dB: below, fading is less than the steps of the curve
+// Our fits to judged packets (tests/channel_server/packets/link_prediction_test.cc): the softer the curve, the longer the
+// fades that count, by 1 / dB; of the variance of errors, and of the beats of coherent paths, what counts for single errors.
+constexpr double kSofter = 0.17, kErrorShare = 0.15, kBeatShare = 1;
 
 constexpr double kMostScore = 6;
 // By steps of 0.05, linear: within 1e-4.
@@ -41,6 +42,15 @@ double tabulated_probability(double score) {
 
 double halvings(double parts) {
   return std::clamp(std::log2(parts), 0.0, ReceptionCurves::kHalvings - 1.001);
+}
+
+// Mean of exp(exponent - scale power) of a power that varies as S + sqrt(V) and S - sqrt(V), S^2 - V = constant^2, of which
+// single errors feel a part (our fit): the signal is met at one place of each part of the band.
+double of_beat(double constant, double varying, double scale, double exponent) {
+  const double mean = scale * (constant + varying);
+  const double swing =
+      std::min(kBeatShare * scale * std::sqrt(std::max(varying, 0.0) * (2 * constant + varying)), mean);
+  return (std::exp(exponent - mean - swing) + std::exp(exponent - mean + swing)) / 2;
 }
 
 double decibels(double power) { return kDbPerNeper * std::log(std::max(power, 1e-30)); }
@@ -102,8 +112,8 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
     high_threshold_ = parts.thresholds[1];
     for (std::size_t k = 0; k < between_.size(); ++k) {
       logs_[k] = std::log(parts.ratios[k]);
-      between_[k] =
-          std::clamp(std::log(parts.ratios[k] / low_threshold_) / std::log(high_threshold_ / low_threshold_), -0.5, 1.5);
+      between_[k] = std::clamp(
+          std::log(parts.ratios[k] / low_threshold_) / std::log(high_threshold_ / low_threshold_), -0.5, 1.5);
     }
   } else if (!coded_) {
     const double low = std::pow(10, ratio_db(4) / 10);
@@ -175,7 +185,8 @@ Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
     for (std::size_t k = 1; k < kRatios; ++k) {
       success += std::max(below[k] - below[k - 1], 0.0) * table.success[h][k];
     }
-    const double share = h == low ? 1 - (halved - static_cast<double>(low)) : halved - static_cast<double>(low);
+    const double share =
+        h == low ? 1 - (halved - static_cast<double>(low)) : halved - static_cast<double>(low);
     loss -= share * std::exp2(static_cast<double>(h)) * std::log(std::clamp(success, 1e-30, 1.0));
   }
   const double ratio_db = curves_.ratio_db_of(-std::max(loss, kLeastLoss) / bits_);
@@ -192,7 +203,7 @@ Level PacketLevels::bits(const SlowSound& slow, double noise) const {
   }
   // Errors of single bits, a exp(-slope ratio): as if their number were gamma distributed over the fading,
   // E exp(-X) = (1 + mean v)^(-1 / v). Its tail is longer: of its variance a part counts (our fit).
-  const double errors = errors_at_zero_ * std::exp(-cells.nepers), v = kGammaShare * cells.variance;
+  const double errors = errors_at_zero_ * std::exp(-cells.nepers), v = kErrorShare * cells.variance;
   const double loss = v > 1e-6 ? std::log1p(errors * v) / v : errors;
   return {std::min(curves_.ratio_db_of(-loss / bits_), decibels(power / disturbance))};
 }
@@ -207,7 +218,8 @@ PacketLevels::Cells PacketLevels::cells_of(const SlowSound& slow, double scale) 
   double mean = 0, all = 0;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     const double c = scale * slow.steady[m], b = d + scale * slow.varying[m];
-    const double one = std::exp(least - c / (1 + b)) / (1 + b);
+    const double one = coded_ ? std::exp(least - c / (1 + b)) / (1 + b)
+                              : of_beat(slow.steady[m], slow.varying[m], scale / (1 + d), least) / (1 + d);
     mean += one / kFrequencies;
     if (d > 0) {
       all += (std::exp(std::min(2 * least - 2 * c / (1 + 2 * b), kMaxExponent)) / (1 + 2 * b) - one * one) /

@@ -89,7 +89,7 @@ class PacketLevels {
   // Of phase-shift keying: thresholds of FadingSignal, and where between them each ratio lies.
   double low_threshold_ = 0, high_threshold_ = 0, softness_db_ = 0;
   std::array<double, ReceptionCurves::kRatios> between_{}, logs_{};  // of the ratios
-  double slope_ = 0, errors_at_zero_ = 0;  // of -ln(1 - BER) over the ratio
+  double slope_ = 0, errors_at_zero_ = 0;                            // of -ln(1 - BER) over the ratio
 };
 
 }  // namespace halocline::acoustics

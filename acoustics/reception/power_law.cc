@@ -81,8 +81,8 @@ const PartsTable& parts_table() {
     for (std::size_t i = 0; i < kPartsSkewness.size(); ++i) {
       for (std::size_t j = 0; j < kStretchRows; ++j) {
         for (std::size_t k = 0; k < kTurnRows; ++k) {
-          made[i][j][k] =
-              log_parts(kPartsSkewness[i], 8 * std::exp2(static_cast<double>(j)), kLeastTurns * std::exp2(static_cast<double>(k)));
+          made[i][j][k] = log_parts(kPartsSkewness[i], 8 * std::exp2(static_cast<double>(j)),
+                                    kLeastTurns * std::exp2(static_cast<double>(k)));
         }
       }
     }
@@ -97,7 +97,8 @@ double gamma_quantile(double z, double skewness) {
   const Place i = place((skewness - kLeastSkewness) / kStepSkewness, kSkewnesses),
               j = place((z - kLeastZ) / kStepZ, kZs);
   const auto &low = quantiles()[i.row], &high = quantiles()[i.row + 1];
-  return std::exp(mix(mix(low[j.row], low[j.row + 1], j.part), mix(high[j.row], high[j.row + 1], j.part), i.part));
+  return std::exp(
+      mix(mix(low[j.row], low[j.row + 1], j.part), mix(high[j.row], high[j.row + 1], j.part), i.part));
 }
 
 double PowerLaw::at(double z) const {

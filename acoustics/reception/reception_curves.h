@@ -35,7 +35,7 @@ class ReceptionCurves {
   // Ratios at which parts of a packet's bits turn from wrong to right, each of 1 / 2^halvings of them, and the chance that
   // all of such a part are right on average between one and the one before it (the first: below it; the last: above all).
   struct Parts {
-    std::array<double, kRatios> ratios{};  // rising
+    std::array<double, kRatios> ratios{};        // rising
     std::array<double, kHalvings> thresholds{};  // where half of the parts are right, falling
     std::array<std::array<double, kRatios + 1>, kHalvings> success{};
   };

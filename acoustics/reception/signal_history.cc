@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "acoustics/math/functions.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -17,8 +18,6 @@ constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kLeastStretches = 8, kMostStretches = 64;  // of the bits
 constexpr double kTrackingTimeS = 0.05;                     // of phase-shift keying
 constexpr double kPhaseLockTimeS = 0.01;                    // likewise, against a residual Doppler shift
-
-double squared(double x) { return x * x; }
 
 // exp(-(2 pi B T)^2 / 2).
 double kept_over(double time_s, double spread_hz) {
@@ -158,8 +157,7 @@ double doppler_share(const Modem& receiver, const SoundPath& strongest, double c
   if (residual_hz == 0) return 1;
   if (!is_frequency_shift_keying(receiver.error_model)) return kept_over(kPhaseLockTimeS, residual_hz);
   const double chip_s = receiver.chip > SimDuration() ? receiver.chip.seconds() : 1 / receiver.bit_rate_bps;
-  const double x = pi * residual_hz * chip_s;
-  return squared(std::sin(x) / x);
+  return squared(sinc(residual_hz * chip_s));
 }
 
 double tracked_share(const Modem& receiver, const SoundPath& path) {

@@ -92,25 +92,22 @@ void SteadyBand::for_near_pairs(Take take) const {
   }
 }
 
-// What sway takes of the interference, by parts.
+// What sway takes of the interference over the whole band: where it comes and goes over the band, sway moves it only from part
+// to part.
 void SteadyBand::add_sway(std::array<Part, kSignalFrequencies>& parts) const {
-  std::array<double, kSignalFrequencies> change{};
-  const double part_hz = band_.width_hz() / kSignalFrequencies;
+  double change = 0;
   for_near_pairs([&](const Pair& pair) {
-    const double lost = pair.interference * (1 - pair.kept) * sinc(part_hz * pair.apart_s);
-    for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
-      const double from_middle_hz = part_hz * (static_cast<double>(m) - (kSignalFrequencies - 1) / 2.0);
-      change[m] -= lost * std::cos(pair.phase_rad - 2 * pi * from_middle_hz * pair.apart_s);
-    }
+    change -= pair.interference * (1 - pair.kept) * sinc(band_.width_hz() * pair.apart_s) *
+              std::cos(pair.phase_rad);
   });
-  for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
-    const double power = parts[m].constant + parts[m].varying;
-    if (change[m] >= 0) {
-      parts[m].constant += change[m];
+  for (Part& part : parts) {
+    const double power = part.constant + part.varying;
+    if (change >= 0) {
+      part.constant += change;
     } else if (power > 0) {
-      const double left = std::max(power + change[m], 0.0) / power;
-      parts[m].constant *= left;
-      parts[m].varying *= left;
+      const double left = std::max(power + change, 0.0) / power;
+      part.constant *= left;
+      part.varying *= left;
     }
   }
 }

@@ -12,6 +12,7 @@
 //   g = exp(-(k kSwayM)^2 ((sin launch_p - sin launch_q)^2 + (sin arrival_p - sin arrival_q)^2) / 2)
 // of what it is where the ends are, and 2 a_p a_q cos(phase) sinc(cycles) varies by
 //   4 a_p^2 a_q^2 sinc(cycles)^2 (1 - g^2) (1 - g^2 cos(2 phase)) / 2.
+// The parts lose the same: interference that comes and goes over the band sway moves only from part to part.
 // Close paths, as of a buoy just below the surface and far away, keep g near 1: Lloyd's mirror stays.
 #pragma once
 
