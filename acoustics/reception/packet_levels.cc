@@ -73,9 +73,11 @@ FadingSignal::FadingSignal(const BandLaw& low, const BandLaw& high,
 double FadingSignal::Side::score(double power, double log, std::size_t& above) const {
   while (above < kPoints && points[above].power <= power) ++above;
   if (above == 0) return -kMostScore;
-  if (above == kPoints) return kMostScore;
-  const BandPoint &low = points[above - 1], &high = points[above];
-  const double part = low.power > 0 ? (log - logs[above - 1]) / (logs[above] - logs[above - 1])
+  // Beyond the last point as between the last two.
+  const std::size_t i = std::min(above, kPoints - 1);
+  const BandPoint &low = points[i - 1], &high = points[i];
+  if (!(high.power > low.power)) return kMostScore;
+  const double part = low.power > 0 ? (log - logs[i - 1]) / (logs[i] - logs[i - 1])
                                     : (power - low.power) / (high.power - low.power);
   return low.score + part * (high.score - low.score);
 }
@@ -160,22 +162,34 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
 
 // Of the parts of a packet that fade independently, each with its share of the bits, all have to be right.
 Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
-  if (signal.deviation() < kNarrow * signal.mean()) {
-    return {curves_.ratio_db_of(-std::max(narrow_loss(signal, disturbance), kLeastLoss) / bits_)};
-  }
+  // From the one way to the other without a step.
+  const double wide = std::clamp(2 - signal.deviation() / (kNarrow * signal.mean()), 0.0, 1.0);
+  double loss_db = 0;
+  if (wide > 0) loss_db += wide * decibels(std::max(narrow_loss(signal, disturbance), kLeastLoss));
+  if (wide < 1) loss_db += (1 - wide) * decibels(std::max(wide_loss(signal, disturbance), kLeastLoss));
+  const double ratio_db = curves_.ratio_db_of(-std::pow(10, loss_db / 10) / bits_);
+  return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
+}
+
+double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance) const {
   constexpr std::size_t kRatios = ReceptionCurves::kRatios;
   const ReceptionCurves::Parts& table = curves_.parts();
   std::array<double, kRatios> below{};
-  double parts = 0;  // of the fades that decide
+  double parts = 0, last_parts = 1, last_margin = 0;  // of the fades that decide; at the ratio before
   const double log = std::log(disturbance);
   FadingSignal::Scores scores(signal);
   for (std::size_t k = 0; k < kRatios; ++k) {
     const double score = scores.next(table.ratios[k] * disturbance, logs_[k] + log, between_[k]);
     below[k] = tabulated_probability(score);
     if (parts > 0) continue;
-    const double here = std::min(signal.parts(score, between_[k]), stretches_);
-    const auto halved = static_cast<std::size_t>(halvings(here) + 0.5);
-    if (table.ratios[k] >= table.thresholds[halved] || k + 1 == kRatios) parts = here;
+    const double here = std::min(signal.parts(score, between_[k]), stretches_),
+                 margin = logs_[k] - needed(here);
+    if (margin >= 0 || k + 1 == kRatios) {
+      const double part = k > 0 && margin > 0 ? last_margin / (last_margin - margin) : 1;
+      parts = last_parts + part * (here - last_parts);
+    }
+    last_parts = here;
+    last_margin = margin;
   }
   const double halved = halvings(1 + (parts - 1) / (1 + kSofter * softness_db_));
   const auto low = static_cast<std::size_t>(halved);
@@ -189,8 +203,16 @@ Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
         h == low ? 1 - (halved - static_cast<double>(low)) : halved - static_cast<double>(low);
     loss -= share * std::exp2(static_cast<double>(h)) * std::log(std::clamp(success, 1e-30, 1.0));
   }
-  const double ratio_db = curves_.ratio_db_of(-std::max(loss, kLeastLoss) / bits_);
-  return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
+  return loss;
+}
+
+// ln of the ratio that half of so many parts need.
+double PacketLevels::needed(double parts) const {
+  const double halved = halvings(parts);
+  const auto low = static_cast<std::size_t>(halved);
+  const auto& thresholds = curves_.parts().thresholds;
+  return std::log(thresholds[low]) +
+         (halved - static_cast<double>(low)) * std::log(thresholds[low + 1] / thresholds[low]);
 }
 
 Level PacketLevels::bits(const SlowSound& slow, double noise) const {

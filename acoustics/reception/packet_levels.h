@@ -75,6 +75,8 @@ class PacketLevels {
  private:
   std::array<double, kFadeScores> parts_of(const BandLaw& law, double threshold, double slow_power) const;
   double narrow_loss(const FadingSignal& signal, double disturbance) const;
+  double wide_loss(const FadingSignal& signal, double disturbance) const;
+  double needed(double parts) const;
   // -ln of the mean over a packet of exp(-scale power), and its relative variance over the fast fading.
   struct Cells {
     double nepers = 0, variance = 0;
