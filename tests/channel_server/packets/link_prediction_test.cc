@@ -27,6 +27,7 @@
 #include "channel_server/packets/reception_decision.h"
 #include "core/random.h"
 #include "core/sim_time.h"
+#include "tests/support/doc_table.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -122,15 +123,28 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
       delivered[k].add(delivery);
     }
   }
+  double worst_acquired = 0, worst_delivered = 0;
+  std::size_t half = 0;  // where delivery is closest to a half
+  std::array<double, kNoiseDb.size()> promised{};
   for (std::size_t k = 0; k < kNoiseDb.size(); ++k) {
     const auto predicted =
         predict_link(model, paths, lock, modem.band(), std::pow(10, kNoiseDb[k] / 10), curves);
-    std::printf("%s, sea %d, noise %3.0f dB: acquired %.4f (predicted %.4f), delivered %.4f (%.4f)\n",
-                GetParam().profile, GetParam().sea, kNoiseDb[k], acquired[k].mean,
-                predicted.acquisition_probability, delivered[k].mean, predicted.delivery_probability);
     EXPECT_NEAR(predicted.acquisition_probability, acquired[k].mean, acquired[k].bound());
     EXPECT_NEAR(predicted.delivery_probability, delivered[k].mean, delivered[k].bound());
+    promised[k] = predicted.delivery_probability;
+    worst_acquired = std::max(worst_acquired, std::abs(predicted.acquisition_probability - acquired[k].mean));
+    worst_delivered = std::max(worst_delivered, std::abs(promised[k] - delivered[k].mean));
+    if (std::abs(delivered[k].mean - 0.5) < std::abs(delivered[half].mean - 0.5)) half = k;
   }
+  const auto cell = [](double value) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%.3f", value);
+    return std::string(text.data());
+  };
+  testing::doc_row(
+      "predicted",
+      {std::string(GetParam().profile) + ", sea " + std::to_string(GetParam().sea + 1), cell(promised[half]),
+       cell(delivered[half].mean), cell(worst_acquired), cell(worst_delivered)});
 }
 
 std::vector<Case> cases() {
