@@ -51,8 +51,8 @@ const QuantileTable& quantiles() {
 
 using Parts = std::array<double, kFadeScores>;  // their logarithms
 constexpr std::array<double, 5> kPartsSkewness{0.1, 0.5, 1, 1.5, 2};
-constexpr std::size_t kStretchRows = 4, kTurnRows = 10;
-constexpr double kLeastTurns = 0.003;
+constexpr std::size_t kStretchRows = 4, kTurnRows = 12;
+constexpr double kLeastTurns = 0.0005;
 
 // -ln of the chance that the power stays above its value of score `z` (power_law.h).
 double loss(double z, double skewness, double stretches, double turns) {

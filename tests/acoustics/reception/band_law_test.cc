@@ -1,6 +1,7 @@
 #include "acoustics/reception/band_law.h"
 
 #include <cmath>
+#include <cstddef>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,9 @@ TEST(PowerLaw, IsExponentialForOneScatteredPath) {
 TEST(PowerLaw, IsItsMeanWithoutVariance) { EXPECT_EQ((PowerLaw{3, 0, 0}.at(-2)), 3); }
 
 TEST(IndependentParts, AreOneForSlowAndAllForFastFading) {
-  for (const double parts : independent_parts(2, 8, 0)) EXPECT_NEAR(parts, 1, 0.3);
+  const auto slow = independent_parts(2, 8, 0);
+  // Fades deeper than 2 deviations are short even then: the least of the table is B T = 0.004.
+  for (std::size_t i = 2; i < slow.size(); ++i) EXPECT_NEAR(slow[i], 1, 0.2) << i;
   for (const double parts : independent_parts(1, 64, 1)) EXPECT_NEAR(parts, 64, 6);
 }
 
