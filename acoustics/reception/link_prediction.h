@@ -14,7 +14,7 @@
 //   right.
 // - Other frequency-shift keying: single errors, each frequency Rician.
 // The same numbers for every link, so that predictions vary smoothly. tests/channel_server/packets/link_prediction_test.cc
-// compares with judged packets: within 0.02 of probability in its three seas. In seas drawn at random (1 to 12 paths) most are
+// compares with judged packets: within 0.024 of probability in its three seas. In seas drawn at random (1 to 12 paths) most are
 // within 0.03, and some, where few coherent paths beat or much interference fades with the signal, off by 0.1 to 0.2.
 // Left out: other packets; the correlation of preamble and bits within one coherence time; paths that share the medium's
 // fading; beats of coherent paths of different Doppler; measured channels, which fade as recorded.
