@@ -108,7 +108,6 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
 }
 
 const std::vector<std::string> kPropagationModels{"rays", "straight"};
-const std::vector<std::string> kFading{"none", "sea"};
 const std::vector<std::string> kScattering{"none", "lambert"};  // of the loss and of reverberation
 constexpr std::string_view kCustom = "custom", kAnySolver = "auto";
 
@@ -146,7 +145,7 @@ bool is_coherent_loss(std::string_view surface_model) {
 void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
   acoustics::FadingModel& f = p.fading;
   bus::choice(
-      v, "fading", f.enabled, kFading,
+      v, "fading", f.enabled, {"none", "sea"},
       "sea: paths fade by waves, rough bottom and medium (docs/packets.md); none: powers of paths add");
   v.number("rice_factor_db", f.rice_factor_db,
            {-20, 60, "dB", "fading: steady over varying power of the medium"});
@@ -160,8 +159,8 @@ void visit_fading(bus::ConfigVisitor& v, PropagationConfig& p) {
               "fading: lambert: what rough boundaries scatter beyond the bottom's critical angle is lost");
   if (f.enabled && is_coherent_loss(p.surface_loss_model)) {
     v.problem("surface_loss_model",
-              "with fading = \"sea\" what a rough surface takes from the coherent sound is scattered, "
-              "not lost; allowed are \"flat\" and \"apl-bubbles\", or fading = \"none\"");
+              "with fading = \"sea\" a rough surface scatters the coherent sound and loses nothing; allowed "
+              "are \"flat\" and \"apl-bubbles\", or fading = \"none\"");
   }
 }
 
@@ -186,7 +185,7 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
          "rays: how paths are found, where that way can; auto: the simplest that is exact");
   bus::integer_as(
       v, "max_bounces", p.options.max_bounces,
-      {0, 10'000, "", "rays: surface and bottom together; 0: 0.6 of range over depth, 60 at least"});
+      {-1, 10'000, "", "rays: surface and bottom together; -1: 0.6 of range over depth, 60 at least"});
   bus::degrees(v, "max_launch_angle_deg", p.options.max_launch_angle_rad,
                {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
   v.number("min_amplitude_db", p.min_amplitude_db,
@@ -316,7 +315,8 @@ RayModel make_rays(const ChannelServerConfig& config) {
   require(surface.has_value(), "no model of the surface is called " + p.surface_loss_model);
   rays.surface = *surface;
   rays.options = p.options;
-  rays.bounces_follow_range = p.options.max_bounces == 0;
+  rays.bounces_follow_range = p.options.max_bounces < 0;
+  if (rays.bounces_follow_range) rays.options.max_bounces = 0;
   rays.options.keep_steep_direct = true;
   rays.options.min_amplitude = std::pow(10.0, p.min_amplitude_db / 20);
   rays.options.min_boundary_factor = std::pow(10.0, -p.max_bounce_loss_db / 20);

@@ -291,6 +291,7 @@ TEST(ChannelServerConfig, WhatRaysLookForIsTaken) {
   EXPECT_EQ(rays.solver, acoustics::RaySolver::kArcs);
   EXPECT_EQ(rays.options.max_bounces, 12);
   EXPECT_FALSE(rays.bounces_follow_range);
+  EXPECT_FALSE(make_rays(read("[propagation]\nmax_bounces = 0")).bounces_follow_range);
   EXPECT_DOUBLE_EQ(rays.options.max_launch_angle_rad, to_radians(60));
   EXPECT_DOUBLE_EQ(rays.options.min_amplitude, 1e-4);
   EXPECT_EQ(rays.shadow_loss->value, 110);
