@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/sound_path.h"
@@ -24,6 +25,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
+#include "tests/support/doc_table.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -34,7 +36,9 @@ constexpr std::size_t kPayloadBytes = 32;
 constexpr double kMaxStep = 0.1;
 
 enum Sea { kFlat, kShelf, kHill };
-constexpr std::array<const char*, 6> kWhat{"range", "depth", "depth of the source", "wind", "speed", "level"};
+constexpr std::array<const char*, 6> kWhat{
+    "range, 0.1 m",    "depth of the receiver, 0.1 m", "depth of the sender, 0.1 m", "wind, 0.05 m/s",
+    "speed, 0.05 m/s", "source level, 0.1 dB"};
 constexpr bool is_depth(std::size_t what) { return what == 1 || what == 2; }
 constexpr std::array<const char*, 3> kSeas{"flat", "shelf", "hill"};
 constexpr std::array<const char*, 4> kModems{"micromodem-fsk", "janus", "micromodem-psk-1",
@@ -147,7 +151,7 @@ TEST(Steps, NoSmallChangeMovesAProbabilityByATenth) {
     }
   }
   for (std::size_t k = 0; k < kWhat.size(); ++k) {
-    std::printf("%s: %d of %d places above %.2f\n", kWhat[k], steps[k], places, kMaxStep);
+    halocline::testing::doc_row("steps", {kWhat[k], fmt::format("{} of {}", steps[k], places)});
     if (!is_depth(k)) {
       EXPECT_LE(steps[k], places / 6500) << kWhat[k];  // none of 1300
     }
