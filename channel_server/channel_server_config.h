@@ -74,7 +74,7 @@ struct PropagationConfig {
   std::string sediment = "MediumSand";  // of acoustics/sea/boundary_reflection.h; "custom": the three numbers
   double bottom_density_ratio = 1.9, bottom_sound_speed_mps = 1650, bottom_attenuation_db = 0.8;
   std::string surface_loss_model = "apl-bubbles";
-  std::string solver = "auto";                      // or images, snell, arcs
+  std::string solver = "auto";                       // or images, snell, arcs
   acoustics::RayOptions options{.max_bounces = -1};  // below 0: by range over depth
   double min_amplitude_db = -160;
   double max_bounce_loss_db = 30;  // of all bounces of a path together
