@@ -10,7 +10,7 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <span>
 
 #include "acoustics/reception/mean_sound.h"
 
@@ -39,8 +39,11 @@ class BandLaw {
     double scale, rest, beats;  // beats: rest times scattered
     double count;               // equal ones
   };
-  std::vector<Term> terms_;
-  double offset_ = 0;  // of the power, beside the terms
+  std::span<const Term> terms() const { return {terms_.data(), count_}; }
+
+  std::array<Term, kSignalFrequencies + 1> terms_{};
+  std::size_t count_ = 0;  // of those
+  double offset_ = 0;      // of the power, beside the terms
   double mean_ = 0, variance_ = 0, skewness_ = 0;
 };
 

@@ -8,11 +8,13 @@
 #include <numbers>
 
 #include "acoustics/math/delay_profile.h"
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/mean_sound.h"
 #include "acoustics/reception/packet_levels.h"
 #include "acoustics/reception/power_law.h"
+#include "acoustics/reception/strata_mean.h"
 #include "core/random.h"
 #include "core/units.h"
 
@@ -21,40 +23,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t kPowers = 8, kPatterns = 16, kLevels = 7, kStrata = 32;
+constexpr std::size_t kPowers = 8, kPatterns = 16;
 constexpr double kAlike = 0.03;  // slow fading of less than this share of the signal counts as none
 
-// The middles of strata of equal probability of a standard normal, scaled to its variance.
-template <std::size_t count>
-std::array<double, count> normal_strata() {
-  std::array<double, count> strata{};
-  double squares = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double p = (static_cast<double>(i) + 0.5) / count;
-    strata[i] = normal_quantile(p);
-    squares += squared(strata[i]) / count;
-  }
-  for (double& value : strata) value /= std::sqrt(squares);
-  return strata;
-}
-
-// The slow states: levels of large-scale fading at which a packet's fate is computed, the strata between which it is
-// interpolated, each with normals for what fades fast, and the medium's states.
+// The medium's states: scores of the slow power, and normals of its pressures.
 struct SlowStates {
-  std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // standard deviations
-  std::array<double, kStrata> strata = normal_strata<kStrata>();
-  std::array<std::size_t, kStrata> below{};  // the level below, and how far between
-  std::array<double, kStrata> part{};
-  std::array<double, kPowers> powers = normal_strata<kPowers>();  // scores of the slow power
+  std::array<double, kPowers> powers = normal_strata<kPowers>();
   std::array<double, kPatterns> pattern_powers = normal_strata<kPatterns>();
   std::array<BandPressures, kPatterns> patterns{};  // normals of the medium
 
   SlowStates() {
-    for (std::size_t i = 0; i < kStrata; ++i) {
-      const double place = (strata[i] - levels[0]) / (levels[1] - levels[0]);
-      below[i] = static_cast<std::size_t>(place);
-      part[i] = place - static_cast<double>(below[i]);
-    }
     for (std::size_t c = 0; c < 2 * kSignalFrequencies; ++c) add_coordinate(c);
   }
   // Coordinate `c` of the patterns' normals: each stratum once, in the one of many random orders that is correlated least
@@ -91,78 +69,12 @@ struct SlowStates {
       patterns[i][c / 2] += c % 2 == 0 ? Complex(normal, 0) : Complex(0, normal);
     }
   }
-  // Normals of fast fading beside stratum i, in another order in each state: of the preamble, of even and odd blocks.
-  double preamble(std::size_t i, std::size_t state) const {
-    return strata[(9 * i + 4 * state + 12) % kStrata];
-  }
-  double block(std::size_t i, std::size_t state, std::size_t block) const {
-    return strata[block % 2 == 0 ? (7 * i + 4 * state + 19) % kStrata : (13 * i + 4 * state + 18) % kStrata];
-  }
 };
 
 const SlowStates& slow_states() {
   static const SlowStates states;
   return states;
 }
-
-// One of the medium's states: the preamble's level, and the bits' ratios at kLevels of large-scale fading.
-struct SlowLevels {
-  Level preamble;
-  std::array<Level, kLevels> bits;
-};
-
-// Means over the strata of large-scale fading.
-class StrataMean {
- public:
-  StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double signal,
-             double noise)
-      : curves_(curves) {
-    const double echoes = sound.preamble_echoes + sound.untracked * signal;
-    for (std::size_t i = 0; i < kStrata; ++i) {
-      const double quiet = noise / loudness(deviation, slow_states().strata[i]);
-      preamble_db_[i] = 10 * std::log10(quiet + echoes);
-    }
-    const auto all_bits = static_cast<double>(curves.timing().information_bits);
-    for (const std::int64_t bits : curves.blocks()) {
-      const double part = static_cast<double>(bits) / all_bits, kept = sound.bits_variance;
-      blocks_.push_back({static_cast<double>(bits), std::sqrt(kept_of_part(kept, part) / kept)});
-    }
-  }
-  // All sound is louder by this factor, at a score of large-scale fading of `deviation` nepers of power.
-  static double loudness(double deviation, double z) {
-    return std::exp(deviation * z - deviation * deviation / 2);
-  }
-  // Adds those in one of the medium's states.
-  void add(const SlowLevels& levels, std::size_t state, std::size_t states,
-           LinkPrediction& prediction) const {
-    const double weight = 1.0 / static_cast<double>(kStrata * states);
-    const SlowStates& slow = slow_states();
-    for (std::size_t i = 0; i < kStrata; ++i) {
-      const double acquired =
-          curves_.acquisition_at(levels.preamble.at(slow.preamble(i, state)) - preamble_db_[i]);
-      prediction.acquisition_probability += weight * acquired;
-      double log_success = 0;
-      for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        const double z = slow.block(i, state, b) * blocks_[b].wider;
-        log_success += blocks_[b].bits * curves_.log_bit_success_at(between(levels.bits, i, z));
-      }
-      prediction.delivery_probability += weight * acquired * std::exp(log_success);
-    }
-  }
-
- private:
-  struct Block {
-    double bits, wider;
-  };
-  static double between(const std::array<Level, kLevels>& levels, std::size_t i, double z) {
-    const SlowStates& slow = slow_states();
-    const double low = levels[slow.below[i]].at(z), high = levels[slow.below[i] + 1].at(z);
-    return low + slow.part[i] * (high - low);
-  }
-  const ReceptionCurves& curves_;
-  std::array<double, kStrata> preamble_db_{};  // noise and interference over large-scale fading
-  std::vector<Block> blocks_;
-};
 
 // The medium's states over the band, the quietest first, with the strata of the slow power.
 std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
@@ -177,6 +89,73 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
     if (patterns[i].slow_power > 0) patterns[i].scale(power / patterns[i].slow_power);
   }
   return patterns;
+}
+
+// Phase-shift keying: levels by the slow power, which rises; computed at four scores, between them by the cubic through those.
+// Where the quietest are decoded or the loudest lost, all are.
+std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const MeanSound& sound,
+                                                  const StrataMean& mean, const PowerLaw& slow) {
+  const auto& scores = slow_states().powers;
+  const double interference = sound.bits_echoes + sound.untracked * (slow.mean + sound.scattered_power());
+  std::array<StrataMean::Levels, kPowers> levels;
+  const auto compute = [&](std::size_t i) {
+    const FadingSignal fading = packet.fading_signal(std::max(slow.at(scores[i]), 0.0));
+    levels[i] = mean.levels([&](std::size_t k) { return packet.bits(fading, mean.noise(k) + interference); });
+  };
+  compute(0);
+  if (!(slow.variance > 0) || mean.decodes(levels.front().front())) {
+    std::fill(levels.begin() + 1, levels.end(), levels.front());
+    return levels;
+  }
+  compute(kPowers - 1);
+  if (mean.loses(levels.back().back())) {
+    std::fill(levels.begin(), levels.end() - 1, levels.back());
+    return levels;
+  }
+  constexpr std::array<std::size_t, 4> kComputed{0, 2, 5, kPowers - 1};
+  compute(kComputed[1]);
+  compute(kComputed[2]);
+  for (const std::size_t i : {1, 3, 4, 6}) {
+    for (const std::size_t from : kComputed) {
+      double share = 1;  // Lagrange's
+      for (const std::size_t other : kComputed) {
+        if (other != from) share *= (scores[i] - scores[other]) / (scores[from] - scores[other]);
+      }
+      for (std::size_t k = 0; k < StrataMean::kLevels; ++k) {
+        levels[i][k].median_db += share * levels[from][k].median_db;
+      }
+    }
+  }
+  return levels;
+}
+
+void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
+  const PowerLaw slow = sound.slow_power();
+  const bool alike = slow.variance < squared(kAlike * (slow.mean + sound.scattered_power()));
+  const PowerLaw powers = alike ? PowerLaw{slow.mean} : slow;
+  const auto levels = levels_of(packet, sound, mean, powers);
+  Level preamble;
+  for (std::size_t i = 0; i < kPowers; ++i) {
+    if (i == 0 || (!alike && !mean.finds(preamble))) {
+      preamble = packet.preamble(std::max(powers.at(slow_states().powers[i]), 0.0));
+    }
+    mean.add(preamble, levels[i], i, 1.0 / kPowers);
+  }
+}
+
+void add_patterns(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
+  const auto patterns = patterns_of(sound);
+  Level preamble;
+  for (std::size_t i = 0; i < kPatterns; ++i) {
+    if (i == 0 || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].slow_power);
+    mean.add(preamble, mean.levels([&](std::size_t k) { return packet.bits(patterns[i], mean.noise(k)); }), i,
+             1.0 / kPatterns);
+  }
+}
+
+double sinr_of(const MeanSound& sound, double noise) {
+  const double signal = sound.slow_power().mean + sound.scattered_power();
+  return signal / (noise + sound.bits_echoes + sound.untracked * signal);
 }
 
 // Without fading nothing varies but which echoes sound.
@@ -209,7 +188,7 @@ LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Lock& lo
 double rms_delay_spread_s(const std::vector<SoundPath>& paths) {
   std::vector<WeightedDelay> delays;
   delays.reserve(paths.size());
-  for (const SoundPath& path : paths) delays.push_back({path.delay_s, to_power_ratio(path.level).value});
+  for (const SoundPath& path : paths) delays.push_back({path.delay_s, fast_power(path.level.value)});
   return delay_moments(delays).spread_s;
 }
 
@@ -219,46 +198,16 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   if (!model.enabled) return predict_still(paths, lock, noise, curves);
   const MeanSound sound = mean_sound(paths, lock, band, curves.timing());
   const PacketLevels packet(curves, sound);
-  const PowerLaw slow = sound.slow_power();
-  const double signal = slow.mean + sound.scattered_power();
   // What changes as the ends sway holds through a packet too.
   const double deviation =
       std::hypot(std::numbers::ln10 / 10 * model.large_scale_db, std::sqrt(std::log1p(sound.sway_variance)));
-  const StrataMean mean(deviation, curves, sound, signal, noise);
-  std::array<double, kLevels> loudness{};
-  for (std::size_t k = 0; k < kLevels; ++k) {
-    loudness[k] = StrataMean::loudness(deviation, slow_states().levels[k]);
-  }
-  LinkPrediction prediction;
-  SlowLevels levels;
+  StrataMean mean(deviation, curves, sound, noise);
   if (packet.collects_band()) {
-    const double interference = sound.bits_echoes + sound.untracked * signal;
-    const bool alike = slow.variance < squared(kAlike * signal);
-    for (std::size_t i = 0; i < kPowers; ++i) {
-      if (i == 0 || !alike) {
-        const double power = alike ? slow.mean : std::max(slow.at(slow_states().powers[i]), 0.0);
-        const FadingSignal fading = packet.fading_signal(power);
-        levels.preamble = packet.preamble(power);
-        for (std::size_t k = 0; k < kLevels; ++k) {
-          levels.bits[k] = packet.bits(fading, noise / loudness[k] + interference);
-        }
-      }
-      mean.add(levels, i, kPowers, prediction);
-    }
+    add_powers(packet, sound, mean);
   } else {
-    const auto patterns = patterns_of(sound);
-    for (std::size_t i = 0; i < kPatterns; ++i) {
-      levels.preamble = packet.preamble(patterns[i].slow_power);
-      for (std::size_t k = 0; k < kLevels; ++k)
-        levels.bits[k] = packet.bits(patterns[i], noise / loudness[k]);
-      mean.add(levels, i, kPatterns, prediction);
-    }
+    add_patterns(packet, sound, mean);
   }
-  prediction.sinr = signal / (noise + sound.bits_echoes + sound.untracked * signal);
-  // Sums of rounded parts.
-  prediction.acquisition_probability = std::min(prediction.acquisition_probability, 1.0);
-  prediction.delivery_probability = std::min(prediction.delivery_probability, 1.0);
-  return prediction;
+  return {sinr_of(sound, noise), mean.acquisition_probability(), mean.delivery_probability()};
 }
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
@@ -272,6 +221,18 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
     mean.sinr += likely.probability * one.sinr;
     mean.acquisition_probability += likely.probability * one.acquisition_probability;
     mean.delivery_probability += likely.probability * one.delivery_probability;
+  }
+  return mean;
+}
+
+double predicted_sinr(const FadingModel& model, const std::vector<SoundPath>& paths, const Modem& receiver,
+                      const std::vector<LikelyWindow>& windows, const Band& band, double noise,
+                      const ReceptionCurves& curves) {
+  if (!model.enabled) return predict_link(model, paths, receiver, windows, band, noise, curves).sinr;
+  double mean = 0;
+  for (const LikelyWindow& likely : windows) {
+    mean += likely.probability *
+            sinr_of(mean_sound(paths, {&receiver, likely.window}, band, curves.timing()), noise);
   }
   return mean;
 }

@@ -48,6 +48,11 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
                             double noise, const ReceptionCurves& curves);
 
+// Of these, the ratio alone.
+double predicted_sinr(const FadingModel& model, const std::vector<SoundPath>& paths, const Modem& receiver,
+                      const std::vector<LikelyWindow>& windows, const Band& band, double noise,
+                      const ReceptionCurves& curves);
+
 // Delay spread, s rms about the mean, weighted by power; 0 of no path.
 double rms_delay_spread_s(const std::vector<SoundPath>& paths);
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <Eigen/Dense>
 
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/steady_band.h"
 #include "core/units.h"
@@ -18,13 +20,19 @@ using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kNegligible = 1e-12;  // of the power: of no effect
-constexpr double kIncoherent = 1e-6;   // of the power of a path
+constexpr double kIncoherent = 1e-5;   // of the power of the strongest path
+
+// Without the library's look for infinities.
+Complex product(Complex a, Complex b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+double real_product(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }  // of a b*
 
 void add_to(BandCorrelation& correlation, double power, Complex turn) {
   Complex term = power;
   for (Complex& value : correlation) {
     value += term;
-    term *= turn;
+    term = product(term, turn);
   }
 }
 
@@ -40,26 +48,26 @@ void add_to(SharedFading& shared, double x, double y, double squared_spread) {
 double mean_correlation(const BandCorrelation& a, const BandCorrelation& b) {
   double sum = 0;
   for (std::size_t k = 0; k < kFrequencies; ++k) {
-    sum += (k == 0 ? 1.0 : 2.0) * static_cast<double>(kFrequencies - k) * (a[k] * std::conj(b[k])).real();
+    sum += (k == 0 ? 1.0 : 2.0) * static_cast<double>(kFrequencies - k) * real_product(a[k], b[k]);
   }
   return sum / (kFrequencies * kFrequencies);
 }
 
 // K a, K_mn = E B_m B_n*.
 BandPressures times(const BandCorrelation& correlation, const BandPressures& a) {
-  BandPressures product{};
+  BandPressures sums{};
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     for (std::size_t n = 0; n < kFrequencies; ++n) {
-      product[m] += (n > m ? std::conj(correlation[n - m]) : correlation[m - n]) * a[n];
+      sums[m] += product(n > m ? std::conj(correlation[n - m]) : correlation[m - n], a[n]);
     }
   }
-  return product;
+  return sums;
 }
 
 // a^H b / 8^2.
 double mean_product(const BandPressures& a, const BandPressures& b) {
   double sum = 0;
-  for (std::size_t m = 0; m < kFrequencies; ++m) sum += (std::conj(a[m]) * b[m]).real();
+  for (std::size_t m = 0; m < kFrequencies; ++m) sum += real_product(a[m], b[m]);
   return sum / (kFrequencies * kFrequencies);
 }
 
@@ -80,7 +88,6 @@ void add_modes(const std::vector<SharedPath>& paths, MeanSound& sound) {
   }
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(scattered);
   sound.apart = sound.shared.y;
-  sound.shared.own = mean_correlation(sound.scattered, sound.scattered);
   for (Eigen::Index j = 0; j < static_cast<Eigen::Index>(kFrequencies); ++j) {
     BandMode mode{.scattered = solver.eigenvalues()(j) / kFrequencies};
     if (!(mode.scattered > 1e-4 * sound.scattered_power())) continue;
@@ -90,11 +97,13 @@ void add_modes(const std::vector<SharedPath>& paths, MeanSound& sound) {
     for (const SharedPath& path : paths) {
       if (!(path.xy > 0)) continue;
       Complex sum = 0, turn = 1;
-      for (std::size_t m = 0; m < kFrequencies; ++m, turn *= path.turn) sum += std::conj(turn) * w[m];
+      for (std::size_t m = 0; m < kFrequencies; ++m, turn = product(turn, path.turn)) {
+        sum += product(std::conj(turn), w[m]);
+      }
       mode.interference += path.xy * std::norm(sum) / (kFrequencies * mode.scattered);
     }
     Complex steady = 0;
-    for (std::size_t m = 0; m < kFrequencies; ++m) steady += std::conj(w[m]) * sound.steady[m];
+    for (std::size_t m = 0; m < kFrequencies; ++m) steady += product(std::conj(w[m]), sound.steady[m]);
     const double medium = mean_product(w, times(sound.medium, w)) * kFrequencies;
     mode.rest = std::norm(steady) / kFrequencies + medium;
     sound.apart -= mode.interference;
@@ -126,13 +135,14 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
   const double kept = doppler_share(*lock.modem, strongest, band.centre_hz());
   const double preamble_s = timing.preamble.seconds(), end_s = timing.duration.seconds();
   MeanSound sound;
+  const double strongest_power = fast_power(strongest.level.value);
   SteadyBand steady(*lock.modem, band);
   double signal = 0, untracked = 0, spread = 0, all = 0, all_spread = 0, preamble_root = 0, bits_root = 0;
   std::vector<SharedPath> shares;
   shares.reserve(paths.size());
   for (std::size_t p = 0; p < paths.size(); ++p) {
     const SoundPath& path = paths[p];
-    const double power = to_power_ratio(path.level).value, begin_s = path.delay_s - first.delay_s;
+    const double power = fast_power(path.level.value), begin_s = path.delay_s - first.delay_s;
     const double rate = 2 * pi * path.fading.doppler_spread_hz;  // 1 / L of its power
     // What is scattered so slowly that it holds through a packet fades as the medium does.
     const double holds = 1 / (1 + squared(rate * (end_s - preamble_s)));
@@ -153,41 +163,48 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     all += within;
     all_spread += within * squared(path.fading.doppler_spread_hz);
     const double excess_s = path.delay_s - strongest.delay_s;
-    const Complex turn = std::polar(1.0, -2 * pi * std::fmod(spacing_hz * excess_s, 1.0));
+    const Complex turn = std::polar(1.0, -2 * pi * turned(spacing_hz * excess_s, 1));
     shares.back().turn = turn;
-    const double coherent = std::sqrt(of_path * path.fading.coherent);
-    const double at_low = path.phase_rad - 2 * pi * std::fmod(band.low_hz * excess_s, 1.0);
-    if (path.fading.coherent > kIncoherent) {
+    // What is hardly coherent turns as the medium does.
+    const bool steadily = of_path * path.fading.coherent > kIncoherent * strongest_power;
+    const double coherent = steadily ? std::sqrt(of_path * path.fading.coherent) : 0;
+    const double at_low = path.phase_rad - 2 * pi * turned(band.low_hz * excess_s, 1);
+    if (steadily) {
       steady.add(
           {coherent, at_low, excess_s, std::sin(path.launch_angle_rad), std::sin(path.arrival_angle_rad)});
-    }
-    Complex pressure = std::polar(coherent, at_low - pi * std::fmod(spacing_hz * excess_s, 2.0));
-    for (Complex& sum : sound.steady) {
-      sum += pressure;
-      pressure *= turn;
+      Complex pressure = std::polar(coherent, at_low - pi * turned(spacing_hz * excess_s, 2));
+      for (Complex& sum : sound.steady) {
+        sum += pressure;
+        pressure = product(pressure, turn);
+      }
     }
     const double scattered = of_path * fast;
-    add_to(sound.medium, of_path * (path.fading.medium + path.fading.scattered * holds), turn);
+    add_to(sound.medium,
+           of_path *
+               (path.fading.medium + path.fading.scattered * holds + (steadily ? 0 : path.fading.coherent)),
+           turn);
     add_to(sound.scattered, scattered, turn);
     add_to(sound.beating, scattered * squared(sinc(spacing_hz * excess_s)), turn);
     spread += scattered * squared(path.fading.doppler_spread_hz);
     preamble_root += scattered * std::sqrt(kept_variance(rate * preamble_s));
     bits_root += scattered * std::sqrt(kept_variance(rate * (end_s - preamble_s)));
   }
-  const auto parts = steady.parts();
+  const SteadyBand::Sway sway = steady.sway();
+  const auto parts = steady.parts(sway);
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     const double middle = std::abs(sound.steady[m]);
     sound.steady[m] *= middle > 0 ? std::sqrt(parts[m].constant) / middle : 0;
     sound.varying[m] = parts[m].varying;
   }
   const double mean = sound.coherent_power() + sound.medium[0].real() + sound.scattered_power();
-  if (mean > 0) sound.sway_variance = steady.sway_variance() / squared(mean);
+  if (mean > 0) sound.sway_variance = sway.variance / squared(mean);
   if (untracked > kNegligible * signal) sound.untracked = untracked / signal;
   sound.window_spread_hz = all > 0 ? std::sqrt(all_spread / all) : 0;
   if (const double scattered = sound.scattered_power(); scattered > kNegligible * signal) {
     sound.spread_hz = std::sqrt(spread / scattered);
     sound.preamble_variance = squared(preamble_root / scattered);
     sound.bits_variance = squared(bits_root / scattered);
+    sound.shared.own = mean_correlation(sound.scattered, sound.scattered);
     const double others = sound.medium[0].real() + sound.coherent_power();
     if (!is_frequency_shift_keying(lock.modem->error_model)) add_modes(shares, sound);
     if (others > 0) {
@@ -218,7 +235,7 @@ PowerLaw MeanSound::slow_power() const {
 PowerLaw MeanSound::power(double slow_power, double kept) const {
   const double fast = scattered_power();
   if (!(fast > kNegligible * slow_power)) return {slow_power + fast};
-  const double own = mean_correlation(scattered, scattered), mixed = beats * slow_power;
+  const double own = shared.own, mixed = beats * slow_power;
   const double over_band = own / squared(fast), longer = kept_of_longer(kept);
   return {slow_power + fast, kept * own + longer * mixed,
           fast * third_share(over_band) *
@@ -237,7 +254,7 @@ MediumStates::MediumStates(const MeanSound& sound) : sound_(sound) {
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     for (std::size_t n = 0; n <= m; ++n) {
       Complex rest = correlation[m - n];
-      for (std::size_t k = 0; k < n; ++k) rest -= rows_[m][k] * std::conj(rows_[n][k]);
+      for (std::size_t k = 0; k < n; ++k) rest -= product(rows_[m][k], std::conj(rows_[n][k]));
       const double pivot = rows_[n][n].real();
       if (n < m) {
         rows_[m][n] = pivot > 0 ? rest / pivot : 0;
@@ -252,7 +269,7 @@ SlowSound MediumStates::state(const BandPressures& normals) const {
   SlowSound slow;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     Complex pressure = sound_.steady[m];
-    for (std::size_t k = 0; k <= m; ++k) pressure += rows_[m][k] * normals[k];
+    for (std::size_t k = 0; k <= m; ++k) pressure += product(rows_[m][k], normals[k]);
     slow.steady[m] = std::norm(pressure);
     slow.varying[m] = sound_.varying[m];
     slow.slow_power += (slow.steady[m] + slow.varying[m]) / kFrequencies;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/decoding.h"
 
@@ -41,7 +41,7 @@ double tabulated_probability(double score) {
 }
 
 double halvings(double parts) {
-  return std::clamp(std::log2(parts), 0.0, ReceptionCurves::kHalvings - 1.001);
+  return std::clamp(fast_log(parts) / std::numbers::ln2, 0.0, ReceptionCurves::kHalvings - 1.001);
 }
 
 // Mean of exp(exponent - scale power) of a power that varies as S + sqrt(V) and S - sqrt(V), S^2 - V = constant^2, of which
@@ -50,10 +50,10 @@ double of_beat(double constant, double varying, double scale, double exponent) {
   const double mean = scale * (constant + varying);
   const double swing =
       std::min(kBeatShare * scale * std::sqrt(std::max(varying, 0.0) * (2 * constant + varying)), mean);
-  return (std::exp(exponent - mean - swing) + std::exp(exponent - mean + swing)) / 2;
+  return (fast_exp(exponent - mean - swing) + fast_exp(exponent - mean + swing)) / 2;
 }
 
-double decibels(double power) { return kDbPerNeper * std::log(std::max(power, 1e-30)); }
+double decibels(double power) { return kDbPerNeper * fast_log(std::max(power, 1e-30)); }
 
 }  // namespace
 
@@ -65,7 +65,7 @@ FadingSignal::FadingSignal(const BandLaw& low, const BandLaw& high,
   high_ = {high.points(), {}, parts_high};
   for (Side* side : {&low_, &high_}) {
     for (std::size_t i = 0; i < kPoints; ++i) {
-      side->logs[i] = side->points[i].power > 0 ? std::log(side->points[i].power) : 0;
+      side->logs[i] = side->points[i].power > 0 ? fast_log(side->points[i].power) : 0;
     }
   }
 }
@@ -155,9 +155,9 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
   double success = 0;
   for (std::size_t i = 0; i < kScores.size(); ++i) {
     const double ratio = (signal.mean() + kScores[i] * signal.deviation()) / disturbance;
-    success += kWeights[i] * std::exp(bits_ / parts * curves_.log_bit_success(ratio));
+    success += kWeights[i] * fast_exp(bits_ / parts * curves_.log_bit_success(ratio));
   }
-  return -parts * std::log(std::max(success, 1e-30));
+  return -parts * fast_log(std::max(success, 1e-30));
 }
 
 // Of the parts of a packet that fade independently, each with its share of the bits, all have to be right.
@@ -167,41 +167,49 @@ Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
   double loss_db = 0;
   if (wide > 0) loss_db += wide * decibels(std::max(narrow_loss(signal, disturbance), kLeastLoss));
   if (wide < 1) loss_db += (1 - wide) * decibels(std::max(wide_loss(signal, disturbance), kLeastLoss));
-  const double ratio_db = curves_.ratio_db_of(-std::pow(10, loss_db / 10) / bits_);
+  const double ratio_db = curves_.ratio_db_of(-fast_power(loss_db) / bits_);
   return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
 }
 
 double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance) const {
   constexpr std::size_t kRatios = ReceptionCurves::kRatios;
   const ReceptionCurves::Parts& table = curves_.parts();
-  std::array<double, kRatios> below{};
-  double parts = 0, last_parts = 1, last_margin = 0;  // of the fades that decide; at the ratio before
-  const double log = std::log(disturbance);
-  FadingSignal::Scores scores(signal);
+  std::array<double, kRatios> scores{}, below{};
+  const double log = fast_log(disturbance);
+  FadingSignal::Scores signal_scores(signal);
   for (std::size_t k = 0; k < kRatios; ++k) {
-    const double score = scores.next(table.ratios[k] * disturbance, logs_[k] + log, between_[k]);
-    below[k] = tabulated_probability(score);
-    if (parts > 0) continue;
-    const double here = std::min(signal.parts(score, between_[k]), stretches_),
-                 margin = logs_[k] - needed(here);
-    if (margin >= 0 || k + 1 == kRatios) {
-      const double part = k > 0 && margin > 0 ? last_margin / (last_margin - margin) : 1;
-      parts = last_parts + part * (here - last_parts);
-    }
-    last_parts = here;
-    last_margin = margin;
+    scores[k] = signal_scores.next(table.ratios[k] * disturbance, logs_[k] + log, between_[k]);
+    below[k] = tabulated_probability(scores[k]);
   }
+  // The first ratio that is as much as the parts of fades to it need, between it and the one before.
+  struct Margin {
+    double parts, more;
+  };
+  const auto margin_at = [&](std::size_t k) {
+    const double parts = std::min(signal.parts(scores[k], between_[k]), stretches_);
+    return Margin{parts, logs_[k] - needed(parts)};
+  };
+  Margin low{1, 0}, high = margin_at(kRatios - 1);
+  std::size_t least = 0, most = kRatios - 1;
+  while (least < most) {
+    const std::size_t middle = (least + most) / 2;
+    const Margin here = margin_at(middle);
+    (here.more >= 0 ? high : low) = here;
+    (here.more >= 0 ? most : least) = here.more >= 0 ? middle : middle + 1;
+  }
+  const double between = most > 0 && high.more > 0 ? low.more / (low.more - high.more) : 1;
+  const double parts = low.parts + between * (high.parts - low.parts);
   const double halved = halvings(1 + (parts - 1) / (1 + kSofter * softness_db_));
-  const auto low = static_cast<std::size_t>(halved);
+  const auto row = static_cast<std::size_t>(halved);
   double loss = 0;
-  for (const std::size_t h : {low, low + 1}) {
+  for (const std::size_t h : {row, row + 1}) {
     double success = below[0] * table.success[h][0] + (1 - below.back()) * table.success[h][kRatios];
     for (std::size_t k = 1; k < kRatios; ++k) {
       success += std::max(below[k] - below[k - 1], 0.0) * table.success[h][k];
     }
     const double share =
-        h == low ? 1 - (halved - static_cast<double>(low)) : halved - static_cast<double>(low);
-    loss -= share * std::exp2(static_cast<double>(h)) * std::log(std::clamp(success, 1e-30, 1.0));
+        h == row ? 1 - (halved - static_cast<double>(row)) : halved - static_cast<double>(row);
+    loss -= share * static_cast<double>(1U << h) * fast_log(std::clamp(success, 1e-30, 1.0));
   }
   return loss;
 }
@@ -210,9 +218,8 @@ double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance) c
 double PacketLevels::needed(double parts) const {
   const double halved = halvings(parts);
   const auto low = static_cast<std::size_t>(halved);
-  const auto& thresholds = curves_.parts().thresholds;
-  return std::log(thresholds[low]) +
-         (halved - static_cast<double>(low)) * std::log(thresholds[low + 1] / thresholds[low]);
+  const auto& logs = curves_.parts().log_thresholds;
+  return logs[low] + (halved - static_cast<double>(low)) * (logs[low + 1] - logs[low]);
 }
 
 Level PacketLevels::bits(const SlowSound& slow, double noise) const {
@@ -220,41 +227,46 @@ Level PacketLevels::bits(const SlowSound& slow, double noise) const {
   const double disturbance = noise + sound_.bits_echoes + sound_.untracked * power;
   const Cells cells = cells_of(slow, (coded_ ? chip_ : slope_) / disturbance);
   if (coded_) {
-    const double v = std::log1p(cells.variance), nepers = cells.nepers + v / 2;
-    return {kDbPerNeper * std::log(std::max(nepers, 1e-12) / chip_), kDbPerNeper * std::sqrt(v) / nepers};
+    const double v = fast_log(1 + cells.variance), nepers = cells.nepers + v / 2;
+    return {decibels(std::max(nepers, 1e-12) / chip_), kDbPerNeper * std::sqrt(v) / nepers};
   }
   // Errors of single bits, a exp(-slope ratio): as if their number were gamma distributed over the fading,
   // E exp(-X) = (1 + mean v)^(-1 / v). Its tail is longer: of its variance a part counts (our fit).
-  const double errors = errors_at_zero_ * std::exp(-cells.nepers), v = kErrorShare * cells.variance;
-  const double loss = v > 1e-6 ? std::log1p(errors * v) / v : errors;
+  const double errors = errors_at_zero_ * fast_exp(-cells.nepers), v = kErrorShare * cells.variance;
+  const double loss = v > 1e-6 ? fast_log(1 + errors * v) / v : errors;
   return {std::min(curves_.ratio_db_of(-loss / bits_), decibels(power / disturbance))};
 }
 
 // Of exp(-scale power) over time and the band, each frequency Rician: E = exp(-c / (1 + d)) / (1 + d).
 PacketLevels::Cells PacketLevels::cells_of(const SlowSound& slow, double scale) const {
+  using Frequencies = std::array<double, kFrequencies>;
   const double d = scale * sound_.scattered_power();
-  double least = std::numeric_limits<double>::infinity();  // exponent, taken out: loud cells underflow
+  Frequencies c, b, losses, ones;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    least = std::min(least, scale * slow.steady[m] / (1 + d + scale * slow.varying[m]));
+    c[m] = scale * slow.steady[m];
+    b[m] = d + scale * slow.varying[m];
+    losses[m] = c[m] / (1 + b[m]);
   }
-  double mean = 0, all = 0;
+  const double least = *std::min_element(losses.begin(), losses.end());  // taken out: loud cells underflow
+  double mean = 0;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    const double c = scale * slow.steady[m], b = d + scale * slow.varying[m];
-    const double one = coded_ ? std::exp(least - c / (1 + b)) / (1 + b)
-                              : of_beat(slow.steady[m], slow.varying[m], scale / (1 + d), least) / (1 + d);
-    mean += one / kFrequencies;
-    if (d > 0) {
-      all += (std::exp(std::min(2 * least - 2 * c / (1 + 2 * b), kMaxExponent)) / (1 + 2 * b) - one * one) /
-             kFrequencies;
-    }
+    ones[m] = coded_ ? fast_exp(least - losses[m]) / (1 + b[m])
+                     : of_beat(slow.steady[m], slow.varying[m], scale / (1 + d), least) / (1 + d);
+    mean += ones[m] / kFrequencies;
   }
-  const double nepers = least - std::log(mean);
+  const double nepers = least - fast_log(mean);
   const double single = d * d + 2 * d * scale * slow.slow_power;
   if (!(single > 0)) return {nepers, 0};
+  double all = 0;
+  for (std::size_t m = 0; m < kFrequencies; ++m) {
+    const double twice = 1 / (1 + 2 * b[m]);
+    all += (fast_exp(std::min(2 * (least - c[m] * twice), kMaxExponent)) * twice - ones[m] * ones[m]) /
+           kFrequencies;
+  }
   const double of_mean =
       squared(scale) * sound_.power(slow.slow_power, sound_.bits_variance).variance / single;
   // Deep fades, which count most, are shorter than the power's coherence, in time and in frequency.
-  const double shorter = std::cbrt(squared((1 + 2 * d) / squared(1 + d)));
+  const double shorter = fast_exp(2.0 / 3 * fast_log((1 + 2 * d) / squared(1 + d)));
   return {nepers, all * of_mean * shorter / (mean * mean)};
 }
 

@@ -8,6 +8,7 @@
 
 #include <boost/math/special_functions/gamma.hpp>
 
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 
 namespace halocline::acoustics {
@@ -97,7 +98,7 @@ double gamma_quantile(double z, double skewness) {
   const Place i = place((skewness - kLeastSkewness) / kStepSkewness, kSkewnesses),
               j = place((z - kLeastZ) / kStepZ, kZs);
   const auto &low = quantiles()[i.row], &high = quantiles()[i.row + 1];
-  return std::exp(
+  return fast_exp(
       mix(mix(low[j.row], low[j.row + 1], j.part), mix(high[j.row], high[j.row + 1], j.part), i.part));
 }
 
@@ -124,7 +125,7 @@ Parts independent_parts(double skewness, double stretches, double turns) {
       return mix(mix(table[j.row][k.row][m], table[j.row][k.row + 1][m], k.part),
                  mix(table[j.row + 1][k.row][m], table[j.row + 1][k.row + 1][m], k.part), j.part);
     };
-    parts[m] = std::exp(mix(at(row), at(row + 1), part));
+    parts[m] = fast_exp(mix(at(row), at(row + 1), part));
   }
   return parts;
 }

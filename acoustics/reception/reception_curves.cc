@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/reception/decoding.h"
 #include "core/units.h"
 
@@ -23,7 +26,27 @@ ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
     acquisition_.push_back(acquisition_probability(modem, sinr));
     log_bit_success_.push_back(std::log1p(-bit_error_rate(modem, sinr)));
   }
+  acquisition_flank_ = flank_of([&](std::size_t row) { return acquisition_[row]; });
+  bits_flank_ = flank_of([&](std::size_t row) {
+    return std::exp(static_cast<double>(timing_.information_bits) * log_bit_success_[row]);
+  });
   parts_ = make_parts();
+}
+
+// Of a chance that never falls.
+template <typename Chance>
+ReceptionCurves::Flank ReceptionCurves::flank_of(Chance chance) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  std::size_t low = 0, high = kRows;  // rows below the flank; the first above it
+  while (low < kRows && chance(low) < kCertain) ++low;
+  while (high > 0 && chance(high - 1) > 1 - kCertain) --high;
+  const auto db = [](std::size_t row) { return kLeastDb + kStepDb * static_cast<double>(row); };
+  return {low == 0       ? -kNowhere
+          : low == kRows ? kNowhere
+                         : db(low - 1),
+          high == kRows ? kNowhere
+          : high == 0   ? -kNowhere
+                        : db(high)};
 }
 
 ReceptionCurves::Parts ReceptionCurves::make_parts() const {
@@ -35,6 +58,7 @@ ReceptionCurves::Parts ReceptionCurves::make_parts() const {
   for (std::size_t h = 0; h < kHalvings; ++h) {
     thresholds_db[h] = ratio_db_of(-std::log(2) / bits_of(h));
     parts.thresholds[h] = std::pow(10, thresholds_db[h] / 10);
+    parts.log_thresholds[h] = std::log(parts.thresholds[h]);
   }
   const double low_db = thresholds_db.back() - 4, high_db = thresholds_db.front() + 2.5;
   std::array<double, kRatios> ratios_db{};
@@ -60,7 +84,9 @@ ReceptionCurves::Parts ReceptionCurves::make_parts() const {
   return parts;
 }
 
-double ReceptionCurves::decibels(double sinr) { return sinr > 0 ? 10 * std::log10(sinr) : kLeastDb; }
+double ReceptionCurves::decibels(double sinr) {
+  return sinr > 1e-30 ? 10 / std::numbers::ln10 * fast_log(sinr) : kLeastDb;
+}
 
 double ReceptionCurves::interpolated(const std::vector<double>& table, double sinr_db) {
   const double place = (sinr_db - kLeastDb) / kStepDb;

@@ -30,6 +30,14 @@ class ReceptionCurves {
   // ln(1 - BER), at most 0.
   double log_bit_success(double sinr) const { return log_bit_success_at(decibels(sinr)); }
   double log_bit_success_at(double sinr_db) const { return interpolated(log_bit_success_, sinr_db); }
+  // Ratios, dB, between which a chance changes: below `low_db` it is less than kCertain, above `high_db` more than 1 - kCertain.
+  // Infinite where that is nowhere so.
+  static constexpr double kCertain = 1e-4;
+  struct Flank {
+    double low_db = 0, high_db = 0;
+  };
+  const Flank& acquisition_flank() const { return acquisition_flank_; }
+  const Flank& bits_flank() const { return bits_flank_; }  // of all information bits
   // The ratio, dB, of that ln(1 - BER).
   double ratio_db_of(double log_bit_success) const;
   // Ratios at which parts of a packet's bits turn from wrong to right, each of 1 / 2^halvings of them, and the chance that
@@ -37,6 +45,7 @@ class ReceptionCurves {
   struct Parts {
     std::array<double, kRatios> ratios{};        // rising
     std::array<double, kHalvings> thresholds{};  // where half of the parts are right, falling
+    std::array<double, kHalvings> log_thresholds{};
     std::array<std::array<double, kRatios + 1>, kHalvings> success{};
   };
   const Parts& parts() const { return parts_; }
@@ -44,12 +53,15 @@ class ReceptionCurves {
  private:
   static double decibels(double sinr);
   Parts make_parts() const;
+  template <typename Chance>
+  static Flank flank_of(Chance chance);
   static double interpolated(const std::vector<double>& table, double sinr_db);
 
   Modem modem_;
   PacketTiming timing_;
   std::vector<std::int64_t> blocks_;
   std::vector<double> acquisition_, log_bit_success_;
+  Flank acquisition_flank_, bits_flank_;
   Parts parts_;
 };
 

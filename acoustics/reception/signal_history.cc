@@ -169,6 +169,7 @@ double tracked_share(const Modem& receiver, const SoundPath& path) {
 double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& window) {
   double weight = 0, squares = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (!(window.weights[i] > 0)) continue;
     const double power = squared(window.weights[i]) * to_power_ratio(paths[i].level).value;
     weight += power;
     squares += power * squared(paths[i].fading.doppler_spread_hz);

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 
 namespace halocline::acoustics {
@@ -21,6 +22,7 @@ std::size_t samples_for(const Modem& receiver, double part_hz, std::size_t most)
 }
 
 constexpr double kSoundSpeedMps = 1500;  // of the wave number
+constexpr double kNegligible = 1e-5;     // of the power: interference of no effect
 
 }  // namespace
 
@@ -36,15 +38,17 @@ void SteadyBand::add(const Path& path) {
   paths_.push_back(path);
   const auto& [pressure, phase_rad, excess_s, launch_sine, arrival_sine] = path;
   Samples re{}, im{};
-  const double half_step = pi * std::fmod(spacing_hz_ * excess_s, 2.0);
+  const double half_step = pi * turned(spacing_hz_ * excess_s, 2);
   const std::complex<double> turn = std::polar(1.0, -2 * half_step);
   std::complex<double> sample = std::polar(pressure, phase_rad - half_step);
-  for (std::size_t k = 0; k < samples_; ++k, sample *= turn) {
+  for (std::size_t k = 0; k < samples_; ++k) {
     re[k] = sample.real();
     im[k] = sample.imag();
+    sample = {sample.real() * turn.real() - sample.imag() * turn.imag(),
+              sample.real() * turn.imag() + sample.imag() * turn.real()};
   }
-  const double turned = 2 * pi * std::fmod(spacing_hz_ * static_cast<double>(samples_) * excess_s, 1.0);
-  const double c = std::cos(turned), s = -std::sin(turned);
+  const double angle = 2 * pi * turned(spacing_hz_ * static_cast<double>(samples_) * excess_s, 1);
+  const double c = std::cos(angle), s = -std::sin(angle);
   for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
     for (std::size_t k = 0; k < samples_; ++k) {
       re_[m][k] += re[k];
@@ -56,7 +60,7 @@ void SteadyBand::add(const Path& path) {
   }
 }
 
-std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts() const {
+std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const Sway& sway) const {
   std::array<Part, kSignalFrequencies> parts;
   const auto count = static_cast<double>(samples_);
   for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
@@ -70,56 +74,50 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts() const {
     parts[m].constant = std::sqrt(std::max(2 * mean * mean - squares, 0.0));
     parts[m].varying = mean - parts[m].constant;
   }
-  add_sway(parts);
+  add(sway, parts);
   return parts;
 }
 
-// Pairs that interfere few enough times over the band.
-template <typename Take>
-void SteadyBand::for_near_pairs(Take take) const {
-  const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps;
+// By pairs that interfere few enough times over the band: a product of 2 a_p a_q, kept to g, its phase at the middle of the band.
+SteadyBand::Sway SteadyBand::sway() const {
+  const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps,
+               exponent = -squared(wave_number * kSwayM) / 2;
+  double power = 0;
+  for (const Path& path : paths_) power += squared(path.pressure);
+  Sway sway;
   for (std::size_t p = 0; p < paths_.size(); ++p) {
     for (std::size_t q = 0; q < p; ++q) {
       const Path &one = paths_[p], &other = paths_[q];
-      const double apart_s = one.excess_s - other.excess_s;
-      if (std::abs(apart_s) * band_.width_hz() >= kNearCycles) continue;
+      const double apart_s = one.excess_s - other.excess_s, cycles = apart_s * band_.width_hz();
+      if (std::abs(cycles) >= kNearCycles) continue;
+      const double product = 2 * one.pressure * other.pressure;
+      if (product < kNegligible * power) continue;
       const double sines =
           squared(one.launch_sine - other.launch_sine) + squared(one.arrival_sine - other.arrival_sine);
-      take(Pair{2 * one.pressure * other.pressure,
-                one.phase_rad - other.phase_rad - pi * band_.width_hz() * apart_s, apart_s,
-                std::exp(-squared(wave_number * kSwayM) * sines / 2)});
+      const double kept = fast_exp(exponent * sines), interference = product * sinc(cycles),
+                   cosine = std::cos(one.phase_rad - other.phase_rad - pi * cycles);
+      sway.change -= interference * (1 - kept) * cosine;
+      // cos(2 phase) = 2 cos(phase)^2 - 1
+      sway.variance +=
+          squared(interference) * (1 - squared(kept)) * (1 - squared(kept) * (2 * squared(cosine) - 1)) / 2;
     }
   }
+  return sway;
 }
 
 // What sway takes of the interference over the whole band: where it comes and goes over the band, sway moves it only from part
 // to part.
-void SteadyBand::add_sway(std::array<Part, kSignalFrequencies>& parts) const {
-  double change = 0;
-  for_near_pairs([&](const Pair& pair) {
-    change -= pair.interference * (1 - pair.kept) * sinc(band_.width_hz() * pair.apart_s) *
-              std::cos(pair.phase_rad);
-  });
+void SteadyBand::add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts) {
   for (Part& part : parts) {
     const double power = part.constant + part.varying;
-    if (change >= 0) {
-      part.constant += change;
+    if (sway.change >= 0) {
+      part.constant += sway.change;
     } else if (power > 0) {
-      const double left = std::max(power + change, 0.0) / power;
+      const double left = std::max(power + sway.change, 0.0) / power;
       part.constant *= left;
       part.varying *= left;
     }
   }
-}
-
-double SteadyBand::sway_variance() const {
-  double sum = 0;
-  for_near_pairs([&](const Pair& pair) {
-    const double kept = squared(pair.kept);
-    sum += squared(pair.interference * sinc(band_.width_hz() * pair.apart_s)) * (1 - kept) *
-           (1 - kept * std::cos(2 * pair.phase_rad)) / 2;
-  });
-  return sum;
 }
 
 }  // namespace halocline::acoustics

@@ -43,19 +43,21 @@ class SteadyBand {
 
   void add(const Path& path);
   // From low to high.
-  std::array<Part, kSignalFrequencies> parts() const;
+  std::array<Part, kSignalFrequencies> parts() const { return parts(sway()); }
   // Variance of the mean over the band as the ends sway, uPa^4.
-  double sway_variance() const;
+  double sway_variance() const { return sway().variance; }
+
+  // Of the mean over the band: what sway adds to it, and its variance by sway. All pairs of paths are looked at once.
+  struct Sway {
+    double change = 0, variance = 0;
+  };
+  Sway sway() const;
+  std::array<Part, kSignalFrequencies> parts(const Sway& sway) const;
 
  private:
   static constexpr std::size_t kMaxSamples = 32;  // of a part
 
-  struct Pair {
-    double interference = 0, phase_rad = 0, apart_s = 0, kept = 0;  // 2 a_p a_q; at the middle of the band; g
-  };
-  template <typename Take>
-  void for_near_pairs(Take take) const;
-  void add_sway(std::array<Part, kSignalFrequencies>& parts) const;
+  static void add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts);
 
   Band band_;
   std::vector<Path> paths_;

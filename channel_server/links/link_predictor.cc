@@ -43,6 +43,8 @@ bool is_impossible(const Modem& receiver, const Reception& reception, const Soun
 
 }  // namespace
 
+void LinkForecast::set_sinr(double sinr) { sinr_db = std::max(10 * std::log10(sinr), kSilence.value); }
+
 LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   Rates rates;
   const auto add = [&](const Modem& modem) {
@@ -92,16 +94,21 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   forecast.doppler_spread_hz = acoustics::doppler_spread_of(coherence_s);
   forecast.rms_delay_spread_s = rms_delay_spread_s(paths);
   const bool impossible = is_impossible(receiver, reception, paths[window.strongest], rule_.fading.enabled);
+  const double noise_power = to_power_ratio(noise).value;
+  if (impossible) {
+    forecast.set_sinr(predicted_sinr(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power,
+                                     rates.front()));
+    return forecast;
+  }
   double best = 0;
   for (const ReceptionCurves& curves : rates) {
     const double rate_bps = curves.modem().bit_rate_bps;
     const bool own = &curves == &rates.front();
     if (!own && rate_bps <= best) break;  // nor are those that follow better
-    const acoustics::LinkPrediction predicted = predict_link(
-        rule_.fading, paths, receiver, windows, transmitter.band(), to_power_ratio(noise).value, curves);
+    const acoustics::LinkPrediction predicted =
+        predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves);
     if (own) {
-      forecast.sinr_db = std::max(10 * std::log10(predicted.sinr), kSilence.value);
-      if (impossible) break;
+      forecast.set_sinr(predicted.sinr);
       forecast.acquisition_probability = predicted.acquisition_probability;
       forecast.delivery_probability = predicted.delivery_probability;
     }

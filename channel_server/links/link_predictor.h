@@ -30,6 +30,8 @@ struct LinkForecast {
   double coherence_time_s = 0;  // 1e6 at most
   double doppler_spread_hz = 0, rms_delay_spread_s = 0;
   double best_rate_bps = 0;  // 0: nothing is delivered
+
+  void set_sinr(double sinr);  // in dB, kSilence at least
 };
 
 class LinkPredictor {

@@ -1,0 +1,131 @@
+#include "acoustics/reception/strata_mean.h"
+
+#include <cstdint>
+#include <numbers>
+
+#include "acoustics/math/fast_functions.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kHopeless = -16;  // ln of a chance that does not count
+
+// All sound is louder by this factor, at a score of large-scale fading of `deviation` nepers of power.
+double loudness(double deviation, double z) { return fast_exp(deviation * z - deviation * deviation / 2); }
+double decibels(double power) { return 10 / std::numbers::ln10 * fast_log(power); }
+
+}  // namespace
+
+// The levels, and the strata between which they are interpolated, each with normals for what fades fast.
+struct StrataMean::Scores {
+  std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // standard deviations
+  std::array<double, kStrata> strata = normal_strata<kStrata>();
+  std::array<std::size_t, kStrata> below{};  // the level below, and how far between
+  std::array<double, kStrata> part{};
+
+  Scores() {
+    for (std::size_t i = 0; i < kStrata; ++i) {
+      const double place = (strata[i] - levels[0]) / (levels[1] - levels[0]);
+      below[i] = static_cast<std::size_t>(place);
+      part[i] = place - static_cast<double>(below[i]);
+    }
+  }
+  // Beside stratum i: of the preamble, of even and odd blocks.
+  double preamble(std::size_t i, std::size_t state) const {
+    return strata[(9 * i + 4 * state + 12) % kStrata];
+  }
+  double block(std::size_t i, std::size_t state, std::size_t block) const {
+    return strata[block % 2 == 0 ? (7 * i + 4 * state + 19) % kStrata : (13 * i + 4 * state + 18) % kStrata];
+  }
+};
+
+const StrataMean::Scores& StrataMean::scores() {
+  static const Scores scores;
+  return scores;
+}
+
+StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double noise)
+    : curves_(curves) {
+  const double untracked = sound.untracked * (sound.slow_power().mean + sound.scattered_power());
+  for (std::size_t i = 0; i < kStrata; ++i) {
+    preamble_db_[i] =
+        decibels(noise / loudness(deviation, scores().strata[i]) + sound.preamble_echoes + untracked);
+  }
+  for (std::size_t k = 0; k < kLevels; ++k) {
+    noise_[k] = noise / loudness(deviation, scores().levels[k]);
+    disturbance_db_[k] = decibels(noise_[k] + sound.bits_echoes + untracked);
+  }
+  const auto all_bits = static_cast<double>(curves.timing().information_bits);
+  for (const std::int64_t bits : curves.blocks()) {
+    const double part = static_cast<double>(bits) / all_bits, kept = sound.bits_variance;
+    blocks_.push_back({static_cast<double>(bits), std::sqrt(kept_of_part(kept, part) / kept)});
+    widest_ = std::max(widest_, scores().strata.back() * blocks_.back().wider);
+  }
+}
+
+bool StrataMean::finds(const Level& preamble) const {
+  const double z = scores().strata.back();
+  return std::min(preamble.at(-z), preamble.at(z)) - preamble_db_.front() >
+         curves_.acquisition_flank().high_db;
+}
+
+StrataMean::Levels& StrataMean::spread(Levels& bits, std::size_t from, std::size_t begin,
+                                       std::size_t end) const {
+  const Level level = bits[from];
+  for (std::size_t k = begin; k < end; ++k) {
+    bits[k] = level;
+    bits[k].median_db += disturbance_db_[from] - disturbance_db_[k];
+  }
+  return bits;
+}
+
+bool StrataMean::lie_on_parabola(const Levels& bits) const {
+  const auto at = [&](std::size_t k) { return bits[k].median_db + disturbance_db_[k]; };
+  return std::abs(at(0) + at(kLevels - 1) - 2 * at(kLevels / 2)) < kBentDb;
+}
+
+StrataMean::Levels& StrataMean::fill_parabola(Levels& bits) const {
+  constexpr std::size_t kMiddle = kLevels / 2, kLast = kLevels - 1;
+  const Level low = bits.front(), middle = bits[kMiddle], high = bits.back();
+  for (std::size_t k = 0; k < kLevels; ++k) {
+    const double x = static_cast<double>(k) / kMiddle - 1;
+    bits[k].median_db =
+        on_parabola(low.median_db + disturbance_db_[0], middle.median_db + disturbance_db_[kMiddle],
+                    high.median_db + disturbance_db_[kLast], x) -
+        disturbance_db_[k];
+    bits[k].deviation_db = on_parabola(low.deviation_db, middle.deviation_db, high.deviation_db, x);
+  }
+  return bits;
+}
+
+void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t state, double share) {
+  const bool found = finds(preamble), lost = loses(bits.back()), decoded = decodes(bits.front());
+  if (found && (lost || decoded)) {
+    acquired_ += share;
+    delivered_ += decoded ? share : 0;
+    return;
+  }
+  const double weight = share / kStrata;
+  for (std::size_t i = 0; i < kStrata; ++i) {
+    const double acquired =
+        found ? 1 : curves_.acquisition_at(preamble.at(scores().preamble(i, state)) - preamble_db_[i]);
+    acquired_ += weight * acquired;
+    if (lost) continue;
+    const double log_success = decoded ? 0 : log_success_at(bits, i, state);
+    if (log_success > kHopeless) delivered_ += weight * acquired * fast_exp(log_success);
+  }
+}
+
+// ln of the chance of all bits.
+double StrataMean::log_success_at(const Levels& levels, std::size_t stratum, std::size_t state) const {
+  const std::size_t below = scores().below[stratum];
+  double log_success = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const double z = scores().block(stratum, state, b) * blocks_[b].wider;
+    const double low = levels[below].at(z), high = levels[below + 1].at(z);
+    log_success += blocks_[b].bits * curves_.log_bit_success_at(low + scores().part[stratum] * (high - low));
+  }
+  return log_success;
+}
+
+}  // namespace halocline::acoustics

@@ -1,0 +1,114 @@
+// Means over large-scale fading of what becomes of packets while the rest of their link's slow fading holds
+// (acoustics/reception/link_prediction.h has the model).
+//
+// Levels of the bits are computed at few of kLevels of large-scale fading: the ratio to the mean noise and interference changes
+// slowly with it, along a parabola where three levels tell no other. Where even the least is decoded, or the greatest lost, all
+// are: ReceptionCurves::kCertain.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "acoustics/math/functions.h"
+#include "acoustics/reception/mean_sound.h"
+#include "acoustics/reception/packet_levels.h"
+#include "acoustics/reception/reception_curves.h"
+
+namespace halocline::acoustics {
+
+// The middles of strata of equal probability of a standard normal, scaled to its variance.
+template <std::size_t count>
+std::array<double, count> normal_strata() {
+  std::array<double, count> strata{};
+  double squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double p = (static_cast<double>(i) + 0.5) / count;
+    strata[i] = normal_quantile(p);
+    squares += squared(strata[i]) / count;
+  }
+  for (double& value : strata) value /= std::sqrt(squares);
+  return strata;
+}
+
+// a + c - 2 b below which a, b and c, dB, lie on a parabola well enough to interpolate.
+inline constexpr double kBentDb = 0.15;
+
+// The parabola through `low` at -1, `middle` at 0 and `high` at 1.
+inline double on_parabola(double low, double middle, double high, double x) {
+  return middle + x * ((high - low) + x * (high + low - 2 * middle)) / 2;
+}
+
+class StrataMean {
+ public:
+  static constexpr std::size_t kLevels = 7;
+  using Levels = std::array<Level, kLevels>;  // of the bits, from quiet to loud
+
+  // `deviation` of large-scale fading, nepers of power; `curves` outlive it.
+  StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double noise);
+
+  // Noise at a level of large-scale fading, in units of the sound's loudness there.
+  double noise(std::size_t level) const { return noise_[level]; }
+  // Preambles are surely found, bits surely right or surely not, whatever else fades.
+  bool finds(const Level& preamble) const;
+  bool decodes(const Level& bits) const { return bits.at(-widest_) > curves_.bits_flank().high_db; }
+  bool loses(const Level& bits) const { return bits.at(widest_) < curves_.bits_flank().low_db; }
+  // Those of one state; `at` computes one of them.
+  template <typename At>
+  Levels levels(At at) const {
+    constexpr std::size_t kMiddle = kLevels / 2;
+    Levels bits;
+    bits.front() = at(0);
+    if (decodes(bits.front())) return spread(bits, 0, 0, kLevels);
+    bits.back() = at(kLevels - 1);
+    if (loses(bits.back())) return spread(bits, kLevels - 1, 0, kLevels);
+    bits[kMiddle] = at(kMiddle);
+    if (lie_on_parabola(bits)) return fill_parabola(bits);
+    fill_between(0, kMiddle, bits, at);
+    fill_between(kMiddle, kLevels - 1, bits, at);
+    return bits;
+  }
+  // Adds what becomes of packets in a slow state that has this `share` of the probability. Normals of fast fading come in
+  // another order in each state.
+  void add(const Level& preamble, const Levels& bits, std::size_t state, double share);
+
+  double acquisition_probability() const { return std::min(acquired_, 1.0); }  // sums of rounded parts
+  double delivery_probability() const { return std::min(delivered_, 1.0); }
+
+ private:
+  static constexpr std::size_t kStrata = 32;
+  struct Block {
+    double bits, wider;
+  };
+  struct Scores;
+  static const Scores& scores();
+
+  // Levels `begin`..`end` as that of `from`, by noise and interference.
+  Levels& spread(Levels& bits, std::size_t from, std::size_t begin, std::size_t end) const;
+  bool lie_on_parabola(const Levels& bits) const;
+  Levels& fill_parabola(Levels& bits) const;
+  template <typename At>
+  void fill_between(std::size_t low, std::size_t high, Levels& bits, At at) const {
+    if (high - low < 2) return;
+    if (decodes(bits[low]) || loses(bits[high])) {
+      spread(bits, decodes(bits[low]) ? low : high, low + 1, high);
+      return;
+    }
+    const std::size_t middle = (low + high) / 2;
+    bits[middle] = at(middle);
+    fill_between(low, middle, bits, at);
+    fill_between(middle, high, bits, at);
+  }
+  double log_success_at(const Levels& levels, std::size_t stratum, std::size_t state) const;
+
+  const ReceptionCurves& curves_;
+  std::array<double, kStrata> preamble_db_{};  // noise and interference over large-scale fading
+  std::array<double, kLevels> noise_{}, disturbance_db_{};
+  double widest_ = 0;  // score of what fades fast
+  std::vector<Block> blocks_;
+  double acquired_ = 0, delivered_ = 0;
+};
+
+}  // namespace halocline::acoustics
