@@ -7,6 +7,7 @@
 //   packet lasts. The power of the latter takes 8 or 16 strata of its distribution (power_law.h); in each, what becomes of a
 //   packet is a constant ratio that decides alike, at 7 levels of large-scale fading, averaged over 32 strata. Few of these
 //   ratios are computed, the others interpolated (strata_mean.h); none where all packets are certain to arrive or not.
+// - Late echoes: their powers fade each by itself, a gamma distribution in all.
 // - Preamble: the power of the band, with the variance that the mean over its time leaves.
 // - Coded frequency-shift keying: E exp(-gamma / beta) of Rician gamma is exp(-(c / beta) / (1 + d / beta)) / (1 + d / beta);
 //   the finite mean of a block is log-normal about it.

@@ -151,8 +151,12 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     double interference = rest;
     if (const double late = lock.window.interference[p] * power; late > 0) {
       const double of_bits = late * share_within(begin_s, begin_s + end_s, preamble_s, end_s);
-      sound.preamble_echoes += late * share_within(begin_s, begin_s + end_s, 0, preamble_s);
+      const double of_preamble = late * share_within(begin_s, begin_s + end_s, 0, preamble_s);
+      const double fades = 1 - squared(path.fading.coherent);
+      sound.preamble_echoes += of_preamble;
       sound.bits_echoes += of_bits;
+      sound.preamble_echo_variance += squared(of_preamble) * fades * kept_variance(rate * preamble_s);
+      sound.bits_echo_variance += squared(of_bits) * fades * kept_variance(rate * (end_s - preamble_s));
       interference += of_bits;
     }
     add_to(sound.shared, of_path * fast, interference * fast, squared(path.fading.doppler_spread_hz));
@@ -214,6 +218,8 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
                     others;
     }
   }
+  if (sound.preamble_echoes > 0) sound.preamble_echo_variance /= squared(sound.preamble_echoes);
+  if (sound.bits_echoes > 0) sound.bits_echo_variance /= squared(sound.bits_echoes);
   return sound;
 }
 

@@ -14,6 +14,12 @@ constexpr double kHopeless = -16;  // ln of a chance that does not count
 double loudness(double deviation, double z) { return fast_exp(deviation * z - deviation * deviation / 2); }
 double decibels(double power) { return 10 / std::numbers::ln10 * fast_log(power); }
 
+// A gamma distribution of mean 1 at a normal score (Wilson and Hilferty 1931).
+double gamma_at(double variance, double score) {
+  const double root = 1 - variance / 9 + score * std::sqrt(variance) / 3;
+  return root > 0 ? root * root * root : 0;
+}
+
 }  // namespace
 
 // The levels, and the strata between which they are interpolated, each with normals for what fades fast.
@@ -30,7 +36,8 @@ struct StrataMean::Scores {
       part[i] = place - static_cast<double>(below[i]);
     }
   }
-  // Beside stratum i: of the preamble, of even and odd blocks.
+  // Beside stratum i: of late echoes; of the preamble, of even and odd blocks.
+  double echoes(std::size_t i) const { return strata[(11 * i + 5) % kStrata]; }
   double preamble(std::size_t i, std::size_t state) const {
     return strata[(9 * i + 4 * state + 12) % kStrata];
   }
@@ -48,9 +55,15 @@ StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const Me
     : curves_(curves) {
   const double untracked = sound.untracked * (sound.slow_power().mean + sound.scattered_power());
   for (std::size_t i = 0; i < kStrata; ++i) {
-    preamble_db_[i] =
-        decibels(noise / loudness(deviation, scores().strata[i]) + sound.preamble_echoes + untracked);
+    const double quiet = noise / loudness(deviation, scores().strata[i]) + untracked,
+                 score = scores().echoes(i);
+    preamble_db_[i] = decibels(quiet + sound.preamble_echoes * gamma_at(sound.preamble_echo_variance, score));
+    echoes_db_[i] = decibels((quiet + sound.bits_echoes * gamma_at(sound.bits_echo_variance, score)) /
+                             (quiet + sound.bits_echoes));
   }
+  const auto [least, most] = std::minmax_element(echoes_db_.begin(), echoes_db_.end());
+  least_echoes_db_ = *least;
+  most_echoes_db_ = *most;
   for (std::size_t k = 0; k < kLevels; ++k) {
     noise_[k] = noise / loudness(deviation, scores().levels[k]);
     disturbance_db_[k] = decibels(noise_[k] + sound.bits_echoes + untracked);
@@ -65,7 +78,8 @@ StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const Me
 
 bool StrataMean::finds(const Level& preamble) const {
   const double z = scores().strata.back();
-  return std::min(preamble.at(-z), preamble.at(z)) - preamble_db_.front() >
+  return std::min(preamble.at(-z), preamble.at(z)) -
+             *std::max_element(preamble_db_.begin(), preamble_db_.end()) >
          curves_.acquisition_flank().high_db;
 }
 
@@ -123,7 +137,8 @@ double StrataMean::log_success_at(const Levels& levels, std::size_t stratum, std
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const double z = scores().block(stratum, state, b) * blocks_[b].wider;
     const double low = levels[below].at(z), high = levels[below + 1].at(z);
-    log_success += blocks_[b].bits * curves_.log_bit_success_at(low + scores().part[stratum] * (high - low));
+    log_success += blocks_[b].bits * curves_.log_bit_success_at(low + scores().part[stratum] * (high - low) -
+                                                                echoes_db_[stratum]);
   }
   return log_success;
 }

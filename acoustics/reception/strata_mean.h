@@ -53,8 +53,12 @@ class StrataMean {
   double noise(std::size_t level) const { return noise_[level]; }
   // Preambles are surely found, bits surely right or surely not, whatever else fades.
   bool finds(const Level& preamble) const;
-  bool decodes(const Level& bits) const { return bits.at(-widest_) > curves_.bits_flank().high_db; }
-  bool loses(const Level& bits) const { return bits.at(widest_) < curves_.bits_flank().low_db; }
+  bool decodes(const Level& bits) const {
+    return bits.at(-widest_) - most_echoes_db_ > curves_.bits_flank().high_db;
+  }
+  bool loses(const Level& bits) const {
+    return bits.at(widest_) - least_echoes_db_ < curves_.bits_flank().low_db;
+  }
   // Those of one state; `at` computes one of them.
   template <typename At>
   Levels levels(At at) const {
@@ -105,6 +109,9 @@ class StrataMean {
 
   const ReceptionCurves& curves_;
   std::array<double, kStrata> preamble_db_{};  // noise and interference over large-scale fading
+  std::array<double, kStrata>
+      echoes_db_{};  // interference of the bits over its mean, as late echoes fade by themselves
+  double least_echoes_db_ = 0, most_echoes_db_ = 0;
   std::array<double, kLevels> noise_{}, disturbance_db_{};
   double widest_ = 0;  // score of what fades fast
   std::vector<Block> blocks_;
