@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace halocline::acoustics {
 
@@ -45,6 +46,15 @@ class HermiteCubic {
       if (t > 0 && t < 1) turns.at[static_cast<std::size_t>(turns.count++)] = t;
     }
     return turns;
+  }
+
+  // Its least and its greatest value over 0..1.
+  std::pair<double, double> extremes() const {
+    std::pair<double, double> values = std::minmax(a_, (*this)(1));
+    for (const double t : turns()) {
+      values = {std::min(values.first, (*this)(t)), std::max(values.second, (*this)(t))};
+    }
+    return values;
   }
 
   // About where it passes `value`, 0..1, when its ends lie on both sides of it: a start for Newton's method.

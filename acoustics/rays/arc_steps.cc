@@ -64,23 +64,6 @@ bool solve_facet(const RayWater& water, const Facet& facet, const ArcPoint& s, b
 
 }  // namespace
 
-ArcStep next_step(const RayWater& water, const ArcPoint& s) {
-  const double g = water.gradients_per_s()[s.layer];
-  const bool down = s.sine > 0 || (s.sine == 0 && g <= 0);
-  const std::size_t knot = down ? s.layer + 1 : s.layer;
-  const double c = water.speeds_mps()[knot], z = water.depths_m()[knot];
-  // Snell: cos = xi c at the knot. To it dr = |dz| xi (c1 + c2) / (s1 + s2); through a turn dr = 2 s1 / (xi |g|)
-  // (arc of a circle of radius 1 / (xi |g|)).
-  const double cosine = s.xi * c, steep = std::abs(s.sine);
-  if (cosine < 1 && (steep > 0 || g != 0)) {
-    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
-    const double dr = std::abs(z - s.z) * s.xi * (s.c + c) / (steep + sine);
-    return {dr, z, down ? sine : -sine, false, down};
-  }
-  if (g == 0 || steep == 0) return {std::numeric_limits<double>::infinity(), s.z, s.sine, false, down};
-  return {2 * steep * s.per_xi / std::abs(g), s.z, -s.sine, true, down};
-}
-
 bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoint& s, const ArcStep& step,
               double until, ArcHit& hit) {
   const std::vector<Facet>& facets = profile.facets();
@@ -97,9 +80,13 @@ bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoin
            deepest(last - s.r) < facet.z0 + facet.slope * (last - facet.r0);
   };
   std::size_t i = s.facet;
-  if (slope > 0) {  // before it is as deep as the shallowest bottom there is nothing to meet
-    const double reach = std::min(s.r + (profile.shallowest_m() - kMargin - s.z) / slope, end);
-    i = profile.facet_from(i, reach);
+  if (slope > 0) {  // before it is as deep as the shallowest bottom on its way there is nothing to meet
+    double shallowest = blocks[i / BottomProfile::kBlock];
+    for (std::size_t next = i / BottomProfile::kBlock + 1;
+         next < blocks.size() && facets[next * BottomProfile::kBlock].r0 <= end; ++next) {
+      shallowest = std::min(shallowest, blocks[next]);
+    }
+    i = profile.facet_from(i, std::min(s.r + (shallowest - kMargin - s.z) / slope, end));
   }
   while (i < facets.size() && facets[i].r0 <= end) {
     const std::size_t block = i / BottomProfile::kBlock,

@@ -6,7 +6,9 @@
 // Free functions on values: calls may overlap between threads.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
@@ -38,7 +40,22 @@ struct ArcHit {
   std::size_t facet;
 };
 
-ArcStep next_step(const RayWater& water, const ArcPoint& at);
+inline ArcStep next_step(const RayWater& water, const ArcPoint& s) {
+  const double g = water.gradients_per_s()[s.layer];
+  const bool down = s.sine > 0 || (s.sine == 0 && g <= 0);
+  const std::size_t knot = down ? s.layer + 1 : s.layer;
+  const double c = water.speeds_mps()[knot], z = water.depths_m()[knot];
+  // Snell: cos = xi c at the knot. To it dr = |dz| xi (c1 + c2) / (s1 + s2); through a turn dr = 2 s1 / (xi |g|)
+  // (arc of a circle of radius 1 / (xi |g|)).
+  const double cosine = s.xi * c, steep = std::abs(s.sine);
+  if (cosine < 1 && (steep > 0 || g != 0)) {
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+    const double dr = std::abs(z - s.z) * s.xi * (s.c + c) / (steep + sine);
+    return {dr, z, down ? sine : -sine, false, down};
+  }
+  if (g == 0 || steep == 0) return {std::numeric_limits<double>::infinity(), s.z, s.sine, false, down};
+  return {2 * steep * s.per_xi / std::abs(g), s.z, -s.sine, true, down};
+}
 
 // Whether the bottom is met within `until` m of range, before `step` ends; where, if so.
 [[nodiscard]] bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoint& at,

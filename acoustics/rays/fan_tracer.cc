@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kLossSteps = 64;
 constexpr double kMaxLossOfABounceDb = 400;
+constexpr double kKnotMargin = 1e-6;        // m: by which the bottom lies below a layer that is crossed whole
 constexpr double kGiveUpDb = 6;             // beyond what a path may lose
 constexpr int kMaxSteps = 200'000;          // arcs of one ray: a guard, never met
 constexpr std::size_t kUsualEvents = 4096;  // of one search
@@ -164,6 +165,8 @@ bool FanTracer::next_layer_is_whole(State& s, std::size_t knot, bool down) const
   if (s.r + dr >= range_) return false;
   if (!is_near_bottom(layer)) return true;
   if (!down && clears_bottom(-column_.sine_at(knot), -column_.sine_at(next))) return true;
+  s.facet = profile_.facet_from(s.facet, s.r);
+  if (profile_.is_deeper_than(water_.depths_m()[layer + 1] + kKnotMargin, s.facet, s.r + dr)) return true;
   stand_at_knot(s, knot, down);
   const double next_sine = down ? column_.sine_at(next) : -column_.sine_at(next);
   s.hits = find_hit(water_, profile_, s, {dr, water_.depths_m()[next], next_sine, false, down}, dr, s.hit);
@@ -237,6 +240,7 @@ FanRay FanTracer::trace(double theta, std::size_t enough_events) {
   FanRay ray{.theta = theta, .first_event = events_.size()};
   State s = start(theta);
   trace_from(s, enough_events, ray);
+  ray.loss_db = s.loss_db;
   ray.events = events_.size() - ray.first_event;
   return ray;
 }

@@ -27,6 +27,7 @@ struct FanRay {
   bool arrived = false;                     // false: too faint, turned back or too many bounces
   double zeta = 0;                          // unfolded depth at the receiver's range, m
   double zeta_slope = 0;                    // d zeta / d theta
+  double loss_db = 0;                       // of the bounces
   std::size_t first_event = 0, events = 0;  // of what happened to it; the tracer keeps that
 };
 

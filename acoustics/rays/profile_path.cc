@@ -82,4 +82,13 @@ std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {
   return angles;
 }
 
+double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
+  const double core = tracer.sea().core_speed_mps;
+  if (core <= tracer.source_speed_mps()) return 0;
+  const double edge = std::acos(tracer.source_speed_mps() / core);
+  std::erase_if(angles, [edge](double theta) { return std::abs(theta) < edge; });
+  angles.insert(std::upper_bound(angles.begin(), angles.end(), 0.0), {-edge, edge});
+  return edge;
+}
+
 }  // namespace halocline::acoustics

@@ -21,4 +21,8 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, double target
 // on their first leg.
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
 
+// Takes the launch angles out within which rays nowhere go faster than the core's speed, and puts those of its edges in.
+// The angle of the edge; 0 where there is no core.
+double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles);
+
 }  // namespace halocline::acoustics

@@ -25,7 +25,7 @@ constexpr int kDeepestEdgeHalving = 10;   // towards where rays become too faint
 constexpr int kDeepestWindowHalving = 5;  // between rays that do not arrive
 constexpr double kFinestGraze = 1e-7;     // rad: nearest to the ray that grazes
 constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
-constexpr double kCubicTolerance = 0.02;  // of the water depth
+constexpr double kCubicTolerance = 0.01;  // of the water depth
 constexpr double kShareBeforehand =
     0.3;  // of it that rays beside an interval may err for the interval to need no look
 constexpr double kNearFold = 0.15;  // of the water depth: a turn nearer to an image is sought out exactly
@@ -35,7 +35,9 @@ constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from 
 constexpr double kFoldZone = 0.01;  // of the water depth: further from all images a turn need not be exact
 // A cubic between two rays, whose error was found at one of them, errs between them by no more than this many times that;
 // besides, a share of what it spans.
-constexpr double kErrorReach = 2, kSpanReach = 0.5;
+constexpr double kErrorReach = 2, kSpanReach = 0.2;
+constexpr double kFaintDb =
+    3;  // beyond what a path may lose: no path lies between two such rays of one history
 constexpr double kUnknownError = std::numeric_limits<double>::infinity();
 constexpr int kMaxTurnSteps = 40;
 constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of endless detail
@@ -43,7 +45,10 @@ constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of en
 class Search {
  public:
   explicit Search(const ArcTracer& tracer)
-      : tracer_(tracer), fan_(tracer), depth_(tracer.bottom_at_receiver_m()) {}
+      : tracer_(tracer),
+        fan_(tracer),
+        depth_(tracer.bottom_at_receiver_m()),
+        faint_db_(kFaintDb - 20 * std::log10(tracer.sea().options.min_boundary_factor)) {}
 
   // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
   // horizontal, which is one of the angles, as is its opposite.
@@ -74,11 +79,13 @@ class Search {
   bool is_predicted(double error, const FanRay& a, const FanRay& b, double share) const {
     return error <= share * (kCubicTolerance * depth_ + 0.01 * std::abs(b.zeta - a.zeta));
   }
+  // Beyond what any ray of its history that is a path may lose.
+  bool is_faint(const FanRay& ray) const { return ray.loss_db > faint_db_; }
   bool may_pass_image(const FanRay& a, const FanRay& b, double error) const;
 
   const ArcTracer& tracer_;
   FanTracer fan_;
-  double depth_;
+  double depth_, faint_db_;
   int traces_ = 0;
   std::vector<Arrival> paths_;
   std::vector<std::uint64_t> families_;  // of the paths
@@ -150,10 +157,10 @@ double Search::error_at(const FanRay& a, const FanRay& middle, const FanRay& b) 
 
 // Whether there may be an image between where two rays of one history arrive.
 bool Search::may_pass_image(const FanRay& a, const FanRay& b, double error) const {
-  const double steepest = std::max(std::abs(a.zeta_slope), std::abs(b.zeta_slope));
-  const double span = std::abs(b.zeta - a.zeta) + steepest * (b.theta - a.theta);
-  const double beyond = kErrorReach * error + kSpanReach * span;
-  return passes_image(std::min(a.zeta, b.zeta) - beyond, std::max(a.zeta, b.zeta) + beyond);
+  if (error == kUnknownError) return true;
+  const auto [low, high] = cubic_of(a, b).extremes();
+  const double beyond = kErrorReach * error + kSpanReach * (high - low);
+  return passes_image(low - beyond, high + beyond);
 }
 
 void Search::scan(const FanRay& a, const FanRay& b, int depth, double error) {
@@ -166,6 +173,7 @@ void Search::look_between(const FanRay& a, const FanRay& b, int depth, double er
   if (b.theta - a.theta < 4 * kMinParting || traces_ > kMaxTraces) return;
   const bool both = a.arrived && b.arrived, neither = !a.arrived && !b.arrived;
   const auto event = parting(a, b);
+  if (!event && is_faint(a) && is_faint(b)) return;
   if (neither) {
     // Over steep bottoms rays that arrive come through windows between others that turn back. Two rays that were given
     // up with the same history have none between them, as a rule.
@@ -240,6 +248,7 @@ bool Search::passes_image(double low, double high) const {
 }
 
 void Search::solve(const FanRay& a, const FanRay& b) {
+  if (is_faint(a) && is_faint(b)) return;
   const HermiteCubic cubic = cubic_of(a, b);
   const HermiteCubic::Turns turns = cubic.turns();
   FanRay from = a;
@@ -279,9 +288,9 @@ void Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
     if (!middle.arrived) break;
     turn = middle;
     const double slope = turn.zeta_slope;
-    const double left = std::abs(slope) * (high - low);
-    if (left < kTurnTolerance || off_nearest_image(turn.zeta) > 2 * left + kFoldZone * depth_) break;
     const bool beside_low = rises(turn) == rises_at_low;
+    const double left = std::abs(slope) * (beside_low ? high - turn.theta : turn.theta - low);
+    if (left < kTurnTolerance || off_nearest_image(turn.zeta) > 2 * left + kFoldZone * depth_) break;
     double &replaced = beside_low ? at_low : at_high, &kept = beside_low ? at_high : at_low;
     const double scale = 1 - slope / replaced;
     kept *= scale > 0 ? scale : 0.5;
@@ -321,16 +330,6 @@ void Search::polish(const FanRay& a, const FanRay& b, double target) {
     if (high - low < 1e-15) break;
   }
   append_profile_arrival(tracer_, theta, target, paths_, families_);
-}
-
-// Takes the launch angles out within which rays nowhere go faster than the core's speed, and puts those of its edges in.
-double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
-  const double core = tracer.sea().core_speed_mps;
-  if (core <= tracer.source_speed_mps()) return 0;
-  const double edge = std::acos(tracer.source_speed_mps() / core);
-  std::erase_if(angles, [edge](double theta) { return std::abs(theta) < edge; });
-  angles.insert(std::upper_bound(angles.begin(), angles.end(), 0.0), {-edge, edge});
-  return edge;
 }
 
 }  // namespace

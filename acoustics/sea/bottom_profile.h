@@ -63,6 +63,15 @@ class BottomProfile {
     while (facets_[from].r1 < range_m) ++from;
     return from;
   }
+  // Whether all blocks from that of facet `from` to `until_m` are deeper than `depth_m`.
+  bool is_deeper_than(double depth_m, std::size_t from, double until_m) const {
+    std::size_t block = from / kBlock;
+    while (block_shallowest_[block] > depth_m) {
+      ++block;
+      if (block == block_shallowest_.size() || facets_[block * kBlock].r0 > until_m) return true;
+    }
+    return false;
+  }
   double shallowest_m() const { return shallowest_; }
   double deepest_m() const { return deepest_; }
   // Shallowest of the facets [kBlock block, kBlock (block + 1)), m.

@@ -93,20 +93,31 @@ class SeabedMap::Reader {
   }
 
  private:
+  // The depths that weigh in a cell; two samples in a row most often share one.
+  void read_cell(std::int64_t n, std::int64_t e) {
+    if (read_ && n == cell_north_ && e == cell_east_) return;
+    read_ = true;
+    cell_north_ = n;
+    cell_east_ = e;
+    for (int i = 0; i < kReach; ++i) {
+      for (int j = 0; j < kReach; ++j) cell_[i][j] = point(n - kReachBefore + i, e - kReachBefore + j);
+    }
+  }
   // At `u` of the way north and `v` of the way east of point (n, e).
   double seabed_in_cell(std::int64_t n, std::int64_t e, double u, double v) {
+    read_cell(n, e);
     const auto wn = weights_at(u), we = weights_at(v);
-    const double z0 = point(n, e);
+    constexpr int kHere = kReachBefore, kNext = kReachBefore + 1;
+    const double z0 = cell_[kHere][kHere];
     // Of differences, so that level ground stays level to the last bit.
     double z = z0;
     for (int i = 0; i < kReach; ++i) {
       double row = 0;
-      for (int j = 0; j < kReach; ++j)
-        row += we[j] * (point(n - kReachBefore + i, e - kReachBefore + j) - z0);
+      for (int j = 0; j < kReach; ++j) row += we[j] * (cell_[i][j] - z0);
       z += wn[i] * row;
     }
     if (!std::isnan(z)) return z;
-    return mean_of_known({z0, point(n + 1, e), point(n, e + 1), point(n + 1, e + 1)},
+    return mean_of_known({z0, cell_[kNext][kHere], cell_[kHere][kNext], cell_[kNext][kNext]},
                          {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
   }
 
@@ -114,6 +125,9 @@ class SeabedMap::Reader {
   bool known_ = false;
   TileIndex index_;
   const Tile* tile_ = nullptr;
+  bool read_ = false;
+  std::int64_t cell_north_ = 0, cell_east_ = 0;
+  std::array<std::array<double, kReach>, kReach> cell_{};
 };
 
 SeabedMap::SeabedMap(const SeabedRule& rule) : rule_(rule) {
@@ -166,10 +180,7 @@ bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
     return static_cast<std::int64_t>(std::floor(at_m / rule_.spacing_m));
   };
   bool surveyed = true;
-  TileIndex last{std::numeric_limits<std::int64_t>::min(), 0};
   const auto visit = [&](const TileIndex& index) {
-    if (index == last) return;
-    last = index;
     const auto tile = tiles_.find(index);
     if (tile != tiles_.end()) {
       tile->second.used_at = epoch_;
@@ -178,12 +189,17 @@ bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
     surveyed = false;
     if (!queried_.contains(index)) requested_.insert(index);
   };
+  constexpr TileIndex kNone{std::numeric_limits<std::int64_t>::min(), 0};
+  TileIndex last_near = kNone, last_far = kNone;
   for (int sample = -kBeyond; sample <= line.last + kBeyond; ++sample) {
     const double way = sample * line.spacing_m;
     const std::int64_t north = tile_coordinate(line.north_m + way * line.along_north),
                        east = tile_coordinate(line.east_m + way * line.along_east);
     const TileIndex near{tile_of(north - kReachBefore), tile_of(east - kReachBefore)},
         far{tile_of(north - kReachBefore + kReach - 1), tile_of(east - kReachBefore + kReach - 1)};
+    if (near == last_near && far == last_far) continue;
+    last_near = near;
+    last_far = far;
     visit(near);
     if (near == far) continue;
     visit({far.north, near.east});
