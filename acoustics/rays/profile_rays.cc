@@ -18,17 +18,17 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounce
-constexpr double kMinParting = 1e-11;          // rad: between the rays on both sides of a parting
+constexpr double kMinParting = 1e-10;          // rad: between the rays on both sides of a parting
 constexpr double kNextToEachOther = 4e-9;      // rad: the two rays of a fan beside one that grazes a knot
 constexpr int kDeepestHalving = 14;
 constexpr int kDeepestEdgeHalving = 10;   // towards where rays become too faint or turn back
 constexpr int kDeepestWindowHalving = 5;  // between rays that do not arrive
 constexpr double kFinestGraze = 1e-7;     // rad: nearest to the ray that grazes
 constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
-constexpr double kCubicTolerance = 0.01;  // of the water depth
+constexpr double kCubicTolerance = 0.015;  // of the water depth
 constexpr double kShareBeforehand =
     0.3;  // of it that rays beside an interval may err for the interval to need no look
-constexpr double kNearFold = 0.15;  // of the water depth: a turn nearer to an image is sought out exactly
+constexpr double kNearFold = 0.06;  // of the water depth: a turn nearer to an image is sought out exactly
 constexpr double kDepthTolerance = 1e-4;     // m before the last step of Newton
 constexpr double kLastStepTolerance = 1e-5;  // m after it, as foreseen
 constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from where it turns
