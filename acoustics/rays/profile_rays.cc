@@ -21,10 +21,10 @@ constexpr double kSteepest = 89.9 * pi / 180;  // rad: of rays that do not bounc
 constexpr double kMinParting = 1e-10;          // rad: between the rays on both sides of a parting
 constexpr double kNextToEachOther = 4e-9;      // rad: the two rays of a fan beside one that grazes a knot
 constexpr int kDeepestHalving = 14;
-constexpr int kDeepestEdgeHalving = 10;   // towards where rays become too faint or turn back
-constexpr int kDeepestWindowHalving = 5;  // between rays that do not arrive
-constexpr double kFinestGraze = 1e-7;     // rad: nearest to the ray that grazes
-constexpr double kGrazeStep = 1.0 / 6;    // of the way to it
+constexpr int kDeepestEdgeHalving = 10;    // towards where rays become too faint or turn back
+constexpr int kDeepestWindowHalving = 5;   // between rays that do not arrive
+constexpr double kFinestGraze = 1e-7;      // rad: nearest to the ray that grazes
+constexpr double kGrazeStep = 1.0 / 6;     // of the way to it
 constexpr double kCubicTolerance = 0.015;  // of the water depth
 constexpr double kShareBeforehand =
     0.3;  // of it that rays beside an interval may err for the interval to need no look
