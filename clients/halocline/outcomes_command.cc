@@ -53,6 +53,13 @@ void add_outcomes_command(CLI::App& app, int& exit_code) {
   command->add_option("--plot", arguments->plot,
                       "also draw the outcomes and their course over time: FILE.png or FILE.svg");
   command->footer(
+      "Outcomes (docs/packets.md has the rest):\n"
+      "  shadow        the water bends every ray away\n"
+      "  blocked       the terrain stops every ray\n"
+      "  too weak      rays arrive that lost too much at their bounces\n"
+      "  too steep     rays arrive only more steeply than is searched (max_launch_angle_deg)\n"
+      "  foreign       the packet's waveform is not of the receiver's family\n"
+      "  not acquired  the preamble was missed; bit errors: the bits after it\n\n" +
       footer("  halocline outcomes runs/harbour/harbour.lcm\n"
              "  halocline outcomes runs/harbour/harbour.lcm --format outcomes > outcomes.csv"));
   command->callback([arguments, &exit_code] { exit_code = show_outcomes(*arguments); });
