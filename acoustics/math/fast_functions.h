@@ -33,7 +33,8 @@ inline double fast_log(double x) {
   return static_cast<double>(n) * std::numbers::ln2 + 2 * s * series;
 }
 
-// The ratio of a level in dB.
+// A ratio above 0 in dB, and the ratio of a level in dB.
+inline double fast_decibels(double ratio) { return 10 / std::numbers::ln10 * fast_log(ratio); }
 inline double fast_power(double level_db) { return fast_exp(std::numbers::ln10 / 10 * level_db); }
 
 // What is left of x after whole periods, with its sign; |x / period| below 2^63.

@@ -53,7 +53,7 @@ double of_beat(double constant, double varying, double scale, double exponent) {
   return (fast_exp(exponent - mean - swing) + fast_exp(exponent - mean + swing)) / 2;
 }
 
-double decibels(double power) { return kDbPerNeper * fast_log(std::max(power, 1e-30)); }
+double decibels(double power) { return fast_decibels(std::max(power, 1e-30)); }
 
 }  // namespace
 

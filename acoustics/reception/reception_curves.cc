@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/reception/decoding.h"
@@ -84,9 +83,7 @@ ReceptionCurves::Parts ReceptionCurves::make_parts() const {
   return parts;
 }
 
-double ReceptionCurves::decibels(double sinr) {
-  return sinr > 1e-30 ? 10 / std::numbers::ln10 * fast_log(sinr) : kLeastDb;
-}
+double ReceptionCurves::decibels(double sinr) { return sinr > 1e-30 ? fast_decibels(sinr) : kLeastDb; }
 
 double ReceptionCurves::interpolated(const std::vector<double>& table, double sinr_db) {
   const double place = (sinr_db - kLeastDb) / kStepDb;

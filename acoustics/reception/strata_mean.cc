@@ -1,7 +1,6 @@
 #include "acoustics/reception/strata_mean.h"
 
 #include <cstdint>
-#include <numbers>
 
 #include "acoustics/math/fast_functions.h"
 
@@ -12,7 +11,6 @@ constexpr double kHopeless = -16;  // ln of a chance that does not count
 
 // All sound is louder by this factor, at a score of large-scale fading of `deviation` nepers of power.
 double loudness(double deviation, double z) { return fast_exp(deviation * z - deviation * deviation / 2); }
-double decibels(double power) { return 10 / std::numbers::ln10 * fast_log(power); }
 
 // A gamma distribution of mean 1 at a normal score (Wilson and Hilferty 1931).
 double gamma_at(double variance, double score) {
@@ -57,16 +55,17 @@ StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const Me
   for (std::size_t i = 0; i < kStrata; ++i) {
     const double quiet = noise / loudness(deviation, scores().strata[i]) + untracked,
                  score = scores().echoes(i);
-    preamble_db_[i] = decibels(quiet + sound.preamble_echoes * gamma_at(sound.preamble_echo_variance, score));
-    echoes_db_[i] = decibels((quiet + sound.bits_echoes * gamma_at(sound.bits_echo_variance, score)) /
-                             (quiet + sound.bits_echoes));
+    preamble_db_[i] =
+        fast_decibels(quiet + sound.preamble_echoes * gamma_at(sound.preamble_echo_variance, score));
+    echoes_db_[i] = fast_decibels((quiet + sound.bits_echoes * gamma_at(sound.bits_echo_variance, score)) /
+                                  (quiet + sound.bits_echoes));
   }
   const auto [least, most] = std::minmax_element(echoes_db_.begin(), echoes_db_.end());
   least_echoes_db_ = *least;
   most_echoes_db_ = *most;
   for (std::size_t k = 0; k < kLevels; ++k) {
     noise_[k] = noise / loudness(deviation, scores().levels[k]);
-    disturbance_db_[k] = decibels(noise_[k] + sound.bits_echoes + untracked);
+    disturbance_db_[k] = fast_decibels(noise_[k] + sound.bits_echoes + untracked);
   }
   const auto all_bits = static_cast<double>(curves.timing().information_bits);
   for (const std::int64_t bits : curves.blocks()) {

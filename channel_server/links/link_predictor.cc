@@ -43,8 +43,6 @@ bool is_impossible(const Modem& receiver, const Reception& reception, const Soun
 
 }  // namespace
 
-void LinkForecast::set_sinr(double sinr) { sinr_db = std::max(10 * std::log10(sinr), kSilence.value); }
-
 LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   Rates rates;
   const auto add = [&](const Modem& modem) {
@@ -96,8 +94,9 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   const bool impossible = is_impossible(receiver, reception, paths[window.strongest], rule_.fading.enabled);
   const double noise_power = to_power_ratio(noise).value;
   if (impossible) {
-    forecast.set_sinr(predicted_sinr(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power,
-                                     rates.front()));
+    forecast.sinr_db = level_of(predicted_sinr(rule_.fading, paths, receiver, windows, transmitter.band(),
+                                               noise_power, rates.front()))
+                           .value;
     return forecast;
   }
   double best = 0;
@@ -108,7 +107,7 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
     const acoustics::LinkPrediction predicted =
         predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves);
     if (own) {
-      forecast.set_sinr(predicted.sinr);
+      forecast.sinr_db = level_of(predicted.sinr).value;
       forecast.acquisition_probability = predicted.acquisition_probability;
       forecast.delivery_probability = predicted.delivery_probability;
     }

@@ -25,13 +25,11 @@ namespace halocline::channel_server {
 // Without paths all is zero.
 struct LinkForecast {
   double first_path_delay_s = 0;  // of the first significant path
-  double sinr_db = 0;             // mean signal in the guard window over noise and own echoes
+  double sinr_db = 0;  // mean signal in the guard window over noise and own echoes; kSilence at least
   double acquisition_probability = 0, delivery_probability = 0;
   double coherence_time_s = 0;  // 1e6 at most
   double doppler_spread_hz = 0, rms_delay_spread_s = 0;
   double best_rate_bps = 0;  // 0: nothing is delivered
-
-  void set_sinr(double sinr);  // in dB, kSilence at least
 };
 
 class LinkPredictor {

@@ -104,10 +104,6 @@ bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& 
          draws.success < success_probability(signal, others);
 }
 
-Decibels level_of(double power) {
-  return power > 0 ? std::max(to_decibels(PowerRatio{power}), kSilence) : kSilence;
-}
-
 }  // namespace
 
 PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver) {

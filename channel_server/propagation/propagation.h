@@ -9,6 +9,7 @@
 // direction in which the sound travels: a launch angle as it leaves, an arrival angle as it comes in.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -38,6 +39,10 @@ namespace halocline::channel_server {
 // A level that stands for none at all where a number has to be finite: 300 dB below 1 uPa, far below the
 // thermal noise of any band (-15 dB re 1 uPa^2/Hz at 1 kHz).
 inline constexpr Decibels kSilence{-300};
+// The level of a power, or the decibels of a ratio; kSilence at least.
+inline Decibels level_of(double power) {
+  return power > 0 ? std::max(to_decibels(PowerRatio{power}), kSilence) : kSilence;
+}
 
 // Paths more than this below the strongest one do not announce a packet: a receiver finds the preamble by
 // correlation and takes for its start the first peak above a threshold relative to the greatest, and a

@@ -16,7 +16,7 @@ const std::vector<Room>& rooms() {
        "paths of sound depend on the sea, not on who sends"},
       {"acoustics/fading",
        {"core", "acoustics/math", "acoustics/sea"},
-       {"boost/math/"},
+       {},
        "fading depends on paths and the sea, not on modems"},
       {"acoustics/reception",
        {"core", "acoustics/math", "acoustics/modem", "acoustics/fading"},
