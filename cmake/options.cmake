@@ -60,9 +60,11 @@ function(halocline_module name)
   target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
 endfunction()
 
-# halocline_program(name SOURCES ... LINK ...): an executable in build/<preset>/bin.
+# halocline_program(name SOURCES ... LINK ...): an executable in build/<preset>/bin, one of the target `programs`.
+add_custom_target(programs)
 function(halocline_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE halocline_options ${ARG_LINK})
+  add_dependencies(programs ${name})
 endfunction()

@@ -23,8 +23,21 @@ SimTime to_steady(double seconds) {
 
 }  // namespace
 
-ConductorTime::ConductorTime(lcm::LCM& lcm, std::string process_name)
-    : bus_(lcm, {std::move(process_name), 0}) {
+SilenceWarning::SilenceWarning(std::string process_name, std::string awaited)
+    : log_(std::move(process_name)), awaited_(std::move(awaited)) {}
+
+void SilenceWarning::on_unknown_time(SimTime steady) {
+  if (!since_) since_ = steady;
+  if (logged_ || steady < *since_ + kSilence) return;
+  logged_ = true;
+  log_.warning("no-time", "no " + awaited_ +
+                              " for 3 s: the run is on another bus, or none is running. LCM_DEFAULT_URL and "
+                              "--lcm-url choose the bus; ./scripts/join PROGRAM runs a program on that of "
+                              "./scripts/run --distributed");
+}
+
+ConductorTime::ConductorTime(lcm::LCM& lcm, const std::string& process_name)
+    : bus_(lcm, {process_name, 0}), silence_(process_name, "CLOCK") {
   bus_.subscribe<sim_clock_t>(channels::kClock,
                               [this](const sim_clock_t& clock) { on_clock(clock, received()); });
 }
@@ -59,6 +72,7 @@ std::optional<SimTime> ConductorTime::now(SimTime steady) {
         })->offset_s;
     latest_ = std::max(latest_, SimTime::from_seconds((steady.seconds() - offset_s) * rate_));
   } else {
+    silence_.on_unknown_time(steady);
     return std::nullopt;
   }
   return latest_;
@@ -72,7 +86,8 @@ SimTime ConductorTime::steady_at(SimTime sim) const {
   return to_steady(sim.seconds() / rate_ + offset_s);
 }
 
-MessageTime::MessageTime(lcm::LCM& lcm, std::string process_name) : bus_(lcm, {std::move(process_name), 0}) {
+MessageTime::MessageTime(lcm::LCM& lcm, const std::string& process_name)
+    : bus_(lcm, {process_name, 0}), silence_(process_name, "STATE or SEND") {
   bus_.subscribe<vehicle_state_t>(channels::kState,
                                   [this](std::string_view, const vehicle_state_t& s) { on_utime(s.utime); });
   bus_.subscribe<modem_send_t>(channels::kSend,
@@ -88,7 +103,10 @@ void MessageTime::on_utime(std::int64_t utime) {
   latest_ = latest_ ? std::max(*latest_, time) : time;
 }
 
-std::optional<SimTime> MessageTime::now(SimTime /*steady*/) { return latest_; }
+std::optional<SimTime> MessageTime::now(SimTime steady) {
+  if (!latest_) silence_.on_unknown_time(steady);
+  return latest_;
+}
 
 SimTime MessageTime::steady_at(SimTime sim) const {
   return latest_ && sim <= *latest_ ? SimTime::at_once() : SimTime::never();

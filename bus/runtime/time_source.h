@@ -14,9 +14,26 @@
 #include <lcm/lcm-cpp.hpp>
 
 #include "bus/bus.h"
+#include "bus/event_log.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
+
+// Logs once that the time is unknown: after kSilence without the messages that it is taken from.
+class SilenceWarning {
+ public:
+  static constexpr SimDuration kSilence = SimDuration::from_milliseconds(3000);
+
+  // `awaited` names the messages, such as "CLOCK".
+  SilenceWarning(std::string process_name, std::string awaited);
+  void on_unknown_time(SimTime steady);
+
+ private:
+  EventLog log_;
+  std::string awaited_;
+  std::optional<SimTime> since_;
+  bool logged_ = false;
+};
 
 class TimeSource {
  public:
@@ -45,7 +62,7 @@ class TimeSource {
 // (steady - utime / rate) of the last second is the best estimate of the offset between the clocks.
 class ConductorTime : public TimeSource {
  public:
-  explicit ConductorTime(lcm::LCM& lcm, std::string process_name);
+  ConductorTime(lcm::LCM& lcm, const std::string& process_name);
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
@@ -62,6 +79,7 @@ class ConductorTime : public TimeSource {
   SimTime received() const;
 
   Bus bus_;
+  SilenceWarning silence_;
   double rate_ = 0;
   std::int64_t session_ = 0;
   std::deque<Sample> samples_;
@@ -74,7 +92,7 @@ class ConductorTime : public TimeSource {
 // messages. A utime more than ten seconds before the greatest one means that a log was started anew.
 class MessageTime : public TimeSource {
  public:
-  explicit MessageTime(lcm::LCM& lcm, std::string process_name);
+  MessageTime(lcm::LCM& lcm, const std::string& process_name);
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
@@ -83,6 +101,7 @@ class MessageTime : public TimeSource {
 
  private:
   Bus bus_;
+  SilenceWarning silence_;
   std::optional<SimTime> latest_;
   bool restarted_ = false;
 };

@@ -48,6 +48,16 @@ double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+constexpr double kSilenceS = 3;
+
+void report_silence(const char* what) {
+  std::fprintf(
+      stderr,
+      "foreign-vehicle: %s for %.0f s: the run is on another bus, or none is running. LCM_DEFAULT_URL and\n"
+      "--lcm-url choose the bus; ./scripts/join foreign-vehicle joins that of ./scripts/run --distributed.\n",
+      what, kSilenceS);
+}
+
 // Simulation time: the conductor's CLOCK, extrapolated by the wall clock at its rate; the wall clock's
 // Unix time where there is no conductor.
 class Clock {
@@ -117,6 +127,14 @@ class Vehicle {
     packet.payload_size = static_cast<std::int32_t>(text.size());
     packet.payload.assign(text.begin(), text.end());
     lcm_.publish("SEND." + settings_.name, &packet);
+    if (unanswered_since_s_ == 0) unanswered_since_s_ = wall_s();
+  }
+
+  // States once that nobody answers.
+  void watch_silence() {
+    if (reported_ || unanswered_since_s_ == 0 || wall_s() - unanswered_since_s_ < kSilenceS) return;
+    reported_ = true;
+    report_silence("no RECEIPT of my packets");
   }
 
  private:
@@ -133,6 +151,7 @@ class Vehicle {
   // LCM takes no const handler. NOLINTNEXTLINE(readability-make-member-function-const)
   void on_receipt(const lcm::ReceiveBuffer*, const std::string&, const halocline::modem_receipt_t* receipt) {
     if (receipt->send_session != session_) return;
+    unanswered_since_s_ = 0;
     const bool accepted = receipt->receipt_result == halocline::modem_receipt_t::ACCEPTED ||
                           receipt->receipt_result == halocline::modem_receipt_t::QUEUED;
     std::printf(
@@ -145,6 +164,8 @@ class Vehicle {
   lcm::LCM& lcm_;
   Settings settings_;
   std::int64_t session_, states_ = 0, packets_ = 0;
+  double unanswered_since_s_ = 0;  // 0: nothing is unanswered
+  bool reported_ = false;
 };
 
 bool set(Settings& s, const std::string& option, const char* value) {
@@ -177,7 +198,7 @@ int parse(int argc, char** argv, Settings& settings) {
 }
 
 void swim(lcm::LCM& lcm, const Settings& settings) {
-  constexpr std::int64_t kStatePeriodUs = 100'000, kMaxWaitForClockS = 3;
+  constexpr std::int64_t kStatePeriodUs = 100'000;
   std::random_device random;
   Vehicle vehicle(lcm, settings, static_cast<std::int64_t>(random()) + 1);
   Clock clock;
@@ -187,8 +208,12 @@ void swim(lcm::LCM& lcm, const Settings& settings) {
   std::int64_t next_state = 0, next_send = 0;
   while (stop_requested == 0) {
     lcm.handleTimeout(10);
-    if (!clock.known() && wall_s() - started_s > kMaxWaitForClockS) clock.use_wall_time();
+    if (!clock.known() && wall_s() - started_s > kSilenceS) {
+      report_silence("no CLOCK");
+      clock.use_wall_time();
+    }
     if (!clock.known()) continue;
+    vehicle.watch_silence();
     const std::int64_t now = clock.utime();
     if (next_send == 0) next_send = now + every_us;
     if (now >= next_state || next_state - now > kStatePeriodUs) {  // the second: time jumped back

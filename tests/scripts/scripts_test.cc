@@ -6,17 +6,20 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/process.h"
+#include "tests/support/working_folder.h"
 
 namespace halocline::testing {
 namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::string script(const std::string& name) { return std::string(HALOCLINE_SOURCE_DIR) + "/scripts/" + name; }
@@ -41,7 +44,7 @@ TEST(Isolated, HasLoopbackWithMulticastAndNothingElse) {
   const std::string output = process.output();
   EXPECT_THAT(output, HasSubstr("MULTICAST"));
   EXPECT_THAT(output, HasSubstr("224.0.0.0/4 dev lo"));
-  EXPECT_THAT(output, ::testing::Not(HasSubstr("eth")));
+  EXPECT_THAT(output, Not(HasSubstr("eth")));
 }
 
 TEST(Isolated, WithoutACommandItPrintsItsUse) {
@@ -81,6 +84,49 @@ TEST(Scripts, AWrongWordIsAnErrorThatPrintsTheUse) {
   Process distributed({script("run_distributed"), "scenarios/seamount.toml", "--nonsense"});
   EXPECT_EQ(distributed.wait(), 2);
   EXPECT_THAT(distributed.output(), HasSubstr("allowed are --duration S"));
+}
+
+// A run leaves its files, and scripts/join finds them, in `folder`.
+std::vector<std::string> in_folder(const std::string& folder, const std::vector<std::string>& command) {
+  std::vector<std::string> all{"/usr/bin/env", "TMPDIR=" + folder, "HALOCLINE_BIN=" HALOCLINE_BIN_DIR};
+  all.insert(all.end(), command.begin(), command.end());
+  return all;
+}
+
+bool prints(const Process& process, const std::string& text, std::chrono::seconds limit = 20s) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (process.output().find(text) == std::string::npos && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(20ms);
+  return process.output().find(text) != std::string::npos;
+}
+
+TEST(Join, AForeignVehicleJoinsADistributedRun) {
+  const TemporaryFolder folder;
+  const std::string here = std::filesystem::current_path().string();
+  Process run(in_folder(here, {script("run_distributed"), HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml",
+                               "--duration", "60", "--log", here + "/run.lcmlog"}));
+  ASSERT_TRUE(prints(run, "to join their bus: ./scripts/join")) << run.output();
+  Process vehicle(in_folder(
+      here, {script("join"), "foreign-vehicle", "--name", "visitor", "--every", "1", "--north", "200"}));
+  EXPECT_TRUE(prints(vehicle, "was accepted")) << vehicle.output();
+  EXPECT_TRUE(prints(vehicle, "packet ")) << vehicle.output();
+  EXPECT_THAT(vehicle.output(), Not(HasSubstr("no CLOCK")));
+  vehicle.signal(SIGTERM);
+  EXPECT_EQ(vehicle.wait(), 0);
+  run.signal(SIGTERM);
+  EXPECT_EQ(run.wait(), 0) << run.output();
+  Process late(in_folder(here, {script("join"), "/bin/true"}));
+  EXPECT_EQ(late.wait(), 2);
+  EXPECT_THAT(late.output(), HasSubstr("no run: start one with ./scripts/run --distributed"));
+}
+
+TEST(Join, AVehicleOnABusWithoutARunReportsItOnce) {
+  Process vehicle({script("isolated"), HALOCLINE_BIN_DIR "/foreign-vehicle", "--every", "1"});
+  EXPECT_TRUE(prints(vehicle, "no RECEIPT of my packets for 3 s")) << vehicle.output();
+  EXPECT_THAT(vehicle.output(), HasSubstr("no CLOCK for 3 s"));
+  EXPECT_THAT(vehicle.output(), HasSubstr("./scripts/join foreign-vehicle"));
+  vehicle.signal(SIGTERM);
+  EXPECT_EQ(vehicle.wait(), 0);
 }
 
 TEST(Scripts, SetupIsSilentAndQuickWhenAllIsThere) {

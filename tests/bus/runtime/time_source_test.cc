@@ -42,6 +42,22 @@ TEST_F(ConductorTimeTest, KnowsNoTimeBeforeTheFirstClock) {
   EXPECT_EQ(time_.steady_at(at(1)), SimTime::never());
 }
 
+TEST_F(ConductorTimeTest, ThreeSecondsWithoutAClockAreReportedOnce) {
+  ::testing::internal::CaptureStderr();
+  for (const double steady_s : {5.0, 7.9, 8.0, 8.1, 20.0}) EXPECT_FALSE(time_.now(at(steady_s)).has_value());
+  const std::string lines = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1) << lines;
+  EXPECT_NE(lines.find("no CLOCK for 3 s"), std::string::npos) << lines;
+}
+
+TEST_F(ConductorTimeTest, NothingIsReportedWhileClocksCome) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_FALSE(time_.now(at(1)).has_value());
+  receive(3.9, 1);
+  for (const double steady_s : {4.0, 60.0}) EXPECT_TRUE(time_.now(at(steady_s)).has_value());
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(ConductorTimeTest, FollowsTheClockAtItsRate) {
   receive(10, 100, 4);
   EXPECT_NEAR(now(10.5), 102, 1e-9);
