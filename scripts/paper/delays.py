@@ -1,0 +1,41 @@
+"""Figure 4: the delay between two nodes 1 km apart, over their depth."""
+from paper.comparison import Comparison, Figure, greatest_difference, reference
+from paper.runs import ROOT, vehicle, water_of
+
+TABLE = "fig4_delay_vs_depth_1km.csv"
+WATERS = (  # column of the table, name, changes of scenarios/figure4.toml
+    ("delay_woa98_s", "global mean", ()),
+    ("delay_harris_s", "Harris and Zorzi", ('environment.profile="harris-zorzi"', 'environment.sound_speed_model="harris-zorzi"')),
+    ("delay_munk_s", "Munk", ('environment.profile="munk"',)),
+)
+EXPECTED = {0.0: 0.660724, 950.0: 0.674539, 4500.0: 0.652978}  # m: s, of the global mean
+# nsMIRACLE's delays by Harris and Zorzi's formula (uwm/underwater.cc, without the d / 1500 that it adds).
+PUBLISHED = {0.0: 0.654954919977, 500.0: 0.660131910859, 1000.0: 0.674312871138, 4500.0: 0.651474948404}
+
+
+def figure_4(runs):
+    table = reference(TABLE)
+    depths = sorted({100.0 * i for i in range(46)} | {50.0, 950.0} | {row["depth_m"] for row in table})
+    scenario = water_of("figure4.toml") + "".join(
+        vehicle(2 * i + 1, -500.0, depth) + vehicle(2 * i + 2, 500.0, depth) for i, depth in enumerate(depths))
+    delays = []
+    for column, _, changes in WATERS:
+        links = runs.links(column, scenario, changes)
+        delays.append({depth: links[2 * i + 1, 2 * i + 2]["delay_s"] for i, depth in enumerate(depths)})
+    mean, harris, _ = delays
+
+    packets = runs.messages("figure4", (ROOT / "scenarios/figure4.toml").read_text(), r"RECEIVE\..*")["receive"]
+    travel = {float(row["channel"].split("-")[1]): float(row["travel_time_s"]) for row in packets}
+
+    comparisons = [Comparison("4", f"delay at {depth:g} m, s", expected, mean[depth], 5e-7) for depth, expected in EXPECTED.items()]
+    comparisons += [Comparison("4", f"travel time of a packet at {depth:g} m, s", expected, travel[depth], 5e-7)
+                    for depth, expected in EXPECTED.items()]
+    comparisons.append(Comparison("4", "depth of the greatest delay, m", 950, max(mean, key=mean.get), 0))
+    comparisons += [Comparison("4", f"delay at {depth:g} m, Harris and Zorzi, s", expected, harris[depth], 6e-13, digits=12)
+                    for depth, expected in PUBLISHED.items()]
+    for (column, name, _), got in zip(WATERS, delays):
+        comparisons.append(greatest_difference("4", f"delay, {name}", [(row[column], got[row["depth_m"]]) for row in table], 1e-12, True))
+    return Figure("figure4", ("depth_m", *(column for column, _, _ in WATERS)),
+                  [(depth, *(of_water[depth] for of_water in delays)) for depth in depths],
+                  [(s, depth) for expected in (EXPECTED, PUBLISHED) for depth, s in expected.items()]
+                  + [(row[column], row["depth_m"]) for column, _, _ in WATERS for row in table], comparisons)
