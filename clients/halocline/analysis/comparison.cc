@@ -8,6 +8,7 @@
 
 #include "bus/channels.h"
 #include "bus/logs/channel_types.h"
+#include "clients/mission/packet_reasons.h"
 
 namespace halocline::clients {
 namespace {
@@ -114,9 +115,7 @@ std::string absent_outcome(const LoggedOutcomes& log, const packet_outcome_t& ot
   return other.utime >= log.end_utime ? "undecided at the end" : "no outcome";
 }
 
-std::string outcome_text(const packet_outcome_t& outcome) {
-  return outcome_name(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.outcome)));
-}
+std::string outcome_text(const packet_outcome_t& outcome) { return outcome_name(number_of(outcome)); }
 
 }  // namespace
 
@@ -184,9 +183,9 @@ void Comparison::add(const LoggedOutcomes& before, const LoggedOutcomes& after, 
     row.moved = differences.names();
     identical_ += are_identical(*row.before, *row.after) ? 1 : 0;
     if (row.changed())
-      row.why = deciding_numbers(*row.after, named) + (row.moved.empty() ? "" : "; " + differences.text());
+      row.why = deciding_reason(*row.after, named) + (row.moved.empty() ? "" : "; " + differences.text());
   } else if (row.after) {
-    row.why = deciding_numbers(*row.after, named);
+    row.why = deciding_reason(*row.after, named);
   }
   ++transitions_[{row.outcome_before, row.outcome_after}];
   if (row.changed()) {

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <iosfwd>
 #include <map>
 #include <optional>
@@ -76,10 +75,6 @@ class Comparison {
   bool anything_before_ = true;
   std::int64_t changed_ = 0, identical_ = 0;
 };
-
-// What decided an outcome, as a sentence with its numbers.
-std::string deciding_numbers(const packet_outcome_t& outcome,
-                             const std::function<std::string(std::int32_t)>& name);
 
 // For a person: totals, transitions, what moved, and the first changed packets.
 void print(std::ostream& out, const Comparison& comparison);

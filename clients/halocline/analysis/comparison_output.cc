@@ -1,7 +1,6 @@
 // The comparison as text, JSON and CSV.
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/halocline/analysis/comparison.h"
+#include "clients/mission/packet_reasons.h"
 #include "core/csv_table.h"
 
 namespace halocline::clients {
@@ -19,14 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kRowsShown = 20;
-
-std::string colliders_of(const packet_outcome_t& outcome,
-                         const std::function<std::string(std::int32_t)>& name) {
-  std::vector<std::string> packets;
-  for (const packet_name_t& packet : outcome.colliders)
-    packets.push_back(fmt::format("{}:{}", name(packet.source_id), packet.packet_sequence));
-  return fmt::format("{}", fmt::join(packets, " "));
-}
 
 // The numbers of an outcome, by name: columns of the table, members of the JSON.
 std::vector<std::pair<const char*, double>> numbers_of(const packet_outcome_t& o) {
@@ -56,7 +48,7 @@ Json to_json(const std::optional<packet_outcome_t>& outcome, const Comparison& c
   if (!outcome) return nullptr;
   Json json;
   for (const auto& [name, value] : numbers_of(*outcome)) json[name] = value;
-  json["colliders"] = colliders_of(*outcome, [&](std::int32_t id) { return comparison.name(id); });
+  json["colliders"] = colliders_text(*outcome, [&](std::int32_t id) { return comparison.name(id); });
   return json;
 }
 
@@ -69,51 +61,6 @@ void print_row(std::ostream& out, const Comparison& comparison, const Comparison
 }
 
 }  // namespace
-
-std::string deciding_numbers(const packet_outcome_t& o,
-                             const std::function<std::string(std::int32_t)>& name) {
-  const std::string others = colliders_of(o, name);
-  const std::string beside = others.empty() ? "" : " with " + others;
-  switch (o.outcome) {
-    case packet_outcome_t::RECEIVED:
-      return fmt::format("success {:.3g} above draw {:.3g} at SINR {:.1f} dB", o.success_probability,
-                         o.success_draw, o.sinr_db);
-    case packet_outcome_t::BELOW_CUTOFF:
-      return fmt::format("level {:.1f} dB below the cut-off {:.1f} dB", o.received_level_db,
-                         o.cutoff_level_db);
-    case packet_outcome_t::RECEIVER_GONE:
-      return "the receiver's states had grown too old";
-    case packet_outcome_t::SHADOW:
-      return "no path: the water bends every ray away";
-    case packet_outcome_t::BLOCKED:
-      return "no path: the terrain blocks all";
-    case packet_outcome_t::TOO_WEAK:
-      return "no path: the bounces leave too little of every ray";
-    case packet_outcome_t::TOO_STEEP:
-      return "no path: every ray is launched more steeply than is searched";
-    case packet_outcome_t::OUT_OF_BAND:
-      return "the bands of the two modems do not overlap";
-    case packet_outcome_t::FOREIGN:
-      return "the two modems are of different waveform families";
-    case packet_outcome_t::HALF_DUPLEX:
-      return "the receiver itself sent " + others;
-    case packet_outcome_t::DOPPLER:
-      return fmt::format("Doppler factor {:.6f} is beyond the modem's tolerance",
-                         o.strongest_path_doppler_factor);
-    case packet_outcome_t::COLLIDED:
-      if (o.success_probability == 0) return "the receiver followed " + others;
-      [[fallthrough]];
-    case packet_outcome_t::BIT_ERRORS:
-      return fmt::format("success {:.3g} not above draw {:.3g} at SINR {:.1f} dB", o.success_probability,
-                         o.success_draw, o.sinr_db) +
-             beside;
-    case packet_outcome_t::NOT_ACQUIRED:
-      return fmt::format("acquisition {:.3g} not above draw {:.3g} at SNR {:.1f} dB",
-                         o.acquisition_probability, o.acquisition_draw, o.snr_db) +
-             beside;
-  }
-  return "";
-}
 
 void print(std::ostream& out, const Comparison& comparison) {
   const auto all = comparison.rows().size();
@@ -188,7 +135,7 @@ void print_csv(std::ostream& out, const Comparison& comparison) {
     for (const auto* side : {&row.before, &row.after}) {
       for (const auto& [name, value] : numbers_of(side->value_or(packet_outcome_t{})))
         out << ',' << (*side ? format_number(value) : "");
-      out << ',' << (*side ? colliders_of(**side, named) : "");
+      out << ',' << (*side ? colliders_text(**side, named) : "");
     }
     out << "\n";
   }

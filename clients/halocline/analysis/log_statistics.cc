@@ -7,14 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/logs/channel_types.h"
-#include "bus/message_fields.h"
 
 namespace halocline::clients {
 namespace {
-
-constexpr auto& kReceiptNames = kModemReceiptReceiptResultNames;
-constexpr auto& kOutcomeNames = kPacketOutcomeOutcomeNames;
-static_assert(kOutcomeNames.size() == kOutcomes);
 
 std::map<std::string, std::int64_t> by_family(const LogStatistics& s) {
   std::map<std::string, std::int64_t> families;
@@ -32,22 +27,15 @@ std::tuple<double, double, double> spread(std::vector<double> values) {
 
 template <std::size_t N>
 void print_named(std::ostream& out, const char* title, const std::array<std::int64_t, N>& counts,
-                 const std::array<const char*, N>& names) {
+                 const char* (*name)(std::size_t)) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < N; ++i) {
-    if (counts[i] > 0) texts.push_back(fmt::format("{} {}", counts[i], names[i]));
+    if (counts[i] > 0) texts.push_back(fmt::format("{} {}", counts[i], name(i)));
   }
   fmt::print(out, "{}{}\n", title, texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, ", ")));
 }
 
 }  // namespace
-
-const char* receipt_name(std::size_t result) {
-  return result < kReceiptNames.size() ? kReceiptNames[result] : "?";
-}
-const char* outcome_name(std::size_t outcome) {
-  return outcome < kOutcomeNames.size() ? kOutcomeNames[outcome] : "?";
-}
 
 // Counts one valid message.
 template <class Message>
@@ -96,8 +84,8 @@ void print(std::ostream& out, const LogStatistics& s) {
              static_cast<double>(s.last_stamp_us) * 1e-6);
   for (const auto& [family, count] : by_family(s)) fmt::print(out, "  {:<14}{:>9}\n", family, count);
   fmt::print(out, "packets     {} sent, {} delivered\n", s.packets_sent, s.packets_delivered);
-  print_named(out, "  receipts  ", s.receipts, kReceiptNames);
-  print_named(out, "  outcomes  ", s.outcomes, kOutcomeNames);
+  print_named(out, "  receipts  ", s.receipts, receipt_name);
+  print_named(out, "  outcomes  ", s.outcomes, outcome_name);
   if (!s.travel_times_s.empty()) {
     const auto [least, median, greatest] = spread(s.travel_times_s);
     fmt::print(out, "  delay     {:.6f} s least, {:.6f} s median, {:.6f} s greatest\n", least, median,
@@ -121,8 +109,8 @@ std::string to_json(const LogStatistics& s) {
   json["by_channel"] = s.by_channel;
   json["packets_sent"] = s.packets_sent;
   json["packets_delivered"] = s.packets_delivered;
-  for (std::size_t i = 0; i < s.receipts.size(); ++i) json["receipts"][kReceiptNames[i]] = s.receipts[i];
-  for (std::size_t i = 0; i < s.outcomes.size(); ++i) json["outcomes"][kOutcomeNames[i]] = s.outcomes[i];
+  for (std::size_t i = 0; i < s.receipts.size(); ++i) json["receipts"][receipt_name(i)] = s.receipts[i];
+  for (std::size_t i = 0; i < s.outcomes.size(); ++i) json["outcomes"][outcome_name(i)] = s.outcomes[i];
   if (!s.travel_times_s.empty()) {
     const auto [least, median, greatest] = spread(s.travel_times_s);
     json["delay_s"] = {{"least", least}, {"median", median}, {"greatest", greatest}};

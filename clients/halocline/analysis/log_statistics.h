@@ -12,14 +12,11 @@
 #include <vector>
 
 #include "bus/logs/log_reader.h"
+#include "clients/mission/outcome_ledger.h"
 
 namespace halocline::clients {
 
-inline constexpr std::size_t kOutcomes = 14;  // packet_outcome_t.RECEIVED to TOO_STEEP
-
 struct LogStatistics {
-  static constexpr std::size_t kReceiptResults = 9;  // modem_receipt_t.ACCEPTED to REFUSED_QUEUE_FULL
-
   std::int64_t events = 0;
   std::int64_t bytes = 0;        // of payloads
   std::int64_t foreign = 0;      // on channels that are none of ours
@@ -37,7 +34,7 @@ struct LogStatistics {
   std::int64_t packets_sent = 0;          // that a receipt came for
   std::int64_t packets_delivered = 0;     // RECEIVEs
   std::array<std::int64_t, kReceiptResults> receipts{};
-  std::array<std::int64_t, kOutcomes> outcomes{};
+  OutcomeCounts outcomes{};
   std::vector<double> travel_times_s;  // of the delivered that carry their departure, as they came
 
   // `place` as place_of gives it; called only when the event does not decode.
@@ -58,9 +55,5 @@ void print(std::ostream& out, const LogStatistics& statistics);
 
 // As JSON, one object.
 std::string to_json(const LogStatistics& statistics);
-
-// Names of receipt results and packet outcomes, by their number; "?" for others.
-const char* receipt_name(std::size_t result);
-const char* outcome_name(std::size_t outcome);
 
 }  // namespace halocline::clients

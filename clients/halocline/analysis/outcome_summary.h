@@ -6,41 +6,28 @@
 // state was recorded.
 #pragma once
 
-#include <array>
 #include <compare>
 #include <cstdint>
 #include <iosfwd>
 #include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bus/logs/log_reader.h"
 #include "bus/messages.h"
-#include "clients/halocline/analysis/log_statistics.h"
 #include "clients/halocline/plot/plot.h"
+#include "clients/mission/outcome_ledger.h"
 
 namespace halocline::clients {
 
-using OutcomeCounts = std::array<std::int64_t, kOutcomes>;  // by packet_outcome_t.outcome
-inline constexpr std::size_t kPropagations = 3;  // packet_outcome_t.STRAIGHT to STRAIGHT_WITHOUT_BOTTOM
-using PropagationCounts = std::array<std::int64_t, kPropagations>;  // by packet_outcome_t.propagation_used
-
-class OutcomeSummary {
+class OutcomeSummary : public OutcomeLedger {
  public:
-  using Pair = std::pair<std::int32_t, std::int32_t>;  // ids of sender and receiver
-
-  // Outcomes are summed over windows of `window_us` > 0 of simulation time, by the instant of departure.
-  explicit OutcomeSummary(std::int64_t window_us);
+  using OutcomeLedger::OutcomeLedger;
 
   // `zero_us` is taken off the outcome's times.
   void count(const LoggedEvent& event, std::int64_t zero_us = 0);
 
-  const OutcomeCounts& total() const { return total_; }
-  const std::map<Pair, OutcomeCounts>& by_pair() const { return by_pair_; }
-  const std::map<std::int64_t, OutcomeCounts>& by_window() const { return by_window_; }  // by its start, us
-  const PropagationCounts& by_propagation() const { return by_propagation_; }
   // In the order of the log.
   const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
   std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
@@ -57,19 +44,11 @@ class OutcomeSummary {
   };
   void count(const packet_outcome_t& outcome);
 
-  std::int64_t window_us_;
-  OutcomeCounts total_{};
-  PropagationCounts by_propagation_{};
-  std::map<Pair, OutcomeCounts> by_pair_;
-  std::map<std::int64_t, OutcomeCounts> by_window_;
   std::vector<packet_outcome_t> outcomes_;
   std::map<std::int32_t, std::string> names_;
   std::set<Key> counted_;
   std::int64_t repeated_ = 0;
 };
-
-// "straight", "rays", "straight without bottom".
-const char* propagation_name(std::size_t propagation);
 
 OutcomeSummary summary_of(LogReader& log, std::int64_t window_us);
 

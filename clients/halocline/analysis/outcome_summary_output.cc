@@ -1,7 +1,6 @@
 // The outcome summary as text, JSON, CSV and a plot.
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,14 +10,12 @@
 
 #include "clients/halocline/analysis/outcome_summary.h"
 #include "clients/halocline/plot/plot.h"
+#include "clients/mission/outcome_ledger.h"
+#include "clients/mission/packet_reasons.h"
 #include "core/csv_table.h"
 
 namespace halocline::clients {
 namespace {
-
-std::int64_t sum(const OutcomeCounts& counts) {
-  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-}
 
 // Those that occurred.
 std::vector<std::size_t> outcomes_in(const OutcomeSummary& summary) {
@@ -57,13 +54,6 @@ nlohmann::ordered_json to_json(const OutcomeCounts& counts) {
     if (counts[outcome] > 0) json[outcome_name(outcome)] = counts[outcome];
   }
   return json;
-}
-
-std::string colliders_text(const OutcomeSummary& summary, const packet_outcome_t& outcome) {
-  std::vector<std::string> packets;
-  for (const packet_name_t& packet : outcome.colliders)
-    packets.push_back(fmt::format("{}:{}", summary.name(packet.source_id), packet.packet_sequence));
-  return fmt::format("{}", fmt::join(packets, " "));
 }
 
 }  // namespace
@@ -148,7 +138,7 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
       out << ',' << format_number(number);
     }
     out << ',' << propagation_name(static_cast<std::size_t>(o.propagation_used)) << ','
-        << colliders_text(summary, o) << '\n';
+        << colliders_text(o, [&](std::int32_t id) { return summary.name(id); }) << '\n';
   }
 }
 

@@ -1,7 +1,6 @@
 #include "clients/halocline/analysis/recording.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <ostream>
@@ -10,14 +9,13 @@
 
 #include "bus/channels.h"
 #include "bus/logs/channel_types.h"
+#include "clients/mission/foreign_message.h"
+#include "clients/mission/mission_time.h"
 
 namespace halocline::clients {
 namespace {
 
-constexpr std::int64_t kSecond_us = 1'000'000, kDay_us = 86'400 * kSecond_us;
-constexpr std::int64_t kSameClock_us = 30 * kDay_us;
-// Of the CLOCKs of a lockstep run all stand at their stamps, but for those that damage changed.
-constexpr double kMinShareAtStamp = 0.9;
+constexpr std::int64_t kDay_us = 86'400'000'000;
 
 template <class Message>
 inline constexpr bool kIsPlayed =
@@ -46,32 +44,6 @@ std::int32_t* id_in(Recording::Event& event) {
   return nullptr;
 }
 
-bool fill_orientation(vehicle_state_t& state) {
-  for (const double part : state.orientation_wxyz) {
-    if (part != 0) return false;
-  }
-  state.orientation_wxyz[0] = 1;
-  return true;
-}
-
-// Decodes and checks one message to be played; what a foreign vehicle may leave out stands no longer against it.
-template <class Message>
-bool decode_played(const std::vector<std::uint8_t>& bytes, Message& message, Recording& recording) {
-  if (!bus::decode_unchecked(bytes, message).empty()) return false;
-  Message filled = message;
-  bool turned = false;
-  if constexpr (std::is_same_v<Message, vehicle_state_t>) {
-    turned = fill_orientation(message);
-    filled = message;
-    if (filled.vehicle_id == 0) filled.vehicle_id = 1;
-  } else if constexpr (std::is_same_v<Message, modem_send_t>) {
-    if (filled.source_id == 0) filled.source_id = 1;
-  }
-  if (!bus::problem_in(filled).empty()) return false;
-  recording.without_orientation += turned ? 1 : 0;
-  return true;
-}
-
 // Collects what a log holds.
 struct Collector {
   explicit Collector(Recording& into) : recording(into) {}
@@ -84,7 +56,9 @@ struct Collector {
   void take(const LoggedEvent& event) {
     Message message{};
     if constexpr (kIsPlayed<Message>) {
-      if (decode_played(event.data, message, recording)) {
+      const ForeignMessage decoded = decode_foreign(event.data, message);
+      if (decoded.is_sound) {
+        recording.without_orientation += decoded.orientation_filled ? 1 : 0;
         logged.push_back({stamps.size() - 1, {SimTime(), event.channel, message}});
         return;
       }
@@ -143,23 +117,18 @@ void go_by_stamps(const Collector& collected, Recording& recording) {
   recording.end = SimTime::from_utime(stamps.empty() ? 0 : stamps.back());
 }
 
-// The middle of the states' times: of a clock that most vehicles share. Empty where no state has a time.
 std::optional<std::int64_t> middle_of_states(const std::vector<Logged>& logged) {
   std::vector<std::int64_t> times;
   for (const Logged& entry : logged) {
     if (std::holds_alternative<vehicle_state_t>(entry.event.message)) times.push_back(utime_of(entry.event));
   }
-  std::sort(times.begin(), times.end());
-  if (times.empty() || (times.front() == times.back() && times.size() > 1)) return std::nullopt;
-  return times[times.size() / 2];
+  return middle_of(std::move(times));
 }
 
 // The utime of each message, or where it has none the latest that the log had reached by then.
 std::vector<std::int64_t> sound_times(const Collector& collected, Recording& recording) {
   const auto middle = middle_of_states(collected.logged);
-  const auto is_sound = [&](std::int64_t utime) {
-    return middle && std::abs(utime - *middle) <= kSameClock_us;
-  };
+  const auto is_sound = [&](std::int64_t utime) { return middle && MissionTime{0, middle}.is_sound(utime); };
   std::vector<std::int64_t> times;
   std::optional<std::int64_t> reached;
   for (const Logged& entry : collected.logged) {  // until the first sound time, it is that
@@ -179,7 +148,7 @@ void go_by_messages(const Collector& collected, Recording& recording) {
   const std::vector<std::int64_t> times = sound_times(collected, recording);
   if (times.empty()) return;
   const std::int64_t first = *std::min_element(times.begin(), times.end());
-  const std::int64_t zero = first > kDay_us ? first / kSecond_us * kSecond_us : 0;
+  const std::int64_t zero = zero_of(first);
   recording.zero = SimDuration::from_microseconds(zero);
   for (std::size_t i = 0; i < times.size(); ++i) {
     recording.events.push_back(collected.logged[i].event);
@@ -228,8 +197,7 @@ Recording read_recording(LogReader& log, const bus::Scenario& scenario) {
   Collector collected(recording);
   collected.read(log);
   recording.stamped_with_simulation_time =
-      collected.clocks > 0 && static_cast<double>(collected.clocks_at_stamp) >=
-                                  kMinShareAtStamp * static_cast<double>(collected.clocks);
+      is_stamped_with_simulation_time(collected.clocks, collected.clocks_at_stamp);
   if (recording.stamped_with_simulation_time) {
     go_by_stamps(collected, recording);
   } else {

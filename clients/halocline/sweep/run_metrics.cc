@@ -11,6 +11,7 @@
 
 #include "bus/logs/channel_types.h"
 #include "clients/halocline/analysis/log_statistics.h"
+#include "clients/mission/outcome_ledger.h"
 
 namespace halocline::clients {
 namespace {

@@ -15,6 +15,7 @@
 
 #include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/outcome_summary.h"
+#include "clients/mission/outcome_ledger.h"
 
 namespace halocline::clients {
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "clients/halocline/analysis/outcome_summary.h"
+#include "clients/mission/outcome_ledger.h"
 #include "core/check.h"
 #include "core/shared_module.h"
 

@@ -1,0 +1,47 @@
+// Decodes messages that a vehicle of others may have left incomplete: a vehicle_id or source_id of 0, an orientation of
+// all zeros (it becomes level and towards north).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "bus/message_codec.h"
+
+namespace halocline::clients {
+
+struct ForeignMessage {
+  bool is_sound = false;
+  bool orientation_filled = false;
+};
+
+inline bool fill_orientation(vehicle_state_t& state) {
+  for (const double part : state.orientation_wxyz) {
+    if (part != 0) return false;
+  }
+  state.orientation_wxyz[0] = 1;
+  return true;
+}
+
+// All but the above is checked as bus::decode does. An id of 0 stays.
+template <class Message>
+[[nodiscard]] ForeignMessage decode_foreign(std::span<const std::uint8_t> bytes, Message& message) {
+  ForeignMessage result;
+  if (!bus::decode_unchecked(bytes, message).empty()) return result;
+  if constexpr (std::is_same_v<Message, vehicle_state_t>) {
+    result.orientation_filled = fill_orientation(message);
+    Message with_id = message;
+    if (with_id.vehicle_id == 0) with_id.vehicle_id = 1;
+    result.is_sound = bus::problem_in(with_id).empty();
+  } else if constexpr (std::is_same_v<Message, modem_send_t>) {
+    const std::int32_t id = message.source_id;
+    if (id == 0) message.source_id = 1;
+    result.is_sound = bus::problem_in(message).empty();
+    message.source_id = id;
+  } else {
+    result.is_sound = bus::problem_in(message).empty();
+  }
+  return result;
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,238 @@
+#include "clients/mission/mission_store.h"
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "bus/channels.h"
+#include "bus/logs/channel_types.h"
+#include "clients/mission/foreign_message.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+namespace {
+
+// Of STATE.auv-1: auv-1; of OUTCOME: nothing.
+std::string name_in(std::string_view channel) {
+  const auto dot = channel.find('.');
+  return dot == std::string_view::npos ? std::string() : std::string(channel.substr(dot + 1));
+}
+
+template <class Message>
+concept HasUtime = requires(const Message& message) {
+  message.utime;
+};
+
+// What is stamped with the instant from which it holds may lie ahead; all else shows how far the mission has come.
+template <class Message>
+inline constexpr bool kAdvancesTime =
+    std::is_same_v<Message, vehicle_state_t> || std::is_same_v<Message, packet_outcome_t> ||
+    std::is_same_v<Message, vehicle_sensors_t> || std::is_same_v<Message, link_table_t> ||
+    std::is_same_v<Message, sim_clock_t> || std::is_same_v<Message, position_estimate_t>;
+
+}  // namespace
+
+MissionStore::MissionStore(MissionTime time, MissionLimits limits) : time_(time), limits_(limits) {}
+
+void MissionStore::add(std::int64_t stamp_us, std::string_view channel, std::span<const std::uint8_t> bytes) {
+  ++counts_.messages;
+  constexpr std::string_view kRepair = bus::channels::kRepair.prefix;
+  while (channel.starts_with(kRepair)) channel.remove_prefix(kRepair.size());
+  const bool is_ours =
+      with_type_of(channel, [&]<class Message>() { decode_and_take<Message>(stamp_us, channel, bytes); });
+  if (!is_ours) ++counts_.unknown;
+  drop_old();
+}
+
+template <class Message>
+void MissionStore::decode_and_take(std::int64_t stamp_us, std::string_view channel,
+                                   std::span<const std::uint8_t> bytes) {
+  Message message{};
+  if (!decode_foreign(bytes, message).is_sound) {
+    ++counts_.undecodable;
+    return;
+  }
+  Received received{stamp_us, name_in(channel), std::max(end_, SimTime())};
+  if constexpr (HasUtime<Message>) {
+    if (time_.is_sound(message.utime)) {
+      message.utime -= time_.zero_us;
+      received.at = SimTime::from_utime(message.utime);
+    } else {
+      ++counts_.without_time;
+      message.utime = received.at.to_utime();
+    }
+  }
+  if constexpr (kAdvancesTime<Message>) {
+    begin_ = std::min(begin_, received.at);
+    end_ = std::max(end_, received.at);
+  }
+  if constexpr (requires { take(received, message); }) take(received, message);
+}
+
+void MissionStore::take(const Received& received, const vehicle_state_t& state) {
+  keep(vehicle(received.name, state.vehicle_id).track, received.at, track_point_of(state));
+}
+
+void MissionStore::take(const Received& received, const vehicle_sensors_t& sensors) {
+  keep(vehicle(received.name, 0).sensors, received.at, sensors);
+}
+
+void MissionStore::take(const Received& received, const vehicle_command_t& command) {
+  keep(vehicle(received.name, 0).commands, received.at, command);
+}
+
+void MissionStore::take(const Received& received, const vehicle_fault_t& fault) {
+  auto& faults = vehicle(received.name, 0).faults;
+  const bool is_there = std::any_of(faults.begin(), faults.end(), [&](const auto& other) {
+    return other.at == received.at && other.value.fault_kind == fault.fault_kind &&
+           other.value.dead_sensor == fault.dead_sensor && other.value.fault_mended == fault.fault_mended;
+  });
+  if (!is_there) faults.push_back({received.at, fault});
+}
+
+void MissionStore::take(const Received& received, const vehicle_gps_t& fix) {
+  keep(vehicle(received.name, 0).gps, received.at, fix);
+}
+
+void MissionStore::take(const Received& received, const position_estimate_t& estimate) {
+  keep(vehicle(received.name, estimate.vehicle_id).estimates, received.at, estimate);
+}
+
+void MissionStore::take(const Received& received, const modem_config_t& modem) {
+  vehicle(received.name, 0).modem = modem;
+}
+
+void MissionStore::take(const Received& received, modem_send_t send) {
+  packets_.add(send, vehicle(received.name, send.source_id).id);
+}
+
+void MissionStore::take(const Received& received, modem_receipt_t receipt) {
+  if (receipt.start_utime != 0) receipt.start_utime -= time_.zero_us;
+  packets_.add(receipt, vehicle(received.name, 0).id);
+}
+
+void MissionStore::take(const Received&, packet_outcome_t outcome) {
+  outcome.departure_utime -= time_.zero_us;
+  if (SimTime::from_utime(outcome.departure_utime) < dropped_before_) return;
+  vehicle(outcome.source_id);
+  vehicle(outcome.receiver_id);
+  if (packets_.add(outcome))
+    ledger_.add(outcome);
+  else
+    ++repeated_outcomes_;
+  if (packets_.outcome_count() > limits_.outcomes)
+    packets_.keep_outcomes(limits_.outcomes - limits_.outcomes / 8);
+}
+
+void MissionStore::take(const Received& received, const link_table_t& table) {
+  vehicle(received.name, table.vehicle_id);
+  links_.add(received.at, table);
+  while (links_.row_count() > limits_.link_rows) {
+    const std::size_t before = links_.row_count();
+    links_.thin();
+    if (links_.row_count() == before) break;
+  }
+}
+
+void MissionStore::take(const Received& received, const environment_t& water) {
+  water_.add(received.at, water);
+}
+
+void MissionStore::take(const Received& received, const node_status_t& status) {
+  health_.add_status(received.stamp_us, received.name, status);
+}
+
+void MissionStore::take(const Received& received, const flow_heartbeat_t&) {
+  health_.add_heartbeat(received.stamp_us, received.name);
+}
+
+void MissionStore::take(const Received& received, const sim_clock_t& clock) {
+  health_.add_clock(received.stamp_us, clock);
+}
+
+MissionVehicle& MissionStore::vehicle(const std::string& name, std::int32_t id) {
+  auto found = by_name_.find(name);
+  if (found == by_name_.end()) {
+    const auto nameless = by_id_.find(id);
+    const bool is_nameless =
+        nameless != by_id_.end() && vehicles_[nameless->second].name == std::to_string(id);
+    const std::size_t index = is_nameless ? nameless->second : vehicles_.size();
+    if (!is_nameless) vehicles_.emplace_back().index = index;
+    by_name_.erase(vehicles_[index].name);
+    vehicles_[index].name = name;
+    found = by_name_.emplace(name, index).first;
+  }
+  give_id(vehicles_[found->second], id);
+  return vehicles_[found->second];
+}
+
+MissionVehicle& MissionStore::vehicle(std::int32_t id) {
+  const auto found = by_id_.find(id);
+  return found != by_id_.end() ? vehicles_[found->second] : vehicle(std::to_string(id), id);
+}
+
+void MissionStore::give_id(MissionVehicle& vehicle, std::int32_t id) {
+  if (id == 0 || vehicle.id != 0) return;
+  vehicle.id = id;
+  const auto [known, is_new] = by_id_.emplace(id, vehicle.index);
+  if (is_new || vehicles_[known->second].name != std::to_string(id)) return;
+  vehicles_[known->second].id = 0;  // what was met by this id alone is this vehicle
+  known->second = vehicle.index;
+}
+
+const MissionVehicle* MissionStore::find(std::string_view name) const {
+  const auto found = by_name_.find(name);
+  return found != by_name_.end() ? &vehicles_[found->second] : nullptr;
+}
+
+const MissionVehicle* MissionStore::find(std::int32_t id) const {
+  const auto found = by_id_.find(id);
+  return found != by_id_.end() ? &vehicles_[found->second] : nullptr;
+}
+
+std::string MissionStore::name(std::int32_t id) const {
+  const MissionVehicle* known = find(id);
+  return known != nullptr ? known->name : std::to_string(id);
+}
+
+double MissionStore::seabed_m(double north_m, double east_m) const {
+  return terrain_ ? terrain_->depth_at_m(north_m, east_m) : std::numeric_limits<double>::quiet_NaN();
+}
+
+template <class Value>
+void MissionStore::keep(TimedSeries<Value>& series, SimTime at, const Value& value) {
+  if (series.add(at, value)) ++samples_;
+  if (samples_ > limits_.samples) keep_limits();
+}
+
+void MissionStore::keep_limits() {
+  std::size_t dropped = 0;
+  for (MissionVehicle& v : vehicles_)
+    dropped += v.track.thin() + v.commands.thin() + v.sensors.thin() + v.estimates.thin() + v.gps.thin();
+  samples_ -= dropped;
+  if (dropped == 0) limits_.samples *= 2;  // more vehicles than samples
+}
+
+void MissionStore::limit_history(SimDuration history) {
+  require(history > SimDuration(), "a history must be longer than 0");
+  history_ = history;
+}
+
+void MissionStore::drop_old() {
+  if (history_ == SimDuration() || begin_ > end_) return;
+  const SimTime first = end_ - history_;
+  // Not at every message: a tenth more than was wanted may be kept.
+  if (dropped_before_ != SimTime::at_once() && (first - dropped_before_) * 10 < history_) return;
+  dropped_before_ = first;
+  begin_ = std::max(begin_, first);
+  for (MissionVehicle& v : vehicles_) {
+    samples_ -= v.track.drop_before(first) + v.commands.drop_before(first) + v.sensors.drop_before(first) +
+                v.estimates.drop_before(first) + v.gps.drop_before(first);
+  }
+  packets_.drop_before(first);
+  links_.drop_before(first);
+  water_.drop_before(first);
+}
+
+}  // namespace halocline::clients

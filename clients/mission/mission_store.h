@@ -1,0 +1,151 @@
+// A mission by time, from its messages: the one source of numbers for reports and monitors.
+//
+//   MissionStore store;
+//   while (log.next(event)) store.add(event.stamp_us, event.channel, event.data);
+//   const auto place = state_at(store.vehicles()[0].track, SimTime::from_seconds(60));
+//
+// It takes the messages of a bus or a log in any order, whatever they are: what is on no channel of ours, does not
+// decode or cannot be is counted and left out. Times are simulation time, each message's own (mission_time.h); what has
+// none holds from the latest time that was reached. It reads no file, opens no socket and knows no clock. Not
+// thread-safe.
+//
+// Memory is bounded by MissionLimits: series are thinned together (timed_series.h), and the oldest packets' numbers are
+// dropped while the ledger keeps counting all. limit_history() drops what is old, for a bus that never ends.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bus/messages.h"
+#include "clients/mission/link_history.h"
+#include "clients/mission/mission_terrain.h"
+#include "clients/mission/mission_time.h"
+#include "clients/mission/mission_vehicle.h"
+#include "clients/mission/node_health.h"
+#include "clients/mission/outcome_ledger.h"
+#include "clients/mission/packet_book.h"
+#include "clients/mission/timed_series.h"
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+
+struct MissionLimits {
+  std::size_t samples = 3'000'000;    // of all series of vehicles, about 200 bytes each
+  std::size_t link_rows = 1'000'000;  // about 200 bytes each
+  std::size_t outcomes = 1'000'000;   // about 300 bytes each
+};
+
+// What is known of the scenario; texts are empty and numbers 0 where it is not.
+struct MissionScenario {
+  std::string name, description;
+  std::string toml;  // the effective configuration
+  std::int64_t seed = 0;
+  double origin_latitude_deg = 0, origin_longitude_deg = 0;
+  double sea_surface_z_m = 0;
+  double duration_s = 0;
+};
+
+struct MissionCounts {
+  std::int64_t messages = 0;     // given to add()
+  std::int64_t unknown = 0;      // on no channel of ours
+  std::int64_t undecodable = 0;  // no sound message of their channel's type
+  std::int64_t without_time = 0;
+};
+
+class MissionStore {
+ public:
+  explicit MissionStore(MissionTime time = {}, MissionLimits limits = {});
+
+  // `stamp_us` is the recorder's or receiver's time of the message.
+  void add(std::int64_t stamp_us, std::string_view channel, std::span<const std::uint8_t> bytes);
+
+  // From now on drops what is more than this older than the latest message; above 0.
+  void limit_history(SimDuration history);
+
+  // In the order in which they were met: an index stays as it is, and so does the place in memory.
+  const std::deque<MissionVehicle>& vehicles() const { return vehicles_; }
+  const MissionVehicle* find(std::string_view name) const;  // null when there is none
+  const MissionVehicle* find(std::int32_t id) const;
+  std::string name(std::int32_t id) const;  // the id as text where no vehicle has it
+
+  const PacketBook& packets() const { return packets_; }
+  const OutcomeLedger& ledger() const { return ledger_; }  // by minutes; of all that was ever added
+  std::int64_t repeated_outcomes() const { return repeated_outcomes_; }
+  const LinkHistory& links() const { return links_; }
+  const TimedSeries<environment_t>& water() const { return water_; }
+  const NodeHealth& health() const { return health_; }
+  const MissionCounts& counts() const { return counts_; }
+
+  const MissionScenario& scenario() const { return scenario_; }
+  void set_scenario(MissionScenario scenario) { scenario_ = std::move(scenario); }
+  const std::optional<MissionTerrain>& terrain() const { return terrain_; }
+  void set_terrain(MissionTerrain terrain) { terrain_ = std::move(terrain); }
+  // z of the seabed under a place; NaN where it is not known.
+  double seabed_m(double north_m, double east_m) const;
+
+  // First and last instant of what was received; begin > end before the first message with a time.
+  SimTime begin() const { return begin_; }
+  SimTime end() const { return end_; }
+
+ private:
+  struct Received {
+    std::int64_t stamp_us;
+    std::string name;  // of the channel's family
+    SimTime at;
+  };
+  template <class Message>
+  void decode_and_take(std::int64_t stamp_us, std::string_view channel, std::span<const std::uint8_t> bytes);
+  void take(const Received& received, const vehicle_state_t& state);
+  void take(const Received& received, const vehicle_sensors_t& sensors);
+  void take(const Received& received, const vehicle_command_t& command);
+  void take(const Received& received, const vehicle_fault_t& fault);
+  void take(const Received& received, const vehicle_gps_t& fix);
+  void take(const Received& received, const position_estimate_t& estimate);
+  void take(const Received& received, const modem_config_t& modem);
+  void take(const Received& received, modem_send_t send);
+  void take(const Received& received, modem_receipt_t receipt);
+  void take(const Received& received, packet_outcome_t outcome);
+  void take(const Received& received, const link_table_t& table);
+  void take(const Received& received, const environment_t& water);
+  void take(const Received& received, const node_status_t& status);
+  void take(const Received& received, const flow_heartbeat_t& heartbeat);
+  void take(const Received& received, const sim_clock_t& clock);
+
+  // The vehicle of that name, made where there is none; `id` 0: not known.
+  MissionVehicle& vehicle(const std::string& name, std::int32_t id);
+  MissionVehicle& vehicle(std::int32_t id);
+  void give_id(MissionVehicle& vehicle, std::int32_t id);
+  template <class Value>
+  void keep(TimedSeries<Value>& series, SimTime at, const Value& value);
+  void keep_limits();
+  void drop_old();
+
+  MissionTime time_;
+  MissionLimits limits_;
+  SimDuration history_;  // 0: everything
+  SimTime begin_ = SimTime::never(), end_ = SimTime::at_once(), dropped_before_ = SimTime::at_once();
+  std::deque<MissionVehicle> vehicles_;
+  std::map<std::string, std::size_t, std::less<>> by_name_;
+  std::map<std::int32_t, std::size_t> by_id_;
+  std::size_t samples_ = 0;
+  PacketBook packets_;
+  OutcomeLedger ledger_{60'000'000};
+  std::int64_t repeated_outcomes_ = 0;
+  LinkHistory links_;
+  TimedSeries<environment_t> water_;
+  NodeHealth health_;
+  MissionCounts counts_;
+  MissionScenario scenario_;
+  std::optional<MissionTerrain> terrain_;
+};
+
+}  // namespace halocline::clients

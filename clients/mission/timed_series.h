@@ -1,0 +1,138 @@
+// Values by time, for what comes many times a second: kept in order, thinned when there are too many, dropped when old.
+//
+// Thinning: every second value is dropped, and from then on values stand twice as far apart as before. The newest value is
+// always there. Extremes between two that are kept are lost: the price of bounded memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+
+template <class Value>
+struct Timed {
+  SimTime at;
+  Value value;
+};
+
+template <class Value>
+class TimedSeries {
+ public:
+  using Entry = Timed<Value>;
+
+  // One of a time that is there already replaces it. True when there is one more than before.
+  bool add(SimTime at, Value value) {
+    if (entries_.empty() || at > entries_.back().at) {
+      const bool is_too_near = entries_.size() > 1 && entries_.back().at - (entries_.end() - 2)->at < gap_;
+      if (!is_too_near) entries_.emplace_back();
+      entries_.back() = {at, std::move(value)};
+      return !is_too_near;
+    }
+    const auto place = entries_.begin() + index_from(at);
+    const bool is_there = place->at == at;
+    if (is_there)
+      place->value = std::move(value);
+    else
+      entries_.insert(place, {at, std::move(value)});
+    return !is_there;
+  }
+
+  // The value of exactly this time; null when there is none.
+  Value* find(SimTime at) {
+    const auto place = entries_.begin() + index_from(at);
+    return place != entries_.end() && place->at == at ? &place->value : nullptr;
+  }
+  // The last one of this time or before; null when there is none.
+  const Entry* at_or_before(SimTime at) const {
+    const std::span<const Entry> before = between(SimTime::at_once(), at);
+    return before.empty() ? nullptr : &before.back();
+  }
+  // Those of from <= time <= to.
+  std::span<const Entry> between(SimTime from, SimTime to) const {
+    const auto first = index_from(from);
+    const auto last = std::upper_bound(entries_.begin(), entries_.end(), to,
+                                       [](SimTime t, const Entry& entry) { return t < entry.at; }) -
+                      entries_.begin();
+    return {entries_.data() + first, static_cast<std::size_t>(std::max(last - first, std::ptrdiff_t{0}))};
+  }
+  std::span<const Entry> all() const { return entries_; }
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
+  const Entry& front() const { return entries_.front(); }
+  const Entry& back() const { return entries_.back(); }
+
+  // Returns how many were dropped.
+  std::size_t thin() {
+    if (entries_.size() < 4) return 0;
+    const std::size_t size = entries_.size();
+    const std::int64_t spacing_ns =
+        (entries_.back().at - entries_.front().at).nanoseconds() / static_cast<std::int64_t>(size - 1);
+    std::vector<Entry> kept;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (i % 2 == 0 || i == size - 1) kept.push_back(std::move(entries_[i]));
+    }
+    entries_ = std::move(kept);
+    // A little less than twice the mean, or values at a steady rate would be kept at a third of it.
+    gap_ = std::max(gap_, SimDuration::from_nanoseconds(spacing_ns * 2 - spacing_ns / 4));
+    return size - entries_.size();
+  }
+  // Keeps the last one before `at`, which holds there. Returns how many were dropped.
+  std::size_t drop_before(SimTime at) {
+    const std::ptrdiff_t first = std::max(index_from(at) - 1, std::ptrdiff_t{0});
+    entries_.erase(entries_.begin(), entries_.begin() + first);
+    return static_cast<std::size_t>(first);
+  }
+
+ private:
+  std::ptrdiff_t index_from(SimTime at) const {
+    return std::lower_bound(entries_.begin(), entries_.end(), at,
+                            [](const Entry& entry, SimTime t) { return entry.at < t; }) -
+           entries_.begin();
+  }
+
+  std::vector<Entry> entries_;  // by time
+  SimDuration gap_;             // least distance of two that are kept
+};
+
+// At most `max_points` >= 8 of the entries for drawing, in order: of each of equally long stretches of time the least
+// and the greatest of each quantity, and the ends. A quantity is a function of the value, such as its depth.
+template <class Value, class... Quantities>
+std::vector<Timed<Value>> decimated(std::span<const Timed<Value>> entries, std::size_t max_points,
+                                    const Quantities&... quantities) {
+  if (entries.size() <= max_points) return {entries.begin(), entries.end()};
+  const std::size_t bins = std::max<std::size_t>((max_points - 2) / (2 * sizeof...(quantities)), 1);
+  const std::int64_t first_ns = entries.front().at.nanoseconds();
+  const std::int64_t span_ns = entries.back().at.nanoseconds() - first_ns + 1;
+  const auto bin_of = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<double>(entries[i].at.nanoseconds() - first_ns) /
+                                    static_cast<double>(span_ns) * static_cast<double>(bins));
+  };
+  std::vector<std::size_t> kept{0, entries.size() - 1};
+  for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
+    for (end = begin; end < entries.size() && bin_of(end) == bin_of(begin);) ++end;
+    const auto keep_extremes = [&](const auto& quantity) {
+      const auto less = [&](const Timed<Value>& a, const Timed<Value>& b) {
+        return quantity(a.value) < quantity(b.value);
+      };
+      const auto [least, greatest] =
+          std::minmax_element(entries.begin() + static_cast<std::ptrdiff_t>(begin),
+                              entries.begin() + static_cast<std::ptrdiff_t>(end), less);
+      kept.push_back(static_cast<std::size_t>(least - entries.begin()));
+      kept.push_back(static_cast<std::size_t>(greatest - entries.begin()));
+    };
+    (keep_extremes(quantities), ...);
+  }
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  std::vector<Timed<Value>> chosen;
+  for (const std::size_t i : kept) chosen.push_back(entries[i]);
+  return chosen;
+}
+
+}  // namespace halocline::clients
