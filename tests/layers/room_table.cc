@@ -111,6 +111,10 @@ const std::vector<Room>& rooms() {
        {"fmt/"},
        "a mission by time needs neither files nor sockets, so that reports and monitors share "
        "it"},
+      {"clients/monitor",
+       {"core", "bus", "bus/runtime"},
+       {"CLI/"},
+       "a monitor shows what messages hold, and knows no simulator"},
       {"clients/examples", {}, {"lcm/"}, "the examples show that LCM and the message types are enough"},
       {"clients/halocline/plot", {"core"}, {}, "a plot is of numbers"},
       {"clients/halocline/analysis",
@@ -207,6 +211,7 @@ const std::vector<Exemption>& exemptions() {
        "vehicles touch the ground that the bathymetry service answers from: its main makes the same terrain"},
       {"vehicle_sim/main.cc", "bathymetry/bathymetry_config.h",
        "vehicles touch the ground that the bathymetry service answers from: its main makes the same terrain"},
+      {"clients/monitor/web_server", "boost/", "the one place of HTTP and WebSockets"},
       {"core/shared_module", "dlfcn.h", "the one place that loads modules"},
       {"core/shared_module", "unistd.h", "modules lie beside the program, whose place the system knows"},
       {"clients/halocline/sweep/confidence", "boost/", "the one place of statistics"},

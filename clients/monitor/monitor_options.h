@@ -1,0 +1,25 @@
+// The command line of halocline-monitor.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/monitor/web_server.h"
+
+namespace halocline::monitor {
+
+struct MonitorOptions {
+  std::vector<std::string> logs;  // one log, or its parts in order; empty: the bus
+  std::string lcm_url;            // empty: the default
+  std::string scenario;           // configuration of a log; empty: what the log holds, or the file beside it
+  double history_s = 3600;        // of a bus: what is older is dropped
+  bool may_command = false;
+  WebServer::Options web;
+};
+
+// Empty when the command line only requested output (--help, --version), which was printed. Throws InvalidArgument for a
+// wrong one.
+[[nodiscard]] std::optional<MonitorOptions> parse_monitor_command_line(int argc, char** argv);
+
+}  // namespace halocline::monitor
