@@ -1,0 +1,9 @@
+package halocline.spy;
+
+/** What a view shows anew a few times a second, however fast messages come. */
+interface Refreshed {
+  void refresh();
+
+  /** One line beside the table. */
+  String status();
+}
