@@ -107,4 +107,38 @@ RayAnswers from_message(const ray_reply_t& message) {
   return answers;
 }
 
+QueryHeader header_of(const terrain_query_t& message) {
+  return {message.utime, message.client_name, message.request_id};
+}
+
+TileQuery from_message(const terrain_query_t& message) {
+  return {message.corner_north_m, message.corner_east_m, message.post_spacing_m, message.requested_rows,
+          message.requested_columns};
+}
+
+terrain_tile_t to_message(const QueryHeader& header, const Tile& tile, const Terrain& terrain,
+                          const std::string& terrain_version) {
+  terrain_tile_t message{};
+  message.utime = header.utime;
+  message.request_id = header.request_id;
+  message.tile_status = tile.refusal.empty() ? terrain_tile_t::OK : terrain_tile_t::REFUSED;
+  message.refusal = tile.refusal;
+  message.terrain_version = terrain_version;
+  const GridGeometry& extent = terrain.extent();
+  message.extent_south_m = extent.first_x_m;
+  message.extent_west_m = extent.first_y_m;
+  message.extent_north_m = extent.last_x_m();
+  message.extent_east_m = extent.last_y_m();
+  message.finest_spacing_m = finest_spacing_m(terrain);
+  message.tile_south_m = tile.query.south_m;
+  message.tile_west_m = tile.query.west_m;
+  message.post_spacing_m = tile.query.spacing_m;
+  message.tile_rows = static_cast<std::int32_t>(tile.query.rows);
+  message.tile_columns = static_cast<std::int32_t>(tile.query.columns);
+  message.num_posts = static_cast<std::int32_t>(tile.z_m.size());
+  message.seabed_z_m = tile.z_m;
+  message.post_known = tile.known;
+  return message;
+}
+
 }  // namespace halocline::bathymetry

@@ -1,4 +1,4 @@
-// Between ray_query_t / ray_reply_t and the values the service computes with.
+// Between ray_query_t / ray_reply_t, terrain_query_t / terrain_tile_t and the values the service computes with.
 //
 // A query is read as it stands: rays that are impossible get their status from the service, an impossible mode,
 // count or spacing its refusal. Both directions exist for both types, for clients and for round-trip tests.
@@ -8,6 +8,8 @@
 #include <string>
 
 #include "bathymetry/ray_service.h"
+#include "bathymetry/terrain/terrain.h"
+#include "bathymetry/tile_service.h"
 #include "bus/messages.h"
 #include "core/frames.h"
 
@@ -34,5 +36,11 @@ ray_reply_t to_message(const QueryHeader& header, const RayAnswers& answers,
 
 // A sample that is not valid on the bus comes back as no_data.
 RayAnswers from_message(const ray_reply_t& message);
+
+QueryHeader header_of(const terrain_query_t& message);
+TileQuery from_message(const terrain_query_t& message);
+// Session and sequence are the publisher's to fill in.
+terrain_tile_t to_message(const QueryHeader& header, const Tile& tile, const Terrain& terrain,
+                          const std::string& terrain_version);
 
 }  // namespace halocline::bathymetry

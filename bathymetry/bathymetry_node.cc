@@ -11,38 +11,73 @@
 #include "core/sim_time.h"
 
 namespace halocline::bathymetry {
+namespace {
+
+// Before every time that a message may hold.
+constexpr SimTime kOnceTimeIsKnown = SimTime::from_nanoseconds(-4'000'000'000'000'000'000);
+
+}  // namespace
 
 BathymetryNode::BathymetryNode(lcm::LCM& lcm, bus::NodeIdentity identity,
                                std::shared_ptr<const Terrain> terrain, std::string summary)
     : Node(lcm, std::move(identity)), terrain_(std::move(terrain)), summary_(std::move(summary)) {
   require(terrain_ != nullptr, "the bathymetry node needs a terrain");
   terrain_version_ = version_text(terrain_->version());
-  bus().subscribe<ray_query_t>(bus::channels::kRayQuery,
-                               [this](const ray_query_t& query) { on_query(query); });
+  bus().subscribe<ray_query_t>(bus::channels::kRayQuery, [this](const ray_query_t& query) {
+    store(bus::channels::kRayQuery, query, waiting_, kMaxWaiting);
+  });
+  bus().subscribe<terrain_query_t>(bus::channels::kTerrainQuery, [this](const terrain_query_t& query) {
+    store(bus::channels::kTerrainQuery, query, tiles_waiting_, kMaxTilesWaiting);
+  });
 }
 
-void BathymetryNode::on_query(const ray_query_t& query) {
-  QueryHeader header = header_of(query);
-  const bool repeated = std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& other) {
+template <class Message, class Query>
+void BathymetryNode::store(std::string_view channel, const Message& message,
+                           std::vector<Waiting<Query>>& waiting, std::size_t max_waiting) {
+  QueryHeader header = header_of(message);
+  const bool repeated = std::any_of(waiting.begin(), waiting.end(), [&](const Waiting<Query>& other) {
     return other.header.client_name == header.client_name && other.header.request_id == header.request_id;
   });
   if (repeated) return;
-  if (waiting_.size() >= kMaxWaiting) return bus().refuse(bus::channels::kRayQuery, "too many queries wait");
-  waiting_.push_back({std::move(header), from_message(query)});
+  if (waiting.size() >= max_waiting) return bus().refuse(channel, "too many queries wait");
+  waiting.push_back({std::move(header), from_message(message)});
 }
 
 bus::Due BathymetryNode::on_due() const {
   bus::Due due;
-  if (!waiting_.empty()) due.sim = SimTime::at_once();  // answers do not depend on simulation time
+  if (!has_published_overview_) due.sim = kOnceTimeIsKnown;
+  // Answers do not depend on simulation time.
+  if (!waiting_.empty() || !tiles_waiting_.empty()) due.sim = SimTime::at_once();
   return due;
 }
 
-void BathymetryNode::on_step(const bus::Now& /*now*/) {
-  const std::vector<Waiting> queries = std::exchange(waiting_, {});
-  for (const Waiting& query : queries) {
-    const RayAnswers answers = answer(*terrain_, terrain_version_, query.batch);
-    bus().publish(bus::channels::kRayReply.of(query.header.client_name),
-                  to_message(query.header, answers, terrain_version_, bus().identity().session));
+void BathymetryNode::on_step(const bus::Now& now) {
+  if (now.sim_known && !has_published_overview_) publish_overview(now.sim);
+  answer_rays();
+  answer_tiles();
+}
+
+void BathymetryNode::on_restart(const bus::Now& /*now*/) { has_published_overview_ = false; }
+
+void BathymetryNode::publish_overview(SimTime now) {
+  has_published_overview_ = true;
+  const QueryHeader without_client{now.to_utime(), {}, 0};
+  publisher_.publish(bus::channels::kTerrain,
+                     to_message(without_client, overview(*terrain_), *terrain_, terrain_version_));
+}
+
+void BathymetryNode::answer_rays() {
+  for (const auto& [header, batch] : std::exchange(waiting_, {})) {
+    const RayAnswers answers = answer(*terrain_, terrain_version_, batch);
+    bus().publish(bus::channels::kRayReply.of(header.client_name),
+                  to_message(header, answers, terrain_version_, bus().identity().session));
+  }
+}
+
+void BathymetryNode::answer_tiles() {
+  for (const auto& [header, query] : std::exchange(tiles_waiting_, {})) {
+    publisher_.publish(bus::channels::kTerrainReply.of(header.client_name),
+                       to_message(header, answer(*terrain_, query), *terrain_, terrain_version_));
   }
 }
 

@@ -1,4 +1,5 @@
-// The bathymetry service on the bus: RAY_QUERY in, RAY_REPLY.<client> out.
+// The bathymetry service on the bus: RAY_QUERY in, RAY_REPLY.<client> out; TERRAIN_QUERY in, TERRAIN_REPLY.<client> out; and
+// TERRAIN, the whole seabed coarsely, at the start of a run, so that a log alone has its chart.
 //
 // Stateless between queries: a client that got no reply repeats its query with the same request_id. Queries wait
 // until the next step, which answers all of them in the order they came; a query that a client repeats while it
@@ -7,13 +8,16 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bathymetry/bathymetry_messages.h"
 #include "bathymetry/ray_service.h"
 #include "bathymetry/terrain/terrain.h"
+#include "bathymetry/tile_service.h"
 #include "bus/bus.h"
 #include "bus/node_identity.h"
+#include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
 
 namespace halocline::bathymetry {
@@ -22,6 +26,7 @@ class BathymetryNode : public bus::Node {
  public:
   // More queries than this between two steps are refused and counted: their clients repeat them.
   static constexpr std::size_t kMaxWaiting = 1024;
+  static constexpr std::size_t kMaxTilesWaiting = 64;  // likewise: 3 MB of replies
 
   // `summary`: the terrain in one line, for STATUS.
   BathymetryNode(lcm::LCM& lcm, bus::NodeIdentity identity, std::shared_ptr<const Terrain> terrain,
@@ -30,19 +35,30 @@ class BathymetryNode : public bus::Node {
  protected:
   bus::Due on_due() const override;
   void on_step(const bus::Now& now) override;
+  void on_restart(const bus::Now& now) override;
   std::string status_text() const override;
 
  private:
-  void on_query(const ray_query_t& query);
-
+  template <class Query>
   struct Waiting {
     QueryHeader header;
-    RayBatch batch;
+    Query query;
   };
+  // Stores a query, unless it waits already or there are `max_waiting`.
+  template <class Message, class Query>
+  void store(std::string_view channel, const Message& message, std::vector<Waiting<Query>>& waiting,
+             std::size_t max_waiting);
+  void publish_overview(SimTime now);
+  void answer_rays();
+  void answer_tiles();
+
   std::shared_ptr<const Terrain> terrain_;
   std::string terrain_version_;
   std::string summary_;
-  std::vector<Waiting> waiting_;
+  std::vector<Waiting<RayBatch>> waiting_;
+  std::vector<Waiting<TileQuery>> tiles_waiting_;
+  bus::NumberedPublisher publisher_{bus()};
+  bool has_published_overview_ = false;
 };
 
 }  // namespace halocline::bathymetry

@@ -16,12 +16,13 @@ int main(int argc, char** argv) {
   TerrainRecipe recipe;
   NodeProgram program;
   program.program = "halocline-bathymetry";
-  program.purpose = "Answers batches of ray, depth and profile queries over the scenario's seabed.";
+  program.purpose =
+      "Answers batches of ray, depth and profile queries, and tiles, over the scenario's seabed.";
   program.node_name = "bathymetry";
   program.stage = halocline::bus::Stage::kTerrain;
   program.interface =
-      "receives:  RAY_QUERY, CLOCK\n"
-      "publishes: RAY_REPLY.<client>, STATUS.<name>";
+      "receives:  RAY_QUERY, TERRAIN_QUERY, CLOCK\n"
+      "publishes: TERRAIN, RAY_REPLY.<client>, TERRAIN_REPLY.<client>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, recipe); };
   program.make_node = [&](const NodeProgram::Context& context) {
     PreparedTerrain prepared = prepare_terrain(

@@ -1,6 +1,7 @@
 #include "bus/message_checks.h"
 
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -121,6 +122,15 @@ std::string problem_between_fields(const modem_config_t& m) {
 std::string problem_between_fields(const modem_send_t& m) {
   const bool to_one = m.packet_kind != modem_send_t::PING || m.destination_id != kBroadcastId;
   return to_one ? "" : "destination_id is 0 for all; a PING goes to one vehicle";
+}
+
+std::string problem_between_fields(const scenario_info_t& m) {
+  return m.part_number < m.part_count ? "" : "part_number is not below part_count";
+}
+
+std::string problem_between_fields(const terrain_tile_t& m) {
+  const std::int64_t posts = std::int64_t{m.tile_rows} * m.tile_columns;
+  return m.num_posts == posts ? "" : "num_posts is not tile_rows times tile_columns";
 }
 
 // What slices hold is checked when they are whole (lockstep_wire.h).

@@ -25,6 +25,8 @@ template <class Message>
 [[nodiscard]] std::string problem_between_fields(const environment_change_t& message);
 [[nodiscard]] std::string problem_between_fields(const modem_config_t& message);
 [[nodiscard]] std::string problem_between_fields(const modem_send_t& message);
+[[nodiscard]] std::string problem_between_fields(const scenario_info_t& message);
+[[nodiscard]] std::string problem_between_fields(const terrain_tile_t& message);
 [[nodiscard]] std::string problem_between_fields(const lockstep_grant_t& message);
 [[nodiscard]] std::string problem_between_fields(const lockstep_answer_t& message);
 [[nodiscard]] std::string problem_between_fields(const lockstep_join_t& message);

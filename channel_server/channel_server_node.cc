@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/scenario_messages.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
@@ -21,6 +23,7 @@ constexpr SimTime kBeforeAll = SimTime::from_nanoseconds(-4'000'000'000'000'000'
 // Sound that left before is not under way any more: it has gone 180 km.
 constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
+constexpr SimDuration kScenarioPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
 constexpr std::int64_t kMaxTicksBehind = 100;
 // How much longer than their rules states and receipts are kept, for every instant that may still be evaluated.
@@ -33,7 +36,8 @@ SimTime on_grid_from(SimTime now, SimDuration period) {
 }  // namespace
 
 ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
-                                     const ConfiguredModems& modems, const ServerRules& rules)
+                                     const ConfiguredModems& modems, const ServerRules& rules,
+                                     std::vector<scenario_info_t> scenario)
     : Node(lcm, std::move(identity)),
       rules_(rules),
       water_(std::move(water)),
@@ -53,8 +57,12 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_},
               rules.medium.shard, rules.threads),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
+      scenario_(std::move(scenario)),
       next_tick_(kBeforeAll),
-      next_environment_(kBeforeAll) {}
+      next_environment_(kBeforeAll),
+      next_scenario_(kBeforeAll) {
+  if (rules.medium.shard.index != 0) scenario_.clear();
+}
 
 void ChannelServerNode::open_journal(const std::string& path) {
   recovery_ = std::make_unique<ServerRecovery>(journal_, inbox_, path);
@@ -89,6 +97,7 @@ void ChannelServerNode::apply(StepInputs inputs, SimTime now) {
 }
 
 void ChannelServerNode::set_first_instants(SimTime now) {
+  if (next_scenario_ == kBeforeAll) publish_scenario(now);
   if (next_environment_ == kBeforeAll) publish_environment(now);
   const SimDuration period = rules_.link_period;
   if (next_tick_ == kBeforeAll) next_tick_ = on_grid_from(now, period);
@@ -98,6 +107,7 @@ void ChannelServerNode::set_first_instants(SimTime now) {
 
 // What holds from an instant on counts for what leaves at that very instant, so it is published before.
 bool ChannelServerNode::run_instant(SimTime instant) {
+  if (instant == next_scenario_) publish_scenario(instant);
   if (instant == next_environment_) publish_environment(instant);
   advance_medium(instant);
   if (instant != next_tick_) return true;
@@ -129,6 +139,16 @@ void ChannelServerNode::publish_environment(SimTime instant) {
   }
   next_environment_ =
       std::min(next_on_grid(instant, kEnvironmentPeriod), water_.waters->next_change_after(instant));
+}
+
+// Whoever joined since the last time gets it, too.
+void ChannelServerNode::publish_scenario(SimTime instant) {
+  next_scenario_ = scenario_.empty() ? SimTime::never() : next_on_grid(instant, kScenarioPeriod);
+  if (recovery_) return;
+  for (scenario_info_t part : scenario_) {
+    part.utime = instant.to_utime();
+    publisher_.publish(channels::kScenario, std::move(part));
+  }
 }
 
 // The earliest instant evaluated is the start of a SEND received late, whose sender may have timed out before.
@@ -189,7 +209,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   journal_.clear();
   recovery_.reset();
   inbox_.forget_after(now.sim + InputProcessor::kMaxAhead);
-  next_tick_ = next_environment_ = kBeforeAll;
+  next_tick_ = next_environment_ = next_scenario_ = kBeforeAll;
   table_waits_ = false;
 }
 
@@ -209,8 +229,9 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
   ServerRules rules = config.rules;
   rules.medium.seed = scenario.seed;
   rules.medium.fading = config.propagation.fading;
+  const ConfiguredModems modems = make_modems(config);
   return std::make_unique<ChannelServerNode>(lcm, identity, make_water_model(config, scenario, folder),
-                                             make_modems(config), rules);
+                                             modems, rules, to_messages(scenario, modems));
 }
 
 }  // namespace halocline::channel_server

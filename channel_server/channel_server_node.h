@@ -1,15 +1,17 @@
-// The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the water, the
-// link tables, and the outcome of every packet; answers link queries. --interface lists its channels.
+// The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the scenario, the water,
+// the link tables, and the outcome of every packet; answers link queries. --interface lists its channels.
 //
 // Of several servers of one water (rules.medium.shard) each receives what all the others receive and publishes its
-// share; the first also ENVIRONMENT; LINK_QUERYs go by their request_id; PING_ANSWER passes on answers to pings.
+// share; the first also ENVIRONMENT and SCENARIO; LINK_QUERYs go by their request_id; PING_ANSWER passes on answers to pings.
 // With a journal a server that was killed goes on where it was (server_recovery.h).
 #pragma once
 
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "bus/messages.h"
 #include "bus/node_identity.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/crash_journal.h"
@@ -35,8 +37,10 @@ namespace halocline::channel_server {
 
 class ChannelServerNode : public bus::Node {
  public:
+  // `scenario`: what SCENARIO is to hold (scenario_messages.h); empty: it is not published.
   ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
-                    const ConfiguredModems& modems, const ServerRules& rules);
+                    const ConfiguredModems& modems, const ServerRules& rules,
+                    std::vector<scenario_info_t> scenario = {});
 
   // Keeps a journal at `path`, and resumes what an earlier incarnation left there. Once, before anything is
   // dispatched; not in lockstep, where the conductor replays. Throws InvalidArgument when it cannot be written.
@@ -49,8 +53,8 @@ class ChannelServerNode : public bus::Node {
   std::string status_text() const override;
 
  private:
-  // The instants at which something is published by itself: tables, and the environment where it changes.
-  SimTime next_instant() const { return std::min(next_tick_, next_environment_); }
+  // The instants at which something is published by itself: tables, the scenario, and the environment where it changes.
+  SimTime next_instant() const { return std::min({next_tick_, next_environment_, next_scenario_}); }
   void set_first_instants(SimTime now);
   // False when a table waits for the seabed.
   [[nodiscard]] bool run_instant(SimTime instant);
@@ -58,6 +62,7 @@ class ChannelServerNode : public bus::Node {
   void advance_medium(SimTime time);
   void apply(StepInputs inputs, SimTime now);
   void publish_environment(SimTime instant);
+  void publish_scenario(SimTime instant);
   void forget_old(SimTime now);
   void answer_queries(const bus::Now& now);
   // True when the present is reached.
@@ -81,7 +86,8 @@ class ChannelServerNode : public bus::Node {
   InputProcessor processor_;
   std::unique_ptr<ServerRecovery> recovery_;
 
-  SimTime next_tick_, next_environment_;
+  std::vector<scenario_info_t> scenario_;
+  SimTime next_tick_, next_environment_, next_scenario_;
   bool table_waits_ = false;
 };
 

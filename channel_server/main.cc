@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
       "subscribes: STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
       "            PING_ANSWER (of other shards),\n"
       "            RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
-      "publishes:  LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT,\n"
+      "publishes:  LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT, SCENARIO,\n"
       "            LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER (as a shard), STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   std::string share, journal;

@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
       "           RECEIVE.<vehicle>\n"
       "publishes: STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, SONAR.<vehicle>, "
       "USBL.<vehicle>,\n"
-      "           RAY_QUERY, STATUS.<name>";
+      "           FAULT.<vehicle> (of the scenario), RAY_QUERY, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) {
     visit(v, recipe);
     visit(v, config);

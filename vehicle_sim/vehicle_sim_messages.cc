@@ -192,7 +192,7 @@ vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad) {
   return m;
 }
 
-vehicle_fault_t to_fault_message(const Fault& fault) {
+vehicle_fault_t to_fault_message(const Fault& fault, bool from_scenario) {
   vehicle_fault_t m{};
   m.utime = fault.from.to_utime();
   m.fault_kind = static_cast<std::int8_t>(fault.kind);
@@ -202,6 +202,7 @@ vehicle_fault_t to_fault_message(const Fault& fault) {
   m.leak_rate_kg_s = fault.leak_rate_kg_s;
   m.leak_volume_m3 = fault.leak_volume_m3;
   m.dead_sensor = static_cast<std::int8_t>(fault.sensor);
+  m.from_scenario = from_scenario ? 1 : 0;
   return m;
 }
 

@@ -40,7 +40,7 @@ vehicle_gps_t to_gps_message(SimTime when, const GpsFix& fix, double deviation_m
 vehicle_sonar_t to_sonar_message(SimTime when, const SonarSettings& sonar, const std::vector<Echo>& echoes);
 vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad);
 
-vehicle_fault_t to_fault_message(const Fault& fault);
+vehicle_fault_t to_fault_message(const Fault& fault, bool from_scenario);
 Fault from_message(const vehicle_fault_t& message);
 
 // For an array: OUTCOME of a packet received, and RECEIVE.

@@ -50,6 +50,8 @@ VehicleSimNode::VehicleSimNode(lcm::LCM& lcm, bus::NodeIdentity identity, const 
       station_(stations_of(scenario, members_, config), scenario.seed, config.sensor_period,
                config.altimeter_range_m),
       reported_diverged_(members_.size()) {
+  std::stable_sort(scenario_faults_.begin(), scenario_faults_.end(),
+                   [](const auto& a, const auto& b) { return a.second.from < b.second.from; });
   for (std::size_t i = 0; i < members_.size(); ++i) {
     ids_.push_back(scenario.find(members_[i].name)->id);
     subscribe_vehicle(i);
@@ -91,7 +93,7 @@ void VehicleSimNode::subscribe_arrays() {
 
 bus::Due VehicleSimNode::on_due() const {
   if (echoes_.has_complete()) return {.sim = SimTime::at_once()};
-  return {.sim = std::min(next_state_, station_.next()), .steady = echoes_.next_deadline()};
+  return {.sim = std::min({next_state_, station_.next(), next_fault()}), .steady = echoes_.next_deadline()};
 }
 
 void VehicleSimNode::make_fleet(SimTime start) {
@@ -106,6 +108,7 @@ void VehicleSimNode::begin(SimTime now) {
   make_fleet(start);
   for (const auto& [vehicle, fault] : scenario_faults_)
     require(fleet_->apply_fault(vehicle, fault), "a scenario has at most 100000 faults");
+  faults_published_ = 0;
   next_state_ = first_on_grid(start, config_.state_period);
   station_.begin(start);
   std::fill(reported_diverged_.begin(), reported_diverged_.end(), false);
@@ -120,7 +123,7 @@ void VehicleSimNode::on_archive(Archive& a) {
     make_fleet(SimTime());
     last_step_ = SimTime() - kLongestHalt * 2;  // the step to come is the first after a halt
   }
-  a(*fleet_, station_, next_state_);
+  a(*fleet_, station_, next_state_, faults_published_);
   for (auto& [vehicle, array] : arrays_) a(array);
 }
 
@@ -146,6 +149,7 @@ void VehicleSimNode::on_step(const bus::Now& now) {
       if (sensors_due && too_late) station_.take(*fleet_, kMaxBeams);
       if (sensors_due && !too_late) measure_all(now.steady);
     }
+    publish_faults(now.sim);
     publish_bearings();
     report_diverged();
   }
@@ -158,6 +162,19 @@ void VehicleSimNode::publish_states(SimTime when) {
     if (fleet_->has_diverged(i)) continue;  // its state is not known
     publish(bus::channels::kState, i,
             to_state_message(when, ids_[i], to_kinematic_state(fleet_->state_at(i, when))));
+  }
+}
+
+SimTime VehicleSimNode::next_fault() const {
+  const bool has_more = fleet_ && faults_published_ < scenario_faults_.size();
+  return has_more ? scenario_faults_[faults_published_].second.from : SimTime::never();
+}
+
+// The fleet has had all faults of the scenario since its beginning.
+void VehicleSimNode::publish_faults(SimTime until) {
+  for (; next_fault() <= until; ++faults_published_) {
+    const auto& [vehicle, fault] = scenario_faults_[faults_published_];
+    publish(bus::channels::kFault, vehicle, to_fault_message(fault, /*from_scenario=*/true));
   }
 }
 
@@ -224,7 +241,7 @@ void VehicleSimNode::on_command(std::size_t vehicle, const vehicle_command_t& me
 }
 
 void VehicleSimNode::on_fault(std::size_t vehicle, const vehicle_fault_t& message) {
-  if (!fleet_) return;
+  if (!fleet_ || message.from_scenario) return;
   if (!fleet_->apply_fault(vehicle, from_message(message)))
     bus().refuse(bus::channels::kFault.of(members_[vehicle].name), "too many faults wait for their time");
 }

@@ -2,8 +2,8 @@
 //
 // Receives COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles with a USBL
 // array OUTCOME and RECEIVE.<vehicle>. Publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS, SONAR.<vehicle> at
-// multiples of their periods since time 0, stamped with that instant; USBL.<vehicle> when a packet was received; and
-// RAY_QUERY for the seabed below. A measurement waits for its echoes until the service answers or the time-out
+// multiples of their periods since time 0, stamped with that instant; USBL.<vehicle> when a packet was received;
+// FAULT.<vehicle> when a fault of the scenario begins or ends; and RAY_QUERY for the seabed below. A measurement waits for its echoes until the service answers or the time-out
 // (echo_timeout, steady time) ends; then they are unavailable.
 //
 // A node that is started into a running simulation puts its vehicles where they start, at that time. One that was
@@ -58,6 +58,8 @@ class VehicleSimNode : public bus::Node {
   void subscribe_vehicle(std::size_t vehicle);
   void subscribe_arrays();
   void publish_states(SimTime when);
+  SimTime next_fault() const;
+  void publish_faults(SimTime until);
   void measure_all(SimTime steady);
   void note_poses(SimTime when);
   void publish_bearings();
@@ -72,7 +74,8 @@ class VehicleSimNode : public bus::Node {
   VehicleSimConfig config_;
   FleetSettings settings_;
   std::vector<FleetMember> members_;
-  std::vector<std::pair<std::size_t, Fault>> scenario_faults_;
+  std::vector<std::pair<std::size_t, Fault>> scenario_faults_;  // by time
+  std::size_t faults_published_ = 0;
   std::vector<std::int32_t> ids_;
   std::shared_ptr<const Seabed> seabed_;
   std::string ray_client_;

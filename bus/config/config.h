@@ -141,6 +141,9 @@ class ConfigFile {
 
   std::string folder() const;  // as ConfigVisitor::folder
   const std::string& path() const;
+  // The document with its overrides as TOML: keys in alphabetical order, no comments, without the keys `left_out`
+  // ("section.key").
+  std::string to_toml(const std::vector<std::string>& left_out = {}) const;
 
  private:
   explicit ConfigFile(std::unique_ptr<ConfigDocument> document);

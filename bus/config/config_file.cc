@@ -133,4 +133,18 @@ std::string ConfigFile::folder() const { return document_->folder(); }
 
 const std::string& ConfigFile::path() const { return document_->path; }
 
+std::string ConfigFile::to_toml(const std::vector<std::string>& left_out) const {
+  toml::table root = document_->root;
+  for (const std::string& key : left_out) {
+    const auto dot = key.rfind('.');
+    toml::table* section = root.at_path(key.substr(0, dot)).as_table();
+    if (section == nullptr) continue;
+    section->erase(key.substr(dot + 1));
+    if (section->empty()) root.erase(key.substr(0, dot));
+  }
+  std::ostringstream text;
+  text << root << "\n";
+  return text.str();
+}
+
 }  // namespace halocline::bus

@@ -80,6 +80,7 @@ void read_scenario(const Arguments& arguments, const NodeProgram& program, NodeR
   if (program.visit_config) file.read(program.visit_config);
   file.check(/*whole_file=*/false);
   run.folder = file.folder();
+  run.scenario.configuration = configuration_of(file);
 }
 
 std::string config_text(const NodeProgram& program, Scenario scenario, bool with_comments) {

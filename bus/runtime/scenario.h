@@ -43,12 +43,17 @@ struct Scenario {
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall
   SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time
   std::vector<VehicleEntry> vehicles;
+  std::string configuration;  // configuration_of() its file, no key of it; empty where there is none
 
   // The vehicle of that name; null when the scenario has none.
   const VehicleEntry* find(std::string_view vehicle_name) const;
 };
 
 void visit(ConfigVisitor& v, Scenario& scenario);
+
+// The whole file with its overrides as TOML, as every program of the run reads it; without the keys that share out the
+// work (shards, threads), which are the programs' own and change no result.
+std::string configuration_of(const ConfigFile& file);
 
 // The session of a node's incarnation. In lockstep it must be the same in each run: made of the seed and the name. In a
 // process of its own it must differ from run to run: made of the given entropy (wall clock, process id) and the name.

@@ -2,10 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "core/sim_time.h"
 
 namespace halocline::clients {
+namespace {
+
+// Of a message: 46 kB.
+constexpr std::size_t kMaxBehavioursOfPlan = 100, kMaxWaypointsOfPlan = 1200;
+
+// The order of the enumerations is that of the messages' constants.
+static_assert(static_cast<int>(BehaviourKind::kFollow) == plan_behaviour_t::FOLLOW);
+static_assert(static_cast<int>(AtEnd::kStop) == vehicle_plan_t::STOP);
+static_assert(static_cast<int>(Activity::kCirclingSafely) == autopilot_status_t::CIRCLING_SAFELY);
+static_assert(static_cast<int>(DepthRule::kAvoidingSeabed) == autopilot_status_t::DEPTH_AVOIDING_SEABED);
+
+plan_behaviour_t to_message(const Behaviour& behaviour, double speed_mps) {
+  plan_behaviour_t message{};
+  message.behaviour_kind = static_cast<std::int8_t>(behaviour.kind);
+  message.set_speed_mps = speed_mps;
+  message.planned_duration_s = behaviour.duration_s;
+  message.planned_altitude_m = behaviour.altitude_m;
+  message.planned_z_m = behaviour.depth_m;
+  message.heading_rad = wrapped(behaviour.heading_rad);
+  message.center_north_m = behaviour.center_north_m;
+  message.center_east_m = behaviour.center_east_m;
+  message.radius_m = behaviour.radius_m;
+  message.is_clockwise = behaviour.sense == Sense::kClockwise ? 1 : 0;
+  if (behaviour.kind != BehaviourKind::kFollow) return message;
+  message.leader_name = behaviour.formation.leader;
+  message.place_ahead_m = behaviour.formation.along_m;
+  message.place_starboard_m = behaviour.formation.across_m;
+  message.place_below_m = behaviour.formation.below_m;
+  return message;
+}
+
+}  // namespace
 
 Situation to_situation(const vehicle_state_t& state) {
   const double* q = state.orientation_wxyz;
@@ -115,6 +149,51 @@ vehicle_command_t to_message(const ActuatorCommand& command) {
   message.propeller_rpm = command.propeller_rpm;
   message.rudder_rad = command.rudder_rad;
   message.stern_plane_rad = command.stern_plane_rad;
+  return message;
+}
+
+vehicle_plan_t to_message(const Plan& plan, const PlanProgress& progress, const PilotConfig& config) {
+  vehicle_plan_t message{};
+  message.at_end = static_cast<std::int8_t>(plan.at_end);
+  message.by_thrusters = config.steering == Steering::kThrusters ? 1 : 0;
+  message.acceptance_radius_m = config.mission.acceptance_radius_m;
+  message.hold_radius_m = plan.hold_radius_m;
+  message.min_altitude_m = config.mission.min_altitude_m;
+  message.behaviour_index = static_cast<std::int32_t>(progress.index);
+  message.waypoint_index = static_cast<std::int32_t>(progress.route.target);
+  message.plan_ended = progress.ended || progress.route.at_end ? 1 : 0;
+  for (std::size_t i = 0; i < plan.behaviours.size(); ++i) {
+    if (i >= kMaxBehavioursOfPlan) {
+      ++message.behaviours_left_out;
+    } else {
+      message.behaviours.push_back(to_message(plan.behaviours[i], plan.routes[i].speed_mps));
+    }
+    for (const Vec3& waypoint : plan.routes[i].waypoints) {
+      if (i >= kMaxBehavioursOfPlan || message.waypoint_ned_m.size() >= kMaxWaypointsOfPlan) {
+        ++message.waypoints_left_out;
+        continue;
+      }
+      message.waypoint_behaviour.push_back(static_cast<std::int32_t>(i));
+      message.waypoint_ned_m.push_back({waypoint.x(), waypoint.y(), waypoint.z()});
+    }
+  }
+  message.num_behaviours = static_cast<std::int32_t>(message.behaviours.size());
+  message.num_waypoints = static_cast<std::int32_t>(message.waypoint_ned_m.size());
+  return message;
+}
+
+autopilot_status_t to_message(Activity activity, const PlanProgress& progress,
+                              const std::optional<SetPoints>& points) {
+  autopilot_status_t message{};
+  message.autopilot_activity = static_cast<std::int8_t>(activity);
+  message.behaviour_index = static_cast<std::int32_t>(progress.index);
+  message.waypoint_index = static_cast<std::int32_t>(progress.route.target);
+  if (!points) return message;
+  message.depth_rule = static_cast<std::int8_t>(points->depth_rule);
+  message.is_propelled = points->propel ? 1 : 0;
+  message.commanded_z_m = points->z_ned_m;
+  message.commanded_course_rad = wrapped(points->course_rad);
+  message.commanded_speed_mps = points->speed_mps;
   return message;
 }
 

@@ -9,10 +9,13 @@
 #include "bus/messages.h"
 #include "clients/autopilot/acoustic_fix.h"
 #include "clients/autopilot/attitude_keeper.h"
+#include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/formation.h"
+#include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/navigator.h"
+#include "clients/autopilot/plan.h"
 #include "clients/autopilot/seabed_ahead.h"
 #include "clients/autopilot/vehicle_pilot.h"
 #include "core/frames.h"
@@ -47,6 +50,14 @@ LeaderReport to_report(const Situation& situation);
 
 // Where a vehicle in this situation saw the ground.
 AltimeterLook to_look(const vehicle_sensors_t& sensors, const Situation& situation);
+
+// The plan and how far it has come: `progress` is that before the first situation where it is empty. What exceeds a
+// message (100 behaviours, 1200 waypoints) is left out and counted.
+vehicle_plan_t to_message(const Plan& plan, const PlanProgress& progress, const PilotConfig& config);
+
+// What the autopilot does and why; `points` of its command, empty where it gives none.
+autopilot_status_t to_message(Activity activity, const PlanProgress& progress,
+                              const std::optional<SetPoints>& points);
 
 // Time and numbering are the caller's.
 vehicle_command_t to_message(const ActuatorCommand& command);

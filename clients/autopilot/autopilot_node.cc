@@ -1,6 +1,7 @@
 #include "clients/autopilot/autopilot_node.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bus/subscription.h"
 #include "clients/autopilot/autopilot_messages.h"
@@ -11,6 +12,9 @@
 
 namespace halocline::clients {
 namespace {
+
+constexpr SimDuration kPlanPeriod = SimDuration::from_milliseconds(60'000);
+constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
 
 // The latest instant of the grid at or before `time`.
 SimTime grid_instant(SimTime time, SimDuration period) { return next_on_grid(time, period) - period; }
@@ -132,7 +136,9 @@ void AutopilotNode::on_step(const bus::Now& now) {
 void AutopilotNode::command_all(SimTime instant) {
   for (const auto& pilot : pilots_) {
     pilot->situation = situation_of(*pilot, instant);
-    if (pilot->situation) steer(*pilot, *pilot->situation, instant);
+    std::optional<SetPoints> points;
+    if (pilot->situation) points = steer(*pilot, *pilot->situation, instant);
+    report(*pilot, points, instant);
   }
 }
 
@@ -162,7 +168,7 @@ void AutopilotNode::look_at_ground(Pilot& pilot, const Situation& situation) {
   pilot.looked = true;
 }
 
-void AutopilotNode::steer(Pilot& pilot, const Situation& situation, SimTime instant) {
+SetPoints AutopilotNode::steer(Pilot& pilot, const Situation& situation, SimTime instant) {
   const auto before = pilot.pilot.progress();
   const auto phase_before = pilot.pilot.follow_phase();
   const SetPoints points = pilot.pilot.steer_for(situation);
@@ -178,6 +184,31 @@ void AutopilotNode::steer(Pilot& pilot, const Situation& situation, SimTime inst
   message.session = bus().identity().session;
   message.sequence = pilot.sequence++;
   bus().publish(bus::channels::kCommand.of(pilot.config.vehicle), message);
+  return points;
+}
+
+void AutopilotNode::report(Pilot& pilot, const std::optional<SetPoints>& points, SimTime instant) {
+  const PlanProgress progress = pilot.pilot.progress().value_or(PlanProgress());
+  Activity activity = pilot.pilot.activity();
+  if (!points && activity != Activity::kWaitingForState) activity = Activity::kLostState;
+  const DepthRule depth_rule = points ? points->depth_rule : DepthRule::kPlanned;
+  const bool ended = progress.ended || progress.route.at_end;
+  Reported& last = pilot.reported;
+  const bool moved_on =
+      progress.index != last.behaviour || progress.route.target != last.waypoint || ended != last.ended;
+  if (moved_on || instant >= last.plan_due) {
+    vehicle_plan_t plan = to_message(pilot.pilot.plan(), progress, pilot.config);
+    plan.utime = instant.to_utime();
+    publisher_.publish(bus::channels::kPlan.of(pilot.config.vehicle), std::move(plan));
+    last.plan_due = next_on_grid(instant, kPlanPeriod);
+  }
+  if (moved_on || activity != last.activity || depth_rule != last.depth_rule || instant >= last.status_due) {
+    autopilot_status_t status = to_message(activity, progress, points);
+    status.utime = instant.to_utime();
+    publisher_.publish(bus::channels::kAutopilot.of(pilot.config.vehicle), status);
+    last.status_due = next_on_grid(instant, kStatusPeriod);
+  }
+  last = {last.plan_due, last.status_due, activity, depth_rule, progress.index, progress.route.target, ended};
 }
 
 void AutopilotNode::report_progress(const Pilot& pilot, const std::optional<PlanProgress>& before) {
@@ -198,6 +229,7 @@ void AutopilotNode::on_restart(const bus::Now& now) {
     pilot->sensors.reset();
     pilot->ping.reset();
     pilot->situation.reset();
+    pilot->reported = {};
     pilot->pilot.restart();
     if (pilot->navigator) {
       pilot->navigator.emplace(pilot->config.start_ned_m, pilot->config.navigator);
@@ -208,12 +240,12 @@ void AutopilotNode::on_restart(const bus::Now& now) {
 }
 
 void AutopilotNode::on_archive(Archive& a) {
-  a(next_command_);
+  a(next_command_, publisher_);
   for (const auto& pilot : pilots_) a(*pilot);
 }
 
 void AutopilotNode::Pilot::archive(Archive& a) {
-  a(state, sensors, looked, pilot, sequence, situation, ping);
+  a(state, sensors, looked, pilot, sequence, situation, ping, reported);
   if (navigator) a(*navigator, *attitude);
   if (link) a(*link);
 }

@@ -1,5 +1,5 @@
 // Steers the vehicles that have a mission: receives their STATE and SENSORS and publishes their COMMAND on the time
-// grid; leaders of a formation also publish SEND, followers receive RECEIVE.
+// grid, with PLAN at each change and once a minute and AUTOPILOT at each change and once a second; leaders of a formation also publish SEND, followers receive RECEIVE.
 //
 // Position and attitude come from STATE (the true position), speed through the water and altitude
 // from SENSORS where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h),
@@ -16,10 +16,12 @@
 #include <vector>
 
 #include "bus/node_identity.h"
+#include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
 #include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation_link.h"
+#include "clients/autopilot/guidance.h"
 #include "clients/autopilot/navigator.h"
 #include "clients/autopilot/plan.h"
 #include "clients/autopilot/vehicle_pilot.h"
@@ -43,6 +45,14 @@ class AutopilotNode : public bus::Node {
   std::string status_text() const override;
 
  private:
+  // What PLAN and AUTOPILOT held last.
+  struct Reported {
+    SimTime plan_due, status_due;  // again
+    Activity activity = Activity::kWaitingForState;
+    DepthRule depth_rule = DepthRule::kPlanned;
+    std::size_t behaviour = 0, waypoint = 0;
+    bool ended = false;
+  };
   struct Pilot {
     PilotConfig config;
     std::optional<vehicle_state_t> state;
@@ -56,6 +66,7 @@ class AutopilotNode : public bus::Node {
     std::unique_ptr<FormationLink> link{};
     std::optional<vehicle_dvl_t> ping{};  // the latest that holds a velocity
     std::map<std::int32_t, Vec3> beacons{};
+    Reported reported{};
 
     std::optional<vehicle_dvl_t> fresh_ping(std::int64_t utime) const;
     void archive(Archive& a);
@@ -69,12 +80,15 @@ class AutopilotNode : public bus::Node {
   std::optional<Situation> situation_of(Pilot& pilot, SimTime instant) const;
   void command_all(SimTime instant);
   bool is_fresh(std::int64_t utime, SimTime now) const;
-  void steer(Pilot& pilot, const Situation& situation, SimTime instant);
+  // What it steered for.
+  SetPoints steer(Pilot& pilot, const Situation& situation, SimTime instant);
+  void report(Pilot& pilot, const std::optional<SetPoints>& points, SimTime instant);
   static void look_at_ground(Pilot& pilot, const Situation& situation);
   void report_progress(const Pilot& pilot, const std::optional<PlanProgress>& before);
 
   SimDuration period_, state_timeout_;
   SimTime next_command_;
+  bus::NumberedPublisher publisher_{bus()};
   std::vector<std::unique_ptr<Pilot>> pilots_;  // in the scenario's order; handlers hold their addresses
 };
 

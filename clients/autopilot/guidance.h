@@ -40,6 +40,14 @@ struct Progress {
   void archive(Archive& a) { a(target, leg_start_ned_m, at_end); }
 };
 
+// Where the depth of the set points comes from (seabed_ahead.h).
+enum class DepthRule {
+  kPlanned,         // the plan's
+  kByAltitude,      // the plan's height above the seabed
+  kDescending,      // down to a height above a seabed that the altimeter does not see yet
+  kAvoidingSeabed,  // the least height above the seabed, instead of the plan's depth
+};
+
 // What to steer for.
 struct SetPoints {
   bool propel = true;     // false: stopped, fins amidships
@@ -50,6 +58,7 @@ struct SetPoints {
   double altitude_m = 0;   // above 0: height above the ground to keep instead of z (seabed_ahead.h)
   double max_z_ned_m = 0;  // with an altitude: never deeper
   std::optional<Vec3> station_ned_m{};  // the point steered for, where there is one
+  DepthRule depth_rule = DepthRule::kPlanned;
 };
 
 // The start of a mission from where the vehicle is.

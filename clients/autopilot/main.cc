@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
       "receives:  CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, USBL.<vehicle>,\n"
       "           ESTIMATE.<vehicle>,\n"
       "           RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
-      "publishes: COMMAND.<vehicle>, SEND.<vehicle>, STATUS.<name>";
+      "publishes: COMMAND.<vehicle>, PLAN.<vehicle>, AUTOPILOT.<vehicle>, SEND.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {
     return std::make_unique<halocline::clients::AutopilotNode>(context.lcm, context.identity, config);

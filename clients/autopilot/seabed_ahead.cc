@@ -8,6 +8,7 @@ namespace {
 
 // On the way down to a height whose ground is out of the altimeter's reach: this far below the vehicle, always.
 constexpr double kBlindDescentM = 4;
+constexpr double kClearlyBelowM = 0.5;  // the minimum height: less is the control's error
 constexpr double kPullUpRadPerM = 0.3;  // a metre below the minimum height demands about the maximum pitch
 
 }  // namespace
@@ -53,10 +54,12 @@ bool SeabedAhead::sees_no_bottom(double time_s) const {
 SetPoints above_ground(const SeabedRules& rules, const SeabedAhead& seabed, double time_s, double z_ned_m,
                        SetPoints points) {
   const bool keeps_height = points.altitude_m > 0;
+  if (keeps_height) points.depth_rule = DepthRule::kByAltitude;
   const auto ground = seabed.ground(time_s);
   if (!ground) {
     if (!keeps_height) return points;
     const bool descends = seabed.sees_no_bottom(time_s);
+    if (descends) points.depth_rule = DepthRule::kDescending;
     points.z_ned_m = std::min(z_ned_m + (descends ? kBlindDescentM : 0), points.max_z_ned_m);
     return points;
   }
@@ -67,6 +70,8 @@ SetPoints above_ground(const SeabedRules& rules, const SeabedAhead& seabed, doub
     if (wanted <= points.max_z_ned_m) points.climb_rad = -std::atan(ground->slope);
   }
   const double floor_z = shallowest - rules.min_altitude_m;
+  if (points.z_ned_m > floor_z || z_ned_m > floor_z + kClearlyBelowM)
+    points.depth_rule = DepthRule::kAvoidingSeabed;
   if (points.z_ned_m >= floor_z) {
     points.z_ned_m = floor_z;
     points.climb_rad = -std::atan(ground->slope);

@@ -63,6 +63,27 @@ std::array<double, 4> VehiclePilot::with_thrusters(const HoverGains& gains, cons
   return hover_command(gains, point, measured, dt_s, hover_integrals_);
 }
 
+Activity VehiclePilot::activity() const {
+  if (!progress_) return Activity::kWaitingForState;
+  if (progress_->ended || progress_->route.at_end)
+    return plan_.at_end == AtEnd::kStop ? Activity::kFinished : Activity::kHolding;
+  if (const auto phase = follow_phase()) {
+    switch (*phase) {
+      case FollowPhase::kWaiting:
+        return Activity::kWaitingForLeader;
+      case FollowPhase::kFollowing:
+        return Activity::kFollowingLeader;
+      case FollowPhase::kKeepingCourse:
+        return Activity::kLeaderLost;
+      case FollowPhase::kSafe:
+        return Activity::kCirclingSafely;
+    }
+  }
+  const BehaviourKind kind = plan_.behaviours[progress_->index].kind;
+  if (kind == BehaviourKind::kHeading) return Activity::kKeepingHeading;
+  return kind == BehaviourKind::kLoiter ? Activity::kLoitering : Activity::kFollowingLeg;
+}
+
 std::string VehiclePilot::text() const {
   if (!progress_) return "waiting for its first state";
   if (progress_->ended || progress_->route.at_end) return "mission finished";

@@ -35,6 +35,21 @@ struct Situation {
   }
 };
 
+// What it does, and why: autopilot_status_t, in its order.
+enum class Activity {
+  kWaitingForState,
+  kLostState,
+  kFollowingLeg,
+  kKeepingHeading,
+  kLoitering,
+  kHolding,   // where the plan ended
+  kFinished,  // stopped where the plan ended
+  kWaitingForLeader,
+  kFollowingLeader,
+  kLeaderLost,      // keeps its course
+  kCirclingSafely,  // without its leader
+};
+
 class VehiclePilot {
  public:
   VehiclePilot(Plan plan, SeabedRules seabed_rules);
@@ -57,6 +72,9 @@ class VehiclePilot {
   const std::optional<PlanProgress>& progress() const { return progress_; }
   // Of the behaviour at hand; empty when it does not follow.
   std::optional<FollowPhase> follow_phase() const;
+  const Plan& plan() const { return plan_; }
+  // Of the latest situation; kWaitingForState before the first.
+  Activity activity() const;
   // What it does, in words.
   std::string text() const;
   // As if nothing had happened yet.

@@ -30,6 +30,13 @@ class BathymetryNodeTest : public ::testing::Test {
                                      heard_on_.emplace_back(name);
                                      replies_.push_back(reply);
                                    });
+    client_.subscribe<terrain_tile_t>(bus::channels::kTerrain,
+                                      [this](const terrain_tile_t& tile) { overviews_.push_back(tile); });
+    client_.subscribe<terrain_tile_t>(bus::channels::kTerrainReply,
+                                      [this](std::string_view name, const terrain_tile_t& tile) {
+                                        heard_on_.emplace_back(name);
+                                        tiles_.push_back(tile);
+                                      });
   }
 
   // Delivers all that waits on the bus.
@@ -41,6 +48,19 @@ class BathymetryNodeTest : public ::testing::Test {
   void query(const RayBatch& batch, std::int64_t request_id = 1, const std::string& name = "alpha") {
     client_.publish(bus::channels::kRayQuery,
                     to_message({5'000'000, name, request_id}, batch, {100, 100, 0}));
+    drain();
+  }
+  void query_tile(double north_m, double spacing_m, std::int32_t rows, std::int32_t columns,
+                  std::int64_t request_id = 1, const std::string& name = "alpha") {
+    terrain_query_t query{};
+    query.utime = 5'000'000;
+    query.client_name = name;
+    query.request_id = request_id;
+    query.corner_north_m = north_m;
+    query.post_spacing_m = spacing_m;
+    query.requested_rows = rows;
+    query.requested_columns = columns;
+    client_.publish(bus::channels::kTerrainQuery, query);
     drain();
   }
   void ask_and_step(const RayBatch& batch) {
@@ -55,6 +75,7 @@ class BathymetryNodeTest : public ::testing::Test {
   bus::Bus client_{lcm_, {"alpha", 1}};
   std::vector<std::string> heard_on_;
   std::vector<ray_reply_t> replies_;
+  std::vector<terrain_tile_t> overviews_, tiles_;
 };
 
 const Ray kDown{{300, 200, 10}, {0, 0, 1}, 1000};
@@ -168,6 +189,97 @@ TEST_F(BathymetryNodeTest, RepliesPassTheChecksOfTheBus) {
   EXPECT_EQ(client_.counters().refused, 0);
   EXPECT_GT(replies_[0].num_samples, 60);
   EXPECT_EQ(replies_[0].sample_valid.front(), 0);
+}
+
+std::size_t size_of(const terrain_tile_t& tile) { return static_cast<std::size_t>(tile.getEncodedSize()); }
+constexpr std::size_t kPacedMessage = 60'000;  // docs/bus.md
+
+TEST_F(BathymetryNodeTest, TheWholeTerrainIsPublishedOnceWhenTheTimeIsKnown) {
+  step();  // the time is not known
+  drain();
+  EXPECT_TRUE(overviews_.empty());
+  EXPECT_LT(node_.due().sim, SimTime::from_seconds(-1e9));
+  for (const double t : {3.0, 4.0, 100.0}) node_.step({SimTime::from_seconds(t), SimTime::from_seconds(t)});
+  drain();
+  ASSERT_EQ(overviews_.size(), 1u);
+  const terrain_tile_t& tile = overviews_[0];
+  EXPECT_EQ(tile.utime, 3'000'000);
+  EXPECT_EQ(tile.session, 77);
+  EXPECT_EQ(tile.tile_status, terrain_tile_t::OK);
+  EXPECT_EQ(tile.terrain_version, version_text(terrain_->version()));
+  EXPECT_EQ(tile.tile_rows, 65);
+  EXPECT_EQ(tile.tile_columns, 65);
+  EXPECT_EQ(tile.post_spacing_m, 10);
+  EXPECT_EQ(tile.finest_spacing_m, 10);
+  EXPECT_EQ(tile.extent_south_m, 0);
+  EXPECT_EQ(tile.extent_north_m, 640);
+  EXPECT_EQ(tile.seabed_z_m[66], static_cast<float>(terrain_->depth_at(10, 10).z_m));
+  EXPECT_EQ(node_.due().sim, SimTime::never());
+}
+
+TEST_F(BathymetryNodeTest, AnotherRunGetsTheTerrainAnew) {
+  node_.step({SimTime::from_seconds(3), SimTime::from_seconds(3)});
+  node_.restart({SimTime(), SimTime::from_seconds(4)});
+  node_.step({SimTime(), SimTime::from_seconds(4)});
+  drain();
+  ASSERT_EQ(overviews_.size(), 2u);
+  EXPECT_EQ(overviews_[1].utime, 0);
+}
+
+TEST_F(BathymetryNodeTest, AnswersATileToItsClientAlsoBeforeTheTimeIsKnown) {
+  query_tile(100, 2.5, 7, 9, 42);
+  EXPECT_EQ(node_.due().sim, SimTime::at_once());
+  step();
+  drain();
+  ASSERT_EQ(tiles_.size(), 1u);
+  EXPECT_EQ(heard_on_.front(), "alpha");
+  EXPECT_EQ(tiles_[0].utime, 5'000'000);
+  EXPECT_EQ(tiles_[0].request_id, 42);
+  EXPECT_EQ(tiles_[0].num_posts, 63);
+  EXPECT_EQ(tiles_[0].tile_south_m, 100);
+  EXPECT_EQ(tiles_[0].seabed_z_m[10], static_cast<float>(terrain_->depth_at(102.5, 2.5).z_m));
+}
+
+TEST_F(BathymetryNodeTest, ARefusedTileNamesFieldAndLimitAndHasNoPosts) {
+  query_tile(0, 1, 30'000, 30'000);
+  query_tile(std::numeric_limits<double>::quiet_NaN(), 1, 3, 3, 2);
+  step();
+  drain();
+  ASSERT_EQ(tiles_.size(), 2u);
+  EXPECT_EQ(tiles_[0].tile_status, terrain_tile_t::REFUSED);
+  EXPECT_EQ(tiles_[0].refusal, "requested_rows is 30000; allowed is 1 to 10000");
+  EXPECT_EQ(tiles_[0].num_posts, 0);
+  EXPECT_EQ(tiles_[1].refusal,
+            "corner_north_m is nan; allowed is -2 to 640, where the tile meets the terrain");
+  EXPECT_EQ(tiles_[1].extent_north_m, 640);  // a client learns where to look
+}
+
+TEST_F(BathymetryNodeTest, TheLargestTilesStayBelowAPacedMessage) {
+  query_tile(0, 1, 100, 100);
+  step();
+  drain();
+  ASSERT_EQ(tiles_.size(), 1u);
+  EXPECT_EQ(tiles_[0].num_posts, kMaxPosts);
+  EXPECT_LT(size_of(tiles_[0]), kPacedMessage);
+}
+
+TEST_F(BathymetryNodeTest, AFloodOfTilesIsBoundedAndARepetitionAnsweredOnce) {
+  for (std::size_t n = 0; n < 3 * BathymetryNode::kMaxTilesWaiting; ++n)
+    query_tile(0, 1, 100, 100, static_cast<std::int64_t>(n));
+  query_tile(0, 1, 100, 100, 0);
+  EXPECT_EQ(node_.counters().refused, static_cast<std::int64_t>(2 * BathymetryNode::kMaxTilesWaiting));
+  step();
+  drain();
+  EXPECT_EQ(tiles_.size(), BathymetryNode::kMaxTilesWaiting);
+}
+
+TEST_F(BathymetryNodeTest, AForgedNameGetsNoTile) {
+  query_tile(0, 1, 3, 3, 1, "STATE.auv-1");
+  query_tile(0, 1, 3, 3, 1, "");
+  step();
+  drain();
+  EXPECT_TRUE(tiles_.empty());
+  EXPECT_EQ(node_.counters().refused, 2);
 }
 
 }  // namespace

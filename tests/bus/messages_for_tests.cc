@@ -95,6 +95,11 @@ void relate(modem_config_t& m) {
   m.center_frequency_hz = 25'000;
   m.bandwidth_hz = 5'000;
 }
+void relate(scenario_info_t& m) { m.part_count = m.part_number + 1; }
+void relate(terrain_tile_t& m) {
+  m.tile_rows = 1;
+  m.tile_columns = m.num_posts;
+}
 void relate(lockstep_grant_t& m) { m.slice_count = m.slice_number + 1; }
 void relate(lockstep_answer_t& m) { m.slice_count = m.slice_number + 1; }
 

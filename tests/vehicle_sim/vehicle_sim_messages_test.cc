@@ -145,7 +145,7 @@ TEST(VehicleSimMessages, AFaultSurvivesTheRoundTrip) {
                     .leak_rate_kg_s = 0.5,
                     .leak_volume_m3 = 0.01,
                     .sensor = SensorKind::kUsbl};
-  const vehicle_fault_t message = to_fault_message(fault);
+  const vehicle_fault_t message = to_fault_message(fault, false);
   EXPECT_EQ(bus::problem_in(message), "");
   const Fault back = from_message(message);
   EXPECT_EQ(back.from, fault.from);

@@ -99,5 +99,18 @@ TEST_F(KilledVehicleSim, ItsSensorsMeasureOnWithTheSameErrors) {
   EXPECT_EQ(depths_after(1500), whole);
 }
 
+TEST_F(KilledVehicleSim, PublishesEachFaultOfTheScenarioOnce) {
+  for (const std::int64_t ms : {2000, 4000, 8000}) {
+    const Fault dead{.from = at_ms(ms), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kDepth};
+    config_.faults.push_back({"sub", dead, SimTime()});
+  }
+  std::vector<std::int64_t> begun;
+  ear_.subscribe<vehicle_fault_t>(bus::channels::kFault.of("sub"), [&](const vehicle_fault_t& m) {
+    if (m.from_scenario) begun.push_back(m.utime);
+  });
+  run(1500);
+  EXPECT_EQ(begun, (std::vector<std::int64_t>{2'000'000, 4'000'000, 8'000'000}));
+}
+
 }  // namespace
 }  // namespace halocline::vehicle_sim

@@ -178,7 +178,7 @@ TEST_F(VehicleSimNodeTest, AFaultOnTheBusBreaksAndMends) {
   run_until(at_ms(0));
   command(at_ms(0), {0.1, 0, 20});
   const auto publish_fault = [&](Fault fault) {
-    ear_.publish(bus::channels::kFault.of("sub"), to_fault_message(fault));
+    ear_.publish(bus::channels::kFault.of("sub"), to_fault_message(fault, false));
     drain();
   };
   publish_fault({.from = SimTime(), .kind = FaultKind::kStuckRudder, .angle_rad = -0.05});
@@ -191,6 +191,42 @@ TEST_F(VehicleSimNodeTest, AFaultOnTheBusBreaksAndMends) {
   command(at_ms(1000), {0.1, 0, 20});
   run_until(at_ms(2000));
   EXPECT_NEAR(sensors_["sub"].back().rudder_angle_rad, 0.1, tolerance(1e-4));
+}
+
+TEST_F(VehicleSimNodeTest, FaultsOfTheScenarioArePublishedWhenTheyBeginAndEnd) {
+  const Fault leak{
+      .from = at_ms(730), .kind = FaultKind::kLeak, .leak_rate_kg_s = 0.1, .leak_volume_m3 = 0.01};
+  const Fault dead{.from = at_ms(250), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kDepth};
+  config_.faults = {{"sub", leak, SimTime()}, {"sub", dead, at_ms(1500)}};
+  make_node();
+  std::vector<std::pair<SimTime, vehicle_fault_t>> faults;
+  ear_.subscribe<vehicle_fault_t>(bus::channels::kFault.of("sub"),
+                                  [&](const vehicle_fault_t& m) { faults.emplace_back(now_, m); });
+  run_until(at_ms(3000));
+  ASSERT_EQ(faults.size(), 3u);
+  const std::int64_t begins_ms[] = {250, 730, 1500};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(faults[i].first, at_ms(begins_ms[i]));
+    EXPECT_EQ(faults[i].second.utime, begins_ms[i] * 1000);
+    EXPECT_EQ(faults[i].second.session, 77);
+    EXPECT_EQ(faults[i].second.sequence, static_cast<std::int64_t>(i));
+    EXPECT_TRUE(faults[i].second.from_scenario);
+  }
+  EXPECT_EQ(faults[1].second.fault_kind, vehicle_fault_t::LEAK);
+  EXPECT_TRUE(faults[2].second.fault_mended);
+  EXPECT_EQ(node_->counters().refused, 0);
+}
+
+TEST_F(VehicleSimNodeTest, AFaultMarkedAsTheScenariosChangesNothing) {
+  make_node();
+  run_until(at_ms(100));
+  Fault dead{.from = at_ms(200), .kind = FaultKind::kDeadSensor, .sensor = SensorKind::kDepth};
+  ear_.publish(bus::channels::kFault.of("sub"), to_fault_message(dead, /*from_scenario=*/true));
+  run_until(at_ms(1000));
+  EXPECT_TRUE(sensors_["sub"].back().depth_fresh);
+  ear_.publish(bus::channels::kFault.of("sub"), to_fault_message(dead, /*from_scenario=*/false));
+  run_until(at_ms(2000));
+  EXPECT_FALSE(sensors_["sub"].back().depth_fresh);
 }
 
 TEST_F(VehicleSimNodeTest, AFaultOfTheScenarioHoldsForItsTime) {

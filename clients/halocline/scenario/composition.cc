@@ -63,6 +63,7 @@ ScenarioConfig load_scenario(const std::string& path, const std::vector<std::str
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
   config.folder = file.folder();
+  config.scenario.configuration = bus::configuration_of(file);
   // These throw with what is wrong in a model's file, a fault or a name.
   vehicle_sim::faults_of(vehicle_sim::members_of(config.scenario, config.vehicle_sim), config.vehicle_sim);
   for (const PilotConfig& pilot : config.autopilot.vehicles) beacons_of(config.autopilot, pilot);

@@ -41,6 +41,18 @@ TEST_P(ShippedScenario, ReadsBackFromItsEffectiveConfiguration) {
   std::filesystem::remove(path);
 }
 
+// As SCENARIO carries it: read beside the file (paths stay relative), it makes the same run.
+TEST_P(ShippedScenario, ReadsBackFromTheConfigurationThatTheLogHolds) {
+  const ScenarioConfig config = load();
+  auto file = bus::ConfigFile::parse(config.scenario.configuration, kScenarios + "/" + GetParam() + ".toml");
+  ScenarioConfig again;
+  file.read([&](bus::ConfigVisitor& v) { visit(v, again); });
+  file.check(/*whole_file=*/true);
+  again.folder = file.folder();
+  EXPECT_EQ(effective_toml(again), effective_toml(config));
+  EXPECT_EQ(bus::configuration_of(file), config.scenario.configuration);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped()),
                          [](const auto& test) { return test.param; });
 
@@ -50,6 +62,17 @@ TEST(ScenarioConfig, EffectiveConfigurationListsEachVehicleOnce) {
   for (auto at = text.find("[[vehicle]]"); at != std::string::npos; at = text.find("[[vehicle]]", at + 1))
     ++count;
   EXPECT_EQ(count, 3u);
+}
+
+TEST(ScenarioConfig, TheConfigurationThatTheLogHoldsHasOverridesAndNotHowTheWorkIsShared) {
+  const auto configuration_with = [](const std::vector<std::string>& overrides) {
+    return load_scenario(kScenarios + "/seamount.toml", overrides).scenario.configuration;
+  };
+  const std::string plain = configuration_with({});
+  EXPECT_EQ(configuration_with({"channel_server.shards=3", "channel_server.threads=2"}), plain);
+  EXPECT_EQ(configuration_with({"vehicle_sim.threads=2"}), plain);
+  EXPECT_NE(configuration_with({"channel_server.link_rate_hz=2"}), plain);
+  EXPECT_NE(configuration_with({"scenario.seed=99"}).find("seed = 99"), std::string::npos);
 }
 
 TEST(ScenarioConfig, OverridesReachEverySection) {
