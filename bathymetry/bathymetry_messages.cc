@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/profile.h"
 #include "bathymetry/terrain/terrain.h"
 #include "core/frames.h"

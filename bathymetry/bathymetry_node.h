@@ -19,6 +19,7 @@
 #include "bus/node_identity.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
+#include "core/sim_time.h"
 
 namespace halocline::bathymetry {
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "bathymetry/terrain/height_grid.h"
 #include "core/csv_table.h"
 
 namespace halocline::bathymetry {

@@ -31,6 +31,9 @@ struct ConfigDocument {
   void add_error(const std::string& error);
 };
 
+// The table as TOML, keys in alphabetical order.
+std::string to_text(const toml::table& table);
+
 // Fills structs from one table of the document; `prefix` names the table in errors ("environment.").
 class ConfigReader : public ConfigVisitor {
  public:

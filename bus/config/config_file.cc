@@ -142,9 +142,7 @@ std::string ConfigFile::to_toml(const std::vector<std::string>& left_out) const 
     section->erase(key.substr(dot + 1));
     if (section->empty()) root.erase(key.substr(0, dot));
   }
-  std::ostringstream text;
-  text << root << "\n";
-  return text.str();
+  return to_text(root);
 }
 
 }  // namespace halocline::bus

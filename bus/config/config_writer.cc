@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "bus/config/config_document.h"
 #include "core/frames.h"
 
 namespace halocline::bus {
@@ -45,6 +46,51 @@ std::string quoted(const std::string& value) {
   }
   return text + "\"";
 }
+
+// ---- a table that was read
+
+std::string to_text(const toml::node& node) {
+  if (const auto* number = node.as_floating_point()) return exact(number->get());
+  if (const auto* text = node.as_string()) return quoted(text->get());
+  std::ostringstream out;
+  node.visit([&](const auto& value) {
+    if constexpr (toml::is_value<decltype(value)>) out << value;
+  });
+  if (const toml::array* array = node.as_array()) {
+    const bool has_lists = !array->empty() && !array->front().is_value();
+    for (const toml::node& element : *array)
+      out << (has_lists ? "\n  " : out.tellp() == 0 ? "" : " ") << to_text(element) << ",";
+    return "[" + out.str() + (has_lists ? "\n]" : "]");
+  }
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, value] : *table)
+      out << (out.tellp() == 0 ? "" : ", ") << key.str() << " = " << to_text(value);
+    return "{" + out.str() + "}";
+  }
+  return out.str();
+}
+
+// Values first, as TOML wants it.
+void print(const toml::table& table, const std::string& path, std::ostream& out) {
+  const auto is_section = [](const toml::node& node) { return node.is_table() || node.is_array_of_tables(); };
+  for (const auto& [key, value] : table) {
+    if (!is_section(value)) out << key.str() << " = " << to_text(value) << "\n";
+  }
+  for (const auto& [key, value] : table) {
+    const std::string name = path + std::string(key.str());
+    if (const toml::table* section = value.as_table()) {
+      out << "\n[" << name << "]\n";
+      print(*section, name + ".", out);
+    } else if (value.is_array_of_tables()) {
+      for (const toml::node& item : *value.as_array()) {
+        out << "\n[[" << name << "]]\n";
+        print(*item.as_table(), name + ".", out);
+      }
+    }
+  }
+}
+
+// ---- structs that are written
 
 // A table as it will be written. Several bodies may visit one table (each program its keys of [[vehicle]]): the
 // first visit of a key, a section or an item makes it, later ones add what they know.
@@ -167,6 +213,12 @@ std::string to_toml(const std::function<void(ConfigVisitor&)>& body, bool with_c
   body(writer);
   std::ostringstream out;
   document.print(out);
+  return out.str();
+}
+
+std::string to_text(const toml::table& table) {
+  std::ostringstream out;
+  print(table, "", out);
   return out.str();
 }
 

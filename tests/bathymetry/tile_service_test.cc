@@ -1,5 +1,6 @@
 #include "bathymetry/tile_service.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>

@@ -61,9 +61,10 @@ TYPED_TEST(ChecksOf, AValidMessagePasses) {
 TYPED_TEST(ChecksOf, RefusesNanAndInfinityInEveryNumberThatIsChecked) {
   auto message = valid_message<TypeParam>(2);
   visit_numbers(message, [&](const MessageField& field, auto& value) {
-    if constexpr (std::is_same_v<decltype(value), double&>) {
+    using Number = std::remove_reference_t<decltype(value)>;
+    if constexpr (std::is_floating_point_v<Number>) {
       for (const double bad : {kNan, kInfinity, -kInfinity}) {
-        const double good = std::exchange(value, bad);
+        const Number good = std::exchange(value, static_cast<Number>(bad));
         EXPECT_EQ(problem_in(message).empty(), field.is_unchecked) << field.name << " = " << bad;
         value = good;
       }

@@ -36,7 +36,7 @@ class Filler {
     if constexpr (std::is_integral_v<T>) {
       value = static_cast<T>(whole(field, std::is_same_v<T, std::int8_t>));
     } else if constexpr (std::is_arithmetic_v<T>) {
-      value = real(field);
+      value = static_cast<T>(real(field));
     } else if constexpr (std::is_same_v<T, std::string>) {
       const std::size_t shortest = field.is_name || field.min == 1 ? 1 : 0;
       value = std::string(shortest + seed_ % 7u, static_cast<char>('a' + draw() % 26));

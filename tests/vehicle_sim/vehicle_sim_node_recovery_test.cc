@@ -10,6 +10,7 @@
 #include "core/sim_time.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/vehicle_sim/vehicle_sim_node_fixture.h"
+#include "vehicle_sim/faults.h"
 
 namespace halocline::vehicle_sim {
 namespace {

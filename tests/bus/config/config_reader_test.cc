@@ -303,5 +303,19 @@ TEST(ConfigFile, RelativePathsStartWhereTheFileLies) {
   EXPECT_EQ(ConfigFile::parse("", "a.toml").folder(), ".");
 }
 
+TEST(ConfigFile, WritesWhatItReadWithOverridesAndWithoutWhatIsLeftOut) {
+  const auto file = ConfigFile::parse(
+      "b.deep.on = true  # a comment\n"
+      "[a]\nlevel = 0.3\nwhole = 5\nzero = 0.0\nname = \"tab\\there\"\nlist = [1.5, 2.0]\n"
+      "route = [[0, 1.0], [2, 3]]\npair = {x = 1, y = 2.5}\n"
+      "[[item]]\nk = 1\n[item.sub]\nz = -1e300\n[[item]]\nk = 2\n",
+      "test", {"a.whole=6", "item.1.k=7", "gone.threads=3"});
+  EXPECT_EQ(file.to_toml({"gone.threads", "not.there", "a.zero"}),
+            "\n[a]\nlevel = 0.3\nlist = [1.5, 2.0,]\nname = \"tab\\u0009here\"\n"
+            "route = [\n  [0, 1.0,],\n  [2, 3,],\n]\nwhole = 6\n\n[a.pair]\nx = 1\ny = 2.5\n"
+            "\n[b]\n\n[b.deep]\non = true\n"
+            "\n[[item]]\nk = 1\n\n[item.sub]\nz = -1e+300\n\n[[item]]\nk = 7\n");
+}
+
 }  // namespace
 }  // namespace halocline::bus
