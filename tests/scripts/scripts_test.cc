@@ -100,27 +100,55 @@ bool prints(const Process& process, const std::string& text, std::chrono::second
   return process.output().find(text) != std::string::npos;
 }
 
-TEST(Join, AForeignVehicleJoinsADistributedRun) {
-  const TemporaryFolder folder;
-  const std::string here = std::filesystem::current_path().string();
-  Process run(in_folder(here, {script("run_distributed"), HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml",
-                               "--duration", "60", "--log", here + "/run.lcmlog"}));
-  ASSERT_TRUE(prints(run, "to join their bus: ./scripts/join")) << run.output();
-  Process vehicle(in_folder(
-      here, {script("join"), "foreign-vehicle", "--name", "visitor", "--every", "1", "--north", "200"}));
+class Join : public ::testing::Test {
+ protected:
+  void start() { ASSERT_TRUE(prints(run_, "to join their bus: ./scripts/join")) << run_.output(); }
+  [[nodiscard]] Process joined(const std::vector<std::string>& command) const {
+    std::vector<std::string> all{script("join")};
+    all.insert(all.end(), command.begin(), command.end());
+    return Process(in_folder(here_, all));
+  }
+  void stop_run() {
+    run_.signal(SIGTERM);
+    EXPECT_EQ(run_.wait(), 0) << run_.output();
+  }
+
+  TemporaryFolder folder_;
+  std::string here_ = std::filesystem::current_path().string();
+  Process run_{
+      in_folder(here_, {script("run_distributed"), HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml",
+                        "--duration", "60", "--log", here_ + "/run.lcmlog"})};
+};
+
+TEST_F(Join, AForeignVehicleJoinsADistributedRun) {
+  start();
+  Process vehicle = joined({"foreign-vehicle", "--name", "visitor", "--every", "1", "--north", "200"});
   EXPECT_TRUE(prints(vehicle, "was accepted")) << vehicle.output();
-  EXPECT_TRUE(prints(vehicle, "packet ")) << vehicle.output();
+  EXPECT_TRUE(prints(vehicle, ": packet ")) << vehicle.output();
   EXPECT_THAT(vehicle.output(), Not(HasSubstr("no CLOCK")));
   vehicle.signal(SIGTERM);
   EXPECT_EQ(vehicle.wait(), 0);
-  run.signal(SIGTERM);
-  EXPECT_EQ(run.wait(), 0) << run.output();
-  Process late(in_folder(here, {script("join"), "/bin/true"}));
+  stop_run();
+  Process late = joined({"/bin/true"});
   EXPECT_EQ(late.wait(), 2);
   EXPECT_THAT(late.output(), HasSubstr("no run: start one with ./scripts/run --distributed"));
 }
 
-TEST(Join, AVehicleOnABusWithoutARunReportsItOnce) {
+TEST_F(Join, AVehicleInPythonJoinsADistributedRun) {
+  const std::string source = HALOCLINE_SOURCE_DIR;
+  Process types({"/bin/sh", "-c",
+                 "lcm-gen --python --ppath python " + source + "/lcmtypes/*.lcm && cp " + source +
+                     "/clients/examples/python/lcm.py python/"});
+  ASSERT_EQ(types.wait(), 0) << types.output();
+  start();
+  Process vehicle = joined({"/usr/bin/env", "PYTHONPATH=" + here_ + "/python", "/usr/bin/python3",
+                            source + "/clients/examples/foreign_vehicle.py", "visitor", "77", "60"});
+  EXPECT_TRUE(prints(vehicle, "packet 0: accepted")) << vehicle.output();
+  EXPECT_TRUE(prints(vehicle, " dB SNR, ")) << vehicle.output();
+  stop_run();
+}
+
+TEST(JoinMissed, AVehicleOnABusWithoutARunReportsItOnce) {
   Process vehicle({script("isolated"), HALOCLINE_BIN_DIR "/foreign-vehicle", "--every", "1"});
   EXPECT_TRUE(prints(vehicle, "no RECEIPT of my packets for 3 s")) << vehicle.output();
   EXPECT_THAT(vehicle.output(), HasSubstr("no CLOCK for 3 s"));
