@@ -9,7 +9,7 @@
 namespace halocline::clients {
 namespace {
 constexpr SimDuration kOnTerminal = SimDuration::from_milliseconds(200);
-constexpr SimDuration kElsewhere = SimDuration::from_milliseconds(10'000);
+constexpr SimDuration kElsewhere = SimDuration::from_milliseconds(4000);
 }  // namespace
 
 ProgressLine::ProgressLine(std::FILE* out, SimTime end, bool quiet)

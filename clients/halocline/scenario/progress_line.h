@@ -1,4 +1,4 @@
-// The progress of a run on stderr: one line that is rewritten on a terminal, and a new line every ten seconds
+// The progress of a run on stderr: one line that is rewritten on a terminal, and a new line every four seconds
 // elsewhere.
 #pragma once
 
