@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "acoustics/math/fold_field.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
@@ -16,9 +17,6 @@ using std::numbers::pi;
 // Nearer in both, two paths of one kind are the two sides of a fold that no receiver can resolve.
 constexpr double kMergedDelay = 1e-6;  // s
 const double kMergedAngle = to_radians(0.02);
-
-constexpr double kPeakPhase = 2.0 / 3 * 0.555 * 0.555 * 0.555 / 4;  // omega dt of Airy's greatest value
-constexpr double kLeastTime = 1e-13;                                // s: rounding of a delay
 
 // What sorting looks at: paths themselves are large and are moved once.
 struct Key {
@@ -42,6 +40,9 @@ bool are_one_fold(const Key& a, const Key& b) {
          std::abs(a.launch_rad - b.launch_rad) < kMergedAngle;
 }
 
+// Of an angle, 0..2 pi.
+double positive_angle(double angle_rad) { return angle_rad - 2 * pi * std::floor(angle_rad / (2 * pi)); }
+
 // The stronger of the two, with the pressure of both: the sum of A e^(i (phi - 2 pi f t)) at the carrier f.
 Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   const auto phasor = [frequency_hz](const Arrival& path) {
@@ -51,7 +52,7 @@ Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   const std::complex<double> sum = phasor(a) + phasor(b);
   const double turned = std::arg(sum) + 2 * pi * std::fmod(frequency_hz * both.delay_s, 1.0);
   both.amplitude = std::abs(sum);
-  both.phase_rad = turned - 2 * pi * std::floor(turned / (2 * pi));
+  both.phase_rad = positive_angle(turned);
   return both;
 }
 
@@ -60,7 +61,7 @@ std::vector<Key> keys_by_kind(std::vector<Arrival>& paths, const RayOptions& opt
   std::vector<Key> keys, kept;
   keys.reserve(paths.size());
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i].amplitude < options.min_amplitude) continue;
+    if (paths[i].amplitude < options.min_amplitude || paths[i].amplitude <= 0) continue;
     keys.push_back({kind(paths[i]), paths[i].launch_angle_rad, paths[i].delay_s, i});
   }
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
@@ -85,32 +86,54 @@ void number_branches(const std::vector<Key>& keys, std::vector<Arrival>& paths) 
   }
 }
 
-// What a fold leaves of the amplitude of its rays, `time_s` apart.
-double fold_factor(double time_s, double frequency_hz) {
-  const double phase = 2 * std::numbers::pi * frequency_hz * std::max(time_s, kLeastTime);
-  return phase < kPeakPhase ? std::pow(phase / kPeakPhase, 1.0 / 6) : 1;
-}
+// Two rays of a fold next to each other, by their places among the paths, and where they are about it.
+struct FoldPair {
+  std::size_t less, more;  // of the caustics touched
+  double x;
+};
 
-void bound_folds(std::vector<Arrival>& paths, const std::vector<std::uint64_t>& families,
-                 double frequency_hz) {
-  ensure(families.size() == paths.size(), "a family for each path");
+std::vector<FoldPair> fold_pairs(const std::vector<Arrival>& paths, const std::vector<FoldMember>& members,
+                                 double frequency_hz) {
+  ensure(members.size() == paths.size(), "a family for each path");
   std::vector<std::size_t> order(paths.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return families[a] != families[b] ? families[a] < families[b]
-                                      : paths[a].launch_angle_rad < paths[b].launch_angle_rad;
+    return members[a].family != members[b].family ? members[a].family < members[b].family
+                                                  : members[a].order_rad < members[b].order_rad;
   });
-  double before = 1;  // of the fold with the ray before
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    Arrival& path = paths[order[i]];
-    double after = 1;
-    if (i + 1 < order.size() && families[order[i + 1]] == families[order[i]]) {
-      const Arrival& next = paths[order[i + 1]];
-      if (std::abs(next.caustics - path.caustics) == 1)
-        after = fold_factor(std::abs(next.delay_s - path.delay_s), frequency_hz);
-    }
-    path.amplitude *= std::min(before, after);
-    before = after;
+  std::vector<FoldPair> pairs;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const std::size_t one = order[i - 1], other = order[i];
+    if (members[one].family != members[other].family || members[one].family == kNoFamily) continue;
+    const int more = paths[other].caustics - paths[one].caustics;
+    if (std::abs(more) != 1) continue;
+    const double apart_s = std::abs(paths[other].delay_s - paths[one].delay_s);
+    const double x = members[one].x > 0 ? members[one].x : fold_place(apart_s, frequency_hz);
+    if (x < kLitFold) pairs.push_back({more > 0 ? one : other, more > 0 ? other : one, x});
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const FoldPair& a, const FoldPair& b) { return a.x < b.x; });
+  return pairs;
+}
+
+// Each ray has the field of the fold that is nearest to it.
+void apply_folds(std::vector<Arrival>& paths, const std::vector<FoldMember>& members, double frequency_hz) {
+  std::vector<bool> done(paths.size(), false);
+  for (const FoldPair& pair : fold_pairs(paths, members, frequency_hz)) {
+    const FoldShare share = fold_share(pair.x);
+    Arrival &less = paths[pair.less], &more = paths[pair.more];
+    const bool merges = pair.x < kMergedFold && !done[pair.less] && !done[pair.more];
+    const auto apply = [&](std::size_t index, double sign) {
+      if (done[index]) return;
+      done[index] = true;
+      paths[index].amplitude *= share.factor;
+      paths[index].phase_rad = positive_angle(paths[index].phase_rad + sign * share.phase_rad);
+    };
+    apply(pair.less, 1);
+    apply(pair.more, -1);
+    if (!merges) continue;
+    const Arrival both = merged(less, more, frequency_hz);
+    (less.amplitude >= more.amplitude ? more : less).amplitude = 0;
+    (less.amplitude > 0 ? less : more) = both;
   }
 }
 
@@ -157,9 +180,8 @@ void validate(const RayOptions& options) {
   require_in_range(options.min_amplitude, 0, 1e6, "least amplitude");
 }
 
-void finish(std::vector<Arrival>& paths, const std::vector<std::uint64_t>& families,
-            const RayOptions& options) {
-  bound_folds(paths, families, options.frequency_hz);
+void finish(std::vector<Arrival>& paths, const std::vector<FoldMember>& members, const RayOptions& options) {
+  if (options.airy_folds) apply_folds(paths, members, options.frequency_hz);
   std::vector<Key> keys = keys_by_kind(paths, options);
   number_branches(keys, paths);
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {

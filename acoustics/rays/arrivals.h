@@ -89,6 +89,8 @@ struct RayOptions {
   // strongest is kept whatever it loses; while it loses less than 6 dB, paths are compared with one that does not bounce.
   double min_boundary_factor = 0.005;
   double min_amplitude = 0;  // paths of less amplitude are dropped, >= 0; 1e-6 is -120 dB
+  // Near caustics the field of waves, and one path on their dark side; else rays as they are, without bound there.
+  bool airy_folds = true;
 };
 
 // Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
@@ -113,18 +115,21 @@ constexpr std::uint64_t continued_family(std::uint64_t family, std::uint64_t wha
   return family ^ (family >> 29);
 }
 
-// Last touches common to the solvers: bounds the levels of folds, drops what the options exclude, merges folds (paths
-// alike, launched within 0.02 degrees of each other and arriving within 1 us: their amplitudes add as phasors do at the
-// carrier), sorts by delay, numbers branches. `families` of all paths.
-//
-// A fold is a caustic, on the lit side of which two rays of one family pass: next to each other in launch angle, one has
-// touched one caustic more. Towards it they come nearer to each other in time, by dt, and the amplitude that ray theory
-// gives each grows as (omega dt)^(-1/6) without bound. The field is that of Airy's function, whose greatest value,
-// Ai(-1.0188) = 0.5357, is the amplitude of a ray where omega dt = (2/3) 0.555^3 / 4 (Brekhovskikh and Godin 1999,
-// chapter 3). Nearer to the caustic each keeps that amplitude, so that levels go with the wavelength and stay finite. A
+// What makes two rays neighbours of one fold: a family within which range and depth of arrival change smoothly, and the
+// angle by which its rays follow each other, rad. A path without a family has no neighbours.
+struct FoldMember {
+  std::uint64_t family = 0;
+  double order_rad = 0;
+  double x = 0;  // of the fold with its neighbour (acoustics/math/fold_field.h); 0: as the delays tell
+};
+inline constexpr std::uint64_t kNoFamily = 0;
+
+// Last touches common to the solvers: gives the rays of folds the field of acoustics/math/fold_field.h if
+// RayOptions::airy_folds, drops what the options exclude, merges paths alike, launched within 0.02 degrees of each other
+// and arriving within 1 us (their amplitudes add as phasors do at the carrier), sorts by delay, numbers branches.
+// `members` of all paths. The rays of a fold are next to each other in a family, and one has touched a caustic more. A
 // ray whose partner is missing, because its family ends before the caustic (at a kink of the water, at an edge of the
 // bottom), keeps the level of its tube.
-void finish(std::vector<Arrival>& paths, const std::vector<std::uint64_t>& families,
-            const RayOptions& options);
+void finish(std::vector<Arrival>& paths, const std::vector<FoldMember>& members, const RayOptions& options);
 
 }  // namespace halocline::acoustics

@@ -9,11 +9,13 @@
 // Keeps a column and the rays' events between calls: one for each search, not shared between threads.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/arc_steps.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/ray_column.h"
@@ -30,6 +32,15 @@ struct FanRay {
   double loss_db = 0;                       // of the bounces
   std::size_t first_event = 0, events = 0;  // of what happened to it; the tracer keeps that
 };
+
+// Unfolded depth between two rays.
+inline HermiteCubic cubic_of(const FanRay& a, const FanRay& b) {
+  return {a.zeta, a.zeta_slope, b.zeta, b.zeta_slope, b.theta - a.theta};
+}
+// Mean of |d2 zeta / d theta2| between two rays.
+inline double bend_between(const FanRay& a, const FanRay& b) {
+  return std::abs((b.zeta_slope - a.zeta_slope) / (b.theta - a.theta));
+}
 
 class FanTracer {
  public:

@@ -51,6 +51,11 @@ class LayeredLegs {
   bool meets_surface() const { return up_reach_ == up_.size(); }
   bool meets_bottom() const { return down_reach_ == down_.size(); }
 
+  // Whether a ray that is all but horizontal at that end of the link, on its way up or down, turns back at once.
+  bool turns_at_once(Leg leg) const {
+    return leg == Leg::kUp ? up_reach_ == 0 && !up_.empty() : down_reach_ == 0 && !down_.empty();
+  }
+
   // Of the ray of sine and cosine `sine`, `cosine` at the barrier.
   LegSums sums(double sine, double cosine) const;
   LegDetails details(double sine, double cosine) const;

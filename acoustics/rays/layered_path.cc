@@ -1,10 +1,12 @@
 #include "acoustics/rays/layered_path.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "acoustics/math/arc_math.h"
+#include "acoustics/math/fold_field.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "core/check.h"
 
@@ -16,6 +18,10 @@ using std::numbers::pi;
 // Ends are kept this far from the boundaries, so that the ray that meets a boundary at the very receiver has
 // a direction before and after: 1e-9 s of delay.
 constexpr double kOffBoundary = 1e-6;  // m
+
+constexpr double kFoldStep = 1e-6;       // of a cell: between the rays that tell how a fold bends
+constexpr double kFoldTolerance = 1e-2;  // m of range
+constexpr int kMaxFoldSteps = 30;
 
 constexpr double kMinRangeSlope = 1;  // m^2/s, of |dr/dxi|: a ray on a caustic to rounding
 
@@ -83,10 +89,12 @@ void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const Layer
   const double q = terms.bq + ray.cycles * terms.xq, m = terms.bm + ray.cycles * terms.xm;
   const double sines =
       legs.sine_at(link.source_speed_mps, ray.sine) * legs.sine_at(link.receiver_speed_mps, ray.sine);
-  const double tube = q * std::max(std::abs(m), kMinRangeSlope) * sines;
+  const bool is_dark = ray.fold_slope > 0;
+  const double tube = q * (is_dark ? ray.fold_slope : std::max(std::abs(m), kMinRangeSlope)) * sines;
   path.amplitude *= std::sqrt(link.source_speed_mps * link.receiver_speed_mps / tube);
-  path.caustics = caustics_of(bounces, m);
-  path.phase_rad = std::fmod(path.phase_rad + path.caustics * pi / 2, 2 * pi);
+  path.caustics = caustics_of(bounces, is_dark ? 0 : m);
+  // On a fold half way between before and after it.
+  path.phase_rad = std::fmod(path.phase_rad + (path.caustics + (is_dark ? 0.5 : 0)) * pi / 2, 2 * pi);
 }
 
 void set_lengths(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,
@@ -129,6 +137,55 @@ LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link)
   bottom_speed_mps = sea.water.speed_at(sea.bottom_depth_m);
   log_min_factor = sea.options.min_boundary_factor > 0 ? std::log(sea.options.min_boundary_factor)
                                                        : -std::numeric_limits<double>::infinity();
+}
+
+bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldBracket& bracket,
+                   LayeredRay& ray, LegSums& sums) {
+  const auto range_slope = [&ray](const LegSums& at) {
+    const RangeTerms t = range_terms(at, ray.family);
+    return t.bm + ray.cycles * t.xm;
+  };
+  const auto slope_at = [&](double theta) {
+    ray.sine = std::sin(theta);
+    ray.cosine = std::cos(theta);
+    sums = legs.sums(ray.sine, ray.cosine);
+    return range_slope(sums);
+  };
+  double low = bracket.low, high = bracket.high, theta = bracket.guess;
+  double at_low = range_slope(bracket.at_low), at_high = range_slope(bracket.at_high);
+  if (at_low * at_high > 0) {  // f turned near an end: the fold may lie beyond it
+    const double wider = 0.5 * (high - low);
+    low = std::max(low - wider, 0.5 * low);
+    high += wider;
+    at_low = slope_at(low);
+    at_high = slope_at(high);
+  }
+  if (!(at_low * at_high < 0)) return false;
+  // False position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time.
+  const double xi_per_angle = std::abs(bracket.at_high.xi - bracket.at_low.xi) / (bracket.high - bracket.low);
+  for (int i = 0; i < kMaxFoldSteps; ++i) {
+    const double slope = slope_at(theta);
+    if (std::abs(slope) * (high - low) * xi_per_angle < kFoldTolerance) break;
+    const bool beside_low = slope * at_low > 0;
+    double &replaced = beside_low ? at_low : at_high, &kept = beside_low ? at_high : at_low;
+    const double scale = 1 - slope / replaced;
+    kept *= scale > 0 ? scale : 0.5;
+    replaced = slope;
+    (beside_low ? low : high) = theta;
+    theta = low + std::clamp(at_low / (at_low - at_high), 1e-3, 1 - 1e-3) * (high - low);
+  }
+  const double step = kFoldStep * (bracket.high - bracket.low), frequency = link.sea.options.frequency_hz;
+  const double before = slope_at(theta - step), xi_before = sums.xi;
+  const double after = slope_at(theta + step), xi_after = sums.xi;
+  slope_at(theta);
+  const RangeTerms t = range_terms(sums, ray.family);
+  const double beyond = link.range_m - sums.xi * (t.bq + ray.cycles * t.xq);
+  // In the plane of the range, slowness xi, rays named by xi.
+  const Fold fold{(after - before) / (xi_after - xi_before), 1};
+  const double x = beyond / std::copysign(fold.length_m(frequency), fold.curvature);
+  if (!(x <= 0 && x > kDarkFold)) return false;
+  ray.fold_slope = fold.tube_slope(x, frequency);
+  return true;
 }
 
 void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,

@@ -53,6 +53,7 @@ struct LayeredRay {
   Family family;
   int cycles;
   double sine, cosine;
+  double fold_slope = 0;  // |dr/dxi| in place of its own, of the path on the dark side of a fold; 0: its own
 };
 
 // Whether Newton's method has come to its ray: `off` what is missing of the range, m, before and now. Delays err
@@ -63,6 +64,16 @@ inline bool is_settled(double off, double off_before) {
   return std::abs(off) < kSettled ||
          (std::abs(off) < kNearlySettled && std::abs(off) > 0.5 * std::abs(off_before));
 }
+
+// Angles at the barrier between which d range/d xi changes its sign, and one about where; sums of the first two.
+struct FoldBracket {
+  double low, high, guess;
+  const LegSums &at_low, &at_high;
+};
+// Where the link lies on the dark side of the fold of the rays of so many cycles, and not too far: the ray of the path that
+// it has there (acoustics/math/fold_field.h).
+[[nodiscard]] bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldBracket& bracket,
+                                 LayeredRay& ray, LegSums& sums);
 
 // Appends the arrival unless the options exclude it; `sums` are those of the ray.
 void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,

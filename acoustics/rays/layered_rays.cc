@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/layered_legs.h"
 #include "acoustics/rays/layered_path.h"
@@ -20,6 +21,7 @@ constexpr double kMinAngle = 1e-9;        // rad at the barrier: where tables be
 constexpr int kDeepestRefinement = 12;    // halvings of an interval between barriers
 constexpr double kCubicTolerance = 0.15;  // of f: what its cubic may err by at the middle of a cell
 constexpr double kNearFold = 0.2;         // of f: a turn nearer to a whole number is sought out exactly
+constexpr double kDarkReach = 4;          // lengths of Airy: twice as far as there are paths
 constexpr double kMarginOfFactor = 0.7;   // ln: cells are left out only when clearly below the least factor
 
 constexpr double kClearOfRays =
@@ -52,7 +54,7 @@ class Search {
     do {
       scan_interval();
     } while (!past_steepest_ && legs_.advance());
-    finish(paths_, ray_families_, link_.sea.options);
+    finish(paths_, members_, link_.sea.options);
     return std::move(paths_);
   }
 
@@ -72,12 +74,17 @@ class Search {
   void polish(const Bracket& bracket, std::size_t family, int cycles);
   bool too_faint(const Node& a, const Node& b, std::size_t family, double min_f) const;
   void seek_turn(const Node& a, const Node& b, std::size_t family, Node& turn) const;
+  // The path beyond the fold at `turn` of f, when the link lies there.
+  void add_dark_path(const Node& a, const Node& b, const Node& turn, bool is_greatest, std::size_t family);
+  // How far beyond a turn of f between two nodes sound reaches, about: of f.
+  double dark_reach(const Node& a, const Node& b, std::size_t family) const;
+  FoldMember member_of(const Arrival& path, std::size_t family, int cycles) const;
 
   LayeredLink link_;
   LayeredLegs legs_;
   std::vector<Arrival> paths_;
-  std::vector<std::uint64_t> ray_families_;  // of the paths, as finish() has them
-  int interval_ = 0;                         // between barriers
+  std::vector<FoldMember> members_;  // of the paths
+  int interval_ = 0;                 // between barriers
   bool direct_only_ = false, past_steepest_ = false;
 };
 
@@ -100,7 +107,7 @@ void Search::add_horizontal() {
   path.path_length_m = link_.range_m;
   path.absorption_db = link_.range_m * water.absorption_db_per_m(z);
   paths_.push_back(path);
-  ray_families_.push_back(0);
+  members_.emplace_back();
 }
 
 double Search::theta_reaching(double c) const {
@@ -175,8 +182,8 @@ void Search::refine(const Node& a, const Node& b, int depth) {
 // cell.
 bool Search::is_clear(const Node& a, const Node& b) const {
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
-    const double change =
-        std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) + kClearOfRays;
+    const double change = std::max(std::abs(a.slope[k]), std::abs(b.slope[k])) * (b.theta - a.theta) +
+                          std::max(dark_reach(a, b, k), kClearOfRays);
     const double least = std::min(a.f[k], b.f[k]) - change, most = std::max(a.f[k], b.f[k]) + change;
     if (most < 0 || too_faint(a, b, k, least)) continue;
     if (std::ceil(least) <= most) return false;
@@ -197,7 +204,13 @@ void Search::solve_family(const Node& a, const Node& b, std::size_t family) {
     const double expected = cubic(t);
     Node turn = node_at(a.theta + t * (b.theta - a.theta));
     if (turn.theta <= from.theta) continue;
-    if (std::abs(expected - std::round(expected)) < kNearFold) seek_turn(from, b, family, turn);
+    if (std::abs(expected - std::round(expected)) < kNearFold) {
+      const bool is_greatest = from.f[family] < expected;
+      seek_turn(from, b, family, turn);
+      const double off = is_greatest ? std::ceil(turn.f[family]) - turn.f[family]
+                                     : turn.f[family] - std::floor(turn.f[family]);
+      if (off < dark_reach(a, b, family)) add_dark_path(a, b, turn, is_greatest, family);
+    }
     solve_monotone(from, turn, family);
     from = turn;
   }
@@ -218,6 +231,31 @@ void Search::seek_turn(const Node& a, const Node& b, std::size_t family, Node& t
     if (std::abs(turn.slope[family]) * (high.theta - low.theta) < 1e-12) break;
     (rises(turn) == rises(low) ? low : high) = turn;
   }
+}
+
+double Search::dark_reach(const Node& a, const Node& b, std::size_t family) const {
+  if (!(a.slope[family] * b.slope[family] < 0) || !link_.sea.options.airy_folds || direct_only_) return 0;
+  // d range/d xi is about d f/d theta (cos / sin) X / xi. At the edge of a family it is no measure of the bend.
+  const auto range_slope = [family](const Node& node) {
+    const double tangent = std::tan(node.theta);
+    return std::abs(node.slope[family]) * range_terms(node.sums, kFamilies[family]).xq / tangent;
+  };
+  const double bend = 2 * std::min(range_slope(a), range_slope(b)) / std::abs(b.sums.xi - a.sums.xi);
+  const double cycle_m = a.sums.xi * range_terms(a.sums, kFamilies[family]).xq;
+  return std::min(kDarkReach * Fold{bend, 1}.length_m(link_.sea.options.frequency_hz) / cycle_m, kNearFold);
+}
+
+// f turns there, at a number of cycles that is not whole; the fold of the rays of so many cycles lies beside it.
+void Search::add_dark_path(const Node& a, const Node& b, const Node& turn, bool is_greatest,
+                           std::size_t family) {
+  const double f = turn.f[family];
+  const int cycles = static_cast<int>(is_greatest ? std::ceil(f) : std::floor(f));
+  if (cycles < 0 || cycles > link_.sea.options.max_bounces) return;
+  LayeredRay ray{kFamilies[family], cycles, 0, 1};
+  LegSums sums;
+  if (!find_dark_ray(link_, legs_, {a.theta, b.theta, turn.theta, a.sums, b.sums}, ray, sums)) return;
+  append_arrival(link_, legs_, ray, sums, paths_);
+  members_.resize(paths_.size());
 }
 
 void Search::solve_monotone(const Node& a, const Node& b, std::size_t family) {
@@ -257,10 +295,26 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     if (high - low < 1e-15 * high) break;
   }
   append_arrival(link_, legs_, ray, sums, paths_);
-  if (ray_families_.size() == paths_.size()) return;  // excluded
-  ray_families_.push_back(
-      continued_family(continued_family(continued_family(0, family), static_cast<std::uint64_t>(cycles)),
-                       static_cast<std::uint64_t>(interval_)));
+  if (members_.size() == paths_.size()) return;  // excluded
+  members_.push_back(member_of(paths_.back(), family, cycles));
+}
+
+// Rays that leave an end all but horizontally, one upward and one downward, are neighbours where the water turns the one
+// back at once.
+FoldMember Search::member_of(const Arrival& path, std::size_t family, int cycles) const {
+  const double barrier = legs_.barrier_mps();
+  const double upper_mps = link_.source_is_upper ? link_.source_speed_mps : link_.receiver_speed_mps;
+  const double lower_mps = link_.source_is_upper ? link_.receiver_speed_mps : link_.source_speed_mps;
+  const bool at_upper = upper_mps == barrier && lower_mps < barrier && legs_.turns_at_once(Leg::kUp);
+  const bool at_lower = lower_mps == barrier && upper_mps < barrier && legs_.turns_at_once(Leg::kDown);
+  std::uint64_t legs = family;
+  if (at_upper) legs = 4 + (family & 2);
+  if (at_lower) legs = 8 + (family & 1);
+  const bool by_launch = at_upper ? link_.source_is_upper : at_lower ? !link_.source_is_upper : true;
+  const std::uint64_t of_cycles =
+      continued_family(continued_family(0, legs), static_cast<std::uint64_t>(cycles));
+  return {continued_family(of_cycles, static_cast<std::uint64_t>(interval_)),
+          by_launch ? path.launch_angle_rad : path.arrival_angle_rad};
 }
 
 }  // namespace

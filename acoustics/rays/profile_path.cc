@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
+#include "acoustics/math/fold_field.h"
 #include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
@@ -16,30 +18,32 @@ constexpr double kBesideGrazing = 1e-9;  // rad
 
 constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic to rounding
 
-}  // namespace
+constexpr double kLeastFoldShare = 0.5;  // of the way from a fold to its rays, as foreseen
+constexpr double kFoldStep = 1e-4;       // rad: to the rays that tell how a fold bends
 
-void append_profile_arrival(const ArcTracer& tracer, double theta, double target, std::vector<Arrival>& paths,
-                            std::vector<std::uint64_t>& families) {
-  TracedRay ray;
-  TracedDetails details;
-  tracer.trace(theta, ray, &details);
+bool is_kept(const ArcTracer& tracer, const TracedRay& ray) {
   const RayOptions& options = tracer.sea().options;
-  if (!ray.arrived || ray.factor < options.min_boundary_factor) return;
-  if (ray.surface_bounces + ray.bottom_bounces > options.max_bounces) return;
-  if (std::abs(ray.zeta - target) > kFarOff) return;
+  return ray.arrived && ray.factor >= options.min_boundary_factor &&
+         ray.surface_bounces + ray.bottom_bounces <= options.max_bounces;
+}
+
+double cosine_of(const TracedRay& ray) { return std::sqrt(1 - ray.sine * ray.sine); }
+
+// `tube`: |q|, m.
+Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDetails& details, double target,
+                   double tube) {
   // A^2 = c_r cos_s / (c_s r |q|) (Jensen and others 2011, section 3.3).
-  const double tube = std::max(std::abs(ray.q), kMinTube);
-  const double speed = std::sqrt(1 - ray.sine * ray.sine) / ray.xi;
+  const double speed = cosine_of(ray) / ray.xi;
   Arrival path;
   // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
   path.delay_s = details.delay_s + ray.sine / speed * down * (target - ray.zeta);
-  path.amplitude =
-      ray.factor * std::sqrt(speed * std::cos(theta) / (tracer.source_speed_mps() * tracer.range_m() * tube));
+  path.amplitude = ray.factor * std::sqrt(speed * std::cos(ray.theta) /
+                                          (tracer.source_speed_mps() * tracer.range_m() * tube));
   const double phase = pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2;
   path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
-  path.launch_angle_rad = theta;
-  path.launch_slowness_spm = std::cos(theta) / tracer.source_speed_mps();
+  path.launch_angle_rad = ray.theta;
+  path.launch_slowness_spm = std::cos(ray.theta) / tracer.source_speed_mps();
   path.range_slowness_spm = details.slowness_over_range / tracer.range_m();
   path.arrival_angle_rad = std::asin(ray.sine);
   path.path_length_m = details.length_m;
@@ -51,9 +55,77 @@ void append_profile_arrival(const ArcTracer& tracer, double theta, double target
   path.surface_bounces = ray.surface_bounces;
   path.bottom_bounces = ray.bottom_bounces;
   path.caustics = ray.caustics;
-  path.identity = {theta < 0, ray.surface_bounces, ray.bottom_bounces, ray.upper_turns, ray.lower_turns, 0};
-  paths.push_back(path);
-  families.push_back(ray.family);
+  path.identity = {ray.theta < 0,   ray.surface_bounces, ray.bottom_bounces,
+                   ray.upper_turns, ray.lower_turns,     0};
+  return path;
+}
+
+}  // namespace
+
+std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target) {
+  TracedRay ray;
+  TracedDetails details;
+  tracer.trace(theta, ray, &details);
+  if (!is_kept(tracer, ray) || std::abs(ray.zeta - target) > kFarOff) return std::nullopt;
+  return ProfilePath{arrival_of(tracer, ray, details, target, std::max(std::abs(ray.q), kMinTube)), target};
+}
+
+void ProfileFolds::note(double theta) {
+  TracedRay before, ray, after;
+  TracedDetails details;
+  tracer_.trace(theta, ray, &details);
+  if (!is_kept(tracer_, ray)) return;
+  tracer_.trace(theta - kFoldStep, before);
+  tracer_.trace(theta + kFoldStep, after);
+  if (!before.arrived || !after.arrived) return;
+  if (before.family != ray.family || after.family != ray.family) return;
+  const auto slowness = [](const TracedRay& one) { return one.sine * one.xi / cosine_of(one); };
+  // In the plane of unfolded depth, slowness sin / c.
+  const Fold fold{(after.zeta_slope - before.zeta_slope) / (2 * kFoldStep),
+                  (slowness(after) - slowness(before)) / (2 * kFoldStep)};
+  ray.caustics = std::min(before.caustics, after.caustics);
+  const double frequency = tracer_.sea().options.frequency_hz, period = 2 * tracer_.bottom_at_receiver_m();
+  for (const double image : {tracer_.receiver_depth_m(), -tracer_.receiver_depth_m()}) {
+    const double target = image + std::round((ray.zeta - image) / period) * period, off = target - ray.zeta;
+    const double x = off / std::copysign(fold.length_m(frequency), fold.curvature);
+    if (x < kDarkFold || x > kLitFold) continue;
+    Arrival path = arrival_of(tracer_, ray, details, target, cosine_of(ray) * fold.tube_slope(x, frequency));
+    path.phase_rad = std::fmod(path.phase_rad + pi / 4, 2 * pi);  // of the caustic half way through it
+    found_.push_back({path, target, x, std::sqrt(2 * std::abs(off / fold.curvature))});
+  }
+}
+
+// Delays and tubes of rays over a bent bottom do not agree closely enough to tell from them where a fold is.
+std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
+  std::vector<Arrival> arrivals;
+  arrivals.reserve(paths.size() + found_.size());
+  for (const ProfilePath& path : paths) arrivals.push_back(path.arrival);
+  std::vector<FoldMember> members(paths.size());
+  std::uint64_t family = kNoFamily;
+  for (const Found& found : found_) {
+    if (found.x <= 0) {
+      arrivals.push_back(found.path);
+      continue;
+    }
+    // The rays of the same image on both sides, about as far from the fold as they should be.
+    std::optional<std::size_t> below, above;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      if (paths[i].target != found.target || members[i].family != kNoFamily) continue;
+      const double off = arrivals[i].launch_angle_rad - found.path.launch_angle_rad;
+      const double share = std::abs(off) / found.to_rays_rad;
+      if (share > kLeastFoldShare && share < 1 / kLeastFoldShare) (off < 0 ? below : above) = i;
+    }
+    if (!below || !above) continue;
+    const bool is_one = found.x < kMergedFold;
+    members[*below] = {++family, arrivals[*below].launch_angle_rad, found.x};
+    members[*above] = {is_one ? ++family : family, arrivals[*above].launch_angle_rad, found.x};
+    if (!is_one) continue;
+    arrivals[*below] = found.path;
+    arrivals[*above].amplitude = 0;
+  }
+  members.resize(arrivals.size());
+  finish(arrivals, members, tracer_.sea().options);
+  return arrivals;
 }
 
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {

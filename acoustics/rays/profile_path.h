@@ -3,7 +3,9 @@
 // Equations: acoustics/rays/profile_rays.h.
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "acoustics/rays/arc_tracer.h"
@@ -11,10 +13,55 @@
 
 namespace halocline::acoustics {
 
-// Traces the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of
-// unfolded depth, and appends its arrival and its family (acoustics/rays/arrivals.h) unless the options exclude it.
-void append_profile_arrival(const ArcTracer& tracer, double theta, double target, std::vector<Arrival>& paths,
-                            std::vector<std::uint64_t>& families);
+// The images of a receiver in unfolded depth, +-z + 2 H k.
+class Images {
+ public:
+  explicit Images(const ArcTracer& tracer)
+      : z_(tracer.receiver_depth_m()), period_(2 * tracer.bottom_at_receiver_m()) {}
+
+  double off_nearest(double zeta) const {
+    return std::min(std::abs(std::remainder(zeta - z_, period_)),
+                    std::abs(std::remainder(zeta + z_, period_)));
+  }
+  bool any_between(double low, double high) const {
+    return std::ceil((low - z_) / period_) * period_ + z_ <= high ||
+           std::ceil((low + z_) / period_) * period_ - z_ <= high;
+  }
+
+ private:
+  double z_, period_;
+};
+
+// An arrival and what it is found again by.
+struct ProfilePath {
+  Arrival arrival;
+  double target;  // image of the receiver, m of unfolded depth
+};
+// Of the ray of `theta`, which passes the image `target` of the receiver within a few millimetres of unfolded depth;
+// empty when the options exclude it.
+std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target);
+
+// The folds of one search, and what they make of its paths.
+class ProfileFolds {
+ public:
+  // Refers to the tracer, which has to outlive this.
+  explicit ProfileFolds(const ArcTracer& tracer) : tracer_(tracer) {}
+
+  // Unfolded depth turns at the ray of `theta`, near an image of the receiver.
+  void note(double theta);
+  // All arrivals, finished: one on the dark side of a fold and about it, two with its field beyond.
+  std::vector<Arrival> finished(const std::vector<ProfilePath>& paths) const;
+
+ private:
+  struct Found {
+    Arrival path;        // the one that the fold makes by itself
+    double target, x;    // x of acoustics/math/fold_field.h
+    double to_rays_rad;  // from the fold's launch angle to those of its rays, to first order
+  };
+
+  const ArcTracer& tracer_;
+  std::vector<Found> found_;
+};
 
 // Launch angles above -steepest and up to `steepest`, rising, rad: close near the horizontal, where rays are
 // many and far apart in range; and just on both sides of the angles at which rays graze a knot of the water

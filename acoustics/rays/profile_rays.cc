@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "acoustics/math/hermite_cubic.h"
+#include "acoustics/math/fold_field.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
 
@@ -39,6 +39,7 @@ constexpr double kErrorReach = 2, kSpanReach = 0.2;
 constexpr double kFaintDb =
     3;  // beyond what a path may lose: no path lies between two such rays of one history
 constexpr double kUnknownError = std::numeric_limits<double>::infinity();
+constexpr double kDarkReach = 4;  // lengths of Airy, which are longer where angles of arrival change less
 constexpr int kMaxTurnSteps = 40;
 constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of endless detail
 
@@ -47,6 +48,8 @@ class Search {
   explicit Search(const ArcTracer& tracer)
       : tracer_(tracer),
         fan_(tracer),
+        images_(tracer),
+        folds_(tracer),
         depth_(tracer.bottom_at_receiver_m()),
         faint_db_(kFaintDb - 20 * std::log10(tracer.sea().options.min_boundary_factor)) {}
 
@@ -70,9 +73,9 @@ class Search {
   // Rays between two between which zeta is monotone.
   void solve_monotone(const FanRay& a, const FanRay& b);
   void polish(const FanRay& a, const FanRay& b, double target);
-  void seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
-  double off_nearest_image(double zeta) const;
-  bool passes_image(double low, double high) const;
+  void seek_turn(const FanRay& a, const FanRay& b, double reach, FanRay& turn);
+  // How far sound reaches beyond a turn of zeta between two rays, about: m, at most so far as turns are sought out exactly.
+  double dark_reach(const FanRay& a, const FanRay& b) const;
   // How far a cubic through two rays is off where one between them arrives; infinite where their histories differ.
   double error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const;
   // Whether it is no more than a share of the tolerance.
@@ -85,20 +88,12 @@ class Search {
 
   const ArcTracer& tracer_;
   FanTracer fan_;
+  Images images_;
+  ProfileFolds folds_;
   double depth_, faint_db_;
   int traces_ = 0;
-  std::vector<Arrival> paths_;
-  std::vector<std::uint64_t> families_;  // of the paths
+  std::vector<ProfilePath> paths_;
 };
-
-HermiteCubic cubic_of(const FanRay& a, const FanRay& b) {
-  return {a.zeta, a.zeta_slope, b.zeta, b.zeta_slope, b.theta - a.theta};
-}
-
-// Mean of |d2 zeta / d theta2| between two rays.
-double bend_between(const FanRay& a, const FanRay& b) {
-  return std::abs((b.zeta_slope - a.zeta_slope) / (b.theta - a.theta));
-}
 
 // The first event at which two rays differ; empty when one history begins with the other.
 std::optional<std::size_t> Search::parting(const FanRay& a, const FanRay& b) const {
@@ -143,8 +138,7 @@ std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_
       scan(fan[i - 1], fan[i], 0);
     }
   }
-  finish(paths_, families_, tracer_.sea().options);
-  return std::move(paths_);
+  return folds_.finished(paths_);
 }
 
 double Search::error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const {
@@ -159,8 +153,9 @@ double Search::error_at(const FanRay& a, const FanRay& middle, const FanRay& b) 
 bool Search::may_pass_image(const FanRay& a, const FanRay& b, double error) const {
   if (error == kUnknownError) return true;
   const auto [low, high] = cubic_of(a, b).extremes();
-  const double beyond = kErrorReach * error + kSpanReach * (high - low);
-  return passes_image(low - beyond, high + beyond);
+  const double beyond = kErrorReach * error + kSpanReach * (high - low) +
+                        (a.zeta_slope * b.zeta_slope < 0 ? dark_reach(a, b) : 0);
+  return images_.any_between(low - beyond, high + beyond);
 }
 
 void Search::scan(const FanRay& a, const FanRay& b, int depth, double error) {
@@ -236,30 +231,23 @@ void Search::scan_to_edge(const FanRay& from, const FanRay& edge, bool grazing, 
   scan_last(edge);
 }
 
-double Search::off_nearest_image(double zeta) const {
-  const double period = 2 * depth_, z = tracer_.receiver_depth_m();
-  return std::min(std::abs(std::remainder(zeta - z, period)), std::abs(std::remainder(zeta + z, period)));
-}
-
-bool Search::passes_image(double low, double high) const {
-  const double period = 2 * depth_, z = tracer_.receiver_depth_m();
-  return std::ceil((low - z) / period) * period + z <= high ||
-         std::ceil((low + z) / period) * period - z <= high;
-}
-
 void Search::solve(const FanRay& a, const FanRay& b) {
   if (is_faint(a) && is_faint(b)) return;
   const HermiteCubic cubic = cubic_of(a, b);
   const HermiteCubic::Turns turns = cubic.turns();
+  const double reach = turns.count > 0 ? dark_reach(a, b) : 0;
   FanRay from = a;
   for (const double t : turns) {
     const double theta = a.theta + t * (b.theta - a.theta);
     if (theta <= from.theta) continue;
     FanRay turn;
-    if (turns.count > 1 || off_nearest_image(cubic(t)) < kNearFold * depth_) {
+    if (turns.count > 1 || images_.off_nearest(cubic(t)) < kNearFold * depth_) {
       turn = traced(theta);
       if (!turn.arrived) continue;
-      if (off_nearest_image(cubic(t)) < kNearFold * depth_) seek_turn(from, b, turn);
+      if (images_.off_nearest(cubic(t)) < kNearFold * depth_) {
+        seek_turn(from, b, reach, turn);
+        if (images_.off_nearest(turn.zeta) < 2 * reach) folds_.note(turn.theta);
+      }
     } else {  // this ray separates the images on both sides as well as the one that turns
       turn.theta = theta;
       turn.zeta = cubic(t);
@@ -273,7 +261,7 @@ void Search::solve(const FanRay& a, const FanRay& b) {
 // Moves `turn`, a guess between two rays, to where the slope of zeta is 0; leaves it where there is no such place. False
 // position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time, so both ends
 // close in; every third step halves where that does not.
-void Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
+void Search::seek_turn(const FanRay& a, const FanRay& b, double reach, FanRay& turn) {
   const auto rises = [](const FanRay& ray) { return ray.zeta_slope > 0; };
   const bool before = rises(a) != rises(turn);
   if (!before && rises(turn) == rises(b)) return;
@@ -290,13 +278,22 @@ void Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
     const double slope = turn.zeta_slope;
     const bool beside_low = rises(turn) == rises_at_low;
     const double left = std::abs(slope) * (beside_low ? high - turn.theta : turn.theta - low);
-    if (left < kTurnTolerance || off_nearest_image(turn.zeta) > 2 * left + kFoldZone * depth_) break;
+    if (left < kTurnTolerance ||
+        images_.off_nearest(turn.zeta) > 2 * left + std::max(kFoldZone * depth_, 2 * reach))
+      break;
     double &replaced = beside_low ? at_low : at_high, &kept = beside_low ? at_high : at_low;
     const double scale = 1 - slope / replaced;
     kept *= scale > 0 ? scale : 0.5;
     replaced = slope;
     (beside_low ? low : high) = turn.theta;
   }
+}
+
+double Search::dark_reach(const FanRay& a, const FanRay& b) const {
+  if (!tracer_.sea().options.airy_folds) return 0;
+  // As if the angle of arrival changed as much as that of launch.
+  const Fold fold{bend_between(a, b), 1 / tracer_.source_speed_mps()};
+  return std::min(kDarkReach * fold.length_m(tracer_.sea().options.frequency_hz), kNearFold * depth_);
 }
 
 void Search::solve_monotone(const FanRay& a, const FanRay& b) {
@@ -329,7 +326,7 @@ void Search::polish(const FanRay& a, const FanRay& b, double target) {
     theta = inside ? next : 0.5 * (low + high);
     if (high - low < 1e-15) break;
   }
-  append_profile_arrival(tracer_, theta, target, paths_, families_);
+  if (auto path = profile_path(tracer_, theta, target)) paths_.push_back(std::move(*path));
 }
 
 }  // namespace

@@ -153,6 +153,7 @@ TEST(Folds, ARayWithoutAPartnerKeepsTheLevelOfItsTube) {
   for (const double frequency : {5e3, 25e3}) {
     RaySea sea = sea_of(rows, BottomProfile::flat(5000));
     sea.options.frequency_hz = frequency;
+    sea.options.airy_folds = true;
     const BruteSea brute{rows, {{0, 5000}}, false, sea.bottom, 0.005};
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
       for (const Arrival& path : arrivals(sea, link, solver).paths) {

@@ -156,9 +156,9 @@ TEST(Steps, NoSmallChangeMovesAProbabilityByATenth) {
       EXPECT_LE(steps[k], places / 6500) << kWhat[k];  // none of 1300
     }
   }
-  // Rays have no sound on the dark side of a caustic and too much at its edge: there a level moves by more than 1 dB over
-  // 0.1 m of depth, at 11 of 2600 moves (docs/validation.md). Half of a hundredth at most.
-  EXPECT_LE(steps[1] + steps[2], places / 100);
+  // At edges of ray families, where rays graze the surface or a knot of the profile, a path appears at once, and paths beat
+  // over the band: 7 of 2600 moves (docs/validation.md). 13 000 places have 85, their bound is 100.
+  EXPECT_LE(steps[1] + steps[2], places / 130);
   EXPECT_GT(in_reach, places / 4);
 }
 
