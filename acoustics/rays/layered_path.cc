@@ -19,7 +19,7 @@ using std::numbers::pi;
 // a direction before and after: 1e-9 s of delay.
 constexpr double kOffBoundary = 1e-6;  // m
 
-constexpr double kFoldStep = 1e-6;       // of a cell: between the rays that tell how a fold bends
+constexpr double kFoldStep = 1e-6;       // of a cell: between the rays that show how a fold bends
 constexpr double kFoldTolerance = 1e-2;  // m of range
 constexpr int kMaxFoldSteps = 30;
 

@@ -19,7 +19,7 @@ constexpr double kBesideGrazing = 1e-9;  // rad
 constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic to rounding
 
 constexpr double kLeastFoldShare = 0.5;  // of the way from a fold to its rays, as foreseen
-constexpr double kFoldStep = 1e-4;       // rad: to the rays that tell how a fold bends
+constexpr double kFoldStep = 1e-4;       // rad: to the rays that show how a fold bends
 
 bool is_kept(const ArcTracer& tracer, const TracedRay& ray) {
   const RayOptions& options = tracer.sea().options;
@@ -95,7 +95,7 @@ void ProfileFolds::note(double theta) {
   }
 }
 
-// Delays and tubes of rays over a bent bottom do not agree closely enough to tell from them where a fold is.
+// Delays and tubes of rays over a bent bottom do not agree closely enough to derive from them where a fold is.
 std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& paths) const {
   std::vector<Arrival> arrivals;
   arrivals.reserve(paths.size() + found_.size());

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "acoustics/math/fold_field.h"
+#include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
 

@@ -8,10 +8,10 @@
 // the cell there, by bisection; between rays that do not arrive it is halved five times where their histories differ.
 // Newton with the ray tube polishes; what is left of the depth is taken off the
 // delay to first order, so delays err by its square. Amplitude A^2 = c_r cos_s / (c_s r |q|) times the
-// bounces; at a fold levels are those of acoustics/rays/arrivals.h.
+// bounces; at a fold the field is that of acoustics/math/fold_field.h.
 //
 // Accuracy: exact for knots and facets given. Left out: rays that turn back, slopes across the link,
-// diffraction.
+// diffraction but that of caustics.
 #pragma once
 
 #include <vector>

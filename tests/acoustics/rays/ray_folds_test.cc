@@ -1,4 +1,4 @@
-// The field about folds of rays, on both sides of the caustic, against what rays away from it foretell.
+// The field about folds of rays, on both sides of the caustic, against what follows from rays away from it.
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -88,7 +88,7 @@ class Folds : public ::testing::TestWithParam<RaySolver> {};
 
 // Two rays at one place, no ray at another: from the amplitudes and the delays of the two follow where the caustic is and
 // how the field decays beyond it.
-TEST_P(Folds, TheDarkSideIsWhatTheRaysOfTheLitSideForetell) {
+TEST_P(Folds, TheDarkSideFollowsFromTheRaysOfTheLitSide) {
   const std::vector<Arrival> lit = near_caustic(43.6, GetParam(), false);
   ASSERT_EQ(lit.size(), 2U);
   const double x_lit = fold_place(std::abs(lit[1].delay_s - lit[0].delay_s), kFrequency);
