@@ -148,7 +148,7 @@ function makeFleet() {
   for (let i = 0; i < fleet; ++i) {
     vehicles.push({ index: i, name: `auv-${i + 1}`, id: i + 1, model: "remus100", fixed: false, colour: i, modem: null, plan: null });
     states.push([]); sensors.push([]); commands.push([]);
-    const radius = 300 + 3200 * ((i * 0.618) % 1), phase = i * 2.4, depth = 20 + 100 * ((i * 0.377) % 1), rate = 2 / radius;
+    const radius = 300 + 3200 * ((i * 0.618) % 1), phase = i * i * 1.7, depth = 20 + 100 * ((i * 0.377) % 1), rate = 2 / radius;
     for (let k = 0; k <= 6000; ++k) {
       const t = k / 10, a = phase + rate * t;
       states[i].push([t, radius * Math.cos(a), radius * Math.sin(a), depth, a + Math.PI / 2, 0, 0, 2, depthAt(radius * Math.cos(a), radius * Math.sin(a))]);

@@ -1,12 +1,14 @@
-// Everything on the chart that is text or a mark: links, plans, receptions with their outcomes, names, contour labels, scale bar, north.
-// What is drawn can be pointed at: `things` holds where each lies.
+// Everything on the chart but the ground: wavefronts, trails, vehicles (motion.ts), links, plans, receptions with their outcomes, names,
+// contour labels, scale bar, north. What is drawn can be pointed at: `things` holds where each lies.
 import { distance, number, roundStep } from "../parts/format";
 import { drawMark } from "../parts/marks";
 import { colourOf, css } from "../parts/scales";
 import type { Step } from "../parts/shedding";
 import type { LinkColumn, LinkTable, Outcome, OutcomeKind, Packet, VehicleInfo } from "../protocol";
 import type { Instant } from "../store/frame_clock";
+import { drawTrails, drawVehicles, drawWaves } from "./motion";
 import type { ChartScene, Place } from "./scene";
+import type { Trails } from "./trails";
 
 /** How long a mark stays after the last bit, seconds of simulation time. */
 export const LINGER_S = 3;
@@ -32,7 +34,10 @@ export interface Drawing {
   chosen: number | null;
   packet: string | null;
   link: [number, number] | null;
+  /** Packets under way, and those that are being received. */
+  waves: Packet[];
   packets: Packet[];
+  trails: Trails;
   kindOf(code: number): OutcomeKind;
   column: LinkColumn | undefined;
   table: LinkTable | undefined;
@@ -52,8 +57,9 @@ export class Overlay {
   private boxes: [number, number, number, number][] = [];
   private context: CanvasRenderingContext2D;
 
-  constructor(private canvas: HTMLCanvasElement) {
-    this.context = canvas.getContext("2d")!;
+  /** Without a graphics processor the canvas is painted by the processor directly, which is quicker than by emulating one. */
+  constructor(private canvas: HTMLCanvasElement, software: boolean) {
+    this.context = canvas.getContext("2d", { willReadFrequently: software })!;
   }
 
   draw(drawing: Drawing) {
@@ -73,10 +79,13 @@ export class Overlay {
       return place.behind ? null : place;
     });
     this.contourLabels(drawing, pen);
+    drawWaves(context, drawing.scene, drawing.waves, drawing.now_s, drawing.step, drawing.dark);
+    drawTrails(context, drawing.scene, drawing.trails, places, drawing.now_s, drawing.step.trail_s, drawing.dark);
     if (drawing.showPlans) this.plans(drawing, pen);
     if (drawing.showLinks) this.links(drawing, places);
     this.dropLines(drawing, places, pen);
     this.receptions(drawing, places, pen);
+    drawVehicles(context, drawing.scene, drawing.instant, drawing.vehicles, places, drawing.chosen, drawing.accent);
     this.names(drawing, places, pen);
     this.scaleBar(drawing, pen);
     this.north(drawing, pen);

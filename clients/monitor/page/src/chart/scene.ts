@@ -1,69 +1,19 @@
-// The chart in 3-D: seabed and contours (drawn once), vehicles (instanced), trails, wavefronts. Labels and marks are drawn by
-// overlay.ts above it. Drawing space as in ground.ts.
+// The chart in 3-D: camera, seabed and contours. These are drawn again only when the camera or the ground changed; whatever moves is
+// drawn by overlay.ts above them. So a computer without a graphics processor keeps up as well. Drawing space as in ground.ts.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  MeshBasicMaterial, PerspectiveCamera, Quaternion, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene,
+  Vector3, WebGLRenderer,
 } from "three";
 import { MapControls } from "three/examples/jsm/controls/MapControls.js";
-import type { Step } from "../parts/shedding";
-import type { Packet, TerrainTile, VehicleInfo } from "../protocol";
-import type { Instant } from "../store/frame_clock";
+import type { TerrainTile } from "../protocol";
 import {
   type Contours, type DepthRange, contourLines, depthRange, exaggeration, groundGeometry, groundPicture,
 } from "./ground";
-import type { Trails } from "./trails";
-
-const VEHICLE_PIXELS = 11;
-const MOST_WAVES = 16;
-const WAVE_POINTS = 120;
-const UP = new Vector3(0, 1, 0);
 
 export interface Place { x: number; y: number; behind: boolean }
 
-/** A dart that points north in the horizontal plane, a diamond for what stands. */
-function outline(points: [number, number][]): BufferGeometry {
-  const geometry = new BufferGeometry();
-  const vertices = points.flatMap(([east, north]) => [east, 0, -north]);
-  const index: number[] = [];
-  for (let i = 1; i + 1 < points.length; ++i) index.push(0, i, i + 1);
-  geometry.setAttribute("position", new BufferAttribute(new Float32Array(vertices), 3));
-  geometry.setIndex(index);
-  return geometry;
-}
-const DART: [number, number][] = [[0, -0.45], [0.72, -0.95], [0, 1.25], [-0.72, -0.95]];
-const DIAMOND: [number, number][] = [[0, -0.8], [0.8, 0], [0, 0.8], [-0.8, 0]];
-
-/** Instances of one shape with a dark rim. */
-class Markers {
-  readonly meshes: [InstancedMesh, InstancedMesh];
-  private capacity = 0;
-  constructor(private scene: Scene, private geometry: BufferGeometry) {
-    this.meshes = [this.make(1), this.make(1)];
-  }
-  private make(capacity: number, order = 10) {
-    const material = new MeshBasicMaterial({ color: 0xffffff, side: DoubleSide, depthTest: false, depthWrite: false });
-    const mesh = new InstancedMesh(this.geometry, material, capacity);
-    mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-    mesh.frustumCulled = false;
-    mesh.renderOrder = order;
-    mesh.count = 0;
-    this.scene.add(mesh);
-    return mesh;
-  }
-  reserve(n: number) {
-    if (n <= this.capacity) return;
-    for (const mesh of this.meshes) {
-      this.scene.remove(mesh);
-      mesh.dispose();
-    }
-    this.capacity = n;
-    const rim = this.make(n, 10);
-    (rim.material as MeshBasicMaterial).color.set(0x0c1215);
-    this.meshes.splice(0, 2, rim, this.make(n, 11));
-  }
-}
-
-interface Wave { mesh: Mesh<BufferGeometry, ShaderMaterial>; radii: { value: Vector3 } }
+/** A place after projection, before the division by w; it is in front of the camera where w > near. */
+export interface Clipped { x: number; y: number; w: number }
 
 export class ChartScene {
   readonly camera = new PerspectiveCamera(32, 1, 1, 1e7);
@@ -77,19 +27,12 @@ export class ChartScene {
   private scene = new Scene();
   private ground: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
   private lines: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
-  private darts: Markers;
-  private diamonds: Markers;
-  private trailLines: LineSegments<BufferGeometry, LineBasicMaterial>;
-  private waves: Wave[] = [];
   private range: DepthRange | null = null;
   private width = 1;
   private height = 1;
   private viewProjection = new Matrix4();
-  private matrix = new Matrix4();
-  private spin = new Quaternion();
-  private tilt = new Quaternion();
   private where = new Vector3();
-  private size = new Vector3();
+  private changed = true;
 
   constructor(canvas: HTMLCanvasElement) {
     this.software = rendersInSoftware();
@@ -99,12 +42,7 @@ export class ChartScene {
     this.controls.enableDamping = false;
     this.controls.maxPolarAngle = 1.45;
     this.controls.zoomToCursor = true;
-    this.darts = new Markers(this.scene, outline(DART));
-    this.diamonds = new Markers(this.scene, outline(DIAMOND));
-    this.trailLines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true, transparent: true, depthTest: false }));
-    this.trailLines.frustumCulled = false;
-    this.trailLines.renderOrder = 5;
-    this.scene.add(this.trailLines);
+    this.controls.addEventListener("change", () => { this.changed = true; });
   }
 
   dispose() {
@@ -120,9 +58,11 @@ export class ChartScene {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.changed = true;
   }
 
   setGround(tile: TerrainTile | null, dark: boolean) {
+    this.changed = true;
     if (this.ground) {
       this.scene.remove(this.ground);
       this.ground.geometry.dispose();
@@ -172,6 +112,7 @@ export class ChartScene {
     this.camera.far = away * 20;
     this.camera.updateProjectionMatrix();
     this.controls.update();
+    this.changed = true;
   }
   zoom(factor: number) {
     const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
@@ -192,18 +133,17 @@ export class ChartScene {
     return (2 * away * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
   }
 
-  project(north_m: number, east_m: number, down_m: number): Place {
+  clip(north_m: number, east_m: number, down_m: number): Clipped {
     const e = this.viewProjection.elements;
-    const x = east_m;
-    const y = -down_m * this.stretch;
-    const z = -north_m;
-    const w = e[3] * x + e[7] * y + e[11] * z + e[15];
+    const [x, y, z] = [east_m, -down_m * this.stretch, -north_m];
     return {
-      x: (((e[0] * x + e[4] * y + e[8] * z + e[12]) / w) * 0.5 + 0.5) * this.width,
-      y: (-((e[1] * x + e[5] * y + e[9] * z + e[13]) / w) * 0.5 + 0.5) * this.height,
-      behind: w <= 0,
+      x: e[0] * x + e[4] * y + e[8] * z + e[12], y: e[1] * x + e[5] * y + e[9] * z + e[13], w: e[3] * x + e[7] * y + e[11] * z + e[15],
     };
   }
+  onScreen({ x, y, w }: Clipped): Place {
+    return { x: ((x / w) * 0.5 + 0.5) * this.width, y: (-(y / w) * 0.5 + 0.5) * this.height, behind: w <= this.camera.near };
+  }
+  project(north_m: number, east_m: number, down_m: number): Place { return this.onScreen(this.clip(north_m, east_m, down_m)); }
 
   /** Where the line of sight through a pixel meets the ground, or the depth given where no ground is; null above the horizon. */
   groundUnder(px: number, py: number, depthAt: (north: number, east: number) => number, otherwise_m: number): { north_m: number; east_m: number; depth_m: number } | null {
@@ -222,107 +162,9 @@ export class ChartScene {
     return { north_m: -at.z, east_m: at.x, depth_m: NaN };
   }
 
-  setVehicles(instant: Instant, vehicles: VehicleInfo[], chosen: number | null, accent: string, dim: string) {
-    for (const [markers, fixed] of [[this.darts, false], [this.diamonds, true]] as const) {
-      markers.reserve(vehicles.length);
-      const [rim, fill] = markers.meshes;
-      let count = 0;
-      const colour = new Color();
-      for (const { index, fixed: stands } of vehicles) {
-        if (stands !== fixed || !instant.has(index)) continue;
-        const [x, y, z] = [instant.east(index), -instant.down(index) * this.stretch, -instant.north(index)];
-        const pixel = this.metresAPixel(x, y, z);
-        this.spin.setFromAxisAngle(UP, fixed ? 0 : -instant.yaw(index));
-        this.tilt.setFromAxisAngle(this.size.set(1, 0, 0), fixed ? 0 : instant.pitch(index));
-        this.spin.multiply(this.tilt);
-        const radius = (index === chosen ? 1.25 : 1) * VEHICLE_PIXELS * pixel;
-        this.where.set(x, y, z);
-        this.matrix.compose(this.where, this.spin, this.size.setScalar(radius * 1.3));
-        rim.setMatrixAt(count, this.matrix);
-        this.matrix.compose(this.where, this.spin, this.size.setScalar(radius));
-        fill.setMatrixAt(count, this.matrix);
-        fill.setColorAt(count, colour.set(index === chosen ? accent : instant.flags[index] & 1 ? dim : "#ffffff"));
-        ++count;
-      }
-      for (const mesh of [rim, fill]) {
-        mesh.count = count;
-        mesh.instanceMatrix.needsUpdate = true;
-        if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
-      }
-    }
-  }
-
-  setTrails(trails: Trails, now_s: number, trail_s: number, dark: boolean) {
-    const { position, colour, vertices } = trails.segments(now_s, trail_s, this.stretch, dark);
-    const { geometry } = this.trailLines;
-    const old = geometry.getAttribute("position") as BufferAttribute | undefined;
-    if (!old || old.array !== position) {
-      geometry.setAttribute("position", new BufferAttribute(position, 3).setUsage(DynamicDrawUsage));
-      geometry.setAttribute("color", new BufferAttribute(colour, 4).setUsage(DynamicDrawUsage));
-    } else {
-      old.needsUpdate = true;
-      geometry.getAttribute("color").needsUpdate = true;
-    }
-    geometry.setDrawRange(0, vertices);
-  }
-
-  /** Fronts of packets under way; a front is a circle at the sender's depth. */
-  setWaves(packets: Packet[], now_s: number, step: Step, dark: boolean) {
-    const shown = packets.slice(-MOST_WAVES);
-    while (this.waves.length < shown.length) this.waves.push(this.makeWave());
-    this.waves.forEach(({ mesh, radii }, i) => {
-      const packet = shown[i];
-      mesh.visible = packet !== undefined;
-      if (!packet || packet.north_m === null || packet.east_m === null || packet.down_m === null) return;
-      const outer = Math.max(0, now_s - packet.depart_s) * packet.wave_speed_mps;
-      const inner = Math.max(0, now_s - packet.depart_s - packet.duration_s) * packet.wave_speed_mps;
-      mesh.position.set(packet.east_m, -packet.down_m * this.stretch, -packet.north_m);
-      const pixel = this.metresAPixel(mesh.position.x, mesh.position.y, mesh.position.z);
-      const faint = Math.max(0.15, 1 - outer / (1.6 * this.extent_m));
-      radii.value.set(inner, Math.max(inner, outer - 2.2 * pixel), outer);
-      mesh.material.uniforms.alpha.value.set((step.waves === "filled" ? 0.16 : 0) * faint, 0.95 * faint);
-      mesh.material.uniforms.colour.value.set(dark ? "#f4fbff" : "#0b2a36");
-    });
-  }
-  private makeWave(): Wave {
-    const geometry = new BufferGeometry();
-    const direction: number[] = [];
-    const index: number[] = [];
-    for (let i = 0; i <= WAVE_POINTS; ++i) {
-      const angle = (2 * Math.PI * i) / WAVE_POINTS;
-      for (let ring = 0; ring < 4; ++ring) direction.push(Math.sin(angle), ring, -Math.cos(angle));
-      if (i < WAVE_POINTS) for (const ring of [0, 2]) { // the band of the packet's length, then its front
-        const k = 4 * i + ring;
-        index.push(k, k + 1, k + 5, k, k + 5, k + 4);
-      }
-    }
-    geometry.setAttribute("position", new BufferAttribute(new Float32Array(direction), 3));
-    geometry.setIndex(index);
-    const radii = { value: new Vector3() };
-    const material = new ShaderMaterial({
-      transparent: true, depthTest: false, depthWrite: false, side: DoubleSide,
-      uniforms: { radii, alpha: { value: new Vector2() }, colour: { value: new Color() } },
-      vertexShader: `uniform vec3 radii; uniform vec2 alpha; varying float opacity;
-        void main() {
-          float ring = position.y;
-          float radius = ring < 0.5 ? radii.x : ring < 2.5 ? radii.y : radii.z;
-          opacity = ring < 0.5 ? 0.25 * alpha.x : ring < 1.5 ? alpha.x : alpha.y;
-          gl_Position = projectionMatrix * modelViewMatrix * vec4(radius * position.x, 0.0, radius * position.z, 1.0);
-        }`,
-      fragmentShader: `uniform vec3 colour; varying float opacity;
-        void main() {
-          gl_FragColor = vec4(colour, opacity);
-          #include <colorspace_fragment>
-        }`,
-    });
-    const mesh = new Mesh(geometry, material);
-    mesh.frustumCulled = false;
-    mesh.renderOrder = 7;
-    this.scene.add(mesh);
-    return { mesh, radii };
-  }
-
   render() {
+    if (!this.changed) return;
+    this.changed = false;
     this.camera.updateMatrixWorld();
     this.viewProjection.multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
     this.renderer.render(this.scene, this.camera);

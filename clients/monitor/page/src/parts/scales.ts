@@ -82,6 +82,16 @@ export function ticks(low: number, high: number, count: number): number[] {
   return out;
 }
 
+/** Ticks at seconds, minutes and hours that people count in. */
+export function timeTicks(low_s: number, high_s: number, count: number): number[] {
+  const raw = (high_s - low_s) / count;
+  const step = raw < 1 ? 0 : [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 43200, 86400].find((each) => each >= raw) ?? 0;
+  if (!step) return ticks(low_s, high_s, count);
+  const out: number[] = [];
+  for (let t = Math.ceil(low_s / step) * step; t <= high_s; t += step) out.push(t);
+  return out;
+}
+
 /** Decimals that tell neighbouring ticks apart. */
 export function digitsOf(values: number[]): number {
   if (values.length < 2) return 0;

@@ -1,5 +1,5 @@
 // What is left out of the chart so that it keeps moving on a slow computer: one step more whenever frames took too long for two
-// seconds, one step back after twenty quick ones.
+// seconds, one step back after six quick ones, later with more patience.
 
 export interface Step {
   /** Device pixels a CSS pixel, at most. */
@@ -22,7 +22,7 @@ const SLOW_MS = 1000 / 30;
 const QUICK_MS = 1000 / 50;
 const WINDOW_MS = 1000;
 const SLOW_WINDOWS = 2;
-const QUICK_WINDOWS = 20;
+const QUICK_WINDOWS = 6;
 /** A pause this long is a hidden page, not a slow one. */
 const PAUSE_MS = 700;
 
@@ -71,6 +71,6 @@ export class Shedding {
 
   sentence(): string | null {
     const says = this.step.says;
-    return says && `Left out to keep ${Math.round(1000 / Math.max(1, this.frame_ms))} frames a second: ${says}.`;
+    return says && `This computer draws slowly, so the chart is simpler: ${says}.`;
   }
 }

@@ -34,6 +34,8 @@ export class FrameClock {
     return jump;
   }
 
+  get newest(): VehicleFrame | null { return this.after; }
+
   at(now_ms: number): Shown | null {
     if (!this.before || !this.after) return null;
     const share = Math.min(1, Math.max(0, (now_ms - this.arrived_ms) / this.period_ms));

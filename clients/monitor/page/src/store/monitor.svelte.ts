@@ -2,7 +2,7 @@
 import { SvelteMap } from "svelte/reactivity";
 import {
   type Asks, type Hello, type LinkColumn, type LinkTable, type Mission, type OutcomeKind, type Packet, PROTOCOL_VERSION,
-  type ServerBinary, type ServerState, type ServerText, type TerrainTile, type VehicleInfo,
+  type ServerBinary, type ServerState, type ServerText, type TerrainTile, type VehicleFrame, type VehicleInfo,
 } from "../protocol";
 import { type View, readAddress, writeAddress } from "./address";
 import { Connection } from "./connection";
@@ -37,6 +37,8 @@ export class Monitor {
   jumps = $state(0);
   /** What is shown now, for texts: a few times a second. Drawing reads `instant`. */
   now_s = $state(0);
+  /** Grows whenever `instant` changed, as often as texts. */
+  revision = $state(0);
   problem = $state<string | null>(null);
 
   readonly packets = new PacketBook();
@@ -61,6 +63,7 @@ export class Monitor {
 
   private connection: Connection;
   private fetched = new Set<number>();
+  private ticked: VehicleFrame | null = null;
   private wanted = readAddress(location.hash);
   private place_pending = true;
   private written = "";
@@ -204,9 +207,7 @@ export class Monitor {
         return;
       }
       case "packets":
-        this.packets.add(message.items);
-        ++this.packets_revision;
-        this.goToWanted();
+        this.addPackets(message.items);
         return;
       default:
     }
@@ -235,13 +236,27 @@ export class Monitor {
       if (this.fetched.has(chunk)) continue;
       this.fetched.add(chunk);
       this.ask("packets", { from_s: chunk * CHUNK_S, to_s: (chunk + 1) * CHUNK_S }).then(
-        ({ items }) => {
-          this.packets.add(items);
-          ++this.packets_revision;
-        },
+        ({ items }) => this.addPackets(items),
         () => { this.fetched.delete(chunk); },
       );
     }
+  }
+
+  private addPackets(items: Packet[]) {
+    this.packets.add(items);
+    ++this.packets_revision;
+    if (this.packet && this.receiver === null && this.packets.get(this.packet)) this.choosePacket(this.packet);
+  }
+
+  /** Texts follow what is drawn. */
+  tick() {
+    const before = this.shown_s;
+    const frame = this.clock.newest;
+    this.advance(performance.now());
+    if (!frame || (frame === this.ticked && before === this.shown_s && this.now_s === before)) return;
+    this.ticked = frame;
+    this.now_s = this.shown_s;
+    ++this.revision;
   }
 
   /** Brings `instant` to what is to be seen now. Called once a drawn frame. */
