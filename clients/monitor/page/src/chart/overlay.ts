@@ -14,6 +14,8 @@ import type { Trails } from "./trails";
 export const LINGER_S = 3;
 /** Vehicles up to which all links, plans and depths are drawn; of more only those of the chosen one. */
 const FEW = 8;
+/** Marks side by side at one receiver. */
+const MOST_STACKED = 4;
 const MANY = 24;
 
 export type Thing =
@@ -210,12 +212,14 @@ export class Overlay {
         const place = places[outcome.receiver];
         if (!place || origin.behind) continue;
         const kind = kindOf(outcome.code);
+        if (vehicles.length > MANY && kind.class === "no_path" && packet.key !== drawing.packet) continue;
         const fading = Math.max(0, now_s - outcome.end_s) / LINGER_S;
         const ours = packet.key === drawing.packet;
         this.context.globalAlpha = 1 - 0.85 * fading;
         if (now_s <= outcome.end_s && (vehicles.length <= MANY || ours))
           this.line([origin, place], kind.colour, ours ? 2.5 : 1.5, kind.class === "received" ? [] : [6, 5]);
         const above = stacked.get(outcome.receiver) ?? 0;
+        if (above >= MOST_STACKED) continue;
         stacked.set(outcome.receiver, above + 1);
         const [x, y] = [place.x + 2.4 * radius * above, place.y - 14 - radius];
         drawMark(this.context, kind.mark, x, y, radius * (ours ? 1.35 : 1), kind.colour, pen.halo);
@@ -242,7 +246,7 @@ export class Overlay {
       const [x, y] = [place.x + 15, place.y + 1];
       if (!this.free(x, y - 8, width + (few ? 40 : 0), 16) && index !== chosen) continue;
       this.text(name, x, y, pen.ink, pen.halo, font);
-      if (depth) this.text(depth, x + width, y, pen.quiet, pen.halo, "300 12px system-ui, sans-serif");
+      if (depth) this.text(depth, x + width, y, pen.ink, pen.halo, "300 12px system-ui, sans-serif");
     }
   }
 

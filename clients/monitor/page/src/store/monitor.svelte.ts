@@ -15,6 +15,8 @@ const STEP_S = 1;
 const LONG_STEP_S = 10;
 /** Packets are asked for in pieces of this length, seconds. */
 const CHUNK_S = 120;
+/** So far ahead or back the next packet is looked for. */
+const MOST_CHUNKS = 64;
 const UNKNOWN_OUTCOME: OutcomeKind = {
   code: -2, name: "UNKNOWN", label: "unknown", class: "no_path", mark: "dash", colour: "#8c8c8c",
 };
@@ -164,8 +166,13 @@ export class Monitor {
     const lost = packet.outcomes.find(({ code }) => this.kindOf(code).class !== "received" && code >= 0);
     return (lost ?? packet.outcomes[0])?.receiver ?? null;
   }
-  nextPacket(step: 1 | -1) {
-    const packet = this.packets.neighbour(this.packet, this.now_s, step);
+  async nextPacket(step: 1 | -1) {
+    const from_s = (this.packet ? this.packets.get(this.packet)?.depart_s : undefined) ?? this.now_s;
+    let packet: Packet | undefined;
+    for (let chunks = 1; chunks <= MOST_CHUNKS && !packet; chunks *= 4) {
+      await this.needPackets(from_s - (step < 0 ? chunks * CHUNK_S : 0), from_s + (step > 0 ? chunks * CHUNK_S : 0));
+      packet = this.packets.neighbour(this.packet, this.now_s, step);
+    }
     if (!packet) return;
     this.choosePacket(packet.key);
     this.seek(packet.depart_s + Math.min(0.5, packet.duration_s));
@@ -229,17 +236,19 @@ export class Monitor {
   }
 
   /** Sees to it that the packets of a window are here, also those that were not pushed. */
-  needPackets(from_s: number, to_s: number) {
+  async needPackets(from_s: number, to_s: number) {
     if (this.link_state !== "open") return;
+    const answers: Promise<void>[] = [];
     const last = Math.floor(Math.min(to_s, this.end_s) / CHUNK_S);
     for (let chunk = Math.max(0, Math.floor(from_s / CHUNK_S)); chunk <= last; ++chunk) {
       if (this.fetched.has(chunk)) continue;
       this.fetched.add(chunk);
-      this.ask("packets", { from_s: chunk * CHUNK_S, to_s: (chunk + 1) * CHUNK_S }).then(
+      answers.push(this.ask("packets", { from_s: chunk * CHUNK_S, to_s: (chunk + 1) * CHUNK_S }).then(
         ({ items }) => this.addPackets(items),
         () => { this.fetched.delete(chunk); },
-      );
+      ));
     }
+    await Promise.all(answers);
   }
 
   private addPackets(items: Packet[]) {

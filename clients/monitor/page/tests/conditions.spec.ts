@@ -1,0 +1,80 @@
+// What the page says when something is missing. The server's words are made up here; only the page itself is fetched.
+import { type Page, type WebSocketRoute, expect, test } from "@playwright/test";
+
+const hello = {
+  type: "hello", version: 1, program: "test", source: "bus", name: "udpm://239.255.76.67:7667", begin_s: 0, end_s: 10, may_command: false, limits: [],
+  outcomes: [{ code: 0, name: "RECEIVED", label: "received", class: "received", mark: "dot", colour: "#009e73" }], link_columns: [],
+};
+const vehicle = { index: 0, name: "auv-1", id: 1, model: "torpedo", fixed: false, colour: 0, modem: null, plan: null };
+const mission = { type: "mission", name: "", description: "", seed: null, origin: null, sea_surface_down_m: 0, vehicles: [vehicle], terrain: null, water: null };
+const state = {
+  type: "state", time_s: 10, begin_s: 0, end_s: 10, live: true, playing: true, speed: 1, bus: "live", silent_s: 0, has_states: true, bathymetry: true,
+  channel_server: true, real_time_factor: 1, vehicles: [], nodes: [],
+};
+
+/** A server that sends these at once, and refuses every request. Resolves to its socket. */
+async function serve(page: Page, ...messages: object[]): Promise<WebSocketRoute> {
+  let opened: (socket: WebSocketRoute) => void;
+  const socket = new Promise<WebSocketRoute>((resolve) => { opened = resolve; });
+  await page.routeWebSocket(/\/ws/, (route) => {
+    route.onMessage((text) => route.send(JSON.stringify({ type: "reply", id: JSON.parse(String(text)).id, ok: false, error: "Not here." })));
+    for (const message of messages) route.send(JSON.stringify(message));
+    opened(route);
+  });
+  await page.goto("/");
+  return socket;
+}
+const condition = (page: Page) => page.getByTestId("condition");
+
+test("no bus", async ({ page }) => {
+  await serve(page, hello, { ...mission, vehicles: [] }, { ...state, bus: "reconnecting", live: false });
+  await expect(condition(page)).toContainText("No bus");
+});
+
+test("a silent bus without vehicles says how to start a run", async ({ page }) => {
+  await serve(page, hello, { ...mission, vehicles: [] }, { ...state, bus: "silent", silent_s: 4 });
+  await expect(condition(page)).toContainText("The bus is silent");
+  await expect(condition(page)).toContainText("./scripts/run --distributed");
+});
+
+test("no vehicles, until one comes", async ({ page }) => {
+  const socket = await serve(page, hello, { ...mission, vehicles: [] }, state);
+  await expect(condition(page)).toContainText("No vehicles yet");
+  socket.send(JSON.stringify(mission));
+  await expect(condition(page)).toBeHidden();
+});
+
+test("bathymetry away, and back", async ({ page }) => {
+  const socket = await serve(page, hello, mission, { ...state, bathymetry: false });
+  await expect(condition(page)).toContainText("The bathymetry service does not answer");
+  socket.send(JSON.stringify(state));
+  await expect(condition(page)).toBeHidden();
+});
+
+test("a bus that falls silent keeps what was seen", async ({ page }) => {
+  await serve(page, hello, mission, { ...state, bus: "silent", silent_s: 12 });
+  await expect(condition(page)).toContainText("No message for 12 s");
+  await expect(page.getByLabel("Selection")).toContainText("auv-1");
+});
+
+test("a log without states", async ({ page }) => {
+  await serve(page, { ...hello, source: "log", name: "a.lcm" }, mission, { ...state, bus: "none", live: false, has_states: false });
+  await expect(condition(page)).toContainText("recorded without the channels STATE");
+});
+
+test("another version", async ({ page }) => {
+  await serve(page, { ...hello, version: 2 });
+  await expect(condition(page)).toContainText("another version");
+});
+
+test("no monitor, tried again with growing pauses", async ({ page }) => {
+  let attempts = 0;
+  await page.routeWebSocket(/\/ws/, (socket) => {
+    ++attempts;
+    socket.close();
+  });
+  await page.goto("/");
+  await expect(condition(page)).toContainText("The monitor does not answer");
+  await expect.poll(() => attempts).toBeGreaterThan(2);
+  await expect(page.getByRole("button", { name: "Now" })).toBeVisible();
+});

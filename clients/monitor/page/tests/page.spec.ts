@@ -1,0 +1,141 @@
+// The page as a visitor uses it, on a log of scenarios/harbour.toml.
+import { type Page, expect, test as base } from "@playwright/test";
+
+const test = base.extend({
+  page: async ({ page }, use) => {
+    const errors: string[] = [];
+    page.on("console", (message) => { if (message.type() === "error") errors.push(message.text()); });
+    page.on("pageerror", (error) => errors.push(String(error)));
+    await use(page);
+    expect(errors).toEqual([]);
+  },
+});
+
+/** Opens the page at a hash and waits until its chart, or another view, shows vehicles. */
+async function open(page: Page, hash = "") {
+  await page.goto(`/${hash}`);
+  await expect(page.locator(".source")).toContainText("harbour");
+  await expect(page.getByLabel("Selection").locator("section").first()).toBeVisible();
+}
+const now = (page: Page) => page.getByTestId("now").textContent();
+const seconds = async (page: Page) => {
+  const [minutes, rest] = (await now(page))!.split(":");
+  return 60 * Number(minutes) + Number(rest);
+};
+const chart = (page: Page) => page.locator(".chart");
+
+test("shows every vehicle, moving while it plays", async ({ page }) => {
+  await open(page);
+  const rows = page.getByLabel("Selection").locator("tbody tr");
+  await expect(rows).toHaveCount(5);
+  await expect(rows.first()).toContainText("quay");
+  const before = await rows.nth(1).textContent();
+  await page.getByLabel("Speed").selectOption("10");
+  await page.getByRole("button", { name: "Play" }).click();
+  await expect.poll(() => seconds(page)).toBeGreaterThan(5);
+  await page.getByRole("button", { name: "Pause" }).click();
+  expect(await rows.nth(1).textContent()).not.toBe(before);
+});
+
+test("draws a packet's wavefront, then the marks of its outcomes", async ({ page }) => {
+  await open(page, "#chart?t=0");
+  await page.keyboard.press("]");
+  await expect(chart(page)).not.toHaveAttribute("data-fronts", "0");
+  await expect(page.getByRole("heading", { name: "→" }).first()).toBeVisible();
+  await page.keyboard.press("ArrowRight");
+  await expect(chart(page)).not.toHaveAttribute("data-marks", "0");
+});
+
+test("opens the ladder and one sentence for a packet", async ({ page }) => {
+  await open(page, "#time-line?t=20");
+  await expect(page.getByTestId("time-line")).not.toHaveAttribute("data-packets", "0");
+  await page.keyboard.press("]");
+  await expect(page.getByTestId("sentence")).toContainText(/^(Received|Lost) at /);
+  expect(await page.getByTestId("ladder").locator("tbody tr").count()).toBeGreaterThan(5);
+});
+
+test("shows the rays and the budget of a link", async ({ page }) => {
+  await open(page, "#section?t=30&link=quay~gate");
+  await expect(page.getByTestId("section").locator("path.ray").first()).toBeAttached({ timeout: 30_000 });
+  await expect(page.getByTestId("budget")).toContainText("SINR");
+  await page.getByLabel("Receiver").selectOption({ label: "scout-1" });
+  await expect(page).toHaveURL(/link=quay%7Escout-1|link=quay~scout-1/);
+});
+
+test("shows the matrix, and the history of a cell", async ({ page }) => {
+  await open(page, "#matrix?t=60");
+  const matrix = page.getByTestId("matrix");
+  await expect(page.getByRole("heading", { name: "All pairs" })).toBeVisible();
+  await expect(page.locator("table tbody tr").filter({ hasText: "quay" }).first()).toBeVisible();
+  await matrix.focus();
+  await page.keyboard.press("ArrowRight");
+  await expect(page.getByRole("img", { name: /from 0:00 to/ })).toBeVisible();
+});
+
+test("shows the course of a vehicle and the health of the nodes", async ({ page }) => {
+  await open(page, "#vehicle?t=60&vehicle=scout-1");
+  await expect(page.getByTestId("panels").locator("figure").first()).toContainText("Depth");
+  await expect(page.getByRole("heading", { name: "Health of the nodes" })).toBeVisible();
+});
+
+test("seeks by slider, keys and address", async ({ page }) => {
+  await open(page, "#chart?t=42");
+  await expect.poll(() => now(page)).toBe("0:42.0");
+  await page.keyboard.press("Shift+ArrowRight");
+  await expect.poll(() => now(page)).toBe("0:52.0");
+  await page.getByLabel("Simulation time").fill("30");
+  await expect.poll(() => seconds(page)).toBeCloseTo(30, 0);
+  await expect(page).toHaveURL(/t=(30|29\.9|30\.1)/);
+});
+
+test("keeps time, view and selection in the address", async ({ page }) => {
+  await open(page, "#matrix?t=33&vehicle=scout-2&column=sinr_db");
+  await expect(page.getByLabel("Selection")).toContainText("scout-2");
+  await page.keyboard.press("4");
+  await expect(page).toHaveURL(/#time-line\?t=33&vehicle=scout-2&column=sinr_db/);
+});
+
+test("finds a vehicle, lists its keys, changes its colours", async ({ page }) => {
+  await open(page);
+  await page.keyboard.press("/");
+  await page.keyboard.type("gate");
+  await page.keyboard.press("Enter");
+  await expect(page.getByRole("heading", { name: "gate" })).toBeVisible();
+  await page.keyboard.press("?");
+  await expect(page.getByRole("dialog")).toContainText("next packet");
+  await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: /^Colours/ }).click();
+  await page.getByRole("button", { name: /^Colours/ }).click();
+  await expect(page.locator("html")).toHaveAttribute("data-theme", "dark");
+});
+
+test("fits a phone", async ({ page }) => {
+  await page.setViewportSize({ width: 390, height: 800 });
+  await open(page);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+  for (const view of ["Section", "Matrix", "Time line", "Vehicle", "Chart"]) {
+    await page.getByRole("button", { name: view, exact: true }).click();
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+  }
+});
+
+test("says when the monitor is gone, and comes back", async ({ page }) => {
+  await page.addInitScript(() => {
+    // Every socket of the page can be closed by the test.
+    const sockets: WebSocket[] = [];
+    const Original = window.WebSocket;
+    window.WebSocket = class extends Original {
+      constructor(url: string | URL, protocols?: string | string[]) {
+        super(url, protocols);
+        sockets.push(this);
+      }
+    };
+    Object.assign(window, { closeSockets: () => sockets.forEach((socket) => socket.close()) });
+  });
+  await open(page);
+  await page.evaluate(() => (window as unknown as { closeSockets(): void }).closeSockets());
+  await expect(page.getByTestId("condition")).toContainText("The monitor is gone");
+  await expect(page.getByTestId("condition")).toBeHidden();
+  await expect(page.locator(".source")).toContainText("harbour");
+  await expect(page.getByLabel("Selection").locator("section").first()).toBeVisible();
+});
