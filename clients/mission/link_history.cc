@@ -73,11 +73,12 @@ void LinkHistory::add(SimTime at, const link_table_t& table) {
   }
 }
 
-const link_t* LinkHistory::row_at(std::int32_t from_id, std::int32_t to_id, SimTime at) const {
+const link_t* LinkHistory::row_at(std::int32_t from_id, std::int32_t to_id, SimTime at,
+                                  SimDuration max_age) const {
   const auto tables = tables_.find(from_id);
   if (tables == tables_.end()) return nullptr;
   const auto* last = tables->second.at_or_before(at);
-  return last == nullptr ? nullptr : row_of(last->value, to_id);
+  return last == nullptr || at - last->at > max_age ? nullptr : row_of(last->value, to_id);
 }
 
 std::vector<const link_t*> LinkHistory::rows_at(SimTime at, SimDuration max_age) const {

@@ -139,6 +139,44 @@ void MissionStore::take(const Received& received, const environment_t& water) {
   water_.add(received.at, water);
 }
 
+// Parts come in order; one that is missing makes the rest of no use until the next repetition.
+void MissionStore::take(const Received&, const scenario_info_t& part) {
+  if (part.part_number == 0) {
+    scenario_parts_ = {part.scenario_name,   part.description,         "",
+                       part.scenario_seed,   part.origin_latitude_deg, part.origin_longitude_deg,
+                       part.sea_surface_z_m, part.run_duration_s};
+    next_part_ = 0;
+  }
+  if (part.part_number != next_part_) return;
+  ++next_part_;
+  for (const std::string& line : part.configuration_line) scenario_parts_.toml += line + "\n";
+  for (const scenario_vehicle_t& described : part.vehicles)
+    vehicle(described.vehicle_name, described.vehicle_id).described = described;
+  if (next_part_ == part.part_count) scenario_ = scenario_parts_;
+}
+
+void MissionStore::take(const Received& received, const terrain_tile_t& tile) {
+  const bool is_whole = received.name.empty();  // not an answer to a client
+  const auto posts = static_cast<std::size_t>(tile.tile_rows) * static_cast<std::size_t>(tile.tile_columns);
+  if (is_whole && tile.tile_status == terrain_tile_t::OK && tile.post_spacing_m > 0 &&
+      posts == tile.seabed_z_m.size() && posts > 0)
+    terrain_ = MissionTerrain::from(tile);
+}
+
+void MissionStore::take(const Received& received, const vehicle_plan_t& plan) {
+  auto& plans = vehicle(received.name, 0).plans;
+  const auto* last = plans.at_or_before(received.at);
+  const bool is_repetition = last != nullptr && last->value.behaviour_index == plan.behaviour_index &&
+                             last->value.waypoint_index == plan.waypoint_index &&
+                             last->value.plan_ended == plan.plan_ended &&
+                             last->value.num_waypoints == plan.num_waypoints;
+  if (!is_repetition) plans.add(received.at, plan);
+}
+
+void MissionStore::take(const Received& received, const autopilot_status_t& status) {
+  keep(vehicle(received.name, 0).activity, received.at, status);
+}
+
 void MissionStore::take(const Received& received, const node_status_t& status) {
   health_.add_status(received.stamp_us, received.name, status);
 }
@@ -209,7 +247,8 @@ void MissionStore::keep(TimedSeries<Value>& series, SimTime at, const Value& val
 void MissionStore::keep_limits() {
   std::size_t dropped = 0;
   for (MissionVehicle& v : vehicles_)
-    dropped += v.track.thin() + v.commands.thin() + v.sensors.thin() + v.estimates.thin() + v.gps.thin();
+    dropped += v.track.thin() + v.commands.thin() + v.sensors.thin() + v.estimates.thin() + v.gps.thin() +
+               v.activity.thin();
   samples_ -= dropped;
   if (dropped == 0) limits_.samples *= 2;  // more vehicles than samples
 }
@@ -228,7 +267,8 @@ void MissionStore::drop_old() {
   begin_ = std::max(begin_, first);
   for (MissionVehicle& v : vehicles_) {
     samples_ -= v.track.drop_before(first) + v.commands.drop_before(first) + v.sensors.drop_before(first) +
-                v.estimates.drop_before(first) + v.gps.drop_before(first);
+                v.estimates.drop_before(first) + v.gps.drop_before(first) + v.activity.drop_before(first);
+    v.plans.drop_before(first);
   }
   packets_.drop_before(first);
   links_.drop_before(first);

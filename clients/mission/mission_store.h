@@ -116,6 +116,10 @@ class MissionStore {
   void take(const Received& received, packet_outcome_t outcome);
   void take(const Received& received, const link_table_t& table);
   void take(const Received& received, const environment_t& water);
+  void take(const Received& received, const scenario_info_t& part);
+  void take(const Received& received, const terrain_tile_t& tile);
+  void take(const Received& received, const vehicle_plan_t& plan);
+  void take(const Received& received, const autopilot_status_t& status);
   void take(const Received& received, const node_status_t& status);
   void take(const Received& received, const flow_heartbeat_t& heartbeat);
   void take(const Received& received, const sim_clock_t& clock);
@@ -144,7 +148,8 @@ class MissionStore {
   TimedSeries<environment_t> water_;
   NodeHealth health_;
   MissionCounts counts_;
-  MissionScenario scenario_;
+  MissionScenario scenario_, scenario_parts_;  // complete; being put together
+  std::int32_t next_part_ = 0;
   std::optional<MissionTerrain> terrain_;
 };
 

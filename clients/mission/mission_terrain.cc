@@ -6,6 +6,20 @@
 
 namespace halocline::clients {
 
+MissionTerrain MissionTerrain::from(const terrain_tile_t& tile) {
+  MissionTerrain terrain;
+  terrain.south_m = tile.tile_south_m;
+  terrain.west_m = tile.tile_west_m;
+  terrain.north_spacing_m = terrain.east_spacing_m = tile.post_spacing_m;
+  terrain.rows = static_cast<std::size_t>(tile.tile_rows);
+  terrain.columns = static_cast<std::size_t>(tile.tile_columns);
+  terrain.depth_m = tile.seabed_z_m;
+  for (std::size_t i = 0; i < tile.post_known.size(); ++i) {
+    if (tile.post_known[i] == 0) terrain.depth_m[i] = std::numeric_limits<float>::quiet_NaN();
+  }
+  return terrain;
+}
+
 double MissionTerrain::depth_at_m(double north_m, double east_m) const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const double row = (north_m - south_m) / north_spacing_m, column = (east_m - west_m) / east_spacing_m;

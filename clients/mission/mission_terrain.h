@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "bus/messages.h"
+
 namespace halocline::clients {
 
 // Posts lie on a grid in the world frame, row by row from the south-west.
@@ -12,6 +14,8 @@ struct MissionTerrain {
   double north_spacing_m = 1, east_spacing_m = 1;  // between posts, above 0
   std::size_t rows = 0, columns = 0;
   std::vector<float> depth_m;  // z down from the datum; NaN where there is no terrain; rows * columns
+
+  static MissionTerrain from(const terrain_tile_t& tile);
 
   float post_m(std::size_t row, std::size_t column) const { return depth_m[row * columns + column]; }
   double north_m() const {

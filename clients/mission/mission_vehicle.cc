@@ -53,7 +53,13 @@ std::vector<Timed<TrackPoint>> decimated_track(const Track& track, SimTime from,
       [](const TrackPoint& p) { return p.position_ned_m.z(); });
 }
 
+const vehicle_plan_t* MissionVehicle::plan_at(SimTime at) const {
+  const auto* last = plans.at_or_before(at);
+  return last != nullptr ? &last->value : nullptr;
+}
+
 bool MissionVehicle::is_at_rest() const {
+  if (described && described->moved_by == scenario_vehicle_t::FIXED) return true;
   return std::all_of(track.all().begin(), track.all().end(), [&](const auto& entry) {
     return (entry.value.position_ned_m - track.front().value.position_ned_m).norm() < kAtRest_m;
   });

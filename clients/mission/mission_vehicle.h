@@ -41,16 +41,20 @@ struct MissionVehicle {
   std::size_t index = 0;  // among the vehicles of the mission, in the order in which they were met
   std::string name;       // its id as text where only that is known
   std::int32_t id = 0;    // 0: not known
-  std::string model;      // empty: not known
-  std::optional<modem_config_t> modem;  // the last one that it published; empty: the scenario's
+  std::optional<scenario_vehicle_t> described;  // by SCENARIO: model, start, modem
+  std::optional<modem_config_t> modem;          // the last one that it published; empty: the scenario's
   Track track;
   TimedSeries<vehicle_command_t> commands;
   TimedSeries<vehicle_sensors_t> sensors;
   TimedSeries<position_estimate_t> estimates;
   TimedSeries<vehicle_gps_t> gps;
+  TimedSeries<autopilot_status_t> activity;
+  TimedSeries<vehicle_plan_t> plans;           // at each change
   std::vector<Timed<vehicle_fault_t>> faults;  // as they came; several may hold from one instant on
 
-  // It has not moved by a centimetre.
+  // The plan of that time; null where none is known.
+  const vehicle_plan_t* plan_at(SimTime at) const;
+  // The scenario has it fixed, or it has not moved by a centimetre.
   bool is_at_rest() const;
   // Metres along the track, horizontally.
   double distance_m() const;

@@ -6,12 +6,12 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::array<OutcomeClass, kOutcomeClasses> kClasses{{
-    {"received", "received", "circle", "#009e73"},
-    {"not-acquired", "not acquired", "ring", "#56b4e9"},
-    {"bit-errors", "bit errors", "cross", "#d55e00"},
+    {"received", "received", "dot", "#009e73"},
+    {"not_acquired", "not acquired", "ring", "#56b4e9"},
+    {"bit_errors", "bit errors", "cross", "#d55e00"},
     {"collided", "collided", "bowtie", "#cc79a7"},
-    {"half-duplex", "half duplex", "bar", "#e69f00"},
-    {"unreachable", "out of reach", "dash", "#0072b2"},
+    {"half_duplex", "half duplex", "bar", "#e69f00"},
+    {"no_path", "out of reach", "dash", "#0072b2"},
 }};
 
 }  // namespace

@@ -10,9 +10,9 @@
 namespace halocline::clients {
 
 struct OutcomeClass {
-  const char* key;     // of style sheets and of the page: [a-z-]
+  const char* key;     // of style sheets and of the page: [a-z_]
   const char* label;   // for a person
-  const char* mark;    // circle (filled), ring, cross, bowtie, bar or dash
+  const char* mark;    // dot (a filled circle), ring, cross, bowtie, bar or dash
   const char* colour;  // "#rrggbb"
 };
 
