@@ -50,8 +50,8 @@ export interface Drawing {
 
 interface Pen { ink: string; halo: string; quiet: string }
 const PENS: Record<"light" | "dark", Pen> = {
-  light: { ink: "#0c1a20", halo: "rgb(255 255 255 / 0.75)", quiet: "rgb(12 26 32 / 0.7)" },
-  dark: { ink: "#f4f8fa", halo: "rgb(6 14 18 / 0.75)", quiet: "rgb(225 238 242 / 0.75)" },
+  light: { ink: "#0c1a20", halo: "rgb(255 255 255 / 0.75)", quiet: "#33434b" },
+  dark: { ink: "#f4f8fa", halo: "rgb(6 14 18 / 0.75)", quiet: "#bccad0" },
 };
 
 export class Overlay {
@@ -246,7 +246,7 @@ export class Overlay {
       const [x, y] = [place.x + 15, place.y + 1];
       if (!this.free(x, y - 8, width + (few ? 40 : 0), 16) && index !== chosen) continue;
       this.text(name, x, y, pen.ink, pen.halo, font);
-      if (depth) this.text(depth, x + width, y, pen.ink, pen.halo, "300 12px system-ui, sans-serif");
+      if (depth) this.text(depth, x + width, y, pen.quiet, pen.halo, "12px system-ui, sans-serif");
     }
   }
 
