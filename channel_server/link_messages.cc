@@ -33,6 +33,59 @@ LinkEndRequest to_end_request(const link_end_t& message) {
   return end;
 }
 
+ray_path_t to_message(const PathTrack& track) {
+  ray_path_t message{};
+  message.path_delay_s = track.path.delay_s;
+  message.path_level_db = track.path.level.value;
+  message.phase_rad = track.path.phase_rad;
+  message.launch_angle_rad = track.path.launch_angle_rad;
+  message.arrival_angle_rad = track.path.arrival_angle_rad;
+  message.surface_bounces = track.path.surface_bounces;
+  message.bottom_bounces = track.path.bottom_bounces;
+  message.caustics = track.caustics;
+  message.guard_weight = track.guard_weight;
+  message.doppler_factor = track.path.doppler_factor;
+  message.path_length_m = track.length_m;
+  message.spreading_loss_db = track.spreading_db;
+  message.absorption_loss_db = track.absorption_db;
+  message.surface_loss_db = track.surface_db;
+  message.bottom_loss_db = track.bottom_db;
+  message.beam_loss_db = track.beam_db;
+  return message;
+}
+
+link_paths_t to_message(const LinkDetails& details) {
+  const LinkTracks& tracks = details.tracks;
+  link_paths_t message{};
+  message.source_level_db = details.source_level.value;
+  message.directivity_index_db = details.directivity_index.value;
+  message.link_range_m = tracks.link.range_m;
+  message.source_depth_m = tracks.link.source_depth_m;
+  message.receiver_depth_m = tracks.link.receiver_depth_m;
+  message.paths_left_out = static_cast<std::int32_t>(tracks.paths_left_out);
+  message.num_paths = static_cast<std::int32_t>(tracks.paths.size());
+  for (std::size_t i = 0; i < tracks.paths.size(); ++i) {
+    message.paths.push_back(to_message(tracks.paths[i]));
+    for (const acoustics::RayPoint& point : tracks.paths[i].points) {
+      message.point_path.push_back(static_cast<std::int32_t>(i));
+      message.point_range_m.push_back(static_cast<float>(point.range_m));
+      message.point_depth_m.push_back(static_cast<float>(point.depth_m));
+    }
+  }
+  message.num_points = static_cast<std::int32_t>(message.point_path.size());
+  message.num_seabed = static_cast<std::int32_t>(tracks.seabed.size());
+  for (const acoustics::RayPoint& point : tracks.seabed) {
+    message.seabed_range_m.push_back(static_cast<float>(point.range_m));
+    message.seabed_depth_m.push_back(static_cast<float>(point.depth_m));
+  }
+  message.num_water = static_cast<std::int32_t>(details.water.size());
+  for (const acoustics::SpeedRow& row : details.water) {
+    message.water_depth_m.push_back(static_cast<float>(row.depth_m));
+    message.water_sound_speed_mps.push_back(static_cast<float>(row.sound_speed_mps));
+  }
+  return message;
+}
+
 link_answer_t to_message(const LinkAnswer& answer) {
   link_answer_t message{};
   message.answer_status = static_cast<std::int8_t>(answer.status);
@@ -95,7 +148,7 @@ std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at) {
 }
 
 LinkQuery to_query(const link_query_t& message) {
-  LinkQuery query{message.client_name, message.request_id, {}, {}};
+  LinkQuery query{message.client_name, message.request_id, {}, {}, message.wants_paths != 0};
   for (const link_end_t& end : message.transmitters) query.transmitters.push_back(to_end_request(end));
   for (const link_end_t& end : message.receivers) query.receivers.push_back(to_end_request(end));
   return query;
@@ -109,6 +162,7 @@ link_reply_t to_message(const LinkReply& reply) {
   message.refusal = reply.refusal;
   message.num_answers = static_cast<std::int32_t>(reply.answers.size());
   for (const LinkAnswer& answer : reply.answers) message.answers.push_back(to_message(answer));
+  if (reply.details) message.link_paths = to_message(*reply.details);
   return message;
 }
 

@@ -78,6 +78,22 @@ void ArcTracer::add_details(const State& s, double dr, double z, double sine, Tr
   }
 }
 
+void ArcTracer::add_to_track(const State& s, double dr, double z, double sine,
+                             std::vector<RayPoint>& track) const {
+  // Depth bends by d2z/dr2 = -xi g / cos^3, so a chord of length dr leaves the arc by dr^2 xi g / (8 cos^3).
+  constexpr double kMaxPieces = 32;
+  const double g = sea_.water.gradients_per_s()[s.layer];
+  const double cosine = std::sqrt(std::max(1 - std::max(s.sine * s.sine, sine * sine), kMinCosine));
+  const double off_m = dr * dr * s.xi * std::abs(g) / (8 * cosine * cosine * cosine);
+  const double pieces = std::min(std::ceil(std::sqrt(off_m / TracedDetails::kTrackErrorM)), kMaxPieces);
+  for (double piece = 1; piece < pieces; ++piece) {
+    const double part = dr * piece / pieces, there = s.sine - s.xi * g * part;
+    const double c = std::sqrt(std::max(1 - there * there, 0.0)) * s.per_xi;
+    track.push_back({s.r + part, s.z + part * (s.sine + there) / (s.xi * (s.c + c))});
+  }
+  track.push_back({s.r + dr, z});
+}
+
 void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const {
   // Dynamic ray tracing (Cerveny 2001; Jensen and others 2011, section 3.3): dq/ds = c p, dp/ds = -q c_nn / c^2. Where
   // c is linear c_nn = 0: p stays and dq = p dr / xi.
@@ -85,7 +101,10 @@ void ArcTracer::go(State& s, double dr, double z, double sine, TracedRay& ray, T
   if (q * s.q < 0) ++ray.caustics;
   s.q = q;
   s.qx += s.px * way;
-  if (details != nullptr && dr > 0) add_details(s, dr, z, sine, *details);
+  if (details != nullptr && dr > 0) {
+    add_details(s, dr, z, sine, *details);
+    if (details->track != nullptr) add_to_track(s, dr, z, sine, *details->track);
+  }
   s.r += dr;
   s.z = z;
   s.sine = sine;

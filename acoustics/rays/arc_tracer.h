@@ -63,11 +63,20 @@ struct TracedRay {
   std::vector<EventCode> events;
 };
 
+// A point on a ray's way, m: horizontal range from the source, depth below the surface.
+struct RayPoint {
+  double range_m, depth_m;
+};
+
 // Sums that an eigenray needs besides.
 struct TracedDetails {
   double delay_s = 0, length_m = 0, absorption_db = 0, bottom_phase_rad = 0, bottom_loss_db = 0,
          surface_loss_db = 0, surface_sine_squares = 0, bottom_sine_squares = 0;
   double slowness_over_range = 0;  // sum of xi dr, s
+  // Where not null, takes the ray's way from behind the source to the receiver's range: the ends of all arcs, and points
+  // on them between which the straight line stays within kTrackErrorM of the arc (32 pieces of an arc at most).
+  std::vector<RayPoint>* track = nullptr;
+  static constexpr double kTrackErrorM = 0.1;
 };
 
 class ArcTracer {
@@ -99,6 +108,7 @@ class ArcTracer {
   State start(double theta, TracedRay& ray) const;
   void go(State& s, double dr, double z, double sine, TracedRay& ray, TracedDetails* details) const;
   void add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const;
+  void add_to_track(const State& s, double dr, double z, double sine, std::vector<RayPoint>& track) const;
   static void note_turn(bool lower, std::size_t layer, TracedRay& ray);
   // To a point within a step, to the bottom, to the end of a step; false when the ray is given up there.
   void go_part(State& s, double dr, TracedRay& ray, TracedDetails* details) const;

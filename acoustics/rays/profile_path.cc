@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <queue>
+#include <utility>
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/sea/ray_water.h"
@@ -21,6 +23,47 @@ constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic to rounding
 constexpr double kLeastFoldShare = 0.5;  // of the way from a fold to its rays, as foreseen
 constexpr double kFoldStep = 1e-4;       // rad: to the rays that show how a fold bends
 
+constexpr double kSimplifiedWithin = 0.05;  // m
+constexpr double kMissed =
+    1;  // m of depth at the receiver: a ray of other turns and further off is not the path
+
+// The point between two of the list that lies furthest from the line through them.
+struct Detour {
+  double off_m;
+  std::size_t at, first, last;
+  bool operator<(const Detour& other) const {
+    return off_m != other.off_m ? off_m < other.off_m : at > other.at;
+  }
+};
+
+Detour greatest_detour(const std::vector<RayPoint>& points, std::size_t first, std::size_t last) {
+  const RayPoint &a = points[first], &b = points[last];
+  const double slope = b.range_m > a.range_m ? (b.depth_m - a.depth_m) / (b.range_m - a.range_m) : 0;
+  Detour greatest{-1, first, first, last};
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const double off = std::abs(points[i].depth_m - a.depth_m - slope * (points[i].range_m - a.range_m));
+    if (off > greatest.off_m) greatest = {off, i, first, last};
+  }
+  return greatest;
+}
+
+// Straight from bounce to bounce, at angles all alike: the images of a flat sea (acoustics/rays/image_rays.h).
+std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const Arrival& path) {
+  std::vector<double> depths{link.source_depth_m};
+  bool up = path.surface_bounces != path.bottom_bounces ? path.surface_bounces > path.bottom_bounces
+                                                        : path.launch_angle_rad < 0;
+  for (int i = path.surface_bounces + path.bottom_bounces; i > 0; --i, up = !up)
+    depths.push_back(up ? 0 : bottom_m);
+  depths.push_back(link.receiver_depth_m);
+  double height = 0, gone = 0;
+  for (std::size_t i = 1; i < depths.size(); ++i) height += std::abs(depths[i] - depths[i - 1]);
+  std::vector<RayPoint> way{{0, depths[0]}};
+  for (std::size_t i = 1; i < depths.size(); ++i) {
+    gone += std::abs(depths[i] - depths[i - 1]);
+    way.push_back({height > 0 ? link.range_m * gone / height : link.range_m, depths[i]});
+  }
+  return way;
+}
 bool is_kept(const ArcTracer& tracer, const TracedRay& ray) {
   const RayOptions& options = tracer.sea().options;
   return ray.arrived && ray.factor >= options.min_boundary_factor &&
@@ -161,6 +204,53 @@ double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
   std::erase_if(angles, [edge](double theta) { return std::abs(theta) < edge; });
   angles.insert(std::upper_bound(angles.begin(), angles.end(), 0.0), {-edge, edge});
   return edge;
+}
+
+std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Arrival& path,
+                               std::size_t max_points) {
+  // What was found is followed whatever it loses.
+  ProfiledSea open = sea;
+  open.options.max_bounces = path.surface_bounces + path.bottom_bounces + 1;
+  open.options.max_launch_angle_rad = pi / 2;
+  open.options.min_boundary_factor = 0;
+  const RayLink held = held_apart(link);
+  const ArcTracer tracer(open, held);
+  std::vector<RayPoint> way{{0, tracer.source_depth_m()}};
+  TracedRay ray;
+  TracedDetails details;
+  details.track = &way;
+  tracer.trace(path.launch_angle_rad, ray, &details);
+  // Beyond a fold the path is that of the fold, which passes the receiver by.
+  const bool turns_alike =
+      ray.upper_turns == path.identity.upper_turns && ray.lower_turns == path.identity.lower_turns;
+  const bool is_path = ray.arrived && ray.surface_bounces == path.surface_bounces &&
+                       ray.bottom_bounces == path.bottom_bounces &&
+                       (turns_alike || std::abs(ray.z - tracer.receiver_depth_m()) <= kMissed);
+  if (!is_path) {
+    way = straight_way(tracer.bottom_at_receiver_m(), held, path);
+  } else {
+    way.back() = {held.range_m, tracer.receiver_depth_m()};
+  }
+  return simplified(way, max_points);
+}
+
+std::vector<RayPoint> simplified(const std::vector<RayPoint>& points, std::size_t max_points) {
+  if (points.size() <= 2) return points;
+  std::priority_queue<Detour> detours;
+  detours.push(greatest_detour(points, 0, points.size() - 1));
+  std::vector<std::size_t> kept{0, points.size() - 1};
+  while (!detours.empty() && kept.size() < max_points && detours.top().off_m > kSimplifiedWithin) {
+    const Detour detour = detours.top();
+    detours.pop();
+    kept.push_back(detour.at);
+    for (const auto& [first, last] : {std::pair(detour.first, detour.at), {detour.at, detour.last}}) {
+      if (last > first + 1) detours.push(greatest_detour(points, first, last));
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<RayPoint> few;
+  for (const std::size_t index : kept) few.push_back(points[index]);
+  return few;
 }
 
 }  // namespace halocline::acoustics

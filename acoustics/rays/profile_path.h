@@ -1,10 +1,12 @@
-// Turns one traced ray over a bottom profile into an arrival, and gives the launch angles that a search begins with.
+// Turns one traced ray over a bottom profile into an arrival, gives the launch angles that a search begins with, and the
+// way of a path that was found, for drawings.
 //
 // Equations: acoustics/rays/profile_rays.h.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -71,5 +73,16 @@ std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
 // Takes the launch angles out within which rays nowhere go faster than the core's speed, and puts those of its edges in.
 // The angle of the edge; 0 where there is no core.
 double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles);
+
+// The way of a path found between the ends of `link` by any solver of the same sea, from the source to the receiver, ranges
+// rising, at most `max_points` (2 or more). The ray is traced again from its launch angle and ends at the receiver; one that
+// cannot be (steeper than 89.9 degrees, along the core of a channel) goes by straight lines from bounce to bounce. Where points
+// have to be left out, those that change the way most stay (simplified()).
+std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, const Arrival& path,
+                               std::size_t max_points);
+
+// At most `max_points` (2 or more) of points of rising range: the ends, and one after the other the point that lies
+// furthest above or below the line through those kept, until all lie within 0.05 m of it.
+std::vector<RayPoint> simplified(const std::vector<RayPoint>& points, std::size_t max_points);
 
 }  // namespace halocline::acoustics

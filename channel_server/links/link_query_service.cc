@@ -17,6 +17,21 @@ constexpr double kFarthestM = 1e7;
 // By so much the smooth seabed of rays may lie above that of the terrain, m: a place less far inside is taken as on it.
 constexpr double kSeabedErrorM = 1;
 
+// From the surface to `deepest_m`: even steps, and the rows between which a table is linear, so far as there is room.
+std::vector<acoustics::SpeedRow> column_of(const acoustics::SoundSpeedProfile& profile, double deepest_m) {
+  constexpr int kSteps = 100;
+  constexpr std::size_t kMaxRows = 150;
+  const double bottom_m = std::clamp(deepest_m, 1.0, acoustics::kDeepestWater);
+  std::set<double> depths;
+  for (int step = 0; step <= kSteps; ++step) depths.insert(bottom_m * step / kSteps);
+  const std::vector<double> rows = profile.row_depths_m();
+  const auto end = std::upper_bound(rows.begin(), rows.end(), bottom_m);
+  if (static_cast<std::size_t>(end - rows.begin()) <= kMaxRows) depths.insert(rows.begin(), end);
+  std::vector<acoustics::SpeedRow> column;
+  for (const double depth_m : depths) column.push_back({depth_m, profile.sound_speed_mps(depth_m)});
+  return column;
+}
+
 std::string problem_of_modem(const acoustics::Modem& modem) {
   try {
     validate(modem);
@@ -45,6 +60,7 @@ void LinkQueryService::submit(const LinkQuery& query, std::optional<SimTime> sim
   Waiting waiting;
   waiting.reply = {query.client, query.request_id, sim.value_or(SimTime()), refusal_of(query), {}};
   waiting.deadline = steady + rule_.timeout;
+  waiting.wants_paths = query.wants_paths;
   if (waiting.reply.refusal.empty()) {
     for (std::size_t i = 0; i < query.transmitters.size(); ++i) {
       answer(resolve(query.transmitters[i], sim), resolve(query.receivers[i], sim), waiting);
@@ -54,9 +70,10 @@ void LinkQueryService::submit(const LinkQuery& query, std::optional<SimTime> sim
 }
 
 std::string LinkQueryService::refusal_of(const LinkQuery& query) const {
-  const std::size_t count = query.transmitters.size();
-  if (count < 1 || count > kMaxLinks) {
-    return "num_links is " + std::to_string(count) + "; allowed is 1 to " + std::to_string(kMaxLinks);
+  const std::size_t count = query.transmitters.size(), most = query.wants_paths ? 1 : kMaxLinks;
+  if (count < 1 || count > most) {
+    return "num_links is " + std::to_string(count) + "; allowed is 1" +
+           (query.wants_paths ? " with wants_paths" : " to " + std::to_string(most));
   }
   if (waiting_.size() >= kMaxWaiting) return "too many queries are waiting; try again later";
   return {};
@@ -135,6 +152,7 @@ void LinkQueryService::answer(const ResolvedEnd& from, const ResolvedEnd& to, Wa
     answer.row.multipath = echoes_.at(waiting.reply.at, from.placed(), to.placed(), propagation_);
   }
   waiting.reply.answers.push_back(answer);
+  if (waiting.wants_paths) waiting.ends.emplace(waiting.reply.answers.size() - 1, std::pair(from, to));
   const bool refused = answer.status != LinkAnswer::Status::kAnswered;
   if (!refused && answer.row.multipath == Multipath::kUnknown) wait_for_terrain(from, to, waiting);
 }
@@ -205,10 +223,24 @@ std::vector<LinkReply> LinkQueryService::take_replies(SimTime steady) {
   std::erase_if(waiting_, [&](Waiting& waiting) {
     take_bottoms(waiting);
     if (!waiting.is_done() && steady < waiting.deadline) return false;
+    if (waiting.wants_paths) add_details(waiting);
     replies.push_back(std::move(waiting.reply));
     return true;
   });
   return replies;
+}
+
+void LinkQueryService::add_details(Waiting& waiting) {
+  const auto ends = waiting.ends.find(0);
+  if (ends == waiting.ends.end() || waiting.reply.answers[0].status != LinkAnswer::Status::kAnswered) return;
+  const auto& [from, to] = ends->second;
+  LinkDetails details{from.modem.modem.source_level, to.modem.modem.directivity_index, {}, {}};
+  details.tracks = propagation_.tracks(waiting.reply.at, link_end(from.placed()), link_end(to.placed()));
+  double deepest_m = std::max(details.tracks.link.source_depth_m, details.tracks.link.receiver_depth_m);
+  for (const acoustics::RayPoint& point : details.tracks.seabed)
+    deepest_m = std::max(deepest_m, point.depth_m);
+  details.water = column_of(propagation_.environment(waiting.reply.at).profile, deepest_m);
+  waiting.reply.details = std::move(details);
 }
 
 SimTime LinkQueryService::due() const {

@@ -42,6 +42,7 @@ struct LinkQuery {
   std::string client;
   std::int64_t request_id = 0;
   std::vector<LinkEndRequest> transmitters, receivers;  // as many of each
+  bool wants_paths = false;                             // of one link
 };
 
 struct LinkAnswer {
@@ -51,12 +52,20 @@ struct LinkAnswer {
   LinkRow row;          // holds when answered
 };
 
+// How the sound of one link travels.
+struct LinkDetails {
+  Decibels source_level, directivity_index;  // of the transmitter, of the receiver
+  LinkTracks tracks;
+  std::vector<acoustics::SpeedRow> water;  // down to the seabed, or to the deeper end
+};
+
 struct LinkReply {
   std::string client;
   std::int64_t request_id = 0;
-  SimTime at;                       // for which the answers hold; 0 while no simulation time is known
-  std::string refusal;              // not empty: the query as a whole is refused
-  std::vector<LinkAnswer> answers;  // in the order of the query
+  SimTime at;                               // for which the answers hold; 0 while no simulation time is known
+  std::string refusal;                      // not empty: the query as a whole is refused
+  std::vector<LinkAnswer> answers;          // in the order of the query
+  std::optional<LinkDetails> details = {};  // where the query wants paths and its link is answered
 };
 
 class LinkQueryService {
@@ -95,6 +104,7 @@ class LinkQueryService {
   struct Waiting {
     LinkReply reply;
     SimTime deadline;
+    bool wants_paths = false;
     // What is waited for, by the index of the answer.
     std::map<RayQueryClient::SurveyId, std::size_t> surveys;
     std::set<std::size_t> bottoms;
@@ -112,6 +122,7 @@ class LinkQueryService {
   [[nodiscard]] std::string problem_with_seabed(const ResolvedEnd& end) const;
   void wait_for_terrain(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   void take_bottoms(Waiting& waiting);
+  void add_details(Waiting& waiting);
 
   const VehicleRegistry& fleet_;
   Propagation& propagation_;

@@ -61,6 +61,10 @@ class MeasuredPropagation : public Propagation {
   bool uses_bottom() const override { return model_->uses_bottom(); }
   Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                            const std::shared_ptr<const SeabedProfile>& seabed) override;
+  LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return reception(at, from, to).measured ? Propagation::tracks(at, from, to)
+                                            : model_->tracks(at, from, to);
+  }
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
                           const std::vector<acoustics::BottomPoint>& points) override {

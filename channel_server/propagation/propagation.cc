@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/ray_doppler.h"
@@ -55,6 +56,30 @@ Decibels total_level(const std::vector<SoundPath>& paths) {
 double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m) {
   const double depth_m = depth_below_surface_m(position_ned_m, environment.sea_surface_z_m);
   return environment.profile.sound_speed_mps(std::clamp(depth_m, 0.0, acoustics::kDeepestWater));
+}
+
+LinkTracks Propagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  const Reception reception = this->reception(at, from, to);
+  const acoustics::LinkBudget& budget = reception.budget;
+  const double surface_z_m = environment(at).sea_surface_z_m;
+  const Vec3 way = to.position_ned_m - from.position_ned_m;
+  LinkTracks tracks{.link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
+                             depth_below_surface_m(to.position_ned_m, surface_z_m),
+                             std::hypot(way.x(), way.y())}};
+  for (const SoundPath& path : reception.paths) {
+    PathTrack track{.path = path, .length_m = budget.range_m};
+    track.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;
+    track.beam_db =
+        (from.modem->beam.loss(path.launch_angle_rad) + to.modem->beam.loss(-path.arrival_angle_rad)).value;
+    track.spreading_db = (from.modem->source_level - path.level).value - track.absorption_db - track.beam_db;
+    if (!reception.measured)
+      track.points = {{0, tracks.link.source_depth_m}, {tracks.link.range_m, tracks.link.receiver_depth_m}};
+    tracks.paths.push_back(std::move(track));
+  }
+  tracks.paths_left_out = tracks.paths.size() - std::min(tracks.paths.size(), LinkTracks::kMaxPaths);
+  tracks.paths.resize(tracks.paths.size() - tracks.paths_left_out);
+  weigh(reception.paths, *to.modem, tracks);
+  return tracks;
 }
 
 std::vector<Reception> Propagation::receptions(SimTime at, const std::vector<EndPair>& links,

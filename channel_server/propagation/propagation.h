@@ -26,6 +26,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/for_each.h"
@@ -125,6 +126,8 @@ class Propagation {
   virtual double depth_inside_seabed_m(const Vec3& /*place_ned_m*/) const { return 0; }
   virtual Reception reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                    const std::shared_ptr<const SeabedProfile>& seabed);
+  // The link in full, as reception() computes it; here along the straight line.
+  virtual LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to);
   // Whether an echo off one of these points of the bottom reaches the receiver above its cut-off.
   virtual bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
                                   const acoustics::Modem& receiver, const Vec3& from_ned_m,

@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/received_field.h"
+#include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
-#include "acoustics/rays/ray_doppler.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_limits.h"
+#include "channel_server/propagation/ray_tracks.h"
+#include "channel_server/propagation/received_path.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -29,13 +32,6 @@ double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
                     kDeepestEndM);
 }
 
-acoustics::Arrival backwards(acoustics::Arrival path) {
-  const double launch = path.launch_angle_rad;
-  path.launch_angle_rad = -path.arrival_angle_rad;
-  path.arrival_angle_rad = -launch;
-  return path;
-}
-
 }  // namespace
 
 RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
@@ -43,7 +39,7 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
     : waters_(std::move(waters)),
       seabed_(std::move(seabed)),
       model_(model),
-      trapped_share_(acoustics::trapped_share(model.bottom)),
+      boundaries_{model.fading, acoustics::trapped_share(model.bottom)},
       straight_(waters_, model.fading),
       ray_waters_(kMaxRayWaters),
       found_(kMaxFound),
@@ -241,7 +237,7 @@ Reception RayPropagation::answer(const Task& task, const Found& found) const {
   Reception reception;
   reception.used = PropagationUsed::kRays;
   const acoustics::Arrivals arrivals = arrivals_at(task, found);
-  reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, trapped_share_},
+  reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
                                        sound_paths(task, arrivals));
   reception.delay_spread_s = delay_spread_s(reception.paths);
   if (!reception.paths.empty()) {
@@ -273,34 +269,32 @@ acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const Found& f
 
 std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
                                                    const acoustics::Arrivals& arrivals) const {
-  const auto& [from, to] = task.ends;
-  const acoustics::MovingEnds ends{from.position_ned_m,
-                                   from.velocity_ned_mps,
-                                   to.position_ned_m,
-                                   to.velocity_ned_mps,
-                                   sound_speed_at(*task.environment, from.position_ned_m),
-                                   sound_speed_at(*task.environment, to.position_ned_m)};
-  const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::vector<SoundPath> paths;
   for (const acoustics::Arrival& arrival : arrivals.paths) {
-    const acoustics::Arrival path = task.reversed ? backwards(arrival) : arrival;
-    const double pressure = weighted_pressure(path, beams);
-    if (!(pressure > 0)) continue;  // absorbed beyond what a double holds
-    const Decibels level = from.modem->source_level + Decibels{20 * std::log10(pressure)};
-    const double frequency_hz = from.modem->centre_frequency_hz;
-    const double kept = kept_share(
-        model_.fading, task.environment->noise.wind_mps, frequency_hz, trapped_share_,
-        {path.surface_bounces, path.bottom_bounces, path.surface_sine_squares, path.bottom_sine_squares});
-    if (!(kept > 0)) continue;
-    const acoustics::PathFading fading =
-        path_fading(model_.fading, task.environment->noise.wind_mps, frequency_hz, path.surface_sine_squares,
-                    path.bottom_sine_squares, kept);
-    paths.push_back({path.delay_s, std::max(level + to_decibels(PowerRatio{kept}), kSilence),
-                     doppler_factor(path, ends), path.launch_angle_rad, path.arrival_angle_rad,
-                     path.surface_bounces, path.bottom_bounces, path.phase_rad, number_of(arrival.identity),
-                     fading});
+    if (const auto path = received_path(boundaries_, *task.environment, task.ends, arrival, task.reversed))
+      paths.push_back(*path);
   }
   return paths;
+}
+
+LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  const Task task = task_of(at, from, to, from.id > to.id);
+  const FoundPaths found_paths = found(task);
+  if (!found_paths) return Propagation::tracks(at, from, to);
+  const acoustics::BottomProfile bottom =
+      bottom_under(*seabed_of(task.query), task.link, task.environment->sea_surface_z_m);
+  const acoustics::RaySurface surface{model_.surface, task.environment->noise.wind_mps};
+  std::vector<FoundPath> paths;
+  for (const acoustics::Arrival& arrival : found_paths->arrivals.paths) {
+    if (const auto path = received_path(boundaries_, *task.environment, task.ends, arrival, task.reversed)) {
+      paths.push_back({arrival, *path,
+                       kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival)});
+    }
+  }
+  LinkTracks tracks = tracks_of({*task.water, bottom, model_.bottom, surface, model_.options}, task.link,
+                                task.reversed, std::move(paths), *from.modem, *to.modem);
+  weigh(answer(task, *found_paths).paths, *to.modem, tracks);
+  return tracks;
 }
 
 Decibels RayPropagation::received_level(const Task& task, const acoustics::Arrivals& arrivals,

@@ -44,6 +44,7 @@
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/received_path.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "core/for_each.h"
@@ -91,6 +92,7 @@ class RayPropagation : public Propagation {
   // are without the beams of the modems.
   acoustics::Arrivals arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                     const std::shared_ptr<const SeabedProfile>& seabed);
+  LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
                           const std::vector<acoustics::BottomPoint>& points) override;
@@ -158,7 +160,7 @@ class RayPropagation : public Propagation {
   std::shared_ptr<const EnvironmentTimeline> waters_;
   std::shared_ptr<SeabedMap> seabed_;
   RayModel model_;
-  double trapped_share_;
+  RoughBoundaries boundaries_;
   StraightPropagation straight_;
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
       ray_waters_;

@@ -24,12 +24,16 @@ namespace {
 template <class T>
 inline constexpr bool kIsBytes = std::is_same_v<T, std::vector<std::uint8_t>>;
 
-// Rows a message needs: the length of its longest list, at least one.
+// Rows a message needs: the length of its longest list, or of a message within it; at least one.
 struct RowCounter {
   std::size_t rows = 1;
   template <class T>
   void operator()(const MessageField&, const T& value) {
-    if constexpr (kIsList<T> && !kIsBytes<T>) rows = std::max(rows, value.size());
+    if constexpr (kIsList<T> && !kIsBytes<T>) {
+      rows = std::max(rows, value.size());
+    } else if constexpr (requires { value.getEncodedSize(); }) {
+      visit_fields(*this, value);
+    }
   }
 };
 

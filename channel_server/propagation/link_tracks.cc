@@ -1,0 +1,22 @@
+#include "channel_server/propagation/link_tracks.h"
+
+#include "acoustics/reception/guard_window.h"
+
+namespace halocline::channel_server {
+
+// Both lists are by delay, so the tracks are found one behind the other.
+void weigh(const std::vector<acoustics::SoundPath>& paths, const acoustics::Modem& receiver,
+           LinkTracks& tracks) {
+  if (paths.empty()) return;
+  const std::vector<double> weights = best_window(paths, receiver).weights;
+  std::size_t at = 0;
+  for (PathTrack& track : tracks.paths) {
+    const auto is_this = [&](const acoustics::SoundPath& path) {
+      return path.delay_s == track.path.delay_s && path.identity == track.path.identity;
+    };
+    while (at < paths.size() && !is_this(paths[at])) ++at;
+    if (at < paths.size()) track.guard_weight = weights[at] * weights[at];
+  }
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,45 @@
+// One link in full, for charts: its paths with their ways and the terms of their budgets, and the seabed under it.
+//
+// Of each path: received level = source level - spreading - absorption - loss at the surface - loss at the bottom - loss of
+// both beams, dB. The losses at the boundaries hold reflection and what is scattered out of the path. Ranges are
+// horizontal, from the transmitter, m; depths below the surface, m.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/arrivals.h"
+
+namespace halocline::channel_server {
+
+struct PathTrack {
+  acoustics::SoundPath path;
+  double guard_weight = 0;  // share of its power that the receiver's guard window counts as signal, 0..1
+  int caustics = 0;
+  double length_m = 0;
+  double spreading_db = 0, absorption_db = 0, surface_db = 0, bottom_db = 0, beam_db = 0;
+  std::vector<acoustics::RayPoint> points =
+      {};  // from the transmitter to the receiver; none of a measured channel
+};
+
+struct LinkTracks {
+  static constexpr std::size_t kMaxPaths = 64;   // the strongest
+  static constexpr std::size_t kMaxPoints = 64;  // of a path
+  static constexpr std::size_t kMaxPointsOfAll = 3400;
+  static constexpr std::size_t kMaxSeabed = 256;
+
+  acoustics::RayLink link;
+  std::vector<PathTrack> paths = {};  // by delay
+  std::size_t paths_left_out = 0;
+  std::vector<acoustics::RayPoint> seabed = {};  // from end to end; empty where it is not known or not used
+};
+
+// Fills in the weights. `paths` are all that arrive, by delay: those of the tracks in their order, those left out, and
+// reverberation.
+void weigh(const std::vector<acoustics::SoundPath>& paths, const acoustics::Modem& receiver,
+           LinkTracks& tracks);
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,27 @@
+// The tracks of a link from the paths that a search over its seabed found.
+#pragma once
+
+#include <vector>
+
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/arrivals.h"
+#include "channel_server/propagation/link_tracks.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+
+// A path that a search found, and as the receiver gets it.
+struct FoundPath {
+  acoustics::Arrival arrival;
+  acoustics::SoundPath path;
+  Decibels kept_at_surface;  // of received_path.h
+};
+
+// `found` by delay, over the link `searched`; `reversed`: from the receiver to the transmitter. Without weights.
+LinkTracks tracks_of(const acoustics::ProfiledSea& sea, const acoustics::RayLink& searched, bool reversed,
+                     std::vector<FoundPath> found, const acoustics::Modem& transmitter,
+                     const acoustics::Modem& receiver);
+
+}  // namespace halocline::channel_server

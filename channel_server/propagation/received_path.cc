@@ -1,0 +1,68 @@
+#include "channel_server/propagation/received_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/fading/scattering_loss.h"
+#include "acoustics/link/received_field.h"
+#include "acoustics/rays/ray_doppler.h"
+#include "channel_server/propagation/ray_limits.h"
+
+namespace halocline::channel_server {
+namespace {
+
+acoustics::Arrival backwards(acoustics::Arrival path) {
+  const double launch = path.launch_angle_rad;
+  path.launch_angle_rad = -path.arrival_angle_rad;
+  path.arrival_angle_rad = -launch;
+  return path;
+}
+
+double kept_share_of(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
+                     double frequency_hz, const acoustics::Arrival& path, double bottom_sine_squares) {
+  return kept_share(
+      boundaries.fading, environment.noise.wind_mps, frequency_hz, boundaries.trapped_share,
+      {path.surface_bounces, path.bottom_bounces, path.surface_sine_squares, bottom_sine_squares});
+}
+
+}  // namespace
+
+std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
+                                       const acoustics::Environment& environment, const EndPair& ends,
+                                       const acoustics::Arrival& arrival, bool reversed) {
+  const auto& [from, to] = ends;
+  const acoustics::Arrival path = reversed ? backwards(arrival) : arrival;
+  const double pressure = weighted_pressure(path, {from.modem->beam, to.modem->beam});
+  if (!(pressure > 0)) return std::nullopt;  // absorbed beyond what a double holds
+  const double frequency_hz = from.modem->centre_frequency_hz;
+  const double kept = kept_share_of(boundaries, environment, frequency_hz, path, path.bottom_sine_squares);
+  if (!(kept > 0)) return std::nullopt;
+  const acoustics::MovingEnds moving{from.position_ned_m,
+                                     from.velocity_ned_mps,
+                                     to.position_ned_m,
+                                     to.velocity_ned_mps,
+                                     sound_speed_at(environment, from.position_ned_m),
+                                     sound_speed_at(environment, to.position_ned_m)};
+  const Decibels level = from.modem->source_level + Decibels{20 * std::log10(pressure)};
+  SoundPath sound;
+  sound.delay_s = path.delay_s;
+  sound.level = std::max(level + to_decibels(PowerRatio{kept}), kSilence);
+  sound.doppler_factor = doppler_factor(path, moving);
+  sound.launch_angle_rad = path.launch_angle_rad;
+  sound.arrival_angle_rad = path.arrival_angle_rad;
+  sound.surface_bounces = path.surface_bounces;
+  sound.bottom_bounces = path.bottom_bounces;
+  sound.phase_rad = path.phase_rad;
+  sound.identity = number_of(arrival.identity);
+  sound.fading = path_fading(boundaries.fading, environment.noise.wind_mps, frequency_hz,
+                             path.surface_sine_squares, path.bottom_sine_squares, kept);
+  return sound;
+}
+
+// Over a bottom that does not scatter what is kept is the surface's share.
+Decibels kept_at_surface(const RoughBoundaries& boundaries, const acoustics::Environment& environment,
+                         double frequency_hz, const acoustics::Arrival& arrival) {
+  return to_decibels(PowerRatio{kept_share_of(boundaries, environment, frequency_hz, arrival, 0)});
+}
+
+}  // namespace halocline::channel_server
