@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <utility>
 
+#include "acoustics/rays/arc_tracer.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "bus/message_checks.h"
+#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "core/frames.h"

@@ -5,6 +5,8 @@
 #include <variant>
 
 #include "acoustics/modem/modem.h"
+#include "acoustics/rays/arc_tracer.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/echo_survey.h"
 #include "core/check.h"
 #include "core/names.h"

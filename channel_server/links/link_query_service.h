@@ -17,10 +17,12 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
+#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
@@ -28,6 +30,7 @@
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 

@@ -18,6 +18,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/vehicles/vehicle_id.h"

@@ -13,6 +13,7 @@
 #include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
+#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_limits.h"
 #include "channel_server/propagation/ray_tracks.h"

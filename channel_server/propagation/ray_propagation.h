@@ -43,6 +43,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/received_path.h"
 #include "channel_server/propagation/seabed_map.h"

@@ -54,6 +54,37 @@ TEST_F(CsvExport, OneFileForEachFamilyOneRowForEachMessage) {
   EXPECT_THAT(states[2], ::testing::HasSubstr(",0.1,"));
 }
 
+TEST_F(CsvExport, ListsOfAMessageWithinAMessageHaveARowForEachElement) {
+  link_reply_t reply{};
+  reply.num_answers = 1;
+  reply.answers.resize(1);
+  link_paths_t& sound = reply.link_paths;
+  sound.num_points = 3;
+  sound.point_path = {0, 0, 1};
+  sound.point_range_m = {0, 10, 0};
+  sound.point_depth_m = {5, 6, 7.25};
+  file_.add(100, "LINK_REPLY.monitor", reply);
+  exported();
+  const auto rows = lines("link_reply.csv");
+  ASSERT_EQ(rows.size(), 4u);
+  const auto column_of = [&](const std::string& name) {
+    const auto at = rows[0].find(name);
+    EXPECT_NE(at, std::string::npos);
+    return std::count(rows[0].begin(), rows[0].begin() + static_cast<std::ptrdiff_t>(at), ',');
+  };
+  const auto cell = [&](std::size_t row, std::ptrdiff_t column) {
+    std::istringstream line(rows[row]);
+    std::string text;
+    for (std::ptrdiff_t i = 0; i <= column; ++i) std::getline(line, text, ',');
+    return text;
+  };
+  const auto depth = column_of("link_paths.point_depth_m");
+  EXPECT_EQ(cell(1, depth), "5");
+  EXPECT_EQ(cell(3, depth), "7.25");
+  EXPECT_EQ(cell(3, column_of("link_paths.point_path")), "1");
+  EXPECT_EQ(cell(2, column_of("answers.link.range_m")), "");  // that list has ended
+}
+
 TEST_F(CsvExport, LinkTableHasARowForEachPeer) {
   link_table_t table{};
   table.vehicle_id = 4;

@@ -59,6 +59,26 @@ TEST_F(SimulationOutput, KeepsWhatWasSaidAndHowOften) {
   EXPECT_NE(output_of(one_), output_of(twice));
 }
 
+TEST_F(SimulationOutput, HasTheScenarioWithoutItsPublisherAndTheTerrainAsItIs) {
+  scenario_info_t scenario{};
+  scenario.part_count = 1;
+  terrain_tile_t terrain{};
+  terrain.session = 5;
+  for (TemporaryLog* log : {&one_, &other_}) {
+    scenario.session = log == &one_ ? 7 : 8;
+    scenario.sequence += 1;
+    log->add(0, "TERRAIN", terrain);
+    log->add(0, "SCENARIO", scenario);
+  }
+  EXPECT_EQ(output_of(one_), output_of(other_));
+  EXPECT_EQ(events_, 2);
+  TemporaryLog renamed("-renamed");
+  scenario.scenario_name = "another";
+  renamed.add(0, "TERRAIN", terrain);
+  renamed.add(0, "SCENARIO", scenario);
+  EXPECT_NE(output_of(one_), output_of(renamed));
+}
+
 TEST_F(SimulationOutput, KeepsTheStampOfEachMessage) {
   one_.add(1'000'000, "RECEIPT.a", receipt(1, 7, 0));
   other_.add(1'000'001, "RECEIPT.a", receipt(1, 7, 0));
@@ -81,6 +101,8 @@ TEST_F(SimulationOutput, LeavesOutWhatProgramsSayOfThemselvesAndToEachOther) {
   other_.add(6, "STATUS.channel-server-0", status);
   ping_answer_t answer{};
   other_.add(6, "PING_ANSWER", answer);
+  other_.add(6, "TERRAIN_QUERY", terrain_query_t{});
+  other_.add(6, "TERRAIN_REPLY.monitor", terrain_tile_t{});
   other_.add_bytes(6, "SOMEBODY_ELSES", {1, 2, 3});
   EXPECT_EQ(output_of(one_), output_of(other_));
   EXPECT_EQ(events_, 1);
