@@ -191,15 +191,17 @@ describe("shedding", () => {
   it("leaves out more when frames are slow, and says so", () => {
     const shedding = new Shedding();
     expect(shedding.sentence()).toBeNull();
-    run(shedding, 0, 60, 3);
+    run(shedding, 0, 60, 7);
     expect(shedding.level).toBe(1);
     expect(shedding.sentence()).toContain("draws slowly");
-    run(shedding, 3000, 60, 30);
+    expect(shedding.sentence(1)).toBeNull();
+    run(shedding, 7000, 60, 30);
     expect(shedding.level).toBe(STEPS.length - 1);
   });
   it("takes it back when frames are quick", () => {
     const shedding = new Shedding();
-    const now = run(shedding, 0, 60, 3);
+    const now = run(shedding, 0, 60, 7);
+    expect(shedding.level).toBe(1);
     run(shedding, now, 16, 10);
     expect(shedding.level).toBe(0);
   });

@@ -27,6 +27,9 @@ export function roundStep(least: number): number {
   return step * power;
 }
 
+/** A unit as it is printed: the wire writes uPa. */
+export const printed = (unit: string) => unit.replace("uPa", "\u00b5Pa");
+
 export function distance(metres: number): string {
   return metres >= 1000 ? `${number(metres / 1000, metres % 1000 ? 1 : 0)} km` : `${number(metres, 0)} m`;
 }

@@ -25,6 +25,8 @@ const SLOW_WINDOWS = 2;
 const QUICK_WINDOWS = 6;
 /** A pause this long is a hidden page, not a slow one. */
 const PAUSE_MS = 700;
+/** A page that was just opened is slow for other reasons, milliseconds of drawing. */
+const START_MS = 4000;
 
 export class Shedding {
   level = 0;
@@ -36,6 +38,7 @@ export class Shedding {
   private slow = 0;
   private quick = 0;
   private regretted = 0;
+  private drawn_ms = 0;
 
   get step(): Step { return STEPS[this.level]; }
 
@@ -47,6 +50,8 @@ export class Shedding {
       this.elapsed_ms = this.frames = 0;
       return false;
     }
+    this.drawn_ms += took;
+    if (this.drawn_ms < START_MS) return false;
     this.elapsed_ms += took;
     ++this.frames;
     if (this.elapsed_ms < WINDOW_MS) return false;
@@ -69,8 +74,9 @@ export class Shedding {
     return false;
   }
 
-  sentence(): string | null {
-    const says = this.step.says;
+  /** What a visitor reads; null where nothing is left out that this screen would show. */
+  sentence(device_pixel_ratio = 2): string | null {
+    const says = this.level === 1 && device_pixel_ratio <= this.step.pixel_ratio ? null : this.step.says;
     return says && `This computer draws slowly, so the chart is simpler: ${says}.`;
   }
 }
