@@ -80,7 +80,7 @@ export class Overlay {
       const place = scene.project(instant.north(index), instant.east(index), instant.down(index));
       return place.behind ? null : place;
     });
-    this.contourLabels(drawing, pen);
+    this.contourLabels(drawing, places, pen);
     drawWaves(context, drawing.scene, drawing.waves, drawing.now_s, drawing.step, drawing.dark);
     drawTrails(context, drawing.scene, drawing.trails, places, drawing.now_s, drawing.step.trail_s, drawing.dark);
     if (drawing.showPlans) this.plans(drawing, pen);
@@ -134,7 +134,7 @@ export class Overlay {
     context.setLineDash([]);
   }
 
-  private contourLabels({ scene, width, height }: Drawing, pen: Pen) {
+  private contourLabels({ scene, width, height }: Drawing, places: (Place | null)[], pen: Pen) {
     this.context.textAlign = "center";
     this.context.textBaseline = "middle";
     const kept: Place[] = [];
@@ -142,6 +142,8 @@ export class Overlay {
       const place = scene.project(north_m, east_m, depth_m);
       if (place.behind || place.x < 20 || place.y < 20 || place.x > width - 20 || place.y > height - 20) continue;
       if (kept.some(({ x, y }) => Math.hypot(x - place.x, y - place.y) < 110)) continue;
+      // A name stands to the right of its vehicle.
+      if (places.some((vehicle) => vehicle && Math.abs(vehicle.x + 40 - place.x) < 75 && Math.abs(vehicle.y - place.y) < 16)) continue;
       kept.push(place);
       this.text(`${number(depth_m, depth_m % 1 ? 1 : 0)} m`, place.x, place.y, pen.quiet, pen.halo.replace("0.75", "0.35"), "11px system-ui, sans-serif");
     }

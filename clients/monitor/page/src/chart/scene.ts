@@ -10,6 +10,9 @@ import {
   type Contours, type DepthRange, contourLines, depthRange, exaggeration, groundGeometry, groundPicture,
 } from "./ground";
 
+/** Camera and what it looks at. */
+export interface View3d { position: Vector3; target: Vector3; near: number; far: number; extent_m: number }
+
 export interface Place { x: number; y: number; behind: boolean }
 
 /** A place after projection, before the division by w; it is in front of the camera where w > near. */
@@ -110,6 +113,19 @@ export class ChartScene {
     this.controls.maxDistance = 8 * away;
     this.camera.near = away / 200;
     this.camera.far = away * 20;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.changed = true;
+  }
+  view(): View3d {
+    const { near, far, position } = this.camera;
+    return { position: position.clone(), target: this.controls.target.clone(), near, far, extent_m: this.extent_m };
+  }
+  restore({ position, target, near, far, extent_m }: View3d) {
+    this.camera.position.copy(position);
+    this.controls.target.copy(target);
+    Object.assign(this.camera, { near, far });
+    this.extent_m = extent_m;
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.changed = true;
