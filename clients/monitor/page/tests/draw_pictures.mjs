@@ -22,7 +22,8 @@ for (const [name, url, hash, colorScheme, key] of pictures) {
     await page.keyboard.press(key);
     await page.waitForTimeout(SETTLE_MS / 2);
   }
-  await page.screenshot({ path: join(folder, `${name}.png`) });
+  const photo = name.startsWith("monitor-chart");  // shaded relief is smaller as JPEG, everything else as PNG
+  await page.screenshot(photo ? { path: join(folder, `${name}.jpg`), type: "jpeg", quality: 85 } : { path: join(folder, `${name}.png`) });
   await page.close();
 }
 await browser.close();

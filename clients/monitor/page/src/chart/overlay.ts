@@ -180,7 +180,7 @@ export class Overlay {
       if (!a || !b || !colour) continue;
       const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, behind: false };
       const wide = ours ? 4.5 : mine || chosen === null ? 2.4 : 1.2;
-      this.line([middle, b], dark ? "rgb(6 14 18 / 0.5)" : "rgb(255 255 255 / 0.45)", wide + 2);
+      this.line([middle, b], dark ? "rgb(6 14 18 / 0.5)" : "rgb(255 255 255 / 0.8)", wide + 1.8);
       this.line([middle, b], css(colour), wide);
       this.things.push({ kind: "link", from, to, value, x: 0.3 * a.x + 0.7 * b.x, y: 0.3 * a.y + 0.7 * b.y });
     }

@@ -198,7 +198,7 @@ export class Monitor {
         if (this.hello && this.hello.name !== message.name) this.packets.clear();
         this.fetched.clear();
         this.hello = message;
-        document.title = `${message.name.split("/").pop()} · Halocline`;
+        document.title = `${message.name.split("?")[0].split("/").pop()} · Halocline`;
         this.watch();
         return;
       case "mission":
