@@ -98,6 +98,7 @@ void ChannelServerNode::apply(StepInputs inputs, SimTime now) {
 
 void ChannelServerNode::set_first_instants(SimTime now) {
   if (next_scenario_ == kBeforeAll) publish_scenario(now);
+  next_scenario_ = std::max(next_scenario_, on_grid_from(now - kScenarioPeriod, kScenarioPeriod));
   if (next_environment_ == kBeforeAll) publish_environment(now);
   const SimDuration period = rules_.link_period;
   if (next_tick_ == kBeforeAll) next_tick_ = on_grid_from(now, period);

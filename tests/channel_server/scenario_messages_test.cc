@@ -134,6 +134,15 @@ TEST_F(ScenarioNode, OnlyTheFirstOfSeveralServersPublishesIt) {
   EXPECT_TRUE(received_.empty());
 }
 
+TEST_F(ScenarioNode, AfterAJumpOfTimeWhatWasMissedIsNotMadeUpFor) {
+  run({}, 1);
+  node_->step({at_s(36'000), at_s(2)});
+  while (lcm_.handleTimeout(0) > 0) continue;
+  ASSERT_EQ(received_.size(), 6u);
+  EXPECT_EQ(received_[2].utime, 35'940'000'000);
+  EXPECT_EQ(received_[4].utime, 36'000'000'000);
+}
+
 TEST_F(ScenarioNode, AnotherRunGetsItAnew) {
   run({}, 1);
   node_->restart({SimTime(), at_s(2)});
