@@ -66,6 +66,7 @@ test("shows the matrix, and the history of a cell", async ({ page }) => {
   await open(page, "#matrix?t=60");
   const matrix = page.getByTestId("matrix");
   await expect(page.getByRole("heading", { name: "All pairs" })).toBeVisible();
+  await expect(page.getByLabel("Link", { exact: true })).toContainText("SNR");
   await expect(page.locator("table tbody tr").filter({ hasText: "quay" }).first()).toBeVisible();
   await matrix.focus();
   await page.keyboard.press("ArrowRight");

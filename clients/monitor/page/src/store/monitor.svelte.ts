@@ -54,6 +54,8 @@ export class Monitor {
   packet = $state<string | null>(null);
   receiver = $state<number | null>(null);
   link = $state.raw<[number, number] | null>(null);
+  /** The panel of the link stands beside the view. */
+  link_open = $state(false);
   column = $state("snr_db");
   theme = $state<Theme>((localStorage.getItem("theme") as Theme | null) ?? "auto");
   dark = $state(false);
@@ -177,8 +179,14 @@ export class Monitor {
     this.choosePacket(packet.key);
     this.seek(packet.depart_s + Math.min(0.5, packet.duration_s));
   }
+  chooseLink(from: number, to: number) {
+    this.chooseVehicle(null);
+    this.link = [from, to];
+    this.link_open = true;
+  }
   chooseVehicle(index: number | null) {
     this.vehicle = index;
+    this.link_open = false;
     this.packet = null;
     this.receiver = null;
   }
@@ -289,7 +297,10 @@ export class Monitor {
     if (column) this.chooseColumn(column);
     if (link) {
       const [from, to] = link.map(index);
-      if (from !== null && to !== null) this.link = [from, to];
+      if (from !== null && to !== null) {
+        this.link = [from, to];
+        this.link_open = true;
+      }
     }
     this.place_pending = false;
     if (packet) {
@@ -302,7 +313,7 @@ export class Monitor {
   /** Keeps the URL as what is seen. */
   writeUrl() {
     if (this.place_pending) return;
-    const [from, to] = this.link ?? [null, null];
+    const [from, to] = (this.link_open || this.view === "section" || this.view === "matrix" ? this.link : null) ?? [null, null];
     this.written = writeAddress({
       view: this.view,
       time_s: this.state?.live ? null : this.now_s,
