@@ -34,6 +34,8 @@ void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("position_i_n_per_m_s", g.position_i_n_per_m_s, {0, 1e5, "N/(m s)", "push per metre and second"});
   v.number("position_d_n_s_per_m", g.position_d_n_s_per_m,
            {0, 1e6, "N s/m", "push against the speed over ground"});
+  v.number("cruise_n_s2_per_m2", g.cruise_n_s2_per_m2,
+           {0, 1e6, "N s^2/m^2", "push per square of the set speed, on the way"});
   v.number("heading_p_nm", g.heading_p_nm, {0, 1e6, "N m", "moment per rad of heading"});
   v.number("heading_d_nm_s", g.heading_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of yaw rate"});
   v.number("depth_p_n_per_m", g.depth_p_n_per_m, {0.01, 1e5, "N/m", "push per metre of depth"});
@@ -42,6 +44,7 @@ void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("depth_d_n_s_per_m", g.depth_d_n_s_per_m, {0, 1e6, "N s/m", "push against the vertical speed"});
   v.number("pitch_p_nm", g.pitch_p_nm, {0, 1e6, "N m", "moment per rad of pitch"});
   v.number("pitch_d_nm_s", g.pitch_d_nm_s, {0, 1e6, "N m s", "moment per rad/s of pitch rate"});
+  degrees(v, "max_pitch_deg", g.max_pitch_rad, {0, 60, "deg", "maximum set pitch, on the way"});
   v.number("min_force_n", g.min_force_n, {0, 1e5, "N", "push below which the heading is kept"});
   v.number("beside_axis_m", g.beside_axis_m, {0.01, 100, "m", "of the horizontal thrusters"});
   v.number("from_middle_m", g.from_middle_m, {0.01, 100, "m", "of the vertical thrusters"});

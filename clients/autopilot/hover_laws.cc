@@ -10,14 +10,16 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
+constexpr double kSlowMps = 0.3;  // below it the push up and down alone changes the depth
+
 double rpm_for(const HoverGains& g, double thrust_n) {
   const double full = thrust_n < 0 ? g.astern_ratio * g.full_thrust_n : g.full_thrust_n;
   const double rpm = g.full_rpm * std::sqrt(std::min(std::abs(thrust_n) / full, 1.0));
   return std::copysign(rpm, thrust_n);
 }
 
-// The force wanted in the horizontal plane. The integral moves only near the point, and no further than the
-// thrusters.
+// The force wanted in the horizontal plane, with the drag of the set speed while the point is far. The integral moves
+// only near the point, and no further than the thrusters.
 Vec2 horizontal_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
                       HoverIntegrals& integrals) {
   const Vec2 away = (point.position_ned_m - m.position_ned_m).head<2>();
@@ -29,16 +31,33 @@ Vec2 horizontal_force(const HoverGains& g, const StationPoint& point, const Hove
   if (integral.norm() > g.full_thrust_n) integral *= g.full_thrust_n / integral.norm();
   integrals.north_n = integral.x();
   integrals.east_n = integral.y();
-  return g.position_p_n_per_m * error - g.position_d_n_s_per_m * m.velocity_ned_mps.head<2>() + integral;
+  const Vec2 cruise = g.cruise_n_s2_per_m2 * point.speed_mps * point.speed_mps * (error / farthest);
+  return g.position_p_n_per_m * error - g.position_d_n_s_per_m * m.velocity_ned_mps.head<2>() + cruise +
+         integral;
 }
 
 double down_force(const HoverGains& g, const StationPoint& point, const HoverMeasured& m, double dt_s,
                   HoverIntegrals& integrals) {
   const double farthest = 0.5 * point.speed_mps * g.depth_d_n_s_per_m / g.depth_p_n_per_m;
-  const double error = std::clamp(point.position_ned_m.z() - m.position_ned_m.z(), -farthest, farthest);
-  integrals.down_n =
-      std::clamp(integrals.down_n + g.depth_i_n_per_m_s * dt_s * error, -g.full_thrust_n, g.full_thrust_n);
+  const double too_high_m = point.position_ned_m.z() - m.position_ned_m.z();
+  const double error = std::clamp(too_high_m, -farthest, farthest);
+  const double grown = std::abs(too_high_m) < farthest ? integrals.down_n + g.depth_i_n_per_m_s * dt_s * error
+                                                       : integrals.down_n;
+  integrals.down_n = std::clamp(grown, -g.full_thrust_n, g.full_thrust_n);
   return g.depth_p_n_per_m * error - g.depth_d_n_s_per_m * m.velocity_ned_mps.z() + integrals.down_n;
+}
+
+// On the way the hull points along its path, so that the flow does not turn it further: nose up to climb. At rest it
+// lies level.
+double wanted_pitch(const HoverGains& g, const StationPoint& point, const HoverMeasured& m) {
+  const double forward_mps =
+      m.velocity_ned_mps.x() * std::cos(m.heading_rad) + m.velocity_ned_mps.y() * std::sin(m.heading_rad);
+  if (forward_mps <= 0) return 0;
+  const double too_high_m = point.position_ned_m.z() - m.position_ned_m.z();
+  const double descent_mps = g.depth_p_n_per_m / g.depth_d_n_s_per_m * too_high_m;
+  const double steepest = std::tan(g.max_pitch_rad);
+  const double slope = std::clamp(descent_mps / forward_mps, -steepest, steepest);
+  return -std::atan(slope * std::min(forward_mps / kSlowMps, 1.0));
 }
 
 double wanted_heading(const HoverGains& g, const Vec2& force, double heading_rad, HoverIntegrals& integrals) {
@@ -57,7 +76,8 @@ std::array<double, 4> hover_command(const HoverGains& g, const StationPoint& poi
   const double surge = force.x() * std::cos(m.heading_rad) + force.y() * std::sin(m.heading_rad);
   const double yaw = g.heading_p_nm * turn - g.heading_d_nm_s * m.yaw_rate_radps;
   const double heave = down_force(g, point, m, dt_s, integrals);
-  const double pitch = -g.pitch_p_nm * m.pitch_rad - g.pitch_d_nm_s * m.pitch_rate_radps;
+  const double pitch =
+      g.pitch_p_nm * (wanted_pitch(g, point, m) - m.pitch_rad) - g.pitch_d_nm_s * m.pitch_rate_radps;
   // Turning comes before pushing: what yaw and pitch leave of the thrust is surge's and heave's.
   const double most = g.full_thrust_n * g.astern_ratio;
   const double differ = std::clamp(yaw / (2 * g.beside_axis_m), -most, most);
