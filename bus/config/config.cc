@@ -1,6 +1,11 @@
 #include "bus/config/config.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "core/units.h"
@@ -30,6 +35,22 @@ void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const N
   double value_s = value.seconds();
   v.number(key, value_s, rule_in_seconds);
   value = SimDuration::from_seconds(value_s);
+}
+
+std::string why_unreadable(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return "there is no such file";
+  if (std::filesystem::is_directory(status)) return "it is a folder";
+  return std::ifstream(path) ? "" : "it must not be read: " + std::string(std::strerror(errno));
+}
+
+void require_readable(ConfigVisitor& v, std::string_view key, const std::string& path) {
+  if (v.writing()) return;
+  const std::string whole = (std::filesystem::path(v.folder()) / path).string();
+  const std::string reason = path.empty() ? "" : why_unreadable(whole);
+  if (path.empty()) v.problem(key, "allowed is the name of a file");
+  if (!reason.empty()) v.problem(key, "cannot read " + whole + ": " + reason);
 }
 
 void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt) {

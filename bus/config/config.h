@@ -98,6 +98,12 @@ std::vector<std::string> names_of(const std::array<Enum, count>& values) {
 // A duration, in seconds in the file (its key ends in _s).
 void seconds(ConfigVisitor& v, std::string_view key, SimDuration& value, const NumberRule& rule_in_seconds);
 
+// Why a file cannot be read, in words; empty when it can.
+std::string why_unreadable(const std::string& path);
+
+// The value of `key` names a file, from folder(): what cannot be read becomes an error with the reason.
+void require_readable(ConfigVisitor& v, std::string_view key, const std::string& path);
+
 // What `attempt` refuses (InvalidArgument) becomes an error of the file, with the line of `key`, beside all
 // others.
 void report_refusal(ConfigVisitor& v, std::string_view key, const std::function<void()>& attempt);
@@ -138,6 +144,16 @@ class ConfigFile {
   // Throws ConfigErrors with everything that any read() found wrong; also, when `whole_file`, every key that
   // no read() visited. Without it, only unknown keys of sections that were read and not shared are errors.
   void check(bool whole_file);
+
+  // What shows only once several sections, or what they name, are known. `key` is the whole path of a key, given or not:
+  // "vehicle.0.mission.speed_mps"; `value` is what holds, shown where the file does not give the key. An error is thrown
+  // by the next check_findings, beside all others; warnings are kept.
+  void refuse(const std::string& key, const std::string& value, const std::string& what_is_allowed);
+  void warn(const std::string& key, const std::string& value, const std::string& what_to_know);
+  // Throws ConfigErrors with all that was refused so far.
+  void check_findings() const;
+  // "file:line: key is value; ...", in the order found.
+  const std::vector<std::string>& warnings() const;
 
   std::string folder() const;  // as ConfigVisitor::folder
   const std::string& path() const;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -20,9 +21,12 @@ struct ConfigDocument {
   std::string path;
   toml::table root;
   std::vector<std::string> errors;
+  std::vector<std::string> warnings;
   std::set<const toml::node*> read;      // values that have been read
   std::set<const toml::table*> entered;  // tables that a read entered
   std::set<const toml::table*> shared;   // tables whose other keys are read by other programs
+  // Keys that some read looked for, by the table they stand in ("vehicle.modem."; items of a list share one).
+  std::map<std::string, std::set<std::string, std::less<>>> known;
 
   // "file:line", or "command line" for an override.
   std::string place_of(const toml::node& node) const;
@@ -33,6 +37,15 @@ struct ConfigDocument {
 
 // The table as TOML, keys in alphabetical order.
 std::string to_text(const toml::table& table);
+// A value as in errors.
+std::string value_text(const toml::node& node);
+
+// A name as in errors without the numbers of list items: "vehicle[0].modem." is "vehicle.modem.".
+std::string without_indices(const std::string& name);
+
+// "; did you mean KEY?" for a key that no program reads, `prefix` naming its table as in errors; empty when no known key
+// is near (known_keys.cc).
+std::string suggestion_for(const ConfigDocument& document, const std::string& prefix, std::string_view key);
 
 // Fills structs from one table of the document; `prefix` names the table in errors ("environment.").
 class ConfigReader : public ConfigVisitor {
@@ -52,7 +65,10 @@ class ConfigReader : public ConfigVisitor {
   void list(std::string_view key, std::string_view meaning, std::size_t count,
             const std::function<void(std::size_t)>& resize,
             const std::function<void(ConfigVisitor&, std::size_t)>& item) override;
-  bool given(std::string_view key) const override { return table_.contains(key); }
+  bool given(std::string_view key) const override {
+    note(key);
+    return table_.contains(key);
+  }
   bool writing() const override { return false; }
   std::string folder() const override { return document_.folder(); }
   void problem(std::string_view key, std::string_view what_is_allowed) override;
@@ -60,6 +76,7 @@ class ConfigReader : public ConfigVisitor {
 
  private:
   toml::node* find(std::string_view key);
+  void note(std::string_view key) const;
   void fail(const toml::node& node, std::string_view key, const std::string& allowed);
   bool read_number(const toml::node& node, std::string_view key, const NumberRule& rule, double& value);
   bool read_numbers(const toml::node& node, std::string_view key, const NumberRule& rule,

@@ -78,10 +78,43 @@ void collect_unknown(ConfigDocument& document, const toml::table& table, const s
     if (document.read.contains(&value)) {
       collect_unknown_in(document, value, name, whole_file);
     } else if (!tolerant) {
-      document.add_error(document.place_of(value) + ": " + name +
-                         " is unknown; the keys of a scenario are in docs/scenarios.md");
+      const std::string suggestion = suggestion_for(document, prefix, key.str());
+      document.add_error(
+          document.place_of(value) + ": " + name + " is unknown" +
+          (suggestion.empty() ? "; the keys of a scenario are in docs/scenarios.md" : suggestion));
     }
   }
+}
+
+// "vehicle.0.modem" as in errors: "vehicle[0].modem".
+std::string with_brackets(const std::string& key) {
+  std::string name;
+  std::istringstream parts(key);
+  for (std::string part; std::getline(parts, part, '.');) {
+    const bool is_index = part.find_first_not_of("0123456789") == std::string::npos;
+    if (is_index) {
+      name += "[" + part + "]";
+    } else {
+      name += (name.empty() ? "" : ".") + part;
+    }
+  }
+  return name;
+}
+
+// "file:line: key is value; remark". The place is that of the innermost table that the file has on the way to a key
+// that it does not give.
+std::string finding(ConfigDocument& document, const std::string& key, const std::string& value,
+                    const std::string& remark) {
+  toml::node* node = &document.root;
+  const toml::node* place = nullptr;
+  std::istringstream parts(key);
+  for (std::string part; node != nullptr && std::getline(parts, part, '.');) {
+    node = child_of(*node, part);
+    // An array of tables has no line of its own.
+    if (node != nullptr && !node->is_array_of_tables()) place = node;
+  }
+  return (place != nullptr ? document.place_of(*place) : document.path) + ": " + with_brackets(key) + " is " +
+         (node != nullptr ? value_text(*node) : value + " by default") + "; " + remark;
 }
 
 std::unique_ptr<ConfigDocument> parsed(const std::string& text, const std::string& path,
@@ -105,11 +138,11 @@ ConfigFile::ConfigFile(ConfigFile&&) noexcept = default;
 ConfigFile& ConfigFile::operator=(ConfigFile&&) noexcept = default;
 
 ConfigFile ConfigFile::load(const std::string& path, const std::vector<std::string>& overrides) {
+  if (const std::string reason = why_unreadable(path); !reason.empty())
+    throw ConfigErrors({path + ": cannot be read: " + reason + "; a file in TOML is needed"});
   std::ifstream file(path);
   std::ostringstream text;
-  if (std::filesystem::is_directory(path) || !file || !(text << file.rdbuf())) {
-    throw ConfigErrors({path + ": cannot be read; a scenario file (TOML) is needed"});
-  }
+  text << file.rdbuf();
   return ConfigFile(parsed(text.str(), path, overrides));
 }
 
@@ -126,8 +159,23 @@ void ConfigFile::read(const std::function<void(ConfigVisitor&)>& body) {
 void ConfigFile::check(bool whole_file) {
   if (!whole_file) document_->shared.insert(&document_->root);
   collect_unknown(*document_, document_->root, "", whole_file);
+  check_findings();
+}
+
+void ConfigFile::refuse(const std::string& key, const std::string& value,
+                        const std::string& what_is_allowed) {
+  document_->add_error(finding(*document_, key, value, what_is_allowed));
+}
+
+void ConfigFile::warn(const std::string& key, const std::string& value, const std::string& what_to_know) {
+  document_->warnings.push_back(finding(*document_, key, value, what_to_know));
+}
+
+void ConfigFile::check_findings() const {
   if (!document_->errors.empty()) throw ConfigErrors(document_->errors);
 }
+
+const std::vector<std::string>& ConfigFile::warnings() const { return document_->warnings; }
 
 std::string ConfigFile::folder() const { return document_->folder(); }
 

@@ -27,14 +27,14 @@ std::string allowed_text(const NumberRule& rule) {
   return text;
 }
 
+}  // namespace
+
 std::string value_text(const toml::node& node) {
   if (node.is_table()) return "a table";
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
   return text.str();
 }
-
-}  // namespace
 
 std::string ConfigDocument::place_of(const toml::node& node) const {
   const toml::source_region& source = node.source();
@@ -57,7 +57,12 @@ ConfigReader::ConfigReader(ConfigDocument& document, toml::table& table, std::st
   document_.entered.insert(&table_);
 }
 
+void ConfigReader::note(std::string_view key) const {
+  document_.known[without_indices(prefix_)].emplace(key);
+}
+
 toml::node* ConfigReader::find(std::string_view key) {
+  note(key);
   toml::node* node = table_.get(key);
   if (node != nullptr) document_.read.insert(node);
   return node;

@@ -1,0 +1,146 @@
+// What is found beyond single keys: near keys, files that cannot be read, and findings of other rooms.
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/config/config.h"
+
+namespace halocline::bus {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+void visit_sea(ConfigVisitor& v) {
+  double number = 0;
+  std::string text;
+  v.section("environment", "", [&](ConfigVisitor& s) {
+    s.number("wind_mps", number, {0, 60, "m/s", ""});
+    s.number("shipping", number, {0, 1, "", ""});
+    s.text("profile_file", text, {}, "");
+  });
+  v.list(
+      "vehicle", "", 0, [](std::size_t) {},
+      [&](ConfigVisitor& item, std::size_t) {
+        item.text("name", text, {}, "");
+        if (!item.given("mission")) return;
+        item.section("mission", "", [&](ConfigVisitor& m) {
+          m.number("speed_mps", number, {0, 5, "m/s", ""});
+        });
+      });
+}
+
+std::vector<std::string> errors_of(ConfigFile file,
+                                   const std::function<void(ConfigVisitor&)>& body = visit_sea) {
+  file.read(body);
+  try {
+    file.check(/*whole_file=*/true);
+  } catch (const ConfigErrors& errors) {
+    return errors.lines();
+  }
+  return {};
+}
+
+std::vector<std::string> errors_in(const std::string& text) {
+  return errors_of(ConfigFile::parse(text, "sea.toml"));
+}
+
+TEST(UnknownKey, SuggestsTheNearestKeyOfItsTable) {
+  EXPECT_THAT(errors_in("[environment]\nwimd_mps = 1\n"),
+              ElementsAre("sea.toml:2: environment.wimd_mps is unknown; did you mean environment.wind_mps?"));
+  EXPECT_THAT(errors_in("[environment]\nshpiping = 1\n"), ElementsAre(HasSubstr("environment.shipping?")));
+  EXPECT_THAT(errors_in("[enviroment]\n"), ElementsAre(HasSubstr("did you mean environment?")));
+}
+
+TEST(UnknownKey, SuggestsASectionThatNoVehicleHas) {
+  EXPECT_THAT(errors_in("[[vehicle]]\nname='a'\n[[vehicle]]\nname='b'\n[vehicle.misson]\n"),
+              ElementsAre(HasSubstr("did you mean vehicle[1].mission?")));
+}
+
+TEST(UnknownKey, SuggestsTheTableInWhichTheKeyIsKnown) {
+  EXPECT_THAT(errors_in("[[vehicle]]\nname='a'\n[vehicle.mission]\nwind_mps = 3\n"),
+              ElementsAre(HasSubstr("did you mean environment.wind_mps?")));
+}
+
+TEST(UnknownKey, SuggestsNothingForAnotherWord) {
+  EXPECT_THAT(
+      errors_in("[environment]\nsalinity = 1\n"),
+      ElementsAre(
+          "sea.toml:2: environment.salinity is unknown; the keys of a scenario are in docs/scenarios.md"));
+}
+
+TEST(UnreadableFile, IsReportedWithTheReason) {
+  const std::string folder = ::testing::TempDir() + "findings";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/water.csv") << "0,1500\n";
+  std::ofstream(folder + "/sea.toml") << "[environment]\nprofile_file = \"water.csv\"\n";
+  const auto reads_file = [](ConfigVisitor& v) {
+    v.section("environment", "", [](ConfigVisitor& s) {
+      std::string file;
+      s.text("profile_file", file, {}, "");
+      require_readable(s, "profile_file", file);
+    });
+  };
+  const auto errors = [&](const std::vector<std::string>& overrides) {
+    return errors_of(ConfigFile::load(folder + "/sea.toml", overrides), reads_file);
+  };
+  EXPECT_THAT(errors({}), IsEmpty());
+  std::filesystem::remove(folder + "/water.csv");
+  EXPECT_THAT(errors({}),
+              ElementsAre(folder + "/sea.toml:2: environment.profile_file is 'water.csv'; cannot read " +
+                          folder + "/water.csv: there is no such file"));
+  EXPECT_THAT(errors({"environment.profile_file='.'"}), ElementsAre(HasSubstr("it is a folder")));
+  EXPECT_THAT(errors({"environment.profile_file=''"}),
+              ElementsAre(HasSubstr("allowed is the name of a file")));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(UnreadableFile, AScenarioThatIsMissingIsNamedWithTheReason) {
+  EXPECT_THROW(
+      {
+        try {
+          ConfigFile::load("nowhere.toml");
+        } catch (const ConfigErrors& errors) {
+          EXPECT_THAT(errors.lines(),
+                      ElementsAre(HasSubstr("nowhere.toml: cannot be read: there is no such file")));
+          throw;
+        }
+      },
+      ConfigErrors);
+}
+
+TEST(Finding, NamesFileLineKeyAndValue) {
+  auto file = ConfigFile::parse("[environment]\nwind_mps = 7\n[[vehicle]]\nname='a'\n", "sea.toml",
+                                {"environment.shipping=0.5"});
+  file.read(visit_sea);
+  file.check(/*whole_file=*/true);
+  file.refuse("environment.wind_mps", "7", "too windy");
+  file.refuse("environment.shipping", "0.5", "too loud");
+  file.refuse("vehicle.0.mission.speed_mps", "1.5", "too fast");
+  file.warn("vehicle.0.name", "a", "short");
+  EXPECT_THAT(file.warnings(), ElementsAre("sea.toml:4: vehicle[0].name is 'a'; short"));
+  try {
+    file.check_findings();
+    FAIL() << "nothing was refused";
+  } catch (const ConfigErrors& errors) {
+    EXPECT_THAT(errors.lines(),
+                ElementsAre("sea.toml:2: environment.wind_mps is 7; too windy",
+                            "command line: environment.shipping is 0.5; too loud",
+                            "sea.toml:3: vehicle[0].mission.speed_mps is 1.5 by default; too fast"));
+  }
+}
+
+TEST(Finding, AWarningIsNoError) {
+  auto file = ConfigFile::parse("", "sea.toml");
+  file.warn("environment.wind_mps", "5", "calm");
+  EXPECT_NO_THROW(file.check_findings());
+}
+
+}  // namespace
+}  // namespace halocline::bus
