@@ -90,9 +90,23 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   return events;
 }
 
-void PacketMedium::depart(const Departure& departure, std::vector<MediumEvent>& events) {
-  if (departure.queued) return launch(at_its_departure(*departure.queued));
+bool PacketMedium::must_be_put_off(const Departure& departure) const {
+  if (departure.is_put_off || departure.answers) return false;
   const SendRequest& request = departure.request;
+  const auto id = fleet_.id_of(request.vehicle);
+  return !id || !fleet_.placement(*id, request.start, request.start);
+}
+
+void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events) {
+  if (departure.queued) return launch(at_its_departure(*departure.queued));
+  if (must_be_put_off(departure)) {
+    departure.is_put_off = true;
+    const SimTime later = departure.request.start + fleet_.rule().state_lag;
+    return add_departure(later, std::move(departure));
+  }
+  const SendRequest asked = departure.request;
+  SendRequest& request = departure.request;
+  if (departure.is_put_off) request.start = asked.start + fleet_.rule().state_lag;
   const VehicleModem& modem = fleet_.modem(request.vehicle, request.start);
   // A payload beyond the largest is refused, so its duration is of no consequence.
   const auto timing =
@@ -117,7 +131,7 @@ void PacketMedium::depart(const Departure& departure, std::vector<MediumEvent>& 
     receipt.start = decision.start;
     receipt.duration = timing.duration;
   }
-  register_.decide(request, receipt);
+  register_.decide(asked, receipt);
   if (!rule_.shard.serves(request.source_id)) return;
   events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
 }

@@ -2,7 +2,9 @@
 // and end at their exact instants.
 //
 // Model. A packet requested for time s is decided at s: refused, accepted, or queued by a modem that queues (16
-// wait at most; each starts when those before it have ended). Every vehicle present at its departure except the
+// wait at most; each starts when those before it have ended). A sender that is nowhere at s is given the state lag
+// (state_history.h) until its first state counts: the packet is then requested for s + lag, so one requested with the
+// very first state is transmitted. Every vehicle present at its departure except the
 // sender is a possible receiver, and each gets exactly one PacketOutcome.
 //   flight.h              when and how it arrives
 //   receiver_state.h      what else sounds at the receiver meanwhile
@@ -102,6 +104,7 @@ class PacketMedium {
     SendRequest request;
     std::shared_ptr<const Packet> answers;  // of a ping's answer
     std::shared_ptr<const Packet> queued;
+    bool is_put_off = false;  // by the state lag
   };
   // Events at one instant happen in the order of the rest of the key.
   using DepartureKey =
@@ -113,7 +116,8 @@ class PacketMedium {
   };
 
   void add_departure(SimTime at, Departure departure);
-  void depart(const Departure& departure, std::vector<MediumEvent>& events);
+  void depart(Departure departure, std::vector<MediumEvent>& events);
+  [[nodiscard]] bool must_be_put_off(const Departure& departure) const;
   Decision decide(const SendRequest& request, SimDuration duration) const;
   void launch(const PacketPointer& packet);
   PacketPointer at_its_departure(const Packet& queued) const;

@@ -201,12 +201,30 @@ TEST_F(PacketMediumTest, ALargePayloadIsRefused) {
 }
 
 TEST_F(PacketMediumTest, ASenderNobodyHasSeenIsRefused) {
-  EXPECT_EQ(result_of(request_of(1, 10, 0)), SendResult::kUnknownVehicle);
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
+  EXPECT_TRUE(medium_.advance_to(at_s(10.049)).empty());  // its first state may be on the bus yet
+  EXPECT_EQ(receipts_in(medium_.advance_to(at_s(10.05))).at(0).result, SendResult::kUnknownVehicle);
 }
 
 TEST_F(PacketMediumTest, ASenderWhoseStateGrewOldIsRefused) {
   stay(1, {0, 0, 50}, /*until_s=*/4);
-  EXPECT_EQ(result_of(request_of(1, 10, 0)), SendResult::kUnknownVehicle);
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0), at_s(10)));
+  EXPECT_EQ(receipts_in(medium_.advance_to(at_s(10.05))).at(0).result, SendResult::kUnknownVehicle);
+}
+
+// A state counts only when it is older than the lag: without this the packet of a vehicle that has just appeared was lost.
+TEST_F(PacketMediumTest, APacketSentWithTheFirstStateLeavesAfterTheLag) {
+  ASSERT_EQ(fleet_.add_state("v1", 1, {at_s(0), {0, 0, 50}, Vec3::Zero()}), "");
+  ASSERT_EQ(fleet_.add_state("v2", 2, {at_s(0), {1500, 0, 50}, Vec3::Zero()}), "");
+  const SendRequest request = request_of(1, 0, 0, 5);
+  EXPECT_FALSE(medium_.transmit(request, at_s(0)));
+  const auto receipt = receipts_in(medium_.advance_to(at_s(0.05))).at(0);
+  EXPECT_EQ(receipt.result, SendResult::kAccepted);
+  EXPECT_EQ(receipt.start, at_s(0.05));
+  EXPECT_EQ(medium_.transmit(request, at_s(0.2))->start, at_s(0.05));  // a repetition has the same receipt
+  const auto outcome = outcomes_in(medium_.advance_to(at_s(3))).at(0);
+  EXPECT_TRUE(outcome.deliver);
+  EXPECT_EQ(outcome.packet->departure, at_s(0.05));
 }
 
 TEST_F(PacketMediumTest, ASenderThatGivesAnotherIdIsRefused) {
