@@ -1,5 +1,6 @@
 #include "clients/traffic/traffic_config.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include "core/check.h"
@@ -19,6 +20,13 @@ void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   t.start = SimTime::from_seconds(start_s);
   v.text("destination", t.destination, {}, "name of a vehicle, or all");
   bus::integer_as(v, "payload_bytes", t.payload_bytes, {0, 32768, "", "bytes of each packet"});
+  v.boolean("relay", t.relay.passes_on, "pass on packets of others that have transmissions left");
+  bus::integer_as(v, "hops", t.relay.hops,
+                  {1, RelayPacket::kMostHops, "",
+                   "transmissions of its packets on their way; above 1 they go to all in range, with a header of 14 bytes"});
+  v.boolean("confirmed", t.relay.confirmed, "with hops above 1: the destination sends a confirmation back");
+  bus::seconds(v, "relay_wait_s", t.relay.longest_wait,
+               {0, 3600, "s", "longest random wait before a packet is passed on"});
 }
 
 void visit_vehicle(ConfigVisitor& v, VehicleTraffic& traffic) {
@@ -30,19 +38,39 @@ void visit_vehicle(ConfigVisitor& v, VehicleTraffic& traffic) {
             [&](ConfigVisitor& section) { visit_traffic(section, traffic); });
 }
 
+const VehicleTraffic* find(const TrafficConfig& config, const std::string& name) {
+  const auto found = std::find_if(config.vehicles.begin(), config.vehicles.end(),
+                                  [&](const VehicleTraffic& vehicle) { return vehicle.vehicle == name; });
+  return found == config.vehicles.end() ? nullptr : &*found;
+}
+
+void check_destination(ConfigVisitor& v, const TrafficConfig& config, const VehicleTraffic& traffic) {
+  if (!v.given("traffic")) return;
+  v.section("traffic", "", [&](ConfigVisitor& section) {
+    if (traffic.destination == kAll) return;
+    if (traffic.destination == traffic.vehicle)
+      section.problem("destination", "a vehicle does not send to itself; allowed is another vehicle, or all");
+    else if (find(config, traffic.destination) == nullptr)
+      section.problem("destination", "allowed is the name of a vehicle of the scenario, or all");
+  });
+}
+
 }  // namespace
 
 void visit(ConfigVisitor& v, TrafficConfig& config) {
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
+  if (v.writing()) return;
+  // Once all names are known.
+  v.list(
+      "vehicle", "", config.vehicles.size(), [](std::size_t) {},
+      [&](ConfigVisitor& item, std::size_t i) { check_destination(item, config, config.vehicles[i]); });
 }
 
 std::int32_t destination_id(const TrafficConfig& config, const VehicleTraffic& traffic) {
   if (traffic.destination == kAll) return kBroadcastId;
-  for (const VehicleTraffic& vehicle : config.vehicles) {
-    if (vehicle.vehicle == traffic.destination) return vehicle.vehicle_id;
-  }
+  if (const VehicleTraffic* vehicle = find(config, traffic.destination)) return vehicle->vehicle_id;
   throw InvalidArgument("vehicle " + traffic.vehicle + ": traffic.destination is '" + traffic.destination +
                         "'; allowed is the name of a vehicle of the scenario, or all");
 }

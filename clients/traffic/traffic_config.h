@@ -1,11 +1,14 @@
 // The sections [vehicle.traffic] of a scenario file: who sends what to whom, and how often.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "bus/config/config.h"
+#include "clients/traffic/relay.h"
+#include "clients/traffic/relay_packet.h"
 #include "core/names.h"
 #include "core/sim_time.h"
 
@@ -19,6 +22,13 @@ struct VehicleTraffic {
   SimTime start;       // of the first packet
   std::string destination = "all";
   std::int32_t payload_bytes = 32;
+  RelayRules relay = {};  // with hops above 1 its packets are passed on
+
+  bool is_relayed() const { return relay.hops > 1; }
+  // Of a packet as the modem has it.
+  std::size_t packet_bytes() const {
+    return static_cast<std::size_t>(payload_bytes) + (is_relayed() ? RelayPacket::kHeaderBytes : 0);
+  }
 };
 
 struct TrafficConfig {

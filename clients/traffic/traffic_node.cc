@@ -8,6 +8,8 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::int32_t kNumberBytes = 8;
+// A stored packet that is due for longer, after a halt, starts now and not in the past.
+constexpr SimDuration kPromptly = SimDuration::from_milliseconds(1000);
 
 // The first instant of start + k period that is not before `time`.
 SimTime next_packet_at(const VehicleTraffic& traffic, SimTime time) {
@@ -39,20 +41,46 @@ void TrafficNode::add_sender(const TrafficConfig& config, const VehicleTraffic& 
   // A session for each vehicle, so that (session, packet_sequence) names a packet without its sender.
   const auto entropy = static_cast<std::uint64_t>(bus().identity().session);
   const ModemAddress address{traffic.vehicle, traffic.vehicle_id, bus::session_of(entropy, traffic.vehicle)};
-  senders_.emplace_back(new Sender{
-      traffic, destination_id(config, traffic), {bus(), address}, next_packet_at(traffic, SimTime())});
+  senders_.emplace_back(new Sender{traffic,
+                                   destination_id(config, traffic),
+                                   {bus(), address},
+                                   Relay(traffic.vehicle_id, traffic.relay, entropy),
+                                   next_packet_at(traffic, SimTime())});
   Sender* sender = senders_.back().get();
-  sender->modem.on_receive([this, sender](const modem_receive_t& packet) {
-    bus().log().debug("packet-received", "vehicle=" + sender->traffic.vehicle +
-                                             " source=" + std::to_string(packet.source_id) +
-                                             " packet=" + std::to_string(packet.packet_sequence));
-  });
+  sender->modem.on_receive([this, sender](const modem_receive_t& packet) { on_packet(*sender, packet); });
+  sender->modem.on_receipt([sender](const modem_receipt_t& receipt) { on_receipt(*sender, receipt); });
+}
+
+void TrafficNode::on_packet(Sender& sender, const modem_receive_t& packet) {
+  bus().log().debug("packet-received", "vehicle=" + sender.traffic.vehicle +
+                                           " source=" + std::to_string(packet.source_id) +
+                                           " packet=" + std::to_string(packet.packet_sequence));
+  sender.relay.take(packet.payload, SimTime::from_utime(packet.utime));
+}
+
+void TrafficNode::on_receipt(Sender& sender, const modem_receipt_t& receipt) {
+  using Verdict = Relay::Verdict;
+  Verdict verdict = Verdict::kImpossible;
+  switch (receipt.receipt_result) {
+    case modem_receipt_t::ACCEPTED:
+    case modem_receipt_t::QUEUED:
+      verdict = Verdict::kAccepted;
+      break;
+    case modem_receipt_t::REFUSED_BUSY:
+    case modem_receipt_t::REFUSED_QUEUE_FULL:
+    case modem_receipt_t::REFUSED_UNKNOWN_VEHICLE:
+      verdict = Verdict::kBusy;
+      break;
+    default:
+      break;
+  }
+  sender.relay.on_receipt(receipt.packet_sequence, verdict, SimTime::from_utime(receipt.utime));
 }
 
 bus::Due TrafficNode::on_due() const {
   bus::Due due;
   for (const auto& sender : senders_) {
-    due.sim = std::min(due.sim, sender->next_packet);
+    due.sim = std::min({due.sim, sender->next_packet, sender->relay.next()});
     due.steady = std::min(due.steady, sender->modem.next_resend());
   }
   return due;
@@ -61,6 +89,7 @@ bus::Due TrafficNode::on_due() const {
 void TrafficNode::on_step(const bus::Now& now) {
   for (const auto& sender : senders_) {
     send_due(*sender, now);
+    transmit_due(*sender, now);
     sender->modem.resend(now.steady);
   }
 }
@@ -70,17 +99,31 @@ void TrafficNode::send_due(Sender& sender, const bus::Now& now) {
   const VehicleTraffic& traffic = sender.traffic;
   // Started into a running simulation: packets of the past stay unsent.
   const SimTime latest = next_packet_at(traffic, now.sim + SimDuration::from_nanoseconds(1)) - traffic.period;
+  sender.next_packet = latest + traffic.period;
+  if (traffic.is_relayed()) {
+    const auto number = sender.relay.counters().originated;
+    return sender.relay.originate(sender.destination, traffic_payload(number, traffic.payload_bytes), latest);
+  }
   const auto number = sender.modem.counters().sent;
   sender.modem.send(now.steady, latest, sender.destination, traffic_payload(number, traffic.payload_bytes));
-  sender.next_packet = latest + traffic.period;
+}
+
+void TrafficNode::transmit_due(Sender& sender, const bus::Now& now) {
+  while (const auto transmission = sender.relay.transmit_due(now.sim)) {
+    const SimTime start = now.sim - transmission->at < kPromptly ? transmission->at : now.sim;
+    sender.relay.on_sent(sender.modem.send(now.steady, start, kBroadcastId, transmission->bytes));
+  }
 }
 
 void TrafficNode::on_restart(const bus::Now& now) {
-  for (const auto& sender : senders_) sender->next_packet = next_packet_at(sender->traffic, now.sim);
+  for (const auto& sender : senders_) {
+    sender->next_packet = next_packet_at(sender->traffic, now.sim);
+    sender->relay.clear();
+  }
 }
 
 void TrafficNode::on_archive(Archive& a) {
-  for (const auto& sender : senders_) a(sender->modem, sender->next_packet);
+  for (const auto& sender : senders_) a(sender->modem, sender->relay, sender->next_packet);
 }
 
 std::string TrafficNode::status_text() const {
@@ -93,7 +136,21 @@ std::string TrafficNode::status_text() const {
     sum.received += counters.received;
   }
   return "sent " + std::to_string(sum.sent) + ", accepted " + std::to_string(sum.accepted) + ", refused " +
-         std::to_string(sum.refused) + ", received " + std::to_string(sum.received);
+         std::to_string(sum.refused) + ", received " + std::to_string(sum.received) + relay_text();
+}
+
+std::string TrafficNode::relay_text() const {
+  RelayCounters sum;
+  bool is_used = false;
+  for (const auto& sender : senders_) {
+    sum.add(sender->relay.counters());
+    is_used = is_used || sender->traffic.is_relayed() || sender->traffic.relay.passes_on;
+  }
+  if (!is_used) return "";
+  return "; end to end: sent " + std::to_string(sum.originated) + ", delivered " + std::to_string(sum.delivered) +
+         ", confirmed " + std::to_string(sum.confirmed) + "; passed on " + std::to_string(sum.passed_on) +
+         ", duplicates " + std::to_string(sum.duplicates) + ", expired " + std::to_string(sum.expired) +
+         ", tried again " + std::to_string(sum.retried) + ", dropped " + std::to_string(sum.dropped);
 }
 
 }  // namespace halocline::clients

@@ -3,7 +3,8 @@
 //
 // Packets start at start + k period. A payload begins with the packet's number (8 bytes, little-endian) as far
 // as it is long enough, and goes on with a pattern of it, so that a receiver can check what it got. A packet
-// whose instant passed while the program was not running is not sent late.
+// whose instant passed while the program was not running is not sent late. Packets with hops above 1, and those that a
+// vehicle passes on, go through its Relay (relay.h); the status counts them from end to end.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 #include "clients/modem/modem_client.h"
+#include "clients/traffic/relay.h"
 #include "clients/traffic/traffic_config.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
@@ -30,6 +32,7 @@ class TrafficNode : public bus::Node {
 
   // Of the modem of the i-th vehicle in the configuration.
   const ModemCounters& counters_of(std::size_t i) const { return senders_.at(i)->modem.counters(); }
+  const RelayCounters& relay_counters_of(std::size_t i) const { return senders_.at(i)->relay.counters(); }
 
  protected:
   bus::Due on_due() const override;
@@ -43,11 +46,16 @@ class TrafficNode : public bus::Node {
     VehicleTraffic traffic;
     std::int32_t destination;
     ModemClient modem;
+    Relay relay;
     SimTime next_packet;
   };
 
   void add_sender(const TrafficConfig& config, const VehicleTraffic& traffic);
+  void on_packet(Sender& sender, const modem_receive_t& packet);
+  static void on_receipt(Sender& sender, const modem_receipt_t& receipt);
   void send_due(Sender& sender, const bus::Now& now);
+  static void transmit_due(Sender& sender, const bus::Now& now);
+  std::string relay_text() const;
 
   std::vector<std::unique_ptr<Sender>> senders_;
 };

@@ -1,0 +1,108 @@
+// One vehicle's part in passing packets on: store and forward by flooding.
+//
+// Model: a packet goes to all in range; a relay that receives it for the first time keeps it, waits for a random time, and
+// transmits it again while transmissions are left; where it has come from, or whoever had it before, does not take it
+// again (controlled flooding: Tanenbaum and Wetherall 2011, Computer Networks, section 5.2.3). A packet that the modem refuses
+// because it is transmitting is kept and tried again. The vehicle it goes to may confirm it: a packet of its own that
+// goes back the same way. The wait is uniform between 0 and `longest_wait`, drawn from seed, vehicle and packet, so that two relays
+// that received the same packet do not transmit it at once. Bounded: kMaxStored packets, the latest kMaxKnown names, kMaxTries.
+// Left out: routes, acknowledgement from hop to hop. Values in, values out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <set>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "clients/traffic/relay_packet.h"
+#include "core/archive.h"
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+
+struct RelayRules {
+  bool passes_on = false;  // packets of others
+  int hops = 1;            // transmissions of own packets from end to end, 1 to RelayPacket::kMostHops
+  bool confirmed = false;  // own packets to one vehicle are to be confirmed
+  SimDuration longest_wait = SimDuration::from_milliseconds(2000);  // 0 and up
+};
+
+// Of one vehicle.
+struct RelayCounters {
+  std::int64_t originated = 0;  // own packets, each once
+  std::int64_t delivered = 0;   // packets of others to this vehicle or to all, each once
+  std::int64_t confirmed = 0;   // own packets whose confirmation arrived
+  std::int64_t passed_on = 0;   // transmissions of packets of others that the modem accepted
+  std::int64_t duplicates = 0;  // packets that arrived again
+  std::int64_t expired = 0;     // packets of others without a transmission left
+  std::int64_t retried = 0;     // refused by a busy modem, and kept
+  std::int64_t dropped = 0;     // given up: too many stored, too many tries, or impossible for the modem
+  void add(const RelayCounters& other);
+};
+
+class Relay {
+ public:
+  static constexpr std::size_t kMaxStored = 100, kMaxKnown = 1000;
+  static constexpr int kMaxTries = 20;
+
+  // `vehicle_id`: whose. `seed`: of the waits.
+  Relay(std::int32_t vehicle_id, RelayRules rules, std::uint64_t seed);
+
+  // A packet of this vehicle's own, to be transmitted at `at`.
+  void originate(std::int32_t destination, std::vector<std::uint8_t> payload, SimTime at);
+  // The payload of a packet that arrived at `at`; one without the header of relays is left alone.
+  void take(std::span<const std::uint8_t> bytes, SimTime at);
+
+  // When the next stored packet is to be transmitted; never() without one.
+  SimTime next() const;
+  // The earliest stored packet that is due at `now`, to be transmitted to all. on_sent() follows, and on_receipt() when
+  // the modem has answered.
+  struct Transmission {
+    SimTime at;
+    std::vector<std::uint8_t> bytes;
+  };
+  std::optional<Transmission> transmit_due(SimTime now);
+  // The modem's name for the latest transmission.
+  void on_sent(std::int64_t packet_sequence);
+  enum class Verdict { kAccepted, kBusy, kImpossible };
+  void on_receipt(std::int64_t packet_sequence, Verdict verdict, SimTime at);
+
+  // Another run: what is stored is forgotten.
+  void clear();
+
+  const RelayCounters& counters() const { return counters_; }
+  const RelayRules& rules() const { return rules_; }
+  void archive(Archive& a);
+
+ private:
+  struct Stored {
+    SimTime at;
+    RelayPacket packet;
+    int tries = 0;
+    std::int64_t packet_sequence = 0;  // the modem's, once transmitted
+    void archive(Archive& a) { a(at, packet, tries, packet_sequence); }
+  };
+  using Name = std::tuple<std::int32_t, std::int32_t, bool, std::uint16_t>;
+
+  void store(RelayPacket packet, SimTime at, int tries);
+  [[nodiscard]] bool is_new(const Name& name);
+  void deliver(const RelayPacket& packet, SimTime at);
+  SimDuration wait_before(const RelayPacket& packet, int tries) const;
+
+  std::int32_t vehicle_id_;
+  RelayRules rules_;
+  std::uint64_t seed_;
+  RelayCounters counters_;
+  std::uint16_t next_number_ = 0;
+  std::vector<Stored> stored_;
+  std::optional<Stored> in_hand_;    // given out by transmit_due
+  std::vector<Stored> transmitted_;  // without a receipt yet
+  std::set<Name> known_;
+  std::deque<Name> known_in_order_;
+};
+
+}  // namespace halocline::clients
