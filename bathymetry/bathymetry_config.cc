@@ -62,6 +62,12 @@ void visit_raster(ConfigVisitor& v, RasterOptions& r) {
   v.number("datum_offset_m", r.datum_offset_m, {-200, 200, "m", "added to every depth"});
 }
 
+// GDAL's own names ("NETCDF:...", "/vsi...") are no files.
+void require_raster(ConfigVisitor& v, const std::string& path) {
+  const bool is_file = path.find(':') == std::string::npos && !path.starts_with("/vsi");
+  if (is_file) bus::require_readable(v, "path", path);
+}
+
 void visit_shapes(ConfigVisitor& v, TerrainRecipe& t) {
   constexpr double kDeep = 12'000;
   v.section("flat", "kind = flat", [&](ConfigVisitor& s) {
@@ -110,8 +116,10 @@ void visit_nested(ConfigVisitor& v, NestedRecipe& n) {
   v.number("blend_width_m", n.blend_width_m,
            {0, 1e5, "m", "inside its border, drawn to the grid around over this"});
   bus::choice(v, "holes", n.holes, {"keep", "fill_from_around"}, "posts without data in the finer raster");
-  v.section("raster", "the finer file", [&](ConfigVisitor& s) { visit_raster(s, n.raster); });
-  if (n.raster.path.empty()) v.problem("raster", "allowed is a table with the path of a raster file");
+  v.section("raster", "the finer file", [&](ConfigVisitor& s) {
+    visit_raster(s, n.raster);
+    require_raster(s, n.raster.path);
+  });
 }
 
 }  // namespace
@@ -126,8 +134,7 @@ void visit(ConfigVisitor& v, TerrainRecipe& t) {
     visit_shapes(s, t);
     s.section("raster", "kind = raster: any file GDAL reads", [&](ConfigVisitor& r) {
       visit_raster(r, t.raster);
-      if (t.kind == TerrainKind::kRaster && t.raster.path.empty())
-        r.problem("path", "kind = raster needs a file");
+      if (t.kind == TerrainKind::kRaster) require_raster(r, t.raster.path);
     });
     s.boolean("whole_file", t.whole_file,
               "true: a raster in local metres, post by post; the grid above is not used");

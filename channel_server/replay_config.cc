@@ -23,7 +23,7 @@ void visit_pair(bus::ConfigVisitor& v, ReplayConfig::Pair& pair) {
   v.text("file", pair.file, {}, "as replay");
   v.integer("receiver", pair.receiver, kReceiver);
   if (pair.from == pair.to) v.problem("to", "allowed is another vehicle than from");
-  if (pair.file.empty()) v.problem("file", "allowed is the name of a file");
+  bus::require_readable(v, "file", pair.file);
 }
 
 // Each file and receiver is read once.
@@ -68,6 +68,7 @@ void require_bands(const MeasuredLinks& links, const ConfiguredModems& modems,
 void visit_replay(bus::ConfigVisitor& v, ReplayConfig& config) {
   v.text("replay", config.file, {},
          "measured channel of every link, HDF5 (docs/packets.md); empty: fading by the model");
+  if (!config.file.empty()) bus::require_readable(v, "replay", config.file);
   v.integer("replay_receiver", config.receiver, kReceiver);
   bus::choice(v, "replay_level", config.level, kLevels,
               "replay: received level by the model of propagation, or by the file's own gain");

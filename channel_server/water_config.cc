@@ -83,9 +83,9 @@ void visit_file(bus::ConfigVisitor& v, ProfileConfig& p) {
   bus::degrees(v, "profile_longitude_deg", p.longitude_rad,
                {-180, 360, "deg", "of the column in a gridded file; the scenario's origin unless given"});
   v.integer("profile_time_index", p.time_index, {0, 1e6, "", "which of a gridded file's times, from 0"});
-  if (p.source == ProfileSource::kFile && p.file.empty()) {
-    v.problem("profile_file", "profile = \"file\" needs the name of a file");
-  }
+  if (p.source != ProfileSource::kFile) return;
+  bus::require_readable(v, "profile_file", p.file);
+  if (!p.salinity_file.empty()) bus::require_readable(v, "profile_salinity_file", p.salinity_file);
 }
 
 void visit_profile(bus::ConfigVisitor& v, ProfileConfig& p) {

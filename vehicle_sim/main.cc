@@ -4,6 +4,7 @@
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "bus/config/config.h"
 #include "bus/runtime/node_process.h"
+#include "vehicle_sim/start_checks.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 #include "vehicle_sim/vehicle_sim_node.h"
 #include "vehicle_sim/world/terrain_seabed.h"
@@ -37,8 +38,12 @@ int main(int argc, char** argv) {
   program.make_node = [&](const NodeProgram::Context& context) {
     const auto prepared = prepare_terrain(recipe, {context.scenario.origin_latitude_deg,
                                                    context.scenario.origin_longitude_deg, context.folder});
-    return std::make_unique<VehicleSimNode>(context.lcm, context.identity, context.scenario, config,
-                                            std::make_shared<TerrainSeabed>(prepared.terrain));
+    const auto seabed = std::make_shared<TerrainSeabed>(prepared.terrain);
+    if (context.file != nullptr) {
+      check_starts(context.scenario, *seabed, extent_text(*prepared.terrain), *context.file);
+      context.file->check_findings();
+    }
+    return std::make_unique<VehicleSimNode>(context.lcm, context.identity, context.scenario, config, seabed);
   };
   return halocline::bus::run_node_program(argc, argv, program);
 }

@@ -96,6 +96,14 @@ std::string version_text(std::uint64_t version) {
   return text;
 }
 
+std::string extent_text(const Terrain& terrain) {
+  const GridGeometry& g = terrain.extent();
+  char text[120];
+  std::snprintf(text, sizeof text, "north %g to %g m, east %g to %g m", g.first_x_m, g.last_x_m(),
+                g.first_y_m, g.last_y_m());
+  return text;
+}
+
 PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site) {
   const LocalFrame frame(recipe.frame, to_radians(site.origin_latitude_deg),
                          to_radians(site.origin_longitude_deg));

@@ -74,6 +74,9 @@ struct PreparedTerrain {
 // Throws InvalidArgument for an impossible recipe and for rasters that cannot be read.
 PreparedTerrain prepare_terrain(const TerrainRecipe& recipe, const Site& site);
 
+// Where it lies, for a person: "north -2000 to 2000 m, east -2000 to 2000 m".
+std::string extent_text(const Terrain& terrain);
+
 // The version as it travels on the bus: 16 hexadecimal digits.
 std::string version_text(std::uint64_t version);
 

@@ -37,6 +37,7 @@ struct ConfigDocument {
 
 // The table as TOML, keys in alphabetical order.
 std::string to_text(const toml::table& table);
+
 // A value as in errors.
 std::string value_text(const toml::node& node);
 

@@ -81,6 +81,7 @@ void read_scenario(const Arguments& arguments, const NodeProgram& program, NodeR
   file.check(/*whole_file=*/false);
   run.folder = file.folder();
   run.scenario.configuration = configuration_of(file);
+  run.file = std::make_shared<ConfigFile>(std::move(file));
 }
 
 std::string config_text(const NodeProgram& program, Scenario scenario, bool with_comments) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,8 +18,9 @@ namespace halocline::bus {
 struct NodeRun {
   NodeIdentity identity;
   Scenario scenario;
-  std::string folder;   // of the scenario file
-  std::string lcm_url;  // empty: the default
+  std::string folder;                // of the scenario file
+  std::shared_ptr<ConfigFile> file;  // null without one
+  std::string lcm_url;               // empty: the default
   std::string sync_url;
   TimeSourceKind time_source = TimeSourceKind::kConductor;
   LogLevel log_level = LogLevel::kInfo;

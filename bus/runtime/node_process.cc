@@ -22,9 +22,12 @@ namespace halocline::bus {
 namespace {
 
 // Set in a signal handler, read by any thread.
-std::atomic<bool> stop_signal_seen = false;
+std::atomic<bool> stop_signal_seen = false, interrupt_seen = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
-void on_stop_signal(int) { stop_signal_seen = true; }
+void on_stop_signal(int number) {
+  if (number == SIGINT) interrupt_seen = true;
+  stop_signal_seen = true;
+}
 
 // Longest sleep: a stop requested by other means than a signal is seen within this.
 constexpr SimDuration kLongestSleep = SimDuration::from_milliseconds(100);
@@ -65,7 +68,8 @@ void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
   lcm::LCM memq("memq://");
   const NodeIdentity identity{run.identity.name, session_of(run.scenario.seed, run.identity.name),
                               program.stage};
-  const auto node = program.make_node({memq, identity, run.scenario, run.folder, run.sync_url, true});
+  const auto node =
+      program.make_node({memq, identity, run.scenario, run.folder, run.sync_url, true, run.file.get()});
   run_lockstep_participant(memq, *node, run.sync_url, digest_of(run.scenario), stop_requested);
 }
 
@@ -81,7 +85,8 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
     journal = std::make_unique<StateJournal>(run.journal, run.config_digest);
     if (journal->inherited()) identity.session = journal->inherited()->session;  // its flows go on
   }
-  const NodeProgram::Context context{*lcm, identity, run.scenario, run.folder, run.sync_url};
+  const NodeProgram::Context context{*lcm,         identity, run.scenario,  run.folder,
+                                     run.sync_url, false,    run.file.get()};
   if (program.run_otherwise && program.run_otherwise(context)) return;
   const auto time = program.make_time_source ? program.make_time_source(context)
                                              : make_time_source(run.time_source, *lcm, run.identity.name);
@@ -117,6 +122,8 @@ void catch_stop_signals() {
 }
 
 bool stop_requested() { return stop_signal_seen; }
+
+bool interrupt_requested() { return interrupt_seen; }
 
 // The signals are let in only while sleeping, so that none slips by between the check and the sleep.
 bool wait_for_bus(lcm::LCM& lcm, SimTime wake) {

@@ -54,7 +54,8 @@ struct NodeProgram {
     const Scenario& scenario;
     const std::string& folder;
     const std::string& sync_url;
-    bool in_lockstep = false;  // as a participant
+    bool in_lockstep = false;    // as a participant
+    ConfigFile* file = nullptr;  // the scenario file, for checks that need more than it; null without one
   };
   std::function<std::unique_ptr<Node>(const Context&)> make_node = nullptr;
   // Only for the program that makes the time itself; the others choose with --time-source.
@@ -69,9 +70,10 @@ struct NodeProgram {
 // The loop alone. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource.
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop);
 
-// From now on SIGINT and SIGTERM set a flag instead of ending the process; returns whether either came.
+// From now on SIGINT and SIGTERM set a flag instead of ending the process.
 void catch_stop_signals();
-bool stop_requested();
+bool stop_requested();       // either came
+bool interrupt_requested();  // SIGINT came: Ctrl-C
 
 // Sleeps until the bus has something, `wake` (steady) has come, a stop signal, or a tenth of a second has passed.
 // Returns whether the bus has something.

@@ -10,7 +10,6 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::uint8_t kKind = 0xF1;
-constexpr std::size_t kReportBytes = 17;
 constexpr double kPerMetre = 10, kPerMps = 1000, kTurn = 65536;
 constexpr std::int64_t kLargest24 = (1 << 23) - 1, kTimeSpanMs = 65536;
 constexpr double kLookaheadM = 20;     // of the error across

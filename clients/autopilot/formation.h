@@ -44,6 +44,8 @@ struct LeaderReport {
   void archive(Archive& a) { a(position_ned_m, course_rad, speed_mps, time_s); }
 };
 
+inline constexpr std::size_t kReportBytes = 17;
+
 // Throws InvalidArgument for a place or a speed that does not fit.
 std::vector<std::uint8_t> encode_report(const LeaderReport& report);
 

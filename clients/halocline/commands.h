@@ -1,5 +1,6 @@
 // The subcommands of `halocline`. Each adds itself to the command line; when it is chosen, its callback does the
-// work and leaves the exit code: 0 done, 1 failed, 2 the user's error. What it throws is reported by main.
+// work and leaves the exit code: 0 done, 1 failed, 2 the user's error, 130 interrupted by Ctrl-C. What it throws is
+// reported by main.
 #pragma once
 
 #include <string>
@@ -10,8 +11,9 @@
 namespace halocline::clients {
 
 inline constexpr int kDone = 0, kFailed = 1, kUserError = 2;
+inline constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells have it
 inline constexpr const char* kExitCodes =
-    "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration.";
+    "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration, 130 interrupted by Ctrl-C.";
 
 // The end of a subcommand's --help.
 std::string footer(const std::string& examples);

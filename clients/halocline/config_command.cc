@@ -18,7 +18,9 @@ int show(const ConfigArguments& arguments) {
   if (arguments.scenario.empty()) {
     std::cout << commented_toml();
   } else {
-    std::cout << effective_toml(load_scenario(arguments.scenario, arguments.overrides));
+    const CheckedScenario checked = load_checked(arguments.scenario, arguments.overrides);
+    for (const std::string& warning : checked.warnings) std::cerr << "warning: " << warning << "\n";
+    std::cout << effective_toml(checked.config);
   }
   return kDone;
 }

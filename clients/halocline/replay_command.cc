@@ -111,11 +111,12 @@ int replay(const ReplayOptions& options) {
   const SimDuration zero = recording.zero;
   const RunOutcome outcome = run_replay(options, config, files, std::move(recording));
   if (options.format == "table" && !options.quiet) {
-    fmt::print(std::cout, "replayed    {}: {:.3f} s in {:.3f} s\nlog         {}\n\n", options.logs.front(),
-               outcome.reached.seconds(), outcome.wall_s, files.log);
+    fmt::print(std::cout, "replayed    {}: {:.3f} s{} in {:.3f} s\nlog         {}\n\n", options.logs.front(),
+               outcome.reached.seconds(), outcome.interrupted ? " (interrupted)" : "", outcome.wall_s,
+               files.log);
   }
   if (!options.no_comparison) compare_with_original(options, files.log, zero);
-  return kDone;
+  return bus::interrupt_requested() ? kInterrupted : kDone;
 }
 
 int compare(const ReplayOptions& options) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -6,6 +7,8 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/ostream.h>
@@ -20,6 +23,8 @@
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
+#include "clients/halocline/scenario/log_estimate.h"
+#include "core/check.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -31,7 +36,7 @@ struct RunOptions {
   double duration_s = 0, rate = 0;
   std::int64_t seed = -1;
   int keep_parts = 0;
-  bool quiet = false, no_csv = false;
+  bool quiet = false, no_csv = false, force = false;
 };
 
 std::vector<std::string> overrides_of(const RunOptions& options) {
@@ -55,15 +60,46 @@ void print_end(const RunOptions& options, const RunFiles& files, const ScenarioC
   if (!options.no_csv) std::cout << "CSVs        " << files.csv << "\n";
 }
 
+// Never those of an earlier run: without --out the folder is a new one, and a log that is there stays unless --force.
+RunFiles files_of(const RunOptions& options, const std::string& name) {
+  const bool all_named = !options.log.empty() && (options.no_csv || !options.csv.empty());
+  const std::string out = !options.out.empty() || all_named ? options.out : make_new_folder("runs/" + name);
+  RunFiles files = run_files(out, name, options.log, options.csv);
+  require(
+      options.force || !has_log(files.log),
+      files.log +
+          " is there already, the log of an earlier run; --force replaces it, and without --out and --log "
+          "a run makes a new folder");
+  return files;
+}
+
+// Beforehand, while it can still be stopped.
+void warn_of_large_log(const RunOptions& options, const ScenarioConfig& config, const std::string& log) {
+  constexpr double kLarge = 10e9;
+  std::error_code error;
+  const auto space = std::filesystem::space(std::filesystem::absolute(log).parent_path(), error);
+  const double bytes = estimated_log_bytes(config),
+               free = error ? HUGE_VAL : static_cast<double>(space.available);
+  if (options.keep_parts > 0 || bytes < std::min(kLarge, free)) return;
+  std::fprintf(stderr, "warning: the log will have about %s%s; --log-rotate and --log-keep bound it\n",
+               size_text(bytes).c_str(),
+               bytes < free ? "" : (", and " + size_text(free) + " are free").c_str());
+}
+
 int run(const RunOptions& options) {
   bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : options.log_level));
-  const ScenarioConfig config = load_scenario(options.scenario, overrides_of(options));
-  const RunFiles files = run_files(options.out.empty() ? "runs/" + config.scenario.name : options.out,
-                                   config.scenario.name, options.log, options.csv);
+  CheckedScenario checked = load_checked(options.scenario, overrides_of(options));
+  const ScenarioConfig& config = checked.config;
+  const RunFiles files = files_of(options, config.scenario.name);
+  if (!options.quiet) {
+    for (const std::string& warning : checked.warnings)
+      std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    warn_of_large_log(options, config, files.log);
+    std::fprintf(stderr, "terrain     %s\n", checked.terrain.summary.c_str());
+  }
   write_text(files.config, effective_toml(config));
   lcm::LCM lcm("memq://");
-  Composition all(lcm, config, Composition::kRun);
-  if (!options.quiet) std::fprintf(stderr, "terrain     %s\n", all.terrain().summary.c_str());
+  Composition all(lcm, config, Composition::kRun, nullptr, std::move(checked.terrain));
   bus::catch_stop_signals();
   EmbeddedRun run;
   run.end = SimTime() + config.scenario.duration;
@@ -78,8 +114,8 @@ int run(const RunOptions& options) {
     LogReader log(files.log);
     export_csv(log, files.csv);
   }
-  print_end(options, files, config, outcome);
-  return kDone;
+  if (!options.quiet) print_end(options, files, config, outcome);
+  return bus::interrupt_requested() ? kInterrupted : kDone;
 }
 
 }  // namespace
@@ -108,14 +144,17 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->overrides, "change a key: section.key=value (repeatable)")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "folder of the results; default: runs/<scenario>");
+  command->add_option(
+      "--out", options->out,
+      "folder of the results; default: runs/<scenario>, or runs/<scenario>-2, ...: a new one");
   command->add_option("--log", options->log, "LCM log; default: <out>/<scenario>.lcm");
   add_rotation_options(*command, options->rotate, options->keep_parts);
   command->add_option("--csv", options->csv, "folder of the CSVs; default: <out>/csv");
   command->add_flag("--no-csv", options->no_csv, "write no CSVs");
   command->add_option("--mirror", options->mirror, "udpm URL on which the run is shown as well, for lcm-spy");
   command->add_option("--log-level", options->log_level, "debug, info, warning, error or silent");
-  command->add_flag("--quiet", options->quiet, "no progress line, errors only");
+  command->add_flag("--force", options->force, "replace the log of an earlier run");
+  command->add_flag("--quiet", options->quiet, "print errors only");
   command->footer(
       footer("  halocline run scenarios/seamount.toml --duration 120 --set modem.source_level_db=170"));
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -95,8 +95,8 @@ std::vector<std::string> command_of(const SweepPlan& plan, const Job& job) {
     command.emplace_back("--set");
     command.push_back(text);
   }
-  for (const std::string& word :
-       {std::string("--log"), job.folder + "/run.lcm", std::string("--no-csv"), std::string("--quiet")})
+  for (const std::string& word : {std::string("--log"), job.folder + "/run.lcm", std::string("--no-csv"),
+                                  std::string("--quiet"), std::string("--force")})
     command.push_back(word);
   return command;
 }
@@ -204,8 +204,8 @@ int sweep(SweepOptions options) {
   if (options.gather) return gather(plan, jobs, options);
   bus::catch_stop_signals();
   const std::size_t undone = do_jobs(plan, jobs, options);
-  if (options.of > 0) return undone > 0 ? kFailed : kDone;
-  return gather(plan, jobs, options);
+  const int gathered = options.of > 0 ? (undone > 0 ? kFailed : kDone) : gather(plan, jobs, options);
+  return bus::interrupt_requested() ? kInterrupted : gathered;
 }
 
 void add_plan_options(CLI::App& command, SweepOptions& options) {

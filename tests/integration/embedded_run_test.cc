@@ -15,6 +15,8 @@
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
 #include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/log_estimate.h"
+#include "clients/traffic/relay_packet.h"
 #include "core/sim_time.h"
 #include "tests/integration/embedded_fixture.h"
 
@@ -123,7 +125,6 @@ TEST_F(EmbeddedRunTest, LinksGoAlongRaysOverTheTerrain) {
   const auto tables = messages_in<link_table_t>(run(harbour(), "log"));
   int by_rays = 0, rows = 0;
   for (const auto& [channel, table] : tables) {
-    if (table.utime < 2'000'000) continue;  // the bottom is queried after the first table
     for (const link_t& row : table.peers) {
       ++rows;
       by_rays += row.propagation_used == link_t::USED_RAYS ? 1 : 0;
@@ -131,6 +132,53 @@ TEST_F(EmbeddedRunTest, LinksGoAlongRaysOverTheTerrain) {
   }
   EXPECT_GT(rows, 400);
   EXPECT_EQ(by_rays, rows);
+}
+
+// Lockstep waits for the bottom, so no table of a run goes straight, not even the first.
+TEST_F(EmbeddedRunTest, TheFirstTableGoesAlongRays) {
+  const auto tables = messages_in<link_table_t>(run(load("seamount", {"scenario.duration_s=1"}), "log"));
+  ASSERT_EQ(tables.size(), 3u);
+  for (const auto& [channel, table] : tables) {
+    EXPECT_EQ(table.utime, 1'000'000);
+    ASSERT_EQ(table.peers.size(), 2u);
+    for (const link_t& row : table.peers) EXPECT_EQ(row.propagation_used, link_t::USED_RAYS) << channel;
+  }
+}
+
+// Without start_s the first packet leaves with the first state, of which the server may not yet know.
+TEST_F(EmbeddedRunTest, ThePacketOfTheFirstInstantIsTransmitted) {
+  const std::string log = run(load("harbour", {"scenario.duration_s=5", "vehicle.0.traffic.start_s=0"}), "log");
+  const auto receipts = messages_in<modem_receipt_t>(log);
+  ASSERT_FALSE(receipts.empty());
+  EXPECT_EQ(receipts[0].first, "RECEIPT.quay");
+  EXPECT_EQ(receipts[0].second.receipt_result, modem_receipt_t::ACCEPTED);
+  EXPECT_EQ(receipts[0].second.start_utime, 50'000);  // channel_server.state_lag_s
+  EXPECT_FALSE(messages_in<modem_receive_t>(log).empty());
+}
+
+// The numbers of the explorer's reports that arrived at the boat.
+std::set<int> reports_at_the_boat(const std::string& log) {
+  std::set<int> numbers;
+  for (const auto& [channel, packet] : EmbeddedRunTest::messages_in<modem_receive_t>(log)) {
+    const auto report = decode_relay_packet(packet.payload);
+    if (channel == "RECEIVE.boat" && report && report->origin == 4) numbers.insert(report->number);
+  }
+  return numbers;
+}
+
+TEST_F(EmbeddedRunTest, ReportsGoRoundAnIslandByRelaysAlone) {
+  EXPECT_GT(reports_at_the_boat(run(load("relay", {}), "log")).size(), 15u);  // of 20
+  const auto alone =
+      load("relay", {"vehicle.1.traffic.relay=false", "vehicle.2.traffic.relay=false"});
+  EXPECT_TRUE(reports_at_the_boat(run(alone, "alone")).empty());
+}
+
+TEST_F(EmbeddedRunTest, TheLogIsAsLargeAsEstimated) {
+  for (const char* name : {"harbour", "seamount", "navigation", "ranging", "relay"}) {
+    const ScenarioConfig config = load(name, {"scenario.duration_s=60"});
+    const auto bytes = static_cast<double>(bytes_of(run(config, name)).size());
+    EXPECT_NEAR(estimated_log_bytes(config) / bytes, 1, 0.15) << name;
+  }
 }
 
 TEST_F(EmbeddedRunTest, TwoThreadsWriteTheSameBytesAsOne) {

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "bus/logs/log_series.h"
+
 namespace halocline::clients {
 namespace {
 
@@ -25,6 +27,19 @@ RunFiles run_files(const std::string& out, const std::string& name, const std::s
   files.config = config_beside(files.log);
   make_folder(fs::path(files.log).parent_path());
   return files;
+}
+
+bool has_log(const std::string& path) { return fs::exists(path) || !bus::parts_of_log(path).empty(); }
+
+std::string make_new_folder(const std::string& base) {
+  make_folder(fs::path(base).parent_path());
+  for (int number = 1;; ++number) {
+    const std::string folder = number == 1 ? base : base + "-" + std::to_string(number);
+    std::error_code error;
+    if (fs::create_directory(folder, error)) return folder;  // no other run has it
+    if (!fs::is_directory(folder))
+      throw std::runtime_error("cannot make the folder " + folder + ": " + error.message());
+  }
 }
 
 std::string config_beside(const std::string& log) {

@@ -16,6 +16,13 @@ struct RunFiles {
 RunFiles run_files(const std::string& out, const std::string& name, const std::string& log,
                    const std::string& csv);
 
+// Whether a log of this name is there, or a part of one.
+[[nodiscard]] bool has_log(const std::string& path);
+
+// A new folder for the results of a run: `base`, or "base-2", "base-3", ..., the first that is not there yet. Throws
+// std::runtime_error when it cannot be made.
+std::string make_new_folder(const std::string& base);
+
 // The effective configuration that a run recorded beside its log.
 std::string config_beside(const std::string& log);
 

@@ -87,7 +87,8 @@ nlohmann::ordered_json to_json(const LinkArrivals& found) {
     json["transmission_loss_db"] = -field.level.value;
     json["first_delay_s"] = field.first_delay_s;
     json["mean_delay_s"] = field.mean_delay_s;
-    json["delay_spread_s"] = field.delay_spread_s;
+    if (found.spreads) json["delay_spread_s"] = found.spreads->first_to_last_s;
+    json["rms_delay_spread_s"] = found.spreads ? found.spreads->rms_s : field.delay_spread_s;
   }
   json["paths"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < found.arrivals.paths.size(); ++i) {
@@ -132,7 +133,9 @@ void print_table(std::ostream& out, const LinkArrivals& found) {
   }
   const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
   out << std::setprecision(2) << "transmission loss " << -field.level.value << " dB (incoherent)"
-      << std::setprecision(6) << ", delay spread " << field.delay_spread_s << " s\n";
+      << std::setprecision(6);
+  if (found.spreads) out << ", delay spread " << found.spreads->first_to_last_s << " s";
+  out << ", rms delay spread " << (found.spreads ? found.spreads->rms_s : field.delay_spread_s) << " s\n";
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ struct ReceivedPath {
   double doppler_factor;  // received over sent frequency
 };
 
+// How far the paths of a link are spread in time, as LINKS and `halocline link` have it.
+struct DelaySpreads {
+  double first_to_last_s = 0;  // from the first to the last significant path
+  double rms_s = 0;            // about the mean of all paths, by power
+};
+
 struct LinkArrivals {
   acoustics::RayLink link;
   acoustics::Arrivals arrivals;
@@ -26,6 +33,7 @@ struct LinkArrivals {
   std::vector<ReceivedPath> received = {};
   bool blocked = false;       // where no ray gets there: the bottom cuts the straight line
   std::string found_by = {};  // empty: the solver's name
+  std::optional<DelaySpreads> spreads = {};  // with known modems
 };
 
 // CSV: one row a path: src_depth_m, rcv_depth_m, rcv_range_m, index (by delay, from 0), delay_s, amplitude (re 1 m,

@@ -9,9 +9,11 @@
 #include "channel_server/channel_server_node.h"
 #include "channel_server/vehicles/shard.h"
 #include "clients/autopilot/autopilot_node.h"
+#include "clients/halocline/scenario/scenario_checks.h"
 #include "clients/localiser/localiser_node.h"
 #include "clients/traffic/traffic_node.h"
 #include "conductor/conductor_node.h"
+#include "core/check.h"
 #include "vehicle_sim/vehicle_sim_node.h"
 #include "vehicle_sim/world/terrain_seabed.h"
 
@@ -57,9 +59,11 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
   visit(v, config.localiser);
 }
 
-ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides) {
+namespace {
+
+// With all that needs no terrain checked; what makes no sense is kept in the file.
+ScenarioConfig read_scenario(bus::ConfigFile& file) {
   ScenarioConfig config;
-  auto file = bus::ConfigFile::load(path, overrides);
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
   config.folder = file.folder();
@@ -67,9 +71,38 @@ ScenarioConfig load_scenario(const std::string& path, const std::vector<std::str
   // These throw with what is wrong in a model's file, a fault or a name.
   vehicle_sim::faults_of(vehicle_sim::members_of(config.scenario, config.vehicle_sim), config.vehicle_sim);
   for (const PilotConfig& pilot : config.autopilot.vehicles) beacons_of(config.autopilot, pilot);
-  for (const VehicleTraffic& traffic : config.traffic.vehicles) destination_id(config.traffic, traffic);
   for (const VehicleLocaliser& vehicle : config.localiser.vehicles) beacons_of(config.localiser, vehicle);
+  check_sense(config, file);
   return config;
+}
+
+std::optional<bathymetry::PreparedTerrain> try_terrain(const ScenarioConfig& config, bus::ConfigFile& file) {
+  try {
+    return make_terrain(config);
+  } catch (const InvalidArgument& error) {
+    const bool by_raster = config.terrain.kind == bathymetry::TerrainKind::kRaster;
+    file.refuse(by_raster ? "terrain.raster.path" : "terrain", by_raster ? config.terrain.raster.path : "",
+                error.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides) {
+  auto file = bus::ConfigFile::load(path, overrides);
+  ScenarioConfig config = read_scenario(file);
+  file.check_findings();
+  return config;
+}
+
+CheckedScenario load_checked(const std::string& path, const std::vector<std::string>& overrides) {
+  auto file = bus::ConfigFile::load(path, overrides);
+  ScenarioConfig config = read_scenario(file);
+  auto terrain = try_terrain(config, file);
+  if (terrain) check_on_terrain(config, *terrain, file);
+  file.check_findings();
+  return {std::move(config), std::move(*terrain), file.warnings()};
 }
 
 std::string effective_toml(const ScenarioConfig& config) {
@@ -107,8 +140,9 @@ void Composition::add(bus::Stage stage, const std::string& name, Arguments&&... 
   order_.push_back(owned_.back().get());
 }
 
-Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded)
-    : lcm_(lcm), seed_(config.scenario.seed), terrain_(make_terrain(config)) {
+Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded,
+                         std::optional<bathymetry::PreparedTerrain> terrain)
+    : lcm_(lcm), seed_(config.scenario.seed), terrain_(terrain ? std::move(*terrain) : make_terrain(config)) {
   // Nothing paces lockstep: the clock announces rate 0.
   add<conductor::ConductorNode>(bus::Stage::kTime, "conductor", config.scenario.clock_period, 0.0);
   add<bathymetry::BathymetryNode>(bus::Stage::kTerrain, "bathymetry", terrain_.terrain, terrain_.summary);

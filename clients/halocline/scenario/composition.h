@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,18 @@ struct ScenarioConfig {
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
 
 // Throws bus::ConfigErrors with everything that is wrong with the file: in its sections, between them, and
-// keys that no program reads.
+// keys that no program reads. What takes the terrain is left out.
 ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides);
+
+// A scenario that makes sense on its terrain (scenario_checks.h).
+struct CheckedScenario {
+  ScenarioConfig config;
+  bathymetry::PreparedTerrain terrain;
+  std::vector<std::string> warnings;  // of what may be meant, one line each
+};
+
+// The same with what takes the terrain.
+CheckedScenario load_checked(const std::string& path, const std::vector<std::string>& overrides);
 
 // The configuration as a scenario file of its own: every key with its value; paths made absolute, so that it
 // may lie anywhere.
@@ -58,8 +69,9 @@ class Composition {
   enum Kind { kRun, kReplay };
 
   // Sessions are made of the scenario's seed and the nodes' names. `recorded` steps where the vehicle simulator
-  // would; it must outlive the composition.
-  Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded = nullptr);
+  // would; it must outlive the composition. The terrain is made unless it is given.
+  Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded = nullptr,
+              std::optional<bathymetry::PreparedTerrain> terrain = {});
 
   // In the order in which they step: who moves vehicles before who pilots them, the channel server last.
   std::vector<bus::Node*> nodes() const { return order_; }

@@ -212,6 +212,7 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
     answer.arrivals = link_arrivals(config, from, to, answer.reception,
                                     rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
                                          : straight_arrival(answer.reception, beams));
+    answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
     answer.multipath = multipath_of(answer.reception, to.modem.modem.min_receivable_level);
     return answer;
   }
@@ -222,6 +223,7 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   answer.forecast = forecast(answer.reception);
   answer.arrivals = link_arrivals(config, from, to, answer.reception,
                                   cut ? acoustics::Arrivals() : straight_arrival(answer.reception, beams));
+  answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
   const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
   answer.multipath =
       multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);

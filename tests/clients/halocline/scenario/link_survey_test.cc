@@ -1,6 +1,8 @@
 #include "clients/halocline/scenario/link_survey.h"
 
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +11,7 @@
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/propagation.h"
+#include "clients/halocline/arrivals/arrival_output.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 
@@ -180,6 +183,26 @@ TEST(LinkSurvey, AStraightPathThroughTheTerrainIsBlocked) {
   EXPECT_TRUE(through.arrivals.blocked);
   EXPECT_FALSE(through.reception.budget.receivable);
   EXPECT_LT(through.reception.budget.received_level.value, -200);
+}
+
+// `link` and `link --arrivals` mean the same by a delay spread.
+TEST(LinkSurvey, ArrivalsHaveTheDelaySpreadsOfTheBudget) {
+  for (const auto model : kBothModels) {
+    ScenarioConfig config = two_vehicles();
+    config.terrain.flat.depth_m = 50;
+    config.channel_server.propagation.model = model;
+    const LinkSurvey link = survey_link(config, link_end(config, "0,0,10"), link_end(config, "500,0,20"));
+    EXPECT_EQ(link.reception.delay_spread_s > 0, model == channel_server::PropagationModel::kRays);
+    ASSERT_TRUE(link.arrivals.spreads);
+    EXPECT_EQ(link.arrivals.spreads->first_to_last_s, link.reception.delay_spread_s);
+    EXPECT_EQ(link.arrivals.spreads->rms_s, link.forecast.rms_delay_spread_s);
+    std::ostringstream text;
+    print_arrivals(text, {link.arrivals}, OutputFormat::kTable);
+    char line[80];
+    std::snprintf(line, sizeof line, "delay spread %.6f s, rms delay spread %.6f s", link.reception.delay_spread_s,
+                  link.forecast.rms_delay_spread_s);
+    EXPECT_NE(text.str().find(line), std::string::npos) << text.str();
+  }
 }
 
 TEST(LinkSurvey, NotesFormulasBeyondTheRangeTheyWerePublishedFor) {

@@ -53,6 +53,10 @@ TEST_P(ShippedScenario, ReadsBackFromTheConfigurationThatTheLogHolds) {
   EXPECT_EQ(bus::configuration_of(file), config.scenario.configuration);
 }
 
+TEST_P(ShippedScenario, MakesSenseOnItsTerrain) {
+  EXPECT_THAT(load_checked(kScenarios + "/" + GetParam() + ".toml", {}).warnings, ::testing::IsEmpty());
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped()),
                          [](const auto& test) { return test.param; });
 

@@ -1,0 +1,88 @@
+#include "clients/halocline/scenario/log_estimate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "channel_server/channel_server_config.h"
+
+namespace halocline::clients {
+namespace {
+
+// Bytes of a message in a log, its channel's name included.
+constexpr double kClock = 82, kStatus = 230, kState = 180, kSensors = 209, kCommand = 130, kEstimate = 249,
+                 kDvl = 170, kGps = 130, kSonar = 90, kSonarRay = 8, kUsbl = 124, kSend = 80, kReceipt = 106,
+                 kOutcome = 262, kReceive = 155, kLinks = 80, kLink = 168;
+// A RAY_QUERY with its RAY_REPLY, and each ray in both.
+constexpr double kRayQuery = 270, kRay = 65;
+constexpr int kNodes = 7, kBeamsOfDvl = 4;
+// Rays a second for each link along a straight path: its bottom is surveyed again as the ends move.
+constexpr double kSurveyedRaysPerSecond = 4;
+constexpr double kReceivedShare = 0.3;
+
+double per_second(SimDuration period) { return period > SimDuration() ? 1 / period.seconds() : 0; }
+
+double of_sensors(const vehicle_sim::VehicleSimConfig& config, const vehicle_sim::SensorSettings& s) {
+  const double basic = per_second(config.sensor_period) * (kSensors + kRay);
+  const double dvl = per_second(s.dvl.period) * (kDvl + kRayQuery + kBeamsOfDvl * kRay);
+  const double sonar = per_second(s.sonar.period) * (kSonar + kRayQuery + s.sonar.rays * (kRay + kSonarRay));
+  return basic + dvl + sonar + per_second(s.gps.period) * kGps;
+}
+
+double of_vehicles(const ScenarioConfig& config) {
+  double bytes = per_second(config.vehicle_sim.sensor_period) * kRayQuery;
+  for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
+    const vehicle_sim::VehicleSensors& own = config.vehicle_sim.vehicles.at(i);
+    bytes += per_second(config.vehicle_sim.state_period) * kState;
+    bytes += of_sensors(config.vehicle_sim, own.own ? own.sensors : config.vehicle_sim.sensors);
+    if (config.autopilot.vehicles.at(i).is_piloted())
+      bytes += per_second(config.autopilot.command_period) * kCommand;
+  }
+  return bytes;
+}
+
+double of_packets(const ScenarioConfig& config) {
+  const auto others = static_cast<double>(config.scenario.vehicles.size()) - 1;
+  const auto packets = [&](SimDuration period, double payload) {
+    return per_second(period) *
+           (kSend + kReceipt + payload + others * (kOutcome + kReceivedShare * (kReceive + payload)));
+  };
+  double bytes = 0;
+  for (const VehicleTraffic& traffic : config.traffic.vehicles)
+    bytes += packets(traffic.period, traffic.payload_bytes);
+  for (const PilotConfig& pilot : config.autopilot.vehicles) bytes += packets(pilot.broadcast.period, 17);
+  for (const VehicleLocaliser& vehicle : config.localiser.vehicles) {
+    bytes += 2 * packets(vehicle.ping_period, 0);  // and the answer
+    if (!vehicle.beacons.empty()) bytes += per_second(config.localiser.estimate_period) * kEstimate;
+  }
+  return bytes;
+}
+
+double of_links(const ScenarioConfig& config) {
+  const auto n = static_cast<double>(config.scenario.vehicles.size());
+  const double links = n * std::max(n - 1, 0.0);
+  const bool straight =
+      config.channel_server.propagation.model == channel_server::PropagationModel::kStraight;
+  return per_second(config.channel_server.rules.link_period) * (n * kLinks + links * kLink) +
+         (straight ? links * kSurveyedRaysPerSecond * kRay : 0);
+}
+
+}  // namespace
+
+double estimated_log_bytes(const ScenarioConfig& config) {
+  const double nodes = per_second(config.scenario.clock_period) * kClock + kNodes * kStatus;
+  return config.scenario.duration.seconds() *
+         (nodes + of_vehicles(config) + of_packets(config) + of_links(config));
+}
+
+std::string size_text(double bytes) {
+  constexpr std::array kUnits{"B", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1000 && unit + 1 < kUnits.size(); ++unit) bytes /= 1000;
+  char text[32];
+  std::snprintf(text, sizeof text, bytes < 10 ? "%.1f %s" : "%.0f %s", bytes, kUnits.at(unit));
+  return text;
+}
+
+}  // namespace halocline::clients

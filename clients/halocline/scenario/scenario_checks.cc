@@ -1,0 +1,212 @@
+#include "clients/halocline/scenario/scenario_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "acoustics/modem/modem.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "clients/autopilot/formation.h"
+#include "clients/halocline/scenario/speed_trial.h"
+#include "core/check.h"
+#include "core/csv_table.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/fleet.h"
+
+namespace halocline::clients {
+namespace {
+
+std::string key_of(std::size_t vehicle, const std::string& key) {
+  return "vehicle." + std::to_string(vehicle) + "." + key;
+}
+
+double rounded_down(double value) { return std::floor(100 * value) / 100; }
+
+const channel_server::VehicleModem& modem_of(const ScenarioConfig& config, std::size_t vehicle) {
+  const auto& own = config.channel_server.vehicles.at(vehicle);
+  return own.has_modem ? own.modem : config.channel_server.modem;
+}
+
+// A source of packets: the section that says so, and what it sends.
+struct PacketSource {
+  std::string section, size_key;
+  SimDuration period;
+  std::size_t payload_bytes;
+};
+
+void check_packets(std::size_t i, const PacketSource& source, const channel_server::VehicleModem& modem,
+                   bus::ConfigFile& file) {
+  if (source.period <= SimDuration()) return;
+  const std::size_t most = channel_server::largest_payload_bytes(modem);
+  const std::string bytes = std::to_string(source.payload_bytes);
+  if (source.payload_bytes > most)
+    return file.refuse(key_of(i, source.section + source.size_key), bytes,
+                       "its packets have " + bytes +
+                           " bytes; allowed with this vehicle's modem are at most " + std::to_string(most));
+  const double duration_s = packet_timing(modem.modem, source.payload_bytes).duration.seconds();
+  if (duration_s <= source.period.seconds()) return;
+  file.warn(key_of(i, source.section + ".period_s"), format_number(source.period.seconds()),
+            "a packet of " + bytes + " bytes lasts " + format_number(rounded_down(duration_s)) +
+                " s with this vehicle's modem, so packets are refused");
+}
+
+void check_modems(const ScenarioConfig& config, bus::ConfigFile& file) {
+  for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
+    const channel_server::VehicleModem& modem = modem_of(config, i);
+    const VehicleTraffic& traffic = config.traffic.vehicles.at(i);
+    check_packets(
+        i, {"traffic", ".payload_bytes", traffic.period, traffic.packet_bytes()},
+        modem, file);
+    check_packets(
+        i, {"mission.broadcast", ".period_s", config.autopilot.vehicles.at(i).broadcast.period, kReportBytes},
+        modem, file);
+  }
+}
+
+// A relay passes on whole packets, and packets with hops need one.
+void check_relays(const ScenarioConfig& config, bus::ConfigFile& file) {
+  std::size_t largest = 0;
+  bool has_relay = false;
+  for (const VehicleTraffic& traffic : config.traffic.vehicles) {
+    has_relay = has_relay || traffic.relay.passes_on;
+    if (traffic.is_relayed() && traffic.period > SimDuration()) largest = std::max(largest, traffic.packet_bytes());
+  }
+  for (std::size_t i = 0; i < config.traffic.vehicles.size(); ++i) {
+    const VehicleTraffic& traffic = config.traffic.vehicles[i];
+    const std::size_t most = largest_payload_bytes(modem_of(config, i));
+    if (traffic.relay.passes_on && most < largest)
+      file.refuse(key_of(i, "traffic.relay"), "true",
+                  "packets that are passed on have up to " + std::to_string(largest) +
+                      " bytes with their header, and its modem takes " + std::to_string(most));
+    if (traffic.is_relayed() && !has_relay)
+      file.warn(key_of(i, "traffic.hops"), std::to_string(traffic.relay.hops),
+                "no vehicle has relay = true, so none passes its packets on");
+  }
+}
+
+// Trials are made once for vehicles of one kind.
+class SpeedJudge {
+ public:
+  SpeedJudge(const ScenarioConfig& config, bus::ConfigFile& file) : config_(config), file_(file) {}
+
+  void check(std::size_t i, const vehicle_sim::Model& model) {
+    const PilotConfig& pilot = config_.autopilot.vehicles.at(i);
+    bool uses_mission_speed = pilot.behaviours.empty();
+    for (std::size_t k = 0; k < pilot.behaviours.size(); ++k) {
+      const double speed = pilot.behaviours[k].speed_mps;
+      uses_mission_speed = uses_mission_speed || speed <= 0;
+      if (speed > 0)
+        check(key_of(i, "mission.behaviour." + std::to_string(k) + ".speed_mps"), speed, model, pilot);
+    }
+    if (uses_mission_speed) check(key_of(i, "mission.speed_mps"), pilot.mission.speed_mps, model, pilot);
+  }
+
+ private:
+  void check(const std::string& key, double speed_mps, const vehicle_sim::Model& model,
+             const PilotConfig& pilot) {
+    const double held = held_speed(speed_mps, model, pilot);
+    if (held < speed_mps)
+      file_.refuse(key, format_number(speed_mps),
+                   "allowed is at most " + format_number(rounded_down(held)) + " m/s, which " + model.name() +
+                       " holds at its depth in still water");
+  }
+
+  // The set speed where it is held, else the greatest below it that is.
+  double held_speed(double speed_mps, const vehicle_sim::Model& model, const PilotConfig& pilot) {
+    const auto bytes_of = [](const auto& gains) {
+      return std::string(reinterpret_cast<const char*>(&gains), sizeof gains);
+    };
+    const bool by_thrusters = pilot.steering == Steering::kThrusters;
+    const auto [known, is_new] = held_.try_emplace(
+        {&model, speed_mps, by_thrusters ? bytes_of(pilot.hover_gains) : bytes_of(pilot.gains)}, speed_mps);
+    if (!is_new || holds(speed_mps, model, pilot)) return known->second;
+    constexpr int kHalvings = 8;
+    double held = 0, not_held = speed_mps;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (held + not_held);
+      (holds(middle, model, pilot) ? held : not_held) = middle;
+    }
+    return known->second = held;
+  }
+
+  bool holds(double speed_mps, const vehicle_sim::Model& model, const PilotConfig& pilot) const {
+    constexpr double kSlower = 0.05, kFarthestOff_m = 1;
+    const SpeedTrial trial = try_speed(model, pilot, config_.autopilot.command_period, speed_mps);
+    const bool keeps_depth = pilot.steering == Steering::kFins || trial.depth_error_m < kFarthestOff_m;
+    return keeps_depth && trial.speed_mps > (1 - kSlower) * speed_mps;
+  }
+
+  const ScenarioConfig& config_;
+  bus::ConfigFile& file_;
+  std::map<std::tuple<const vehicle_sim::Model*, double, std::string>, double> held_;
+};
+
+// Empty when the model has what the pilot steers with.
+std::string lacking(const vehicle_sim::ModelParameters& model, Steering steering) {
+  const bool has_thrusters = model.thrusters.size() == vehicle_sim::kMaxThrusters;
+  const bool has_fins =
+      model.propeller.diameter_m > 0 && model.rudder.area_m2 > 0 && model.stern_planes.area_m2 > 0;
+  if (steering == Steering::kThrusters ? has_thrusters : has_fins) return "";
+  const std::string has = has_thrusters ? "\"thrusters\""
+                          : has_fins    ? "\"fins\""
+                                        : "neither: it cannot be piloted";
+  return (steering == Steering::kThrusters ? " has no four thrusters"
+                                           : " has no propeller, rudder and stern planes") +
+         ("; allowed for it is " + has);
+}
+
+void check_pilots(const ScenarioConfig& config, bus::ConfigFile& file) {
+  const auto members = vehicle_sim::members_of(config.scenario, config.vehicle_sim);
+  SpeedJudge judge(config, file);
+  std::size_t member = 0;
+  for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
+    if (config.scenario.vehicles[i].model == "external") continue;
+    const std::shared_ptr<const vehicle_sim::Model> model = members.at(member++).model;
+    const PilotConfig& pilot = config.autopilot.vehicles.at(i);
+    if (!model || !pilot.is_piloted()) continue;
+    const std::string lack = lacking(model->parameters(), pilot.steering);
+    if (lack.empty()) {
+      judge.check(i, *model);
+    } else {
+      file.refuse(key_of(i, "mission.steering"), pilot.steering == Steering::kFins ? "fins" : "thrusters",
+                  "the model " + model->name() + lack);
+    }
+  }
+}
+
+void check_count(const ScenarioConfig& config, bus::ConfigFile& file) {
+  constexpr std::size_t kMost = channel_server::VehicleRegistry::kMaxVehicles;
+  const std::size_t count = config.scenario.vehicles.size();
+  if (count > kMost)
+    file.refuse(key_of(kMost, "name"), config.scenario.vehicles[kMost].name,
+                "the channel server follows " + std::to_string(kMost) +
+                    " vehicles, allowed are no more; these are " + std::to_string(count));
+}
+
+void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
+  const channel_server::ProfileConfig& profile = config.channel_server.environment.profile;
+  if (profile.source != channel_server::ProfileSource::kFile) return;
+  try {
+    make_environment(config.channel_server.environment, config.scenario, config.folder);
+  } catch (const InvalidArgument& error) {
+    file.refuse("environment.profile_file", profile.file, error.what());
+  }
+}
+
+}  // namespace
+
+void check_sense(const ScenarioConfig& config, bus::ConfigFile& file) {
+  check_count(config, file);
+  check_modems(config, file);
+  check_relays(config, file);
+  check_pilots(config, file);
+  check_profile(config, file);
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,27 @@
+// Checks of sense: what each section allows and the whole scenario cannot mean.
+//
+// What is surely wrong is refused in `file`, and thrown by its check_findings() with all else; what may be meant is
+// warned of. The sections check their own keys (visit); here is what takes several of them, a model, or the terrain.
+//
+//   refused: traffic that no modem carries, a pilot whose steering the model lacks or whose speed it does not hold, more
+//            vehicles than are followed, a profile that cannot be read; a start out of the water (vehicle_sim/start_checks.h),
+//            a waypoint, or a whole survey or circle, under ground or in the air
+//   warned:  packets that last longer than their period, a terrain with posts without depth, missions that leave the
+//            terrain or whose tracks the ground cuts
+#pragma once
+
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "bathymetry/terrain/terrain.h"
+#include "bus/config/config.h"
+#include "clients/halocline/scenario/composition.h"
+
+namespace halocline::clients {
+
+// All that needs no terrain.
+void check_sense(const ScenarioConfig& config, bus::ConfigFile& file);
+
+// The rest (terrain_checks.cc).
+void check_on_terrain(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,
+                      bus::ConfigFile& file);
+
+}  // namespace halocline::clients

@@ -1,0 +1,45 @@
+#include "vehicle_sim/start_checks.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "core/csv_table.h"
+
+namespace halocline::vehicle_sim {
+namespace {
+
+// Centimetres are enough for a person, and rounded up a depth would lie under ground.
+std::string rounded_down(double z_m) { return format_number(std::floor(100 * z_m) / 100); }
+
+// What is allowed instead of this start; empty when it lies in the water.
+std::string allowed_instead(const Vec3& start_ned_m, double sea_surface_z_m, const Seabed& seabed,
+                            const std::string& extent) {
+  const std::optional<SeabedPlane> ground = seabed.plane_at(start_ned_m.x(), start_ned_m.y());
+  if (!ground) return "the terrain is not known there; allowed is a place on it, " + extent;
+  if (start_ned_m.z() >= sea_surface_z_m && start_ned_m.z() <= ground->z_m) return "";
+  if (ground->z_m < sea_surface_z_m)
+    return "there is land, " + rounded_down(sea_surface_z_m - ground->z_m) +
+           " m above the sea; allowed is a place in the water";
+  return (start_ned_m.z() > ground->z_m ? "that is under ground" : "that is above the sea surface") +
+         std::string("; allowed there is a z, positive down, of ") + format_number(sea_surface_z_m) +
+         " m (the sea surface) to " + rounded_down(ground->z_m) + " m (the ground)";
+}
+
+}  // namespace
+
+void check_starts(const bus::Scenario& scenario, const Seabed& seabed, const std::string& extent,
+                  bus::ConfigFile& file) {
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    const bus::VehicleEntry& vehicle = scenario.vehicles[i];
+    if (vehicle.model == "external") continue;
+    const Vec3& p = vehicle.start_ned_m;
+    const std::string allowed = allowed_instead(p, scenario.sea_surface_z_m, seabed, extent);
+    if (allowed.empty()) continue;
+    file.refuse("vehicle." + std::to_string(i) + ".start_ned_m",
+                "[" + format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) + "]",
+                "vehicle " + vehicle.name + ": " + allowed);
+  }
+}
+
+}  // namespace halocline::vehicle_sim
