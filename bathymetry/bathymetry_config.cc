@@ -1,5 +1,6 @@
 #include "bathymetry/bathymetry_config.h"
 
+#include <string>
 #include <vector>
 
 #include "bathymetry/rasters/raster_options.h"

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/csv_table.h"
+#include "core/frames.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -37,7 +37,9 @@ Dataset open_one(const std::string& path, bool rows_as_stored) {
   Dataset dataset(GDALDataset::FromHandle(
       GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
   if (rows_as_stored) CPLSetThreadLocalConfigOption("GDAL_NETCDF_BOTTOMUP", nullptr);
-  require(dataset != nullptr, "cannot read the raster '" + path + "': " + quiet.last());
+  const std::string reason = quiet.last();
+  require(dataset != nullptr, "cannot read the raster '" + path +
+                                  "': " + (reason.empty() ? "GDAL knows no format of this content" : reason));
   return dataset;
 }
 

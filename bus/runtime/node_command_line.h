@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bus/config/config.h"
 #include "bus/event_log.h"
 #include "bus/node_identity.h"
 #include "bus/runtime/node_process.h"

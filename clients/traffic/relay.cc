@@ -69,8 +69,13 @@ void Relay::deliver(const RelayPacket& packet, SimTime at) {
   ++counters_.delivered;
   if (packet.kind != RelayKind::kDataToConfirm) return;
   // Its number is that of the packet confirmed.
-  RelayPacket confirmation{RelayKind::kConfirmation, packet.hops_allowed, packet.hops_allowed - 1, vehicle_id_,
-                           packet.origin,            packet.number,       {}};
+  RelayPacket confirmation{RelayKind::kConfirmation,
+                           packet.hops_allowed,
+                           packet.hops_allowed - 1,
+                           vehicle_id_,
+                           packet.origin,
+                           packet.number,
+                           {}};
   const SimDuration wait = wait_before(confirmation, 0);
   store(std::move(confirmation), at + wait, 0);
 }
@@ -137,14 +142,16 @@ bool Relay::is_new(const Name& name) {
 }
 
 SimDuration Relay::wait_before(const RelayPacket& packet, int tries) const {
-  const auto which = identity_of({static_cast<std::uint64_t>(packet.origin), static_cast<std::uint64_t>(packet.kind),
-                                  packet.number, static_cast<std::uint64_t>(tries)});
+  const auto which =
+      identity_of({static_cast<std::uint64_t>(packet.origin), static_cast<std::uint64_t>(packet.kind),
+                   packet.number, static_cast<std::uint64_t>(tries)});
   const double share = uniform_at({.seed = seed_,
                                    .purpose = purpose_of("relay-wait"),
                                    .who = static_cast<std::uint32_t>(vehicle_id_),
                                    .which = which});
   if (tries == 0) return SimDuration::from_seconds(share * rules_.longest_wait.seconds());
-  return kShortestRetry + SimDuration::from_seconds(share * std::max(rules_.longest_wait, kLongestRetry).seconds());
+  return kShortestRetry +
+         SimDuration::from_seconds(share * std::max(rules_.longest_wait, kLongestRetry).seconds());
 }
 
 void Relay::clear() {

@@ -23,7 +23,8 @@ void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   v.boolean("relay", t.relay.passes_on, "pass on packets of others that have transmissions left");
   bus::integer_as(v, "hops", t.relay.hops,
                   {1, RelayPacket::kMostHops, "",
-                   "transmissions of its packets on their way; above 1 they go to all in range, with a header of 14 bytes"});
+                   "transmissions of its packets on their way; above 1 they go to all in range, with a "
+                   "header of 14 bytes"});
   v.boolean("confirmed", t.relay.confirmed, "with hops above 1: the destination sends a confirmation back");
   bus::seconds(v, "relay_wait_s", t.relay.longest_wait,
                {0, 3600, "s", "longest random wait before a packet is passed on"});

@@ -147,10 +147,11 @@ std::string TrafficNode::relay_text() const {
     is_used = is_used || sender->traffic.is_relayed() || sender->traffic.relay.passes_on;
   }
   if (!is_used) return "";
-  return "; end to end: sent " + std::to_string(sum.originated) + ", delivered " + std::to_string(sum.delivered) +
-         ", confirmed " + std::to_string(sum.confirmed) + "; passed on " + std::to_string(sum.passed_on) +
-         ", duplicates " + std::to_string(sum.duplicates) + ", expired " + std::to_string(sum.expired) +
-         ", tried again " + std::to_string(sum.retried) + ", dropped " + std::to_string(sum.dropped);
+  return "; end to end: sent " + std::to_string(sum.originated) + ", delivered " +
+         std::to_string(sum.delivered) + ", confirmed " + std::to_string(sum.confirmed) + "; passed on " +
+         std::to_string(sum.passed_on) + ", duplicates " + std::to_string(sum.duplicates) + ", expired " +
+         std::to_string(sum.expired) + ", tried again " + std::to_string(sum.retried) + ", dropped " +
+         std::to_string(sum.dropped);
 }
 
 }  // namespace halocline::clients

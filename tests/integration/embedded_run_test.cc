@@ -147,7 +147,8 @@ TEST_F(EmbeddedRunTest, TheFirstTableGoesAlongRays) {
 
 // Without start_s the first packet leaves with the first state, of which the server may not yet know.
 TEST_F(EmbeddedRunTest, ThePacketOfTheFirstInstantIsTransmitted) {
-  const std::string log = run(load("harbour", {"scenario.duration_s=5", "vehicle.0.traffic.start_s=0"}), "log");
+  const std::string log =
+      run(load("harbour", {"scenario.duration_s=5", "vehicle.0.traffic.start_s=0"}), "log");
   const auto receipts = messages_in<modem_receipt_t>(log);
   ASSERT_FALSE(receipts.empty());
   EXPECT_EQ(receipts[0].first, "RECEIPT.quay");
@@ -168,8 +169,7 @@ std::set<int> reports_at_the_boat(const std::string& log) {
 
 TEST_F(EmbeddedRunTest, ReportsGoRoundAnIslandByRelaysAlone) {
   EXPECT_GT(reports_at_the_boat(run(load("relay", {}), "log")).size(), 15u);  // of 20
-  const auto alone =
-      load("relay", {"vehicle.1.traffic.relay=false", "vehicle.2.traffic.relay=false"});
+  const auto alone = load("relay", {"vehicle.1.traffic.relay=false", "vehicle.2.traffic.relay=false"});
   EXPECT_TRUE(reports_at_the_boat(run(alone, "alone")).empty());
 }
 

@@ -31,8 +31,8 @@ struct LinkArrivals {
   bool modems_known = false;          // then `received` holds one for each path
   acoustics::Transducers beams = {};  // of the modems, which weigh summary and impulse response
   std::vector<ReceivedPath> received = {};
-  bool blocked = false;       // where no ray gets there: the bottom cuts the straight line
-  std::string found_by = {};  // empty: the solver's name
+  bool blocked = false;                      // where no ray gets there: the bottom cuts the straight line
+  std::string found_by = {};                 // empty: the solver's name
   std::optional<DelaySpreads> spreads = {};  // with known modems
 };
 

@@ -68,10 +68,6 @@ ScenarioConfig read_scenario(bus::ConfigFile& file) {
   file.check(/*whole_file=*/true);
   config.folder = file.folder();
   config.scenario.configuration = bus::configuration_of(file);
-  // These throw with what is wrong in a model's file, a fault or a name.
-  vehicle_sim::faults_of(vehicle_sim::members_of(config.scenario, config.vehicle_sim), config.vehicle_sim);
-  for (const PilotConfig& pilot : config.autopilot.vehicles) beacons_of(config.autopilot, pilot);
-  for (const VehicleLocaliser& vehicle : config.localiser.vehicles) beacons_of(config.localiser, vehicle);
   check_sense(config, file);
   return config;
 }

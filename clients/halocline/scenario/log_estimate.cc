@@ -6,6 +6,12 @@
 #include <cstdio>
 
 #include "channel_server/channel_server_config.h"
+#include "clients/autopilot/autopilot_config.h"
+#include "clients/localiser/localiser_config.h"
+#include "clients/traffic/traffic_config.h"
+#include "core/sim_time.h"
+#include "vehicle_sim/sensors/sensor_settings.h"
+#include "vehicle_sim/vehicle_sim_config.h"
 
 namespace halocline::clients {
 namespace {
@@ -13,13 +19,17 @@ namespace {
 // Bytes of a message in a log, its channel's name included.
 constexpr double kClock = 82, kStatus = 230, kState = 180, kSensors = 209, kCommand = 130, kEstimate = 249,
                  kDvl = 170, kGps = 130, kSonar = 90, kSonarRay = 8, kUsbl = 124, kSend = 80, kReceipt = 106,
-                 kOutcome = 262, kReceive = 155, kLinks = 80, kLink = 168;
+                 kOutcome = 262, kReceive = 155, kLinks = 80, kLink = 168, kActivity = 112, kTerrain = 47'000,
+                 kScenario = 1500, kScenarioVehicle = 400;
 // A RAY_QUERY with its RAY_REPLY, and each ray in both.
 constexpr double kRayQuery = 270, kRay = 65;
 constexpr int kNodes = 7, kBeamsOfDvl = 4;
 // Rays a second for each link along a straight path: its bottom is surveyed again as the ends move.
 constexpr double kSurveyedRaysPerSecond = 4;
 constexpr double kReceivedShare = 0.3;
+// Depths that a link along rays requests for each step of its profile, once.
+constexpr double kDepthsAStep = 16;
+constexpr double kScenarioPeriod_s = 60;
 
 double per_second(SimDuration period) { return period > SimDuration() ? 1 / period.seconds() : 0; }
 
@@ -37,7 +47,7 @@ double of_vehicles(const ScenarioConfig& config) {
     bytes += per_second(config.vehicle_sim.state_period) * kState;
     bytes += of_sensors(config.vehicle_sim, own.own ? own.sensors : config.vehicle_sim.sensors);
     if (config.autopilot.vehicles.at(i).is_piloted())
-      bytes += per_second(config.autopilot.command_period) * kCommand;
+      bytes += per_second(config.autopilot.command_period) * kCommand + kActivity;
   }
   return bytes;
 }
@@ -68,12 +78,29 @@ double of_links(const ScenarioConfig& config) {
          (straight ? links * kSurveyedRaysPerSecond * kRay : 0);
 }
 
+// The terrain, and the bottom under the links along rays: no more of it than the terrain has.
+double once(const ScenarioConfig& config) {
+  if (config.channel_server.propagation.model == channel_server::PropagationModel::kStraight) return kTerrain;
+  const double spacing_m = config.channel_server.rules.seabed.spacing_m;
+  const auto& vehicles = config.scenario.vehicles;
+  double steps = 0;
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      steps += (vehicles[i].start_ned_m - vehicles[k].start_ned_m).head<2>().norm() / spacing_m;
+  }
+  const double lattice =
+      config.terrain.domain.size_north_m * config.terrain.domain.size_east_m / (spacing_m * spacing_m);
+  return kTerrain + kRay * std::min(kDepthsAStep * steps, lattice);
+}
+
 }  // namespace
 
 double estimated_log_bytes(const ScenarioConfig& config) {
-  const double nodes = per_second(config.scenario.clock_period) * kClock + kNodes * kStatus;
-  return config.scenario.duration.seconds() *
-         (nodes + of_vehicles(config) + of_packets(config) + of_links(config));
+  const double scenario = kScenario + kScenarioVehicle * static_cast<double>(config.scenario.vehicles.size());
+  const double nodes =
+      per_second(config.scenario.clock_period) * kClock + kNodes * kStatus + scenario / kScenarioPeriod_s;
+  return once(config) + config.scenario.duration.seconds() *
+                            (nodes + of_vehicles(config) + of_packets(config) + of_links(config));
 }
 
 std::string size_text(double bytes) {

@@ -12,10 +12,13 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation.h"
 #include "clients/halocline/scenario/speed_trial.h"
+#include "clients/traffic/traffic_config.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/sim_time.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/fleet.h"
 
@@ -60,9 +63,7 @@ void check_modems(const ScenarioConfig& config, bus::ConfigFile& file) {
   for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
     const channel_server::VehicleModem& modem = modem_of(config, i);
     const VehicleTraffic& traffic = config.traffic.vehicles.at(i);
-    check_packets(
-        i, {"traffic", ".payload_bytes", traffic.period, traffic.packet_bytes()},
-        modem, file);
+    check_packets(i, {"traffic", ".payload_bytes", traffic.period, traffic.packet_bytes()}, modem, file);
     check_packets(
         i, {"mission.broadcast", ".period_s", config.autopilot.vehicles.at(i).broadcast.period, kReportBytes},
         modem, file);
@@ -75,7 +76,8 @@ void check_relays(const ScenarioConfig& config, bus::ConfigFile& file) {
   bool has_relay = false;
   for (const VehicleTraffic& traffic : config.traffic.vehicles) {
     has_relay = has_relay || traffic.relay.passes_on;
-    if (traffic.is_relayed() && traffic.period > SimDuration()) largest = std::max(largest, traffic.packet_bytes());
+    if (traffic.is_relayed() && traffic.period > SimDuration())
+      largest = std::max(largest, traffic.packet_bytes());
   }
   for (std::size_t i = 0; i < config.traffic.vehicles.size(); ++i) {
     const VehicleTraffic& traffic = config.traffic.vehicles[i];
@@ -189,20 +191,55 @@ void check_count(const ScenarioConfig& config, bus::ConfigFile& file) {
                     " vehicles, allowed are no more; these are " + std::to_string(count));
 }
 
+// Refuses the key where `attempt` throws InvalidArgument, with its reason.
+template <class Attempt>
+void refuse_if_thrown(bus::ConfigFile& file, const std::string& key, const std::string& value,
+                      const Attempt& attempt) {
+  try {
+    attempt();
+  } catch (const InvalidArgument& error) {
+    file.refuse(key, value, error.what());
+  }
+}
+
+// Vehicles that other vehicles, faults and tethers name.
+void check_names(const ScenarioConfig& config, bus::ConfigFile& file) {
+  const auto members = vehicle_sim::members_of(config.scenario, config.vehicle_sim);
+  vehicle_sim::VehicleSimConfig one = config.vehicle_sim;
+  one.tethers.clear();
+  for (std::size_t i = 0; i < config.vehicle_sim.faults.size(); ++i) {
+    one.faults = {config.vehicle_sim.faults[i]};
+    refuse_if_thrown(file, "fault." + std::to_string(i) + ".vehicle", one.faults[0].vehicle,
+                     [&] { vehicle_sim::faults_of(members, one); });
+  }
+  for (std::size_t i = 0; i < config.vehicle_sim.tethers.size(); ++i) {
+    one.tethers = {config.vehicle_sim.tethers[i]};
+    refuse_if_thrown(file, "tether." + std::to_string(i) + ".vehicle", one.tethers[0].vehicle,
+                     [&] { settings_of(config.scenario, one); });
+  }
+  for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
+    const PilotConfig& pilot = config.autopilot.vehicles.at(i);
+    refuse_if_thrown(file, key_of(i, "mission.navigator.usbl_beacons"), pilot.usbl_beacons,
+                     [&] { beacons_of(config.autopilot, pilot); });
+    const VehicleLocaliser& localiser = config.localiser.vehicles.at(i);
+    refuse_if_thrown(file, key_of(i, "localiser.beacons"), localiser.beacons,
+                     [&] { beacons_of(config.localiser, localiser); });
+  }
+}
+
 void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
   const channel_server::ProfileConfig& profile = config.channel_server.environment.profile;
   if (profile.source != channel_server::ProfileSource::kFile) return;
-  try {
+  refuse_if_thrown(file, "environment.profile_file", profile.file, [&] {
     make_environment(config.channel_server.environment, config.scenario, config.folder);
-  } catch (const InvalidArgument& error) {
-    file.refuse("environment.profile_file", profile.file, error.what());
-  }
+  });
 }
 
 }  // namespace
 
 void check_sense(const ScenarioConfig& config, bus::ConfigFile& file) {
   check_count(config, file);
+  check_names(config, file);
   check_modems(config, file);
   check_relays(config, file);
   check_pilots(config, file);

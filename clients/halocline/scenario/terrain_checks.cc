@@ -4,7 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "bathymetry/rasters/raster_loader.h"
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "bathymetry/terrain/terrain.h"
+#include "bus/config/config.h"
+#include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/plan.h"
+#include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/scenario_checks.h"
 #include "core/csv_table.h"
 #include "core/frames.h"

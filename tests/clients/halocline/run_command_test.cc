@@ -33,10 +33,11 @@ class RunCommand : public ::testing::Test {
  protected:
   RunCommand() {
     fs::create_directories(folder_);
-    std::ofstream(folder_ + "/pond.toml") << "[scenario]\nname = \"pond\"\nduration_s = 600\n"
-                                             "[[vehicle]]\nname = \"a\"\nid = 1\nstart_ned_m = [0.0, 0.0, 20.0]\n"
-                                             "[[vehicle]]\nname = \"b\"\nid = 2\nstart_ned_m = [0.0, 50.0, 20.0]\n"
-                                             "[vehicle.traffic]\nperiod_s = 5\n";
+    std::ofstream(folder_ + "/pond.toml")
+        << "[scenario]\nname = \"pond\"\nduration_s = 600\n"
+           "[[vehicle]]\nname = \"a\"\nid = 1\nstart_ned_m = [0.0, 0.0, 20.0]\n"
+           "[[vehicle]]\nname = \"b\"\nid = 2\nstart_ned_m = [0.0, 50.0, 20.0]\n"
+           "[vehicle.traffic]\nperiod_s = 5\n";
   }
   ~RunCommand() override { fs::remove_all(folder_); }
 
@@ -54,7 +55,8 @@ class RunCommand : public ::testing::Test {
     return {code, process.output()};
   }
   // Signals once `text` is in the output and `file` holds something.
-  Ended run_until(const std::string& arguments, const std::string& text, const std::string& file, int signal) {
+  Ended run_until(const std::string& arguments, const std::string& text, const std::string& file,
+                  int signal) {
     Process process(command(arguments));
     for (int i = 0; i < 3000 && process.running(); ++i) {
       std::error_code error;
@@ -105,6 +107,14 @@ TEST_F(RunCommand, ARunThatIsRefusedLeavesNoFolder) {
   EXPECT_FALSE(fs::exists(folder_ + "/runs"));
 }
 
+// Where each program is started by hand, the one that makes the terrain checks the starts on it.
+TEST_F(RunCommand, TheVehicleSimulatorRefusesAStartUnderGroundToo) {
+  Process process({HALOCLINE_BIN_DIR "/halocline-vehicle-sim", folder_ + "/pond.toml", "--time-source",
+                   "lockstep", "--set", "vehicle.0.start_ned_m=[0.0,0.0,500.0]"});
+  EXPECT_EQ(process.wait(), 2);
+  EXPECT_THAT(process.output(), HasSubstr("vehicle a: that is under ground"));
+}
+
 TEST_F(RunCommand, QuietIsSilentButForErrors) {
   const Ended quiet = run("run pond.toml --duration 2 --quiet --set vehicle.1.traffic.period_s=1");
   EXPECT_EQ(quiet.code, 0);
@@ -115,7 +125,8 @@ TEST_F(RunCommand, QuietIsSilentButForErrors) {
 }
 
 TEST_F(RunCommand, AWarningIsPrintedOnce) {
-  const std::string output = run("run pond.toml --duration 2 --no-csv --set vehicle.1.traffic.period_s=1").output;
+  const std::string output =
+      run("run pond.toml --duration 2 --no-csv --set vehicle.1.traffic.period_s=1").output;
   const auto at = output.find("warning: command line: vehicle[1].traffic.period_s is 1");
   ASSERT_NE(at, std::string::npos) << output;
   EXPECT_EQ(output.find("warning:", at + 1), std::string::npos);
@@ -136,24 +147,28 @@ TEST_F(RunCommand, TerminatedItEndsInOrder) {
 
 TEST_F(RunCommand, AnInterruptedReplayExitsWith130) {
   ASSERT_EQ(run("run pond.toml --duration 300 --no-csv --out here --quiet").code, 0);
-  const Ended end = run_until("replay here/pond.lcm --log again.lcm --set channel_server.link_rate_hz=50 --no-comparison", "",
-                              "again.lcm", SIGINT);
+  const Ended end =
+      run_until("replay here/pond.lcm --log again.lcm --set channel_server.link_rate_hz=50 --no-comparison",
+                "", "again.lcm", SIGINT);
   EXPECT_EQ(end.code, 130) << end.output;
   EXPECT_THAT(end.output, HasSubstr("(interrupted)"));
 }
 
 TEST_F(RunCommand, AnInterruptedSweepExitsWith130) {
-  const Ended end = run_until("sweep pond.toml --axis environment.wind_mps=2,5 --duration 100000 --out wind --jobs 1",
-                              "to do here", "wind/sweep.toml", SIGINT);
+  const Ended end =
+      run_until("sweep pond.toml --axis environment.wind_mps=2,5 --duration 100000 --out wind --jobs 1",
+                "to do here", "wind/sweep.toml", SIGINT);
   EXPECT_EQ(end.code, 130) << end.output;
 }
 
 TEST_F(RunCommand, AnEnormousLogIsAnnounced) {
-  const Ended end = run_until("run pond.toml --rate 1 --duration 3e7 --out long", "terrain", "long/pond.lcm", SIGINT);
+  const Ended end =
+      run_until("run pond.toml --rate 1 --duration 3e7 --out long", "terrain", "long/pond.lcm", SIGINT);
   EXPECT_EQ(end.code, 130);
   EXPECT_THAT(end.output, HasSubstr("warning: the log will have about "));
   EXPECT_THAT(end.output, HasSubstr(" GB"));
-  EXPECT_THAT(run("run pond.toml --duration 1 --no-csv --out short").output, Not(HasSubstr("the log will have")));
+  EXPECT_THAT(run("run pond.toml --duration 1 --no-csv --out short").output,
+              Not(HasSubstr("the log will have")));
 }
 
 }  // namespace

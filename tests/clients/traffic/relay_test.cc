@@ -145,7 +145,8 @@ TEST(Relay, GivesUpAfterManyTriesAndWhatTheModemNeverTakes) {
   Relay relay(2, rules(true), 5);
   relay.take(first_packet(), at_s(11));
   int tries = 0;
-  for (SimTime at = at_s(13); relay.next() != SimTime::never(); at = at + SimDuration::from_seconds(10), ++tries) {
+  for (SimTime at = at_s(13); relay.next() != SimTime::never();
+       at = at + SimDuration::from_seconds(10), ++tries) {
     ASSERT_TRUE(relay.transmit_due(at));
     relay.on_sent(tries);
     relay.on_receipt(tries, Verdict::kBusy, at);

@@ -199,8 +199,8 @@ TEST(LinkSurvey, ArrivalsHaveTheDelaySpreadsOfTheBudget) {
     std::ostringstream text;
     print_arrivals(text, {link.arrivals}, OutputFormat::kTable);
     char line[80];
-    std::snprintf(line, sizeof line, "delay spread %.6f s, rms delay spread %.6f s", link.reception.delay_spread_s,
-                  link.forecast.rms_delay_spread_s);
+    std::snprintf(line, sizeof line, "delay spread %.6f s, rms delay spread %.6f s",
+                  link.reception.delay_spread_s, link.forecast.rms_delay_spread_s);
     EXPECT_NE(text.str().find(line), std::string::npos) << text.str();
   }
 }

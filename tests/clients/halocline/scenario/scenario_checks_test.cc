@@ -145,8 +145,9 @@ TEST_F(ScenarioChecks, ARasterSmallerThanTheGridIsWarnedOf) {
 TEST_F(ScenarioChecks, MissingFilesAreNamedWithTheReason) {
   const auto errors = [&](const std::string& text) { return findings_in(text).errors; };
   const std::string gone = "there is no such file";
-  EXPECT_THAT(errors("[terrain]\nkind = \"raster\"\n[terrain.raster]\npath = \"gone.tif\"\n"),
-              ElementsAre(AllOf(HasSubstr("sea.toml:4: terrain.raster.path is 'gone.tif'"), HasSubstr(gone))));
+  EXPECT_THAT(
+      errors("[terrain]\nkind = \"raster\"\n[terrain.raster]\npath = \"gone.tif\"\n"),
+      ElementsAre(AllOf(HasSubstr("sea.toml:4: terrain.raster.path is 'gone.tif'"), HasSubstr(gone))));
   EXPECT_THAT(
       errors("[environment]\nprofile = \"file\"\nprofile_file = \"gone.csv\"\n"),
       ElementsAre(AllOf(HasSubstr("sea.toml:3: environment.profile_file is 'gone.csv'"), HasSubstr(gone))));
@@ -246,6 +247,17 @@ TEST_F(ScenarioChecks, RelayedPacketsNeedRelaysThatCarryThem) {
                                                   HasSubstr("no vehicle has relay = true"))));
   EXPECT_THAT(sea("[vehicle.traffic]\nrelay = true\n[vehicle.modem]\nmax_payload_bytes = 45\n").errors,
               ElementsAre(AllOf(HasSubstr("vehicle[1].traffic.relay is true"), HasSubstr("up to 46 bytes"))));
+}
+
+TEST_F(ScenarioChecks, NamesAreThoseOfVehicles) {
+  EXPECT_THAT(
+      errors_with(
+          "[vehicle.localiser]\nbeacons = \"nobody\"\n[vehicle.mission.navigator]\nusbl_beacons = \"none\"\n"
+          "[[fault]]\nvehicle = \"ghost\"\nkind = \"leak\"\n[[tether]]\nvehicle = \"wraith\"\n"),
+      ElementsAre(HasSubstr("sea.toml:11: fault[0].vehicle is 'ghost'"),
+                  HasSubstr("sea.toml:14: tether[0].vehicle is 'wraith'"),
+                  HasSubstr("sea.toml:9: vehicle[0].mission.navigator.usbl_beacons is 'none'"),
+                  HasSubstr("sea.toml:7: vehicle[0].localiser.beacons is 'nobody'")));
 }
 
 TEST_F(ScenarioChecks, MoreVehiclesThanAreFollowedAreRefused) {
