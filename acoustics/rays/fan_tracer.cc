@@ -229,6 +229,7 @@ void FanTracer::trace_from(State& s, std::size_t enough_events, FanRay& ray) {
       ray.arrived = true;
       ray.zeta = s.orientation * s.z + 2 * exact_.bottom_at_receiver_m() * s.images;
       ray.zeta_slope = s.q / std::sqrt(std::max(1 - s.sine * s.sine, kMinCosine * kMinCosine));
+      ray.slowness = s.sine / s.c;
       return;
     } else if (!go_to_knot(s, step)) {
       return;

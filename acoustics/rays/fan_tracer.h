@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/arc_steps.h"
 #include "acoustics/rays/arc_tracer.h"
@@ -29,6 +30,7 @@ struct FanRay {
   bool arrived = false;                     // false: too faint, turned back or too many bounces
   double zeta = 0;                          // unfolded depth at the receiver's range, m
   double zeta_slope = 0;                    // d zeta / d theta
+  double slowness = 0;                      // sin / c there, s/m
   double loss_db = 0;                       // of the bounces
   std::size_t first_event = 0, events = 0;  // of what happened to it; the tracer keeps that
 };
@@ -40,6 +42,19 @@ inline HermiteCubic cubic_of(const FanRay& a, const FanRay& b) {
 // Mean of |d2 zeta / d theta2| between two rays.
 inline double bend_between(const FanRay& a, const FanRay& b) {
   return std::abs((b.zeta_slope - a.zeta_slope) / (b.theta - a.theta));
+}
+
+// As if all between two rays were one fold.
+inline Fold fold_between(const FanRay& a, const FanRay& b) {
+  const double width = b.theta - a.theta;
+  return {(b.zeta_slope - a.zeta_slope) / width, (b.slowness - a.slowness) / width};
+}
+// At a ray between two, by parabolas.
+inline Fold fold_at(const FanRay& a, const FanRay& middle, const FanRay& b) {
+  const Fold before = fold_between(a, middle), after = fold_between(middle, b);
+  const double t = (middle.theta - a.theta) / (b.theta - a.theta);
+  return {before.curvature + t * (after.curvature - before.curvature),
+          before.slowness_slope + t * (after.slowness_slope - before.slowness_slope)};
 }
 
 class FanTracer {

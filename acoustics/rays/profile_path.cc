@@ -7,7 +7,6 @@
 #include <queue>
 #include <utility>
 
-#include "acoustics/math/fold_field.h"
 #include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
@@ -21,6 +20,7 @@ constexpr double kBesideGrazing = 1e-9;  // rad
 constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic to rounding
 
 constexpr double kLeastFoldShare = 0.5;  // of the way from a fold to its rays, as foreseen
+constexpr double kFoldMargin = 1.25;     // of lengths of Airy
 constexpr double kFoldStep = 1e-4;       // rad: to the rays that show how a fold bends
 
 constexpr double kSimplifiedWithin = 0.05;  // m
@@ -113,25 +113,36 @@ std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, d
   return ProfilePath{arrival_of(tracer, ray, details, target, std::max(std::abs(ray.q), kMinTube)), target};
 }
 
+double ProfileFolds::length_m(const Fold& fold) const {
+  const RayOptions& options = tracer_.sea().options;
+  if (!options.airy_folds) return 0;
+  return std::min(kFoldMargin * fold.length_m(options.frequency_hz),
+                  kNearFold * tracer_.bottom_at_receiver_m() / -kDarkFold);
+}
+
 void ProfileFolds::note(double theta) {
-  TracedRay before, ray, after;
-  TracedDetails details;
-  tracer_.trace(theta, ray, &details);
-  if (!is_kept(tracer_, ray)) return;
-  tracer_.trace(theta - kFoldStep, before);
-  tracer_.trace(theta + kFoldStep, after);
-  if (!before.arrived || !after.arrived) return;
-  if (before.family != ray.family || after.family != ray.family) return;
+  tracer_.trace(theta - kFoldStep, before_);
+  if (!before_.arrived) return;
+  tracer_.trace(theta + kFoldStep, after_);
+  if (!after_.arrived || before_.family != after_.family) return;
   const auto slowness = [](const TracedRay& one) { return one.sine * one.xi / cosine_of(one); };
   // In the plane of unfolded depth, slowness sin / c.
-  const Fold fold{(after.zeta_slope - before.zeta_slope) / (2 * kFoldStep),
-                  (slowness(after) - slowness(before)) / (2 * kFoldStep)};
-  ray.caustics = std::min(before.caustics, after.caustics);
+  const Fold fold{(after_.zeta_slope - before_.zeta_slope) / (2 * kFoldStep),
+                  (slowness(after_) - slowness(before_)) / (2 * kFoldStep)};
+  // By the cubic between the two; the ray between them is as far from the turn as its slope shows.
+  const double slope = 0.5 * (before_.zeta_slope + after_.zeta_slope);
+  const double turn = 0.5 * (before_.zeta + after_.zeta) - fold.curvature * kFoldStep * kFoldStep / 2 -
+                      0.5 * slope * slope / fold.curvature;
   const double frequency = tracer_.sea().options.frequency_hz, period = 2 * tracer_.bottom_at_receiver_m();
   for (const double image : {tracer_.receiver_depth_m(), -tracer_.receiver_depth_m()}) {
-    const double target = image + std::round((ray.zeta - image) / period) * period, off = target - ray.zeta;
+    const double target = image + std::round((turn - image) / period) * period, off = target - turn;
     const double x = off / std::copysign(fold.length_m(frequency), fold.curvature);
     if (x < kDarkFold || x > kLitFold) continue;
+    TracedRay ray;
+    TracedDetails details;
+    tracer_.trace(theta, ray, &details);
+    if (!is_kept(tracer_, ray) || ray.family != before_.family) continue;
+    ray.caustics = std::min(before_.caustics, after_.caustics);
     Arrival path = arrival_of(tracer_, ray, details, target, cosine_of(ray) * fold.tube_slope(x, frequency));
     path.phase_rad = std::fmod(path.phase_rad + pi / 4, 2 * pi);  // of the caustic half way through it
     found_.push_back({path, target, x, std::sqrt(2 * std::abs(off / fold.curvature))});

@@ -10,10 +10,13 @@
 #include <optional>
 #include <vector>
 
+#include "acoustics/math/fold_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
 
 namespace halocline::acoustics {
+
+inline constexpr double kNearFold = 0.06;  // of the water depth: a turn nearer to an image is sought out
 
 // The images of a receiver in unfolded depth, +-z + 2 H k.
 class Images {
@@ -28,6 +31,12 @@ class Images {
   bool any_between(double low, double high) const {
     return std::ceil((low - z_) / period_) * period_ + z_ <= high ||
            std::ceil((low + z_) / period_) * period_ - z_ <= high;
+  }
+  // Within `more` of the field of a fold that turns at `zeta`, its length of Airy `length` or 0 for no field.
+  bool any_in_fold(double zeta, bool is_greatest, double length, double more) const {
+    if (length <= 0) return false;
+    const double lit = kLitFold * length + more, dark = -kDarkFold * length + more;
+    return is_greatest ? any_between(zeta - lit, zeta + dark) : any_between(zeta - dark, zeta + lit);
   }
 
  private:
@@ -49,6 +58,9 @@ class ProfileFolds {
   // Refers to the tracer, which has to outlive this.
   explicit ProfileFolds(const ArcTracer& tracer) : tracer_(tracer) {}
 
+  // Of Airy, m, of a fold as rays about it show it, with a margin; at most so long that turns are sought out, and 0
+  // without RayOptions::airy_folds.
+  double length_m(const Fold& fold) const;
   // Unfolded depth turns at the ray of `theta`, near an image of the receiver.
   void note(double theta);
   // All arrivals, finished: one on the dark side of a fold and about it, two with its field beyond.
@@ -62,6 +74,7 @@ class ProfileFolds {
   };
 
   const ArcTracer& tracer_;
+  TracedRay before_, after_;  // buffers
   std::vector<Found> found_;
 };
 

@@ -29,18 +29,17 @@ constexpr double kGrazeStep = 1.0 / 6;     // of the way to it
 constexpr double kCubicTolerance = 0.015;  // of the water depth
 constexpr double kShareBeforehand =
     0.3;  // of it that rays beside an interval may err for the interval to need no look
-constexpr double kNearFold = 0.06;  // of the water depth: a turn nearer to an image is sought out exactly
 constexpr double kDepthTolerance = 1e-4;     // m before the last step of Newton
 constexpr double kLastStepTolerance = 1e-5;  // m after it, as foreseen
 constexpr double kTurnTolerance = 1e-6;      // m: how far zeta is at most from where it turns
-constexpr double kFoldZone = 0.01;  // of the water depth: further from all images a turn need not be exact
 // A cubic between two rays, whose error was found at one of them, errs between them by no more than this many times that;
 // besides, a share of what it spans.
 constexpr double kErrorReach = 2, kSpanReach = 0.2;
 constexpr double kFaintDb =
     3;  // beyond what a path may lose: no path lies between two such rays of one history
 constexpr double kUnknownError = std::numeric_limits<double>::infinity();
-constexpr double kDarkReach = 4;  // lengths of Airy, which are longer where angles of arrival change less
+constexpr double kFoldTolerance =
+    2e-3;  // of a length of Airy: how far a fold is at most from where zeta turns
 constexpr int kMaxTurnSteps = 40;
 constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of endless detail
 
@@ -74,9 +73,8 @@ class Search {
   // Rays between two between which zeta is monotone.
   void solve_monotone(const FanRay& a, const FanRay& b);
   void polish(const FanRay& a, const FanRay& b, double target);
-  void seek_turn(const FanRay& a, const FanRay& b, double reach, FanRay& turn);
-  // How far sound reaches beyond a turn of zeta between two rays, about: m, at most so far as turns are sought out exactly.
-  double dark_reach(const FanRay& a, const FanRay& b) const;
+  // Whether an image has a share of the field about `turn`, as rays beside it show.
+  bool seek_turn(const FanRay& a, const FanRay& b, FanRay& turn);
   // How far a cubic through two rays is off where one between them arrives; infinite where their histories differ.
   double error_at(const FanRay& a, const FanRay& middle, const FanRay& b) const;
   // Whether it is no more than a share of the tolerance.
@@ -150,13 +148,15 @@ double Search::error_at(const FanRay& a, const FanRay& middle, const FanRay& b) 
   return cubic_of(a, b).error_at(t, middle.zeta, middle.zeta_slope, width);
 }
 
-// Whether there may be an image between where two rays of one history arrive.
+// Whether there may be an image between where two rays of one history arrive, or beyond in what sound reaches.
 bool Search::may_pass_image(const FanRay& a, const FanRay& b, double error) const {
   if (error == kUnknownError) return true;
   const auto [low, high] = cubic_of(a, b).extremes();
-  const double beyond = kErrorReach * error + kSpanReach * (high - low) +
-                        (a.zeta_slope * b.zeta_slope < 0 ? dark_reach(a, b) : 0);
-  return images_.any_between(low - beyond, high + beyond);
+  const double beyond = kErrorReach * error + kSpanReach * (high - low);
+  double dark_low = 0, dark_high = 0;
+  if (a.zeta_slope * b.zeta_slope < 0)
+    (a.zeta_slope > 0 ? dark_high : dark_low) = -kDarkFold * folds_.length_m(fold_between(a, b));
+  return images_.any_between(low - std::max(beyond, dark_low), high + std::max(beyond, dark_high));
 }
 
 void Search::scan(const FanRay& a, const FanRay& b, int depth, double error) {
@@ -236,7 +236,6 @@ void Search::solve(const FanRay& a, const FanRay& b) {
   if (is_faint(a) && is_faint(b)) return;
   const HermiteCubic cubic = cubic_of(a, b);
   const HermiteCubic::Turns turns = cubic.turns();
-  const double reach = turns.count > 0 ? dark_reach(a, b) : 0;
   FanRay from = a;
   for (const double t : turns) {
     const double theta = a.theta + t * (b.theta - a.theta);
@@ -245,10 +244,8 @@ void Search::solve(const FanRay& a, const FanRay& b) {
     if (turns.count > 1 || images_.off_nearest(cubic(t)) < kNearFold * depth_) {
       turn = traced(theta);
       if (!turn.arrived) continue;
-      if (images_.off_nearest(cubic(t)) < kNearFold * depth_) {
-        seek_turn(from, b, reach, turn);
-        if (images_.off_nearest(turn.zeta) < 2 * reach) folds_.note(turn.theta);
-      }
+      if (images_.off_nearest(cubic(t)) < kNearFold * depth_ && seek_turn(from, b, turn))
+        folds_.note(turn.theta);
     } else {  // this ray separates the images on both sides as well as the one that turns
       turn.theta = theta;
       turn.zeta = cubic(t);
@@ -262,39 +259,41 @@ void Search::solve(const FanRay& a, const FanRay& b) {
 // Moves `turn`, a guess between two rays, to where the slope of zeta is 0; leaves it where there is no such place. False
 // position after Anderson and Bjoerck (1973): the value of an end that stays is taken smaller each time, so both ends
 // close in; every third step halves where that does not.
-void Search::seek_turn(const FanRay& a, const FanRay& b, double reach, FanRay& turn) {
+bool Search::seek_turn(const FanRay& a, const FanRay& b, FanRay& turn) {
   const auto rises = [](const FanRay& ray) { return ray.zeta_slope > 0; };
   const bool before = rises(a) != rises(turn);
-  if (!before && rises(turn) == rises(b)) return;
-  const FanRay &first = before ? a : turn, &last = before ? turn : b;
-  double low = first.theta, high = last.theta, at_low = first.zeta_slope, at_high = last.zeta_slope;
-  const bool rises_at_low = rises(first);
-  double width = high - low;
+  if (!before && rises(turn) == rises(b)) return false;
+  FanRay low = before ? a : turn, high = before ? turn : b;
+  double at_low = low.zeta_slope, at_high = high.zeta_slope, width = high.theta - low.theta;
+  const bool is_greatest = rises(low);
   for (int i = 1; i <= kMaxTurnSteps; ++i) {
-    const bool slow = i % 3 == 0 && high - low > 0.25 * std::exchange(width, high - low);
+    const double span = high.theta - low.theta;
+    const bool slow = i % 3 == 0 && span > 0.25 * std::exchange(width, span);
     const double share = slow ? 0.5 : std::clamp(at_low / (at_low - at_high), 1e-3, 1 - 1e-3);
-    FanRay middle = traced(low + share * (high - low));
-    if (!middle.arrived) break;
+    FanRay middle = traced(low.theta + share * span);
+    if (!middle.arrived) return false;
     turn = middle;
     const double slope = turn.zeta_slope;
-    const bool beside_low = rises(turn) == rises_at_low;
-    const double left = std::abs(slope) * (beside_low ? high - turn.theta : turn.theta - low);
-    if (left < kTurnTolerance ||
-        images_.off_nearest(turn.zeta) > 2 * left + std::max(kFoldZone * depth_, 2 * reach))
-      break;
+    const bool beside_low = rises(turn) == is_greatest;
+    // What is left of zeta to where it turns, at most: along the slope up to the other end; and by how it bends.
+    const double bend = std::min(bend_between(low, turn), bend_between(turn, high));
+    const double left =
+        std::min(std::abs(slope) * (beside_low ? high.theta - turn.theta : turn.theta - low.theta),
+                 bend > 0 ? slope * slope / bend : kUnknownError);
+    const double length = is_faint(turn) ? 0 : folds_.length_m(fold_at(low, turn, high));
+    // Clear of all images; and known well enough for the field of the fold, if that has one.
+    const bool is_field = images_.any_in_fold(turn.zeta, is_greatest, length, 2 * left);
+    const bool is_clear =
+        images_.off_nearest(turn.zeta) > 2 * left && (!is_field || left < kFoldTolerance * length);
+    if (left < kTurnTolerance || is_clear) return is_field;
+    FanRay& end = beside_low ? low : high;
     double &replaced = beside_low ? at_low : at_high, &kept = beside_low ? at_high : at_low;
     const double scale = 1 - slope / replaced;
     kept *= scale > 0 ? scale : 0.5;
     replaced = slope;
-    (beside_low ? low : high) = turn.theta;
+    end = turn;
   }
-}
-
-double Search::dark_reach(const FanRay& a, const FanRay& b) const {
-  if (!tracer_.sea().options.airy_folds) return 0;
-  // As if the angle of arrival changed as much as that of launch.
-  const Fold fold{bend_between(a, b), 1 / tracer_.source_speed_mps()};
-  return std::min(kDarkReach * fold.length_m(tracer_.sea().options.frequency_hz), kNearFold * depth_);
+  return false;
 }
 
 void Search::solve_monotone(const FanRay& a, const FanRay& b) {
