@@ -3,8 +3,7 @@
 export const PROTOCOL_VERSION = 1;
 export const SUBPROTOCOL = "halocline.monitor.v1";
 
-export type OutcomeClass =
-  | "received" | "not_acquired" | "bit_errors" | "collided" | "half_duplex" | "no_path" | "pending";
+export type OutcomeClass = "received" | "not_acquired" | "bit_errors" | "collided" | "half_duplex" | "no_path" | "pending";
 export type Mark = "dot" | "ring" | "cross" | "bowtie" | "bar" | "dash";
 
 export interface OutcomeKind {
@@ -287,8 +286,7 @@ export interface Asks {
   row: [{ from: number; to: number; time_s: number }, { values: (number | null)[] }];
   packet: [{ key: string; receiver: number }, PacketReply];
   vehicle: [{ vehicle: number; from_s: number; to_s: number; max_points: number }, VehicleReply];
-  command: [
-    { vehicle: number; propeller_rpm: number; rudder_rad: number; stern_plane_rad: number; for_s: number }, object];
+  command: [{ vehicle: number; propeller_rpm: number; rudder_rad: number; stern_plane_rad: number; for_s: number }, object];
   send: [{ vehicle: number; destination: number; payload: string }, { key: string }];
 }
 
@@ -341,8 +339,12 @@ function decodeVehicles(view: DataView): VehicleFrame | null {
   const n = view.getUint16(2, true);
   if (view.byteLength < 12 + 36 * n) return null;
   const frame: VehicleFrame = {
-    kind: "vehicles", time_s: view.getFloat64(4, true), n,
-    vehicle: new Uint16Array(n), flags: new Uint16Array(n), values: new Float32Array(8 * n),
+    kind: "vehicles",
+    time_s: view.getFloat64(4, true),
+    n,
+    vehicle: new Uint16Array(n),
+    flags: new Uint16Array(n),
+    values: new Float32Array(8 * n),
   };
   for (let k = 0, at = 12; k < n; ++k, at += 36) {
     frame.vehicle[k] = view.getUint16(at, true);
@@ -360,8 +362,14 @@ function decodeTerrain(view: DataView): TerrainTile | null {
   const depth_m = new Float32Array(rows * columns);
   for (let i = 0; i < depth_m.length; ++i) depth_m[i] = view.getFloat32(20 + 4 * i, true);
   return {
-    kind: "terrain", id: view.getUint16(6, true), rows, columns, depth_m,
-    south_m: view.getFloat32(8, true), west_m: view.getFloat32(12, true), spacing_m: view.getFloat32(16, true),
+    kind: "terrain",
+    id: view.getUint16(6, true),
+    rows,
+    columns,
+    depth_m,
+    south_m: view.getFloat32(8, true),
+    west_m: view.getFloat32(12, true),
+    spacing_m: view.getFloat32(16, true),
   };
 }
 
@@ -370,8 +378,12 @@ function decodeLinks(view: DataView): LinkTable | null {
   const n = view.getUint32(4, true);
   if (view.byteLength < 16 + 8 * n) return null;
   const table: LinkTable = {
-    kind: "links", column: view.getUint16(2, true), time_s: view.getFloat64(8, true),
-    from: new Uint16Array(n), to: new Uint16Array(n), value: new Float32Array(n),
+    kind: "links",
+    column: view.getUint16(2, true),
+    time_s: view.getFloat64(8, true),
+    from: new Uint16Array(n),
+    to: new Uint16Array(n),
+    value: new Float32Array(n),
   };
   for (let k = 0, at = 16; k < n; ++k, at += 8) {
     table.from[k] = view.getUint16(at, true);
@@ -387,9 +399,13 @@ export function decodeBinary(bytes: ArrayBuffer): ServerBinary | null {
   const view = new DataView(bytes);
   if (view.getUint8(1) !== PROTOCOL_VERSION) return null;
   switch (view.getUint8(0)) {
-    case 1: return decodeVehicles(view);
-    case 2: return decodeTerrain(view);
-    case 3: return decodeLinks(view);
-    default: return null;
+    case 1:
+      return decodeVehicles(view);
+    case 2:
+      return decodeTerrain(view);
+    case 3:
+      return decodeLinks(view);
+    default:
+      return null;
   }
 }

@@ -2,22 +2,58 @@
 import { type Page, type WebSocketRoute, expect, test } from "@playwright/test";
 
 const hello = {
-  type: "hello", version: 1, program: "test", source: "bus", name: "udpm://239.255.76.67:7667", begin_s: 0, end_s: 10, may_command: false, limits: [],
-  outcomes: [{ code: 0, name: "RECEIVED", label: "received", class: "received", mark: "dot", colour: "#009e73" }], link_columns: [],
+  type: "hello",
+  version: 1,
+  program: "test",
+  source: "bus",
+  name: "udpm://239.255.76.67:7667",
+  begin_s: 0,
+  end_s: 10,
+  may_command: false,
+  limits: [],
+  outcomes: [{ code: 0, name: "RECEIVED", label: "received", class: "received", mark: "dot", colour: "#009e73" }],
+  link_columns: [],
 };
 const vehicle = { index: 0, name: "auv-1", id: 1, model: "torpedo", fixed: false, colour: 0, modem: null, plan: null };
-const mission = { type: "mission", name: "", description: "", seed: null, origin: null, sea_surface_down_m: 0, vehicles: [vehicle], terrain: null, water: null };
+const mission = {
+  type: "mission",
+  name: "",
+  description: "",
+  seed: null,
+  origin: null,
+  sea_surface_down_m: 0,
+  vehicles: [vehicle],
+  terrain: null,
+  water: null,
+};
 const state = {
-  type: "state", time_s: 10, begin_s: 0, end_s: 10, live: true, playing: true, speed: 1, bus: "live", silent_s: 0, has_states: true, bathymetry: true,
-  channel_server: true, real_time_factor: 1, vehicles: [], nodes: [],
+  type: "state",
+  time_s: 10,
+  begin_s: 0,
+  end_s: 10,
+  live: true,
+  playing: true,
+  speed: 1,
+  bus: "live",
+  silent_s: 0,
+  has_states: true,
+  bathymetry: true,
+  channel_server: true,
+  real_time_factor: 1,
+  vehicles: [],
+  nodes: [],
 };
 
 /** A server that sends these at once, and refuses every request. Resolves to its socket. */
 async function serve(page: Page, ...messages: object[]): Promise<WebSocketRoute> {
   let opened: (socket: WebSocketRoute) => void;
-  const socket = new Promise<WebSocketRoute>((resolve) => { opened = resolve; });
+  const socket = new Promise<WebSocketRoute>((resolve) => {
+    opened = resolve;
+  });
   await page.routeWebSocket(/\/ws/, (route) => {
-    route.onMessage((text) => route.send(JSON.stringify({ type: "reply", id: JSON.parse(String(text)).id, ok: false, error: "Not here." })));
+    route.onMessage((text) =>
+      route.send(JSON.stringify({ type: "reply", id: JSON.parse(String(text)).id, ok: false, error: "Not here." })),
+    );
     for (const message of messages) route.send(JSON.stringify(message));
     opened(route);
   });
@@ -58,7 +94,12 @@ test("a bus that falls silent keeps what was seen", async ({ page }) => {
 });
 
 test("a log without states", async ({ page }) => {
-  await serve(page, { ...hello, source: "log", name: "a.lcm" }, mission, { ...state, bus: "none", live: false, has_states: false });
+  await serve(page, { ...hello, source: "log", name: "a.lcm" }, mission, {
+    ...state,
+    bus: "none",
+    live: false,
+    has_states: false,
+  });
   await expect(condition(page)).toContainText("recorded without the channels STATE");
 });
 

@@ -17,7 +17,9 @@ function frame(time_s: number): Buffer {
     const radius = 300 + 34 * k;
     const angle = 1.7 * k * k + (2 * time_s) / radius;
     bytes.writeUInt16LE(k, at);
-    [radius * Math.cos(angle), radius * Math.sin(angle), 20 + k, angle + Math.PI / 2, 0, 0, 2, 200].forEach((value, i) => bytes.writeFloatLE(value, at + 4 + 4 * i));
+    [radius * Math.cos(angle), radius * Math.sin(angle), 20 + k, angle + Math.PI / 2, 0, 0, 2, 200].forEach((value, i) =>
+      bytes.writeFloatLE(value, at + 4 + 4 * i),
+    );
   }
   return bytes;
 }
@@ -27,21 +29,48 @@ function terrain(id: number): Buffer {
   bytes.writeUInt8(1, 1);
   [POSTS, POSTS, id % 65536].forEach((value, i) => bytes.writeUInt16LE(value, 2 + 2 * i));
   [-EXTENT_M / 2, -EXTENT_M / 2, EXTENT_M / (POSTS - 1)].forEach((value, i) => bytes.writeFloatLE(value, 8 + 4 * i));
-  for (let k = 0; k < POSTS * POSTS; ++k) bytes.writeFloatLE(200 + 50 * Math.sin(k / 300) * Math.cos((k % POSTS) / 9), 20 + 4 * k);
+  for (let k = 0; k < POSTS * POSTS; ++k)
+    bytes.writeFloatLE(200 + 50 * Math.sin(k / 300) * Math.cos((k % POSTS) / 9), 20 + 4 * k);
   return bytes;
 }
 function packet(n: number, depart_s: number) {
   const source = (37 * n) % VEHICLES;
   const outcomes = Array.from({ length: VEHICLES }, (_, receiver) => ({
-    receiver, code: receiver % 3 ? 0 : 6, arrive_s: depart_s + 0.02 * receiver, end_s: depart_s + 0.02 * receiver + 2, range_m: 30 * receiver, sinr_db: 8,
+    receiver,
+    code: receiver % 3 ? 0 : 6,
+    arrive_s: depart_s + 0.02 * receiver,
+    end_s: depart_s + 0.02 * receiver + 2,
+    range_m: 30 * receiver,
+    sinr_db: 8,
   })).filter(({ receiver }) => receiver !== source);
   return {
-    key: `p${n}`, source, destination: -1, kind: "data", bytes: 32, depart_s, duration_s: 2, result: "accepted", north_m: 0, east_m: 0, down_m: 50, wave_speed_mps: 1500, outcomes,
+    key: `p${n}`,
+    source,
+    destination: -1,
+    kind: "data",
+    bytes: 32,
+    depart_s,
+    duration_s: 2,
+    result: "accepted",
+    north_m: 0,
+    east_m: 0,
+    down_m: 50,
+    wave_speed_mps: 1500,
+    outcomes,
   };
 }
 
 test("100 vehicles at 10 Hz hold 30 frames a second, or the page says what it sheds", async ({ page }) => {
-  const vehicles = Array.from({ length: VEHICLES }, (_, index) => ({ index, name: `auv-${index + 1}`, id: index + 1, model: "torpedo", fixed: false, colour: index, modem: null, plan: null }));
+  const vehicles = Array.from({ length: VEHICLES }, (_, index) => ({
+    index,
+    name: `auv-${index + 1}`,
+    id: index + 1,
+    model: "torpedo",
+    fixed: false,
+    colour: index,
+    modem: null,
+    plan: null,
+  }));
   let timer: NodeJS.Timeout | undefined;
   await page.routeWebSocket(/\/ws/, (socket) => {
     const json = (message: object) => socket.send(JSON.stringify(message));
@@ -51,28 +80,79 @@ test("100 vehicles at 10 Hz hold 30 frames a second, or the page says what it sh
       if (ask === "terrain") socket.send(terrain(id));
     });
     json({
-      type: "hello", version: 1, program: "test", source: "bus", name: "crowd", begin_s: 0, end_s: 10, may_command: false, limits: [], link_columns: [],
-      outcomes: [{ code: 0, name: "RECEIVED", label: "received", class: "received", mark: "dot", colour: "#009e73" }, { code: 6, name: "COLLIDED", label: "collided", class: "collided", mark: "bowtie", colour: "#cc79a7" }],
+      type: "hello",
+      version: 1,
+      program: "test",
+      source: "bus",
+      name: "crowd",
+      begin_s: 0,
+      end_s: 10,
+      may_command: false,
+      limits: [],
+      link_columns: [],
+      outcomes: [
+        { code: 0, name: "RECEIVED", label: "received", class: "received", mark: "dot", colour: "#009e73" },
+        { code: 6, name: "COLLIDED", label: "collided", class: "collided", mark: "bowtie", colour: "#cc79a7" },
+      ],
     });
     json({
-      type: "mission", name: "crowd", description: "", seed: null, origin: null, sea_surface_down_m: 0, vehicles, water: null,
-      terrain: { south_m: -EXTENT_M / 2, west_m: -EXTENT_M / 2, spacing_m: EXTENT_M / (POSTS - 1), rows: POSTS, columns: POSTS, min_depth_m: 150, max_depth_m: 250, revision: 1 },
+      type: "mission",
+      name: "crowd",
+      description: "",
+      seed: null,
+      origin: null,
+      sea_surface_down_m: 0,
+      vehicles,
+      water: null,
+      terrain: {
+        south_m: -EXTENT_M / 2,
+        west_m: -EXTENT_M / 2,
+        spacing_m: EXTENT_M / (POSTS - 1),
+        rows: POSTS,
+        columns: POSTS,
+        min_depth_m: 150,
+        max_depth_m: 250,
+        revision: 1,
+      },
     });
     let ticks = 0;
     timer = setInterval(() => {
       const time_s = 10 + ++ticks / 10;
       socket.send(frame(time_s));
       if (ticks % 20 === 0) json({ type: "packets", items: [packet(ticks, time_s)] });
-      if (ticks % 10 === 1) json({ type: "state", time_s, begin_s: 0, end_s: time_s, live: true, playing: true, speed: 1, bus: "live", silent_s: 0, has_states: true, bathymetry: true, channel_server: true, real_time_factor: 1, vehicles: [], nodes: [] });
+      if (ticks % 10 === 1)
+        json({
+          type: "state",
+          time_s,
+          begin_s: 0,
+          end_s: time_s,
+          live: true,
+          playing: true,
+          speed: 1,
+          bus: "live",
+          silent_s: 0,
+          has_states: true,
+          bathymetry: true,
+          channel_server: true,
+          real_time_factor: 1,
+          vehicles: [],
+          nodes: [],
+        });
     }, 100);
   });
   await page.goto("/");
   const chart = page.locator(".chart");
   await expect(chart).toHaveAttribute("data-frame-ms", /[1-9]/, { timeout: 20_000 });
   await page.waitForTimeout(6000);
-  const frame_ms = Number(await chart.getAttribute("data-frame-ms"));
-  const sheds = await page.getByTestId("shed").count();
-  console.log(`${frame_ms} ms a frame, ${sheds ? await page.getByTestId("shed").textContent() : "nothing left out"}`);
+  let state = "";
+  await expect
+    .poll(async () => {
+      const frame_ms = Number(await chart.getAttribute("data-frame-ms"));
+      const sheds = (await page.getByTestId("shed").count()) > 0 && (await page.getByTestId("shed").textContent());
+      state = `${frame_ms} ms a frame; ${sheds || "nothing is left out"}`;
+      return frame_ms < SLOWEST_MS || sheds !== false;
+    })
+    .toBe(true);
+  console.log(state);
   clearInterval(timer);
-  expect(frame_ms < SLOWEST_MS || sheds > 0).toBe(true);
 });

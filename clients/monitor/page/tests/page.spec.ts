@@ -4,7 +4,9 @@ import { type Page, expect, test as base } from "@playwright/test";
 const test = base.extend({
   page: async ({ page }, use) => {
     const errors: string[] = [];
-    page.on("console", (message) => { if (message.type() === "error") errors.push(message.text()); });
+    page.on("console", (message) => {
+      if (message.type() === "error") errors.push(message.text());
+    });
     page.on("pageerror", (error) => errors.push(String(error)));
     await use(page);
     expect(errors).toEqual([]);

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { squareAround } from "../src/chart/framing";
 import { depthAt, depthRange, exaggeration } from "../src/chart/ground";
 import { bearing, clock, csv, distance, number, roundStep } from "../src/parts/format";
 import { axis, colourOf, digitsOf, inkOn, shareOf, ticks, timeTicks } from "../src/parts/scales";
@@ -10,7 +11,17 @@ import { FrameClock, Instant, turn } from "../src/store/frame_clock";
 import { PacketBook } from "../src/store/packet_book";
 
 const snr: LinkColumn = {
-  key: "snr_db", label: "SNR", unit: "dB", digits: 1, scale: "diverging", center: 10, low: -10, high: 40, better: "high", help: "", categories: [],
+  key: "snr_db",
+  label: "SNR",
+  unit: "dB",
+  digits: 1,
+  scale: "diverging",
+  center: 10,
+  low: -10,
+  high: 40,
+  better: "high",
+  help: "",
+  categories: [],
 };
 
 describe("binary messages", () => {
@@ -35,7 +46,15 @@ describe("binary messages", () => {
     view.setUint8(1, 1);
     [2, 3, 9].forEach((value, i) => view.setUint16(2 + 2 * i, value, true));
     [-50, -100, 50, 1, 2, 3, 4, NaN, 6].forEach((value, i) => view.setFloat32(8 + 4 * i, value, true));
-    expect(decodeBinary(view.buffer)).toMatchObject({ kind: "terrain", rows: 2, columns: 3, id: 9, south_m: -50, west_m: -100, spacing_m: 50 });
+    expect(decodeBinary(view.buffer)).toMatchObject({
+      kind: "terrain",
+      rows: 2,
+      columns: 3,
+      id: 9,
+      south_m: -50,
+      west_m: -100,
+      spacing_m: 50,
+    });
     expect([...(decodeBinary(view.buffer) as TerrainTile).depth_m]).toEqual([1, 2, 3, 4, NaN, 6]);
   });
 
@@ -72,7 +91,15 @@ describe("binary messages", () => {
 
 describe("the address", () => {
   it("comes back as it was written", () => {
-    const address: Address = { view: "time-line", time_s: 61.2, vehicle: "auv-1", packet: "1.17.3.0", at: "auv 2~x&", link: ["auv-1", "auv-2"], column: "snr_db" };
+    const address: Address = {
+      view: "time-line",
+      time_s: 61.2,
+      vehicle: "auv-1",
+      packet: "1.17.3.0",
+      at: "auv 2~x&",
+      link: ["auv-1", "auv-2"],
+      column: "snr_db",
+    };
     expect(readAddress(writeAddress(address))).toEqual(address);
   });
   it("is the chart when nothing, or nonsense, is given", () => {
@@ -95,9 +122,16 @@ describe("numbers", () => {
     expect(clock(61.25, 2)).toBe("1:01.25");
     expect(clock(3725, 0)).toBe("1:02:05");
   });
-  it("of distance change to kilometres", () => expect([distance(950), distance(1500), distance(2000)]).toEqual(["950 m", "1.5 km", "2 km"]));
+  it("of distance change to kilometres", () =>
+    expect([distance(950), distance(1500), distance(2000)]).toEqual(["950 m", "1.5 km", "2 km"]));
   it("of heading lie within 0 and 360", () => expect(bearing(-Math.PI / 2)).toBeCloseTo(270));
-  it("are quoted in CSV only where they must be", () => expect(csv([["a,b", 1, null], ['"', "x", 2]])).toBe('"a,b",1,\n"""",x,2\n'));
+  it("are quoted in CSV only where they must be", () =>
+    expect(
+      csv([
+        ["a,b", 1, null],
+        ['"', "x", 2],
+      ]),
+    ).toBe('"a,b",1,\n"""",x,2\n'));
   it("have round steps", () => expect([roundStep(3), roundStep(0.11), roundStep(50), roundStep(70)]).toEqual([5, 0.2, 50, 100]));
 });
 
@@ -110,7 +144,8 @@ describe("scales", () => {
     expect(colourOf(snr, NaN, false)).toBeNull();
     expect(colourOf(snr, 20, false)).toHaveLength(3);
   });
-  it("write dark on light and light on dark", () => expect([inkOn([250, 250, 240]), inkOn([10, 20, 60])]).toEqual(["#14191c", "#ffffff"]));
+  it("write dark on light and light on dark", () =>
+    expect([inkOn([250, 250, 240]), inkOn([10, 20, 60])]).toEqual(["#14191c", "#ffffff"]));
   it("map there and back", () => {
     const x = axis(10, 20, 100, 300);
     expect(x(15)).toBe(200);
@@ -125,7 +160,12 @@ describe("scales", () => {
 
 describe("the clock of frames", () => {
   const frame = (time_s: number, north: number, yaw = 0): VehicleFrame => ({
-    kind: "vehicles", time_s, n: 1, vehicle: new Uint16Array([0]), flags: new Uint16Array([0]), values: new Float32Array([north, 0, 0, yaw, 0, 0, 1, NaN]),
+    kind: "vehicles",
+    time_s,
+    n: 1,
+    vehicle: new Uint16Array([0]),
+    flags: new Uint16Array([0]),
+    values: new Float32Array([north, 0, 0, yaw, 0, 0, 1, NaN]),
   });
   it("shows what lies between two frames, and the short way round of angles", () => {
     const frames = new FrameClock();
@@ -169,7 +209,16 @@ describe("packets", () => {
 });
 
 describe("the ground", () => {
-  const tile: TerrainTile = { kind: "terrain", id: 0, south_m: 0, west_m: 0, spacing_m: 10, rows: 2, columns: 2, depth_m: new Float32Array([10, 20, 30, 40]) };
+  const tile: TerrainTile = {
+    kind: "terrain",
+    id: 0,
+    south_m: 0,
+    west_m: 0,
+    spacing_m: 10,
+    rows: 2,
+    columns: 2,
+    depth_m: new Float32Array([10, 20, 30, 40]),
+  };
   it("is bilinear between posts and unknown beyond them", () => {
     expect(depthAt(tile, 5, 5)).toBe(25);
     expect(depthAt(tile, 10, 0)).toBe(30);
@@ -179,7 +228,18 @@ describe("the ground", () => {
     expect(depthRange(tile)).toEqual({ low: 10, high: 40 });
     expect(depthRange({ ...tile, depth_m: new Float32Array([NaN, NaN, NaN, NaN]) })).toBeNull();
   });
-  it("is stretched in wide and shallow seas alone", () => expect([exaggeration(8000, 313), exaggeration(1600, 18), exaggeration(1000, 900)]).toEqual([3, 10, 1]));
+  it("is stretched in wide and shallow seas alone", () =>
+    expect([exaggeration(8000, 313), exaggeration(1600, 18), exaggeration(1000, 900)]).toEqual([3, 10, 1]));
+});
+
+describe("the first view", () => {
+  it("holds all places, within the terrain and not much smaller", () => {
+    expect(squareAround([[-3000, 3000], [300, -1000]], 8000)).toEqual({ north_m: -1350, east_m: 1000, half_m: 2400 });
+    expect(squareAround([[0, 0]], 8000)?.half_m).toBe(1200);
+    expect(squareAround([[-9000, 0], [9000, 0]], 8000)?.half_m).toBe(4000);
+    expect(squareAround([[0, 0]], null)?.half_m).toBe(300);
+    expect(squareAround([], 8000)).toBeNull();
+  });
 });
 
 describe("shedding", () => {
@@ -189,17 +249,21 @@ describe("shedding", () => {
     return now;
   };
   it("leaves out more when frames are slow, and says so", () => {
-    const shedding = new Shedding();
+    const shedding = new Shedding(2);
     expect(shedding.sentence()).toBeNull();
     run(shedding, 0, 60, 7);
     expect(shedding.level).toBe(1);
     expect(shedding.sentence()).toContain("draws slowly");
-    expect(shedding.sentence(1)).toBeNull();
     run(shedding, 7000, 60, 30);
     expect(shedding.level).toBe(STEPS.length - 1);
   });
+  it("does not start with pixels where there are none to spare", () => {
+    const shedding = new Shedding(1);
+    run(shedding, 0, 60, 7);
+    expect(shedding.level).toBe(2);
+  });
   it("takes it back when frames are quick", () => {
-    const shedding = new Shedding();
+    const shedding = new Shedding(2);
     const now = run(shedding, 0, 60, 7);
     expect(shedding.level).toBe(1);
     run(shedding, now, 16, 10);

@@ -2,13 +2,22 @@
 // Drawing space: x east, y up (depth times the exaggeration), z south, metres.
 import { contours } from "d3-contour";
 import {
-  BufferAttribute, BufferGeometry, DataTexture, LinearFilter, LinearMipmapLinearFilter, RGBAFormat, SRGBColorSpace,
+  BufferAttribute,
+  BufferGeometry,
+  DataTexture,
+  LinearFilter,
+  LinearMipmapLinearFilter,
+  RGBAFormat,
+  SRGBColorSpace,
 } from "three";
 import { roundStep } from "../parts/format";
 import { deep } from "../parts/scales";
 import type { TerrainTile } from "../protocol";
 
-export interface DepthRange { low: number; high: number }
+export interface DepthRange {
+  low: number;
+  high: number;
+}
 
 export function depthRange(tile: TerrainTile): DepthRange | null {
   let low = Infinity;
@@ -83,7 +92,11 @@ export function groundPicture(tile: TerrainTile, range: DepthRange, stretch: num
   const step = tile.spacing_m;
   const span = range.high - range.low;
   const depth = (i: number, j: number) =>
-    depthAt(tile, tile.south_m + (step * Math.min(Math.max(i, 0), height)) / fine, tile.west_m + (step * Math.min(Math.max(j, 0), width)) / fine);
+    depthAt(
+      tile,
+      tile.south_m + (step * Math.min(Math.max(i, 0), height)) / fine,
+      tile.west_m + (step * Math.min(Math.max(j, 0), width)) / fine,
+    );
   const bright = dark ? 0.62 : 1;
   for (let i = 0; i < height; ++i) {
     for (let j = 0; j < width; ++j) {

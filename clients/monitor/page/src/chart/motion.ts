@@ -14,7 +14,12 @@ const SMALL = 6.5;
 /** Vehicles from which on they are drawn smaller. */
 const CROWD = 24;
 /** Nose, tails and the notch between them: forward and starboard, in radii. */
-const DART: [number, number][] = [[1.3, 0], [-1, 0.75], [-0.55, 0], [-1, -0.75]];
+const DART: [number, number][] = [
+  [1.3, 0],
+  [-1, 0.75],
+  [-0.55, 0],
+  [-1, -0.75],
+];
 
 /** The part of a closed polygon in front of the camera, on the screen. */
 function inFront(scene: ChartScene, polygon: Clipped[]): Place[] {
@@ -35,7 +40,9 @@ function circle(scene: ChartScene, packet: Packet, radius_m: number): Place[] {
   const polygon: Clipped[] = [];
   for (let i = 0; i < WAVE_POINTS; ++i) {
     const angle = (2 * Math.PI * i) / WAVE_POINTS;
-    polygon.push(scene.clip(packet.north_m! + radius_m * Math.cos(angle), packet.east_m! + radius_m * Math.sin(angle), packet.down_m!));
+    polygon.push(
+      scene.clip(packet.north_m! + radius_m * Math.cos(angle), packet.east_m! + radius_m * Math.sin(angle), packet.down_m!),
+    );
   }
   return inFront(scene, polygon);
 }
@@ -46,7 +53,14 @@ function trace(context: CanvasRenderingContext2D, points: Place[]) {
 }
 
 /** Packets under way: the front is a circle at the sender's depth, behind it lies the packet's length in the water. */
-export function drawWaves(context: CanvasRenderingContext2D, scene: ChartScene, packets: Packet[], now_s: number, step: Step, dark: boolean) {
+export function drawWaves(
+  context: CanvasRenderingContext2D,
+  scene: ChartScene,
+  packets: Packet[],
+  now_s: number,
+  step: Step,
+  dark: boolean,
+) {
   const colour = dark ? "235 250 255" : "8 36 48";
   for (const packet of packets.slice(-MOST_WAVES)) {
     if (packet.north_m === null || packet.east_m === null || packet.down_m === null) continue;
@@ -70,7 +84,15 @@ export function drawWaves(context: CanvasRenderingContext2D, scene: ChartScene, 
   }
 }
 
-export function drawTrails(context: CanvasRenderingContext2D, scene: ChartScene, trails: Trails, places: (Place | null)[], now_s: number, trail_s: number, dark: boolean) {
+export function drawTrails(
+  context: CanvasRenderingContext2D,
+  scene: ChartScene,
+  trails: Trails,
+  places: (Place | null)[],
+  now_s: number,
+  trail_s: number,
+  dark: boolean,
+) {
   context.lineWidth = 1.3;
   context.lineJoin = "bevel";
   for (let fade = 0; fade < FADES; ++fade) {
@@ -103,7 +125,15 @@ export function drawTrails(context: CanvasRenderingContext2D, scene: ChartScene,
 }
 
 /** Darts that point where the vehicle heads, diamonds for what stands still. */
-export function drawVehicles(context: CanvasRenderingContext2D, scene: ChartScene, instant: Instant, vehicles: VehicleInfo[], places: (Place | null)[], chosen: number | null, accent: string) {
+export function drawVehicles(
+  context: CanvasRenderingContext2D,
+  scene: ChartScene,
+  instant: Instant,
+  vehicles: VehicleInfo[],
+  places: (Place | null)[],
+  chosen: number | null,
+  accent: string,
+) {
   const radius = vehicles.length > CROWD ? SMALL : MEDIUM;
   context.lineWidth = vehicles.length > CROWD ? 1.2 : 1.6;
   context.lineJoin = "round";

@@ -48,7 +48,11 @@ export interface Drawing {
   accent: string;
 }
 
-interface Pen { ink: string; halo: string; quiet: string }
+interface Pen {
+  ink: string;
+  halo: string;
+  quiet: string;
+}
 const PENS: Record<"light" | "dark", Pen> = {
   light: { ink: "#0c1a20", halo: "rgb(255 255 255 / 0.75)", quiet: "#33434b" },
   dark: { ink: "#f4f8fa", halo: "rgb(6 14 18 / 0.75)", quiet: "#bccad0" },
@@ -60,7 +64,10 @@ export class Overlay {
   private context: CanvasRenderingContext2D;
 
   /** Without a graphics processor the canvas is painted by the processor directly, which is quicker than by emulating one. */
-  constructor(private canvas: HTMLCanvasElement, software: boolean) {
+  constructor(
+    private canvas: HTMLCanvasElement,
+    software: boolean,
+  ) {
     this.context = canvas.getContext("2d", { willReadFrequently: software })!;
   }
 
@@ -143,9 +150,17 @@ export class Overlay {
       if (place.behind || place.x < 20 || place.y < 20 || place.x > width - 20 || place.y > height - 20) continue;
       if (kept.some(({ x, y }) => Math.hypot(x - place.x, y - place.y) < 110)) continue;
       // A name stands to the right of its vehicle.
-      if (places.some((vehicle) => vehicle && Math.abs(vehicle.x + 40 - place.x) < 75 && Math.abs(vehicle.y - place.y) < 16)) continue;
+      if (places.some((vehicle) => vehicle && Math.abs(vehicle.x + 40 - place.x) < 75 && Math.abs(vehicle.y - place.y) < 16))
+        continue;
       kept.push(place);
-      this.text(`${number(depth_m, depth_m % 1 ? 1 : 0)} m`, place.x, place.y, pen.quiet, pen.halo.replace("0.75", "0.35"), "11px system-ui, sans-serif");
+      this.text(
+        `${number(depth_m, depth_m % 1 ? 1 : 0)} m`,
+        place.x,
+        place.y,
+        pen.quiet,
+        pen.halo.replace("0.75", "0.35"),
+        "11px system-ui, sans-serif",
+      );
     }
   }
 

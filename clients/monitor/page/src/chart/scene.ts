@@ -1,22 +1,44 @@
 // The chart in 3-D: camera, seabed and contours. These are drawn again only when the camera or the ground changed; whatever moves is
 // drawn by overlay.ts above them. So a computer without a graphics processor keeps up as well. Drawing space as in ground.ts.
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera, Scene,
-  Vector3, WebGLRenderer,
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
 } from "three";
 import { MapControls } from "three/examples/jsm/controls/MapControls.js";
 import type { TerrainTile } from "../protocol";
-import {
-  type Contours, type DepthRange, contourLines, depthRange, exaggeration, groundGeometry, groundPicture,
-} from "./ground";
+import { type Contours, type DepthRange, contourLines, depthRange, exaggeration, groundGeometry, groundPicture } from "./ground";
 
 /** Camera and what it looks at. */
-export interface View3d { position: Vector3; target: Vector3; near: number; far: number; extent_m: number }
+export interface View3d {
+  position: Vector3;
+  target: Vector3;
+  near: number;
+  far: number;
+  extent_m: number;
+}
 
-export interface Place { x: number; y: number; behind: boolean }
+export interface Place {
+  x: number;
+  y: number;
+  behind: boolean;
+}
 
 /** A place after projection, before the division by w; it is in front of the camera where w > near. */
-export interface Clipped { x: number; y: number; w: number }
+export interface Clipped {
+  x: number;
+  y: number;
+  w: number;
+}
 
 export class ChartScene {
   readonly camera = new PerspectiveCamera(32, 1, 1, 1e7);
@@ -45,13 +67,17 @@ export class ChartScene {
     this.controls.enableDamping = false;
     this.controls.maxPolarAngle = 1.45;
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => { this.changed = true; });
+    this.controls.addEventListener("change", () => {
+      this.changed = true;
+    });
   }
 
   dispose() {
     this.controls.dispose();
     this.renderer.dispose();
-    this.scene.traverse((thing) => { if (thing instanceof Mesh || thing instanceof LineSegments) thing.geometry.dispose(); });
+    this.scene.traverse((thing) => {
+      if (thing instanceof Mesh || thing instanceof LineSegments) thing.geometry.dispose();
+    });
   }
 
   resize(width: number, height: number, pixelRatio: number) {
@@ -82,7 +108,13 @@ export class ChartScene {
     if (!tile || !this.range) return;
     this.extent_m = Math.max(tile.rows - 1, tile.columns - 1) * tile.spacing_m;
     this.stretch = exaggeration(this.extent_m, this.range.high);
-    const material = new MeshBasicMaterial({ map: groundPicture(tile, this.range, this.stretch, dark), side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4 });
+    const material = new MeshBasicMaterial({
+      map: groundPicture(tile, this.range, this.stretch, dark),
+      side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 2,
+      polygonOffsetUnits: 4,
+    });
     if (material.map && !this.software) material.map.anisotropy = 8;
     this.ground = new Mesh(groundGeometry(tile, this.stretch), material);
     this.scene.add(this.ground);
@@ -96,7 +128,10 @@ export class ChartScene {
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(vertices, 3));
-    this.lines = new LineSegments(geometry, new LineBasicMaterial({ color: dark ? 0xbfe0da : 0x10282f, transparent: true, opacity: dark ? 0.3 : 0.32 }));
+    this.lines = new LineSegments(
+      geometry,
+      new LineBasicMaterial({ color: dark ? 0xbfe0da : 0x10282f, transparent: true, opacity: dark ? 0.3 : 0.32 }),
+    );
     this.scene.add(this.lines);
   }
 
@@ -108,7 +143,11 @@ export class ChartScene {
     const ground = this.range ? -0.5 * (this.range.low + this.range.high) * this.stretch : 0;
     this.controls.target.set(east_m, ground, -north_m + 0.13 * half_m);
     const flat = away * Math.sin(polar);
-    this.camera.position.set(east_m + flat * Math.sin(azimuth), ground + away * Math.cos(polar), this.controls.target.z + flat * Math.cos(azimuth));
+    this.camera.position.set(
+      east_m + flat * Math.sin(azimuth),
+      ground + away * Math.cos(polar),
+      this.controls.target.z + flat * Math.cos(azimuth),
+    );
     this.controls.minDistance = half_m / 40;
     this.controls.maxDistance = 8 * away;
     this.camera.near = away / 200;
@@ -138,7 +177,11 @@ export class ChartScene {
   turnTo(polar: number, azimuth: number) {
     const away = this.controls.getDistance();
     const { target } = this.controls;
-    this.camera.position.set(target.x + away * Math.sin(polar) * Math.sin(azimuth), target.y + away * Math.cos(polar), target.z + away * Math.sin(polar) * Math.cos(azimuth));
+    this.camera.position.set(
+      target.x + away * Math.sin(polar) * Math.sin(azimuth),
+      target.y + away * Math.cos(polar),
+      target.z + away * Math.sin(polar) * Math.cos(azimuth),
+    );
     this.controls.update();
   }
 
@@ -153,18 +196,30 @@ export class ChartScene {
     const e = this.viewProjection.elements;
     const [x, y, z] = [east_m, -down_m * this.stretch, -north_m];
     return {
-      x: e[0] * x + e[4] * y + e[8] * z + e[12], y: e[1] * x + e[5] * y + e[9] * z + e[13], w: e[3] * x + e[7] * y + e[11] * z + e[15],
+      x: e[0] * x + e[4] * y + e[8] * z + e[12],
+      y: e[1] * x + e[5] * y + e[9] * z + e[13],
+      w: e[3] * x + e[7] * y + e[11] * z + e[15],
     };
   }
   onScreen({ x, y, w }: Clipped): Place {
     return { x: ((x / w) * 0.5 + 0.5) * this.width, y: (-(y / w) * 0.5 + 0.5) * this.height, behind: w <= this.camera.near };
   }
-  project(north_m: number, east_m: number, down_m: number): Place { return this.onScreen(this.clip(north_m, east_m, down_m)); }
+  project(north_m: number, east_m: number, down_m: number): Place {
+    return this.onScreen(this.clip(north_m, east_m, down_m));
+  }
 
   /** Where the line of sight through a pixel meets the ground, or the depth given where no ground is; null above the horizon. */
-  groundUnder(px: number, py: number, depthAt: (north: number, east: number) => number, otherwise_m: number): { north_m: number; east_m: number; depth_m: number } | null {
+  groundUnder(
+    px: number,
+    py: number,
+    depthAt: (north: number, east: number) => number,
+    otherwise_m: number,
+  ): { north_m: number; east_m: number; depth_m: number } | null {
     const near = new Vector3((px / this.width) * 2 - 1, 1 - (py / this.height) * 2, -1).unproject(this.camera);
-    const ray = new Vector3((px / this.width) * 2 - 1, 1 - (py / this.height) * 2, 1).unproject(this.camera).sub(near).normalize();
+    const ray = new Vector3((px / this.width) * 2 - 1, 1 - (py / this.height) * 2, 1)
+      .unproject(this.camera)
+      .sub(near)
+      .normalize();
     if (ray.y > -1e-3) return null;
     const top = near.y / -ray.y;
     const bottom = this.range ? (near.y + this.range.high * this.stretch) / -ray.y : top;

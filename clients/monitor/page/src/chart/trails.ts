@@ -15,8 +15,12 @@ export interface Trail {
 export class Trails {
   private trails: Trail[] = [];
 
-  clear() { this.trails = []; }
-  of(vehicle: number): Trail | undefined { return this.trails[vehicle]; }
+  clear() {
+    this.trails = [];
+  }
+  of(vehicle: number): Trail | undefined {
+    return this.trails[vehicle];
+  }
 
   /** What was before the frames that came; of a track only what is earlier than the first of them counts. */
   addTracks(tracks: Track[]) {

@@ -3,7 +3,9 @@
 /** With a true minus and narrow spaces between thousands; a dash for what does not exist. */
 export function number(value: number | null | undefined, digits = 1): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const text = Math.abs(value).toFixed(digits).replace(/\B(?=(\d{3})+(?!\d))(?<!\.\d*)/g, "\u202f");
+  const text = Math.abs(value)
+    .toFixed(digits)
+    .replace(/\B(?=(\d{3})+(?!\d))(?<!\.\d*)/g, "\u202f");
   return value < 0 && Number(Math.abs(value).toFixed(digits)) !== 0 ? `\u2212${text}` : text;
 }
 

@@ -1,7 +1,10 @@
 // The marks of outcomes, alike in every view: as SVG paths in a box of -1..1, drawn on a canvas or in SVG.
 import type { Mark } from "../protocol";
 
-interface Shape { path: string; filled: boolean }
+interface Shape {
+  path: string;
+  filled: boolean;
+}
 
 export const SHAPES: Record<Mark, Shape> = {
   dot: { path: "M-.8 0a.8 .8 0 1 0 1.6 0a.8 .8 0 1 0 -1.6 0Z", filled: true },
@@ -16,7 +19,13 @@ const paths = new Map<Mark, Path2D>();
 
 /** Draws a mark of this radius (pixels) at a place of a canvas. */
 export function drawMark(
-  context: CanvasRenderingContext2D, mark: Mark, x: number, y: number, radius: number, colour: string, halo?: string,
+  context: CanvasRenderingContext2D,
+  mark: Mark,
+  x: number,
+  y: number,
+  radius: number,
+  colour: string,
+  halo?: string,
 ) {
   let path = paths.get(mark);
   if (!path) paths.set(mark, (path = new Path2D(SHAPES[mark].path)));

@@ -27,14 +27,19 @@ export function ramp(stops: Rgb[], share: number): Rgb {
 }
 
 /** Depth between the least and the greatest of the chart. */
-export function deep(share: number): Rgb { return ramp(DEEP, share); }
+export function deep(share: number): Rgb {
+  return ramp(DEEP, share);
+}
 
 /** Where a value stands on its column's scale, 0..1; a diverging one has its centre at 0.5. */
 export function shareOf(column: Pick<LinkColumn, "scale" | "center" | "low" | "high" | "better">, value: number): number {
   let share: number;
   if (column.scale === "diverging" && column.center !== null) {
     const { center, low, high } = column;
-    share = value < center ? 0.5 * (1 - Math.min(1, (center - value) / (center - low))) : 0.5 * (1 + Math.min(1, (value - center) / (high - center)));
+    share =
+      value < center
+        ? 0.5 * (1 - Math.min(1, (center - value) / (center - low)))
+        : 0.5 * (1 + Math.min(1, (value - center) / (high - center)));
     if (column.better === "low") share = 1 - share;
   } else share = (value - column.low) / (column.high - column.low);
   return Math.min(1, Math.max(0, share));
@@ -85,7 +90,10 @@ export function ticks(low: number, high: number, count: number): number[] {
 /** Ticks at seconds, minutes and hours that people count in. */
 export function timeTicks(low_s: number, high_s: number, count: number): number[] {
   const raw = (high_s - low_s) / count;
-  const step = raw < 1 ? 0 : [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 43200, 86400].find((each) => each >= raw) ?? 0;
+  const step =
+    raw < 1
+      ? 0
+      : ([1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 43200, 86400].find((each) => each >= raw) ?? 0);
   if (!step) return ticks(low_s, high_s, count);
   const out: number[] = [];
   for (let t = Math.ceil(low_s / step) * step; t <= high_s; t += step) out.push(t);

@@ -40,7 +40,11 @@ export class Shedding {
   private regretted = 0;
   private drawn_ms = 0;
 
-  get step(): Step { return STEPS[this.level]; }
+  constructor(private device_pixel_ratio: number) {}
+
+  get step(): Step {
+    return STEPS[this.level];
+  }
 
   /** Called at each drawn frame; true when the step changed. */
   frame(now_ms: number): boolean {
@@ -60,23 +64,25 @@ export class Shedding {
     this.slow = this.frame_ms > SLOW_MS ? this.slow + 1 : 0;
     this.quick = this.frame_ms < QUICK_MS ? this.quick + 1 : 0;
     if (this.slow >= SLOW_WINDOWS && this.level < STEPS.length - 1) {
-      ++this.level;
       ++this.regretted;
-      this.slow = this.quick = 0;
-      return true;
+      return this.change(1);
     }
     // Each return to a slower picture makes the next one rarer.
-    if (this.quick >= QUICK_WINDOWS * this.regretted && this.level > 0) {
-      --this.level;
-      this.slow = this.quick = 0;
-      return true;
-    }
+    if (this.quick >= QUICK_WINDOWS * this.regretted && this.level > 0) return this.change(-1);
     return false;
   }
 
-  /** What a visitor reads; null where nothing is left out that this screen would show. */
-  sentence(device_pixel_ratio = 2): string | null {
-    const says = this.level === 1 && device_pixel_ratio <= this.step.pixel_ratio ? null : this.step.says;
+  private change(by: 1 | -1): true {
+    this.level += by;
+    // Fewer pixels are no help where there are no more than one a point.
+    if (this.level === 1 && this.device_pixel_ratio <= STEPS[1].pixel_ratio) this.level += by;
+    this.slow = this.quick = 0;
+    return true;
+  }
+
+  /** What a visitor reads; null when nothing is left out. */
+  sentence(): string | null {
+    const { says } = this.step;
     return says && `This computer draws slowly, so the chart is simpler: ${says}.`;
   }
 }

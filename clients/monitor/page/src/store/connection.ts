@@ -1,7 +1,5 @@
 // The WebSocket: requests with their answers, and opening it again with growing pauses when it closes.
-import {
-  type Asks, type ServerBinary, type ServerText, SUBPROTOCOL, decodeBinary,
-} from "../protocol";
+import { type Asks, type ServerBinary, type ServerText, SUBPROTOCOL, decodeBinary } from "../protocol";
 
 const FIRST_PAUSE_MS = 500;
 const LONGEST_PAUSE_MS = 10_000;
@@ -34,7 +32,10 @@ export class Connection {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private ended = false;
 
-  constructor(private url: string, private handlers: Handlers) {
+  constructor(
+    private url: string,
+    private handlers: Handlers,
+  ) {
     this.open();
   }
 

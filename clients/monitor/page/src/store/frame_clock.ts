@@ -34,7 +34,9 @@ export class FrameClock {
     return jump;
   }
 
-  get newest(): VehicleFrame | null { return this.after; }
+  get newest(): VehicleFrame | null {
+    return this.after;
+  }
 
   at(now_ms: number): Shown | null {
     if (!this.before || !this.after) return null;
@@ -81,11 +83,25 @@ export class Instant {
   has(vehicle: number): boolean {
     return vehicle < this.flags.length && this.flags[vehicle] >= 0;
   }
-  north(vehicle: number) { return this.values[8 * vehicle]; }
-  east(vehicle: number) { return this.values[8 * vehicle + 1]; }
-  down(vehicle: number) { return this.values[8 * vehicle + 2]; }
-  yaw(vehicle: number) { return this.values[8 * vehicle + 3]; }
-  pitch(vehicle: number) { return this.values[8 * vehicle + 4]; }
-  speed(vehicle: number) { return this.values[8 * vehicle + 6]; }
-  seabed(vehicle: number) { return this.values[8 * vehicle + 7]; }
+  north(vehicle: number) {
+    return this.values[8 * vehicle];
+  }
+  east(vehicle: number) {
+    return this.values[8 * vehicle + 1];
+  }
+  down(vehicle: number) {
+    return this.values[8 * vehicle + 2];
+  }
+  yaw(vehicle: number) {
+    return this.values[8 * vehicle + 3];
+  }
+  pitch(vehicle: number) {
+    return this.values[8 * vehicle + 4];
+  }
+  speed(vehicle: number) {
+    return this.values[8 * vehicle + 6];
+  }
+  seabed(vehicle: number) {
+    return this.values[8 * vehicle + 7];
+  }
 }

@@ -1,8 +1,20 @@
 // The one store: what was received, what is selected, what is shown. Views read it; only it speaks to the server.
 import { SvelteMap } from "svelte/reactivity";
 import {
-  type Asks, type Hello, type LinkColumn, type LinkTable, type Mission, type OutcomeKind, type Packet, PROTOCOL_VERSION,
-  type ServerBinary, type ServerState, type ServerText, type TerrainTile, type VehicleFrame, type VehicleInfo,
+  type Asks,
+  type Hello,
+  type LinkColumn,
+  type LinkTable,
+  type Mission,
+  type OutcomeKind,
+  type Packet,
+  PROTOCOL_VERSION,
+  type ServerBinary,
+  type ServerState,
+  type ServerText,
+  type TerrainTile,
+  type VehicleFrame,
+  type VehicleInfo,
 } from "../protocol";
 import { type View, readAddress, writeAddress } from "./address";
 import { Connection } from "./connection";
@@ -18,7 +30,12 @@ const CHUNK_S = 120;
 /** So far ahead or back the next packet is looked for. */
 const MOST_CHUNKS = 64;
 const UNKNOWN_OUTCOME: OutcomeKind = {
-  code: -2, name: "UNKNOWN", label: "unknown", class: "no_path", mark: "dash", colour: "#8c8c8c",
+  code: -2,
+  name: "UNKNOWN",
+  label: "unknown",
+  class: "no_path",
+  mark: "dash",
+  colour: "#8c8c8c",
 };
 
 export class Monitor {
@@ -99,7 +116,9 @@ export class Monitor {
     const token = new URLSearchParams(location.search).get("token");
     url.search = token ? `?token=${encodeURIComponent(token)}` : "";
     this.connection = new Connection(url.href, {
-      opened: () => { this.link_state = "open"; },
+      opened: () => {
+        this.link_state = "open";
+      },
       closed: (pause_ms) => {
         this.link_state = "closed";
         this.retry_at = performance.now() + pause_ms;
@@ -126,19 +145,31 @@ export class Monitor {
   /** A request of which only the refusal matters. */
   private order<Name extends keyof Asks>(name: Name, more: Asks[Name][0]) {
     this.problem = null;
-    this.ask(name, more).catch((error: Error) => { this.problem = error.message; });
+    this.ask(name, more).catch((error: Error) => {
+      this.problem = error.message;
+    });
   }
-  retryNow() { this.connection.retryNow(); }
+  retryNow() {
+    this.connection.retryNow();
+  }
 
-  toggle() { this.order(this.state?.playing || this.state?.live ? "pause" : "play", {}); }
-  setSpeed(x: number) { this.order("speed", { x }); }
-  goLive() { this.order("live", {}); }
+  toggle() {
+    this.order(this.state?.playing || this.state?.live ? "pause" : "play", {});
+  }
+  setSpeed(x: number) {
+    this.order("speed", { x });
+  }
+  goLive() {
+    this.order("live", {});
+  }
   seek(time_s: number) {
     const within = Math.min(this.end_s, Math.max(this.begin_s, time_s));
     this.now_s = within;
     this.order("seek", { time_s: within });
   }
-  step(direction: 1 | -1, long: boolean) { this.seek(this.now_s + direction * (long ? LONG_STEP_S : STEP_S)); }
+  step(direction: 1 | -1, long: boolean) {
+    this.seek(this.now_s + direction * (long ? LONG_STEP_S : STEP_S));
+  }
   chooseColumn(key: string) {
     this.column = key;
     this.watch();
@@ -148,8 +179,12 @@ export class Monitor {
   }
   private fetchTerrain() {
     this.ask("terrain", {}).then(
-      () => { this.terrain_problem = null; },
-      (error: Error) => { this.terrain_problem = error.message; },
+      () => {
+        this.terrain_problem = null;
+      },
+      (error: Error) => {
+        this.terrain_problem = error.message;
+      },
     );
   }
 
@@ -158,7 +193,7 @@ export class Monitor {
   choosePacket(key: string | null, receiver: number | null = null) {
     this.packet = key;
     const packet = key ? this.packets.get(key) : undefined;
-    this.receiver = packet ? receiver ?? this.likelyReceiver(packet) : null;
+    this.receiver = packet ? (receiver ?? this.likelyReceiver(packet)) : null;
     if (packet && this.receiver !== null) this.link = [packet.source, this.receiver];
   }
   /** Whom a packet was for; of a broadcast the first that lost it, else the first. */
@@ -190,8 +225,12 @@ export class Monitor {
     this.packet = null;
     this.receiver = null;
   }
-  kindOf(code: number): OutcomeKind { return this.outcome_kinds.get(code) ?? UNKNOWN_OUTCOME; }
-  nameOf(vehicle: number): string { return vehicle < 0 ? "all" : this.vehicles[vehicle]?.name ?? `vehicle ${vehicle}`; }
+  kindOf(code: number): OutcomeKind {
+    return this.outcome_kinds.get(code) ?? UNKNOWN_OUTCOME;
+  }
+  nameOf(vehicle: number): string {
+    return vehicle < 0 ? "all" : (this.vehicles[vehicle]?.name ?? `vehicle ${vehicle}`);
+  }
 
   // --- what comes
 
@@ -251,10 +290,14 @@ export class Monitor {
     for (let chunk = Math.max(0, Math.floor(from_s / CHUNK_S)); chunk <= last; ++chunk) {
       if (this.fetched.has(chunk)) continue;
       this.fetched.add(chunk);
-      answers.push(this.ask("packets", { from_s: chunk * CHUNK_S, to_s: (chunk + 1) * CHUNK_S }).then(
-        ({ items }) => this.addPackets(items),
-        () => { this.fetched.delete(chunk); },
-      ));
+      answers.push(
+        this.ask("packets", { from_s: chunk * CHUNK_S, to_s: (chunk + 1) * CHUNK_S }).then(
+          ({ items }) => this.addPackets(items),
+          () => {
+            this.fetched.delete(chunk);
+          },
+        ),
+      );
     }
     await Promise.all(answers);
   }

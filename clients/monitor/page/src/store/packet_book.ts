@@ -7,7 +7,9 @@ export class PacketBook {
   private byKey = new Map<string, Packet>();
   private sorted: Packet[] = [];
 
-  get size() { return this.sorted.length; }
+  get size() {
+    return this.sorted.length;
+  }
 
   add(items: Packet[]) {
     let fresh = false;
@@ -25,7 +27,9 @@ export class PacketBook {
     this.sorted = [];
   }
 
-  get(key: string): Packet | undefined { return this.byKey.get(key); }
+  get(key: string): Packet | undefined {
+    return this.byKey.get(key);
+  }
 
   /** Index of the first that departs at time_s or later. */
   firstFrom(time_s: number): number {
