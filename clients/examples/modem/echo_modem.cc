@@ -1,0 +1,38 @@
+// Answers each packet that a vehicle receives, through the modem library: echo-modem VEHICLE ID
+//
+// The vehicle itself is moved by another program: the vehicle simulator, or one that publishes STATE.VEHICLE.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+
+#include "bus/transport.h"
+#include "clients/modem/blocking_modem.h"
+#include "core/sim_time.h"
+
+using halocline::SimDuration;
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fputs("usage: echo-modem VEHICLE ID\n", stderr);
+    return 2;
+  }
+  const auto lcm = halocline::bus::open_transport(halocline::bus::effective_url(""));  // LCM_DEFAULT_URL
+  const std::int64_t session = std::random_device()() + 1LL;  // another one at each start
+  halocline::clients::BlockingModem modem(
+      *lcm, {.vehicle = argv[1], .vehicle_id = std::atoi(argv[2]), .session = session});
+  while (const auto packet = modem.wait_receive(SimDuration::from_seconds(120))) {
+    std::printf("%.3f s: %d bytes from vehicle %d, %.1f dB SNR\n", static_cast<double>(packet->utime) * 1e-6,
+                packet->payload_size, packet->source_id, packet->snr_db);
+    const auto answer = modem.send(packet->source_id, packet->payload);
+    if (!answer) continue;  // no CLOCK: the run has ended
+    const auto receipt = modem.wait_receipt(*answer, SimDuration::from_seconds(2));
+    if (receipt && receipt->receipt_result == halocline::modem_receipt_t::ACCEPTED) {
+      std::printf("answered; the modem transmits for %.3f s\n", receipt->duration_s);
+    } else {
+      std::puts("not answered: refused, or no receipt");
+    }
+    std::fflush(stdout);
+  }
+  return 0;
+}
