@@ -235,7 +235,7 @@ describe("the ground", () => {
 describe("the first view", () => {
   it("holds all places, within the terrain and not much smaller", () => {
     expect(squareAround([[-3000, 3000], [300, -1000]], 8000)).toEqual({ north_m: -1350, east_m: 1000, half_m: 2400 });
-    expect(squareAround([[0, 0]], 8000)?.half_m).toBe(1200);
+    expect(squareAround([[0, 0]], 8000)?.half_m).toBe(480);
     expect(squareAround([[-9000, 0], [9000, 0]], 8000)?.half_m).toBe(4000);
     expect(squareAround([[0, 0]], null)?.half_m).toBe(300);
     expect(squareAround([], 8000)).toBeNull();

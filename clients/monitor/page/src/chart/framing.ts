@@ -8,7 +8,7 @@ export interface Square {
 
 /** Around the square, as a share of it. */
 const ROOM = 1.2;
-const LEAST_SHARE_OF_TERRAIN = 0.15;
+const LEAST_SHARE_OF_TERRAIN = 0.06;
 const LEAST_M = 300;
 
 /** places: north and east. extent_m: side of the terrain, null without one. Null without a place. */
