@@ -219,7 +219,7 @@ export interface LadderRow {
   value: number | null;
   unit: string;
   limit: number | null;
-  compare: ">=" | "<" | null;
+  compare: ">=" | ">" | "<" | null;
   passed: boolean | null;
   help: string;
 }

@@ -242,7 +242,8 @@ export class Monitor {
           this.connection.end();
           return;
         }
-        if (this.hello && this.hello.name !== message.name) this.packets.clear();
+        // It may be another run: its packets come again.
+        this.packets.clear();
         this.fetched.clear();
         this.hello = message;
         document.title = `${message.name.split("?")[0].split("/").pop()} · Halocline`;
