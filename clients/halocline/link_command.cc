@@ -161,7 +161,7 @@ void print_paths(const LinkOptions& options, const LinkSurveyEnd& from, const Li
 
 int link(const LinkOptions& options) {
   check(options);
-  const ScenarioConfig config = load_scenario(options.scenario, options.overrides);
+  const ScenarioConfig config = load_scenario(options.scenario, options.overrides, ScenarioUse::kWater);
   LinkSurveyEnd from = link_end(config, options.from), to = link_end(config, options.to);
   apply(options, from.modem.modem);
   apply(options, to.modem.modem);

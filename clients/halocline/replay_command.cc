@@ -46,7 +46,7 @@ std::string scenario_of(const ReplayOptions& options) {
 ScenarioConfig config_of(const ReplayOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed >= 0) overrides.push_back("scenario.seed=" + std::to_string(options.seed));
-  return load_scenario(scenario_of(options), overrides);
+  return load_scenario(scenario_of(options), overrides, ScenarioUse::kWater);
 }
 
 void require_another_file(const ReplayOptions& options, const LogReader& log) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <string>
 
@@ -18,9 +19,11 @@
 namespace halocline::bathymetry {
 namespace {
 
+// Beside the files bottom.tif and fine.tif, which hold nothing.
 TerrainRecipe parse(const std::string& text) {
+  for (const char* name : {"bottom.tif", "fine.tif"}) std::ofstream(::testing::TempDir() + name);
   TerrainRecipe recipe;
-  bus::ConfigFile file = bus::ConfigFile::parse(text, "test.toml");
+  bus::ConfigFile file = bus::ConfigFile::parse(text, ::testing::TempDir() + "test.toml");
   file.read([&](bus::ConfigVisitor& v) { visit(v, recipe); });
   file.check(true);
   return recipe;
@@ -103,6 +106,16 @@ TEST(BathymetryConfig, ReportsTheFaultOfEachKey) {
   EXPECT_NE(errors.find("depth"), std::string::npos) << errors;
   EXPECT_NE(errors.find("hurst"), std::string::npos) << errors;
   EXPECT_NE(errors.find("path"), std::string::npos) << errors;
+}
+
+TEST(BathymetryConfig, ARasterThatIsNotThereIsAnErrorThatNamesIt) {
+  const std::string gone = "there is no such file";
+  EXPECT_NE(errors_of("[terrain]\nkind = \"raster\"\n[terrain.raster]\npath = \"gone.tif\"").find(gone),
+            std::string::npos);
+  EXPECT_NE(errors_of("[[terrain.nested]]\n[terrain.nested.raster]\npath = \"gone.tif\"").find(gone),
+            std::string::npos);
+  // Names of GDAL's own are no files.
+  EXPECT_EQ(errors_of("[terrain]\nkind = \"raster\"\n[terrain.raster]\npath = \"NETCDF:gone.nc:z\""), "");
 }
 
 TEST(BathymetryConfig, BoundsNeedFourNumbersAndARowOrder) {

@@ -32,8 +32,8 @@ class ReplayConfigTest : public ::testing::Test {
   }
   // [propagation] holds `keys`; straight paths.
   WaterModel water_of(const std::string& keys, const std::string& other = "") {
-    auto file =
-        bus::ConfigFile::parse("[propagation]\nmodel = \"straight\"\n" + keys + "\n" + other, "test.toml");
+    auto file = bus::ConfigFile::parse("[propagation]\nmodel = \"straight\"\n" + keys + "\n" + other,
+                                       halocline::testing::channel_file_folder() + "/test.toml");
     ChannelServerConfig config;
     file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
     file.check(/*whole_file=*/false);
@@ -88,7 +88,7 @@ TEST_F(ReplayConfigTest, APairHasItsOwnFileAndReceiver) {
 }
 
 TEST_F(ReplayConfigTest, WhatCannotBeIsRefusedWithItsPlace) {
-  EXPECT_THAT(refusal_of("replay = \"no-such.mat\""), HasSubstr("no-such.mat: cannot be read as HDF5"));
+  EXPECT_THAT(refusal_of("replay = \"no-such.mat\""), HasSubstr("no-such.mat: there is no such file"));
   EXPECT_THAT(refusal_of("replay = \"replayed.mat\"\nreplay_receiver = 2"), HasSubstr("has 2 receivers"));
   EXPECT_THAT(refusal_of("replay = \"replayed.mat\"", "[modem]\ncenter_frequency_hz = 26000"),
               HasSubstr("was measured from 22500 to 27500 Hz; the modem of v1 has 23500 to 28500 Hz"));

@@ -62,13 +62,14 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
 namespace {
 
 // With all that needs no terrain checked; what makes no sense is kept in the file.
-ScenarioConfig read_scenario(bus::ConfigFile& file) {
+ScenarioConfig read_scenario(bus::ConfigFile& file, ScenarioUse use) {
   ScenarioConfig config;
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/true);
   config.folder = file.folder();
   config.scenario.configuration = bus::configuration_of(file);
-  check_sense(config, file);
+  check_water(config, file);
+  if (use == ScenarioUse::kRun) check_missions(config, file);
   return config;
 }
 
@@ -85,16 +86,17 @@ std::optional<bathymetry::PreparedTerrain> try_terrain(const ScenarioConfig& con
 
 }  // namespace
 
-ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides) {
+ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides,
+                             ScenarioUse use) {
   auto file = bus::ConfigFile::load(path, overrides);
-  ScenarioConfig config = read_scenario(file);
+  ScenarioConfig config = read_scenario(file, use);
   file.check_findings();
   return config;
 }
 
 CheckedScenario load_checked(const std::string& path, const std::vector<std::string>& overrides) {
   auto file = bus::ConfigFile::load(path, overrides);
-  ScenarioConfig config = read_scenario(file);
+  ScenarioConfig config = read_scenario(file, ScenarioUse::kRun);
   auto terrain = try_terrain(config, file);
   if (terrain) check_on_terrain(config, *terrain, file);
   file.check_findings();

@@ -39,8 +39,11 @@ struct ScenarioConfig {
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
 
 // Throws bus::ConfigErrors with everything that is wrong with the file: in its sections, between them, and
-// keys that no program reads. What takes the terrain is left out.
-ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides);
+// keys that no program reads. What takes the terrain is left out; so are missions and traffic where the scenario stands for
+// its water alone, as for a link or the replay of a log.
+enum class ScenarioUse { kRun, kWater };
+ScenarioConfig load_scenario(const std::string& path, const std::vector<std::string>& overrides,
+                             ScenarioUse use = ScenarioUse::kRun);
 
 // A scenario that makes sense on its terrain (scenario_checks.h).
 struct CheckedScenario {

@@ -237,13 +237,16 @@ void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
 
 }  // namespace
 
-void check_sense(const ScenarioConfig& config, bus::ConfigFile& file) {
+void check_water(const ScenarioConfig& config, bus::ConfigFile& file) {
   check_count(config, file);
   check_names(config, file);
+  check_profile(config, file);
+}
+
+void check_missions(const ScenarioConfig& config, bus::ConfigFile& file) {
   check_modems(config, file);
   check_relays(config, file);
   check_pilots(config, file);
-  check_profile(config, file);
 }
 
 }  // namespace halocline::clients

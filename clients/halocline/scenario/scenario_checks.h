@@ -17,8 +17,11 @@
 
 namespace halocline::clients {
 
-// All that needs no terrain.
-void check_sense(const ScenarioConfig& config, bus::ConfigFile& file);
+// Vehicles, names and the profile.
+void check_water(const ScenarioConfig& config, bus::ConfigFile& file);
+
+// Pilots and traffic, as far as no terrain is needed.
+void check_missions(const ScenarioConfig& config, bus::ConfigFile& file);
 
 // The rest (terrain_checks.cc).
 void check_on_terrain(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,

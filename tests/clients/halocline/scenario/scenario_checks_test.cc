@@ -269,6 +269,14 @@ TEST_F(ScenarioChecks, MoreVehiclesThanAreFollowedAreRefused) {
                                                           HasSubstr("follows 4096 vehicles"))));
 }
 
+// A log of such a mission can be replayed, and its links computed.
+TEST_F(ScenarioChecks, MissionsAreNotCheckedWhereTheWaterAloneIsUsed) {
+  write_text(folder_ + "/sea.toml",
+             vehicle_with("[vehicle.mission]\nspeed_mps = 9\nwaypoints = [[0.0, 0.0, 30.0]]\n"));
+  EXPECT_THROW(load_scenario(folder_ + "/sea.toml", {}), bus::ConfigErrors);
+  EXPECT_NO_THROW(load_scenario(folder_ + "/sea.toml", {}, ScenarioUse::kWater));
+}
+
 TEST_F(ScenarioChecks, AllThatMakesNoSenseIsFoundAtOnce) {
   const auto errors = errors_with(
       "start_ned_m = [0.0, 0.0, 200.0]\n[vehicle.mission]\nspeed_mps = 9\nwaypoints = [[0.0, 0.0, 300.0]]\n"
