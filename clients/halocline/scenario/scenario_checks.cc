@@ -15,12 +15,14 @@
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation.h"
 #include "clients/halocline/scenario/speed_trial.h"
+#include "clients/localiser/localiser_config.h"
 #include "clients/traffic/traffic_config.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/sim_time.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/fleet.h"
+#include "vehicle_sim/vehicle_sim_config.h"
 
 namespace halocline::clients {
 namespace {
