@@ -1,4 +1,5 @@
 #include <iostream>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -6,15 +7,19 @@
 #include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/csv_export.h"
 #include "clients/halocline/analysis/log_statistics.h"
+#include "clients/halocline/analysis/mission_log.h"
 #include "clients/halocline/analysis/simulation_output.h"
 #include "clients/halocline/commands.h"
+#include "clients/halocline/export/mission_export.h"
+#include "clients/mission/mission_store.h"
+#include "core/check.h"
 
 namespace halocline::clients {
 namespace {
 
 struct LogArguments {
   std::vector<std::string> logs;
-  std::string out, channel;
+  std::string out, channel, origin, format = "csv";
   bool json = false;
 };
 
@@ -30,7 +35,21 @@ int info(const LogArguments& arguments) {
   return kDone;
 }
 
+// By the mission that the log holds, into one file.
+int export_mission(const LogArguments& arguments) {
+  require(arguments.channel.empty(), "--channel is for --format csv alone");
+  MissionStore mission = read_mission(arguments.logs);
+  if (!arguments.origin.empty()) set_origin(mission, arguments.origin);
+  const std::map<std::string, void (*)(const MissionStore&, const std::string&)> writers{
+      {"mcap", export_mcap}, {"netcdf", export_netcdf}, {"geojson", export_geojson}, {"gpx", export_gpx}};
+  writers.at(arguments.format)(mission, arguments.out);
+  std::cout << arguments.out << ": " << mission.vehicles().size() << " vehicles, "
+            << mission.packets().all().size() << " packets\n";
+  return kDone;
+}
+
 int export_all(const LogArguments& arguments) {
+  if (arguments.format != "csv") return export_mission(arguments);
   LogReader log(arguments.logs);
   const ExportResult result = export_csv(log, arguments.out, arguments.channel);
   for (const auto& [file, rows] : result.rows_by_file) std::cout << file << ": " << rows << " rows\n";
@@ -53,7 +72,7 @@ int write_output(const LogArguments& arguments) {
 
 void add_log_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<LogArguments>();
-  CLI::App* command = app.add_subcommand("log", "Inspect an LCM log, or export it as CSV");
+  CLI::App* command = app.add_subcommand("log", "Inspect an LCM log, or export it");
   command->require_subcommand(1);
   command->footer(footer("  halocline log info runs/seamount/seamount.lcm"));
   CLI::App* info_command =
@@ -62,12 +81,25 @@ void add_log_command(CLI::App& app, int& exit_code) {
   info_command->add_flag("--json", arguments->json, "as JSON");
   info_command->footer(footer("  halocline log info runs/seamount/seamount.lcm --json"));
   info_command->callback([arguments, &exit_code] { exit_code = info(*arguments); });
-  CLI::App* export_command = command->add_subcommand("export", "Write a CSV file for each channel family");
+  CLI::App* export_command =
+      command->add_subcommand("export", "Write a log as CSV files, MCAP, netCDF, GeoJSON or GPX");
   export_command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
-  export_command->add_option("--out", arguments->out, "folder for the CSVs")->required();
+  export_command->add_option("--out", arguments->out, "folder of the CSV files; the file of another format")
+      ->required();
+  export_command
+      ->add_option("--format", arguments->format,
+                   "csv: a file for each channel family; mcap: scene, positions and log for Foxglove; "
+                   "netcdf: trajectories "
+                   "(CF); geojson, gpx: tracks")
+      ->check(CLI::IsMember({"csv", "mcap", "netcdf", "geojson", "gpx"}))
+      ->capture_default_str();
+  export_command->add_option("--origin", arguments->origin,
+                             "LATITUDE,LONGITUDE of the coordinates' origin, where the log does not hold it");
   export_command->add_option("--channel", arguments->channel,
                              "only channels that match this regular expression");
-  export_command->footer(footer("  halocline log export run.lcm --out csv --channel 'STATE\\..*|OUTCOME'"));
+  export_command->footer(
+      footer("  halocline log export run.lcm --out csv --channel 'STATE\\..*|OUTCOME'\n"
+             "  halocline log export run.lcm --format mcap --out run.mcap"));
   export_command->callback([arguments, &exit_code] { exit_code = export_all(*arguments); });
   CLI::App* output_command = command->add_subcommand(
       "output", "Write the simulation output alone: the same bytes from one channel server and from shards");

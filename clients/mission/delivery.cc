@@ -5,6 +5,9 @@
 #include <map>
 #include <utility>
 
+#include "clients/mission/packet_book.h"
+#include "core/sim_time.h"
+
 namespace halocline::clients {
 namespace {
 

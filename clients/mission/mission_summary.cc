@@ -1,13 +1,16 @@
 #include "clients/mission/mission_summary.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "clients/mission/delivery.h"
+#include "clients/mission/mission_vehicle.h"
 #include "clients/mission/outcome_ledger.h"
+#include "clients/mission/packet_book.h"
 #include "clients/mission/plan_texts.h"
 
 namespace halocline::clients {

@@ -1,6 +1,7 @@
 #include "clients/mission/plan_texts.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 // What an autopilot does and how far its plan has come, in words.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/monitor/web_server.h"
+#include "clients/monitor/web/web_server.h"
 
 namespace halocline::monitor {
 

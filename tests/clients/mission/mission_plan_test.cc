@@ -1,12 +1,15 @@
 // SCENARIO, TERRAIN, PLAN and AUTOPILOT in the mission, and their texts.
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <gmock/gmock.h>
 
 #include "clients/mission/mission_store.h"
 #include "clients/mission/mission_summary.h"
+#include "clients/mission/mission_vehicle.h"
 #include "clients/mission/plan_texts.h"
+#include "core/sim_time.h"
 #include "tests/clients/mission/mission_fixtures.h"
 
 namespace halocline::clients {

@@ -1,4 +1,7 @@
-#include "clients/monitor/web_rules.h"
+#include "clients/monitor/web/web_rules.h"
+
+#include <optional>
+#include <string_view>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "clients/monitor/web_server.h"
+#include "clients/monitor/web/web_server.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 

@@ -7,12 +7,8 @@
 // - headers to 16 kB, requests without a body, messages to kMaxMessageBytes; ten seconds for a request;
 // - a client that leaves kMaxQueuedBytes unread, or reads nothing for kMaxStall, is dropped, as is one that does not
 //   answer pings for 20 s;
-// - a client whose message was not taken (Handlers::received) is read no further until resume(), nor one that leaves
+// - a client whose message was not taken (WebHandlers::received) is read no further until resume(), nor one that leaves
 //   much unread: a flood waits in its own socket.
-//
-//   const auto server = open_web_server({.access = {}, .page = "build/monitor/page"}, handlers);
-//   std::cout << server->url() << "\n";
-//   while (!stop) server->run_for(50ms);
 #pragma once
 
 #include <chrono>
@@ -23,7 +19,7 @@
 #include <string>
 #include <string_view>
 
-#include "clients/monitor/web_rules.h"
+#include "clients/monitor/web/web_rules.h"
 
 namespace halocline::monitor {
 
@@ -63,7 +59,7 @@ class WebServer {
 
   // Ends a connection.
   virtual void close(ConnectionId id) = 0;
-  // Queues one message; none for a connection that is gone.
+  // Queues one message; none for a connection that is gone. No callback comes of it.
   virtual void send(ConnectionId id, SharedBytes message, bool binary) = 0;
   // Whether everything sent has left for the network. False for a connection that is gone.
   virtual bool is_idle(ConnectionId id) const = 0;

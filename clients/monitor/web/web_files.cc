@@ -1,4 +1,4 @@
-#include "clients/monitor/web_files.h"
+#include "clients/monitor/web/web_files.h"
 
 #include <algorithm>
 #include <filesystem>

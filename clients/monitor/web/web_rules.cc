@@ -1,4 +1,4 @@
-#include "clients/monitor/web_rules.h"
+#include "clients/monitor/web/web_rules.h"
 
 #include <algorithm>
 #include <array>
@@ -130,7 +130,7 @@ bool equal_in_constant_time(std::string_view given, std::string_view secret) {
 }
 
 std::string cookie_name(const WebAccess& access) {
-  return "halocline_token_" + std::to_string(access.port);  // cookies do not tell ports apart
+  return "halocline_token_" + std::to_string(access.port);  // cookies are shared by all ports of a host
 }
 
 std::string set_cookie(const WebAccess& access) {

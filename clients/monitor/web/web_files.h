@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "clients/monitor/web_rules.h"
+#include "clients/monitor/web/web_rules.h"
 
 namespace halocline::monitor {
 

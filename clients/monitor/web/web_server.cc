@@ -1,4 +1,4 @@
-#include "clients/monitor/web_server.h"
+#include "clients/monitor/web/web_server.h"
 
 #include <algorithm>
 #include <deque>
@@ -13,7 +13,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include "clients/monitor/web_files.h"
+#include "clients/monitor/web/web_files.h"
 #include "core/check.h"
 
 namespace halocline::monitor {
@@ -171,6 +171,7 @@ class BeastServer::Connection : public std::enable_shared_from_this<Connection> 
       response.set(http::field::sec_websocket_protocol, beast::string_view(name.data(), name.size()));
     }));
     socket_.read_message_max(kMaxMessageBytes);
+    socket_.auto_fragment(false);
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) return self->drop();
       self->is_open_ = true;
@@ -182,16 +183,16 @@ class BeastServer::Connection : public std::enable_shared_from_this<Connection> 
 
   // Takes up what was not taken; drops the client if it has stalled.
   void resume() {
-    if (is_writing_ && Clock::now() - write_began_ > kMaxStall) return drop();
+    if (overflows_ || (is_writing_ && Clock::now() - write_began_ > kMaxStall)) return drop();
     if (waits_ && is_open_) offer();
   }
 
   void send(SharedBytes message, bool binary) {
-    if (is_gone_) return;
+    if (is_gone_ || overflows_) return;
     queued_bytes_ += message->size();
     queue_.push_back({std::move(message), binary});
     // One large answer may exceed the bound, but not wait behind others.
-    if (queued_bytes_ > kMaxQueuedBytes && queue_.size() > 1) return drop();
+    overflows_ = overflows_ || (queued_bytes_ > kMaxQueuedBytes && queue_.size() > 1);
     write();
   }
 
@@ -254,8 +255,7 @@ class BeastServer::Connection : public std::enable_shared_from_this<Connection> 
   std::deque<Queued> queue_;
   std::size_t queued_bytes_ = 0;
   Clock::time_point write_began_;
-  bool is_open_ = false, is_gone_ = false, is_writing_ = false;
-  bool waits_ = false;  // a message in the buffer was not taken yet
+  bool is_open_ = false, is_gone_ = false, is_writing_ = false, overflows_ = false, waits_ = false;
 };
 
 BeastServer::BeastServer(const Options& options, WebHandlers handlers)

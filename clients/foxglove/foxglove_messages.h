@@ -1,0 +1,43 @@
+// A mission as messages of Foxglove's schemas: its scene, positions on the earth, and a log of what became of packets. Pure.
+//
+// The frame "world" is east, north, up in metres from the scenario's origin, as Foxglove's panels want it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "bathymetry/terrain/local_frame.h"
+#include "clients/mission/mission_store.h"
+#include "clients/mission/mission_vehicle.h"
+#include "clients/mission/packet_book.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+
+nlohmann::json foxglove_time(SimTime at);
+
+// foxglove.SceneUpdate: vehicles with their names, links coloured by SNR, and wavefronts of those of `packets` that are on
+// their way.
+nlohmann::json foxglove_scene(const MissionStore& mission, SimTime at,
+                              std::span<const PacketRecord* const> packets);
+
+// Between the earth and the scenario's frame, as the simulator has it by default; empty where the origin is not known.
+std::optional<bathymetry::LocalFrame> frame_of(const MissionStore& mission);
+
+struct PlaceOnEarth {
+  double latitude_deg = 0, longitude_deg = 0, height_m = 0;
+};
+PlaceOnEarth place_of(const bathymetry::LocalFrame& frame, const Vec3& position_ned_m);
+
+// foxglove.LocationFix; null before the first state.
+nlohmann::json foxglove_fix(const MissionVehicle& vehicle, const bathymetry::LocalFrame& frame, SimTime at);
+
+// foxglove.Log.
+nlohmann::json foxglove_log(SimTime at, bool is_loss, const std::string& name, const std::string& message);
+nlohmann::json foxglove_log_of(const MissionStore& mission, const packet_outcome_t& outcome);
+
+}  // namespace halocline::clients

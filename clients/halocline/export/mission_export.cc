@@ -1,0 +1,198 @@
+#include "clients/halocline/export/mission_export.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <ctime>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bathymetry/terrain/local_frame.h"
+#include "clients/foxglove/foxglove_messages.h"
+#include "clients/foxglove/foxglove_schemas.h"
+#include "clients/halocline/export/mcap_writer.h"
+#include "clients/mission/mission_vehicle.h"
+#include "clients/mission/packet_book.h"
+#include "clients/mission/packet_reasons.h"
+#include "core/atomic_file.h"
+#include "core/check.h"
+#include "core/shared_module.h"
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+namespace {
+
+using nlohmann::json;
+
+// What is written at an instant of a mission; sorted by time before it is.
+struct Writing {
+  SimTime at;
+  std::uint16_t channel = 0;
+  const MissionVehicle* vehicle = nullptr;    // its position
+  const packet_outcome_t* outcome = nullptr;  // else this outcome
+  const PacketRecord* refused = nullptr;      // else this refusal; else the scene
+};
+
+std::string text_of(const json& message) {
+  return message.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+bathymetry::LocalFrame required_frame(const MissionStore& mission) {
+  const auto frame = frame_of(mission);
+  require(frame.has_value(),
+          "the log does not hold the origin of its coordinates; give it by --origin LATITUDE,LONGITUDE");
+  return *frame;
+}
+
+void add_scenes(const MissionStore& mission, std::uint16_t channel, std::vector<Writing>& all) {
+  constexpr SimDuration kPeriod = SimDuration::from_milliseconds(500);
+  for (SimTime at = mission.begin(); at <= mission.end(); at = at + kPeriod)
+    all.push_back({.at = at, .channel = channel});
+}
+
+void add_packets(const MissionStore& mission, std::uint16_t channel, std::vector<Writing>& all) {
+  for (const PacketRecord& packet : mission.packets().all()) {
+    if (packet.is_refused()) all.push_back({.at = packet.at(), .channel = channel, .refused = &packet});
+    for (const packet_outcome_t& outcome : packet.outcomes)
+      all.push_back({.at = SimTime::from_utime(outcome.utime), .channel = channel, .outcome = &outcome});
+  }
+}
+
+// Those of `by_departure` that may be on their way.
+std::vector<const PacketRecord*> under_way(const std::vector<const PacketRecord*>& by_departure, SimTime at) {
+  constexpr SimDuration kLongest = SimDuration::from_milliseconds(120'000);
+  const auto first = std::lower_bound(by_departure.begin(), by_departure.end(), at - kLongest,
+                                      [](const PacketRecord* packet, SimTime t) { return packet->at() < t; });
+  const auto last = std::upper_bound(first, by_departure.end(), at,
+                                     [](SimTime t, const PacketRecord* packet) { return t < packet->at(); });
+  return {first, last};
+}
+
+json message_of(const MissionStore& mission, const std::optional<bathymetry::LocalFrame>& frame,
+                const std::vector<const PacketRecord*>& by_departure, const Writing& writing) {
+  if (writing.vehicle != nullptr) return foxglove_fix(*writing.vehicle, *frame, writing.at);
+  if (writing.outcome != nullptr) return foxglove_log_of(mission, *writing.outcome);
+  if (writing.refused != nullptr)
+    return foxglove_log(writing.at, true, mission.name(writing.refused->name.source_id),
+                        refusal(writing.refused->receipt.value_or(0)));
+  return foxglove_scene(mission, writing.at, under_way(by_departure, writing.at));
+}
+
+std::string iso_time(SimTime at) {
+  const std::time_t seconds = static_cast<std::time_t>(std::floor(at.seconds()));
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  const auto milliseconds =
+      static_cast<int>(std::floor((at.seconds() - static_cast<double>(seconds)) * 1000));
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1,
+                     utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, milliseconds);
+}
+
+// A name of a vehicle is [a-z0-9_-]; a scenario's is a text.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
+  return out;
+}
+
+}  // namespace
+
+void set_origin(MissionStore& mission, const std::string& text) {
+  MissionScenario scenario = mission.scenario();
+  const std::size_t comma = text.find(',');
+  const auto number = [&](std::string_view part, double& value) {
+    const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && stop == part.data() + part.size();
+  };
+  const bool is_sound = comma != std::string::npos &&
+                        number(std::string_view(text).substr(0, comma), scenario.origin_latitude_deg) &&
+                        number(std::string_view(text).substr(comma + 1), scenario.origin_longitude_deg) &&
+                        std::abs(scenario.origin_latitude_deg) < 90 &&
+                        std::abs(scenario.origin_longitude_deg) <= 360;
+  require(is_sound, "--origin is '" + text + "'; allowed is LATITUDE,LONGITUDE in degrees, as 43.5,7.25");
+  mission.set_scenario(std::move(scenario));
+}
+
+void export_mcap(const MissionStore& mission, const std::string& path) {
+  McapWriter out(path);
+  const auto channel = [&](const std::string& topic, const FoxgloveSchema& schema) {
+    return out.add_channel(topic, std::string(schema.name), schema.json_schema);
+  };
+  std::vector<Writing> all;
+  add_scenes(mission, channel("/scene", kSceneUpdateSchema), all);
+  add_packets(mission, channel("/log", kLogSchema), all);
+  const auto frame = frame_of(mission);
+  if (frame) {
+    for (const MissionVehicle& vehicle : mission.vehicles()) {
+      const std::uint16_t fixes = channel("/vehicles/" + vehicle.name + "/position", kLocationFixSchema);
+      for (const auto& entry : vehicle.track.all())
+        all.push_back({.at = entry.at, .channel = fixes, .vehicle = &vehicle});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Writing& a, const Writing& b) { return a.at < b.at; });
+  std::vector<const PacketRecord*> by_departure;
+  for (const PacketRecord& packet : mission.packets().all()) by_departure.push_back(&packet);
+  std::stable_sort(by_departure.begin(), by_departure.end(),
+                   [](const PacketRecord* a, const PacketRecord* b) { return a->at() < b->at(); });
+  for (const Writing& writing : all)
+    out.write(writing.channel, writing.at, text_of(message_of(mission, frame, by_departure, writing)));
+  out.close();
+}
+
+void export_geojson(const MissionStore& mission, const std::string& path) {
+  const auto frame = required_frame(mission);
+  json features = json::array();
+  for (const MissionVehicle& vehicle : mission.vehicles()) {
+    json places = json::array(), time_s = json::array();
+    for (const auto& [at, point] : vehicle.track.all()) {
+      const auto place = place_of(frame, point.position_ned_m);
+      places.push_back({place.longitude_deg, place.latitude_deg, place.height_m});
+      time_s.push_back(at.seconds());
+    }
+    if (places.empty()) continue;
+    const bool is_point = places.size() == 1;
+    const json geometry = {{"type", is_point ? "Point" : "LineString"},
+                           {"coordinates", is_point ? places[0] : places}};
+    features.push_back(
+        {{"type", "Feature"},
+         {"geometry", geometry},
+         {"properties", {{"name", vehicle.name}, {"id", vehicle.id}, {"time_s", std::move(time_s)}}}});
+  }
+  replace_file(path, text_of({{"type", "FeatureCollection"}, {"features", std::move(features)}}) + "\n");
+}
+
+void export_gpx(const MissionStore& mission, const std::string& path) {
+  const auto frame = required_frame(mission);
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<gpx version=\"1.1\" creator=\"halocline\" "
+      "xmlns=\"http://www.topografix.com/GPX/1/1\">\n";
+  text += fmt::format("<metadata><name>{}</name></metadata>\n", escaped(mission.scenario().name));
+  for (const MissionVehicle& vehicle : mission.vehicles()) {
+    text += fmt::format("<trk><name>{}</name><trkseg>\n", escaped(vehicle.name));
+    for (const auto& [at, point] : vehicle.track.all()) {
+      const auto place = place_of(frame, point.position_ned_m);
+      text += fmt::format("<trkpt lat=\"{:.8f}\" lon=\"{:.8f}\"><ele>{:.2f}</ele><time>{}</time></trkpt>\n",
+                          place.latitude_deg, place.longitude_deg, place.height_m, iso_time(at));
+    }
+    text += "</trkseg></trk>\n";
+  }
+  replace_file(path, text + "</gpx>\n");
+}
+
+void export_netcdf(const MissionStore& mission, const std::string& path) {
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): a symbol's type is known by its name
+  const auto write = reinterpret_cast<TracksWriter*>(
+      module_symbol("halocline_tracks_netcdf.so", "halocline_write_tracks_netcdf"));
+  write(mission, path);
+}
+
+}  // namespace halocline::clients

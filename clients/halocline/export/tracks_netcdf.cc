@@ -1,0 +1,171 @@
+// The tracks of a mission as netCDF-4, through netCDF's C library. Part of the module halocline_tracks_netcdf.so, which only
+// mission_export.cc loads.
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <netcdf.h>
+
+#include "bus/version.h"
+#include "clients/foxglove/foxglove_messages.h"
+#include "clients/halocline/export/mission_export.h"
+#include "clients/mission/mission_store.h"
+#include "clients/mission/mission_vehicle.h"
+#include "clients/mission/timed_series.h"
+#include "core/atomic_file.h"
+
+namespace halocline::clients {
+namespace {
+
+class TracksFile {
+ public:
+  explicit TracksFile(const std::string& path) : path_(path) {
+    checked(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
+  }
+  ~TracksFile() {
+    if (id_ >= 0) nc_abort(id_);
+  }
+  TracksFile(const TracksFile&) = delete;
+  TracksFile& operator=(const TracksFile&) = delete;
+
+  void close() {
+    const int id = id_;
+    id_ = -1;
+    checked(nc_close(id));
+  }
+  int dimension(const char* name, std::size_t size) {
+    int dimension = 0;
+    checked(nc_def_dim(id_, name, size, &dimension));
+    return dimension;
+  }
+  int variable(const char* name, nc_type type, int dimension) {
+    int variable = 0;
+    checked(nc_def_var(id_, name, type, 1, &dimension, &variable));
+    return variable;
+  }
+  void attribute(int variable, const char* name, const std::string& value) {
+    checked(nc_put_att_text(id_, variable, name, value.size(), value.data()));
+  }
+  void attribute(const char* name, const std::string& value) { attribute(NC_GLOBAL, name, value); }
+  void put(int variable, const std::vector<double>& values) {
+    checked(nc_put_var_double(id_, variable, values.data()));
+  }
+  void put(int variable, const std::vector<int>& values) {
+    checked(nc_put_var_int(id_, variable, values.data()));
+  }
+  void put(int variable, const std::vector<const char*>& values) {
+    std::vector<const char*> texts = values;
+    checked(nc_put_var_string(id_, variable, texts.data()));
+  }
+
+ private:
+  void checked(int status) const {
+    if (status != NC_NOERR) throw std::runtime_error("cannot write " + path_ + ": " + nc_strerror(status));
+  }
+  std::string path_;
+  int id_ = -1;
+};
+
+struct Quantity {
+  const char* name;
+  const char* standard_name;  // of CF; empty: none
+  const char* unit;
+  const char* meaning;
+  std::function<double(const Timed<TrackPoint>&)> value;
+};
+
+std::vector<Quantity> quantities(const MissionStore& mission) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const double surface_m = mission.scenario().sea_surface_z_m;
+  std::vector<Quantity> all{
+      {"time", "time", "seconds since 1970-01-01 00:00:00", "simulation time",
+       [](const auto& e) { return e.at.seconds(); }},
+      {"depth", "depth", "m", "below the sea surface",
+       [surface_m](const auto& e) { return e.value.position_ned_m.z() - surface_m; }},
+      {"north", "", "m", "from the scenario's origin",
+       [](const auto& e) { return e.value.position_ned_m.x(); }},
+      {"east", "", "m", "from the scenario's origin",
+       [](const auto& e) { return e.value.position_ned_m.y(); }},
+      {"heading", "platform_orientation", "degree", "clockwise from north",
+       [](const auto& e) { return e.value.attitude.yaw * kDegrees + (e.value.attitude.yaw < 0 ? 360 : 0); }},
+      {"speed", "platform_speed_wrt_ground", "m s-1", "over ground",
+       [](const auto& e) { return e.value.speed_mps; }}};
+  const auto frame = frame_of(mission);
+  if (!frame) return all;
+  const auto place = [frame](const Timed<TrackPoint>& entry) {
+    return place_of(*frame, entry.value.position_ned_m);
+  };
+  all.push_back({"lat", "latitude", "degrees_north", "WGS 84",
+                 [place](const auto& e) { return place(e).latitude_deg; }});
+  all.push_back({"lon", "longitude", "degrees_east", "WGS 84",
+                 [place](const auto& e) { return place(e).longitude_deg; }});
+  return all;
+}
+
+void write_quantity(TracksFile& file, const MissionStore& mission, const Quantity& quantity,
+                    int observations) {
+  const int variable = file.variable(quantity.name, NC_DOUBLE, observations);
+  const std::string name = quantity.name;
+  if (*quantity.standard_name != '\0') file.attribute(variable, "standard_name", quantity.standard_name);
+  file.attribute(variable, "units", quantity.unit);
+  file.attribute(variable, "long_name", quantity.meaning);
+  const bool is_axis = name == "time" || name == "depth" || name == "lat" || name == "lon";
+  if (name == "time") file.attribute(variable, "calendar", "standard");
+  if (name == "depth") file.attribute(variable, "positive", "down");
+  if (is_axis)
+    file.attribute(variable, "axis",
+                   name == "time"    ? "T"
+                   : name == "depth" ? "Z"
+                   : name == "lat"   ? "Y"
+                                     : "X");
+  if (!is_axis)
+    file.attribute(variable, "coordinates", frame_of(mission) ? "time lat lon depth" : "time depth");
+  std::vector<double> values;
+  for (const MissionVehicle& vehicle : mission.vehicles()) {
+    for (const Timed<TrackPoint>& entry : vehicle.track.all()) values.push_back(quantity.value(entry));
+  }
+  file.put(variable, values);
+}
+
+void write_file(const MissionStore& mission, const std::string& path) {
+  std::vector<const char*> names;
+  std::vector<int> sizes;
+  std::size_t total = 0;
+  for (const MissionVehicle& vehicle : mission.vehicles()) {
+    names.push_back(vehicle.name.c_str());
+    sizes.push_back(static_cast<int>(vehicle.track.size()));
+    total += vehicle.track.size();
+  }
+  AtomicFile replacement(path);
+  TracksFile file(replacement.temporary_path());
+  file.attribute("Conventions", "CF-1.8");
+  file.attribute("featureType", "trajectory");
+  file.attribute("title",
+                 "Tracks of " + (mission.scenario().name.empty() ? "a mission" : mission.scenario().name));
+  file.attribute("source", std::string("halocline ") + bus::kVersion);
+  const int trajectories = file.dimension("trajectory", names.size()),
+            observations = file.dimension("obs", total);
+  const int name = file.variable("trajectory", NC_STRING, trajectories);
+  file.attribute(name, "cf_role", "trajectory_id");
+  file.attribute(name, "long_name", "name of the vehicle");
+  file.put(name, names);
+  const int size = file.variable("rowSize", NC_INT, trajectories);
+  file.attribute(size, "long_name", "number of states of the vehicle");
+  file.attribute(size, "sample_dimension", "obs");
+  file.put(size, sizes);
+  for (const Quantity& quantity : quantities(mission)) write_quantity(file, mission, quantity, observations);
+  file.close();
+  replacement.commit();
+}
+
+}  // namespace
+}  // namespace halocline::clients
+
+extern "C" halocline::clients::TracksWriter halocline_write_tracks_netcdf;
+
+void halocline_write_tracks_netcdf(const halocline::clients::MissionStore& mission, const std::string& path) {
+  halocline::clients::write_file(mission, path);
+}

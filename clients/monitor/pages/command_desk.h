@@ -1,0 +1,57 @@
+// Commands and messages from pages to vehicles, checked as the bus checks them. Pure: steady time is passed in.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bus/message_codec.h"
+#include "bus/messages.h"
+#include "clients/mission/mission_store.h"
+#include "core/sim_time.h"
+
+namespace halocline::monitor {
+
+class CommandDesk {
+ public:
+  static constexpr double kPeriod_s = 0.1, kMaxDuration_s = 60;
+  using Post = std::function<void(const std::string& channel, bus::Bytes bytes)>;
+  // With the key of the packet; empty when the bus did not show it.
+  using Sent = std::function<void(const std::string& key)>;
+
+  // `session` differs for each start of the program.
+  CommandDesk(std::int64_t session, Post post) : session_(session), post_(std::move(post)) {}
+
+  // Repeats a command for a while; a new one for the vehicle takes its place. Throws InvalidArgument for one that cannot be.
+  void command(const clients::MissionStore& mission, const nlohmann::json& request);
+  // Publishes one SEND at `now`. Throws likewise.
+  void send(const clients::MissionStore& mission, const nlohmann::json& request, SimTime now, Sent sent);
+
+  void tick(double steady_s, const clients::MissionStore& mission, SimTime now);
+
+ private:
+  struct Command {
+    vehicle_command_t message;
+    double until_s = 0, next_s = 0;
+  };
+  struct Awaited {
+    clients::PacketName name;
+    double until_s;
+    Sent sent;
+  };
+
+  std::int64_t session_;
+  Post post_;
+  double now_s_ = 0;
+  std::map<std::string, Command> commands_;          // by vehicle
+  std::map<std::string, std::int64_t> next_number_;  // by vehicle, of commands
+  std::int64_t next_packet_ = 0;
+  std::vector<Awaited> awaited_;
+};
+
+}  // namespace halocline::monitor

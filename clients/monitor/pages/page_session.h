@@ -1,0 +1,66 @@
+// What one page is shown by itself: positions, packets, links and the state, each when it changed and no faster than the
+// connection takes it. Pure: messages go to an outbox, steady time is passed in.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "clients/monitor/pages/packet_json.h"
+#include "clients/monitor/pages/playback.h"
+#include "clients/monitor/sources/source.h"
+#include "core/sim_time.h"
+
+namespace halocline::monitor {
+
+using Outbox = std::function<void(std::string message, bool binary)>;
+
+class PageSession {
+ public:
+  // Packets that departed so long before the instant are shown from the start.
+  static constexpr SimDuration kPacketsShown = SimDuration::from_milliseconds(60'000);
+
+  // `source` must outlive it.
+  PageSession(const Source& source, bool may_command, Outbox outbox);
+
+  // What is due at `steady_s`. Nothing that comes many times a second unless `idle`: the connection has sent everything.
+  void tick(double steady_s, bool idle, PacketIndex& packets);
+
+  // Requests that change what is shown: watch, play, pause, speed, seek, live. False for another one. Throws InvalidArgument
+  // for one that cannot be.
+  [[nodiscard]] bool take(const nlohmann::json& request);
+
+  SimTime at() const { return playback_.at(); }
+  void send(const nlohmann::json& message) {
+    outbox_(message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), false);
+  }
+  void send_binary(std::string bytes) { outbox_(std::move(bytes), true); }
+
+ private:
+  void send_state(double steady_s, bool at_once);
+  void send_mission(double steady_s);
+  void send_packets(PacketIndex& packets);
+  void send_links(double steady_s, PacketIndex& packets);
+
+  const Source& source_;
+  Outbox outbox_;
+  Playback playback_;
+  std::vector<std::size_t> watched_;  // indices in link_displays()
+  bool greets_ = true, may_command_;
+  bool state_wanted_ = true;
+  double state_sent_s_ = 0, mission_seen_s_ = 0, links_seen_s_ = 0;
+  nlohmann::json last_state_, last_mission_;
+  std::string last_frame_;
+  std::map<std::size_t, std::string> last_links_;  // frames without their time, by column
+  bool packets_restart_ = true;
+  SimTime packets_until_;           // departures up to it were shown
+  std::uint64_t packets_seen_ = 0;  // revision
+};
+
+}  // namespace halocline::monitor

@@ -1,0 +1,33 @@
+// Members of a request, checked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "clients/mission/mission_store.h"
+#include "clients/mission/mission_vehicle.h"
+#include "core/sim_time.h"
+
+namespace halocline::monitor {
+
+// Each throws InvalidArgument, naming the member and what is allowed, when it is missing or another thing.
+double number_in(const nlohmann::json& request, const char* member, double lowest, double highest);
+std::int64_t integer_in(const nlohmann::json& request, const char* member, std::int64_t lowest,
+                        std::int64_t highest);
+std::string text_in(const nlohmann::json& request, const char* member);
+
+struct Window {
+  SimTime from, to;
+};
+// from_s and to_s.
+Window window_in(const nlohmann::json& request);
+// max_points, 1000 where it is missing.
+std::size_t max_points_in(const nlohmann::json& request);
+// A vehicle by its index.
+const clients::MissionVehicle& vehicle_in(const clients::MissionStore& mission, const nlohmann::json& request,
+                                          const char* member);
+
+}  // namespace halocline::monitor

@@ -1,0 +1,57 @@
+// The thread that receives every message of a bus, and publishes what is posted to it. It waits for nobody: messages
+// go into a hand-over of bounded size. A bus that cannot be opened is tried again.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bus/message_codec.h"
+#include "clients/monitor/sources/handover.h"
+#include "core/sim_time.h"
+
+namespace lcm {
+class LCM;
+}
+
+namespace halocline::monitor {
+
+class BusReceiver {
+ public:
+  // `node` is its name in what it logs.
+  BusReceiver(std::string lcm_url, std::string node);
+  ~BusReceiver();
+  BusReceiver(const BusReceiver&) = delete;
+  BusReceiver& operator=(const BusReceiver&) = delete;
+
+  // What came since the last call. A message without channel marks the begin of another run.
+  std::vector<BusMessage> take() { return handover_.take(); }
+  std::int64_t dropped() const { return handover_.dropped(); }
+
+  // To be published by the thread, within some hundredths of a second.
+  void post(std::string channel, bus::Bytes bytes);
+
+  bool is_open() const { return is_open_; }
+  // By the conductor's CLOCK; empty while none was received.
+  std::optional<SimTime> conductor_time() const;
+
+ private:
+  void run();
+  void receive(lcm::LCM& lcm);
+  void publish_posted(lcm::LCM& lcm);
+  void sleep_for(int milliseconds) const;
+
+  std::string url_, node_;
+  Handover handover_;
+  std::mutex posted_mutex_;
+  std::vector<BusMessage> posted_;
+  std::atomic<bool> is_open_ = false, stop_ = false;
+  std::atomic<std::int64_t> conductor_ns_;
+  std::thread thread_;  // last: it uses the others
+};
+
+}  // namespace halocline::monitor

@@ -1,0 +1,81 @@
+#include "clients/monitor/sources/bus_source.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "bus/runtime/node_process.h"
+#include "bus/transport.h"
+#include "clients/mission/node_health.h"
+#include "clients/monitor/sources/handover.h"
+
+namespace halocline::monitor {
+namespace {
+
+constexpr double kSilent_s = 3;
+// A node publishes its STATUS each second.
+constexpr double kAlive_s = 3.5;
+
+}  // namespace
+
+BusSource::BusSource(const std::string& lcm_url, SimDuration history)
+    : url_(bus::effective_url(lcm_url)),
+      history_(history),
+      receiver_(url_, "monitor"),
+      last_message_(bus::steady_now()) {
+  mission_.limit_history(history_);
+}
+
+void BusSource::begin_run() {
+  mission_ = clients::MissionStore();
+  mission_.limit_history(history_);
+  ++run_;
+}
+
+void BusSource::update() {
+  for (const BusMessage& message : receiver_.take()) {
+    if (message.channel.empty()) {
+      begin_run();
+      continue;
+    }
+    last_message_ = bus::steady_now();
+    ++received_;
+    if (is_reply_ && is_reply_(message.channel)) replies_.push_back(message);
+    mission_.add(message.stamp_us, message.channel, message.bytes);
+  }
+}
+
+SourceState BusSource::state() const {
+  const double silent_s = (bus::steady_now() - last_message_).seconds();
+  const bool is_silent = silent_s > kSilent_s;
+  return {.bus = !receiver_.is_open() ? BusCondition::kReconnecting
+                 : is_silent          ? BusCondition::kSilent
+                                      : BusCondition::kLive,
+          .silent_s = is_silent ? silent_s : 0,
+          .bathymetry = is_alive("bathymetry"),
+          .channel_server = is_alive("channel"),
+          .real_time_factor = is_silent ? std::nullopt : mission_.health().real_time_factor(),
+          .messages_dropped = receiver_.dropped()};
+}
+
+// A vehicle's clock may lead: by the conductor's where there is one.
+SimTime BusSource::now() const {
+  constexpr SimDuration kAhead = SimDuration::from_milliseconds(1000);
+  const SimTime last = mission_.end();
+  const auto conductor = receiver_.conductor_time();
+  return conductor && last != SimTime::at_once()
+             ? std::max(std::min(*conductor, last + kAhead), mission_.begin())
+             : last;
+}
+
+double BusSource::age_s(const clients::NodeRecord& node, SimTime) const {
+  return std::max(0.0, (bus::wall_now() - SimTime::from_utime(node.last_stamp_us)).seconds());
+}
+
+bool BusSource::is_alive(std::string_view prefix) const {
+  const auto& nodes = mission_.health().nodes();
+  return std::any_of(nodes.begin(), nodes.end(), [&](const auto& node) {
+    return node.first.starts_with(prefix) && age_s(node.second, SimTime()) < kAlive_s;
+  });
+}
+
+}  // namespace halocline::monitor

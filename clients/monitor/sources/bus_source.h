@@ -1,0 +1,58 @@
+// A bus as a source: what it carries now, and its recent past.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clients/mission/mission_store.h"
+#include "clients/mission/node_health.h"
+#include "clients/monitor/sources/bus_receiver.h"
+#include "clients/monitor/sources/handover.h"
+#include "clients/monitor/sources/source.h"
+#include "core/sim_time.h"
+
+namespace halocline::monitor {
+
+class BusSource : public Source {
+ public:
+  // `history`: how much of the past is kept.
+  BusSource(const std::string& lcm_url, SimDuration history);
+
+  void update() override;
+  const clients::MissionStore& mission() const override { return mission_; }
+  int run() const override { return run_; }
+  bool is_log() const override { return false; }
+  std::string name() const override { return url_; }
+  std::vector<std::string> limits() const override { return {}; }
+  SourceState state() const override;
+  void post(const std::string& channel, bus::Bytes bytes) override {
+    receiver_.post(channel, std::move(bytes));
+  }
+  std::vector<BusMessage> take_replies() override { return std::exchange(replies_, {}); }
+  void set_replies(std::function<bool(std::string_view channel)> is_reply) override {
+    is_reply_ = std::move(is_reply);
+  }
+  bool names_stand_for_now() const override { return true; }
+  SimTime now() const override;
+  double age_s(const clients::NodeRecord& node, SimTime at) const override;
+
+ private:
+  void begin_run();
+  bool is_alive(std::string_view prefix) const;
+
+  std::string url_;
+  SimDuration history_;
+  clients::MissionStore mission_;
+  BusReceiver receiver_;
+  std::function<bool(std::string_view channel)> is_reply_;
+  std::vector<BusMessage> replies_;
+  int run_ = 0;
+  SimTime last_message_;  // steady
+  std::int64_t received_ = 0;
+};
+
+}  // namespace halocline::monitor

@@ -1,0 +1,88 @@
+#include "clients/monitor/sources/log_source.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "bus/channels.h"
+#include "clients/halocline/analysis/mission_log.h"
+#include "clients/halocline/analysis/run_files.h"
+#include "clients/mission/mission_vehicle.h"
+#include "clients/mission/node_health.h"
+#include "clients/monitor/sources/handover.h"
+#include "core/check.h"
+
+namespace halocline::monitor {
+
+LogSource::LogSource(const std::vector<std::string>& logs, const std::string& scenario)
+    : name_(logs.front()), mission_(clients::read_mission(logs)) {
+  require(mission_.begin() <= mission_.end(), name_ + " holds no states and no packets");
+  const std::string file = configuration(scenario);
+  if (!file.empty()) nodes_ = std::make_unique<LogNodes>(file);
+}
+
+LogSource::~LogSource() {
+  nodes_.reset();
+  std::error_code ignored;
+  if (!written_.empty()) std::filesystem::remove(written_, ignored);
+}
+
+std::string LogSource::configuration(const std::string& scenario) {
+  if (!scenario.empty()) return scenario;
+  const std::string beside = clients::config_beside(name_);
+  if (std::filesystem::exists(beside)) return beside;
+  if (mission_.scenario().toml.empty()) return "";
+  written_ =
+      (std::filesystem::temp_directory_path() / ("halocline-monitor-" + std::to_string(::getpid()) + ".toml"))
+          .string();
+  std::ofstream out(written_);
+  out << mission_.scenario().toml;
+  return written_;
+}
+
+void LogSource::update() {
+  if (!nodes_) return;
+  for (BusMessage& message : nodes_->take()) {
+    const bool is_missing =
+        (message.channel == bus::channels::kTerrain && !mission_.terrain()) ||
+        (message.channel == bus::channels::kScenario && mission_.scenario().name.empty()) ||
+        lacks_modem(message.channel);
+    if (is_missing) mission_.add(0, message.channel, message.bytes);
+    if (is_reply_ && is_reply_(message.channel)) replies_.push_back(std::move(message));
+  }
+}
+
+// A vehicle that published none has that of the scenario.
+bool LogSource::lacks_modem(std::string_view channel) const {
+  constexpr std::string_view kPrefix = bus::channels::kModem.prefix;
+  if (!channel.starts_with(kPrefix)) return false;
+  const clients::MissionVehicle* vehicle = mission_.find(channel.substr(kPrefix.size()));
+  return vehicle != nullptr && !vehicle->modem;
+}
+
+std::vector<std::string> LogSource::limits() const {
+  if (!nodes_)
+    return {
+        "Rays and budgets are not computed: this log has no configuration. Put the scenario file beside it, "
+        "or name it by --scenario."};
+  const std::string problem = nodes_->problem();
+  if (problem.empty()) return {};
+  return {"Rays and budgets are not computed: " + problem + "."};
+}
+
+SourceState LogSource::state() const {
+  const bool answers = nodes_ && nodes_->is_ready();
+  return {.bathymetry = answers, .channel_server = answers};
+}
+
+void LogSource::post(const std::string& channel, bus::Bytes bytes) {
+  if (nodes_) nodes_->post(channel, std::move(bytes));
+}
+
+double LogSource::age_s(const clients::NodeRecord& node, SimTime at) const {
+  return std::max(0.0, (at - SimTime::from_utime(node.status.utime)).seconds());
+}
+
+}  // namespace halocline::monitor

@@ -1,0 +1,55 @@
+// A whole log as a source. What its configuration gives is computed by the nodes of log_nodes.h.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clients/mission/mission_store.h"
+#include "clients/mission/node_health.h"
+#include "clients/monitor/sources/handover.h"
+#include "clients/monitor/sources/log_nodes.h"
+#include "clients/monitor/sources/source.h"
+#include "core/sim_time.h"
+
+namespace halocline::monitor {
+
+class LogSource : public Source {
+ public:
+  // Reads the log, or its parts in order. `scenario`: its configuration; empty: the file beside it, or what it holds. Throws
+  // InvalidArgument when the log cannot be read, or holds nothing.
+  LogSource(const std::vector<std::string>& logs, const std::string& scenario);
+  ~LogSource() override;
+
+  void update() override;
+  const clients::MissionStore& mission() const override { return mission_; }
+  int run() const override { return 0; }
+  bool is_log() const override { return true; }
+  std::string name() const override { return name_; }
+  std::vector<std::string> limits() const override;
+  SourceState state() const override;
+  void post(const std::string& channel, bus::Bytes bytes) override;
+  std::vector<BusMessage> take_replies() override { return std::exchange(replies_, {}); }
+  void set_replies(std::function<bool(std::string_view channel)> is_reply) override {
+    is_reply_ = std::move(is_reply);
+  }
+  bool names_stand_for_now() const override { return false; }
+  SimTime now() const override { return mission_.end(); }
+  double age_s(const clients::NodeRecord& node, SimTime at) const override;
+
+ private:
+  bool lacks_modem(std::string_view channel) const;
+  std::string configuration(const std::string& scenario);
+
+  std::string name_;
+  clients::MissionStore mission_;
+  std::function<bool(std::string_view channel)> is_reply_;
+  std::vector<BusMessage> replies_;
+  std::string written_;              // file of the configuration that the log holds; empty: none
+  std::unique_ptr<LogNodes> nodes_;  // null without a configuration
+};
+
+}  // namespace halocline::monitor
