@@ -5,10 +5,11 @@ import { execFileSync, spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { FoxgloveClient } from "@foxglove/ws-protocol";
+import foxglove from "@foxglove/ws-protocol";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { WebSocket } from "ws";
 
+const { FoxgloveClient } = foxglove;
 const [bin, log] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "halocline-interoperate-"));
 
