@@ -106,7 +106,7 @@ void LogNodes::run() {
 
 void LogNodes::serve() {
   constexpr SimDuration kTurn = SimDuration::from_milliseconds(200);
-  clients::ScenarioConfig config = clients::load_scenario(scenario_, {});
+  clients::ScenarioConfig config = clients::load_scenario(scenario_, {}, clients::ScenarioUse::kWater);
   config.channel_server.rules.medium.shard = {};
   lcm::LCM lcm("memq://");
   const auto hand_over = [this](std::string channel, bus::Bytes bytes) {
