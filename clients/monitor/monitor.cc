@@ -70,9 +70,20 @@ void Monitor::tick() {
   const double now_s = bus::steady_now().seconds();
   for (const BusMessage& reply : source_->take_replies()) queries_.take(reply);
   queries_.tick(now_s);
+  request_overview(now_s);
   commands_.tick(now_s, source_->mission(), source_->now());
   tick_pages(now_s);
   tick_foxgloves(now_s);
+}
+
+void Monitor::request_overview(double now_s) {
+  constexpr double kPause_s = QueryDesk::kPatience_s + 2;
+  const bool is_wanted = !source_->is_log() && !source_->mission().terrain() && now_s >= overview_due_s_;
+  if (!is_wanted || !source_->state().bathymetry) return;
+  overview_due_s_ = now_s + kPause_s;
+  collect_overview(queries_, [this, run = run_](const terrain_tile_t& overview) {
+    if (run == run_ && overview.post_spacing_m > 0) source_->set_terrain(overview);
+  });
 }
 
 void Monitor::tick_pages(double now_s) {

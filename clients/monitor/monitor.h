@@ -43,6 +43,8 @@ class Monitor {
   void begin_command(ConnectionId id, const nlohmann::json& request);
   void begin_link(ConnectionId id, const nlohmann::json& request);
   void finish(ConnectionId id, nlohmann::json reply);
+  // The terrain is published once: who came later queries it.
+  void request_overview(double now_s);
   void tick_pages(double now_s);
   void tick_foxgloves(double now_s);
   void start_again();
@@ -51,6 +53,7 @@ class Monitor {
   bool may_command_;
   QueryDesk queries_;
   int run_;
+  double overview_due_s_ = 0;  // steady
   CommandDesk commands_;
   PacketIndex packets_;
   std::map<ConnectionId, PageSession> pages_;

@@ -67,4 +67,26 @@ void collect_terrain(QueryDesk& queries, const DepthGrid& window,
   }
 }
 
+void collect_overview(QueryDesk& queries, const std::function<void(const terrain_tile_t& overview)>& done) {
+  constexpr double kMostIntervals = 96;
+  terrain_query_t any{};  // its reply has the extent
+  any.post_spacing_m = 1;
+  any.requested_rows = any.requested_columns = 1;
+  queries.ask(std::move(any), [&queries, done](const terrain_tile_t* tile, const std::string&) {
+    if (tile == nullptr) return;
+    const double north_m = tile->extent_north_m - tile->extent_south_m,
+                 east_m = tile->extent_east_m - tile->extent_west_m;
+    if (north_m <= 0 || east_m <= 0) return;
+    terrain_query_t whole{};
+    whole.corner_north_m = tile->extent_south_m;
+    whole.corner_east_m = tile->extent_west_m;
+    whole.post_spacing_m = std::max(std::max(north_m, east_m) / kMostIntervals, tile->finest_spacing_m);
+    whole.requested_rows = static_cast<std::int32_t>(north_m / whole.post_spacing_m) + 1;
+    whole.requested_columns = static_cast<std::int32_t>(east_m / whole.post_spacing_m) + 1;
+    queries.ask(std::move(whole), [done](const terrain_tile_t* overview, const std::string&) {
+      if (overview != nullptr) done(*overview);
+    });
+  });
+}
+
 }  // namespace halocline::monitor

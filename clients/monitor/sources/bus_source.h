@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clients/mission/mission_store.h"
+#include "clients/mission/mission_terrain.h"
 #include "clients/mission/node_health.h"
 #include "clients/monitor/sources/bus_receiver.h"
 #include "clients/monitor/sources/handover.h"
@@ -24,6 +25,9 @@ class BusSource : public Source {
 
   void update() override;
   const clients::MissionStore& mission() const override { return mission_; }
+  void set_terrain(const terrain_tile_t& overview) override {
+    mission_.set_terrain(clients::MissionTerrain::from(overview));
+  }
   int run() const override { return run_; }
   bool is_log() const override { return false; }
   std::string name() const override { return url_; }

@@ -26,6 +26,7 @@ class LogSource : public Source {
 
   void update() override;
   const clients::MissionStore& mission() const override { return mission_; }
+  void set_terrain(const terrain_tile_t&) override {}  // update() takes that of the nodes
   int run() const override { return 0; }
   bool is_log() const override { return true; }
   std::string name() const override { return name_; }

@@ -33,6 +33,8 @@ class Source {
   // Takes up what came since the last call; hands over answers.
   virtual void update() = 0;
   virtual const clients::MissionStore& mission() const = 0;
+  // The terrain, where no TERRAIN was received.
+  virtual void set_terrain(const terrain_tile_t& overview) = 0;
   // Grows when another run has begun: mission() holds nothing of the one before.
   virtual int run() const = 0;
 

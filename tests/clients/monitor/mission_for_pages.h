@@ -64,6 +64,7 @@ class FixedSource : public Source {
   void update() override {}
   const clients::MissionStore& mission() const override { return mission_; }
   clients::MissionStore& mission() { return mission_; }
+  void set_terrain(const terrain_tile_t&) override {}
   int run() const override { return 0; }
   bool is_log() const override { return is_log_; }
   std::string name() const override { return "test"; }

@@ -135,6 +135,36 @@ TEST(TerrainWindow, IsCollectedFromSeveralTiles) {
       InvalidArgument);
 }
 
+TEST(TerrainWindow, OverviewIsOfTheWholeExtent) {
+  Posted posted;
+  QueryDesk desk("m", posted.post());
+  int done = 0;
+  collect_overview(desk, [&](const terrain_tile_t& overview) { done += overview.tile_rows; });
+  terrain_tile_t tile{};
+  tile.request_id = 1;
+  tile.extent_south_m = -4000;
+  tile.extent_west_m = -2000;
+  tile.extent_north_m = 5600;
+  tile.extent_east_m = 2800;
+  tile.finest_spacing_m = 50;
+  desk.take({0, "TERRAIN_REPLY.m", bus::encoded(tile)});
+  ASSERT_EQ(posted.messages.size(), 2u);
+  const auto query = bus::decoded<terrain_query_t>(posted.messages[1].second);
+  ASSERT_TRUE(query);
+  EXPECT_EQ(query->corner_north_m, -4000);
+  EXPECT_EQ(query->post_spacing_m, 100);
+  EXPECT_EQ(query->requested_rows, 97);
+  EXPECT_EQ(query->requested_columns, 49);
+  tile.request_id = 2;
+  tile.tile_rows = 1;
+  tile.tile_columns = 1;
+  tile.num_posts = 1;
+  tile.seabed_z_m = {120};
+  tile.post_known = {1};
+  desk.take({0, "TERRAIN_REPLY.m", bus::encoded(tile)});
+  EXPECT_EQ(done, 1);
+}
+
 TEST(LinkView, QueriesWhereBothWere) {
   const auto mission = testing::small_mission();
   auto query = link_query({mission.vehicles()[0], mission.vehicles()[1], SimTime::from_seconds(30)});
