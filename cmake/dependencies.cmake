@@ -7,7 +7,7 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
-find_package(Boost 1.74 REQUIRED)  # headers: Boost.Math
+find_package(Boost 1.74 REQUIRED)  # headers: Boost.Math, Boost.Beast
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # inlined
 find_package(GDAL REQUIRED)
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
