@@ -18,12 +18,14 @@
 #include "bus/logs/log_rotation.h"
 #include "bus/runtime/node_process.h"
 #include "clients/halocline/analysis/csv_export.h"
-#include "clients/halocline/analysis/log_statistics.h"
+#include "clients/halocline/analysis/mission_log.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
+#include "clients/halocline/report/report_page.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/embedded_run.h"
 #include "clients/halocline/scenario/log_estimate.h"
+#include "clients/mission/mission_store.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 
@@ -36,7 +38,7 @@ struct RunOptions {
   double duration_s = 0, rate = 0;
   std::int64_t seed = -1;
   int keep_parts = 0;
-  bool quiet = false, no_csv = false, force = false;
+  bool quiet = false, no_csv = false, no_report = false, force = false;
 };
 
 std::vector<std::string> overrides_of(const RunOptions& options) {
@@ -48,16 +50,14 @@ std::vector<std::string> overrides_of(const RunOptions& options) {
 }
 
 void print_end(const RunOptions& options, const RunFiles& files, const ScenarioConfig& config,
-               const RunOutcome& outcome) {
-  LogReader log(files.log);
+               const RunOutcome& outcome, const MissionStore& mission) {
   fmt::print(std::cout, "scenario    {}: {}\n", config.scenario.name, config.scenario.description);
   fmt::print(std::cout, "simulated   {:.3f} s{} in {:.3f} s, {:.1f} times real time\n",
              outcome.reached.seconds(), outcome.interrupted ? " (interrupted)" : "", outcome.wall_s,
              outcome.reached.seconds() / std::max(outcome.wall_s, 1e-9));
-  print(std::cout, statistics_of(log));
-  std::cout << "log         " << files.log << "\n";
-  std::cout << "config      " << files.config << "\n";
-  if (!options.no_csv) std::cout << "CSVs        " << files.csv << "\n";
+  print_summary(std::cout, mission);
+  std::cout << "log         " << files.log << (options.no_csv ? "" : ", CSVs " + files.csv) << "\n";
+  if (!options.no_report) std::cout << "report      " << files.report << "\n";
 }
 
 // Never those of an earlier run: without --out the folder is a new one, and a log that is there stays unless --force.
@@ -114,8 +114,12 @@ int run(const RunOptions& options) {
     LogReader log(files.log);
     export_csv(log, files.csv);
   }
-  if (!options.quiet) print_end(options, files, config, outcome);
-  return bus::interrupt_requested() ? kInterrupted : kDone;
+  const int code = bus::interrupt_requested() ? kInterrupted : kDone;
+  if (options.quiet && options.no_report) return code;
+  const MissionLog log = read_mission({files.log});
+  if (!options.no_report) write_text(files.report, report_page({files.log, log.mission, log.remarks}));
+  if (!options.quiet) print_end(options, files, config, outcome, log.mission);
+  return code;
 }
 
 }  // namespace
@@ -151,6 +155,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_rotation_options(*command, options->rotate, options->keep_parts);
   command->add_option("--csv", options->csv, "folder of the CSVs; default: <out>/csv");
   command->add_flag("--no-csv", options->no_csv, "write no CSVs");
+  command->add_flag("--no-report", options->no_report, "write no report.html beside the log");
   command->add_option("--mirror", options->mirror, "udpm URL on which the run is shown as well, for lcm-spy");
   command->add_option("--log-level", options->log_level, "debug, info, warning, error or silent");
   command->add_flag("--force", options->force, "replace the log of an earlier run");

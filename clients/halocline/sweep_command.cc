@@ -96,7 +96,7 @@ std::vector<std::string> command_of(const SweepPlan& plan, const Job& job) {
     command.push_back(text);
   }
   for (const std::string& word : {std::string("--log"), job.folder + "/run.lcm", std::string("--no-csv"),
-                                  std::string("--quiet"), std::string("--force")})
+                                  std::string("--no-report"), std::string("--quiet"), std::string("--force")})
     command.push_back(word);
   return command;
 }

@@ -23,7 +23,7 @@ class Runs:
         file, log = folder / f"{name}.toml", folder / f"{name}.lcm"
         file.write_text(scenario)
         sets = [word for change in (*changes, *self._changes) for word in ("--set", change)]
-        self._call("run", file, *sets, "--log", log, "--out", folder, "--no-csv", "--quiet", "--log-level", "error")
+        self._call("run", file, *sets, "--log", log, "--out", folder, "--no-csv", "--no-report", "--quiet", "--log-level", "error")
         self._call("log", "export", log, "--out", folder / "csv", "--channel", channels)
         return {file.stem: read_csv(file) for file in (folder / "csv").glob("*.csv")}
 

@@ -169,7 +169,8 @@ std::string LockstepFleet::output_of(const std::filesystem::path& log) const {
 std::string LockstepFleet::log_of_one_process(const std::vector<std::string>& more_settings) {
   auto words = command("halocline", false);
   const std::string log = (folder_ / "one.lcm").string();
-  words.insert(words.end(), {"run", scenario_, "--quiet", "--no-csv", "--force", "--log", log});
+  words.insert(words.end(),
+               {"run", scenario_, "--quiet", "--no-csv", "--no-report", "--force", "--log", log});
   for (const std::string& option : settings_as_options()) words.push_back(option);
   for (const std::string& setting : more_settings) words.insert(words.end(), {"--set", setting});
   EXPECT_EQ(Process(words).wait(std::chrono::seconds(100)), 0);

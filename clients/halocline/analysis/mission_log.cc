@@ -2,15 +2,39 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 
+#include <fmt/ostream.h>
+
 #include "bus/logs/channel_types.h"
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/mission/foreign_message.h"
+#include "clients/mission/mission_summary.h"
 #include "clients/mission/mission_time.h"
 
 namespace halocline::clients {
+namespace {
+
+// Empty where there is no such file.
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> damage_in(const LogReader& log) {
+  std::stringstream report;
+  report_damage(report, log);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(report, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
 
 MissionTime time_of(LogReader& log) {
   std::vector<std::int64_t> utimes;
@@ -40,11 +64,37 @@ MissionTime time_of(LogReader& log) {
   return time;
 }
 
-MissionStore read_mission(const std::vector<std::string>& logs, MissionLimits limits) {
+void print_summary(std::ostream& out, const MissionStore& mission) {
+  for (const SummaryRow& row : mission_summary(mission)) fmt::print(out, "{:<11} {}\n", row.key, row.text);
+}
+
+MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limits) {
   LogReader times(logs), log(logs);
-  MissionStore mission(time_of(times), limits);
+  const MissionTime time = time_of(times);
+  MissionLog read{MissionStore(time, limits), {}};
+  MissionStore& mission = read.mission;
   for (LoggedEvent event; log.next(event);) mission.add(event.stamp_us, event.channel, event.data);
-  return mission;
+  if (mission.scenario().toml.empty()) {
+    MissionScenario scenario = mission.scenario();
+    scenario.toml = text_of(config_beside(logs.front()));
+    mission.set_scenario(std::move(scenario));
+  }
+  read.remarks = damage_in(log);
+  const MissionCounts& counts = mission.counts();
+  if (time.zero_us != 0)
+    read.remarks.push_back(
+        fmt::format("Times are moved: 0 is the recording's {} s.", time.zero_us / 1'000'000));
+  if (counts.without_time > 0)
+    read.remarks.push_back(
+        fmt::format("{} messages carry the time of another clock, or none; they stand at the time that the "
+                    "log had reached.",
+                    counts.without_time));
+  if (counts.undecodable > 0)
+    read.remarks.push_back(fmt::format("{} messages on Halocline's channels do not decode and are left out.",
+                                       counts.undecodable));
+  if (counts.unknown > 0)
+    read.remarks.push_back(fmt::format("{} messages on other channels are left out.", counts.unknown));
+  return read;
 }
 
 }  // namespace halocline::clients

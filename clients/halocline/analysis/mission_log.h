@@ -1,6 +1,7 @@
 // A whole log as a mission.
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,16 @@ namespace halocline::clients {
 // How a log's times become simulation time, by all its states and CLOCKs.
 MissionTime time_of(LogReader& log);
 
-// Reads the logs (the parts of one, in order) twice: for the times, then for all. Throws as LogReader.
-MissionStore read_mission(const std::vector<std::string>& logs, MissionLimits limits = {});
+struct MissionLog {
+  MissionStore mission;
+  std::vector<std::string> remarks;  // sentences: damage, what was left out, times that were moved
+};
+
+// Reads the logs (the parts of one, in order) twice: for the times, then for all. Where they do not hold the scenario its
+// text is taken from the configuration beside the first. Throws as LogReader.
+MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limits = {});
+
+// The rows of mission_summary, for a person.
+void print_summary(std::ostream& out, const MissionStore& mission);
 
 }  // namespace halocline::clients

@@ -28,6 +28,8 @@ class OutcomeSummary : public OutcomeLedger {
   // `zero_us` is taken off the outcome's times.
   void count(const LoggedEvent& event, std::int64_t zero_us = 0);
 
+  void count(const packet_outcome_t& outcome);
+
   // In the order of the log.
   const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
   std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
@@ -42,8 +44,6 @@ class OutcomeSummary : public OutcomeLedger {
     std::int8_t packet_kind;
     auto operator<=>(const Key&) const = default;
   };
-  void count(const packet_outcome_t& outcome);
-
   std::vector<packet_outcome_t> outcomes_;
   std::map<std::int32_t, std::string> names_;
   std::set<Key> counted_;

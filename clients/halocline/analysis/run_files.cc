@@ -25,6 +25,8 @@ RunFiles run_files(const std::string& out, const std::string& name, const std::s
   files.log = log.empty() ? (fs::path(out) / (name + ".lcm")).string() : log;
   files.csv = csv.empty() ? (fs::path(out) / "csv").string() : csv;
   files.config = config_beside(files.log);
+  files.report =
+      log.empty() ? (fs::path(files.log).parent_path() / "report.html").string() : report_beside(files.log);
   make_folder(fs::path(files.log).parent_path());
   return files;
 }
@@ -40,6 +42,10 @@ std::string make_new_folder(const std::string& base) {
     if (!fs::is_directory(folder))
       throw std::runtime_error("cannot make the folder " + folder + ": " + error.message());
   }
+}
+
+std::string report_beside(const std::string& log) {
+  return fs::path(log).replace_extension(".html").string();
 }
 
 std::string config_beside(const std::string& log) {

@@ -8,6 +8,7 @@ namespace halocline::clients {
 struct RunFiles {
   std::string log;     // LCM log
   std::string config;  // effective configuration, beside the log, its name ending in .toml
+  std::string report;  // beside the log: report.html, or the name of a log that was named, ending in .html
   std::string csv;     // folder
 };
 
@@ -22,6 +23,9 @@ RunFiles run_files(const std::string& out, const std::string& name, const std::s
 // A new folder for the results of a run: `base`, or "base-2", "base-3", ..., the first that is not there yet. Throws
 // std::runtime_error when it cannot be made.
 std::string make_new_folder(const std::string& base);
+
+// The log's name, ending in .html.
+std::string report_beside(const std::string& log);
 
 // The effective configuration that a run recorded beside its log.
 std::string config_beside(const std::string& log);

@@ -13,16 +13,6 @@ namespace {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
-// In gnuplot's single-quoted strings nothing is special but the quote, which is doubled, and the end of the line.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += is_control(c) ? ' ' : c;
-  }
-  return out + "'";
-}
-
 struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   void take(double value) {
@@ -92,11 +82,11 @@ class ChartScript {
 
  private:
   std::string labels() const {
-    return "set xlabel " + quoted(chart_.x) + "\nset ylabel " + quoted(chart_.y) + "\n";
+    return "set xlabel " + gnuplot_text(chart_.x) + "\nset ylabel " + gnuplot_text(chart_.y) + "\n";
   }
 
   std::string empty_chart() const {
-    return labels() + "set label 1 " + quoted(chart_.when_empty) +
+    return labels() + "set label 1 " + gnuplot_text(chart_.when_empty) +
            " at graph 0.5,0.5 center\nset xrange [0:1]\nset yrange [0:1]\nunset xtics\nunset ytics\n"
            "plot NaN notitle\nunset label 1\n";
   }
@@ -117,7 +107,7 @@ class ChartScript {
     }
     std::string tics;
     for (std::size_t i = 0; i < chart_.categories.size(); ++i)
-      tics += (i == 0 ? "" : ", ") + quoted(chart_.categories[i]) + " " + std::to_string(i);
+      tics += (i == 0 ? "" : ", ") + gnuplot_text(chart_.categories[i]) + " " + std::to_string(i);
     script_ += "set xtics rotate by -30 (" + tics + ")\n";
   }
 
@@ -132,7 +122,7 @@ class ChartScript {
     for (std::size_t k = 0; k < series.x.size(); ++k)
       script_ += format_number(series.x[k]) + " " + format_number(series.y[k]) + "\n";
     script_ += "EOD\n";
-    const std::string title = series.title.empty() ? " notitle" : " title " + quoted(series.title);
+    const std::string title = series.title.empty() ? " notitle" : " title " + gnuplot_text(series.title);
     const std::string colour = " lc " + std::to_string(i + 1);
     switch (series.style) {
       case Series::kStems:
@@ -168,6 +158,16 @@ class ChartScript {
 
 }  // namespace
 
+// In gnuplot's single-quoted strings nothing is special but the quote, which is doubled, and the end of the line.
+std::string gnuplot_text(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += is_control(c) ? ' ' : c;
+  }
+  return out + "'";
+}
+
 void require_plot_file(const std::string& file) {
   require(file.ends_with(".png") || file.ends_with(".svg"),
           "'" + file + "' is no file to plot into; allowed are names that end in .png or .svg");
@@ -181,9 +181,9 @@ std::string gnuplot_script(const Plot& plot, const std::string& file) {
   const std::string terminal = file.ends_with(".png") ? "pngcairo" : "svg";
   std::string script = "set terminal " + terminal + " noenhanced size " + std::to_string(plot.width_px) +
                        "," + std::to_string(plot.chart_height_px * charts) + " background rgb 'white'\n" +
-                       "set output " + quoted(file) + "\nset grid\nset key above\n" +
-                       "set multiplot layout " + std::to_string(charts) + ",1 title " + quoted(plot.title) +
-                       "\n";
+                       "set output " + gnuplot_text(file) + "\nset grid\nset key above\n" +
+                       "set multiplot layout " + std::to_string(charts) + ",1 title " +
+                       gnuplot_text(plot.title) + "\n";
   for (int i = 0; i < charts; ++i) script += ChartScript(plot.charts[static_cast<std::size_t>(i)], i).text();
   return script + "unset multiplot\nunset output\n";
 }

@@ -10,6 +10,7 @@
 // single-quoted strings, in which gnuplot expands nothing.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,19 @@ void require_plot_file(const std::string& file);
 // number that is not finite, when there is no chart, or for a file as above.
 std::string gnuplot_script(const Plot& plot, const std::string& file);
 
-// Throws InvalidArgument as above; std::runtime_error when gnuplot is not installed or fails, with its output.
+struct NoGnuplot : std::runtime_error {
+  NoGnuplot()
+      : std::runtime_error("plots need gnuplot, which is not installed: apt-get install gnuplot-nox") {}
+};
+
+// Runs commands, with data between them as gnuplot takes it from its standard input; returns what they write to the
+// standard output. Throws NoGnuplot; std::runtime_error when gnuplot fails, with its output.
+std::string run_gnuplot(const std::string& commands);
+
+// A text for gnuplot commands: quoted, nothing in it is special.
+std::string gnuplot_text(const std::string& text);
+
+// Throws InvalidArgument as above; NoGnuplot; std::runtime_error when gnuplot fails, with its output.
 void write_plot(const Plot& plot, const std::string& file);
 
 }  // namespace halocline::clients

@@ -38,41 +38,40 @@ std::string text_of(std::FILE* file) {
   return text;
 }
 
-// Runs gnuplot with `script` as its standard input; false with its output when it failed.
-bool run_gnuplot(const std::string& script, std::string& output) {
-  const File in = nameless_file(), out = nameless_file();
-  if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() || std::fflush(in.get()) != 0)
+}  // namespace
+
+std::string run_gnuplot(const std::string& commands) {
+  const File in = nameless_file(), out = nameless_file(), errors = nameless_file();
+  if (std::fwrite(commands.data(), 1, commands.size(), in.get()) != commands.size() ||
+      std::fflush(in.get()) != 0)
     throw std::runtime_error("cannot write the commands for gnuplot");
   if (lseek(fileno(in.get()), 0, SEEK_SET) != 0) throw std::runtime_error("cannot rewind gnuplot's commands");
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, fileno(in.get()), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
   std::string program = "gnuplot", defaults = "--default-settings";
   std::array<char*, 3> arguments{program.data(), defaults.data(), nullptr};
   pid_t child = 0;
   const int error = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error == ENOENT)
-    throw std::runtime_error("plots need gnuplot, which is not installed: apt-get install gnuplot-nox");
+  if (error == ENOENT) throw NoGnuplot();
   if (error != 0) throw std::runtime_error(std::string("cannot start gnuplot: ") + std::strerror(error));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  output = text_of(out.get());
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw std::runtime_error("gnuplot failed: " + text_of(errors.get()));
+  return text_of(out.get());
 }
-
-}  // namespace
 
 void write_plot(const Plot& plot, const std::string& file) {
   const std::string script = gnuplot_script(plot, file);
-  std::string output;
-  const bool done = run_gnuplot(script, output);
+  const std::string output = run_gnuplot(script);
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
-  if (!done || error || size == 0)
+  if (error || size == 0)
     throw std::runtime_error("gnuplot could not make " + file + (output.empty() ? "" : ": " + output));
 }
 

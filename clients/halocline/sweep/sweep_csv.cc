@@ -5,7 +5,7 @@
 
 #include <fmt/ostream.h>
 
-#include "clients/halocline/sweep/confidence.h"
+#include "clients/halocline/analysis/confidence.h"
 #include "clients/halocline/sweep/run_metrics.h"
 #include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"

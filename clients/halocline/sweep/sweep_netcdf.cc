@@ -11,7 +11,7 @@
 #include <netcdf.h>
 
 #include "bus/version.h"
-#include "clients/halocline/sweep/confidence.h"
+#include "clients/halocline/analysis/confidence.h"
 #include "clients/halocline/sweep/run_metrics.h"
 #include "clients/halocline/sweep/sweep_plan.h"
 #include "clients/halocline/sweep/sweep_summary.h"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "clients/halocline/sweep/confidence.h"
+#include "clients/halocline/analysis/confidence.h"
 #include "clients/halocline/sweep/run_metrics.h"
 #include "clients/halocline/sweep/sweep_plan.h"
 

@@ -17,7 +17,7 @@
 namespace halocline::monitor {
 
 LogSource::LogSource(const std::vector<std::string>& logs, const std::string& scenario)
-    : name_(logs.front()), mission_(clients::read_mission(logs)) {
+    : name_(logs.front()), mission_(clients::read_mission(logs).mission) {
   require(mission_.begin() <= mission_.end(), name_ + " holds no states and no packets");
   const std::string file = configuration(scenario);
   if (!file.empty()) nodes_ = std::make_unique<LogNodes>(file);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@ namespace halocline::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -81,6 +83,32 @@ TEST_F(RunCommand, TheSecondRunHasAFolderOfItsOwn) {
   EXPECT_THAT(second.output, HasSubstr("runs/pond-2/pond.lcm"));
   EXPECT_EQ(bytes_of(folder_ + "/runs/pond/pond.lcm"), first);
   EXPECT_GT(fs::file_size(folder_ + "/runs/pond-2/pond.lcm"), first.size());
+}
+
+TEST_F(RunCommand, TheLastLineNamesTheReportWhichHasTheNumbersOfTheOutcomesCommand) {
+  const Ended ended = run("run pond.toml --duration 60 --no-csv --out here");
+  ASSERT_EQ(ended.code, 0) << ended.output;
+  EXPECT_THAT(ended.output, EndsWith("report      here/report.html\n"));
+  EXPECT_THAT(ended.output, HasSubstr("\npackets     "));
+  const std::string report = bytes_of(folder_ + "/here/report.html");
+  const std::string counts =
+      run("outcomes here/pond.lcm --format csv").output;  // one pair, so one row an outcome
+  std::istringstream rows(counts.substr(counts.find('\n') + 1));
+  std::string from, to, outcome, packets;
+  int found = 0;
+  for (; std::getline(rows, from, ',') && std::getline(rows, to, ',') && std::getline(rows, outcome, ',') &&
+         std::getline(rows, packets);
+       ++found)
+    EXPECT_THAT(report, HasSubstr(" " + outcome + "</td><td class=\"number\">" + packets + "</td>"));
+  EXPECT_GT(found, 0) << counts;
+  EXPECT_EQ(run("report here/pond.lcm").code, 0);
+  EXPECT_EQ(bytes_of(folder_ + "/here/pond.html"), report);  // the page depends on the log alone
+}
+
+TEST_F(RunCommand, NoReportIsWrittenWhereNoneIsWanted) {
+  EXPECT_THAT(run("run pond.toml --duration 1 --no-csv --no-report --out here").output,
+              Not(HasSubstr("report ")));
+  EXPECT_FALSE(fs::exists(folder_ + "/here/report.html"));
 }
 
 TEST_F(RunCommand, ALogThatIsThereIsReplacedByForceAlone) {

@@ -1,4 +1,4 @@
-#include "clients/halocline/sweep/confidence.h"
+#include "clients/halocline/analysis/confidence.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,31 @@
+// Texts that the charts of a report share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "clients/mission/mission_store.h"
+#include "clients/mission/packet_reasons.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+
+std::string time_text(double seconds);      // "45.2 s", "1 h 02 min 03 s"
+std::string distance_text(double metres);   // "200 m", "1.5 km"
+std::string place_text(const Vec3& ned_m);  // "120 m north, -40 m east, 30 m deep"
+std::string packet_title(const packet_outcome_t& outcome,
+                         const VehicleName& name);  // "auv-1:12 to auv-2 at 45.2 s"
+
+// The least of 1, 2, 5, 10, 20, 30 s, ... of minutes and hours that is `least_s` or more.
+double round_time_step(double least_s);
+
+// The axis of a chart over time: from `begin` to `end`, in seconds, with tics at round instants in the unit that fits.
+struct TimeAxis {
+  double begin_s = 0, end_s = 1, step_s = 1;
+  double unit_s = 1;  // seconds, minutes or hours
+  const char* unit = "s";
+};
+TimeAxis time_axis(SimTime begin, SimTime end, int max_tics);
+
+}  // namespace halocline::clients

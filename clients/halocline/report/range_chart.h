@@ -1,0 +1,13 @@
+// Share of packets received against range, with its 95 % confidence interval (Wilson) and the prediction of the link tables.
+#pragma once
+
+#include <string>
+
+#include "clients/mission/mission_store.h"
+
+namespace halocline::clients {
+
+// An SVG element; empty without outcomes. Throws as run_gnuplot (plot.h).
+std::string range_chart(const MissionStore& mission);
+
+}  // namespace halocline::clients

@@ -1,0 +1,55 @@
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/logs/log_reader.h"
+#include "clients/halocline/analysis/comparison.h"
+#include "clients/halocline/analysis/mission_log.h"
+#include "clients/halocline/analysis/run_files.h"
+#include "clients/halocline/commands.h"
+#include "clients/halocline/report/report_page.h"
+
+namespace halocline::clients {
+namespace {
+
+struct ReportArguments {
+  std::vector<std::string> logs;
+  std::string out;
+};
+
+int write_report(const ReportArguments& arguments) {
+  const bool is_one = arguments.logs.size() == 1;
+  const std::string out = arguments.out.empty() ? report_beside(arguments.logs.back()) : arguments.out;
+  const MissionLog first = read_mission({arguments.logs.front()});
+  const ReportPart part{arguments.logs.front(), first.mission, first.remarks};
+  if (is_one) {
+    write_text(out, report_page(part));
+  } else {
+    const MissionLog second = read_mission({arguments.logs.back()});
+    LogReader before(arguments.logs.front()), after(arguments.logs.back());
+    write_text(out, report_page(part, {arguments.logs.back(), second.mission, second.remarks},
+                                Comparison(outcomes_of(before), outcomes_of(after))));
+  }
+  if (is_one) print_summary(std::cout, first.mission);
+  std::cout << "report      " << out << "\n";
+  return kDone;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, int& exit_code) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = app.add_subcommand("report", "Write one page about a log, or about two side by side");
+  command->add_option("log", arguments->logs, "LCM log; two for a comparison, such as a run and its replay")
+      ->required()
+      ->expected(1, 2);
+  command->add_option("--out", arguments->out,
+                      "HTML file; default: the (second) log's name, ending in .html");
+  command->footer(
+      footer("  halocline report runs/seamount/seamount.lcm\n"
+             "  halocline report runs/seamount/seamount.lcm calm.lcm --out calm.html"));
+  command->callback([arguments, &exit_code] { exit_code = write_report(*arguments); });
+}
+
+}  // namespace halocline::clients
