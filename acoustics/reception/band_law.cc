@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
@@ -9,83 +10,140 @@
 namespace halocline::acoustics {
 namespace {
 
-// s in units of 1 / deviation, or of what the greatest term allows.
-constexpr std::array<double, 9> kBelow{-1000, -200, -50, -16, -7, -3.5, -2, -1.1, -0.45};
-constexpr std::array<double, 3> kAbove{0.4, 0.8, 0.95};
-constexpr double kMostAbove = 3;  // deviations
+using std::numbers::pi;
+
+// s in units of 1 / deviation.
+constexpr std::array<double, 8> kBelow{-500, -90, -28, -11, -5, -2.4, -1, -0.35};
+constexpr std::array<double, 5> kAbove{0.5, 1.5, 5, 30, 300};
+
+constexpr double kMostScore = 6;
+
+// Sums of terms of alike scale.
+struct Octave {
+  double mean = 0, variance = 0, rest = 0, rest_variance = 0, rate = 0;
+};
+
+// ln of the parts of a packet that fall independently below what is fallen below with the score, `crossings` a stretch.
+double log_parts(double score, double crossings, double turns, double stretches) {
+  // Below the table by the tail of the normal distribution.
+  const double p = score > -4 ? std::min(tabulated_probability(score), 1 - 1e-9)
+                              : fast_exp(-score * score / 2) / (std::sqrt(2 * pi) * -score) *
+                                    (1 - 1 / (score * score - 1 / (score * score + 2)));
+  const double both = std::max(p * (1 - p), 1e-300);
+  const double crossed = both * (1 - fast_exp(-crossings / both));
+  const double apart = 1 + 0.27 * fast_exp(-squared(turns / 0.12));
+  if (p < 1e-6) return fast_log(std::clamp(1 + (stretches - 1) * apart * crossed / both, 1.0, stretches));
+  const double once = -fast_log(1 - p);
+  const double all = once - (stretches - 1) * apart * fast_log(std::max(1 - crossed / (1 - p), 1e-300));
+  return fast_log(std::clamp(all / once, 1.0, stretches));
+}
 
 }  // namespace
 
-BandLaw::BandLaw(const MeanSound& sound, double threshold, double slow_power) {
-  const double slow_mean = sound.coherent_power() + sound.medium[0].real(),
-               louder = slow_mean > 0 ? slow_power / slow_mean : 0;
-  double rest = slow_power, squares = 0;
-  for (const BandMode& mode : sound.modes) {
-    const Term term{mode.scattered - threshold * mode.interference, louder * mode.rest,
-                    louder * mode.rest * mode.scattered, 1};
-    rest -= term.rest;
-    squares += squared(term.scale);
-    terms_[count_++] = term;
+// By steps of 0.05, linear.
+double tabulated_probability(double score) {
+  constexpr std::size_t kRows = 241;
+  constexpr double kStep = 0.05;
+  static const std::array<double, kRows> table = [] {
+    std::array<double, kRows> made{};
+    for (std::size_t i = 0; i < kRows; ++i) {
+      made[i] = normal_probability(-kMostScore + kStep * static_cast<double>(i));
+    }
+    return made;
+  }();
+  const double place = (std::clamp(score, -kMostScore, kMostScore) + kMostScore) / kStep;
+  const auto i = std::min(static_cast<std::size_t>(place), kRows - 2);
+  return table[i] + (place - static_cast<double>(i)) * (table[i + 1] - table[i]);
+}
+
+BandLaw::BandLaw(const CollectedSound& sound, double threshold, double slow_power) {
+  const double louder = sound.slow.mean > 0 ? slow_power / sound.slow.mean : 0;
+  std::array<Octave, 2 * kOctaves> octaves{};
+  double greatest = 0;
+  for (const FadingTerm& term : sound.terms)
+    greatest = std::max({greatest, term.unit, threshold * term.interference});
+  for (const FadingTerm& term : sound.terms) {
+    const double taken = threshold * term.interference;
+    const double variance = term.signal * (term.unit - 2 * taken) + squared(taken);
+    if (!(variance > 1e-12 * squared(greatest))) continue;
+    double scale = std::max(term.unit, term.signal) - taken;
+    const double least = std::sqrt(variance) / 2;
+    if (std::abs(scale) < least) scale = std::copysign(least, scale);
+    const double rest = louder * term.signal_beats - threshold * term.interference_beats;
+    const auto octave = static_cast<std::size_t>(
+        std::clamp(-std::ilogb(std::abs(scale) / greatest), 0, static_cast<int>(kOctaves) - 1));
+    Octave& sum = octaves[scale > 0 ? octave : kOctaves + octave];
+    sum.mean += variance / scale;
+    sum.variance += variance;
+    sum.rest += rest;
+    sum.rest_variance += 2 * rest * scale;
+    sum.rate += (variance + 2 * std::max(rest * scale, 0.0)) * term.squared_spread;
   }
-  // What fades in no mode: as many equal terms as the variance of all tells.
-  if (const double apart = threshold * sound.apart; apart > 1e-9 * slow_power) {
-    const double own =
-        sound.shared.own - 2 * threshold * sound.shared.xy + squared(threshold) * sound.shared.yy - squares;
-    const double count = std::clamp(squared(apart) / std::max(own, 1e-30), 1.0, 100.0);
-    terms_[count_++] = {-apart / count, 0, 0, count};
-  }
-  offset_ = std::max(rest, 0.0) + threshold * sound.shared.y;
+  mean_ = offset_ = slow_power + sound.fast;
   double third = 0;
-  mean_ = offset_;
-  for (const Term& term : terms()) {
-    mean_ += term.count * term.scale + term.rest;
-    variance_ += term.count * squared(term.scale) + 2 * term.beats;
-    third += 2 * term.count * term.scale * squared(term.scale) + 6 * term.scale * term.beats;
+  for (const Octave& sum : octaves) {
+    if (!(sum.variance > 0)) continue;
+    double scale = (sum.variance + sum.rest_variance) / (sum.mean + 2 * sum.rest);
+    const double plain = sum.variance / sum.mean;
+    if (!(scale * plain > 0) || std::abs(scale) > 2 * std::abs(plain) ||
+        std::abs(scale) < std::abs(plain) / 2)
+      scale = plain;
+    const double rest = sum.rest * plain > 0 ? sum.rest : 0;
+    const double all = sum.variance + std::max(sum.rest_variance, 0.0);
+    terms_[count_++] = {scale, rest, sum.mean / scale, 2 * scale * squared(2 * pi) * sum.rate / all};
+    const Term& term = terms_[count_ - 1];
+    offset_ -= term.count * scale + rest;
+    variance_ += term.count * squared(scale) + 2 * rest * scale;
+    third += 2 * term.count * scale * squared(scale) + 6 * rest * squared(scale);
   }
-  variance_ = std::max(variance_, 0.0);
   if (variance_ > 0) skewness_ = third / (variance_ * std::sqrt(variance_));
 }
 
-BandLaw::Points BandLaw::points() const {
+BandLaw::Points BandLaw::points(const Stretches& stretches) const {
   Points points;
-  points.fill({mean_, 0});
+  points.fill({mean_, 0, 0});
   if (!(variance_ > 1e-9 * squared(mean_))) {
     for (std::size_t i = 0; i < kPoints; ++i)
       points[i].score = -4 + 7.0 * static_cast<double>(i) / (kPoints - 1);
     return points;
   }
   const double deviation = std::sqrt(variance_);
-  double least = -1e30, most = kMostAbove / deviation;  // of s
+  double least = -1e30, most = 1e30;  // of s
   for (const Term& term : terms()) {
     if (term.scale > 0) most = std::min(most, 1 / term.scale);
     if (term.scale < 0) least = std::max(least, 1 / term.scale);
   }
   const auto point = [&](double s) {
-    double k = 0, first = 0, second = 0, product = 1;
+    double k = 0, first = 0, second = 0, slope = 0;
     for (const Term& term : terms()) {
-      const double a = 1 / (1 - term.scale * s), beats = term.beats * a;
-      if (term.count == 1) {
-        product *= a;
-      } else {
-        k += term.count * fast_log(a);
-      }
-      k += s * (term.rest + s * beats);
-      first += term.count * term.scale * a + term.rest + beats * s * (2 - term.scale * s) * a;
-      second += term.count * squared(term.scale * a) + 2 * beats * a * a;
+      const double a = 1 / (1 - term.scale * s), rest = term.rest * a * a;
+      k += term.count * fast_log(a) + s * term.rest * a;
+      const double here = term.count * term.scale * a + rest;
+      first += here;
+      second += term.count * squared(term.scale * a) + 2 * rest * term.scale * a;
+      slope += term.rate * here;
     }
-    k += fast_log(product);
-    const double r = std::copysign(std::sqrt(std::max(2 * (s * first - k), 1e-12)), s);
-    const double u = s * std::sqrt(std::max(second, 1e-30));
-    return BandPoint{offset_ + first, r + fast_log(u / r) / r};
+    double score = skewness_ / 6;
+    const double exponent = std::max(s * first - k, 0.0);
+    if (s != 0) {
+      const double r = std::copysign(std::sqrt(std::max(2 * exponent, 1e-12)), s);
+      const double u = s * std::sqrt(std::max(second, 1e-30));
+      score = r + fast_log(u / r) / r;
+    }
+    const double crossings = fast_exp(-exponent) / (2 * pi) * std::sqrt(std::max(slope / second, 0.0));
+    const double turns = stretches.step_s * std::sqrt(std::max(slope / (2 * second), 0.0)) / (2 * pi);
+    return BandPoint{offset_ + first, score,
+                     log_parts(score, crossings * stretches.step_s, turns, stretches.count)};
   };
   std::size_t i = 0;
-  for (const double below : kBelow) {
-    // Toward the end that negative terms set, never at it.
-    const double s = below / deviation;
-    points[i++] = point(s * least / (least + s));
-  }
-  points[i++] = {mean_, skewness_ / 6};
-  for (const double above : kAbove) points[i++] = point(above * most);
+  // Toward the ends that the terms set, never at them.
+  const auto toward = [&](double end, double deviations) {
+    const double s = deviations / deviation;
+    return s * end / (end + s);
+  };
+  for (const double below : kBelow) points[i++] = point(toward(least, below));
+  points[i++] = point(0);
+  for (const double above : kAbove) points[i++] = point(toward(most, above));
   return points;
 }
 

@@ -79,7 +79,7 @@ const SlowStates& slow_states() {
 // The medium's states over the band, the quietest first, with the strata of the slow power.
 std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
   const MediumStates medium(sound);
-  const PowerLaw slow = sound.slow_power();
+  const PowerLaw slow = sound.slow;
   std::array<SlowSound, kPatterns> patterns;
   for (std::size_t i = 0; i < kPatterns; ++i) patterns[i] = medium.state(slow_states().patterns[i]);
   std::sort(patterns.begin(), patterns.end(),
@@ -96,11 +96,10 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
 std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const MeanSound& sound,
                                                   const StrataMean& mean, const PowerLaw& slow) {
   const auto& scores = slow_states().powers;
-  const double interference = sound.bits_echoes + sound.untracked * (slow.mean + sound.scattered_power());
   std::array<StrataMean::Levels, kPowers> levels;
   const auto compute = [&](std::size_t i) {
     const FadingSignal fading = packet.fading_signal(std::max(slow.at(scores[i]), 0.0));
-    levels[i] = mean.levels([&](std::size_t k) { return packet.bits(fading, mean.noise(k) + interference); });
+    levels[i] = mean.levels([&](std::size_t k) { return packet.bits(fading, mean.noise(k)); });
   };
   compute(0);
   if (!(slow.variance > 0) || mean.decodes(levels.front().front())) {
@@ -130,8 +129,8 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
 }
 
 void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
-  const PowerLaw slow = sound.slow_power();
-  const bool alike = slow.variance < squared(kAlike * (slow.mean + sound.scattered_power()));
+  const PowerLaw slow = sound.slow;
+  const bool alike = slow.variance < squared(kAlike * (slow.mean + sound.fast));
   const PowerLaw powers = alike ? PowerLaw{slow.mean} : slow;
   const auto levels = levels_of(packet, sound, mean, powers);
   Level preamble;
@@ -154,7 +153,7 @@ void add_patterns(const PacketLevels& packet, const MeanSound& sound, StrataMean
 }
 
 double sinr_of(const MeanSound& sound, double noise) {
-  const double signal = sound.slow_power().mean + sound.scattered_power();
+  const double signal = sound.slow.mean + sound.fast;
   return signal / (noise + sound.bits_echoes + sound.untracked * signal);
 }
 

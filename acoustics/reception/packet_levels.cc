@@ -15,30 +15,14 @@ using std::numbers::pi;
 
 constexpr std::size_t kFrequencies = kSignalFrequencies;
 constexpr double kDbPerNeper = 10 / std::numbers::ln10;
+constexpr double kMostScore = 6;
 constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
 constexpr double kLeastLoss = 1e-6;   // of packets
 constexpr double kNarrow =
     0.15;  // deviation over mean, 0.65 dB: below, fading is less than the steps of the curve
 // Our fits to judged packets (tests/channel_server/packets/link_prediction_test.cc): the softer the curve, the longer the
 // fades that count, by 1 / dB; of the variance of errors, and of the beats of coherent paths, what counts for single errors.
-constexpr double kSofter = 0.17, kErrorShare = 0.15, kBeatShare = 1;
-
-constexpr double kMostScore = 6;
-// By steps of 0.05, linear: within 1e-4.
-double tabulated_probability(double score) {
-  constexpr std::size_t kRows = 241;
-  constexpr double kStep = 0.05;
-  static const std::array<double, kRows> table = [] {
-    std::array<double, kRows> made{};
-    for (std::size_t i = 0; i < kRows; ++i) {
-      made[i] = normal_probability(-kMostScore + kStep * static_cast<double>(i));
-    }
-    return made;
-  }();
-  const double place = (std::clamp(score, -kMostScore, kMostScore) + kMostScore) / kStep;
-  const auto i = std::min(static_cast<std::size_t>(place), kRows - 2);
-  return table[i] + (place - static_cast<double>(i)) * (table[i + 1] - table[i]);
-}
+constexpr double kErrorShare = 0.15, kBeatShare = 1;
 
 double halvings(double parts) {
   return std::clamp(fast_log(parts) / std::numbers::ln2, 0.0, ReceptionCurves::kHalvings - 1.001);
@@ -57,43 +41,44 @@ double decibels(double power) { return fast_decibels(std::max(power, 1e-30)); }
 
 }  // namespace
 
-FadingSignal::FadingSignal(const BandLaw& low, const BandLaw& high,
-                           const std::array<double, kFadeScores>& parts_low,
-                           const std::array<double, kFadeScores>& parts_high)
-    : mean_(low.mean()), deviation_(std::sqrt(high.variance())) {
-  low_ = {low.points(), {}, parts_low};
-  high_ = {high.points(), {}, parts_high};
-  for (Side* side : {&low_, &high_}) {
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      side->logs[i] = side->points[i].power > 0 ? fast_log(side->points[i].power) : 0;
+FadingSignal::FadingSignal(const CollectedSound& sound, double slow_power,
+                           const std::array<double, 2>& thresholds, const Stretches& stretches) {
+  for (std::size_t i = 0; i < thresholds.size(); ++i) {
+    const BandLaw law(sound, thresholds[i], slow_power);
+    mean_ = law.mean();
+    Side& side = sides_[i];
+    side = {thresholds[i], std::sqrt(law.variance()), law.points(stretches), {}};
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      side.logs[k] = side.points[k].power > 0 ? fast_log(side.points[k].power) : 0;
     }
   }
 }
 
-double FadingSignal::Side::score(double power, double log, std::size_t& above) const {
+FadingSignal::State FadingSignal::Side::at(double power) const {
+  std::size_t above = 0;
   while (above < kPoints && points[above].power <= power) ++above;
-  if (above == 0) return -kMostScore;
-  // Beyond the last point as between the last two.
-  const std::size_t i = std::min(above, kPoints - 1);
-  const BandPoint &low = points[i - 1], &high = points[i];
-  if (!(high.power > low.power)) return kMostScore;
-  const double part = low.power > 0 ? (log - logs[i - 1]) / (logs[i] - logs[i - 1])
+  if (above == 0) return {-kMostScore, points.front().log_parts};
+  if (above == kPoints) return {kMostScore, points.back().log_parts};
+  const BandPoint &low = points[above - 1], &high = points[above];
+  const double part = low.power > 0 ? (fast_log(power) - logs[above - 1]) / (logs[above] - logs[above - 1])
                                     : (power - low.power) / (high.power - low.power);
-  return low.score + part * (high.score - low.score);
+  return {low.score + part * (high.score - low.score),
+          low.log_parts + part * (high.log_parts - low.log_parts)};
 }
 
-double FadingSignal::Scores::next(double power, double log, double part) {
-  const double low = signal_.low_.score(power, log, low_);
-  return low + part * (signal_.high_.score(power, log, high_) - low);
-}
-
-double FadingSignal::parts(double score, double part) const {
-  const double place = std::clamp(score - kLeastFadeScore, 0.0, kFadeScores - 1.001);
-  const auto k = static_cast<std::size_t>(place);
+// As many deviations from the mean on both sides.
+FadingSignal::State FadingSignal::at(double threshold, double disturbance) const {
+  const Side &low = sides_.front(), &high = sides_.back();
+  const double part = (threshold - low.threshold) / (high.threshold - low.threshold);
+  const double below = threshold * disturbance - mean_,
+               deviation = std::max(low.deviation + part * (high.deviation - low.deviation), 0.0);
   const auto at = [&](const Side& side) {
-    return side.parts[k] + (place - static_cast<double>(k)) * (side.parts[k + 1] - side.parts[k]);
+    return side.at(mean_ + (deviation > 0 ? below * side.deviation / deviation : below));
   };
-  return std::max(at(low_) + part * (at(high_) - at(low_)), 1.0);
+  const double share = std::clamp(part, 0.0, 1.0);
+  const State one = at(low), other = at(high);
+  return {one.score + share * (other.score - one.score),
+          fast_exp(std::max(one.parts + share * (other.parts - one.parts), 0.0))};
 }
 
 PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound)
@@ -108,15 +93,7 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
   stretches_ = std::clamp(std::ceil(4 * bits_s_ / coherence_time_of(sound.window_spread_hz)), 8.0, 64.0);
   const auto ratio_db = [&](double loss) { return curves.ratio_db_of(-loss / bits_); };
   if (collects_band_) {
-    const ReceptionCurves::Parts& parts = curves.parts();
-    softness_db_ = decibels(parts.thresholds.front() / parts.thresholds.back());
-    low_threshold_ = parts.thresholds[5];
-    high_threshold_ = parts.thresholds[1];
-    for (std::size_t k = 0; k < between_.size(); ++k) {
-      logs_[k] = std::log(parts.ratios[k]);
-      between_[k] = std::clamp(
-          std::log(parts.ratios[k] / low_threshold_) / std::log(high_threshold_ / low_threshold_), -0.5, 1.5);
-    }
+    thresholds_ = {std::exp(curves.parts()[5].logs[4]), std::exp(curves.parts()[1].logs[4])};
   } else if (!coded_) {
     const double low = std::pow(10, ratio_db(4) / 10);
     slope_ = std::log(20) / std::max(std::pow(10, ratio_db(0.2) / 10) - low, 1e-9);
@@ -130,19 +107,8 @@ Level PacketLevels::preamble(double slow_power) const {
   return {middle, (high - low) / 3, (high + low - 2 * middle) / 4.5};
 }
 
-// By the spread B of a power whose autocorrelation is exp(-(2 pi B tau)^2) and that changes as fast.
-std::array<double, kFadeScores> PacketLevels::parts_of(const BandLaw& law, double threshold,
-                                                       double slow_power) const {
-  const SharedFading& shared = sound_.shared;
-  const double squares = (shared.own + sound_.beats * slow_power / 2) * squared(sound_.spread_hz) +
-                         threshold * (threshold * shared.yy_spread - 2 * shared.xy_spread);
-  const double spread_hz = law.variance() > 0 ? std::sqrt(std::max(squares, 0.0) / law.variance()) : 0;
-  return independent_parts(law.skewness(), stretches_, bits_s_ / stretches_ * spread_hz);
-}
-
 FadingSignal PacketLevels::fading_signal(double slow_power) const {
-  const BandLaw low(sound_, low_threshold_, slow_power), high(sound_, high_threshold_, slow_power);
-  return {low, high, parts_of(low, low_threshold_, slow_power), parts_of(high, high_threshold_, slow_power)};
+  return {sound_.collected, slow_power, thresholds_, {stretches_, bits_s_ / stretches_}};
 }
 
 // -ln of the chance of all bits where fading is less than the steps of ReceptionCurves::Parts: by Hermite's five points.
@@ -151,7 +117,9 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
                                           2.8569700138728056};
   constexpr std::array<double, 5> kWeights{0.011257411327720689, 0.22207592200561266, 0.53333333333333333,
                                            0.22207592200561266, 0.011257411327720689};
-  const double parts = std::min(signal.parts(-1, 1), stretches_);
+  const double threshold = thresholds_.back(),
+               lower = std::max(signal.mean() - signal.deviation(), 0.0) / threshold;
+  const double parts = std::min(signal.at(threshold, lower).parts, stretches_);
   double success = 0;
   for (std::size_t i = 0; i < kScores.size(); ++i) {
     const double ratio = (signal.mean() + kScores[i] * signal.deviation()) / disturbance;
@@ -160,70 +128,63 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
   return -parts * fast_log(std::max(success, 1e-30));
 }
 
-// Of the parts of a packet that fade independently, each with its share of the bits, all have to be right.
-Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
+// -ln of the chance of all bits, of the parts of a packet that fade independently, each with its share of the bits.
+double PacketLevels::loss(const FadingSignal& signal, double disturbance) const {
   // From the one way to the other without a step.
-  const double wide = std::clamp(2 - signal.deviation() / (kNarrow * signal.mean()), 0.0, 1.0);
-  double loss_db = 0;
-  if (wide > 0) loss_db += wide * decibels(std::max(narrow_loss(signal, disturbance), kLeastLoss));
-  if (wide < 1) loss_db += (1 - wide) * decibels(std::max(wide_loss(signal, disturbance), kLeastLoss));
-  const double ratio_db = curves_.ratio_db_of(-fast_power(loss_db) / bits_);
+  const double narrow = std::clamp(2 - signal.deviation() / (kNarrow * signal.mean()), 0.0, 1.0);
+  if (!(narrow > 0)) return std::max(wide_loss(signal, disturbance), kLeastLoss);
+  double loss_db = narrow * decibels(std::max(narrow_loss(signal, disturbance), kLeastLoss));
+  if (narrow < 1) loss_db += (1 - narrow) * decibels(std::max(wide_loss(signal, disturbance), kLeastLoss));
+  return fast_power(loss_db);
+}
+
+Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
+  constexpr double kLeastLate = 0.05;
+  double all = loss(signal, disturbance);
+  // Before the late echoes sound.
+  const double late = sound_.late_echoes, before = (1 - sound_.late_share);
+  if (before * late > kLeastLate * disturbance) {
+    const double alone = std::max(disturbance - late, kLeastLate * disturbance);
+    all = sound_.late_share * all + before * loss(signal, alone);
+  }
+  const double ratio_db = curves_.ratio_db_of(-all / bits_);
   return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
 }
 
+// -ln of the chance of all bits.
 double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance) const {
-  constexpr std::size_t kRatios = ReceptionCurves::kRatios;
-  const ReceptionCurves::Parts& table = curves_.parts();
-  std::array<double, kRatios> scores{}, below{};
-  const double log = fast_log(disturbance);
-  FadingSignal::Scores signal_scores(signal);
-  for (std::size_t k = 0; k < kRatios; ++k) {
-    scores[k] = signal_scores.next(table.ratios[k] * disturbance, logs_[k] + log, between_[k]);
-    below[k] = tabulated_probability(scores[k]);
-  }
-  // The first ratio that is as much as the parts of fades to it need, between it and the one before.
-  struct Margin {
-    double parts, more;
-  };
-  const auto margin_at = [&](std::size_t k) {
-    const double parts = std::min(signal.parts(scores[k], between_[k]), stretches_);
-    return Margin{parts, logs_[k] - needed(parts)};
-  };
-  Margin low{1, 0}, high = margin_at(kRatios - 1);
-  std::size_t least = 0, most = kRatios - 1;
-  while (least < most) {
-    const std::size_t middle = (least + most) / 2;
-    const Margin here = margin_at(middle);
-    (here.more >= 0 ? high : low) = here;
-    (here.more >= 0 ? most : least) = here.more >= 0 ? middle : middle + 1;
-  }
-  const double between = most > 0 && high.more > 0 ? low.more / (low.more - high.more) : 1;
-  const double parts = low.parts + between * (high.parts - low.parts);
-  const double halved = halvings(1 + (parts - 1) / (1 + kSofter * softness_db_));
-  const auto row = static_cast<std::size_t>(halved);
-  double loss = 0;
-  for (const std::size_t h : {row, row + 1}) {
-    double success = below[0] * table.success[h][0] + (1 - below.back()) * table.success[h][kRatios];
-    for (std::size_t k = 1; k < kRatios; ++k) {
-      success += std::max(below[k] - below[k - 1], 0.0) * table.success[h][k];
+  const auto& shares = ReceptionCurves::threshold_shares();
+  double parts = std::sqrt(stretches_), loss = 0;
+  for (int i = 0; i < 3; ++i) {
+    const ReceptionCurves::Thresholds needed = thresholds(parts);
+    double below = 0, sum = 1e-12 * parts, weight = 1e-12;
+    for (std::size_t k = 0; k < ReceptionCurves::kThresholds; ++k) {
+      const FadingSignal::State state = signal.at(fast_exp(needed.logs[k]), disturbance);
+      const double share = shares[k] * tabulated_probability(state.score);
+      below += share;
+      weight += share;
+      sum += share * std::min(state.parts, stretches_);
     }
-    const double share =
-        h == row ? 1 - (halved - static_cast<double>(row)) : halved - static_cast<double>(row);
-    loss -= share * static_cast<double>(1U << h) * fast_log(std::clamp(success, 1e-30, 1.0));
+    parts = sum / weight;
+    loss = -parts * fast_log(std::max(1 - below, 1e-30));
   }
   return loss;
 }
 
-// ln of the ratio that half of so many parts need.
-double PacketLevels::needed(double parts) const {
+ReceptionCurves::Thresholds PacketLevels::thresholds(double parts) const {
   const double halved = halvings(parts);
-  const auto low = static_cast<std::size_t>(halved);
-  const auto& logs = curves_.parts().log_thresholds;
-  return logs[low] + (halved - static_cast<double>(low)) * (logs[low + 1] - logs[low]);
+  const auto i = static_cast<std::size_t>(halved);
+  const ReceptionCurves::Thresholds &low = curves_.parts()[i], &high = curves_.parts()[i + 1];
+  const double part = halved - static_cast<double>(i);
+  ReceptionCurves::Thresholds between;
+  for (std::size_t k = 0; k < ReceptionCurves::kThresholds; ++k) {
+    between.logs[k] = low.logs[k] + part * (high.logs[k] - low.logs[k]);
+  }
+  return between;
 }
 
 Level PacketLevels::bits(const SlowSound& slow, double noise) const {
-  const double power = slow.slow_power + sound_.scattered_power();
+  const double power = slow.slow_power + sound_.fast;
   const double disturbance = noise + sound_.bits_echoes + sound_.untracked * power;
   const Cells cells = cells_of(slow, (coded_ ? chip_ : slope_) / disturbance);
   if (coded_) {
@@ -240,7 +201,7 @@ Level PacketLevels::bits(const SlowSound& slow, double noise) const {
 // Of exp(-scale power) over time and the band, each frequency Rician: E = exp(-c / (1 + d)) / (1 + d).
 PacketLevels::Cells PacketLevels::cells_of(const SlowSound& slow, double scale) const {
   using Frequencies = std::array<double, kFrequencies>;
-  const double d = scale * sound_.scattered_power();
+  const double d = scale * sound_.fast;
   Frequencies c, b, losses, ones;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     c[m] = scale * slow.steady[m];

@@ -19,41 +19,32 @@ struct Level {
   double at(double z) const { return median_db + z * (deviation_db + z * curvature_db); }
 };
 
-// How the power of phase-shift keying is distributed over its fast fading, against two thresholds of the ratio between
-// which it changes evenly.
+// How phase-shift keying fades within a packet, against two thresholds of the ratio between which it changes evenly.
 class FadingSignal {
  public:
-  static constexpr std::size_t kPoints = BandLaw::kPoints;
-
   FadingSignal() = default;
-  FadingSignal(const BandLaw& low, const BandLaw& high, const std::array<double, kFadeScores>& parts_low,
-               const std::array<double, kFadeScores>& parts_high);
+  FadingSignal(const CollectedSound& sound, double slow_power, const std::array<double, 2>& thresholds,
+               const Stretches& stretches);
 
-  // Normal scores of the signal below powers, of their logarithms, that rise from call to call, `part` of the way from the
-  // low to the high threshold.
-  class Scores {
-   public:
-    explicit Scores(const FadingSignal& signal) : signal_(signal) {}
-    double next(double power, double log, double part);
-
-   private:
-    const FadingSignal& signal_;
-    std::size_t low_ = 0, high_ = 0;  // points above
+  // Where the ratio to a disturbance is the threshold.
+  struct State {
+    double score = 0;  // normal, of the signal below the power
+    double parts = 1;  // independent ones of a packet, of fades below the power
   };
-  // Independent parts of a packet, of fades below a score.
-  double parts(double score, double part) const;
+  State at(double threshold, double disturbance) const;
   double mean() const { return mean_; }
-  double deviation() const { return deviation_; }
+  double deviation() const { return sides_.back().deviation; }
 
  private:
+  static constexpr std::size_t kPoints = BandLaw::kPoints;
   struct Side {
-    BandLaw::Points points;
+    double threshold = 0, deviation = 0;
+    BandLaw::Points points{};
     std::array<double, kPoints> logs{};  // of their powers
-    std::array<double, kFadeScores> parts{};
-    double score(double power, double log, std::size_t& above) const;
+    State at(double power) const;        // its parts are a logarithm
   };
-  Side low_, high_;
-  double mean_ = 0, deviation_ = 0;
+  std::array<Side, 2> sides_;
+  double mean_ = 0;
 };
 
 class PacketLevels {
@@ -73,10 +64,11 @@ class PacketLevels {
   Level bits(const SlowSound& slow, double noise) const;
 
  private:
-  std::array<double, kFadeScores> parts_of(const BandLaw& law, double threshold, double slow_power) const;
+  double loss(const FadingSignal& signal, double disturbance) const;
   double narrow_loss(const FadingSignal& signal, double disturbance) const;
   double wide_loss(const FadingSignal& signal, double disturbance) const;
-  double needed(double parts) const;
+  // Where so many parts turn from right to wrong.
+  ReceptionCurves::Thresholds thresholds(double parts) const;
   // -ln of the mean over a packet of exp(-scale power), and its relative variance over the fast fading.
   struct Cells {
     double nepers = 0, variance = 0;
@@ -88,10 +80,8 @@ class PacketLevels {
   double chip_, bits_, bits_s_;
   bool coded_, collects_band_;
   double stretches_ = 1;
-  // Of phase-shift keying: thresholds of FadingSignal, and where between them each ratio lies.
-  double low_threshold_ = 0, high_threshold_ = 0, softness_db_ = 0;
-  std::array<double, ReceptionCurves::kRatios> between_{}, logs_{};  // of the ratios
-  double slope_ = 0, errors_at_zero_ = 0;                            // of -ln(1 - BER) over the ratio
+  std::array<double, 2> thresholds_{};     // of phase-shift keying: those of FadingSignal
+  double slope_ = 0, errors_at_zero_ = 0;  // of -ln(1 - BER) over the ratio
 };
 
 }  // namespace halocline::acoustics

@@ -14,8 +14,6 @@
 namespace halocline::acoustics {
 namespace {
 
-using std::numbers::pi;
-
 // A grid of one coordinate: where x lies, within it.
 struct Place {
   std::size_t row;
@@ -50,48 +48,6 @@ const QuantileTable& quantiles() {
   return table;
 }
 
-using Parts = std::array<double, kFadeScores>;  // their logarithms
-constexpr std::array<double, 5> kPartsSkewness{0.1, 0.5, 1, 1.5, 2};
-constexpr std::size_t kStretchRows = 4, kTurnRows = 12;
-constexpr double kLeastTurns = 0.0005;
-
-// -ln of the chance that the power stays above its value of score `z` (power_law.h).
-double loss(double z, double skewness, double stretches, double turns) {
-  const double k = 4 / squared(skewness), p = normal_probability(z), x = gamma_quantile(z, skewness);
-  const double crossings =
-      2 * std::sqrt(pi) * turns * std::exp((k - 0.5) * std::log(k * x) - k * x - std::lgamma(k));
-  const double both = p * (1 - p), crossed = both * -std::expm1(-crossings / both);
-  const double apart = 1 + 0.27 * std::exp(-squared(turns / 0.12));
-  return -std::log1p(-p) - (stretches - 1) * apart * std::log1p(-crossed / (1 - p));
-}
-
-Parts log_parts(double skewness, double stretches, double turns) {
-  Parts parts{};
-  for (std::size_t i = 0; i < kFadeScores; ++i) {
-    const double z = kLeastFadeScore + static_cast<double>(i);
-    parts[i] = std::log(loss(z, skewness, stretches, turns) / -std::log1p(-normal_probability(z)));
-  }
-  return parts;
-}
-
-using PartsTable = std::array<std::array<std::array<Parts, kTurnRows>, kStretchRows>, 5>;
-
-const PartsTable& parts_table() {
-  static const PartsTable table = [] {
-    PartsTable made{};
-    for (std::size_t i = 0; i < kPartsSkewness.size(); ++i) {
-      for (std::size_t j = 0; j < kStretchRows; ++j) {
-        for (std::size_t k = 0; k < kTurnRows; ++k) {
-          made[i][j][k] = log_parts(kPartsSkewness[i], 8 * std::exp2(static_cast<double>(j)),
-                                    kLeastTurns * std::exp2(static_cast<double>(k)));
-        }
-      }
-    }
-    return made;
-  }();
-  return table;
-}
-
 }  // namespace
 
 double gamma_quantile(double z, double skewness) {
@@ -111,23 +67,6 @@ double PowerLaw::at(double z) const {
   return mean + deviation * 2 / skewness * (gamma_quantile(z, skewness) - 1);
 }
 
-Parts independent_parts(double skewness, double stretches, double turns) {
-  const auto above = std::upper_bound(kPartsSkewness.begin() + 1, kPartsSkewness.end() - 1, skewness);
-  const auto row = static_cast<std::size_t>(above - kPartsSkewness.begin()) - 1;
-  const double part = std::clamp(
-      (skewness - kPartsSkewness[row]) / (kPartsSkewness[row + 1] - kPartsSkewness[row]), 0.0, 1.0);
-  const Place j = place(std::log2(stretches / 8), kStretchRows),
-              k = place(std::log2(std::max(turns, kLeastTurns) / kLeastTurns), kTurnRows);
-  Parts parts{};
-  for (std::size_t m = 0; m < kFadeScores; ++m) {
-    const auto at = [&](std::size_t i) {
-      const auto& table = parts_table()[i];
-      return mix(mix(table[j.row][k.row][m], table[j.row][k.row + 1][m], k.part),
-                 mix(table[j.row + 1][k.row][m], table[j.row + 1][k.row + 1][m], k.part), j.part);
-    };
-    parts[m] = fast_exp(mix(at(row), at(row + 1), part));
-  }
-  return parts;
-}
+double third_share(double kept) { return kept > 0.5 ? (3 * kept - 1) / 2 : kept * kept; }
 
 }  // namespace halocline::acoustics

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/reception/decoding.h"
@@ -13,6 +14,9 @@ namespace {
 
 constexpr double kLeastDb = -40, kStepDb = 0.1;
 constexpr std::size_t kRows = 1001;
+// Of parts, the bounds of the shares that ReceptionCurves::Parts has a ratio for: finer where few are lost.
+constexpr std::array<double, ReceptionCurves::kThresholds + 1> kLosses{0,   0.0004, 0.003, 0.015, 0.06,
+                                                                       0.2, 0.5,    0.85,  1};
 
 }  // namespace
 
@@ -48,36 +52,35 @@ ReceptionCurves::Flank ReceptionCurves::flank_of(Chance chance) {
                         : db(high)};
 }
 
+const std::array<double, ReceptionCurves::kThresholds>& ReceptionCurves::threshold_shares() {
+  static const std::array<double, kThresholds> shares = [] {
+    std::array<double, kThresholds> made{};
+    for (std::size_t k = 0; k < kThresholds; ++k) made[k] = kLosses[k + 1] - kLosses[k];
+    return made;
+  }();
+  return shares;
+}
+
+// The mean of the ratios within each share of the losses, which fall from all to none.
 ReceptionCurves::Parts ReceptionCurves::make_parts() const {
-  const auto bits_of = [&](std::size_t halvings) {
-    return static_cast<double>(timing_.information_bits) / std::exp2(static_cast<double>(halvings));
-  };
   Parts parts;
-  std::array<double, kHalvings> thresholds_db{};
   for (std::size_t h = 0; h < kHalvings; ++h) {
-    thresholds_db[h] = ratio_db_of(-std::log(2) / bits_of(h));
-    parts.thresholds[h] = std::pow(10, thresholds_db[h] / 10);
-    parts.log_thresholds[h] = std::log(parts.thresholds[h]);
-  }
-  const double low_db = thresholds_db.back() - 4, high_db = thresholds_db.front() + 2.5;
-  std::array<double, kRatios> ratios_db{};
-  for (std::size_t k = 0; k < kRatios; ++k) {
-    ratios_db[k] = low_db + (high_db - low_db) * static_cast<double>(k) / (kRatios - 1);
-    parts.ratios[k] = std::pow(10, ratios_db[k] / 10);
-  }
-  constexpr int kSteps = 20;
-  for (std::size_t h = 0; h < kHalvings; ++h) {
-    const auto mean = [&](double from_db, double to_db) {
-      double sum = 0;
-      for (int i = 0; i < kSteps; ++i) {
-        sum += std::exp(bits_of(h) * log_bit_success_at(from_db + (to_db - from_db) * (i + 0.5) / kSteps));
+    const double bits = static_cast<double>(timing_.information_bits) / std::exp2(static_cast<double>(h));
+    const double lowest = 1 - std::exp(bits * log_bit_success_.front());
+    std::array<double, kThresholds> weights{}, sums{};
+    for (std::size_t i = 1; i < kRows; ++i) {
+      const double above = -std::expm1(bits * log_bit_success_[i]) / lowest,
+                   below = -std::expm1(bits * log_bit_success_[i - 1]) / lowest;
+      const double log = std::numbers::ln10 / 10 * (kLeastDb + kStepDb * (static_cast<double>(i) - 0.5));
+      for (std::size_t k = 0; k < kThresholds; ++k) {
+        const double share = std::min(below, kLosses[k + 1]) - std::max(above, kLosses[k]);
+        if (!(share > 0)) continue;
+        weights[k] += share;
+        sums[k] += share * log;
       }
-      return sum / kSteps;
-    };
-    for (std::size_t k = 0; k <= kRatios; ++k) {
-      parts.success[h][k] = k == 0         ? mean(ratios_db[0] - 3, ratios_db[0])
-                            : k == kRatios ? mean(ratios_db.back(), ratios_db.back() + 3)
-                                           : mean(ratios_db[k - 1], ratios_db[k]);
+    }
+    for (std::size_t k = 0; k < kThresholds; ++k) {
+      parts[h].logs[k] = weights[k] > 0 ? sums[k] / weights[k] : std::numbers::ln10 / 10 * kLeastDb;
     }
   }
   return parts;

@@ -15,7 +15,7 @@ namespace halocline::acoustics {
 
 class ReceptionCurves {
  public:
-  static constexpr std::size_t kHalvings = 7, kRatios = 24;
+  static constexpr std::size_t kHalvings = 7, kThresholds = 8;
 
   // Throws InvalidArgument as packet_timing().
   ReceptionCurves(const Modem& modem, std::size_t payload_bytes);
@@ -40,14 +40,13 @@ class ReceptionCurves {
   const Flank& bits_flank() const { return bits_flank_; }  // of all information bits
   // The ratio, dB, of that ln(1 - BER).
   double ratio_db_of(double log_bit_success) const;
-  // Ratios at which parts of a packet's bits turn from wrong to right, each of 1 / 2^halvings of them, and the chance that
-  // all of such a part are right on average between one and the one before it (the first: below it; the last: above all).
-  struct Parts {
-    std::array<double, kRatios> ratios{};        // rising
-    std::array<double, kHalvings> thresholds{};  // where half of the parts are right, falling
-    std::array<double, kHalvings> log_thresholds{};
-    std::array<std::array<double, kRatios + 1>, kHalvings> success{};
+  // Parts of a packet's bits, each of 1 / 2^halvings of them: the ratio, nepers, below which they turn wrong, as a distribution of
+  // few values that fall, each with its share.
+  struct Thresholds {
+    std::array<double, kThresholds> logs{};
   };
+  static const std::array<double, kThresholds>& threshold_shares();
+  using Parts = std::array<Thresholds, kHalvings>;
   const Parts& parts() const { return parts_; }
 
  private:

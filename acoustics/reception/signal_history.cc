@@ -1,6 +1,7 @@
 #include "acoustics/reception/signal_history.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -46,22 +47,32 @@ void add_edges(double from_s, double to_s, int count, std::vector<double>& edges
   for (int i = 0; i < count; ++i) edges.push_back(from_s + (to_s - from_s) * i / count);
 }
 
-// Pressures of the signal in one stretch, at each frequency: paths turn by a constant factor from one to the next.
+// Cycles of `frequency_hz` in a delay, but for whole ones.
+double cycles_in(double frequency_hz, double delay_s) { return std::fmod(frequency_hz * delay_s, 1.0); }
+
+// Pressures of the signal in one stretch, at each frequency: paths turn by a constant factor from one to the next. Coded
+// frequency-shift keying hops: each stretch meets it at another of kFrequencies places of each part of the band, in an order that
+// soon comes close to all. Uncoded stays in the middle.
 class BandSum {
  public:
-  BandSum(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band, std::size_t frequencies) {
+  BandSum(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band)
+      : places_(is_coded_frequency_shift_keying(lock.modem->error_model) ? kFrequencies : 1) {
     const SoundPath& strongest = paths[lock.window.strongest];
-    const double spacing_hz = band.width_hz() / static_cast<double>(frequencies);
+    const double spacing_hz = band.width_hz() / kFrequencies,
+                 step_hz = spacing_hz / static_cast<double>(places_);
     for (std::size_t p = 0; p < paths.size(); ++p) {
       const double excess_s = paths[p].delay_s - strongest.delay_s;
-      const double cycles = std::fmod((band.low_hz + spacing_hz / 2) * excess_s, 1.0);
-      first_.push_back(std::polar(lock.window.weights[p], -2 * pi * cycles));
-      next_.push_back(std::polar(1.0, -2 * pi * spacing_hz * excess_s));
+      const Complex between = std::polar(1.0, -2 * pi * cycles_in(step_hz, excess_s));
+      Complex turn =
+          std::polar(lock.window.weights[p], -2 * pi * cycles_in(band.low_hz + step_hz / 2, excess_s));
+      for (std::size_t i = 0; i < places_; ++i, turn *= between) first_.push_back(turn);
+      next_.push_back(std::polar(1.0, -2 * pi * cycles_in(spacing_hz, excess_s)));
     }
   }
-  // Adds path `p` of response `h` to the sums, one a frequency.
-  void add(std::size_t p, Complex h, std::vector<Complex>& sums) const {
-    Complex term = h * first_[p];
+  // Adds path `p` of response `h` in a stretch to the sums, one a frequency.
+  void add(std::size_t p, Complex h, std::size_t stretch, std::array<Complex, kFrequencies>& sums) const {
+    constexpr std::array<std::size_t, kFrequencies> kOrder{0, 4, 2, 6, 1, 5, 3, 7};
+    Complex term = h * first_[p * places_ + kOrder[stretch % places_]];
     for (Complex& sum : sums) {
       sum += term;
       term *= next_[p];
@@ -69,7 +80,45 @@ class BandSum {
   }
 
  private:
-  std::vector<Complex> first_, next_;
+  std::size_t places_;
+  std::vector<Complex> first_, next_;  // first_: by path, then place
+};
+
+// Mean over the band of the power of the signal in one stretch: of two paths p, q apart by tau
+//   2 w_p w_q Re(h_p h_q* sinc(width tau) exp(-j 2 pi f_c tau)).
+class BandMean {
+ public:
+  BandMean(const std::vector<SoundPath>& paths, const Lock& lock, const Band& band) {
+    for (std::size_t p = 0; p < paths.size(); ++p) {
+      if (!(lock.window.weights[p] > 0)) continue;
+      for (const std::size_t q : within_) {
+        const double apart_s = paths[p].delay_s - paths[q].delay_s;
+        pairs_.push_back(
+            std::polar(2 * lock.window.weights[p] * lock.window.weights[q] * sinc(band.width_hz() * apart_s),
+                       -2 * pi * cycles_in(band.centre_hz(), apart_s)));
+      }
+      within_.push_back(p);
+      squares_.push_back(squared(lock.window.weights[p]));
+    }
+  }
+  // `responses` of all paths.
+  double of(const std::vector<Complex>& responses) const {
+    double power = 0;
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < within_.size(); ++i) {
+      const Complex h = responses[within_[i]];
+      Complex with_earlier = 0;
+      for (std::size_t k = 0; k < i; ++k, ++pair)
+        with_earlier += std::conj(responses[within_[k]]) * pairs_[pair];
+      power += squares_[i] * std::norm(h) + (h * with_earlier).real();
+    }
+    return std::max(power, 0.0);
+  }
+
+ private:
+  std::vector<std::size_t> within_;  // paths in the window
+  std::vector<double> squares_;      // of their weights
+  std::vector<Complex> pairs_;       // each with those before
 };
 
 // Equal stretches and what sounds in them, appended to the history.
@@ -85,7 +134,9 @@ class HistoryMaker {
         begin_(begin),
         timing_(timing),
         collects_band_(!is_frequency_shift_keying(lock.modem->error_model)),
-        sums_over_band_(paths, lock, band, kFrequencies) {
+        sums_over_band_(collects_band_ ? std::vector<SoundPath>() : paths, lock, band),
+        mean_over_band_(collects_band_ ? paths : std::vector<SoundPath>(), lock, band),
+        turned_(paths.size()) {
     history_.frequencies = collects_band_ ? 1 : kFrequencies;
     for (const SoundPath& path : paths) {
       tracked_.push_back(tracked_share(*lock.modem, path));
@@ -108,7 +159,7 @@ class HistoryMaker {
   void add_stretch(const std::vector<Complex>& responses, const FadingTimes& times, int i) {
     const SoundPath &first = paths_[lock_.window.first], &strongest = paths_[lock_.window.strongest];
     const double at_s = times.begin_s + i * times.step_s;
-    std::vector<Complex> sums(kFrequencies);
+    std::array<Complex, kFrequencies> sums{};
     double echoes = 0;
     for (std::size_t p = 0; p < paths_.size(); ++p) {
       const Complex h = responses[p * static_cast<std::size_t>(times.count) + static_cast<std::size_t>(i)];
@@ -118,12 +169,11 @@ class HistoryMaker {
                 share_within(when, at_s - times.step_s / 2, at_s + times.step_s / 2);
       if (!(w2 > 0)) continue;
       const double turned = band_.centre_hz() * (paths_[p].doppler_factor - strongest.doppler_factor) * at_s;
-      sums_over_band_.add(p, h * std::polar(std::sqrt(tracked_[p]), 2 * pi * turned), sums);
+      turned_[p] = h * std::polar(std::sqrt(tracked_[p]), 2 * pi * turned);
+      if (!collects_band_) sums_over_band_.add(p, turned_[p], static_cast<std::size_t>(i), sums);
     }
     if (collects_band_) {
-      double mean = 0;
-      for (const Complex& sum : sums) mean += std::norm(sum) / kFrequencies;
-      history_.signal.push_back(mean);
+      history_.signal.push_back(mean_over_band_.of(turned_));
     } else {
       for (const Complex& sum : sums) history_.signal.push_back(std::norm(sum));
     }
@@ -139,6 +189,8 @@ class HistoryMaker {
   ReceivedTiming timing_;
   bool collects_band_;
   BandSum sums_over_band_;
+  BandMean mean_over_band_;
+  std::vector<Complex> turned_;  // of each path in the window, in one stretch
   std::vector<double> tracked_;  // share of each path's power that the receiver follows
   SignalHistory history_;
 };

@@ -7,7 +7,8 @@
 // at 8 frequencies, evenly over the band, in 8 to 64 stretches of the bits, each a quarter of the coherence time and an
 // eighth of the bits at most, and 1 to 8 of the preamble. Phase-shift keying follows a fading path for T = 0.05 s (our
 // choice): of what it scatters, rho = exp(-(2 pi B T)^2 / 2) is signal, the rest interferes; its equaliser collects the
-// band, so S is the mean over the frequencies. Elsewhere rho = 1.
+// band, so S is the mean over all of it. Elsewhere rho = 1. Coded frequency-shift keying hops: its 8 frequencies move by
+// eighths of their spacing from stretch to stretch, so that no delay below 64 periods of the band is in step at all of them.
 // A Doppler shift beyond what the receiver corrects leaves e = (|D - 1| - correction) f_c: frequency-shift keying loses
 // 1 - sinc^2(e T_chip) of the signal to the next tone, phase-shift keying 1 - exp(-(2 pi e 0.01 s)^2 / 2) (our choice).
 // signal_history() is as if all were corrected; shifted_history() has the loss.

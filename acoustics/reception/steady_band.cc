@@ -13,12 +13,10 @@ namespace {
 
 using std::numbers::pi;
 
-// Twice as many for chips at single frequencies, of which the square counts, as for an equaliser that collects the band.
 std::size_t samples_for(const Modem& receiver, double part_hz, std::size_t most) {
   const double longest_s = (receiver.guard_time + receiver.guard_taper_or_default()).seconds();
-  const double apart = is_frequency_shift_keying(receiver.error_model) ? 0.5 : 1;
   return static_cast<std::size_t>(
-      std::clamp(std::ceil(part_hz * longest_s / apart), 1.0, static_cast<double>(most)));
+      std::clamp(std::ceil(2 * part_hz * longest_s), 1.0, static_cast<double>(most)));
 }
 
 constexpr double kSoundSpeedMps = 1500;  // of the wave number

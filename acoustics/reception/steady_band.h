@@ -1,9 +1,9 @@
-// Power of a link's coherent paths over the band, by the parts of it in which a signal is evaluated (signal_history.h).
+// Power of a link's coherent paths over the band, by the parts of it in which a signal of frequency-shift keying is evaluated
+// (signal_history.h).
 //
 // Model: paths whose delays differ by d interfere with a period of 1 / d over the band. Each part is sampled at places
-// apart by no more than 1 / (guard time + taper), so that no two paths in the window seem to be in step at all of them, and by
-// half of that for frequency-shift keying, where the same holds for the square of their power. Of a part's mean power S and its
-// variance V over the samples,
+// apart by no more than half of 1 / (guard time + taper), so that no two paths in the window seem to be in step at all of them,
+// nor the squares of their power. Of a part's mean power S and its variance V over the samples,
 //   constant = sqrt(S^2 - V), varying = S - constant
 // are those of a steady and a diffuse signal (Rice 1945) of the same S and V. Both follow the delays, not the phases, of
 // paths that interfere many times over a part: a vehicle that moves by a wavelength does not change them.

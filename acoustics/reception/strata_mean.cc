@@ -24,16 +24,6 @@ double gamma_at(double variance, double score) {
 struct StrataMean::Scores {
   std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // standard deviations
   std::array<double, kStrata> strata = normal_strata<kStrata>();
-  std::array<std::size_t, kStrata> below{};  // the level below, and how far between
-  std::array<double, kStrata> part{};
-
-  Scores() {
-    for (std::size_t i = 0; i < kStrata; ++i) {
-      const double place = (strata[i] - levels[0]) / (levels[1] - levels[0]);
-      below[i] = static_cast<std::size_t>(place);
-      part[i] = place - static_cast<double>(below[i]);
-    }
-  }
   // Beside stratum i: of late echoes; of the preamble, of even and odd blocks.
   double echoes(std::size_t i) const { return strata[(11 * i + 5) % kStrata]; }
   double preamble(std::size_t i, std::size_t state) const {
@@ -51,21 +41,41 @@ const StrataMean::Scores& StrataMean::scores() {
 
 StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double noise)
     : curves_(curves) {
-  const double untracked = sound.untracked * (sound.slow_power().mean + sound.scattered_power());
+  const double untracked = sound.untracked * (sound.slow.mean + sound.fast);
+  std::array<double, kStrata> mean_db{};
   for (std::size_t i = 0; i < kStrata; ++i) {
     const double quiet = noise / loudness(deviation, scores().strata[i]) + untracked,
                  score = scores().echoes(i);
     preamble_db_[i] =
         fast_decibels(quiet + sound.preamble_echoes * gamma_at(sound.preamble_echo_variance, score));
-    echoes_db_[i] = fast_decibels((quiet + sound.bits_echoes * gamma_at(sound.bits_echo_variance, score)) /
-                                  (quiet + sound.bits_echoes));
+    const double mean = quiet + sound.late_echoes,
+                 echoes = sound.fading_echoes * (gamma_at(sound.bits_echo_variance, score) - 1);
+    mean_db[i] = fast_decibels(mean);
+    echoes_db_[i] = fast_decibels((mean + echoes) / mean);
   }
-  const auto [least, most] = std::minmax_element(echoes_db_.begin(), echoes_db_.end());
-  least_echoes_db_ = *least;
-  most_echoes_db_ = *most;
-  for (std::size_t k = 0; k < kLevels; ++k) {
-    noise_[k] = noise / loudness(deviation, scores().levels[k]);
-    disturbance_db_[k] = fast_decibels(noise_[k] + sound.bits_echoes + untracked);
+  if (is_frequency_shift_keying(curves.modem().error_model)) {
+    const auto& levels = scores().levels;
+    for (std::size_t k = 0; k < kLevels; ++k) {
+      noise_[k] = noise / loudness(deviation, levels[k]);
+      disturbance_db_[k] = fast_decibels(noise_[k] + sound.late_echoes + untracked);
+    }
+    for (std::size_t i = 0; i < kStrata; ++i)
+      places_[i] = (scores().strata[i] - levels[0]) / (levels[1] - levels[0]);
+    const auto [least, most] = std::minmax_element(echoes_db_.begin(), echoes_db_.end());
+    least_echoes_db_ = *least;
+    most_echoes_db_ = *most;
+  } else {
+    // The levels are those of all that disturbs, from the most to the least.
+    for (std::size_t i = 0; i < kStrata; ++i) mean_db[i] += echoes_db_[i];
+    echoes_db_.fill(0);
+    const auto [least, most] = std::minmax_element(mean_db.begin(), mean_db.end());
+    const double step_db = (*most - *least) / (kLevels - 1);
+    for (std::size_t k = 0; k < kLevels; ++k) {
+      disturbance_db_[k] = *most - step_db * static_cast<double>(k);
+      noise_[k] = fast_power(disturbance_db_[k]);
+    }
+    for (std::size_t i = 0; i < kStrata; ++i)
+      places_[i] = step_db > 1e-9 ? std::clamp((*most - mean_db[i]) / step_db, 0.0, kLevels - 1.001) : 0;
   }
   const auto all_bits = static_cast<double>(curves.timing().information_bits);
   for (const std::int64_t bits : curves.blocks()) {
@@ -131,13 +141,14 @@ void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t stat
 
 // ln of the chance of all bits.
 double StrataMean::log_success_at(const Levels& levels, std::size_t stratum, std::size_t state) const {
-  const std::size_t below = scores().below[stratum];
+  const auto below = static_cast<std::size_t>(places_[stratum]);
+  const double part = places_[stratum] - static_cast<double>(below);
   double log_success = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const double z = scores().block(stratum, state, b) * blocks_[b].wider;
     const double low = levels[below].at(z), high = levels[below + 1].at(z);
-    log_success += blocks_[b].bits * curves_.log_bit_success_at(low + scores().part[stratum] * (high - low) -
-                                                                echoes_db_[stratum]);
+    log_success +=
+        blocks_[b].bits * curves_.log_bit_success_at(low + part * (high - low) - echoes_db_[stratum]);
   }
   return log_success;
 }

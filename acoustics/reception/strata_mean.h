@@ -49,7 +49,7 @@ class StrataMean {
   // `deviation` of large-scale fading, nepers of power; `curves` outlive it.
   StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double noise);
 
-  // Noise at a level of large-scale fading, in units of the sound's loudness there.
+  // Noise at a level of large-scale fading, in units of the sound's loudness there; of phase-shift keying, all that disturbs.
   double noise(std::size_t level) const { return noise_[level]; }
   // Preambles are surely found, bits surely right or surely not, whatever else fades.
   bool finds(const Level& preamble) const;
@@ -113,7 +113,8 @@ class StrataMean {
       echoes_db_{};  // interference of the bits over its mean, as late echoes fade by themselves
   double least_echoes_db_ = 0, most_echoes_db_ = 0;
   std::array<double, kLevels> noise_{}, disturbance_db_{};
-  double widest_ = 0;  // score of what fades fast
+  std::array<double, kStrata> places_{};  // of the strata between the levels
+  double widest_ = 0;                     // score of what fades fast
   std::vector<Block> blocks_;
   double acquired_ = 0, delivered_ = 0;
 };

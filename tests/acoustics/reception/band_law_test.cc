@@ -1,13 +1,13 @@
 #include "acoustics/reception/band_law.h"
 
 #include <cmath>
-#include <cstddef>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/math/delay_profile.h"
 #include "acoustics/math/functions.h"
-#include "acoustics/reception/mean_sound.h"
+#include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/power_law.h"
 #include "tests/support/tolerance.h"
 
@@ -27,41 +27,83 @@ TEST(PowerLaw, IsExponentialForOneScatteredPath) {
 
 TEST(PowerLaw, IsItsMeanWithoutVariance) { EXPECT_EQ((PowerLaw{3, 0, 0}.at(-2)), 3); }
 
-TEST(IndependentParts, AreOneForSlowAndAllForFastFading) {
-  const auto slow = independent_parts(2, 8, 0);
-  // Fades deeper than 2 deviations are short even then: the least of the table is B T = 0.004.
-  for (std::size_t i = 2; i < slow.size(); ++i) EXPECT_NEAR(slow[i], 1, 0.2) << i;
-  for (const double parts : independent_parts(1, 64, 1)) EXPECT_NEAR(parts, 64, 6);
-}
-
-MeanSound scattered(double power, double interference) {
-  MeanSound sound;
-  sound.scattered[0] = power;
-  sound.modes = {{.scattered = power, .interference = interference, .rest = 0}};
-  sound.shared = {
-      .own = power * power, .y = interference, .xy = power * interference, .yy = squared(interference)};
+CollectedSound scattered(double power, double interference, double spread_hz = 0) {
+  CollectedSound sound;
+  sound.fast = power;
+  sound.terms = {{.signal = power,
+                  .interference = interference,
+                  .unit = power,
+                  .signal_beats = 0,
+                  .interference_beats = 0,
+                  .squared_spread = squared(spread_hz)}};
   return sound;
 }
+constexpr Stretches kOne{1, 0};
 
 // The saddle point's own error for an exponential, where it is greatest, is 3 % of the probability.
-TEST(BandLaw, IsExponentialForOneMode) {
-  for (const BandPoint& point : BandLaw(scattered(2, 0), 1, 0).points()) {
+TEST(BandLaw, IsExponentialForOnePath) {
+  for (const BandPoint& point : BandLaw(scattered(2, 0), 1, 0).points(kOne)) {
     if (std::abs(point.score) > 3.5) continue;
     const double exact = -std::expm1(-point.power / 2);
+    EXPECT_NEAR(normal_probability(point.score), exact, 0.01 + 0.06 * exact) << point.power;
+    EXPECT_EQ(point.log_parts, 0);
+  }
+}
+
+// S - t (I - mean I) = S + t mean I - t I of an exponential I.
+TEST(BandLaw, IsAnExponentialTurnedRoundForInterferenceOfOnePath) {
+  CollectedSound sound = scattered(0, 0.5);
+  for (const BandPoint& point : BandLaw(sound, 2, 3).points(kOne)) {
+    if (std::abs(point.score) > 3.5) continue;
+    const double exact = std::exp(-(4 - point.power));
     EXPECT_NEAR(normal_probability(point.score), exact, 0.01 + 0.06 * exact) << point.power;
   }
 }
 
-// S - t (I - mean I) = (1 - t i) S + t i mean S where interference is the share i of one mode.
+// S - t (I - mean I) = (1 - t i) S + t i mean S where interference is the share i of one path.
 TEST(BandLaw, InterferenceThatFadesWithTheSignalNarrowsIt) {
   const BandLaw law(scattered(2, 0.5), 1, 0);
   EXPECT_NEAR(law.mean(), 2, 1e-12);
   EXPECT_NEAR(law.variance(), squared(1.5), 1e-12);
 }
 
+// Two paths that fade together are one of twice the power.
+TEST(BandLaw, PathsThatFadeTogetherAreOne) {
+  CollectedSound two = scattered(1, 0);
+  two.terms.front().unit = 2;
+  two.terms.push_back(two.terms.front());
+  two.fast = 2;
+  const BandLaw one(scattered(2, 0), 1, 0), both(two, 1, 0);
+  EXPECT_NEAR(both.variance(), one.variance(), 1e-12);
+  EXPECT_NEAR(both.skewness(), one.skewness(), 1e-12);
+}
+
 TEST(BandLaw, IsASinglePowerWhereNothingFades) {
-  const MeanSound still;
-  for (const BandPoint& point : BandLaw(still, 1, 5).points()) EXPECT_EQ(point.power, 5);
+  for (const BandPoint& point : BandLaw(CollectedSound(), 1, 5).points(kOne)) EXPECT_EQ(point.power, 5);
+}
+
+// Instants far apart are independent; close ones are one, but for fades that are shorter still.
+TEST(BandLaw, FadesFallIntoAsManyPartsAsThereAreInstantsFarApart) {
+  for (const BandPoint& point : BandLaw(scattered(2, 0, 1), 1, 0).points({16, 3}))
+    if (std::abs(point.score) < 3) EXPECT_NEAR(std::exp(point.log_parts), 16, 1.5) << point.score;
+  for (const BandPoint& point : BandLaw(scattered(2, 0, 1), 1, 0).points({16, 1e-4}))
+    if (point.score > -1 && point.score < 2) EXPECT_NEAR(std::exp(point.log_parts), 1, 0.1) << point.score;
+}
+
+// Rayleigh's crossings of the level R mean, sqrt(2 pi) B sqrt(2) sqrt(R) exp(-R) a second with B the rms spread: as many as stretches
+// of 1 ms fall below it, each of them anew.
+TEST(BandLaw, CrossesALevelAsOftenAsRice) {
+  constexpr double kStepS = 1e-3;
+  for (const BandPoint& point : BandLaw(scattered(1, 0, 1), 1, 0).points({2, kStepS})) {
+    if (std::abs(point.score) > 1.5) continue;
+    const double below = -std::expm1(-point.power);
+    const double crossings =
+        2 * std::sqrt(std::numbers::pi) * std::sqrt(point.power) * std::exp(-point.power) * kStepS;
+    const double loss = std::exp(point.log_parts) * -std::log1p(-below);
+    EXPECT_NEAR(loss + std::log1p(-below), 1.27 * crossings / (1 - below),
+                0.12 * crossings / (1 - below) + 1e-4)
+        << point.score;
+  }
 }
 
 // Half of the power 2 s later: mean 1 s, rms 1 s about it.

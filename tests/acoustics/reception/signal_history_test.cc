@@ -57,6 +57,37 @@ TEST(SignalHistory, TwoSteadyPathsMakeAComb) {
   }
 }
 
+// At these delays the 8 frequencies of one stretch are in step, not those of 8 stretches.
+TEST(SignalHistory, NoDelayIsInStepThroughAHoppingPacket) {
+  Modem modem;
+  modem.error_model = ErrorModel::kJanus;
+  const double g = std::pow(10, -0.3);
+  for (int k = 1; k < 7; ++k) {
+    const SignalHistory history = history_of(
+        {.enabled = true}, {{.delay_s = 1, .level = {0}}, {.delay_s = 1 + k / 625.0, .level = {-6}}}, modem);
+    double mean = 0;
+    for (std::size_t i = history.stretches() - 8; i < history.stretches(); ++i)
+      mean += history.mean_signal(i) / 8;
+    EXPECT_NEAR(mean, 1 + g * g, 1e-6) << k;
+  }
+}
+
+// 1 + g^2 + 2 g cos(2 pi f_c tau) sin(pi B tau) / (pi B tau).
+TEST(SignalHistory, PhaseShiftKeyingCollectsTheWholeBand) {
+  Modem modem;
+  modem.error_model = ErrorModel::kBpsk;
+  const double g = std::pow(10, -0.3);
+  for (const double tau_s : {0.01e-3, 0.1e-3, 0.33e-3, 1.6e-3, 7.1e-3}) {
+    const SignalHistory history = history_of(
+        {.enabled = true}, {{.delay_s = 1, .level = {0}}, {.delay_s = 1 + tau_s, .level = {-6}}}, modem);
+    const double x = std::numbers::pi * kBand.width_hz() * tau_s;
+    const double expected =
+        1 + g * g + 2 * g * std::cos(2 * std::numbers::pi * kBand.centre_hz() * tau_s) * std::sin(x) / x;
+    EXPECT_EQ(history.frequencies, 1u);
+    EXPECT_NEAR(history.signal[0], expected, 1e-6) << tau_s;
+  }
+}
+
 TEST(SignalHistory, StretchesAreAQuarterOfTheCoherenceTimeWithin8To64) {
   const FadingModel model{.enabled = true};
   const auto stretches = [&](double spread_hz) {
