@@ -93,8 +93,8 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
 
 // Phase-shift keying: levels by the slow power, which rises; computed at four scores, between them by the cubic through those.
 // Where the quietest are decoded or the loudest lost, all are.
-std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const MeanSound& sound,
-                                                  const StrataMean& mean, const PowerLaw& slow) {
+std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const StrataMean& mean,
+                                                  const PowerLaw& slow) {
   const auto& scores = slow_states().powers;
   std::array<StrataMean::Levels, kPowers> levels;
   const auto compute = [&](std::size_t i) {
@@ -132,7 +132,7 @@ void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& 
   const PowerLaw slow = sound.slow;
   const bool alike = slow.variance < squared(kAlike * (slow.mean + sound.fast));
   const PowerLaw powers = alike ? PowerLaw{slow.mean} : slow;
-  const auto levels = levels_of(packet, sound, mean, powers);
+  const auto levels = levels_of(packet, mean, powers);
   Level preamble;
   for (std::size_t i = 0; i < kPowers; ++i) {
     if (i == 0 || (!alike && !mean.finds(preamble))) {

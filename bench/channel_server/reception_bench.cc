@@ -77,6 +77,30 @@ BENCHMARK_CAPTURE(prediction, psk, "micromodem-psk-1")
     ->Arg(30)
     ->Unit(benchmark::kMicrosecond);
 
+// The same with noise that half of the packets survive: nothing is certain.
+void prediction_at_half(benchmark::State& state, const char* profile) {
+  const acoustics::Modem modem = load_modem(profile).modem;
+  const auto paths = paths_of(state.range(0), modem.centre_frequency_hz);
+  const acoustics::ReceptionCurves curves(modem, 32);
+  const acoustics::Lock lock{&modem, best_window(paths, modem)};
+  const auto delivery = [&](double noise) {
+    return predict_link(kSea, paths, lock, modem.band(), noise, curves).delivery_probability;
+  };
+  double noise = 1e15;
+  while (noise > 1 && delivery(noise) < 0.5) noise /= 1.1;
+  for (auto _ : state) {
+    const acoustics::Lock again{&modem, best_window(paths, modem)};
+    benchmark::DoNotOptimize(predict_link(kSea, paths, again, modem.band(), noise, curves));
+  }
+  state.counters["delivery"] = delivery(noise);
+}
+BENCHMARK_CAPTURE(prediction_at_half, psk, "micromodem-psk-1")
+    ->Arg(1)
+    ->Arg(5)
+    ->Arg(30)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(prediction_at_half, fsk, "micromodem-fsk")->Arg(5)->Unit(benchmark::kMicrosecond);
+
 void mean_level(benchmark::State& state) {
   const auto paths = paths_of(state.range(0), 25'000);
   for (auto _ : state) benchmark::DoNotOptimize(mean_power(kSea, paths, {22'500, 27'500}));
