@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <numbers>
 
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
+#include "acoustics/reception/collected_sound.h"
+#include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/steady_band.h"
 #include "core/units.h"
 

@@ -6,6 +6,7 @@
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
+#include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/decoding.h"
 
 namespace halocline::acoustics {

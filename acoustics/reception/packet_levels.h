@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "acoustics/reception/band_law.h"
+#include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/mean_sound.h"
 #include "acoustics/reception/power_law.h"
 #include "acoustics/reception/reception_curves.h"
