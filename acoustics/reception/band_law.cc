@@ -18,6 +18,17 @@ constexpr std::array<double, 5> kAbove{0.5, 1.5, 5, 30, 300};
 
 constexpr double kMostScore = 6;
 
+// By score, linear between.
+constexpr std::size_t kScoreRows = 241;
+constexpr double kScoreStep = 2 * kMostScore / (kScoreRows - 1);
+const std::array<double, kScoreRows> kProbabilities = [] {
+  std::array<double, kScoreRows> made{};
+  for (std::size_t i = 0; i < kScoreRows; ++i) {
+    made[i] = normal_probability(-kMostScore + kScoreStep * static_cast<double>(i));
+  }
+  return made;
+}();
+
 // Sums of terms of alike scale.
 struct Octave {
   double mean = 0, variance = 0, rest = 0, rest_variance = 0, rate = 0;
@@ -40,20 +51,22 @@ double log_parts(double score, double crossings, double turns, double stretches)
 
 }  // namespace
 
-// By steps of 0.05, linear.
 double tabulated_probability(double score) {
-  constexpr std::size_t kRows = 241;
-  constexpr double kStep = 0.05;
-  static const std::array<double, kRows> table = [] {
-    std::array<double, kRows> made{};
-    for (std::size_t i = 0; i < kRows; ++i) {
-      made[i] = normal_probability(-kMostScore + kStep * static_cast<double>(i));
-    }
-    return made;
-  }();
-  const double place = (std::clamp(score, -kMostScore, kMostScore) + kMostScore) / kStep;
-  const auto i = std::min(static_cast<std::size_t>(place), kRows - 2);
-  return table[i] + (place - static_cast<double>(i)) * (table[i + 1] - table[i]);
+  const double place = (std::clamp(score, -kMostScore, kMostScore) + kMostScore) / kScoreStep;
+  const auto i = std::min(static_cast<std::size_t>(place), kScoreRows - 2);
+  return kProbabilities[i] + (place - static_cast<double>(i)) * (kProbabilities[i + 1] - kProbabilities[i]);
+}
+
+double interference_share(const CollectedSound& sound, double threshold, double slow_power) {
+  const double louder = sound.slow.mean > 0 ? slow_power / sound.slow.mean : 0;
+  double signal = 0, changed = 0;
+  for (const FadingTerm& term : sound.terms) {
+    const double taken = threshold * term.interference, beats = louder * term.signal_beats,
+                 taken_beats = threshold * term.interference_beats;
+    signal += term.signal * term.unit + 2 * beats * term.unit;
+    changed += taken * (2 * term.signal + taken) + 2 * (beats * taken + taken_beats * (term.unit + taken));
+  }
+  return signal > 0 ? changed / signal : changed > 0 ? 1 : 0;
 }
 
 BandLaw::BandLaw(const CollectedSound& sound, double threshold, double slow_power) {

@@ -36,6 +36,9 @@ struct Stretches {
 // Of a standard normal below `score`, within 1e-4.
 double tabulated_probability(double score);
 
+// How much of the variance of Q interference makes or takes away.
+double interference_share(const CollectedSound& sound, double threshold, double slow_power);
+
 class BandLaw {
  public:
   static constexpr std::size_t kPoints = 14;

@@ -99,7 +99,8 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
   std::array<StrataMean::Levels, kPowers> levels;
   const auto compute = [&](std::size_t i) {
     const FadingSignal fading = packet.fading_signal(std::max(slow.at(scores[i]), 0.0));
-    levels[i] = mean.levels([&](std::size_t k) { return packet.bits(fading, mean.noise(k)); });
+    double parts = 0;
+    levels[i] = mean.levels([&](std::size_t k) { return packet.bits(fading, mean.noise(k), parts); });
   };
   compute(0);
   if (!(slow.variance > 0) || mean.decodes(levels.front().front())) {

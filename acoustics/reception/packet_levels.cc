@@ -19,6 +19,9 @@ constexpr double kDbPerNeper = 10 / std::numbers::ln10;
 constexpr double kMostScore = 6;
 constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
 constexpr double kLeastLoss = 1e-6;   // of packets
+constexpr double kAlike = 0.02;       // of the variance: of no effect
+constexpr double kNoLoss = -5.5;      // score: nothing falls below
+constexpr int kRounds = 3, kRoundsOfGuess = 2;
 constexpr double kNarrow =
     0.15;  // deviation over mean, 0.65 dB: below, fading is less than the steps of the curve
 // Our fits to judged packets (tests/channel_server/packets/link_prediction_test.cc): the softer the curve, the longer the
@@ -44,14 +47,24 @@ double decibels(double power) { return fast_decibels(std::max(power, 1e-30)); }
 
 FadingSignal::FadingSignal(const CollectedSound& sound, double slow_power,
                            const std::array<double, 2>& thresholds, const Stretches& stretches) {
-  for (std::size_t i = 0; i < thresholds.size(); ++i) {
+  alike_ = interference_share(sound, thresholds.back(), slow_power) < kAlike;
+  for (std::size_t i = alike_ ? 1 : 0; i < thresholds.size(); ++i) {
     const BandLaw law(sound, thresholds[i], slow_power);
     mean_ = law.mean();
-    Side& side = sides_[i];
-    side = {thresholds[i], std::sqrt(law.variance()), law.points(stretches), {}};
-    for (std::size_t k = 0; k < kPoints; ++k) {
-      side.logs[k] = side.points[k].power > 0 ? fast_log(side.points[k].power) : 0;
-    }
+    sides_[i] = Side(thresholds[i], law, stretches);
+  }
+  if (alike_) sides_.front() = sides_.back();
+  narrow_parts_ = fast_exp(std::max(sides_.back().at(std::max(mean_ - deviation(), 0.0)).parts, 0.0));
+}
+
+FadingSignal::Side::Side(double at_threshold, const BandLaw& law, const Stretches& stretches)
+    : threshold(at_threshold), deviation(std::sqrt(law.variance())), points(law.points(stretches)) {
+  for (std::size_t k = 0; k < kPoints; ++k) {
+    logs[k] = points[k].power > 0 ? fast_log(points[k].power) : 0;
+    if (k == 0) continue;
+    const double rise =
+        points[k - 1].power > 0 ? logs[k] - logs[k - 1] : points[k].power - points[k - 1].power;
+    rises[k] = rise > 0 ? 1 / rise : 0;
   }
 }
 
@@ -61,8 +74,7 @@ FadingSignal::State FadingSignal::Side::at(double power) const {
   if (above == 0) return {-kMostScore, points.front().log_parts};
   if (above == kPoints) return {kMostScore, points.back().log_parts};
   const BandPoint &low = points[above - 1], &high = points[above];
-  const double part = low.power > 0 ? (fast_log(power) - logs[above - 1]) / (logs[above] - logs[above - 1])
-                                    : (power - low.power) / (high.power - low.power);
+  const double part = (low.power > 0 ? fast_log(power) - logs[above - 1] : power - low.power) * rises[above];
   return {low.score + part * (high.score - low.score),
           low.log_parts + part * (high.log_parts - low.log_parts)};
 }
@@ -70,11 +82,16 @@ FadingSignal::State FadingSignal::Side::at(double power) const {
 // As many deviations from the mean on both sides.
 FadingSignal::State FadingSignal::at(double threshold, double disturbance) const {
   const Side &low = sides_.front(), &high = sides_.back();
+  if (alike_) {
+    const State state = high.at(threshold * disturbance);
+    return {state.score, fast_exp(std::max(state.parts, 0.0))};
+  }
   const double part = (threshold - low.threshold) / (high.threshold - low.threshold);
   const double below = threshold * disturbance - mean_,
                deviation = std::max(low.deviation + part * (high.deviation - low.deviation), 0.0);
+  const double deviations = deviation > 0 ? below / deviation : 0;
   const auto at = [&](const Side& side) {
-    return side.at(mean_ + (deviation > 0 ? below * side.deviation / deviation : below));
+    return side.at(mean_ + (deviation > 0 ? deviations * side.deviation : below));
   };
   const double share = std::clamp(part, 0.0, 1.0);
   const State one = at(low), other = at(high);
@@ -118,9 +135,7 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
                                           2.8569700138728056};
   constexpr std::array<double, 5> kWeights{0.011257411327720689, 0.22207592200561266, 0.53333333333333333,
                                            0.22207592200561266, 0.011257411327720689};
-  const double threshold = thresholds_.back(),
-               lower = std::max(signal.mean() - signal.deviation(), 0.0) / threshold;
-  const double parts = std::min(signal.at(threshold, lower).parts, stretches_);
+  const double parts = std::min(signal.narrow_parts(), stretches_);
   double success = 0;
   for (std::size_t i = 0; i < kScores.size(); ++i) {
     const double ratio = (signal.mean() + kScores[i] * signal.deviation()) / disturbance;
@@ -130,37 +145,41 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
 }
 
 // -ln of the chance of all bits, of the parts of a packet that fade independently, each with its share of the bits.
-double PacketLevels::loss(const FadingSignal& signal, double disturbance) const {
+double PacketLevels::loss(const FadingSignal& signal, double disturbance, double& parts) const {
   // From the one way to the other without a step.
   const double narrow = std::clamp(2 - signal.deviation() / (kNarrow * signal.mean()), 0.0, 1.0);
-  if (!(narrow > 0)) return std::max(wide_loss(signal, disturbance), kLeastLoss);
+  if (!(narrow > 0)) return std::max(wide_loss(signal, disturbance, parts), kLeastLoss);
   double loss_db = narrow * decibels(std::max(narrow_loss(signal, disturbance), kLeastLoss));
-  if (narrow < 1) loss_db += (1 - narrow) * decibels(std::max(wide_loss(signal, disturbance), kLeastLoss));
+  if (narrow < 1)
+    loss_db += (1 - narrow) * decibels(std::max(wide_loss(signal, disturbance, parts), kLeastLoss));
   return fast_power(loss_db);
 }
 
-Level PacketLevels::bits(const FadingSignal& signal, double disturbance) const {
+Level PacketLevels::bits(const FadingSignal& signal, double disturbance, double& parts) const {
   constexpr double kLeastLate = 0.05;
-  double all = loss(signal, disturbance);
+  double all = loss(signal, disturbance, parts);
   // Before the late echoes sound.
   const double late = sound_.late_echoes, before = (1 - sound_.late_share);
   if (before * late > kLeastLate * disturbance) {
     const double alone = std::max(disturbance - late, kLeastLate * disturbance);
-    all = sound_.late_share * all + before * loss(signal, alone);
+    all = sound_.late_share * all + before * loss(signal, alone, parts);
   }
   const double ratio_db = curves_.ratio_db_of(-all / bits_);
   return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
 }
 
 // -ln of the chance of all bits.
-double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance) const {
+double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance, double& parts) const {
   const auto& shares = ReceptionCurves::threshold_shares();
-  double parts = std::sqrt(stretches_), loss = 0;
-  for (int i = 0; i < 3; ++i) {
+  const int rounds = parts > 0 ? kRoundsOfGuess : kRounds;
+  if (!(parts > 0)) parts = std::sqrt(stretches_);
+  double loss = 0;
+  for (int i = 0; i < rounds; ++i) {
     const ReceptionCurves::Thresholds needed = thresholds(parts);
     double below = 0, sum = 1e-12 * parts, weight = 1e-12;
     for (std::size_t k = 0; k < ReceptionCurves::kThresholds; ++k) {
       const FadingSignal::State state = signal.at(fast_exp(needed.logs[k]), disturbance);
+      if (state.score < kNoLoss) break;  // nor below the thresholds to come, which are lower
       const double share = shares[k] * tabulated_probability(state.score);
       below += share;
       weight += share;

@@ -35,17 +35,24 @@ class FadingSignal {
   State at(double threshold, double disturbance) const;
   double mean() const { return mean_; }
   double deviation() const { return sides_.back().deviation; }
+  // Of fades that are less than the steps of the curve.
+  double narrow_parts() const { return narrow_parts_; }
 
  private:
   static constexpr std::size_t kPoints = BandLaw::kPoints;
   struct Side {
     double threshold = 0, deviation = 0;
     BandLaw::Points points{};
-    std::array<double, kPoints> logs{};  // of their powers
-    State at(double power) const;        // its parts are a logarithm
+    std::array<double, kPoints> logs{};  // of their powers; of a power below 0, none
+    std::array<double, kPoints>
+        rises{};  // 1 over what the logarithm, or else the power, rises by to the point
+    Side() = default;
+    Side(double at_threshold, const BandLaw& law, const Stretches& stretches);
+    State at(double power) const;  // its parts are a logarithm
   };
   std::array<Side, 2> sides_;
-  double mean_ = 0;
+  bool alike_ = false;  // the same for both thresholds
+  double mean_ = 0, narrow_parts_ = 1;
 };
 
 class PacketLevels {
@@ -59,15 +66,16 @@ class PacketLevels {
   // The mean signal over the preamble while the power without fast fading is `slow_power`, uPa^2 in dB.
   Level preamble(double slow_power) const;
   // The ratios to noise and interference, dB, that decide of the bits. Of phase-shift keying: `disturbance` is noise and
-  // mean interference, uPa^2 over the band; of frequency-shift keying, noise alone.
+  // mean interference, uPa^2 over the band, `parts` a guess of how many fade independently, 0 of none, in which what comes out is
+  // left; of frequency-shift keying, noise alone.
   FadingSignal fading_signal(double slow_power) const;
-  Level bits(const FadingSignal& signal, double disturbance) const;
+  Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
   Level bits(const SlowSound& slow, double noise) const;
 
  private:
-  double loss(const FadingSignal& signal, double disturbance) const;
+  double loss(const FadingSignal& signal, double disturbance, double& parts) const;
   double narrow_loss(const FadingSignal& signal, double disturbance) const;
-  double wide_loss(const FadingSignal& signal, double disturbance) const;
+  double wide_loss(const FadingSignal& signal, double disturbance, double& parts) const;
   // Where so many parts turn from right to wrong.
   ReceptionCurves::Thresholds thresholds(double parts) const;
   // -ln of the mean over a packet of exp(-scale power), and its relative variance over the fast fading.

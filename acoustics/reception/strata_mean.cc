@@ -128,8 +128,8 @@ void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t stat
     delivered_ += decoded ? share : 0;
     return;
   }
-  const double weight = share / kStrata;
-  for (std::size_t i = 0; i < kStrata; ++i) {
+  const double weight = share / (kStrata / 2);
+  for (std::size_t i = state % 2; i < kStrata; i += 2) {
     const double acquired =
         found ? 1 : curves_.acquisition_at(preamble.at(scores().preamble(i, state)) - preamble_db_[i]);
     acquired_ += weight * acquired;

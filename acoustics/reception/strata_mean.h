@@ -74,8 +74,8 @@ class StrataMean {
     fill_between(kMiddle, kLevels - 1, bits, at);
     return bits;
   }
-  // Adds what becomes of packets in a slow state that has this `share` of the probability. Normals of fast fading come in
-  // another order in each state.
+  // Adds what becomes of packets in a slow state that has this `share` of the probability: the mean over the even strata of even
+  // states, the odd ones of odd. Normals of fast fading come in another order in each state.
   void add(const Level& preamble, const Levels& bits, std::size_t state, double share);
 
   double acquisition_probability() const { return std::min(acquired_, 1.0); }  // sums of rounded parts
