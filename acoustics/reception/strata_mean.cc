@@ -65,6 +65,7 @@ StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const Me
     least_echoes_db_ = *least;
     most_echoes_db_ = *most;
   } else {
+    turns_ = 2;
     // The levels are those of all that disturbs, from the most to the least.
     for (std::size_t i = 0; i < kStrata; ++i) mean_db[i] += echoes_db_[i];
     echoes_db_.fill(0);
@@ -128,8 +129,8 @@ void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t stat
     delivered_ += decoded ? share : 0;
     return;
   }
-  const double weight = share / (kStrata / 2);
-  for (std::size_t i = state % 2; i < kStrata; i += 2) {
+  const double weight = share * static_cast<double>(turns_) / kStrata;
+  for (std::size_t i = state % turns_; i < kStrata; i += turns_) {
     const double acquired =
         found ? 1 : curves_.acquisition_at(preamble.at(scores().preamble(i, state)) - preamble_db_[i]);
     acquired_ += weight * acquired;

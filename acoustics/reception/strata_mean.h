@@ -74,8 +74,8 @@ class StrataMean {
     fill_between(kMiddle, kLevels - 1, bits, at);
     return bits;
   }
-  // Adds what becomes of packets in a slow state that has this `share` of the probability: the mean over the even strata of even
-  // states, the odd ones of odd. Normals of fast fading come in another order in each state.
+  // Adds what becomes of packets in a slow state that has this `share` of the probability; of phase-shift keying the mean over the
+  // even strata of even states, the odd ones of odd. Normals of fast fading come in another order in each state.
   void add(const Level& preamble, const Levels& bits, std::size_t state, double share);
 
   double acquisition_probability() const { return std::min(acquired_, 1.0); }  // sums of rounded parts
@@ -110,7 +110,8 @@ class StrataMean {
   const ReceptionCurves& curves_;
   std::array<double, kStrata> preamble_db_{};  // noise and interference over large-scale fading
   std::array<double, kStrata>
-      echoes_db_{};  // interference of the bits over its mean, as late echoes fade by themselves
+      echoes_db_{};        // interference of the bits over its mean, as late echoes fade by themselves
+  std::size_t turns_ = 1;  // of states among which the strata are divided
   double least_echoes_db_ = 0, most_echoes_db_ = 0;
   std::array<double, kLevels> noise_{}, disturbance_db_{};
   std::array<double, kStrata> places_{};  // of the strata between the levels
