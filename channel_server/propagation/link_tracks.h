@@ -5,6 +5,7 @@
 // horizontal, from the transmitter, m; depths below the surface, m.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -36,6 +37,20 @@ struct LinkTracks {
   std::size_t paths_left_out = 0;
   std::vector<acoustics::RayPoint> seabed = {};  // from end to end; empty where it is not known or not used
 };
+
+// Keeps the strongest LinkTracks::kMaxPaths of `found`, whose items have a SoundPath `path`, by delay; returns how many it
+// leaves out.
+template <class Item>
+std::size_t keep_strongest(std::vector<Item>& found) {
+  const std::size_t all = found.size();
+  if (all <= LinkTracks::kMaxPaths) return 0;
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Item& a, const Item& b) { return a.path.level > b.path.level; });
+  found.resize(LinkTracks::kMaxPaths);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Item& a, const Item& b) { return a.path.delay_s < b.path.delay_s; });
+  return all - found.size();
+}
 
 // Fills in the weights. `paths` are all that arrive, by delay: those of the tracks in their order, those left out, and
 // reverberation.

@@ -76,8 +76,7 @@ LinkTracks Propagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& t
       track.points = {{0, tracks.link.source_depth_m}, {tracks.link.range_m, tracks.link.receiver_depth_m}};
     tracks.paths.push_back(std::move(track));
   }
-  tracks.paths_left_out = tracks.paths.size() - std::min(tracks.paths.size(), LinkTracks::kMaxPaths);
-  tracks.paths.resize(tracks.paths.size() - tracks.paths_left_out);
+  tracks.paths_left_out = keep_strongest(tracks.paths);
   weigh(reception.paths, *to.modem, tracks);
   return tracks;
 }

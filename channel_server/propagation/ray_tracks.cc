@@ -50,15 +50,6 @@ PathTrack track_of(const FoundPath& found, const acoustics::Modem& transmitter,
   return track;
 }
 
-void keep_strongest(std::vector<FoundPath>& found) {
-  if (found.size() <= LinkTracks::kMaxPaths) return;
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.path.level > b.path.level; });
-  found.resize(LinkTracks::kMaxPaths);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.path.delay_s < b.path.delay_s; });
-}
-
 }  // namespace
 
 LinkTracks tracks_of(const acoustics::ProfiledSea& sea, const acoustics::RayLink& searched, bool reversed,
@@ -69,9 +60,7 @@ LinkTracks tracks_of(const acoustics::ProfiledSea& sea, const acoustics::RayLink
   const auto from_transmitter = [&](std::vector<RayPoint> points) {
     return reversed ? mirrored(std::move(points), searched.range_m) : points;
   };
-  const std::size_t all = found.size();
-  keep_strongest(found);
-  tracks.paths_left_out = all - found.size();
+  tracks.paths_left_out = keep_strongest(found);
   for (const FoundPath& one : found) {
     tracks.paths.push_back(track_of(one, transmitter, receiver));
     tracks.paths.back().points =

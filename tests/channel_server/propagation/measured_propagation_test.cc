@@ -52,6 +52,24 @@ class MeasuredWater : public testing::ScriptedWater {
   std::unique_ptr<MeasuredPropagation> measured;
 };
 
+TEST_F(MeasuredWater, TracksAreTheStrongestTapsByDelay) {
+  constexpr std::size_t kTaps = 80;
+  acoustics::ChannelRecord record{"long.mat", 25'000, 5000, kRateHz, kTaps, {}};
+  for (std::size_t i = 0; i < kInstants; ++i) {
+    for (std::size_t tap = 0; tap < kTaps; ++tap)
+      record.taps.push_back({tap < 40 ? 0.01F : 0.02F, 0});  // the later half is the stronger
+  }
+  measure({.all = std::make_shared<const acoustics::ChannelRecord>(record)});
+  const Reception replayed = reception(1, 2);
+  ASSERT_EQ(replayed.paths.size(), kTaps);
+  const LinkTracks tracks = measured->tracks(at_s(1), end(1), end(2));
+  ASSERT_EQ(tracks.paths.size(), LinkTracks::kMaxPaths);
+  EXPECT_EQ(tracks.paths_left_out, kTaps - LinkTracks::kMaxPaths);
+  EXPECT_EQ(tracks.paths.back().path.delay_s, replayed.paths.back().delay_s);
+  for (std::size_t i = 1; i < tracks.paths.size(); ++i)
+    EXPECT_LT(tracks.paths[i - 1].path.delay_s, tracks.paths[i].path.delay_s);
+}
+
 TEST_F(MeasuredWater, TapsReplaceThePathsFromTheFirstSignificantOnAtTheModelsLevel) {
   measure({.all = deep_fade()});
   const Reception replayed = reception(1, 2);
