@@ -11,11 +11,13 @@
 #include "channel_server/seabed_client.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/sim_time.h"
+#include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
 
 namespace halocline::channel_server {
 namespace {
 
+using testing::at;
 using testing::at_s;
 using testing::FlatBottom;
 using testing::for_s;
@@ -34,21 +36,7 @@ class EchoNodeTest : public ::testing::Test {
   int multipath() { return bench_.last_table(1).peers.at(0).multipath; }
   std::int64_t last_request_in(const FlatBottom& bottom) { return bottom.queries().back().request_id; }
   void publish_query(std::int64_t request_id, const std::vector<std::pair<link_end_t, link_end_t>>& ends) {
-    link_query_t query{};
-    query.client_name = "tester";
-    query.request_id = request_id;
-    query.num_links = static_cast<std::int32_t>(ends.size());
-    for (const auto& [from, to] : ends) {
-      query.transmitters.push_back(from);
-      query.receivers.push_back(to);
-    }
-    bench_.bus().publish("LINK_QUERY", query);
-  }
-  static link_end_t at(double north_m, double depth_m) {
-    link_end_t end{};
-    end.position_ned_m[0] = north_m;
-    end.position_ned_m[2] = depth_m;
-    return end;
+    bench_.bus().publish("LINK_QUERY", testing::link_query(ends, request_id));
   }
 
   NodeBench bench_;

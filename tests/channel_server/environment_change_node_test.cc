@@ -7,6 +7,7 @@
 
 #include "acoustics/sea/boundary_reflection.h"
 #include "bus/event_log.h"
+#include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
 
 namespace halocline::channel_server {
@@ -183,16 +184,7 @@ TEST_F(RayNodeTest, WithoutTheServicePathsAreStraightAndRaysComeBackByThemselves
 
 TEST_F(RayNodeTest, AQueryBetweenPositionsWaitsForTheBottom) {
   FlatBottom bottom(rays_.lcm(), 100);
-  link_query_t query{};
-  query.client_name = "tester";
-  query.request_id = 5;
-  query.num_links = 1;
-  query.transmitters.resize(1);
-  query.receivers.resize(1);
-  query.transmitters[0].position_ned_m[2] = 50;
-  query.receivers[0].position_ned_m[0] = 500;
-  query.receivers[0].position_ned_m[2] = 50;
-  rays_.bus().publish("LINK_QUERY", query);
+  rays_.bus().publish("LINK_QUERY", testing::link_query({{testing::at(0, 50), testing::at(500, 50)}}, 5));
   rays_.step(0, /*known=*/false);
   ASSERT_EQ(rays_.replies.size(), 1u);
   EXPECT_EQ(rays_.replies[0].message.answers.at(0).link.propagation_used, link_t::USED_RAYS);

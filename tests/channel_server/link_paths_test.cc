@@ -15,6 +15,7 @@
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/water_model.h"
 #include "core/units.h"
+#include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
 #include "tests/support/tolerance.h"
 
@@ -22,24 +23,13 @@ namespace halocline::channel_server {
 namespace {
 
 using halocline::testing::tolerance;
+using testing::at;
 using testing::FlatBottom;
 using testing::kSpeedMps;
+using testing::named;
 using testing::NodeBench;
 
 constexpr int kPacedMessage = 60'000;  // bytes, docs/bus.md
-
-link_end_t at(double north_m, double depth_m) {
-  link_end_t end{};
-  end.position_ned_m[0] = north_m;
-  end.position_ned_m[2] = depth_m;
-  return end;
-}
-
-link_end_t named(const std::string& vehicle) {
-  link_end_t end{};
-  end.vehicle_name = vehicle;
-  return end;
-}
 
 struct Bench {
   explicit Bench(
@@ -50,15 +40,8 @@ struct Bench {
   }
   link_reply_t reply_to(const std::vector<std::pair<link_end_t, link_end_t>>& links,
                         bool wants_paths = true) {
-    link_query_t query{};
-    query.client_name = "tester";
-    query.request_id = ++requests;
+    link_query_t query = testing::link_query(links, ++requests);
     query.wants_paths = wants_paths ? 1 : 0;
-    query.num_links = static_cast<std::int32_t>(links.size());
-    for (const auto& [from, to] : links) {
-      query.transmitters.push_back(from);
-      query.receivers.push_back(to);
-    }
     bench.replies.clear();
     bench.bus().publish("LINK_QUERY", query);
     for (int i = 0; i < 10 && bench.replies.empty(); ++i) bench.step(time_s += 0.1);

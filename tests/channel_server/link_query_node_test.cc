@@ -12,6 +12,7 @@
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/water_model.h"
 #include "core/sim_time.h"
+#include "tests/channel_server/link_queries.h"
 #include "tests/channel_server/node_bench.h"
 #include "tests/support/tolerance.h"
 
@@ -19,23 +20,12 @@ namespace halocline::channel_server {
 namespace {
 
 using halocline::testing::tolerance;
+using testing::at;
 using testing::FlatBottom;
 using ::testing::HasSubstr;
 using testing::kSpeedMps;
+using testing::named;
 using testing::NodeBench;
-
-link_end_t at(double north_m, double depth_m) {
-  link_end_t end{};
-  end.position_ned_m[0] = north_m;
-  end.position_ned_m[2] = depth_m;
-  return end;
-}
-
-link_end_t named(const std::string& vehicle) {
-  link_end_t end{};
-  end.vehicle_name = vehicle;
-  return end;
-}
 
 link_end_t with_modem(link_end_t end, const VehicleModem& modem) {
   end.modem_choice = link_end_t::MODEM_GIVEN;
@@ -48,15 +38,7 @@ class LinkQueryTest : public ::testing::Test {
   LinkQueryTest() : bottom_(bench_.lcm(), 100) { bus::set_log_level(bus::LogLevel::kSilent); }
 
   void publish(const std::vector<std::pair<link_end_t, link_end_t>>& links, std::int64_t request_id = 1) {
-    link_query_t query{};
-    query.client_name = "tester";
-    query.request_id = request_id;
-    query.num_links = static_cast<std::int32_t>(links.size());
-    for (const auto& [from, to] : links) {
-      query.transmitters.push_back(from);
-      query.receivers.push_back(to);
-    }
-    bench_.bus().publish("LINK_QUERY", query);
+    bench_.bus().publish("LINK_QUERY", testing::link_query(links, request_id));
   }
   link_reply_t reply_to(const std::vector<std::pair<link_end_t, link_end_t>>& links, double time_s = 1) {
     publish(links);
@@ -205,12 +187,9 @@ TEST(LinkQueryOverASeabed, APositionInsideItIsRefused) {
   bus::set_log_level(bus::LogLevel::kSilent);
   NodeBench bench({}, {testing::quick_modem(), {}}, ray_model(testing::even_water(), {}, {}));
   FlatBottom bottom(bench.lcm(), 100);
-  link_query_t query{};
-  query.client_name = "tester";
-  query.num_links = 3;
-  query.transmitters = {at(0, 50), at(0, 130), at(0, 50)};
-  query.receivers = {at(500, 60), at(500, 60), at(500, 108)};
-  bench.bus().publish("LINK_QUERY", query);
+  bench.bus().publish(
+      "LINK_QUERY", testing::link_query(
+                        {{at(0, 50), at(500, 60)}, {at(0, 130), at(500, 60)}, {at(0, 50), at(500, 108)}}, 1));
   for (int step = 1; step <= 5 && bench.replies.empty(); ++step) bench.step(step);
   const auto& answers = bench.replies.at(0).message.answers;
   EXPECT_EQ(answers.at(0).answer_status, link_answer_t::ANSWERED);
