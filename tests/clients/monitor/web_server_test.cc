@@ -21,8 +21,10 @@ namespace halocline::monitor {
 namespace {
 
 using std::chrono::milliseconds;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::host_of;
+using ::testing::Not;
 using ::testing::StartsWith;
 using testing::WebClient;
 
@@ -132,6 +134,9 @@ TEST(WebServer, TokenComesWithTheUrlAndThenByCookie) {
   const RunningServer server({.access = {.token = "abc"}});
   EXPECT_THAT(get(server, "/"), StartsWith("HTTP/1.1 401"));
   EXPECT_THAT(get(server, "/?token=abd"), StartsWith("HTTP/1.1 401"));
+  EXPECT_THAT(get(server, "/?token=abd"), HasSubstr("not the token of this monitor"));
+  EXPECT_THAT(get(server, "/"), AllOf(StartsWith("HTTP/1.1 401"), HasSubstr("<form"), Not(HasSubstr("abc"))));
+  EXPECT_THAT(get(server, "/assets/a-1.js"), AllOf(StartsWith("HTTP/1.1 401"), Not(HasSubstr("<form"))));
   const std::string answer = get(server, "/?token=abc");
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
   const std::string cookie = "halocline_token_" + std::to_string(server.port()) + "=abc";

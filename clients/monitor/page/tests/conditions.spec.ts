@@ -1,48 +1,7 @@
 // What the page says when something is missing. The server's words are made up here; only the page itself is fetched.
-import { type Page, type WebSocketRoute, expect, test } from "@playwright/test";
-
-const hello = {
-  type: "hello",
-  version: 1,
-  program: "test",
-  source: "bus",
-  name: "udpm://239.255.76.67:7667",
-  begin_s: 0,
-  end_s: 10,
-  may_command: false,
-  limits: [],
-  outcomes: [{ code: 0, name: "RECEIVED", label: "received", class: "received", mark: "dot", colour: "#009e73" }],
-  link_columns: [],
-};
-const vehicle = { index: 0, name: "auv-1", id: 1, model: "torpedo", fixed: false, colour: 0, modem: null, plan: null };
-const mission = {
-  type: "mission",
-  name: "",
-  description: "",
-  seed: null,
-  origin: null,
-  sea_surface_down_m: 0,
-  vehicles: [vehicle],
-  terrain: null,
-  water: null,
-};
-const state = {
-  type: "state",
-  time_s: 10,
-  begin_s: 0,
-  end_s: 10,
-  live: true,
-  playing: true,
-  speed: 1,
-  bus: "live",
-  silent_s: 0,
-  has_states: true,
-  bathymetry: true,
-  channel_server: true,
-  real_time_factor: 1,
-  vehicles: [],
-  nodes: [],
-};
+import type { Page, WebSocketRoute } from "@playwright/test";
+import { expect, test } from "./fixtures";
+import { hello, mission, state } from "./made_up";
 
 /** A server that sends these at once, and refuses every request. Resolves to its socket. */
 async function serve(page: Page, ...messages: object[]): Promise<WebSocketRoute> {

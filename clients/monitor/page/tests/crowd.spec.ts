@@ -1,5 +1,6 @@
 // 100 vehicles at 10 Hz with packets under way: 30 frames a second, or the page says what it leaves out. The server is made up.
-import { expect, test } from "@playwright/test";
+import { chart, expect, test } from "./fixtures";
+import { COLLIDED, RECEIVED, hello, mission, state, vehicle } from "./made_up";
 
 const VEHICLES = 100;
 const POSTS = 97;
@@ -37,7 +38,7 @@ function packet(n: number, depart_s: number) {
   const source = (37 * n) % VEHICLES;
   const outcomes = Array.from({ length: VEHICLES }, (_, receiver) => ({
     receiver,
-    code: receiver % 3 ? 0 : 6,
+    code: (receiver % 3 ? RECEIVED : COLLIDED).code,
     arrive_s: depart_s + 0.02 * receiver,
     end_s: depart_s + 0.02 * receiver + 2,
     range_m: 30 * receiver,
@@ -61,16 +62,7 @@ function packet(n: number, depart_s: number) {
 }
 
 test("100 vehicles at 10 Hz hold 30 frames a second, or the page says what it sheds", async ({ page }) => {
-  const vehicles = Array.from({ length: VEHICLES }, (_, index) => ({
-    index,
-    name: `auv-${index + 1}`,
-    id: index + 1,
-    model: "torpedo",
-    fixed: false,
-    colour: index,
-    modem: null,
-    plan: null,
-  }));
+  const vehicles = Array.from({ length: VEHICLES }, (_, index) => vehicle(index));
   let timer: NodeJS.Timeout | undefined;
   await page.routeWebSocket(/\/ws/, (socket) => {
     const json = (message: object) => socket.send(JSON.stringify(message));
@@ -79,31 +71,11 @@ test("100 vehicles at 10 Hz hold 30 frames a second, or the page says what it sh
       json({ type: "reply", id, ok: ask === "terrain", error: "Not here." });
       if (ask === "terrain") socket.send(terrain(id));
     });
+    json({ ...hello, name: "crowd" });
     json({
-      type: "hello",
-      version: 1,
-      program: "test",
-      source: "bus",
+      ...mission,
       name: "crowd",
-      begin_s: 0,
-      end_s: 10,
-      may_command: false,
-      limits: [],
-      link_columns: [],
-      outcomes: [
-        { code: 0, name: "RECEIVED", label: "received", class: "received", mark: "dot", colour: "#009e73" },
-        { code: 6, name: "COLLIDED", label: "collided", class: "collided", mark: "bowtie", colour: "#cc79a7" },
-      ],
-    });
-    json({
-      type: "mission",
-      name: "crowd",
-      description: "",
-      seed: null,
-      origin: null,
-      sea_surface_down_m: 0,
       vehicles,
-      water: null,
       terrain: {
         south_m: -EXTENT_M / 2,
         west_m: -EXTENT_M / 2,
@@ -120,39 +92,21 @@ test("100 vehicles at 10 Hz hold 30 frames a second, or the page says what it sh
       const time_s = 10 + ++ticks / 10;
       socket.send(frame(time_s));
       if (ticks % 20 === 0) json({ type: "packets", items: [packet(ticks, time_s)] });
-      if (ticks % 10 === 1)
-        json({
-          type: "state",
-          time_s,
-          begin_s: 0,
-          end_s: time_s,
-          live: true,
-          playing: true,
-          speed: 1,
-          bus: "live",
-          silent_s: 0,
-          has_states: true,
-          bathymetry: true,
-          channel_server: true,
-          real_time_factor: 1,
-          vehicles: [],
-          nodes: [],
-        });
+      if (ticks % 10 === 1) json({ ...state, time_s, end_s: time_s });
     }, 100);
   });
   await page.goto("/");
-  const chart = page.locator(".chart");
-  await expect(chart).toHaveAttribute("data-frame-ms", /[1-9]/, { timeout: 20_000 });
+  await expect(chart(page)).toHaveAttribute("data-frame-ms", /[1-9]/, { timeout: 20_000 });
   await page.waitForTimeout(6000);
-  let state = "";
+  let found = "";
   await expect
     .poll(async () => {
-      const frame_ms = Number(await chart.getAttribute("data-frame-ms"));
+      const frame_ms = Number(await chart(page).getAttribute("data-frame-ms"));
       const sheds = (await page.getByTestId("shed").count()) > 0 && (await page.getByTestId("shed").textContent());
-      state = `${frame_ms} ms a frame; ${sheds || "nothing is left out"}`;
+      found = `${frame_ms} ms a frame; ${sheds || "nothing is left out"}`;
       return frame_ms < SLOWEST_MS || sheds !== false;
     })
     .toBe(true);
-  console.log(state);
+  console.log(found);
   clearInterval(timer);
 });

@@ -1,17 +1,6 @@
 // The page as a visitor uses it, on a log of scenarios/harbour.toml.
-import { type Page, expect, test as base } from "@playwright/test";
-
-const test = base.extend({
-  page: async ({ page }, use) => {
-    const errors: string[] = [];
-    page.on("console", (message) => {
-      if (message.type() === "error") errors.push(message.text());
-    });
-    page.on("pageerror", (error) => errors.push(String(error)));
-    await use(page);
-    expect(errors).toEqual([]);
-  },
-});
+import type { Page } from "@playwright/test";
+import { chart, expect, seconds, test, vehicle, vehicles } from "./fixtures";
 
 /** Opens the page at a hash and waits until its chart, or another view, shows vehicles. */
 async function open(page: Page, hash = "") {
@@ -20,23 +9,18 @@ async function open(page: Page, hash = "") {
   await expect(page.getByLabel("Selection").locator("section").first()).toBeVisible();
 }
 const now = (page: Page) => page.getByTestId("now").textContent();
-const seconds = async (page: Page) => {
-  const [minutes, rest] = (await now(page))!.split(":");
-  return 60 * Number(minutes) + Number(rest);
-};
-const chart = (page: Page) => page.locator(".chart");
 
 test("shows every vehicle, moving while it plays", async ({ page }) => {
   await open(page);
-  const rows = page.getByLabel("Selection").locator("tbody tr");
-  await expect(rows).toHaveCount(5);
-  await expect(rows.first()).toContainText("quay");
-  const before = await rows.nth(1).textContent();
+  await expect(vehicles(page)).toHaveCount(5);
+  await expect(chart(page)).toHaveAttribute("data-vehicles", "5");
+  const scout = vehicle(page, "scout-1");
+  const before = await scout.textContent();
   await page.getByLabel("Speed").selectOption("10");
   await page.getByRole("button", { name: "Play" }).click();
   await expect.poll(() => seconds(page)).toBeGreaterThan(5);
   await page.getByRole("button", { name: "Pause" }).click();
-  expect(await rows.nth(1).textContent()).not.toBe(before);
+  expect(await scout.textContent()).not.toBe(before);
 });
 
 test("draws a packet's wavefront, then the marks of its outcomes", async ({ page }) => {
@@ -64,7 +48,7 @@ test("shows the rays and the budget of a link", async ({ page }) => {
   await expect(page).toHaveURL(/link=quay%7Escout-1|link=quay~scout-1/);
 });
 
-test("shows the matrix, and the history of a cell", async ({ page }) => {
+test("shows the matrix, the history of a cell and its rays", async ({ page }) => {
   await open(page, "#matrix?t=60");
   const matrix = page.getByTestId("matrix");
   await expect(page.getByRole("heading", { name: "All pairs" })).toBeVisible();
@@ -73,6 +57,8 @@ test("shows the matrix, and the history of a cell", async ({ page }) => {
   await matrix.focus();
   await page.keyboard.press("ArrowRight");
   await expect(page.getByRole("img", { name: /from 0:00 to/ })).toBeVisible();
+  await page.getByRole("button", { name: "Show its rays" }).click();
+  await expect(page.getByTestId("section").locator("path.ray").first()).toBeAttached({ timeout: 30_000 });
 });
 
 test("shows the course of a vehicle and the health of the nodes", async ({ page }) => {

@@ -236,12 +236,13 @@ export class Overlay {
         if (now_s <= outcome.end_s && (vehicles.length <= MANY || ours))
           this.line([origin, place], kind.colour, ours ? 2.5 : 1.5, kind.class === "received" ? [] : [6, 5]);
         const above = stacked.get(outcome.receiver) ?? 0;
-        if (above >= MOST_STACKED) continue;
-        stacked.set(outcome.receiver, above + 1);
-        const [x, y] = [place.x + 2.4 * radius * above, place.y - 14 - radius];
-        drawMark(this.context, kind.mark, x, y, radius * (ours ? 1.35 : 1), kind.colour, pen.halo);
+        if (above < MOST_STACKED) {
+          stacked.set(outcome.receiver, above + 1);
+          const [x, y] = [place.x + 2.4 * radius * above, place.y - 14 - radius];
+          drawMark(this.context, kind.mark, x, y, radius * (ours ? 1.35 : 1), kind.colour, pen.halo);
+          this.things.push({ kind: "outcome", x, y, packet, outcome });
+        }
         this.context.globalAlpha = 1;
-        this.things.push({ kind: "outcome", x, y, packet, outcome });
       }
     }
   }

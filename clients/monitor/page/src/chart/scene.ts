@@ -46,6 +46,8 @@ export class ChartScene {
   contours: Contours | null = null;
   stretch = 1;
   extent_m = 2000;
+  /** Of the seabed that is drawn; 0 without one. */
+  posts = 0;
   /** True while the renderer is a program on the processor. */
   readonly software: boolean;
   private renderer: WebGLRenderer;
@@ -105,6 +107,7 @@ export class ChartScene {
     }
     this.contours = null;
     this.range = tile && depthRange(tile);
+    this.posts = tile && this.range ? tile.depth_m.length : 0;
     if (!tile || !this.range) return;
     this.extent_m = Math.max(tile.rows - 1, tile.columns - 1) * tile.spacing_m;
     this.stretch = exaggeration(this.extent_m, this.range.high);
