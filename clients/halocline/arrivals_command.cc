@@ -21,6 +21,7 @@ struct ArrivalsArguments {
   SeaDescription sea;
   std::string links, solver, format = "table", output, plot;
   double source_depth_m = 0, receiver_depth_m = 0, range_m = -1;
+  bool force = false;
 };
 
 std::vector<acoustics::RayLink> links_of(const ArrivalsArguments& arguments) {
@@ -47,6 +48,8 @@ OutputFormat format_of(const std::string& name) {
 
 int find_arrivals(const ArrivalsArguments& arguments) {
   if (!arguments.plot.empty()) require_plot_file(arguments.plot);
+  require_free({{arguments.output, arguments.plot}, arguments.force},
+               {arguments.links, arguments.sea.water, arguments.sea.bottom});
   const acoustics::RaySea sea = make_sea(arguments.sea);
   const auto solver = solver_of(arguments.solver);
   std::vector<LinkArrivals> found;
@@ -55,11 +58,7 @@ int find_arrivals(const ArrivalsArguments& arguments) {
   if (!arguments.plot.empty()) write_plot(arrival_plot(found, "Arrivals"), arguments.plot);
   std::ostringstream text;  // so that nothing is written unless all went well
   print_arrivals(text, found, format_of(arguments.format));
-  if (arguments.output.empty()) {
-    std::cout << text.str() << std::flush;
-    return kDone;
-  }
-  write_text(arguments.output, text.str());
+  write_output(arguments.output, text.str());
   return kDone;
 }
 
@@ -118,6 +117,7 @@ void add_arrivals_command(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->output, "file; default: stdout");
   command->add_option("--plot", arguments->plot,
                       "also draw level and angle against delay: FILE.png or FILE.svg");
+  add_force_option(*command, arguments->force);
   command->footer(
       footer("  halocline arrivals --sound-speed-mps 1500 --bottom-depth-m 100 --source-depth-m 30 "
              "--receiver-depth-m 50 --range-m 2000\n"

@@ -17,10 +17,12 @@ namespace {
 struct CalcArguments {
   CalcOptions options;
   std::string input, output;
+  bool force = false;
 };
 
 int calc(CalcArguments& arguments) {
   if (arguments.options.quantity.empty()) arguments.options.list = true;
+  require_free({{arguments.output}, arguments.force}, {arguments.input});
   std::ifstream file;
   if (!arguments.input.empty() && arguments.input != "-") {
     file.open(arguments.input);
@@ -28,13 +30,8 @@ int calc(CalcArguments& arguments) {
   }
   std::ostringstream text;  // so that nothing is written unless all went well
   const int code = run_calc(arguments.options, file.is_open() ? file : std::cin, text, std::cerr);
-  if (arguments.output.empty() || arguments.output == "-") {
-    std::cout << text.str() << std::flush;
-    return code;
-  }
-  if (code != kDone) return code;
-  write_text(arguments.output, text.str());
-  return kDone;
+  if (code == kDone) write_output(arguments.output, text.str());
+  return code;
 }
 
 }  // namespace
@@ -54,6 +51,7 @@ void add_calc_command(CLI::App& app, int& exit_code) {
   command->add_option("--longitude", arguments->options.longitude_deg, "degrees")
       ->check(CLI::Range(-180.0, 360.0));
   command->add_flag("--list", arguments->options.list, "describe the quantities, or the one named, and exit");
+  add_force_option(*command, arguments->force);
   command->footer(footer(
       "  printf 'T_degC,S_ppt,depth_m\\n25,35,1000\\n' | halocline calc sound-speed --model mackenzie\n"
       "  halocline calc --list"));

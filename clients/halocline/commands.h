@@ -18,6 +18,9 @@ inline constexpr const char* kExitCodes =
 // The end of a subcommand's --help.
 std::string footer(const std::string& examples);
 
+// --force of each command that writes files: see require_free (analysis/run_files.h).
+void add_force_option(CLI::App& command, bool& force);
+
 // Options that `run` and `replay` share.
 void add_rotation_options(CLI::App& command, std::vector<std::string>& rotate, int& keep_parts);
 

@@ -13,6 +13,7 @@
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/propagation/propagation.h"
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/arrivals/arrival_output.h"
 #include "clients/halocline/arrivals/arrival_plot.h"
 #include "clients/halocline/commands.h"
@@ -30,7 +31,7 @@ struct LinkOptions {
   std::optional<double> source_level_db, cutoff_level_db, center_frequency_hz, bandwidth_hz;
   std::string from_velocity, to_velocity, format = "table", plot;
   double impulse_rate_hz = 0;
-  bool json = false, arrivals = false;
+  bool json = false, arrivals = false, force = false;
 };
 
 const char* name_of(channel_server::Multipath multipath) {
@@ -142,6 +143,7 @@ void check(const LinkOptions& options) {
   require(options.impulse_rate_hz == 0 || (!options.json && options.format == "table"),
           "--impulse-response-rate-hz writes CSV of its own: not with --json or --format");
   if (!options.plot.empty()) require_plot_file(options.plot);
+  require_free({{options.plot}, options.force}, {options.scenario});
 }
 
 void print_paths(const LinkOptions& options, const LinkSurveyEnd& from, const LinkArrivals& found) {
@@ -207,6 +209,7 @@ void add_link_command(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   command->add_option("--plot", options->plot,
                       "with --arrivals: also draw level and angle against delay, FILE.png or FILE.svg");
+  add_force_option(*command, options->force);
   command->footer(
       footer("  halocline link scenarios/seamount.toml --from auv-1 --to auv-2 --arrivals --plot a.svg\n"
              "  halocline link scenarios/figure6.toml --from 0,0,100 --to 180,0,100 --json"));

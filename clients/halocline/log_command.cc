@@ -8,6 +8,7 @@
 #include "clients/halocline/analysis/csv_export.h"
 #include "clients/halocline/analysis/log_statistics.h"
 #include "clients/halocline/analysis/mission_log.h"
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/analysis/simulation_output.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/export/mission_export.h"
@@ -20,7 +21,7 @@ namespace {
 struct LogArguments {
   std::vector<std::string> logs;
   std::string out, channel, origin, format = "csv";
-  bool json = false;
+  bool json = false, force = false;
 };
 
 int info(const LogArguments& arguments) {
@@ -49,6 +50,7 @@ int export_mission(const LogArguments& arguments) {
 }
 
 int export_all(const LogArguments& arguments) {
+  require_free({{arguments.out}, arguments.force}, arguments.logs);
   if (arguments.format != "csv") return export_mission(arguments);
   LogReader log(arguments.logs);
   const ExportResult result = export_csv(log, arguments.out, arguments.channel);
@@ -62,6 +64,7 @@ int export_all(const LogArguments& arguments) {
 }
 
 int write_output(const LogArguments& arguments) {
+  require_free({files_of_log(arguments.out), arguments.force}, arguments.logs);
   LogReader log(arguments.logs);
   std::cout << arguments.out << ": " << write_simulation_output(log, arguments.out) << " events\n";
   report_damage(std::cerr, log);
@@ -97,6 +100,7 @@ void add_log_command(CLI::App& app, int& exit_code) {
                              "LATITUDE,LONGITUDE of the coordinates' origin, where the log does not hold it");
   export_command->add_option("--channel", arguments->channel,
                              "only channels that match this regular expression");
+  add_force_option(*export_command, arguments->force);
   export_command->footer(
       footer("  halocline log export run.lcm --out csv --channel 'STATE\\..*|OUTCOME'\n"
              "  halocline log export run.lcm --format mcap --out run.mcap"));
@@ -105,6 +109,7 @@ void add_log_command(CLI::App& app, int& exit_code) {
       "output", "Write the simulation output alone: the same bytes from one channel server and from shards");
   output_command->add_option("log", arguments->logs, "LCM log, or the parts of one in order")->required();
   output_command->add_option("--out", arguments->out, "LCM log to be written")->required();
+  add_force_option(*output_command, arguments->force);
   output_command->footer(footer("  halocline log output run.lcm --out output.lcm && sha256sum output.lcm"));
   output_command->callback([arguments, &exit_code] { exit_code = write_output(*arguments); });
 }

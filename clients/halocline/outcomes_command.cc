@@ -6,6 +6,7 @@
 
 #include "bus/logs/log_reader.h"
 #include "clients/halocline/analysis/outcome_summary.h"
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "core/check.h"
 
@@ -16,10 +17,12 @@ struct OutcomesArguments {
   std::vector<std::string> logs;
   std::string format = "table", plot;
   double window_s = 60;
+  bool force = false;
 };
 
 int show_outcomes(const OutcomesArguments& arguments) {
   if (!arguments.plot.empty()) require_plot_file(arguments.plot);
+  require_free({{arguments.plot}, arguments.force}, arguments.logs);
   LogReader log(arguments.logs);
   const OutcomeSummary summary = summary_of(log, std::llround(arguments.window_s * 1e6));
   if (arguments.format == "json")
@@ -52,6 +55,7 @@ void add_outcomes_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1e-3, 1e9));
   command->add_option("--plot", arguments->plot,
                       "also draw the outcomes and their course over time: FILE.png or FILE.svg");
+  add_force_option(*command, arguments->force);
   command->footer(
       "Outcomes (docs/packets.md has the rest):\n"
       "  shadow        the water bends every ray away\n"

@@ -32,7 +32,7 @@ struct ReplayOptions {
   std::string scenario, out, format = "table";
   std::int64_t seed = -1;
   int keep_parts = 0;
-  bool quiet = false, no_comparison = false;
+  bool quiet = false, no_comparison = false, force = false;
 };
 
 std::string scenario_of(const ReplayOptions& options) {
@@ -49,13 +49,6 @@ ScenarioConfig config_of(const ReplayOptions& options) {
   return load_scenario(scenario_of(options), overrides, ScenarioUse::kWater);
 }
 
-void require_another_file(const ReplayOptions& options, const LogReader& log) {
-  for (const std::string& file : log.files()) {
-    require(!fs::exists(options.out) || !fs::exists(file) || !fs::equivalent(options.out, file),
-            "--log is the log that is replayed; allowed is another file");
-  }
-}
-
 void show(const Comparison& comparison, const std::string& format) {
   if (format == "json")
     std::cout << to_json(comparison) << "\n";
@@ -65,14 +58,33 @@ void show(const Comparison& comparison, const std::string& format) {
     print(std::cout, comparison);
 }
 
-std::string beside_log(const std::string& log, const char* ending) {
-  return fs::path(log).replace_extension(ending).string();
+// The comparison beside the new log.
+struct ComparisonFiles {
+  std::string csv, json;
+};
+
+ComparisonFiles comparison_files(const std::string& log) {
+  const auto beside = [&](const char* ending) { return fs::path(log).replace_extension(ending).string(); };
+  return {beside(".comparison.csv"), beside(".comparison.json")};
+}
+
+// Throws where something that is there would be replaced.
+RunFiles files_of(const ReplayOptions& options, const ScenarioConfig& config, const LogReader& log) {
+  RunFiles files = run_files("", config.scenario.name, options.out, "");
+  const auto [csv, json] = comparison_files(files.log);
+  Outputs outputs{files_of_log(files.log), options.force};
+  outputs.paths.push_back(files.config);
+  if (!options.no_comparison) outputs.paths.insert(outputs.paths.end(), {csv, json});
+  std::vector<std::string> inputs = log.files();
+  inputs.push_back(scenario_of(options));
+  require_free(outputs, inputs);
+  return files;
 }
 
 void compare_with_original(const ReplayOptions& options, const std::string& made, SimDuration zero) {
   LogReader original(options.logs), replayed(made);
   const Comparison comparison(outcomes_of(original, zero.nanoseconds() / 1000), outcomes_of(replayed));
-  const std::string csv = beside_log(made, ".comparison.csv"), json = beside_log(made, ".comparison.json");
+  const auto [csv, json] = comparison_files(made);
   std::ostringstream table;
   print_csv(table, comparison);
   write_text(csv, table.str());
@@ -100,13 +112,12 @@ RunOutcome run_replay(const ReplayOptions& options, const ScenarioConfig& config
 int replay(const ReplayOptions& options) {
   bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : "warning"));
   LogReader log(options.logs);
-  require_another_file(options, log);
   const ScenarioConfig config = config_of(options);
+  const RunFiles files = files_of(options, config, log);
   Recording recording = read_recording(log, config.scenario);
   report_damage(std::cerr, log);
   if (!options.quiet) print_repairs(std::cerr, recording);
   require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");
-  const RunFiles files = run_files("", config.scenario.name, options.out, "");
   write_text(files.config, effective_toml(config));
   const SimDuration zero = recording.zero;
   const RunOutcome outcome = run_replay(options, config, files, std::move(recording));
@@ -154,6 +165,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   add_rotation_options(*command, options->rotate, options->keep_parts);
   add_format_option(*command, options->format);
   command->add_flag("--no-comparison", options->no_comparison, "write no comparison");
+  add_force_option(*command, options->force);
   command->add_flag("--quiet", options->quiet, "no progress line, no table, errors only");
   command->footer(
       footer("  halocline replay runs/seamount/seamount.lcm --log calm.lcm --set environment.wind_mps=0\n"

@@ -16,11 +16,13 @@ namespace {
 struct ReportArguments {
   std::vector<std::string> logs;
   std::string out;
+  bool force = false;
 };
 
 int write_report(const ReportArguments& arguments) {
   const bool is_one = arguments.logs.size() == 1;
   const std::string out = arguments.out.empty() ? report_beside(arguments.logs.back()) : arguments.out;
+  require_free({{out}, arguments.force}, arguments.logs);
   const MissionLog first = read_mission({arguments.logs.front()});
   const ReportPart part{arguments.logs.front(), first.mission, first.remarks};
   if (is_one) {
@@ -46,6 +48,7 @@ void add_report_command(CLI::App& app, int& exit_code) {
       ->expected(1, 2);
   command->add_option("--out", arguments->out,
                       "HTML file; default: the (second) log's name, ending in .html");
+  add_force_option(*command, arguments->force);
   command->footer(
       footer("  halocline report runs/seamount/seamount.lcm\n"
              "  halocline report runs/seamount/seamount.lcm calm.lcm --out calm.html"));

@@ -60,16 +60,16 @@ void print_end(const RunOptions& options, const RunFiles& files, const ScenarioC
   if (!options.no_report) std::cout << "report      " << files.report << "\n";
 }
 
-// Never those of an earlier run: without --out the folder is a new one, and a log that is there stays unless --force.
+// Without --out the folder is a new one; what is there stays unless --force.
 RunFiles files_of(const RunOptions& options, const std::string& name) {
   const bool all_named = !options.log.empty() && (options.no_csv || !options.csv.empty());
   const std::string out = !options.out.empty() || all_named ? options.out : make_new_folder("runs/" + name);
   RunFiles files = run_files(out, name, options.log, options.csv);
-  require(
-      options.force || !has_log(files.log),
-      files.log +
-          " is there already, the log of an earlier run; --force replaces it, and without --out and --log "
-          "a run makes a new folder");
+  Outputs outputs{files_of_log(files.log), options.force};
+  outputs.paths.push_back(files.config);
+  if (!options.no_report) outputs.paths.push_back(files.report);
+  if (!options.no_csv) outputs.paths.push_back(files.csv);
+  require_free(outputs, {options.scenario});
   return files;
 }
 
@@ -124,6 +124,10 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
+void add_force_option(CLI::App& command, bool& force) {
+  command.add_flag("--force", force, "replace files that are there");
+}
+
 void add_rotation_options(CLI::App& command, std::vector<std::string>& rotate, int& keep_parts) {
   command
       .add_option("--log-rotate", rotate,
@@ -158,7 +162,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_flag("--no-report", options->no_report, "write no report.html beside the log");
   command->add_option("--mirror", options->mirror, "udpm URL on which the run is shown as well, for lcm-spy");
   command->add_option("--log-level", options->log_level, "debug, info, warning, error or silent");
-  command->add_flag("--force", options->force, "replace the log of an earlier run");
+  add_force_option(*command, options->force);
   command->add_flag("--quiet", options->quiet, "print errors only");
   command->footer(
       footer("  halocline run scenarios/seamount.toml --duration 120 --set modem.source_level_db=170"));

@@ -34,7 +34,7 @@ struct SweepOptions {
   std::vector<std::string> axes, overrides;
   double duration_s = 0, level = 0;
   std::size_t jobs = 0, task = 0, of = 0, slurm_tasks = 1000;
-  bool gather = false, keep_logs = false, list = false, quiet = false;
+  bool gather = false, keep_logs = false, list = false, quiet = false, force = false;
 };
 
 std::string text_of(const std::string& path) {
@@ -189,6 +189,7 @@ int write_slurm(const std::vector<Job>& jobs, const SweepOptions& options) {
 int sweep(SweepOptions options) {
   options.out = fs::absolute(options.out).lexically_normal().string();
   require(options.of == 0 || options.task < options.of, "--task must be below --of");
+  require_free({{options.slurm}, options.force}, {options.plan});
   const SweepPlan plan = plan_of(options);
   const std::vector<Job> jobs = jobs_of(plan, options.out);
   if (options.list) {
@@ -252,6 +253,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
       ->add_option("--slurm-tasks", options->slurm_tasks,
                    "tasks of the job array at most; SLURM's own limit is 1001")
       ->check(CLI::PositiveNumber);
+  add_force_option(*command, options->force);
   command->add_flag("--quiet", options->quiet, "errors and where the results are only");
   command->footer(footer(
       "  halocline sweep scenarios/harbour.toml --axis environment.wind_mps=2,6,12 --seeds 1..20 --out wind\n"

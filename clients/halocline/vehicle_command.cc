@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/vehicle_replay.h"
 #include "vehicle_sim/model_config.h"
@@ -68,7 +69,12 @@ void add_replay(CLI::App* parent, int& exit_code) {
   add_water_options(command, *r);
   command->footer(
       footer("  halocline vehicle replay --model remus100-pvs --commands turn.csv --duration-s 210"));
-  command->callback([r, &exit_code] { exit_code = replay_vehicle(*r); });
+  auto force = std::make_shared<bool>(false);
+  add_force_option(*command, *force);
+  command->callback([r, force, &exit_code] {
+    require_free({{r->out}, *force}, {r->commands});
+    exit_code = replay_vehicle(*r);
+  });
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ class Runs:
         """The rows that `halocline log export` makes of these channels (a regular expression), by family of channels."""
         folder = self._folder / name
         folder.mkdir()
-        file, log = folder / f"{name}.toml", folder / f"{name}.lcm"
+        file, log = folder / f"{name}.toml", folder / "run.lcm"
         file.write_text(scenario)
         sets = [word for change in (*changes, *self._changes) for word in ("--set", change)]
         self._call("run", file, *sets, "--log", log, "--out", folder, "--no-csv", "--no-report", "--quiet", "--log-level", "error")

@@ -124,6 +124,10 @@ class Exporter {
  public:
   explicit Exporter(std::string folder) : folder_(std::move(folder)) {
     std::filesystem::create_directories(folder_);
+    bus::any_channel([&]<class Message>(const auto& channel) {  // what an earlier export left
+      std::filesystem::remove(path_of(std::string(family_of(prefix_of(channel)))));
+      return false;
+    });
   }
 
   template <class Message>
@@ -163,6 +167,8 @@ class Exporter {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return folder_ + "/" + family + ".csv";
   }
+  static std::string_view prefix_of(std::string_view channel) { return channel; }
+  static std::string_view prefix_of(const bus::Family& family) { return family.prefix; }
 
   template <class Message>
   std::ofstream& file_of(const std::string& family) {

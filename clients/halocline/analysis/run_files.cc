@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 
 #include "bus/logs/log_series.h"
+#include "core/check.h"
 
 namespace halocline::clients {
 namespace {
@@ -15,6 +17,16 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   if (!folder.empty()) fs::create_directories(folder, error);
   if (error) throw std::runtime_error("cannot make the folder " + folder.string() + ": " + error.message());
+}
+
+bool holds_something(const fs::path& path) {
+  std::error_code error;
+  return (fs::is_regular_file(path, error) || fs::is_directory(path, error)) && !fs::is_empty(path, error);
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;  // where one of them does not exist
+  return fs::equivalent(a, b, error);
 }
 
 }  // namespace
@@ -31,7 +43,20 @@ RunFiles run_files(const std::string& out, const std::string& name, const std::s
   return files;
 }
 
-bool has_log(const std::string& path) { return fs::exists(path) || !bus::parts_of_log(path).empty(); }
+void require_free(const Outputs& outputs, const std::vector<std::string>& inputs) {
+  for (const std::string& path : outputs.paths) {
+    if (path.empty() || path == "-" || !holds_something(path)) continue;
+    for (const std::string& input : inputs)
+      require(!is_same_file(path, input), path + " is what is read; allowed is another place to write to");
+    require(outputs.may_replace, path + " is there already; --force replaces it");
+  }
+}
+
+std::vector<std::string> files_of_log(const std::string& path) {
+  std::vector<std::string> files = bus::parts_of_log(path);
+  files.insert(files.begin(), path);
+  return files;
+}
 
 std::string make_new_folder(const std::string& base) {
   make_folder(fs::path(base).parent_path());
@@ -57,6 +82,14 @@ void write_text(const std::string& path, const std::string& text) {
   file << text;
   file.close();
   if (!file) throw std::runtime_error("cannot write " + path);
+}
+
+void write_output(const std::string& path, const std::string& text) {
+  if (path.empty() || path == "-") {
+    std::cout << text << std::flush;
+  } else {
+    write_text(path, text);
+  }
 }
 
 }  // namespace halocline::clients

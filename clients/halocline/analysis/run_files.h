@@ -1,7 +1,8 @@
-// Where a run leaves what it makes.
+// Where commands leave what they make: the files of a run, and the rule that no command replaces what is there unasked.
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace halocline::clients {
 
@@ -17,8 +18,18 @@ struct RunFiles {
 RunFiles run_files(const std::string& out, const std::string& name, const std::string& log,
                    const std::string& csv);
 
-// Whether a log of this name is there, or a part of one.
-[[nodiscard]] bool has_log(const std::string& path);
+// What a command is about to write, and whether --force allows that it replaces what is there.
+struct Outputs {
+  std::vector<std::string> paths;  // files and folders; empty and "-" (standard output) count as none
+  bool may_replace = false;
+};
+
+// Throws InvalidArgument where one of `outputs` holds something already and may not be replaced, and always where it is
+// one of `inputs`, the files that the command reads. Devices and pipes may be written, and what is empty.
+void require_free(const Outputs& outputs, const std::vector<std::string>& inputs = {});
+
+// The log of this name and the parts of it that are there (rotated logs have several).
+std::vector<std::string> files_of_log(const std::string& path);
 
 // A new folder for the results of a run: `base`, or "base-2", "base-3", ..., the first that is not there yet. Throws
 // std::runtime_error when it cannot be made.
@@ -32,5 +43,7 @@ std::string config_beside(const std::string& log);
 
 // Replaces the file; throws std::runtime_error when it cannot be written.
 void write_text(const std::string& path, const std::string& text);
+// Likewise; to standard output where `path` is empty or "-".
+void write_output(const std::string& path, const std::string& text);
 
 }  // namespace halocline::clients

@@ -183,11 +183,7 @@ int replay_vehicle(const VehicleReplay& r) {
   const vehicle_sim::Model model(parameters_of(r));
   std::ostringstream text;
   write_samples(text, run_open_loop(model, run), model.parameters().thrusters.size(), r.wrap_yaw);
-  if (r.out.empty() || r.out == "-") {
-    std::cout << text.str();
-  } else {
-    write_text(r.out, text.str());
-  }
+  write_output(r.out, text.str());
   return 0;
 }
 

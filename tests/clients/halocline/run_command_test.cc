@@ -117,8 +117,7 @@ TEST_F(RunCommand, ALogThatIsThereIsReplacedByForceAlone) {
   for (const char* place : {"--out here", "--log here/pond.lcm"}) {
     const Ended again = run("run pond.toml --duration 2 --no-csv " + std::string(place));
     EXPECT_EQ(again.code, 2);
-    EXPECT_THAT(again.output, HasSubstr("here/pond.lcm is there already"));
-    EXPECT_THAT(again.output, HasSubstr("--force"));
+    EXPECT_THAT(again.output, HasSubstr("here/pond.lcm is there already; --force replaces it"));
     EXPECT_EQ(bytes_of(folder_ + "/here/pond.lcm"), first);
   }
   EXPECT_EQ(run("run pond.toml --duration 2 --no-csv --out here --force").code, 0);
@@ -126,8 +125,105 @@ TEST_F(RunCommand, ALogThatIsThereIsReplacedByForceAlone) {
 }
 
 TEST_F(RunCommand, APartOfARotatedLogIsALogToo) {
-  std::ofstream(folder_ + "/pond.0003.lcm") << "the newest parts alone are kept";
-  EXPECT_EQ(run("run pond.toml --duration 1 --no-csv --log pond.lcm").code, 2);
+  fs::create_directory(folder_ + "/here");
+  std::ofstream(folder_ + "/here/pond.0003.lcm") << "the newest parts alone are kept";
+  const Ended end = run("run pond.toml --duration 1 --no-csv --log here/pond.lcm");
+  EXPECT_EQ(end.code, 2);
+  EXPECT_THAT(end.output, HasSubstr("here/pond.0003.lcm is there already"));
+}
+
+// Each command that writes files beside `run`, and what it writes into made/.
+struct Writer {
+  const char* arguments;
+  std::vector<std::string> files;
+};
+
+const std::vector<Writer>& writers() {
+  static const std::vector<Writer> kWriters{
+      {"replay here/pond.lcm --log made/again.lcm --quiet",
+       {"again.lcm", "again.toml", "again.comparison.csv", "again.comparison.json"}},
+      {"report here/pond.lcm --out made/page.html", {"page.html"}},
+      {"log export here/pond.lcm --out made/csv", {"csv"}},
+      {"log export here/pond.lcm --out made/run.mcap --format mcap", {"run.mcap"}},
+      {"log export here/pond.lcm --out made/run.nc --format netcdf", {"run.nc"}},
+      {"log export here/pond.lcm --out made/run.gpx --format gpx --origin 43.5,7.25", {"run.gpx"}},
+      {"log export here/pond.lcm --out made/run.json --format geojson --origin 43.5,7.25", {"run.json"}},
+      {"log output here/pond.lcm --out made/output.lcm", {"output.lcm"}},
+      {"outcomes here/pond.lcm --plot made/outcomes.svg", {"outcomes.svg"}},
+      {"link pond.toml --from a --to b --arrivals --plot made/link.svg", {"link.svg"}},
+      {"arrivals --sound-speed-mps 1500 --bottom-depth-m 100 --source-depth-m 30 --receiver-depth-m 50 "
+       "--range-m 2000 --out made/paths.csv --plot made/paths.svg",
+       {"paths.csv", "paths.svg"}},
+      {"calc sound-speed table.csv --model mackenzie --out made/table.csv", {"table.csv"}},
+      {"vehicle replay --model torpedo --duration-s 1 --out made/vehicle.csv", {"vehicle.csv"}},
+      {"sweep pond.toml --axis environment.wind_mps=2,5 --out made/wind --slurm made/wind.sh", {"wind.sh"}},
+  };
+  return kWriters;
+}
+
+TEST_F(RunCommand, NoCommandReplacesWhatIsThereButByForce) {
+  ASSERT_EQ(run("run pond.toml --duration 20 --out here --quiet").code, 0);
+  std::ofstream(folder_ + "/table.csv") << "T_degC,S_ppt,depth_m\n25,35,1000\n";
+  fs::create_directory(folder_ + "/made");
+  for (const Writer& writer : writers()) {
+    const Ended first = run(writer.arguments);
+    ASSERT_EQ(first.code, 0) << writer.arguments << "\n" << first.output;
+    for (const std::string& name : writer.files) {
+      const std::string path = folder_ + "/made/" + name, file = fs::is_directory(path) ? path + "/x" : path;
+      for (const std::string& other : writer.files) fs::remove_all(folder_ + "/made/" + other);
+      if (file != path) fs::create_directory(path);
+      std::ofstream(file) << "an earlier result";
+      const Ended second = run(writer.arguments);
+      EXPECT_EQ(second.code, 2) << writer.arguments;
+      EXPECT_THAT(second.output, HasSubstr("made/" + name + " is there already; --force replaces it"))
+          << writer.arguments;
+      EXPECT_EQ(bytes_of(file), "an earlier result") << writer.arguments;
+      const Ended forced = run(writer.arguments + std::string(" --force"));
+      EXPECT_EQ(forced.code, 0) << writer.arguments << "\n" << forced.output;
+      for (const std::string& made : writer.files)
+        EXPECT_TRUE(fs::exists(folder_ + "/made/" + made)) << writer.arguments;
+      if (file == path) {
+        EXPECT_NE(bytes_of(file), "an earlier result") << writer.arguments;
+      }
+    }
+  }
+}
+
+TEST_F(RunCommand, WhatIsReadIsNeverWritten) {
+  const std::string scenario = bytes_of(folder_ + "/pond.toml");
+  for (const char* command : {"run pond.toml --duration 1 --no-csv --log pond.lcm --force",
+                              "run pond.toml --duration 1 --no-csv --log ./pond.lcm"}) {
+    const Ended end = run(command);
+    EXPECT_EQ(end.code, 2) << command;
+    EXPECT_THAT(end.output, HasSubstr("pond.toml is what is read; allowed is another place to write to"));
+    EXPECT_EQ(bytes_of(folder_ + "/pond.toml"), scenario);
+  }
+  ASSERT_EQ(run("run pond.toml --duration 20 --out here --quiet --no-csv").code, 0);
+  const std::string log = bytes_of(folder_ + "/here/pond.lcm");
+  for (const char* command : {"replay here/pond.lcm --log here/../here/pond.lcm --force",
+                              "log output here/pond.lcm --out here/pond.lcm --force",
+                              "log export here/pond.lcm --format mcap --out here/pond.lcm --force",
+                              "report here/pond.lcm --out here/pond.lcm --force"}) {
+    EXPECT_EQ(run(command).code, 2) << command;
+    EXPECT_EQ(bytes_of(folder_ + "/here/pond.lcm"), log) << command;
+  }
+}
+
+TEST_F(RunCommand, DevicesAndEmptyFilesAreWritten) {
+  ASSERT_EQ(run("run pond.toml --duration 1 --out here --quiet --no-csv").code, 0);
+  std::ofstream(folder_ + "/empty.html").close();
+  EXPECT_EQ(run("report here/pond.lcm --out /dev/null").code, 0);
+  EXPECT_EQ(run("report here/pond.lcm --out empty.html").code, 0);
+}
+
+TEST_F(RunCommand, ForceLeavesNothingOfAnEarlierExport) {
+  ASSERT_EQ(run("run pond.toml --duration 20 --out here --quiet").code, 0);
+  ASSERT_TRUE(fs::exists(folder_ + "/here/csv/outcome.csv"));
+  std::ofstream(folder_ + "/here/csv/notes.csv") << "mine";
+  EXPECT_EQ(run("log export here/pond.lcm --out here/csv --channel CLOCK --force").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ + "/here/csv/outcome.csv"));
+  EXPECT_TRUE(fs::exists(folder_ + "/here/csv/clock.csv"));
+  EXPECT_TRUE(fs::exists(folder_ + "/here/csv/notes.csv"));
 }
 
 TEST_F(RunCommand, ARunThatIsRefusedLeavesNoFolder) {
