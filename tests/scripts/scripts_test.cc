@@ -3,6 +3,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -18,6 +19,7 @@ namespace halocline::testing {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -146,6 +148,94 @@ TEST_F(Join, AVehicleInPythonJoinsADistributedRun) {
   EXPECT_TRUE(prints(vehicle, "packet 0: accepted")) << vehicle.output();
   EXPECT_TRUE(prints(vehicle, " dB SNR, ")) << vehicle.output();
   stop_run();
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> sections_of(const std::string& report) {
+  std::vector<std::string> ids;
+  const std::string start = "<section id=\"";
+  for (std::size_t at = 0; (at = report.find(start, at)) != std::string::npos;) {
+    at += start.size();
+    ids.push_back(report.substr(at, report.find('"', at) - at));
+  }
+  return ids;
+}
+
+// Separate processes leave what `halocline run` leaves, and end with the same lines and the same page.
+class DistributedReport : public ::testing::Test {
+ protected:
+  [[nodiscard]] Process distributed(std::vector<std::string> options) const {
+    options.insert(options.begin(), {script("run_distributed"), kScenario});
+    return Process(in_folder(here_, options));
+  }
+  // Its last lines, its report and its configuration.
+  void expect_report(const Process& run, const std::string& log, const std::string& beside) {
+    const std::string output = run.output();
+    EXPECT_THAT(output, EndsWith("log         " + log + "\n" + after_log(output)));
+    EXPECT_THAT(output, HasSubstr("\nalpha       went "));
+    EXPECT_THAT(output, HasSubstr("\npackets     "));
+    EXPECT_THAT(output, EndsWith("\nreport      " + beside + ".html\n"));
+    const std::string report = text_of(beside + ".html");
+    EXPECT_THAT(report, HasSubstr("<svg "));
+    EXPECT_EQ(sections_of(report), sections_of(text_of(here_ + "/one/report.html")));
+    EXPECT_THAT(text_of(beside + ".toml"), HasSubstr("name = \"two_vehicles\""));
+  }
+
+  void SetUp() override {
+    Process one(
+        {HALOCLINE_BIN_DIR "/halocline", "run", kScenario, "--out", here_ + "/one", "--no-csv", "--quiet"});
+    ASSERT_EQ(one.wait(), 0) << one.output();
+    ASSERT_EQ(sections_of(text_of(here_ + "/one/report.html")).size(), 9u);
+  }
+
+  static constexpr const char* kScenario = HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml";
+  TemporaryFolder folder_;
+  std::string here_ = std::filesystem::current_path().string();
+
+ private:
+  static std::string after_log(const std::string& output) {
+    const auto at = output.find("\nlog         ");
+    return at == std::string::npos ? "no line of the log" : output.substr(output.find('\n', at + 1) + 1);
+  }
+};
+
+TEST_F(DistributedReport, PacedByTheWallClock) {
+  Process run = distributed({"--duration", "8", "--rate", "4", "--log", here_ + "/run.lcmlog"});
+  EXPECT_EQ(run.wait(60s), 0) << run.output();
+  expect_report(run, here_ + "/run.lcmlog", here_ + "/run");
+  Process again = distributed({"--log", here_ + "/run.lcmlog"});
+  EXPECT_EQ(again.wait(), 2);
+  EXPECT_THAT(again.output(), HasSubstr("run.lcmlog is there already; --force replaces it"));
+  // The configuration beside the log is enough for a replay.
+  Process replay(
+      {HALOCLINE_BIN_DIR "/halocline", "replay", here_ + "/run.lcmlog", "--log", here_ + "/again.lcm"});
+  EXPECT_EQ(replay.wait(), 0) << replay.output();
+}
+
+// The log is that of one process, byte for byte, so the page is too, but for the log's name.
+TEST_F(DistributedReport, InLockstep) {
+  Process run = distributed({"--lockstep", "--log", here_ + "/run.lcm"});
+  EXPECT_EQ(run.wait(60s), 0) << run.output();
+  expect_report(run, here_ + "/run.lcm", here_ + "/run");
+  const std::string report = text_of(here_ + "/run.html");
+  std::string one = text_of(here_ + "/one/report.html");
+  const auto at = one.find(here_ + "/one/two_vehicles.lcm");
+  ASSERT_NE(at, std::string::npos);
+  one.replace(at, (here_ + "/one/two_vehicles.lcm").size(), here_ + "/run.lcm");
+  EXPECT_TRUE(report == one);
+}
+
+TEST_F(DistributedReport, CtrlCEndsItWithItsReportAnd130) {
+  Process run = distributed({"--duration", "60", "--log", here_ + "/run.lcmlog"});
+  ASSERT_TRUE(prints(run, "to join their bus")) << run.output();
+  std::this_thread::sleep_for(2s);
+  run.signal(SIGINT);
+  EXPECT_EQ(run.wait(60s), 130) << run.output();
+  EXPECT_THAT(run.output(), EndsWith("\nreport      " + here_ + "/run.html\n"));
 }
 
 TEST(JoinMissed, AVehicleOnABusWithoutARunReportsItOnce) {
