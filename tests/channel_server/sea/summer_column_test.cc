@@ -29,7 +29,7 @@ namespace {
 using testing::StillLink;
 
 constexpr double kDepthM = 100;
-constexpr int kNodes = 19, kPackets = 6;
+constexpr int kNodes = 19;
 constexpr std::size_t kPayloadBytes = 32;
 
 acoustics::Environment column(double wind_mps) {
@@ -57,7 +57,8 @@ struct Column {
   int perfect = 0, dead = 0, links = 0;
 };
 
-Column deliver(const acoustics::Modem& modem, double wind_mps, double snr_db) {
+// Of each link so many packets, 10 minutes apart.
+Column deliver(const acoustics::Modem& modem, double wind_mps, double snr_db, int packets) {
   RayModel model;
   model.bottom = *acoustics::sediment("MediumSand");
   model.options.max_bounces = 60;
@@ -86,10 +87,10 @@ Column deliver(const acoustics::Modem& modem, double wind_mps, double snr_db) {
   for (const Reception& reception : receptions) {
     const StillLink link(reception, modem, kPayloadBytes, model.fading, ++pair, noise);
     int received = 0;
-    for (int n = 0; n < kPackets; ++n) received += link.delivers(600.0 * n);
-    column.received += static_cast<double>(received) / kPackets;
+    for (int n = 0; n < packets; ++n) received += link.delivers(600.0 * n);
+    column.received += static_cast<double>(received) / packets;
     column.predicted += link.prediction(curves).delivery_probability;
-    column.perfect += received == kPackets;
+    column.perfect += received == packets;
     column.dead += received == 0;
     ++column.links;
   }
@@ -104,16 +105,19 @@ TEST(SummerColumn, DeliversFrequencyHoppedPacketsAtEveryWindAndNeverBetterForIt)
   for (const double wind_mps : {0.0, 2.0, 5.0, 10.0}) {
     double last = 0;
     for (const double snr_db : {15.0, 25.0, 35.0, 45.0, 55.0}) {
-      const Column column = deliver(modem, wind_mps, snr_db);
+      const int packets = snr_db == 45 ? 100 : 6;
+      const Column column = deliver(modem, wind_mps, snr_db, packets);
       halocline::testing::doc_row(
-          "summer", {fmt::format("{:g}", wind_mps), fmt::format("{:g}", snr_db),
+          "summer", {fmt::format("{:g}", wind_mps), fmt::format("{:g}", snr_db), fmt::format("{}", packets),
                      fmt::format("{:.3f}", column.received), fmt::format("{:.3f}", column.predicted),
                      fmt::format("{}", column.links - column.perfect), fmt::format("{}", column.dead)});
-      // 171 links of 6 packets: what fades by itself is the link, so 3.3 deviations are 3.3 sqrt(1/4 / 171) at most.
+      // 171 links: what fades by itself is the link, so 3.3 deviations are 3.3 sqrt(1/4 / 171) at most.
       EXPECT_NEAR(column.received, column.predicted, 0.05);
       EXPECT_GE(column.predicted, last - 1e-3) << "more source level delivers less";
       last = column.predicted;
-      if (snr_db == 15) {
+      // Above 15 dB wind makes paths fade faster than a packet lasts, and its code takes the mean: nothing is lost. In
+      // calm water the nulls of the band stand still.
+      if (snr_db == 15 || (snr_db == 45 && wind_mps == 0)) {
         EXPECT_LT(column.perfect, column.links) << "some links lose some packets";
       }
       if (snr_db != 45) continue;
