@@ -1,5 +1,10 @@
 #include "clients/mission/packet_reasons.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "clients/mission/outcome_ledger.h"
@@ -44,6 +49,30 @@ std::string collision(const packet_outcome_t& o, const std::string& others) {
     return "the receiver was following " + others;
   return "disturbed by " + others + ", without which it would have been received. " +
          (o.success_probability == 0 ? acquisition(o) : survival(o));
+}
+
+// By step of the ladder.
+constexpr std::array<std::pair<std::string_view, const char*>, 11> kHelps{{
+    {"paths", "Ways of the sound through the water to the receiver; without one nothing arrives."},
+    {"source", "What the sender radiates, one metre from it."},
+    {"loss", "What spreading, absorption and bounces take on the way, all paths together."},
+    {"level", "What arrives, against the least that the receiver's modem takes."},
+    {"noise", "Of turbulence, ships, wind and heat at the receiver, over the packet's band."},
+    {"snr", "The level received over the noise."},
+    {"interference",
+     "What arrives beside the signal: its own echoes after the guard time, and other packets."},
+    {"sinr", "The signal within the guard time over noise and all that arrives beside it; this decides."},
+    {"acquisition",
+     "The receiver detects so many of such preambles; a random number below the probability is a detection."},
+    {"success",
+     "So many of such packets have all bits right; a random number below the probability is one of them."},
+    {"outcome", "What became of the packet."},
+}};
+
+const char* help_of(std::string_view step) {
+  const auto found =
+      std::find_if(kHelps.begin(), kHelps.end(), [&](const auto& help) { return help.first == step; });
+  return found == kHelps.end() ? "" : found->second;
 }
 
 }  // namespace
@@ -124,7 +153,7 @@ std::vector<LadderStep> ladder(const packet_outcome_t& o) {
   std::vector<LadderStep> steps;
   const auto add = [&](const char* step, const char* quantity, double value, const char* unit,
                        std::optional<double> limit = {}, std::optional<bool> passed = {}) {
-    steps.push_back({step, quantity, value, unit, limit, passed});
+    steps.push_back({step, quantity, value, unit, limit, passed, help_of(step)});
   };
   const bool has_path = o.num_paths > 0 && o.received_level_db > kSilence_db;
   add("paths", "paths of sound", o.num_paths, "", 1, has_path);
@@ -147,8 +176,13 @@ std::vector<LadderStep> ladder(const packet_outcome_t& o) {
   if (o.success_probability > 0)
     add("success", "all bits right: probability, draw", o.success_probability, "", o.success_draw,
         o.success_draw < o.success_probability);
-  steps.push_back(
-      {"outcome", outcome_name(number_of(o)), {}, "", {}, o.outcome == packet_outcome_t::RECEIVED});
+  steps.push_back({"outcome",
+                   outcome_name(number_of(o)),
+                   {},
+                   "",
+                   {},
+                   o.outcome == packet_outcome_t::RECEIVED,
+                   help_of("outcome")});
   return steps;
 }
 

@@ -33,6 +33,7 @@ struct LadderStep {
   std::string unit;             // "dB re 1 uPa", "dB", "" of a probability
   std::optional<double> limit;  // what the value had to reach; empty where nothing is decided here
   std::optional<bool> passed;   // empty likewise
+  std::string help;             // what it is, in a sentence
 };
 
 // The steps that were reached, the outcome last. Steps after the one that lost the packet are left out.

@@ -133,7 +133,7 @@ json step_json(const clients::LadderStep& step) {
           {"limit", step.limit ? json(*step.limit) : json()},
           {"compare", compare == nullptr ? json() : json(compare)},
           {"passed", step.passed ? json(*step.passed) : json()},
-          {"help", ""}};
+          {"help", step.help}};
 }
 
 const packet_outcome_t* outcome_at(const clients::PacketRecord& packet, std::int32_t receiver_id) {

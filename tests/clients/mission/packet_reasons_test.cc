@@ -71,7 +71,10 @@ TEST(Refusal, EveryRefusalHasASentence) {
 
 std::vector<std::string> steps(const packet_outcome_t& o) {
   std::vector<std::string> names;
-  for (const LadderStep& step : ladder(o)) names.push_back(step.step);
+  for (const LadderStep& step : ladder(o)) {
+    names.push_back(step.step);
+    EXPECT_FALSE(step.help.empty()) << step.step;
+  }
   return names;
 }
 
