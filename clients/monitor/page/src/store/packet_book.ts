@@ -12,13 +12,8 @@ export class PacketBook {
   }
 
   add(items: Packet[]) {
-    let fresh = false;
-    for (const item of items) {
-      fresh ||= !this.byKey.has(item.key);
-      this.byKey.set(item.key, item);
-    }
-    this.sorted = [...this.byKey.values()];
-    if (fresh) this.sorted.sort((a, b) => a.depart_s - b.depart_s || (a.key < b.key ? -1 : 1));
+    for (const item of items) this.byKey.set(item.key, item);
+    this.sorted = [...this.byKey.values()].sort((a, b) => a.depart_s - b.depart_s || (a.key < b.key ? -1 : 1));
     while (this.sorted.length > MOST) this.byKey.delete(this.sorted.shift()!.key);
   }
 
