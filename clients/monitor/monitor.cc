@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -201,8 +202,10 @@ void Monitor::begin_link(ConnectionId id, const json& request) {
                                const link_reply_t* reply, const std::string& problem) {
     const auto& vehicles = source_->mission().vehicles();
     if (run != run_ || std::max(from, to) >= vehicles.size()) return;
-    json view =
-        link_view_json(source_->mission(), packets_, {vehicles[from], vehicles[to], at}, reply, problem);
+    const auto& modem = vehicles[from].modem;
+    const LinkSubject link{vehicles[from], vehicles[to], at,
+                           modem ? source_->threshold_db(*modem) : std::nullopt};
+    json view = link_view_json(source_->mission(), packets_, link, reply, problem);
     view["id"] = number;
     finish(id, std::move(view));
   };

@@ -93,7 +93,9 @@ class Waterfall {
   double sum_ = 0;
 };
 
-json budget_json(const link_t& link, const link_paths_t& paths, const clients::MissionVehicle& to) {
+json threshold_of(const LinkSubject& link) { return link.threshold_db ? json(*link.threshold_db) : json(); }
+
+json budget_json(const LinkSubject& subject, const link_t& link, const link_paths_t& paths) {
   constexpr double kRounding_db = 0.005;
   Waterfall fall;
   // A server that knows no paths leaves the level out.
@@ -119,7 +121,8 @@ json budget_json(const link_t& link, const link_paths_t& paths, const clients::M
   } else {
     fall.step("Transmission loss", -link.transmission_loss_db, "Spreading and absorption.");
   }
-  const json cutoff = to.modem ? json(to.modem->cutoff_level_db) : json();
+  const auto& receiver = subject.to.modem;
+  const json cutoff = receiver ? json(receiver->cutoff_level_db) : json();
   fall.total("Received level", link.received_level_db, kLevel, cutoff,
              "Sum of all paths, against the receiver's least receivable level.");
   fall.step("Noise", -link.noise_level_db, "At the receiver, over the sender's band.");
@@ -129,8 +132,10 @@ json budget_json(const link_t& link, const link_paths_t& paths, const clients::M
   fall.total("SNR", link.snr_db, "dB", json(), "Signal to noise.");
   fall.step("Own late echoes", link.sinr_db - link.snr_db,
             "Paths outside the guard window disturb instead of adding.");
-  fall.total("SINR", link.sinr_db, "dB", json(),
-             "Signal in the guard window to noise and own echoes, mean over fading.");
+  fall.total("SINR", link.sinr_db, "dB", threshold_of(subject),
+             "Signal in the guard window to noise and own echoes, mean over fading, against that at which "
+             "half of the packets "
+             "survive without fading.");
   return fall.take();
 }
 
@@ -167,7 +172,7 @@ json fading_json(const clients::MissionStore& mission, PacketIndex& packets, con
   }
   return {{"label", "SINR"},
           {"unit", "dB"},
-          {"limit", nullptr},
+          {"limit", threshold_of(link)},
           {"expected", {{"time_s", std::move(time_s)}, {"value", std::move(value)}}},
           {"packets", std::move(met)}};
 }
@@ -258,7 +263,7 @@ json link_view_json(const clients::MissionStore& mission, PacketIndex& packets, 
   view["paths"] = paths_json(paths, surface_m);
   if (answer.link.path_state == link_t::PATH_OPEN) {
     view["guard"] = guard_json(answer.link, link.to);
-    view["budget"] = budget_json(answer.link, paths, link.to);
+    view["budget"] = budget_json(link, answer.link, paths);
   }
   return view;
 }

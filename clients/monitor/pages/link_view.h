@@ -18,6 +18,7 @@ struct LinkSubject {
   const clients::MissionVehicle& from;
   const clients::MissionVehicle& to;
   SimTime at;
+  std::optional<double> threshold_db = {};  // SINR that the sender's modem needs
 };
 
 // Both ends by name and by where they were. Empty when one of them had no state then.

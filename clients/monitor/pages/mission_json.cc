@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -66,6 +68,12 @@ json columns_json() {
   return all;
 }
 
+json number_or_null(const std::optional<double>& number) { return number ? json(*number) : json(); }
+
+std::optional<double> threshold_db(const Source& source, const clients::MissionVehicle& vehicle) {
+  return vehicle.modem ? source.threshold_db(*vehicle.modem) : std::nullopt;
+}
+
 template <class Numbers>
 json modem_of(const std::string& family, const Numbers& modem) {
   return {{"family", family},
@@ -75,19 +83,37 @@ json modem_of(const std::string& family, const Numbers& modem) {
           {"bit_rate_bps", modem.bit_rate_bps}};
 }
 
-json modem_json(const clients::MissionVehicle& vehicle) {
-  if (vehicle.modem) return modem_of(vehicle.modem->family, *vehicle.modem);
-  return vehicle.described ? modem_of(vehicle.described->modem_family, *vehicle.described) : json();
+json modem_json(const Source& source, const clients::MissionVehicle& vehicle) {
+  json modem;
+  if (vehicle.modem)
+    modem = modem_of(vehicle.modem->family, *vehicle.modem);
+  else if (vehicle.described)
+    modem = modem_of(vehicle.described->modem_family, *vehicle.described);
+  else
+    return modem;
+  modem["threshold_db"] = number_or_null(threshold_db(source, vehicle));
+  return modem;
 }
 
-json vehicle_json(const clients::MissionVehicle& vehicle, SimTime at) {
+// Of the modems, that of most vehicles.
+json threshold_json(const Source& source) {
+  std::map<double, int> vehicles;
+  for (const clients::MissionVehicle& vehicle : source.mission().vehicles()) {
+    if (const auto threshold = threshold_db(source, vehicle)) ++vehicles[*threshold];
+  }
+  const auto most = std::max_element(vehicles.begin(), vehicles.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == vehicles.end() ? json() : json(most->first);
+}
+
+json vehicle_json(const Source& source, const clients::MissionVehicle& vehicle, SimTime at) {
   return {{"index", vehicle.index},
           {"name", vehicle.name},
           {"id", vehicle.id},
           {"model", vehicle.described ? vehicle.described->vehicle_model : ""},
           {"fixed", vehicle.is_at_rest()},
           {"colour", vehicle.index},
-          {"modem", modem_json(vehicle)},
+          {"modem", modem_json(source, vehicle)},
           {"plan", plan_json(vehicle, at)}};
 }
 
@@ -204,11 +230,12 @@ std::optional<DepthGrid> overview_grid(const clients::MissionStore& mission) {
                    .depth_m = terrain->depth_m};
 }
 
-json mission_json(const clients::MissionStore& mission, SimTime at) {
+json mission_json(const Source& source, SimTime at) {
+  const clients::MissionStore& mission = source.mission();
   const clients::MissionScenario& scenario = mission.scenario();
   json vehicles = json::array();
   for (const clients::MissionVehicle& vehicle : mission.vehicles())
-    vehicles.push_back(vehicle_json(vehicle, at));
+    vehicles.push_back(vehicle_json(source, vehicle, at));
   const bool has_origin = scenario.origin_latitude_deg != 0 || scenario.origin_longitude_deg != 0;
   const json origin = {{"latitude_deg", scenario.origin_latitude_deg},
                        {"longitude_deg", scenario.origin_longitude_deg}};
@@ -219,6 +246,7 @@ json mission_json(const clients::MissionStore& mission, SimTime at) {
           {"origin", has_origin ? origin : json()},
           {"sea_surface_down_m", scenario.sea_surface_z_m},
           {"vehicles", std::move(vehicles)},
+          {"threshold_db", threshold_json(source)},
           {"terrain", terrain_json(mission)},
           {"water", water_json(mission, at)}};
 }

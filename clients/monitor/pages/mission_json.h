@@ -19,7 +19,7 @@ namespace halocline::monitor {
 nlohmann::json hello_json(const Source& source, bool may_command);
 
 // The scenario, vehicles and water as of an instant.
-nlohmann::json mission_json(const clients::MissionStore& mission, SimTime at);
+nlohmann::json mission_json(const Source& source, SimTime at);
 
 // The overview of the terrain; empty where none is known.
 std::optional<DepthGrid> overview_grid(const clients::MissionStore& mission);

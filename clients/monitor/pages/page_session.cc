@@ -51,7 +51,7 @@ void PageSession::send_state(double steady_s, bool at_once) {
 void PageSession::send_mission(double steady_s) {
   if (!last_mission_.is_null() && steady_s - mission_seen_s_ < kMissionPeriod) return;
   mission_seen_s_ = steady_s;
-  json mission = mission_json(source_.mission(), playback_.at());
+  json mission = mission_json(source_, playback_.at());
   if (mission == last_mission_) return;
   send(mission);
   last_mission_ = std::move(mission);

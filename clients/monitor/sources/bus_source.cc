@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <optional>
 
+#include "bus/channels.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
+#include "clients/mission/mission_vehicle.h"
 #include "clients/mission/node_health.h"
 #include "clients/monitor/sources/handover.h"
+#include "clients/monitor/sources/modems.h"
 
 namespace halocline::monitor {
 namespace {
@@ -28,7 +31,20 @@ BusSource::BusSource(const std::string& lcm_url, SimDuration history)
 void BusSource::begin_run() {
   mission_ = clients::MissionStore();
   mission_.limit_history(history_);
+  configuration_.clear();
   ++run_;
+}
+
+void BusSource::take_scenario_modems() {
+  const std::string& configuration = mission_.scenario().toml;
+  if (configuration.empty() || configuration == configuration_) return;
+  configuration_ = configuration;
+  std::vector<std::string> vehicles;
+  for (const clients::MissionVehicle& vehicle : mission_.vehicles()) {
+    if (vehicle.described && !vehicle.modem) vehicles.push_back(vehicle.name);
+  }
+  for (const BusMessage& modem : modems_in(configuration_, vehicles, mission_.end()))
+    mission_.add(modem.stamp_us, modem.channel, modem.bytes);
 }
 
 void BusSource::update() {
@@ -41,6 +57,7 @@ void BusSource::update() {
     ++received_;
     if (is_reply_ && is_reply_(message.channel)) replies_.push_back(message);
     mission_.add(message.stamp_us, message.channel, message.bytes);
+    if (message.channel == bus::channels::kScenario) take_scenario_modems();
   }
 }
 

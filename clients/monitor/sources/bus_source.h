@@ -46,6 +46,8 @@ class BusSource : public Source {
 
  private:
   void begin_run();
+  // MODEM of the vehicles that published none, whenever another configuration was received.
+  void take_scenario_modems();
   bool is_alive(std::string_view prefix) const;
 
   std::string url_;
@@ -54,6 +56,7 @@ class BusSource : public Source {
   BusReceiver receiver_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;
+  std::string configuration_;  // of the scenario, whose modems were taken
   int run_ = 0;
   SimTime last_message_;  // steady
   std::int64_t received_ = 0;

@@ -2,7 +2,7 @@
 // those of the run would have. They run in a thread of their own, on a bus within the process.
 //
 // Ends of links are positions with the modems that the configuration gives the named vehicles. The water is that of
-// the configuration's begin.
+// the configuration's begin, until SET_ENVIRONMENT is posted.
 #pragma once
 
 #include <atomic>

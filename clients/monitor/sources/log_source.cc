@@ -12,6 +12,7 @@
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/node_health.h"
 #include "clients/monitor/sources/handover.h"
+#include "clients/monitor/sources/water_changes.h"
 #include "core/check.h"
 
 namespace halocline::monitor {
@@ -78,7 +79,24 @@ SourceState LogSource::state() const {
 }
 
 void LogSource::post(const std::string& channel, bus::Bytes bytes) {
-  if (nodes_) nodes_->post(channel, std::move(bytes));
+  if (!nodes_) return;
+  if (channel == bus::channels::kLinkQuery) {
+    if (const auto query = bus::decoded<link_query_t>(bytes)) set_water(SimTime::from_utime(query->utime));
+  }
+  nodes_->post(channel, std::move(bytes));
+}
+
+void LogSource::set_water(SimTime at) {
+  const auto* water = mission_.water().at_or_before(std::max(at, SimTime()));
+  if (water == nullptr) return;
+  // What the log began with is what its configuration begins with.
+  if (!nodes_water_) nodes_water_ = mission_.water().all().front().value;
+  auto change = change_between(*nodes_water_, water->value);
+  if (!change) return;
+  change->session = 1;
+  change->sequence = water_changes_++;
+  nodes_->post(std::string(bus::channels::kSetEnvironment), bus::encoded(*change));
+  nodes_water_ = water->value;
 }
 
 double LogSource::age_s(const clients::NodeRecord& node, SimTime at) const {

@@ -1,13 +1,16 @@
 // A whole log as a source. What its configuration gives is computed by the nodes of log_nodes.h.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "bus/messages.h"
 #include "clients/mission/mission_store.h"
 #include "clients/mission/node_health.h"
 #include "clients/monitor/sources/handover.h"
@@ -44,12 +47,16 @@ class LogSource : public Source {
  private:
   bool lacks_modem(std::string_view channel) const;
   std::string configuration(const std::string& scenario);
+  // The nodes compute in the water that the log had at an instant.
+  void set_water(SimTime at);
 
   std::string name_;
   clients::MissionStore mission_;
   std::function<bool(std::string_view channel)> is_reply_;
   std::vector<BusMessage> replies_;
-  std::string written_;              // file of the configuration that the log holds; empty: none
+  std::string written_;  // file of the configuration that the log holds; empty: none
+  std::optional<environment_t> nodes_water_;
+  std::int64_t water_changes_ = 0;
   std::unique_ptr<LogNodes> nodes_;  // null without a configuration
 };
 

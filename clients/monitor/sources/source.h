@@ -12,6 +12,7 @@
 #include "clients/mission/mission_store.h"
 #include "clients/mission/node_health.h"
 #include "clients/monitor/sources/handover.h"
+#include "clients/monitor/sources/modems.h"
 #include "core/sim_time.h"
 
 namespace halocline::monitor {
@@ -52,8 +53,13 @@ class Source {
   virtual bool names_stand_for_now() const = 0;
   // The newest instant; before the first message that of mission().begin() - anything.
   virtual SimTime now() const = 0;
+  // Of a modem, dB (modems.h).
+  std::optional<double> threshold_db(const modem_config_t& modem) const { return thresholds_.of(modem); }
   // Of a node's last sign of life, seconds: wall time on a bus, simulation time in a log.
   virtual double age_s(const clients::NodeRecord& node, SimTime at) const = 0;
+
+ private:
+  mutable ModemThresholds thresholds_;
 };
 
 }  // namespace halocline::monitor

@@ -183,10 +183,14 @@ class LogOfARun {
               clients::testing::state(id, s * 1'000'000, s, id * 500.0, 30));
     }
     write(log, "OUTCOME", clients::testing::outcome(1, 2, 0, 10'000'000));
+    write(log, "ENVIRONMENT", water(0, 1500));
+    write(log, "ENVIRONMENT", water(kChange_s * 1'000'000, 1450));
   }
   ~LogOfARun() { std::filesystem::remove_all(folder_); }
   LogOfARun(const LogOfARun&) = delete;
   LogOfARun& operator=(const LogOfARun&) = delete;
+
+  static constexpr int kChange_s = 30;  // the water changes
 
   std::string path() const { return (folder_ / "run.lcm").string(); }
   void add_scenario() const {
@@ -199,6 +203,18 @@ class LogOfARun {
   }
 
  private:
+  static environment_t water(std::int64_t utime, double surface_mps) {
+    environment_t water{};
+    water.utime = utime;
+    water.num_layers = 2;
+    water.layer_depth_m = {0, 100};
+    water.layer_sound_speed_mps = {surface_mps, 1500};
+    water.layer_temperature_degc = {12, 12};
+    water.layer_salinity_psu = {35, 35};
+    water.acidity_ph = 8;
+    water.spreading_exponent = 2;
+    return water;
+  }
   template <class Message>
   static void write(lcm::LogFile& log, const std::string& channel, const Message& message) {
     bus::Bytes bytes = bus::encoded(message);
@@ -243,6 +259,12 @@ TEST(Monitor, LogWithItsScenarioHasRaysAndTerrain) {
   EXPECT_EQ(link["paths"][0]["range_m"][0], 0);
   EXPECT_FALSE(link["budget"].empty());
   EXPECT_EQ(link["seabed"]["depth_m"][0], 100);
+  EXPECT_TRUE(link["budget"].back()["limit"].is_number());
+  const json later =
+      page.ask({{"ask", "link"}, {"from", 0}, {"to", 1}, {"time_s", LogOfARun::kChange_s + 10}});
+  EXPECT_NE(link["profile"]["sound_speed_mps"][0], 1450);
+  EXPECT_EQ(later["profile"]["sound_speed_mps"][0], 1450);
+  EXPECT_GT(later["paths"][0]["delay_s"], 0.33);
   EXPECT_EQ(page.ask({{"ask", "terrain"},
                       {"south_m", -100},
                       {"west_m", -100},

@@ -64,6 +64,8 @@ export interface VehicleInfo {
     center_frequency_hz: number;
     bandwidth_hz: number;
     bit_rate_bps: number | null;
+    /** SINR at which half of its packets survive without fading. */
+    threshold_db: number | null;
   } | null;
   plan: Plan | null;
 }
@@ -81,6 +83,8 @@ export interface Mission {
   origin: { latitude_deg: number; longitude_deg: number } | null;
   sea_surface_down_m: number;
   vehicles: VehicleInfo[];
+  /** Of the modem of most vehicles. */
+  threshold_db: number | null;
   terrain: {
     south_m: number;
     west_m: number;

@@ -55,6 +55,9 @@ test("says that the bathymetry service ended, and recovers with it", async ({ pa
   await page.goto(`${url}#section?link=quay~scout-1`);
   await expect.poll(() => rays(page).count()).toBeGreaterThan(3);
   await expect(condition(page)).toBeHidden();
+  // The scenario has the modems: none of these vehicles publishes its own.
+  await expect(page.locator("rect.guard")).toBeAttached();
+  await expect(page.getByTestId("budget").locator("path.limit title")).toHaveCount(2);
 
   await programs.kill(bathymetry);
   await expect(condition(page)).toContainText("The bathymetry service does not answer");

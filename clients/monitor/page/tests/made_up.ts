@@ -51,6 +51,7 @@ export const mission: Mission = {
   origin: null,
   sea_surface_down_m: 0,
   vehicles: [vehicle(0)],
+  threshold_db: null,
   terrain: null,
   water: null,
 };

@@ -37,7 +37,9 @@ test("opens the ladder and one sentence for a packet", async ({ page }) => {
   await expect(page.getByTestId("time-line")).not.toHaveAttribute("data-packets", "0");
   await page.keyboard.press("]");
   await expect(page.getByTestId("sentence")).toContainText(/^(Received|Lost) at /);
-  expect(await page.getByTestId("ladder").locator("tbody tr").count()).toBeGreaterThan(5);
+  const ladder = page.getByTestId("ladder").locator("tbody tr");
+  expect(await ladder.count()).toBeGreaterThan(5);
+  for (const row of await ladder.all()) await expect(row).toHaveAttribute("title", /\w\.$/);
 });
 
 test("shows the rays and the budget of a link", async ({ page }) => {
@@ -52,6 +54,8 @@ test("shows the matrix, the history of a cell and its rays", async ({ page }) =>
   await open(page, "#matrix?t=60");
   const matrix = page.getByTestId("matrix");
   await expect(page.getByRole("heading", { name: "All pairs" })).toBeVisible();
+  // At half delivery of the coded tones of 2000 bit/s in 16 kHz: tests/clients/monitor/sources_test.cc.
+  await expect(page.locator(".pane .legend").first()).toContainText(/threshold −\d\.\d dB/);
   await expect(page.getByLabel("Link", { exact: true })).toContainText("SNR");
   await expect(page.locator("table tbody tr").filter({ hasText: "quay" }).first()).toBeVisible();
   await matrix.focus();

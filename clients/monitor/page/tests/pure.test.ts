@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { squareAround } from "../src/chart/framing";
 import { depthAt, depthRange, exaggeration } from "../src/chart/ground";
 import { bearing, clock, csv, distance, number, roundStep } from "../src/parts/format";
-import { axis, colourOf, digitsOf, inkOn, shareOf, ticks, timeTicks } from "../src/parts/scales";
+import { axis, centred, colourOf, digitsOf, inkOn, shareOf, ticks, timeTicks } from "../src/parts/scales";
 import { STEPS, Shedding } from "../src/parts/shedding";
 import { type LinkColumn, type Packet, type TerrainTile, type VehicleFrame, decodeBinary } from "../src/protocol";
 import { type Address, readAddress, writeAddress } from "../src/store/address";
@@ -140,6 +140,11 @@ describe("scales", () => {
     expect([-10, 10, 40, 99].map((value) => shareOf(snr, value))).toEqual([0, 0.5, 1, 1]);
     expect(shareOf({ ...snr, better: "low" }, 40)).toBe(0);
   });
+  it("of ratios of signal to noise are centred at what the modems need", () => {
+    expect(centred(snr, -4)).toEqual({ ...snr, center: -4, low: -24, high: 26 });
+    expect(centred(snr, null)).toBe(snr);
+    expect(centred({ ...snr, key: "delivery_probability" }, -4).center).toBe(10);
+  });
   it("show nothing where there is no value", () => {
     expect(colourOf(snr, NaN, false)).toBeNull();
     expect(colourOf(snr, 20, false)).toHaveLength(3);
@@ -194,7 +199,9 @@ describe("packets", () => {
   it("are kept in the order of departure, a later version replacing the earlier", () => {
     const book = new PacketBook();
     book.add([packet("b", 2), packet("a", 1)]);
-    book.add([{ ...packet("a", 1), bytes: 9 }, packet("c", 3)]);
+    book.add([{ ...packet("a", 1), bytes: 9 }]);
+    expect(book.between(0, 9).map(({ key }) => key)).toEqual(["a", "b"]);
+    book.add([packet("c", 3)]);
     expect(book.size).toBe(3);
     expect(book.between(1, 2).map(({ key }) => key)).toEqual(["a", "b"]);
     expect(book.get("a")?.bytes).toBe(9);

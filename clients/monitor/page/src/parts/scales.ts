@@ -31,6 +31,13 @@ export function deep(share: number): Rgb {
   return ramp(DEEP, share);
 }
 
+/** The same scale about what the modems need: of ratios of signal to noise, whose centre is their threshold. */
+export function centred(column: LinkColumn, threshold_db: number | null): LinkColumn {
+  const { key, center, low, high } = column;
+  if (threshold_db === null || center === null || (key !== "snr_db" && key !== "sinr_db")) return column;
+  return { ...column, center: threshold_db, low: low + threshold_db - center, high: high + threshold_db - center };
+}
+
 /** Where a value stands on its column's scale, 0..1; a diverging one has its centre at 0.5. */
 export function shareOf(column: Pick<LinkColumn, "scale" | "center" | "low" | "high" | "better">, value: number): number {
   let share: number;

@@ -20,6 +20,7 @@ import { type View, readAddress, writeAddress } from "./address";
 import { Connection } from "./connection";
 import { FrameClock, Instant } from "./frame_clock";
 import { PacketBook } from "./packet_book";
+import { centred } from "../parts/scales";
 
 export type Theme = "auto" | "light" | "dark";
 /** Simulation seconds a step of the arrow keys moves, alone and with Shift. */
@@ -92,7 +93,8 @@ export class Monitor {
 
   vehicles = $derived<VehicleInfo[]>(this.mission?.vehicles ?? []);
   outcome_kinds = $derived(new Map((this.hello?.outcomes ?? []).map((kind) => [kind.code, kind])));
-  columns = $derived<LinkColumn[]>(this.hello?.link_columns ?? []);
+  threshold_db = $derived(this.mission?.threshold_db ?? null);
+  columns = $derived<LinkColumn[]>((this.hello?.link_columns ?? []).map((column) => centred(column, this.threshold_db)));
   link_column = $derived<LinkColumn | undefined>(this.columns.find(({ key }) => key === this.column) ?? this.columns[0]);
   table = $derived<LinkTable | undefined>(this.link_column && this.links.get(this.link_column.key));
   begin_s = $derived(this.state?.begin_s ?? this.hello?.begin_s ?? 0);
