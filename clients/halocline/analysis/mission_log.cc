@@ -69,8 +69,11 @@ void print_summary(std::ostream& out, const MissionStore& mission) {
 }
 
 MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limits) {
-  LogReader times(logs), log(logs);
-  const MissionTime time = time_of(times);
+  const MissionTime time = [&] {
+    LogReader log(logs);
+    return time_of(log);
+  }();
+  LogReader log(logs);
   MissionLog read{MissionStore(time, limits), {}};
   MissionStore& mission = read.mission;
   for (LoggedEvent event; log.next(event);) mission.add(event.stamp_us, event.channel, event.data);

@@ -17,6 +17,11 @@ std::string time_text(double seconds) {
   return fmt::format("{} h {:02} min {:02} s", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
+std::string step_text(double seconds) {
+  if (seconds < 60) return fmt::format("{:g} s", seconds);
+  return seconds < 3600 ? fmt::format("{:g} min", seconds / 60) : fmt::format("{:g} h", seconds / 3600);
+}
+
 std::string distance_text(double metres) {
   return metres < 1000 ? fmt::format("{:.0f} m", metres) : fmt::format("{:.3g} km", metres / 1000);
 }

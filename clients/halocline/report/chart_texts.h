@@ -17,6 +17,7 @@ std::string place_text(const Vec3& ned_m);  // "120 m north, -40 m east, 30 m de
 std::string packet_title(const packet_outcome_t& outcome,
                          const VehicleName& name);  // "auv-1:12 to auv-2 at 45.2 s"
 
+std::string step_text(double seconds);  // "30 s", "10 min", "2 h"
 // The least of 1, 2, 5, 10, 20, 30 s, ... of minutes and hours that is `least_s` or more.
 double round_time_step(double least_s);
 

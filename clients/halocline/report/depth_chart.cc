@@ -10,6 +10,7 @@
 #include "clients/halocline/report/chart_texts.h"
 #include "clients/halocline/report/picture.h"
 #include "clients/halocline/report/svg.h"
+#include "clients/halocline/report/vehicle_style.h"
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/timed_series.h"
 #include "core/csv_table.h"
@@ -29,12 +30,13 @@ struct DepthRange {
   bool is_seabed_cut = false;          // it lies far below every vehicle
 };
 
+bool has_moved(const MissionVehicle& vehicle) { return vehicle.track.size() > 1 && !vehicle.is_at_rest(); }
+
 // The vehicles that are drawn: those with the longest ways, in the mission's order.
 std::vector<const MissionVehicle*> shown_vehicles(const MissionStore& mission) {
   std::vector<std::pair<double, const MissionVehicle*>> by_way;
   for (const MissionVehicle& vehicle : mission.vehicles()) {
-    if (vehicle.track.size() > 1 && !vehicle.is_at_rest())
-      by_way.emplace_back(-vehicle.distance_m(), &vehicle);
+    if (has_moved(vehicle)) by_way.emplace_back(-vehicle.distance_m(), &vehicle);
   }
   std::stable_sort(by_way.begin(), by_way.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -67,7 +69,7 @@ class DepthStrip {
       : mission_(mission), vehicle_(vehicle), range_(range), axis_(axis) {
     picture_.width_px = kWidth_px;
     picture_.height_px = kStrip_px + (is_last ? 54 : 10);
-    picture_.left_px = 140;
+    picture_.left_px = 190;
     picture_.right_px = 26;
     picture_.top_px = 8;
     picture_.bottom_px = is_last ? 56 : 2;
@@ -85,7 +87,10 @@ class DepthStrip {
       const Vec3& place = point.value.position_ned_m;
       const double bottom_m = mission_.seabed_m(place.x(), place.y());
       track += row(point.at, place.z());
-      if (!std::isnan(bottom_m)) seabed += row(point.at, std::min(bottom_m, range_.greatest_m));
+      if (std::isnan(bottom_m)) continue;
+      seabed += row(point.at, std::min(bottom_m, range_.greatest_m));
+      least_seabed_m_ = std::min(least_seabed_m_, bottom_m);
+      greatest_seabed_m_ = std::max(greatest_seabed_m_, bottom_m);
     }
     track += "EOD\n";
     const std::string commanded = commanded_rows();
@@ -95,16 +100,13 @@ class DepthStrip {
       plots += "$seabed using 1:2 with filledcurves y1=" + format_number(range_.greatest_m) + ink("ground") +
                " notitle, $seabed using 1:2 with lines lw 1.2" + ink("ground-edge") + " notitle, ";
     }
+    plots += "$track using 1:2 with lines lw 3" + ink(colour_of(vehicle_)) + " notitle";
     if (!commanded.empty()) {
       track += "$commanded << EOD\n" + commanded + "EOD\n";
-      plots += "$commanded using 1:2 with lines lw 1.4 dt (6,4)" + ink("accent") + " notitle, ";
+      plots += ", $commanded using 1:2 with lines lw 1.2 dt (5,4)" + ink("ink") + " notitle";
     }
-    picture_.commands =
-        track + "plot " + plots + "$track using 1:2 with lines lw 2" + ink("ink") + " notitle\n";
-    picture_.overlay +=
-        fmt::format(R"(<text x="0" y="22" class="lane">{}</text>)", escaped_xml(vehicle_.name));
-    picture_.overlay += fmt::format(R"(<text x="0" y="40" class="tick">{:.0f} to {:.0f} m</text>)",
-                                    shallowest(points), deepest(points));
+    picture_.commands = track + "plot " + plots + "\n";
+    draw_label(points);
     draw_faults();
     draw_points(points);
     return drawn(picture_);
@@ -143,6 +145,17 @@ class DepthStrip {
     return rows.find_first_not_of('\n') == std::string::npos ? "" : rows;
   }
 
+  void draw_label(const std::vector<Timed<TrackPoint>>& points) {
+    picture_.overlay +=
+        swatch(&vehicle_, 11, 17) +
+        fmt::format(R"(<text x="28" y="22" class="lane">{}</text>)", escaped_xml(vehicle_.name)) +
+        fmt::format(R"(<text x="0" y="40" class="tick">{:.0f} to {:.0f} m deep</text>)", shallowest(points),
+                    deepest(points));
+    if (least_seabed_m_ <= greatest_seabed_m_)
+      picture_.overlay += fmt::format(R"(<text x="0" y="57" class="tick">seabed {:.0f} to {:.0f} m</text>)",
+                                      least_seabed_m_, greatest_seabed_m_);
+  }
+
   void draw_faults() {
     for (const auto& [at, fault] : vehicle_.faults) {
       picture_.overlay += fmt::format(
@@ -173,6 +186,7 @@ class DepthStrip {
   DepthRange range_;
   TimeAxis axis_;
   Picture picture_;
+  double least_seabed_m_ = HUGE_VAL, greatest_seabed_m_ = -HUGE_VAL;  // under the vehicle
 };
 
 }  // namespace
@@ -186,6 +200,16 @@ std::string depth_chart(const MissionStore& mission) {
   for (const MissionVehicle* vehicle : vehicles)
     strips += DepthStrip(mission, *vehicle, range, axis, vehicle == vehicles.back()).svg();
   return strips;
+}
+
+bool is_seabed_drawn(const MissionStore& mission) {
+  return mission.terrain() && !depth_range(mission, shown_vehicles(mission)).is_seabed_cut;
+}
+
+std::string left_out_strips(const MissionStore& mission) {
+  const auto moved = std::count_if(mission.vehicles().begin(), mission.vehicles().end(), has_moved);
+  const auto left_out = moved - static_cast<std::ptrdiff_t>(kDepthStrips);
+  return left_out > 0 ? fmt::format("{} vehicles with shorter ways are left out. ", left_out) : "";
 }
 
 std::string resting_vehicles(const MissionStore& mission) {

@@ -13,6 +13,12 @@ inline constexpr std::size_t kDepthStrips = 12;  // vehicles at most: those that
 // Throws as run_gnuplot (plot.h).
 std::string depth_chart(const MissionStore& mission);
 
+// False where it lies far below every vehicle, so that no strip would show both.
+bool is_seabed_drawn(const MissionStore& mission);
+
+// A sentence on the vehicles that moved and have no strip; empty where there is none.
+std::string left_out_strips(const MissionStore& mission);
+
 // A sentence on the vehicles that stayed where they were; empty where there is none.
 std::string resting_vehicles(const MissionStore& mission);
 

@@ -1,12 +1,10 @@
 #include "clients/halocline/report/mission_chart.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,14 +12,13 @@
 
 #include "clients/halocline/plot/plot.h"
 #include "clients/halocline/report/chart_texts.h"
+#include "clients/halocline/report/loss_marks.h"
 #include "clients/halocline/report/picture.h"
 #include "clients/halocline/report/seabed_raster.h"
 #include "clients/halocline/report/svg.h"
+#include "clients/halocline/report/vehicle_style.h"
 #include "clients/mission/delivery.h"
 #include "clients/mission/mission_vehicle.h"
-#include "clients/mission/outcome_classes.h"
-#include "clients/mission/packet_book.h"
-#include "clients/mission/packet_reasons.h"
 #include "clients/mission/plan_texts.h"
 #include "core/csv_table.h"
 #include "core/frames.h"
@@ -31,10 +28,10 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::size_t kTrackPoints = 400, kVehiclesDrawn = 300, kVehiclesWithTimes = 12,
-                      kVehiclesWithLinks = 6;
+constexpr std::size_t kTrackPoints = 400, kAllTrackPoints = 30'000, kVehiclesDrawn = 300,
+                      kVehiclesWithDetails = 12, kVehiclesWithLinks = 6, kVehiclesNamed = 40;
 constexpr std::size_t kRaster_px = 360, kContourStep = 4;
-constexpr double kCell_px = 14, kLeastSpan_m = 200, kMargin = 0.13;
+constexpr double kLeastSpan_m = 200, kMargin = 0.13;
 
 // A square around every track.
 std::optional<MapExtent> extent_of(const MissionStore& mission) {
@@ -61,7 +58,8 @@ std::optional<MapExtent> extent_of(const MissionStore& mission) {
 
 class MissionChart {
  public:
-  MissionChart(const MissionStore& mission, const MapExtent& extent) : mission_(mission), extent_(extent) {
+  MissionChart(const MissionStore& mission, const PacketLinks& links, const MapExtent& extent)
+      : mission_(mission), links_(links), extent_(extent) {
     picture_.width_px = 640;
     picture_.height_px = 616;
     picture_.left_px = 58;
@@ -80,10 +78,10 @@ class MissionChart {
     draw_links();
     for (const MissionVehicle& vehicle : mission_.vehicles()) {
       if (vehicle.track.empty() || drawn_++ >= kVehiclesDrawn) continue;
-      if (mission_.vehicles().size() <= kVehiclesWithTimes && !vehicle.plans.empty()) draw_plan(vehicle);
+      if (has_details(mission_) && !vehicle.plans.empty()) draw_plan(vehicle);
       draw_track(vehicle);
     }
-    draw_losses();
+    overlay(loss_marks(mission_, links_, picture_));
     draw_names();
     draw_scale();
     overlay("</g>");
@@ -91,6 +89,9 @@ class MissionChart {
   }
 
  private:
+  std::size_t points_each() const {
+    return std::min(kTrackPoints, kAllTrackPoints / std::min(mission_.vehicles().size(), kVehiclesDrawn));
+  }
   void overlay(const std::string& svg) { picture_.overlay += svg + "\n"; }
   double x(double east_m) const { return picture_.x_px(east_m); }
   double y(double north_m) const { return picture_.y_px(north_m); }
@@ -200,81 +201,40 @@ class MissionChart {
       const bool is_closed =
           plan.at_end == vehicle_plan_t::LOOP && plan.num_behaviours == 1 && waypoints.size() > 2;
       if (!path.empty())
-        overlay("<path d=\"" + path + (is_closed ? "Z" : "") + "\" class=\"plan\"/>" + points);
+        overlay("<g class=\"" + colour_of(vehicle) + "\"><path d=\"" + path + (is_closed ? "Z" : "") +
+                "\" class=\"plan\"/>" + points + "</g>");
     }
   }
 
   void draw_track(const MissionVehicle& vehicle) {
-    const auto points = decimated_track(vehicle.track, SimTime::at_once(), SimTime::never(), kTrackPoints);
+    const auto points = decimated_track(vehicle.track, SimTime::at_once(), SimTime::never(), points_each());
     std::string path;
     for (const auto& point : points)
       path += fmt::format("{}{} {}", path.empty() ? "M" : "L", px(x(point.value.position_ned_m)),
                           px(y(point.value.position_ned_m)));
     if (!vehicle.is_at_rest()) {
-      overlay("<path d=\"" + path + "\" class=\"casing\"/><path d=\"" + path + "\" class=\"track\"/>");
+      overlay("<path d=\"" + path + "\" class=\"casing\"/><path d=\"" + path + "\" class=\"track " +
+              classes_of(&vehicle) + "\"/>");
       const Vec3 start = points.front().value.position_ned_m;
-      overlay(fmt::format(R"(<circle cx="{}" cy="{}" r="4" class="start">{}</circle>)", px(x(start)),
-                          px(y(start)), hover(vehicle.name + " started here: " + place_text(start))));
+      overlay(fmt::format(R"(<circle cx="{}" cy="{}" r="4" class="start {}">{}</circle>)", px(x(start)),
+                          px(y(start)), colour_of(vehicle),
+                          hover(vehicle.name + " started here: " + place_text(start))));
     }
-    if (mission_.vehicles().size() <= kVehiclesWithTimes && !vehicle.is_at_rest()) draw_times(vehicle);
+    if (has_details(mission_) && !vehicle.is_at_rest()) draw_times(vehicle);
   }
 
   // A dot at every round instant, to point at.
   void draw_times(const MissionVehicle& vehicle) {
     const double begin_s = vehicle.track.front().at.seconds(), end_s = vehicle.track.back().at.seconds();
-    const double step_s = round_time_step(std::max(end_s - begin_s, 1.0) / 12);
+    const double step_s = time_dots_s(mission_);
     for (double t = std::ceil(begin_s / step_s) * step_s; t < end_s; t += step_s) {
       const auto state = state_at(vehicle.track, SimTime::from_seconds(t));
       if (!state) continue;
       const Vec3& place = state->point.position_ned_m;
-      overlay(fmt::format(R"(<circle cx="{}" cy="{}" r="2.6" class="time">{}</circle>)", px(x(place)),
-                          px(y(place)),
+      overlay(fmt::format(R"(<circle cx="{}" cy="{}" r="2.6" class="time {}">{}</circle>)", px(x(place)),
+                          px(y(place)), colour_of(vehicle),
                           hover(fmt::format("{} at {}: {}, {:.1f} m/s", vehicle.name, time_text(t),
                                             place_text(place), state->point.speed_mps))));
-    }
-  }
-
-  void draw_losses() {
-    struct Cluster {
-      Vec3 place;
-      double yaw = 0;
-      std::int64_t packets = 0;
-      std::string text;
-    };
-    std::map<std::array<int, 3>, Cluster> clusters;
-    const auto name = [&](std::int32_t id) { return mission_.name(id); };
-    for (const PacketRecord& packet : mission_.packets().all()) {
-      for (const packet_outcome_t& o : packet.outcomes) {
-        const MissionVehicle* receiver = mission_.find(o.receiver_id);
-        if (o.outcome == packet_outcome_t::RECEIVED || receiver == nullptr) continue;
-        const auto state = state_at(receiver->track, arrival_of(o));
-        if (!state) continue;
-        const Vec3& place = state->point.position_ned_m;
-        const auto c = static_cast<int>(class_of_outcome(number_of(o)));
-        Cluster& cluster =
-            clusters[{c, static_cast<int>(x(place) / kCell_px), static_cast<int>(y(place) / kCell_px)}];
-        if (cluster.packets++ == 0) {
-          cluster.place = place;
-          cluster.yaw = state->point.attitude.yaw;
-          cluster.text = packet_title(o, name) + ". " + sentence(o, name);
-        }
-      }
-    }
-    for (const auto& [key, cluster] : clusters) {
-      const OutcomeClass& c = outcome_classes()[static_cast<std::size_t>(key[0])];
-      const std::string text = cluster.packets == 1 ? cluster.text
-                                                    : fmt::format("{} packets lost here ({}). The first: {}",
-                                                                  cluster.packets, c.label, cluster.text);
-      const double size = std::min(8 + 2 * std::log2(static_cast<double>(cluster.packets)), 16.0);
-      // Beside the track, to starboard.
-      const double cx = x(cluster.place) + 11 * std::cos(cluster.yaw),
-                   cy = y(cluster.place) + 11 * std::sin(cluster.yaw);
-      // Most that are lost are out of reach: a dash without a disc, so that the others stand out.
-      const std::string disc = c.mark == std::string_view("dash")
-                                   ? ""
-                                   : fmt::format(R"(<circle cx="{}" cy="{}" r="{}" class="disc"/>)", px(cx),
-                                                 px(cy), px(size * 0.62));
-      overlay("<g class=\"loss\">" + disc + mark(c, cx, cy, size) + hover(text) + "</g>");
     }
   }
 
@@ -288,18 +248,31 @@ class MissionChart {
           hover(fmt::format("{} at {}: {}", vehicle.name, time_text(vehicle.track.back().at.seconds()),
                             place_text(last.position_ned_m)));
       if (vehicle.is_at_rest())
-        overlay(fmt::format(R"(<rect x="{}" y="{}" width="9" height="9" class="vehicle">{}</rect>)",
-                            px(cx - 4.5), px(cy - 4.5), text));
+        overlay(fmt::format(R"(<rect x="{}" y="{}" width="9" height="9" class="vehicle {}">{}</rect>)",
+                            px(cx - 4.5), px(cy - 4.5), colour_of(vehicle), text));
       else
         overlay(fmt::format(
-            R"svg(<path d="M0-8L5.5 6L0 3L-5.5 6Z" transform="translate({} {}) rotate({})" class="vehicle">{}</path>)svg",
-            px(cx), px(cy), px(to_degrees(last.attitude.yaw)), text));
-      const bool is_right = cx < picture_.width_px - picture_.right_px - 70;
-      if (named <= 40)
-        overlay(fmt::format(R"(<text x="{}" y="{}" text-anchor="{}" class="name">{}</text>)",
-                            px(cx + (is_right ? 10 : -10)), px(cy - 6), is_right ? "start" : "end",
-                            escaped_xml(vehicle.name)));
+            R"svg(<path d="M0-8L5.5 6L0 3L-5.5 6Z" transform="translate({} {}) rotate({})" class="vehicle {}">{}</path>)svg",
+            px(cx), px(cy), px(to_degrees(last.attitude.yaw)), colour_of(vehicle), text));
+      draw_name(vehicle.name, cx, cy - 6);
     }
+  }
+
+  // Beside (cx, y), where no other name is; in a fleet, none near.
+  void draw_name(const std::string& name, double cx, double y) {
+    const double width = 8.5 * static_cast<double>(name.size());
+    const bool is_right = cx + 10 + width < picture_.width_px - picture_.right_px;
+    const double left = is_right ? cx + 10 : cx - 10 - width;
+    const double gap = mission_.vehicles().size() <= kVehiclesNamed ? 0 : 45;
+    for (const NameBox& other : names_) {
+      if (left < other.left + other.width + gap && other.left < left + width + gap &&
+          std::abs(y - other.y) < 14 + gap)
+        return;
+    }
+    names_.push_back({left, width, y});
+    overlay(fmt::format(R"(<text x="{}" y="{}" text-anchor="{}" class="name">{}</text>)",
+                        px(cx + (is_right ? 10 : -10)), px(y), is_right ? "start" : "end",
+                        escaped_xml(name)));
   }
 
   void draw_scale() {
@@ -317,17 +290,35 @@ class MissionChart {
   }
 
   const MissionStore& mission_;
+  const PacketLinks& links_;
   MapExtent extent_;
   Picture picture_;
   std::optional<SeabedRaster> raster_;
+  struct NameBox {
+    double left, width, y;
+  };
+  std::vector<NameBox> names_;
   std::size_t drawn_ = 0;
 };
 
 }  // namespace
 
-std::string mission_chart(const MissionStore& mission) {
+std::string mission_chart(const MissionStore& mission, const PacketLinks& links) {
   const auto extent = extent_of(mission);
-  return extent ? MissionChart(mission, *extent).svg() : "";
+  return extent ? MissionChart(mission, links, *extent).svg() : "";
 }
+
+double time_dots_s(const MissionStore& mission) {
+  return round_time_step((mission.end() - std::max(mission.begin(), SimTime())).seconds() / 12);
+}
+
+std::string left_out_tracks(const MissionStore& mission) {
+  const auto with_places = std::count_if(mission.vehicles().begin(), mission.vehicles().end(),
+                                         [](const MissionVehicle& v) { return !v.track.empty(); });
+  const auto left_out = with_places - static_cast<std::ptrdiff_t>(kVehiclesDrawn);
+  return left_out > 0 ? fmt::format(" {} more vehicles are left out.", left_out) : "";
+}
+
+bool has_details(const MissionStore& mission) { return mission.vehicles().size() <= kVehiclesWithDetails; }
 
 }  // namespace halocline::clients

@@ -11,6 +11,7 @@
 
 #include "clients/halocline/report/chart_texts.h"
 #include "clients/halocline/report/svg.h"
+#include "clients/halocline/report/vehicle_style.h"
 #include "clients/mission/outcome_classes.h"
 #include "clients/mission/packet_book.h"
 #include "clients/mission/packet_reasons.h"
@@ -19,7 +20,7 @@
 namespace halocline::clients {
 namespace {
 
-constexpr double kWidth_px = 1120, kLeft_px = 140, kRight_px = 26, kLane_px = 34, kAxis_px = 26,
+constexpr double kWidth_px = 1120, kLeft_px = 190, kRight_px = 26, kLane_px = 34, kAxis_px = 26,
                  kRowGap_px = 14;
 constexpr double kPacket_px = 9;  // that a usual packet is long at least
 constexpr int kRows = 6;          // at most
@@ -30,7 +31,7 @@ struct Window {
 
 class Lanes {
  public:
-  explicit Lanes(const MissionStore& mission) : mission_(mission) {}
+  Lanes(const MissionStore& mission, PacketLinks& links) : mission_(mission), links_(links) {}
 
   PacketLanes drawn() {
     for (const PacketRecord& packet : mission_.packets().all()) packets_.push_back(&packet);
@@ -135,7 +136,8 @@ class Lanes {
     std::string svg = axis();
     for (const auto& [id, lane] : lanes_) {
       svg +=
-          fmt::format(R"(<text x="0" y="{}" class="lane">{}</text><path d="M{} {}H{}" class="lane-line"/>)",
+          swatch(mission_.find(id), 11, lane_y(lane) + 16) +
+          fmt::format(R"(<text x="28" y="{}" class="lane">{}</text><path d="M{} {}H{}" class="lane-line"/>)",
                       px(lane_y(lane) + 21), escaped_xml(mission_.name(id)), px(kLeft_px),
                       px(lane_y(lane) + kLane_px - 2), px(kWidth_px - kRight_px));
     }
@@ -146,7 +148,7 @@ class Lanes {
       const auto lane = lanes_.find(packet->name.source_id);
       if (lane != lanes_.end()) bars += transmission(*packet, lane->second);
       for (const packet_outcome_t& o : packet->outcomes) {
-        if (lanes_.contains(o.receiver_id)) reception(o, lane, flights, bars);
+        if (lanes_.contains(o.receiver_id)) reception({packet, &o}, lane, flights, bars);
       }
     }
     return svg + flights + bars + "\n";
@@ -171,7 +173,14 @@ class Lanes {
   double clamped_x(double t_s) const { return x(std::clamp(t_s, row_.begin_s, row_.end_s)); }
   double lane_y(std::size_t lane) const { return top_ + static_cast<double>(lane) * kLane_px; }
 
-  std::string transmission(const PacketRecord& packet, std::size_t lane) const {
+  // `content` with the id of the mark, as a link to its row.
+  std::string marked(const Loss& loss, const std::string& classes, const std::string& content) {
+    links_.add_mark(loss);
+    return fmt::format("<g id=\"{}\"{}>", links_.mark_id(loss), classes) + links_.to_row(loss, content) +
+           "</g>";
+  }
+
+  std::string transmission(const PacketRecord& packet, std::size_t lane) {
     const double begin_s = packet.at().seconds();
     const std::string title = fmt::format(
         "{}:{} to {} at {}{}", mission_.name(packet.name.source_id), packet.name.sequence,
@@ -179,18 +188,21 @@ class Lanes {
         packet.payload_bytes >= 0 ? fmt::format(", {} bytes", packet.payload_bytes) : "");
     if (packet.is_refused()) {
       if (begin_s < row_.begin_s) return "";
-      return fmt::format(R"(<path d="M{} {}l6 10h-12Z" class="refused">{}</path>)", px(x(begin_s)),
-                         px(lane_y(lane) + 3), hover(title + ". " + refusal(*packet.receipt)));
+      return marked({&packet, nullptr}, "",
+                    fmt::format(R"(<path d="M{} {}l6 10h-12Z" class="refused">{}</path>)", px(x(begin_s)),
+                                px(lane_y(lane) + 3), hover(title + ". " + refusal(*packet.receipt))));
     }
     const double left = clamped_x(begin_s), right = clamped_x(begin_s + packet.duration_s);
     if (right <= left) return "";
-    return fmt::format(R"(<rect x="{}" y="{}" width="{}" height="13" class="sent">{}</rect>)", px(left),
+    return fmt::format(R"(<rect x="{}" y="{}" width="{}" height="13" class="sent {}">{}</rect>)", px(left),
                        px(lane_y(lane) + 2), px(std::max(right - left, 1.5)),
+                       classes_of(mission_.find(packet.name.source_id)),
                        hover(title + fmt::format(", {:.2f} s long", packet.duration_s)));
   }
 
-  void reception(const packet_outcome_t& o, std::map<std::int32_t, std::size_t>::const_iterator sender,
-                 std::string& flights, std::string& bars) const {
+  void reception(const Loss& loss, std::map<std::int32_t, std::size_t>::const_iterator sender,
+                 std::string& flights, std::string& bars) {
+    const packet_outcome_t& o = *loss.outcome;
     const OutcomeClass& c = outcome_classes()[class_of_outcome(number_of(o))];
     const double begin_s = arrival_of(o).seconds(), end_s = end_of(o).seconds();
     const double y = lane_y(lanes_.at(o.receiver_id)) + 17, left = clamped_x(begin_s),
@@ -207,21 +219,23 @@ class Lanes {
     const double width = std::max(right - left, 1.5);
     const std::string place =
         fmt::format(R"(x="{}" y="{}" width="{}" height="13")", px(left), px(y), px(width));
-    bars += "<g class=\"c-" + std::string(c.key) + "\">" + hover(title);
+    const bool is_lost = o.outcome != packet_outcome_t::RECEIVED, begins_here = begin_s >= row_.begin_s;
+    std::string bar = hover(title);
     if (!has_sound) {
-      bars += fmt::format(R"(<path d="M{} {}h{}" class="faint"/><rect {} class="point"/></g>)", px(left),
-                          px(y + 6.5), px(width), place);
-      return;
+      bar += fmt::format(R"(<path d="M{} {}h{}" class="faint"/><rect {} class="point"/>)", px(left),
+                         px(y + 6.5), px(width), place);
+    } else {
+      bar += fmt::format(R"(<rect {} class="arrived"/>)", place);
+      if (o.outcome == packet_outcome_t::COLLIDED || o.outcome == packet_outcome_t::HALF_DUPLEX)
+        bar += fmt::format(R"svg(<rect {} fill="url(#hatch)"/>)svg", place);
+      if (is_lost && begins_here) bar += mark(c, left + std::min(width / 2, 8.0), y + 6.5, 10);
     }
-    bars += fmt::format(R"(<rect {} class="arrived"/>)", place);
-    if (o.outcome == packet_outcome_t::COLLIDED || o.outcome == packet_outcome_t::HALF_DUPLEX)
-      bars += fmt::format(R"svg(<rect {} fill="url(#hatch)"/>)svg", place);
-    if (o.outcome != packet_outcome_t::RECEIVED && begin_s >= row_.begin_s)
-      bars += mark(c, left + std::min(width / 2, 8.0), y + 6.5, 10);
-    bars += "</g>";
+    const std::string classes = fmt::format(" class=\"c-{}\"", c.key);
+    bars += is_lost && begins_here ? marked(loss, classes, bar) : "<g" + classes + ">" + bar + "</g>";
   }
 
   const MissionStore& mission_;
+  PacketLinks& links_;
   std::vector<const PacketRecord*> packets_;   // by departure
   std::map<std::int32_t, std::size_t> lanes_;  // by vehicle id
   std::size_t vehicles_left_out_ = 0;
@@ -233,6 +247,8 @@ class Lanes {
 
 }  // namespace
 
-PacketLanes packet_lanes(const MissionStore& mission) { return Lanes(mission).drawn(); }
+PacketLanes packet_lanes(const MissionStore& mission, PacketLinks& links) {
+  return Lanes(mission, links).drawn();
+}
 
 }  // namespace halocline::clients

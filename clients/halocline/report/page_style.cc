@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "clients/halocline/report/report_page.h"
+#include "clients/halocline/report/vehicle_style.h"
 #include "clients/mission/outcome_classes.h"
 
 namespace halocline::clients {
@@ -12,9 +13,9 @@ namespace {
 
 constexpr const char* kStyle =
     R"css(:root { --paper: #fbfaf6; --ink: #1b2327; --quiet: #5d6a71; --line: #dcd9d0; --accent: #0a6a8c;
-  --ground: #d9d1be; --ground-edge: #8b7f66; --water: #e6eff0; --hatch: #fbfaf6; --soft: #f0eee7; --contour: #14262c; --arrived: .55; color-scheme: light dark; }
+  --ground: #d9d1be; --ground-edge: #8b7f66; --water: #e6eff0; --hatch: #fbfaf6; --soft: #f0eee7; --contour: #14262c; --arrived: .55; --casing: #fff; color-scheme: light dark; }
 @media (prefers-color-scheme: dark) { :root { --paper: #0d1316; --ink: #e4e9eb; --quiet: #93a0a7; --line: #28333a; --accent: #63c4e3;
-  --ground: #3d382d; --ground-edge: #9a8d72; --water: #10242b; --hatch: #0d1316; --soft: #151d21; --contour: #14262c; --arrived: .8; --c-no_path: #4d9fd0; }
+  --ground: #3d382d; --ground-edge: #9a8d72; --water: #10242b; --hatch: #0d1316; --soft: #151d21; --contour: #14262c; --arrived: .8; --casing: #0b1a20; --c-no_path: #4d9fd0; }
   svg image { filter: brightness(.86); } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--paper); color: var(--ink); font: 1rem/1.5 system-ui, sans-serif; font-variant-numeric: tabular-nums;
@@ -46,6 +47,18 @@ th { color: var(--quiet); }
 .wide { overflow-x: auto; }
 svg { display: block; max-width: 100%; height: auto; font-variant-numeric: tabular-nums; }
 #depth .wide > svg, #packets .wide > svg { min-width: 760px; }
+.sample { display: inline-block; width: 22px; height: 10px; vertical-align: -.02em; margin-right: .35rem; }
+.sample .vehicle { stroke: none; }
+.sample .track, .sample .seabed-edge { stroke-width: 2.6; }
+.seabed { fill: var(--ground); }
+.seabed-edge { fill: none; stroke: var(--ground-edge); }
+.commanded { fill: none; stroke: var(--ink); stroke-width: 1.2; stroke-dasharray: 5 4; }
+.predicted { fill: none; stroke: var(--accent); stroke-width: 2; stroke-dasharray: 6 4; }
+a { color: inherit; text-decoration-color: var(--line); text-underline-offset: .2em; }
+svg a { cursor: pointer; }
+tr:target { background: var(--soft); box-shadow: inset 3px 0 var(--accent); }
+g:target .arrived, g:target .point, g:target .refused { stroke: var(--accent); stroke-width: 3; }
+tr:target, g:target { scroll-margin-top: 40vh; }
 .mark { display: inline-block; width: .8em; height: .8em; vertical-align: -.05em; }
 .legend span { margin-right: 1rem; white-space: nowrap; }
 .legend { margin: .5rem 0 .3rem; }
@@ -72,7 +85,8 @@ svg text.lane { fill: var(--ink); font-weight: 650; }
 .grid { stroke: var(--line); stroke-width: .7; }
 .lane-line { stroke: var(--line); stroke-width: 1; }
 .point { fill: transparent; }
-.sent { fill: var(--ink); }
+.sent { fill: currentColor; }
+.swatch { fill: none; stroke: currentColor; stroke-width: 4; }
 .arrived { fill: currentColor; fill-opacity: var(--arrived); }
 .flight { stroke: currentColor; stroke-width: 1; opacity: .45; fill: none; }
 .faint { stroke: currentColor; stroke-width: 1.4; opacity: .55; }
@@ -82,22 +96,19 @@ svg text.lane { fill: var(--ink); font-weight: 650; }
 .fault path { stroke: #d55e00; stroke-width: 1.2; stroke-dasharray: 2 2; }
 svg .fault text { fill: #d55e00; }
 .empty-map { fill: var(--water); }
-.casing { fill: none; stroke: #0b1a20; stroke-opacity: .55; stroke-width: 4.4; stroke-linejoin: round; }
-.track { fill: none; stroke: #fff; stroke-width: 2; stroke-linejoin: round; }
-.start { fill: #0b1a20; fill-opacity: .35; stroke: #fff; stroke-width: 1.8; }
-.time { fill: #fff; stroke: #0b1a20; stroke-opacity: .6; stroke-width: 1; }
-.vehicle { fill: #fff; stroke: #0b1a20; stroke-width: 1.4; stroke-linejoin: round; }
+.casing { fill: none; stroke: var(--casing); stroke-opacity: .85; stroke-width: 5; stroke-linejoin: round; }
+.track { fill: none; stroke: currentColor; stroke-width: 2.6; stroke-linejoin: round; }
+.start { fill: var(--casing); stroke: currentColor; stroke-width: 2; }
+.time { fill: var(--casing); stroke: currentColor; stroke-width: 1.2; }
+.vehicle { fill: currentColor; stroke: var(--casing); stroke-width: 1.4; stroke-linejoin: round; }
 .link { stroke: #fff; stroke-opacity: .5; stroke-dasharray: 1 5; stroke-linecap: round; }
-.plan { fill: none; stroke: #fff; stroke-opacity: .85; stroke-width: 1.1; stroke-dasharray: 5 4; }
-.waypoint { fill: none; stroke: #fff; stroke-width: 1.1; }
+.plan { fill: none; stroke: currentColor; stroke-width: 1.4; stroke-dasharray: 5 4; filter: drop-shadow(0 0 1px var(--casing)) drop-shadow(0 0 1px var(--casing)); }
+.waypoint { fill: var(--casing); fill-opacity: .6; stroke: currentColor; stroke-width: 1.2; }
 .disc { fill: #fff; fill-opacity: .85; }
 .loss .c-no_path { filter: drop-shadow(0 0 1.2px #fff) drop-shadow(0 0 .6px #fff); }
 .scale { fill: none; stroke: #fff; stroke-width: 1.6; paint-order: stroke; filter: drop-shadow(0 0 1.5px #0b1a20); }
 svg text.name { fill: #fff; font-weight: 650; paint-order: stroke; stroke: #0b1a20; stroke-width: 2.6px; stroke-opacity: .8; stroke-linejoin: round; }
-.on-paper .track, .on-paper .plan, .on-paper .link, .on-paper .scale, .on-paper .waypoint { stroke: var(--ink); filter: none; }
-.on-paper .casing { stroke: none; }
-.on-paper .vehicle, .on-paper .time { fill: var(--ink); stroke: var(--water); }
-.on-paper .start { fill: var(--water); stroke: var(--ink); }
+.on-paper .link, .on-paper .scale { stroke: var(--ink); filter: none; }
 svg .on-paper text.name { fill: var(--ink); stroke: var(--water); }
 @media (max-width: 1100px) { main { grid-template-columns: minmax(0, 1fr); } main:not(.two) > * { grid-column: 1 !important; grid-row: auto !important; } main:not(.two) { grid-template-rows: none; } }
 @media (max-width: 640px) { main { padding: 1rem .8rem 3rem; } .pair { grid-template-columns: 1fr; } #chart .wide > svg { min-width: 440px; }
@@ -108,7 +119,8 @@ svg .on-paper text.name { fill: var(--ink); stroke: var(--water); }
 }  // namespace
 
 std::string page_style() {
-  std::string style = kStyle;
+  std::string style = kStyle + vehicle_style(false) + "@media (prefers-color-scheme: dark) { " +
+                      vehicle_style(true) + "}\n" + vehicle_classes();
   for (const OutcomeClass& c : outcome_classes())
     style += fmt::format(".c-{0} {{ color: var(--c-{0}, {1}); }}\n", c.key, c.colour);
   return style;

@@ -13,8 +13,9 @@ namespace halocline::clients {
 namespace {
 
 // gnuplot draws each of these in a colour that nothing else has (#01fe00, #01fe01, ...).
-constexpr std::array<std::string_view, 7> kInks{"ink",    "quiet",       "line",   "accent",
-                                                "ground", "ground-edge", "contour"};
+constexpr std::array<std::string_view, 15> kInks{"ink",         "quiet",   "line", "accent", "ground",
+                                                 "ground-edge", "contour", "v-0",  "v-1",    "v-2",
+                                                 "v-3",         "v-4",     "v-5",  "v-6",    "v-7"};
 
 std::string hex_of(std::size_t number) { return fmt::format("#01fe{:02x}", number); }
 

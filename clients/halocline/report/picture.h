@@ -32,7 +32,7 @@ struct Picture {
   }
 };
 
-// " lc rgb '...'" of a colour of the page: ink, quiet, line, accent, ground, ground-edge, contour.
+// " lc rgb '...'" of a colour of the page: ink, quiet, line, accent, ground, ground-edge, contour, v-0 to v-7 (vehicle_style.h).
 std::string ink(std::string_view variable);
 
 // The SVG element. Throws as run_gnuplot (plot.h).

@@ -12,6 +12,7 @@
 #include "clients/halocline/report/depth_chart.h"
 #include "clients/halocline/report/mission_chart.h"
 #include "clients/halocline/report/packet_lanes.h"
+#include "clients/halocline/report/packet_links.h"
 #include "clients/halocline/report/range_chart.h"
 #include "clients/halocline/report/svg.h"
 #include "clients/halocline/report/tables.h"
@@ -46,6 +47,28 @@ std::string or_sentence(const std::string& html, const char* when_empty) {
   return html.empty() ? paragraph(when_empty) : html;
 }
 
+// A mission as the sections show it.
+struct PagePart {
+  PagePart(const ReportPart& report_part, const std::string& prefix)
+      : part(report_part),
+        mission(part.mission),
+        links(mission, prefix),
+        lanes(packet_lanes(mission, links)) {}
+
+  const ReportPart& part;
+  const MissionStore& mission;
+  PacketLinks links;
+  PacketLanes lanes;
+};
+
+// A line of a legend: what is drawn, in a colour of its own or of a vehicle, and what it stands for.
+std::string sample(const std::string& shape, const std::string& text) {
+  return "<span><svg class=\"sample\" viewBox=\"0 0 22 10\" aria-hidden=\"true\">" + shape + "</svg>" + text +
+         "</span> ";
+}
+
+std::string legend_of(const std::string& samples) { return "<p class=\"legend\">" + samples + "</p>\n"; }
+
 std::string legend() {
   std::string html = "<p class=\"legend\">";
   for (const OutcomeClass& c : outcome_classes())
@@ -53,64 +76,90 @@ std::string legend() {
   return html + "</p>\n";
 }
 
-std::string chart_section(const MissionStore& mission) {
+std::string chart_section(const PagePart& part) {
+  const MissionStore& mission = part.mission;
+  std::string samples =
+      sample(R"(<circle cx="11" cy="5" r="4" class="start"/>)", "start") +
+      sample(R"svg(<path d="M0-6L4 4L0 2L-4 4Z" transform="translate(11 6)" class="vehicle"/>)svg",
+             "last place and heading") +
+      sample(R"(<rect x="7" y="1" width="8" height="8" class="vehicle"/>)", "at rest");
+  if (has_details(mission))
+    samples +=
+        sample(R"(<circle cx="11" cy="5" r="2.6" class="time"/>)",
+               "every " + step_text(time_dots_s(mission))) +
+        sample(R"(<path d="M0 5H22" class="plan"/><rect x="8" y="2" width="6" height="6" class="waypoint"/>)",
+               "plan and waypoints");
   std::string caption =
-      "Hollow circle: start. Arrow: last place and heading. Dots: round instants. Lines between vehicles are "
-      "as wide as the share of packets received. A mark below a track: packets lost there.";
+      "Each vehicle has one colour on this page. Dotted lines between vehicles are as wide as the share of "
+      "packets received. "
+      "Marks beside a track: packets lost there; a click leads to one of them in the list below.";
   if (mission.terrain()) caption += " Contours in metres, light from the north-west.";
-  return picture([&] { return mission_chart(mission); },
+  caption += left_out_tracks(mission);
+  return picture([&] { return mission_chart(mission, part.links); },
                  "No vehicle published a state, so there is no chart.") +
-         legend() + paragraph(caption);
+         legend_of(samples) + legend() + paragraph(caption);
 }
 
-std::string depth_section(const MissionStore& mission) {
-  return picture([&] { return depth_chart(mission); }, "No vehicle moved.") +
-         paragraph(escaped_xml(
-             "Line: depth, metres. Brown: the seabed under the vehicle. Dashed: commanded depth. " +
-             resting_vehicles(mission)));
+std::string depth_section(const PagePart& part) {
+  const MissionStore& mission = part.mission;
+  std::string samples =
+      sample(R"(<path d="M0 5H22" class="track"/>)", "depth of the vehicle, in its colour") +
+      sample(R"(<path d="M0 5H22" class="commanded"/>)", "commanded depth");
+  std::string caption = "Depths in metres below the surface. ";
+  if (is_seabed_drawn(mission))
+    samples += sample(R"(<path d="M0 3H22V10H0Z" class="seabed"/><path d="M0 3H22" class="seabed-edge"/>)",
+                      "seabed below the vehicle");
+  else if (mission.terrain())
+    caption += "The seabed lies far below what is drawn; its depth stands at the left. ";
+  return picture([&] { return depth_chart(mission); }, "No vehicle moved.") + legend_of(samples) +
+         paragraph(escaped_xml(caption + left_out_strips(mission) + resting_vehicles(mission)));
 }
 
-std::string lanes_section(const MissionStore& mission) {
-  const PacketLanes lanes = packet_lanes(mission);
+std::string lanes_section(const PagePart& part) {
+  const PacketLanes& lanes = part.lanes;
   if (lanes.svg.empty()) return paragraph("The log holds no packets.");
   return "<div class=\"wide\">" + lanes.svg + "</div>\n" + legend() +
          paragraph(
              lanes.note +
-             "Upper half of a lane: what the vehicle transmitted; lower half: what reached it, coloured by "
-             "its outcome; a thin line is the way of the sound. Hatched: two at once. Rest the pointer "
-             "on a bar for the cause.");
+             "Upper half of a lane: what the vehicle transmitted, in its colour; lower half: what reached "
+             "it, "
+             "coloured by its outcome; a thin line is the way of the sound. Hatched: two at once. Rest the "
+             "pointer on a bar for the cause; a click on a lost packet leads to its row in the list below.");
 }
 
-std::string matrix_section(const MissionStore& mission) {
-  return or_sentence(link_matrix(mission), "No packet had an outcome.") +
+std::string matrix_section(const PagePart& part) {
+  return or_sentence(link_matrix(part.mission), "No packet had an outcome.") +
          paragraph(
              "Share of the row's packets that the column received, whomever they were addressed to; median "
              "SNR.");
 }
 
-std::string range_section(const MissionStore& mission) {
-  return picture([&] { return range_chart(mission); }, "No packet had an outcome.") +
+std::string range_section(const PagePart& part) {
+  return picture([&] { return range_chart(part.mission); }, "No packet had an outcome.") +
          paragraph(
              "Circles: packets received, with the 95 % interval of as many independent packets. Dashed: the "
              "mean of what the "
              "link tables predicted for the same packets, each alone in the water.");
 }
 
-std::string ledger_section(const MissionStore& mission) {
-  return or_sentence(outcome_table(mission), "No packet had an outcome.") +
-         paragraph("One outcome for each packet at each vehicle that could have received it.");
+std::string ledger_section(const PagePart& part) {
+  return or_sentence(outcome_table(part.mission, part.links), "No packet had an outcome.") +
+         paragraph(
+             "One outcome for each packet at each vehicle that could have received it. A cause leads to the "
+             "first "
+             "packet that it cost.");
 }
 
-std::string losses_section(const MissionStore& mission) {
-  return or_sentence(loss_table(mission), "No packet was lost.");
+std::string losses_section(const PagePart& part) {
+  return or_sentence(loss_table(part.mission, part.links), "No packet was lost.");
 }
 
-std::string nodes_section(const MissionStore& mission) {
-  return or_sentence(node_table(mission), "Every program received everything.");
+std::string nodes_section(const PagePart& part) {
+  return or_sentence(node_table(part.mission), "Every program received everything.");
 }
 
-std::string scenario_section(const MissionStore& mission) {
-  const std::string& toml = mission.scenario().toml;
+std::string scenario_section(const PagePart& part) {
+  const std::string& toml = part.mission.scenario().toml;
   return toml.empty() ? paragraph("The log does not hold it, and no file lies beside it.")
                       : "<pre>" + escaped_xml(toml) + "</pre>\n";
 }
@@ -118,7 +167,7 @@ std::string scenario_section(const MissionStore& mission) {
 struct Section {
   const char* id;
   const char* title;
-  std::string (*html)(const MissionStore& mission);
+  std::string (*html)(const PagePart& part);
   bool is_folded = false;
   bool is_narrow = false;  // may stand beside the one before
 };
@@ -142,9 +191,10 @@ std::string facts(const ReportPart& part) {
   if (mission.begin() <= mission.end())
     texts.push_back(time_text(mission.begin().seconds()) + " to " + time_text(mission.end().seconds()));
   texts.push_back(fmt::format("{} vehicles", mission.vehicles().size()));
-  if (!scenario.name.empty())
-    texts.push_back(fmt::format("seed {}, origin {:.4f}°, {:.4f}°", scenario.seed,
-                                scenario.origin_latitude_deg, scenario.origin_longitude_deg));
+  if (!scenario.name.empty()) texts.push_back(fmt::format("seed {}", scenario.seed));
+  if (scenario.origin_latitude_deg != 0 || scenario.origin_longitude_deg != 0)
+    texts.push_back(
+        fmt::format("origin {:.4f}°, {:.4f}°", scenario.origin_latitude_deg, scenario.origin_longitude_deg));
   if (!mission.water().empty()) {
     const environment_t& water = mission.water().front().value;
     texts.push_back(fmt::format("wind {:.1f} m/s", water.wind_speed_mps));
@@ -167,13 +217,13 @@ std::string heading(const ReportPart& part) {
   return html;
 }
 
-std::string section_of(const Section& section, const std::vector<const ReportPart*>& parts) {
+std::string section_of(const Section& section, const std::vector<PagePart>& parts) {
   std::string content;
   if (parts.size() == 1) {
-    content = section.html(parts[0]->mission);
+    content = section.html(parts[0]);
   } else {
     content = "<div class=\"pair\">";
-    for (const ReportPart* part : parts) content += "<div>" + section.html(part->mission) + "</div>";
+    for (const PagePart& part : parts) content += "<div>" + section.html(part) + "</div>";
     content += "</div>\n";
   }
   if (section.is_folded)
@@ -184,8 +234,7 @@ std::string section_of(const Section& section, const std::vector<const ReportPar
                      content);
 }
 
-std::string page(const std::string& title, const std::string& header,
-                 const std::vector<const ReportPart*>& parts) {
+std::string page(const std::string& title, const std::string& header, const std::vector<PagePart>& parts) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n<title>" + escaped_xml(title) +
       "</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
@@ -239,13 +288,13 @@ std::string title_of(const ReportPart& part) {
 
 }  // namespace
 
-std::string report_page(const ReportPart& part) { return page(title_of(part), heading(part), {&part}); }
+std::string report_page(const ReportPart& part) { return page(title_of(part), heading(part), {{part, ""}}); }
 
 std::string report_page(const ReportPart& before, const ReportPart& after, const Comparison& comparison) {
   return page(title_of(before) + " and " + title_of(after),
               "<div class=\"pair\"><div>" + heading(before) + "</div><div>" + heading(after) +
                   "</div></div>\n" + comparison_html(comparison),
-              {&before, &after});
+              {{before, "before-"}, {after, "after-"}});
 }
 
 }  // namespace halocline::clients

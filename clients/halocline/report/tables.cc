@@ -35,7 +35,7 @@ std::string matrix_cell(const PairDelivery& pair, const std::string& from, const
       snr.empty() ? "" : "<small>" + with_unit(snr, "dB") + "</small>");
 }
 
-std::string ledger_row(const OutcomeClass& c, const char* name, std::int64_t count, std::int64_t all) {
+std::string ledger_row(const OutcomeClass& c, const std::string& name, std::int64_t count, std::int64_t all) {
   return fmt::format(
       R"(<tr><td>{} {}</td><td class="number">{}</td><td class="number">{}<span class="unit"> %</span></td><td class="share"><i class="c-{}" style="width:{}%"></i></td></tr>)"
       "\n",
@@ -74,7 +74,7 @@ std::string link_matrix(const MissionStore& mission) {
   return html;
 }
 
-std::string outcome_table(const MissionStore& mission) {
+std::string outcome_table(const MissionStore& mission, const PacketLinks& links) {
   const OutcomeCounts& counts = mission.ledger().total();
   const std::int64_t all = sum(counts);
   std::map<std::int8_t, std::int64_t> refused;
@@ -82,11 +82,18 @@ std::string outcome_table(const MissionStore& mission) {
     if (packet.is_refused()) ++refused[*packet.receipt];
   }
   if (all == 0 && refused.empty()) return "";
+  const auto name = [&](std::size_t outcome) {  // a link to the first of them
+    const auto first = std::find_if(links.listed().begin(), links.listed().end(), [&](const Loss& loss) {
+      return loss.outcome != nullptr && number_of(*loss.outcome) == outcome;
+    });
+    return first == links.listed().end() ? outcome_name(outcome)
+                                         : links.to_row(*first, outcome_name(outcome));
+  };
   std::string html = "<table class=\"ledger\">\n";
   for (std::size_t c = 0; c < kOutcomeClasses; ++c) {
     for (std::size_t outcome = 0; outcome < kOutcomes; ++outcome) {
       if (class_of_outcome(outcome) == c && counts[outcome] > 0)
-        html += ledger_row(outcome_classes()[c], outcome_name(outcome), counts[outcome], all);
+        html += ledger_row(outcome_classes()[c], name(outcome), counts[outcome], all);
     }
   }
   html += fmt::format(
@@ -100,38 +107,35 @@ std::string outcome_table(const MissionStore& mission) {
   return html + "</table>\n";
 }
 
-std::string loss_table(const MissionStore& mission) {
+std::string loss_table(const MissionStore& mission, const PacketLinks& links) {
+  if (links.listed().empty()) return "";
   const auto name = [&](std::int32_t id) { return mission.name(id); };
   std::string rows;
-  std::size_t listed = 0, left_out = 0;
-  for (const PacketRecord* packet : mission.packets().between(SimTime::at_once(), SimTime::never())) {
+  for (const Loss& loss : links.listed()) {
+    const PacketRecord& packet = *loss.packet;
     const std::string title =
-        escaped_xml(fmt::format("{}:{}", name(packet->name.source_id), packet->name.sequence));
-    const std::string at =
-        fmt::format("<td class=\"number\">{:.1f}</td><td>{}</td>", packet->at().seconds(), title);
-    const auto add = [&](const std::string& row) {
-      if (listed < kLossesListed) rows += "<tr>" + at + row + "</tr>\n";
-      ++(listed < kLossesListed ? listed : left_out);
-    };
-    if (packet->is_refused()) add("<td></td><td></td><td>" + refusal(*packet->receipt) + "</td>");
-    for (const packet_outcome_t& o : packet->outcomes) {
-      if (o.outcome == packet_outcome_t::RECEIVED) continue;
-      const OutcomeClass& c = outcome_classes()[class_of_outcome(number_of(o))];
-      add(fmt::format("<td>{}</td><td class=\"number\">{:.0f}</td><td>{} {}</td>",
-                      escaped_xml(name(o.receiver_id)), o.range_m, inline_mark(c),
-                      escaped_xml(sentence(o, name))));
+        escaped_xml(fmt::format("{}:{}", name(packet.name.source_id), packet.name.sequence));
+    rows += fmt::format(R"(<tr id="{}"><td class="number">{:.1f}</td><td>{}</td>)", links.row_id(loss),
+                        packet.at().seconds(), links.to_mark(loss, title));
+    if (loss.outcome == nullptr) {
+      rows += "<td></td><td></td><td>" + refusal(*packet.receipt) + "</td></tr>\n";
+      continue;
     }
+    const packet_outcome_t& o = *loss.outcome;
+    const OutcomeClass& c = outcome_classes()[class_of_outcome(number_of(o))];
+    rows += fmt::format("<td>{}</td><td class=\"number\">{:.0f}</td><td>{} {}</td></tr>\n",
+                        escaped_xml(name(o.receiver_id)), o.range_m, inline_mark(c),
+                        escaped_xml(sentence(o, name)));
   }
-  if (listed == 0) return "";
   std::string html =
       "<div class=\"wide\"><table class=\"losses\"><tr><th class=\"number\">departure, s</th><th>packet</th>"
       "<th>at</th><th class=\"number\">range, m</th><th>why</th></tr>\n" +
       rows + "</table></div>\n";
-  if (left_out > 0)
+  if (links.left_out() > 0)
     html += fmt::format(
         "<p class=\"quiet\">{} more are left out; <code>halocline outcomes LOG --format outcomes</code> has "
         "all.</p>\n",
-        left_out);
+        links.left_out());
   return html;
 }
 

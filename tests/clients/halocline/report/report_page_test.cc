@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "clients/halocline/report/packet_lanes.h"
+#include "clients/halocline/report/packet_links.h"
 #include "clients/halocline/report/seabed_raster.h"
 #include "clients/halocline/report/svg.h"
 #include "clients/mission/mission_terrain.h"
@@ -29,7 +30,7 @@ using testing::receipt;
 using testing::send;
 using testing::state;
 
-constexpr std::size_t kLargestPage = 2'000'000;
+constexpr std::size_t kLargestPage = 3'000'000;  // bytes, of any mission
 
 // For the test's time there is no gnuplot.
 class WithoutGnuplot {
@@ -82,7 +83,7 @@ TEST(ReportPage, IsWellFormedAndLoadsAndRunsNothing) {
   EXPECT_EQ(fault_in_xml(page), "");
   EXPECT_THAT(page, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("http")), Not(HasSubstr("onmouse")),
                           Not(HasSubstr("@import")), Not(HasSubstr("src="))));
-  EXPECT_LT(page.size(), kLargestPage);
+  EXPECT_LT(page.size(), 500'000u);
 }
 
 TEST(ReportPage, EveryColourOfGnuplotIsOneOfThePage) {
@@ -99,7 +100,8 @@ TEST(ReportPage, EveryOutcomeIsInTheLedgerAndItsSumIsThatOfTheLog) {
   MissionStore store;
   add_mission(store);
   const std::string page = report_page({"run.lcm", store});
-  const std::string ledger = page.substr(page.find("<section id=\"ledger\""), 6000);
+  const std::string ledger = std::regex_replace(page.substr(page.find("<section id=\"ledger\""), 6000),
+                                                std::regex("</?a[^>]*>"), "");  // without links
   for (std::size_t i = 0; i < kOutcomes; ++i)
     EXPECT_THAT(ledger, HasSubstr(std::string(outcome_name(i)) + "</td><td class=\"number\">1</td>"));
   EXPECT_THAT(ledger, HasSubstr("<td>all</td><td class=\"number\">14</td>"));
@@ -111,9 +113,10 @@ TEST(ReportPage, EveryLossHasItsSentenceAndItsMarkOnTheTimeLine) {
   const std::string page = report_page({"run.lcm", store});
   const std::string losses = page.substr(page.find("<section id=\"losses\""));
   EXPECT_EQ(count(losses, "Lost at b-2: "), kOutcomes - 1);
-  const std::string lanes = packet_lanes(store).svg;
+  PacketLinks links(store);
+  const std::string lanes = packet_lanes(store, links).svg;
   EXPECT_EQ(count(lanes, "Lost at b-2: "), kOutcomes - 1);
-  EXPECT_EQ(count(lanes, "class=\"sent\""), kOutcomes);
+  EXPECT_EQ(count(lanes, "class=\"sent v-0 dash-0\""), kOutcomes);
 }
 
 TEST(ReportPage, WithoutGnuplotItHasTheOtherPicturesAndNamesWhatIsMissing) {
@@ -123,7 +126,7 @@ TEST(ReportPage, WithoutGnuplotItHasTheOtherPicturesAndNamesWhatIsMissing) {
   const std::string page = report_page({"run.lcm", store});
   EXPECT_EQ(fault_in_xml(page), "");
   EXPECT_EQ(count(page, "apt-get install gnuplot-nox"), 3u);
-  EXPECT_THAT(page, HasSubstr("class=\"sent\""));
+  EXPECT_THAT(page, HasSubstr("class=\"sent "));
 }
 
 TEST(ReportPage, AnEmptyMissionIsAPageOfSentences) {
@@ -146,23 +149,124 @@ TEST(ReportPage, PacketsWithoutStatesAndStatesWithoutPacketsHaveTheirParts) {
   EXPECT_THAT(report_page({"x.lcm", states}), HasSubstr("Depth of a over time"));
 }
 
+// 400 vehicles, as many states of each as are drawn, and packets of all to all.
 TEST(ReportPage, ALargeFleetIsDecimated) {
   MissionStore store;
   for (std::int32_t v = 1; v <= 400; ++v) {
-    for (std::int64_t s = 0; s < 100; ++s)
+    for (std::int64_t s = 0; s < 400; ++s)
       add(store, "STATE.v" + std::to_string(v),
-          state(v, s * 60 * kSecond, 10.0 * static_cast<double>(s), 30.0 * v, 50));
+          state(v, s * 15 * kSecond, 2.5 * static_cast<double>(s) + static_cast<double>(s % 7), 30.0 * v,
+                50 + static_cast<double>(s % 5)));
   }
   for (std::int64_t i = 0; i < 300; ++i) {
-    for (std::int32_t v = 2; v <= 100; ++v)
-      add(store, "OUTCOME", outcome(1, v, i, i * 20 * kSecond, static_cast<std::int8_t>(v % 14)));
+    for (std::int32_t v = 1; v <= 400; ++v) {
+      if (v != 1 + i)
+        add(store, "OUTCOME",
+            outcome(1 + static_cast<std::int32_t>(i), v, i, i * 20 * kSecond,
+                    static_cast<std::int8_t>(v % 14)));
+    }
   }
   store.set_terrain(slope());
   const std::string page = report_page({"fleet.lcm", store});
   EXPECT_EQ(fault_in_xml(page), "");
-  EXPECT_LT(page.size(), 2 * kLargestPage);
+  EXPECT_LT(page.size(), kLargestPage);
   EXPECT_THAT(page,
-              AllOf(HasSubstr("vehicles with less traffic are left out"), HasSubstr("more are left out")));
+              AllOf(HasSubstr("384 vehicles with less traffic are left out"),
+                    HasSubstr("388 vehicles with shorter ways are left out"),
+                    HasSubstr("100 more vehicles are left out"), HasSubstr("376 more vehicles are left out"),
+                    HasSubstr(" more are left out; <code>")));
+  EXPECT_LE(count(page, "class=\"loss\""), 200u);
+}
+
+// Ids of a page, and what its links lead to.
+std::multiset<std::string> all_of(const std::string& page, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::multiset<std::string> found;
+  for (std::sregex_iterator i(page.begin(), page.end(), regex), end; i != end; ++i) found.insert((*i)[1]);
+  return found;
+}
+
+void expect_sound_links(const std::string& page) {
+  const auto ids = all_of(page, " id=\"([^\"]*)\"");
+  for (const std::string& id : ids) EXPECT_EQ(ids.count(id), 1u) << id;
+  for (const std::string& target : all_of(page, "<a href=\"#([^\"]*)\""))
+    EXPECT_TRUE(ids.contains(target)) << target;
+}
+
+TEST(ReportPage, AMarkOfALossLeadsToItsRowAndTheRowToTheTimeLine) {
+  MissionStore store;
+  add_mission(store);
+  const std::string page = report_page({"run.lcm", store});
+  expect_sound_links(page);
+  const std::string chart =
+      page.substr(page.find("<section id=\"chart\""),
+                  page.find("<section id=\"matrix\"") - page.find("<section id=\"chart\""));
+  EXPECT_EQ(count(chart, "<a href=\"#lost-"), count(chart, "class=\"loss\""));
+  EXPECT_GT(count(chart, "<a href=\"#lost-"), 0u);
+  const std::string lanes = page.substr(page.find("<section id=\"packets\""));
+  EXPECT_EQ(count(lanes, "<g id=\"at-"), kOutcomes - 1);
+  EXPECT_EQ(count(lanes, "<tr id=\"lost-"), kOutcomes - 1);
+  EXPECT_EQ(count(lanes, "<a href=\"#at-"), kOutcomes - 1);
+  // The packet that collided, in all three.
+  for (const char* part :
+       {"<a href=\"#lost-6-2\"", "<g id=\"at-6-2\"", "<tr id=\"lost-6-2\"", "<a href=\"#at-6-2\""})
+    EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST(ReportPage, CommandedDepthAndSeabedStandBesideTheDepth) {
+  MissionStore store;
+  add_mission(store);
+  for (std::int64_t s = 0; s <= 200; ++s) {
+    autopilot_status_t status{};
+    status.utime = s * kSecond;
+    status.is_propelled = 1;
+    status.commanded_z_m = 35;
+    add(store, "AUTOPILOT.auv-1", status);
+  }
+  const std::string page = report_page({"run.lcm", store});
+  const auto from = page.find("<section id=\"depth\"");
+  const std::string depth = page.substr(from, page.find("</section>", from) - from);
+  const std::string strip = depth.substr(0, depth.find("</svg>"));
+  EXPECT_THAT(strip,
+              AllOf(HasSubstr("var(--v-0)"), HasSubstr("var(--ground)"), HasSubstr("stroke-dasharray"),
+                    HasSubstr("var(--ink)"), HasSubstr("30 to 30 m deep"), HasSubstr("seabed 140 to 142 m")));
+  EXPECT_THAT(depth, AllOf(HasSubstr("depth of the vehicle"), HasSubstr("commanded depth"),
+                           HasSubstr("seabed below the vehicle")));
+}
+
+TEST(ReportPage, ASeabedFarBelowIsStated) {
+  MissionStore store;
+  add_mission(store);
+  store.set_terrain({-2000, -2000, 4000, 4000, 2, 2, {4000, 4000, 4000, 4000}});
+  const std::string page = report_page({"run.lcm", store});
+  EXPECT_THAT(page, AllOf(HasSubstr("seabed 4000 to 4000 m"), HasSubstr("The seabed lies far below"),
+                          Not(HasSubstr("seabed below the vehicle"))));
+}
+
+TEST(ReportPage, AVehicleHasTheSameColourInEveryPicture) {
+  MissionStore store;
+  for (std::int64_t v = 1; v <= 9; ++v) {
+    const auto id = static_cast<std::int32_t>(v);
+    for (std::int64_t s = 0; s <= 20; ++s)
+      add(store, "STATE.n" + std::to_string(v),
+          state(id, s * kSecond, static_cast<double>(10 * s), 100.0 * id, 30));
+    add(store, "OUTCOME", outcome(id, id % 9 + 1, 0, v * kSecond));
+  }
+  const std::string page = report_page({"run.lcm", store});
+  const auto part = [&](const std::string& id) {
+    const auto from = page.find("<section id=\"" + id + "\"");
+    return page.substr(from, page.find("</section>", from) - from);
+  };
+  for (int v = 0; v < 9; ++v) {
+    const std::string colour = "v-" + std::to_string(v % 8), line = colour + " dash-" + std::to_string(v / 8);
+    EXPECT_THAT(part("chart"),
+                AllOf(HasSubstr("class=\"track " + line + "\""), HasSubstr("class=\"vehicle " + colour)));
+    EXPECT_THAT(part("depth"),
+                AllOf(HasSubstr("var(--" + colour + ")"), HasSubstr("class=\"swatch " + line + "\"")));
+    EXPECT_THAT(part("packets"),
+                AllOf(HasSubstr("class=\"sent " + line + "\""), HasSubstr("class=\"swatch " + line + "\"")));
+    EXPECT_THAT(page, HasSubstr("." + colour + " { color: var(--" + colour + ")"));
+  }
 }
 
 TEST(ReportPage, TwoLogsStandSideBySideWithWhatChanged) {
@@ -175,6 +279,9 @@ TEST(ReportPage, TwoLogsStandSideBySideWithWhatChanged) {
   const std::string page = report_page({"a.lcm", before}, {"b.lcm", after}, Comparison(was, is));
   EXPECT_EQ(fault_in_xml(page), "");
   EXPECT_THAT(page, AllOf(HasSubstr("a.lcm"), HasSubstr("b.lcm"), HasSubstr("below cutoff → received")));
+  EXPECT_THAT(report_page({"a.lcm", before}, {"a.lcm", before}, Comparison(was, was)),
+              AllOf(HasSubstr("<tr id=\"before-lost-6-2\""), HasSubstr("<tr id=\"after-lost-6-2\"")));
+  expect_sound_links(report_page({"a.lcm", before}, {"a.lcm", before}, Comparison(was, was)));
 }
 
 TEST(Svg, TextIsEscapedAndWhatXmlForbidsIsReplaced) {
