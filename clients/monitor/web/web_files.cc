@@ -40,11 +40,10 @@ constexpr std::string_view kNoBundle =
     "and run</p><pre>./scripts/monitor</pre><p>which builds the page, starts the monitor and prints its "
     "URL.</p>";
 
-constexpr std::string_view kWantsToken =
-    "This monitor wants its token</h1><p>Others reach the address at which it listens, so it shows nothing "
-    "to those "
-    "who do not know its token. Open the URL that halocline-monitor printed when it started, which ends in "
-    "<code>?token=</code> and the token, or enter the token here.</p>";
+constexpr std::string_view kTokenNeeded =
+    "A token is needed</h1><p>This monitor shows nothing without its token. Open the URL that "
+    "halocline-monitor "
+    "printed when it started: it ends in <code>?token=</code> and the token. Or enter the token here.</p>";
 constexpr std::string_view kWrongToken = "<p role=\"alert\">That is not the token of this monitor.</p>";
 constexpr std::string_view kTokenForm =
     "<form action=\"/\"><label>Token <input name=\"token\" type=\"password\" "
@@ -60,7 +59,7 @@ WebAnswer without_token(std::string_view target) {
   if (path_of(target) != "/")
     return {401, "A token is needed: open the URL that halocline-monitor printed.\n"};
   const bool is_wrong = target.find("token=") != std::string_view::npos;
-  return own_page(401, {kWantsToken, is_wrong ? kWrongToken : std::string_view(), kTokenForm});
+  return own_page(401, {kTokenNeeded, is_wrong ? kWrongToken : std::string_view(), kTokenForm});
 }
 
 // The bytes of a regular file within `folder`.

@@ -15,11 +15,11 @@ test.afterAll(() => programs.stop());
 test.describe("without the token", () => {
   test.use({ expectedErrors: [/status of 401|Authentication failed/] });
 
-  test("there is a question for it, and the page after the right answer", async ({ page }) => {
+  test("there is a form for it, and the page after the right answer", async ({ page }) => {
     expect(url.hostname).toBe(ELSEWHERE);
     const answer = await page.goto(url.origin);
     expect(answer?.status()).toBe(401);
-    await expect(page.getByRole("heading", { name: "This monitor wants its token" })).toBeVisible();
+    await expect(page.getByRole("heading", { name: "A token is needed" })).toBeVisible();
     await expect(page.getByRole("main")).toContainText("halocline-monitor printed");
     await page.getByLabel("Token").fill("south");
     await page.getByRole("button", { name: "Open" }).click();
