@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { squareAround } from "../src/chart/framing";
 import { depthAt, depthRange, exaggeration } from "../src/chart/ground";
 import { bearing, clock, csv, distance, number, roundStep } from "../src/parts/format";
-import { axis, centred, colourOf, digitsOf, inkOn, shareOf, ticks, timeTicks } from "../src/parts/scales";
+import { aroundMean, axis, centred, colourOf, digitsOf, inkOn, shareOf, ticks, timeTicks } from "../src/parts/scales";
 import { STEPS, Shedding } from "../src/parts/shedding";
 import { type LinkColumn, type Packet, type TerrainTile, type VehicleFrame, decodeBinary } from "../src/protocol";
 import { type Address, readAddress, writeAddress } from "../src/store/address";
@@ -124,7 +124,8 @@ describe("numbers", () => {
   });
   it("of distance change to kilometres", () =>
     expect([distance(950), distance(1500), distance(2000)]).toEqual(["950 m", "1.5 km", "2 km"]));
-  it("of heading lie within 0 and 360", () => expect(bearing(-Math.PI / 2)).toBeCloseTo(270));
+  it("of heading lie within 0 and 359", () =>
+    expect([-Math.PI / 2, -0.001, 0.001, 7].map(bearing)).toEqual([270, 0, 0, 41]));
   it("are quoted in CSV only where they must be", () =>
     expect(
       csv([
@@ -155,6 +156,11 @@ describe("scales", () => {
     const x = axis(10, 20, 100, 300);
     expect(x(15)).toBe(200);
     expect(x.invert(200)).toBe(15);
+  });
+  it("draw courses about north as one line", () => {
+    const [a, b] = aroundMean([[359, 1, null], [350]]);
+    expect(a.map((value) => value && Math.round(value))).toEqual([-1, 1, null]);
+    expect(b[0]).toBeCloseTo(-10);
   });
   it("have round ticks, of time in seconds and minutes that people count in", () => {
     expect(ticks(0, 1, 5)).toEqual([0, 0.2, 0.4, 0.6000000000000001, 0.8, 1]);

@@ -20,7 +20,9 @@ export function clock(time_s: number, digits = 1): string {
 }
 
 export const degrees = (angle_rad: number) => (angle_rad * 180) / Math.PI;
-export const bearing = (angle_rad: number) => ((degrees(angle_rad) % 360) + 360) % 360;
+/** Whole degrees clockwise from north, 0 to 359. */
+export const compass = (angle_deg: number) => ((Math.round(angle_deg) % 360) + 360) % 360;
+export const bearing = (angle_rad: number) => compass(degrees(angle_rad));
 
 /** A step of 1, 2 or 5 times a power of ten, at least `least`. */
 export function roundStep(least: number): number {

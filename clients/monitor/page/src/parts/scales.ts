@@ -107,6 +107,19 @@ export function timeTicks(low_s: number, high_s: number, count: number): number[
   return out;
 }
 
+/** Angles in degrees within half a circle of their mean direction, so that a course about north is one line. */
+export function aroundMean(series: (number | null)[][]): (number | null)[][] {
+  let [north, east] = [0, 0];
+  for (const value of series.flat()) {
+    if (value === null) continue;
+    north += Math.cos((value * Math.PI) / 180);
+    east += Math.sin((value * Math.PI) / 180);
+  }
+  const mean = (Math.atan2(east, north) * 180) / Math.PI;
+  return series.map((values) => values.map((value) => (value === null ? null : mean + turned(value - mean))));
+}
+const turned = (angle_deg: number) => ((((angle_deg + 180) % 360) + 360) % 360) - 180;
+
 /** Decimals that tell neighbouring ticks apart. */
 export function digitsOf(values: number[]): number {
   if (values.length < 2) return 0;
