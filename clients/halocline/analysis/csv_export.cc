@@ -8,6 +8,7 @@
 #include <memory>
 #include <regex>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>

@@ -13,6 +13,7 @@
 #include "clients/halocline/report/svg.h"
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/outcome_classes.h"
+#include "clients/mission/packet_book.h"
 #include "clients/mission/packet_reasons.h"
 #include "core/frames.h"
 
