@@ -1,6 +1,6 @@
 // The page as a visitor uses it, on a log of scenarios/harbour.toml.
 import type { Page } from "@playwright/test";
-import { chart, expect, seconds, test, vehicle, vehicles } from "./fixtures";
+import { Programs, chart, expect, log, seconds, test, vehicle, vehicles } from "./fixtures";
 
 /** Opens the page at a hash and waits until its chart, or another view, shows vehicles. */
 async function open(page: Page, hash = "") {
@@ -8,6 +8,7 @@ async function open(page: Page, hash = "") {
   await expect(page.locator(".source")).toContainText("harbour");
   await expect(page.getByLabel("Selection").locator("section").first()).toBeVisible();
 }
+const vehicleHeading = (page: Page) => page.getByLabel("Selection").getByRole("heading", { name: "scout-1" });
 const now = (page: Page) => page.getByTestId("now").textContent();
 
 test("shows every vehicle, moving while it plays", async ({ page }) => {
@@ -23,10 +24,15 @@ test("shows every vehicle, moving while it plays", async ({ page }) => {
   expect(await scout.textContent()).not.toBe(before);
 });
 
-test("draws a packet's wavefront, then the marks of its outcomes", async ({ page }) => {
+test("draws a packet's wavefront as it grows, then the marks of its outcomes", async ({ page }) => {
   await open(page, "#chart?t=0");
   await page.keyboard.press("]");
-  await expect(chart(page)).not.toHaveAttribute("data-fronts", "0");
+  // Half a second after its departure, at 1500 m/s and a little more.
+  await expect(chart(page)).toHaveAttribute("data-fronts", /^7[5-9]\d$/);
+  await page.getByLabel("Speed").selectOption("0.1");
+  await page.getByRole("button", { name: "Play" }).click();
+  await expect.poll(async () => Number(await chart(page).getAttribute("data-fronts"))).toBeGreaterThan(800);
+  await page.getByRole("button", { name: "Pause" }).click();
   await expect(page.getByRole("heading", { name: "→" }).first()).toBeVisible();
   await page.keyboard.press("ArrowRight");
   await expect(chart(page)).not.toHaveAttribute("data-marks", "0");
@@ -112,23 +118,21 @@ test("fits a phone", async ({ page }) => {
   }
 });
 
-test("says when the monitor is gone, and comes back", async ({ page }) => {
-  await page.addInitScript(() => {
-    // Every socket of the page can be closed by the test.
-    const sockets: WebSocket[] = [];
-    const Original = window.WebSocket;
-    window.WebSocket = class extends Original {
-      constructor(url: string | URL, protocols?: string | string[]) {
-        super(url, protocols);
-        sockets.push(this);
-      }
-    };
-    Object.assign(window, { closeSockets: () => sockets.forEach((socket) => socket.close()) });
+test.describe("beside a monitor that ends", () => {
+  const programs = new Programs();
+  test.use({ expectedErrors: [/WebSocket connection/] });
+  test.afterAll(() => programs.stop());
+
+  test("says so, and comes back with it", async ({ page }) => {
+    const url = new URL(await programs.monitor(log()));
+    await page.goto(`${url.href}#chart?t=30&vehicle=scout-1`);
+    await expect(vehicleHeading(page)).toBeVisible();
+    await programs.stop();
+    await expect(page.getByTestId("condition")).toContainText("The monitor is gone");
+    await expect(vehicleHeading(page)).toBeVisible();
+    await programs.monitor("--port", url.port, log());
+    await expect(page.getByTestId("condition")).toBeHidden();
+    await page.keyboard.press("Shift+ArrowRight");
+    await expect.poll(() => now(page)).toBe("0:40.0");
   });
-  await open(page);
-  await page.evaluate(() => (window as unknown as { closeSockets(): void }).closeSockets());
-  await expect(page.getByTestId("condition")).toContainText("The monitor is gone");
-  await expect(page.getByTestId("condition")).toBeHidden();
-  await expect(page.locator(".source")).toContainText("harbour");
-  await expect(page.getByLabel("Selection").locator("section").first()).toBeVisible();
 });

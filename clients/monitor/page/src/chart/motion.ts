@@ -52,7 +52,8 @@ function trace(context: CanvasRenderingContext2D, points: Place[]) {
   context.closePath();
 }
 
-/** Packets under way: the front is a circle at the sender's depth, behind it lies the packet's length in the water. */
+/** Packets under way: the front is a circle at the sender's depth, behind it lies the packet's length in the water. The radii of
+ * those drawn, m. */
 export function drawWaves(
   context: CanvasRenderingContext2D,
   scene: ChartScene,
@@ -60,7 +61,8 @@ export function drawWaves(
   now_s: number,
   step: Step,
   dark: boolean,
-) {
+): number[] {
+  const radii: number[] = [];
   const colour = dark ? "235 250 255" : "8 36 48";
   for (const packet of packets.slice(-MOST_WAVES)) {
     if (packet.north_m === null || packet.east_m === null || packet.down_m === null) continue;
@@ -81,7 +83,9 @@ export function drawWaves(
     context.strokeStyle = `rgb(${colour} / ${0.9 * faint})`;
     context.lineWidth = 1.8;
     context.stroke();
+    radii.push(front);
   }
+  return radii;
 }
 
 export function drawTrails(

@@ -60,6 +60,8 @@ const PENS: Record<"light" | "dark", Pen> = {
 
 export class Overlay {
   things: Thing[] = [];
+  /** Radii of the wavefronts that are drawn, m. */
+  fronts: number[] = [];
   private boxes: [number, number, number, number][] = [];
   private context: CanvasRenderingContext2D;
 
@@ -88,7 +90,7 @@ export class Overlay {
       return place.behind ? null : place;
     });
     this.contourLabels(drawing, places, pen);
-    drawWaves(context, drawing.scene, drawing.waves, drawing.now_s, drawing.step, drawing.dark);
+    this.fronts = drawWaves(context, drawing.scene, drawing.waves, drawing.now_s, drawing.step, drawing.dark);
     drawTrails(context, drawing.scene, drawing.trails, places, drawing.now_s, drawing.step.trail_s, drawing.dark);
     if (drawing.showPlans) this.plans(drawing, pen);
     if (drawing.showLinks) this.links(drawing, places);

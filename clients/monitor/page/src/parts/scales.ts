@@ -107,6 +107,11 @@ export function timeTicks(low_s: number, high_s: number, count: number): number[
   return out;
 }
 
+/** A line through pixels, as the d of an SVG path. */
+export function polyline(x: number[], y: number[]): string {
+  return x.map((each, i) => `${i ? "L" : "M"}${each.toFixed(1)} ${y[i].toFixed(1)}`).join("");
+}
+
 /** Angles in degrees within half a circle of their mean direction, so that a course about north is one line. */
 export function aroundMean(series: (number | null)[][]): (number | null)[][] {
   let [north, east] = [0, 0];
