@@ -1,6 +1,7 @@
 // What a person types, as far as it can be tried without building or installing anything.
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/support/process.h"
 #include "tests/support/working_folder.h"
@@ -55,8 +57,46 @@ TEST(Isolated, WithoutACommandItPrintsItsUse) {
   EXPECT_THAT(process.output(), HasSubstr("./scripts/isolated COMMAND"));
 }
 
-// Builds nothing: it would take longer, and print progress.
-TEST(Scripts, HelpIsTheFirstCommentOfEach) {
+// Programs that build, install or start something: found first in PATH, each leaves its name in `called` and fails.
+class Stubs {
+ public:
+  Stubs() {
+    for (const char* program :
+         {"cmake",      "ninja",   "ctest",   "g++",     "make",    "apt-get",         "apt",
+          "dpkg-query", "sudo",    "npm",     "node",    "java",    "javac",           "lcm-gen",
+          "lcm-logger", "doxygen", "gnuplot", "unshare", "nsenter", "clang-format-14", "run-clang-tidy-14",
+          "slurmctld",  "tc",      "nft"}) {
+      std::ofstream(folder_ + "/" + program)
+          << "#!/bin/sh\necho " << program << " >>'" << folder_ << "/called'\nexit 99\n";
+      std::filesystem::permissions(folder_ + "/" + program, std::filesystem::perms::owner_all);
+    }
+  }
+  ~Stubs() { std::filesystem::remove_all(folder_); }
+  Stubs(const Stubs&) = delete;
+  Stubs& operator=(const Stubs&) = delete;
+
+  [[nodiscard]] std::vector<std::string> before(const std::vector<std::string>& command) const {
+    std::vector<std::string> all{"/usr/bin/env", "PATH=" + folder_ + ":" + std::getenv("PATH"),
+                                 "HALOCLINE_BIN="};
+    all.insert(all.end(), command.begin(), command.end());
+    return all;
+  }
+  [[nodiscard]] std::string called() const {
+    std::ifstream file(folder_ + "/called");
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  static std::string made() {
+    std::string folder = ::testing::TempDir() + "halocline-stubs-" + std::to_string(getpid());
+    std::filesystem::create_directories(folder);
+    return folder;
+  }
+  std::string folder_ = made();
+};
+
+TEST(Scripts, HelpIsTheFirstCommentOfEachAndStartsNothing) {
+  const Stubs stubs;
   int scripts = 0;
   for (const auto& entry : std::filesystem::directory_iterator(script(""))) {
     if (entry.is_directory()) continue;  // modules of a script
@@ -68,12 +108,43 @@ TEST(Scripts, HelpIsTheFirstCommentOfEach) {
     const bool python = interpreter.ends_with("python3");
     const std::string expected =
         first.substr(python ? std::string_view("\"\"\"").size() : std::string_view("# ").size());
-    Process help({path, "--help"});
+    Process help(stubs.before({path, "--help"}));
     EXPECT_EQ(help.wait(), 0) << path;
     EXPECT_THAT(help.output(), StartsWith(expected + "\n")) << path;
+    EXPECT_EQ(stubs.called(), "") << path;
     ++scripts;
   }
   EXPECT_GT(scripts, 10);
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"run", "scenarios/harbour.toml", "--help"},
+                                             {"run", "--distributed", "--help"},
+                                             {"run", "--help", "--distributed"}}) {
+    std::vector<std::string> words = command;
+    words[0] = script("run");
+    Process help(stubs.before(words));
+    EXPECT_EQ(help.wait(), 0);
+    EXPECT_THAT(help.output(), HasSubstr("./scripts/run "));
+    EXPECT_EQ(stubs.called(), "");
+  }
+}
+
+// The stubs are found: what builds meets them.
+TEST(Scripts, WithoutHelpTheBuildIsStarted) {
+  const Stubs stubs;
+  Process build(stubs.before({script("build"), "no-such-preset"}));
+  EXPECT_NE(build.wait(), 0);
+  EXPECT_EQ(stubs.called(), "cmake\n");
+  std::filesystem::remove_all(HALOCLINE_SOURCE_DIR "/build/no-such-preset");
+}
+
+TEST(Scripts, ProgressIsShownEveryFourSecondsAndTheRestPassedOn) {
+  const std::string lines = ". " + script("shell/progress") +
+                            "; take() { case $1 in at*) text=$1 ;; *) pass_on \"$1\" ;; esac; }; "
+                            "{ echo 'at 1'; sleep 2; printf 'at '; sleep 1.5; echo 2; echo 'an error'; sleep "
+                            "1.5; } | show_progress start take";
+  Process process({"/bin/bash", "-euo", "pipefail", "-c", lines});
+  EXPECT_EQ(process.wait(), 0);
+  EXPECT_EQ(process.output(), "an error\nat 2\n");
 }
 
 TEST(Scripts, AWrongWordIsAnErrorThatPrintsTheUse) {
