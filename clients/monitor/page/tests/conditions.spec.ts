@@ -46,6 +46,14 @@ test("bathymetry away, and back", async ({ page }) => {
   await expect(condition(page)).toBeHidden();
 });
 
+test("a bus whose scenario was not published yet says when it will be", async ({ page }) => {
+  const socket = await serve(page, hello, mission, state);
+  await expect(page.getByLabel("Selection")).toContainText("publishes the scenario once a minute");
+  socket.send(JSON.stringify({ ...mission, name: "harbour" }));
+  await expect(page.getByLabel("Selection")).toContainText("harbour");
+  await expect(page.getByLabel("Selection")).not.toContainText("once a minute");
+});
+
 test("a bus that falls silent keeps what was seen", async ({ page }) => {
   await serve(page, hello, mission, { ...state, bus: "silent", silent_s: 12 });
   await expect(condition(page)).toContainText("No message for 12 s");

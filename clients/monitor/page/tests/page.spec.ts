@@ -127,11 +127,13 @@ test.describe("beside a monitor that ends", () => {
     const url = new URL(await programs.monitor(log()));
     await page.goto(`${url.href}#chart?t=30&vehicle=scout-1`);
     await expect(vehicleHeading(page)).toBeVisible();
+    await expect.poll(() => now(page)).toBe("0:30.0");
     await programs.stop();
     await expect(page.getByTestId("condition")).toContainText("The monitor is gone");
     await expect(vehicleHeading(page)).toBeVisible();
     await programs.monitor("--port", url.port, log());
     await expect(page.getByTestId("condition")).toBeHidden();
+    await expect.poll(() => now(page)).toBe("0:30.0"); // where it was
     await page.keyboard.press("Shift+ArrowRight");
     await expect.poll(() => now(page)).toBe("0:40.0");
   });

@@ -164,7 +164,7 @@ describe("scales", () => {
   });
   it("have round ticks, of time in seconds and minutes that people count in", () => {
     expect(ticks(0, 1, 5)).toEqual([0, 0.2, 0.4, 0.6000000000000001, 0.8, 1]);
-    expect(digitsOf([0, 0.2])).toBe(1);
+    expect([[0, 0.2], [1.8], [2], [0.25], []].map(digitsOf)).toEqual([1, 1, 0, 2, 0]);
     expect(timeTicks(0, 200, 4)).toEqual([0, 60, 120, 180]);
   });
 });

@@ -249,7 +249,8 @@ export class Overlay {
     }
   }
 
-  private names({ vehicles, instant, chosen, step }: Drawing, places: (Place | null)[], pen: Pen) {
+  /** To the right of each vehicle; where that is beyond the edge, to its left. */
+  private names({ vehicles, instant, chosen, step, width: edge }: Drawing, places: (Place | null)[], pen: Pen) {
     this.context.textAlign = "left";
     this.context.textBaseline = "middle";
     const order = [...vehicles].sort((a, b) => Number(b.index === chosen) - Number(a.index === chosen));
@@ -263,8 +264,10 @@ export class Overlay {
       const font = `${index === chosen ? 600 : 500} 13px system-ui, sans-serif`;
       this.context.font = font;
       const width = this.context.measureText(name).width;
-      const [x, y] = [place.x + 15, place.y + 1];
-      if (!this.free(x, y - 8, width + (few ? 40 : 0), 16) && index !== chosen) continue;
+      const whole = width + (few ? 40 : 0);
+      const x = place.x + 15 + whole > edge ? place.x - 15 - whole : place.x + 15;
+      const y = place.y + 1;
+      if (!this.free(x, y - 8, whole, 16) && index !== chosen) continue;
       this.text(name, x, y, pen.ink, pen.halo, font);
       if (depth) this.text(depth, x + width, y, pen.quiet, pen.halo, "12px system-ui, sans-serif");
     }

@@ -125,8 +125,10 @@ export function aroundMean(series: (number | null)[][]): (number | null)[][] {
 }
 const turned = (angle_deg: number) => ((((angle_deg + 180) % 360) + 360) % 360) - 180;
 
-/** Decimals that tell neighbouring ticks apart. */
+/** Decimals that tell neighbouring ticks apart; of a single one, those that it has. */
 export function digitsOf(values: number[]): number {
-  if (values.length < 2) return 0;
+  if (values.length === 0) return 0;
+  const has = (digits: number) => Math.abs(values[0] * 10 ** digits - Math.round(values[0] * 10 ** digits)) < 1e-6;
+  if (values.length === 1) return [0, 1, 2].find(has) ?? 3;
   return Math.max(0, -Math.floor(Math.log10(Math.abs(values[1] - values[0])) + 1e-9));
 }

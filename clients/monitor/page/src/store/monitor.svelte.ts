@@ -164,6 +164,13 @@ export class Monitor {
   goLive() {
     this.order("live", {});
   }
+  /** A connection begins at the beginning of a log: this one goes on where the last one was. */
+  private resume() {
+    const { playing, speed } = this.state ?? { playing: false, speed: 1 };
+    this.seek(this.now_s);
+    this.setSpeed(speed);
+    if (playing) this.order("play", {});
+  }
   seek(time_s: number) {
     const within = Math.min(this.end_s, Math.max(this.begin_s, time_s));
     this.now_s = within;
@@ -247,6 +254,7 @@ export class Monitor {
         // It may be another run: its packets come again.
         this.packets.clear();
         this.fetched.clear();
+        if (message.source === "log" && message.name === this.hello?.name) this.resume();
         this.hello = message;
         document.title = `${message.name.split("?")[0].split("/").pop()} · Halocline`;
         this.watch();
