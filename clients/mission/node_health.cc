@@ -27,7 +27,6 @@ void NodeHealth::add_status(std::int64_t stamp_us, const std::string& node, cons
 void NodeHealth::add_heartbeat(std::int64_t stamp_us, const std::string& node) { alive(stamp_us, node); }
 
 void NodeHealth::add_clock(std::int64_t stamp_us, const sim_clock_t& clock) {
-  is_lockstep_ = clock.lockstep;
   if (!ticks_.empty() && (stamp_us <= ticks_.back().stamp_us || clock.utime < ticks_.back().utime))
     ticks_.clear();
   ticks_.push_back({stamp_us, clock.utime});

@@ -30,7 +30,6 @@ class NodeHealth {
   // Simulated seconds per second of the stamps, over the last ten of these; empty before the second CLOCK, and where stamps are
   // simulation time.
   std::optional<double> real_time_factor() const;
-  bool is_lockstep() const { return is_lockstep_; }
   // Over all nodes, of their last statuses.
   std::int64_t total(std::int64_t node_status_t::*counter) const;
 
@@ -42,7 +41,6 @@ class NodeHealth {
   };
   std::map<std::string, NodeRecord> nodes_;
   std::deque<Tick> ticks_;
-  bool is_lockstep_ = false;
 };
 
 }  // namespace halocline::clients

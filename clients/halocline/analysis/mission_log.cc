@@ -95,6 +95,9 @@ MissionLog read_mission(const std::vector<std::string>& logs, MissionLimits limi
   if (counts.undecodable > 0)
     read.remarks.push_back(fmt::format("{} messages on Halocline's channels do not decode and are left out.",
                                        counts.undecodable));
+  if (mission.repeated_outcomes() > 0)
+    read.remarks.push_back(fmt::format("{} outcomes are in the log more than once; each counts once.",
+                                       mission.repeated_outcomes()));
   if (counts.unknown > 0)
     read.remarks.push_back(fmt::format("{} messages on other channels are left out.", counts.unknown));
   return read;

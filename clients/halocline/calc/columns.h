@@ -35,7 +35,6 @@ InputColumn latitude_column();   // default 45
 // P_atm, where it is not given, follows from depth_m at 45 degrees.
 std::vector<InputColumn> absorbing_water_columns(acoustics::AbsorptionModel model);
 acoustics::AbsorbingWater to_absorbing_water(const std::vector<double>& values, std::size_t first);
-inline constexpr std::size_t kAbsorbingWaterColumns = 5;
 
 // `front` followed by `back`.
 std::vector<InputColumn> joined(std::vector<InputColumn> front, const std::vector<InputColumn>& back);
