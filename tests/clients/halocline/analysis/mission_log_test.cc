@@ -37,7 +37,8 @@ TEST(MissionLog, ItsLedgerIsThatOfTheOutcomesCommand) {
   const OutcomeSummary summary = summary_of(reader, 60 * kSecond);
   const MissionLog log = read_mission({file.path()});
   const MissionStore& mission = log.mission;
-  EXPECT_THAT(log.remarks, Contains(HasSubstr("43 outcomes are in the log more than once; each counts once")));
+  EXPECT_THAT(log.remarks,
+              Contains(HasSubstr("43 outcomes are in the log more than once; each counts once")));
   EXPECT_EQ(mission.ledger().total(), summary.total());
   EXPECT_EQ(mission.ledger().by_pair(), summary.by_pair());
   EXPECT_EQ(mission.ledger().by_window(), summary.by_window());
