@@ -218,6 +218,23 @@ TEST_F(RunCommand, DevicesAndEmptyFilesAreWritten) {
   EXPECT_EQ(run("report here/pond.lcm --out empty.html").code, 0);
 }
 
+TEST_F(RunCommand, TheOriginOfAnExportIsThatOfTheScenario) {
+  ASSERT_EQ(
+      run("run pond.toml --duration 1 --out placed --quiet --no-csv --set scenario.origin_latitude_deg=43.5")
+          .code,
+      0);
+  for (const char* format : {"gpx", "geojson"}) {
+    const Ended end =
+        run("log export placed/pond.lcm --out placed." + std::string(format) + " --format " + format);
+    EXPECT_EQ(end.code, 0) << end.output;
+    EXPECT_THAT(bytes_of(folder_ + "/placed." + format), HasSubstr("43.5"));
+  }
+  ASSERT_EQ(run("run pond.toml --duration 1 --out nowhere --quiet --no-csv").code, 0);
+  const Ended end = run("log export nowhere/pond.lcm --out nowhere.gpx --format gpx");
+  EXPECT_EQ(end.code, 2);
+  EXPECT_THAT(end.output, HasSubstr("--origin LATITUDE,LONGITUDE"));
+}
+
 TEST_F(RunCommand, ForceLeavesNothingOfAnEarlierExport) {
   ASSERT_EQ(run("run pond.toml --duration 20 --out here --quiet").code, 0);
   ASSERT_TRUE(fs::exists(folder_ + "/here/csv/outcome.csv"));
