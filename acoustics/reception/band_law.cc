@@ -12,9 +12,9 @@ namespace {
 
 using std::numbers::pi;
 
-// s in units of 1 / deviation.
-constexpr std::array<double, 8> kBelow{-500, -90, -28, -11, -5, -2.4, -1, -0.35};
-constexpr std::array<double, 5> kAbove{0.5, 1.5, 5, 30, 300};
+// s in units of 1 / deviation; 0 at the mean.
+constexpr BandLaw::Values kDeviations{-500, -90, -28, -11, -5, -2.4, -1, -0.35, 0, 0.5, 1.5, 5, 30, 300};
+constexpr std::size_t kMean = 8;
 
 constexpr double kMostScore = 6;
 
@@ -34,19 +34,44 @@ struct Octave {
   double mean = 0, variance = 0, rest = 0, rest_variance = 0, rate = 0;
 };
 
+using Values = BandLaw::Values;
+
+double at_least(double x, double least) { return x > least ? x : least; }
+double at_most(double x, double most) { return x < most ? x : most; }
+
+// Probabilities of scores: tabulated; below the table by the tail of the normal distribution.
+Values probabilities(const Values& scores) {
+  Values tails, made;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const double squares = scores[i] * scores[i];
+    tails[i] =
+        fast_exp(-squares / 2) / (std::sqrt(2 * pi) * -scores[i]) * (1 - 1 / (squares - 1 / (squares + 2)));
+  }
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    made[i] =
+        at_least(scores[i] > -4 ? std::min(tabulated_probability(scores[i]), 1 - 1e-9) : tails[i], 1e-300);
+  }
+  return made;
+}
+
 // ln of the parts of a packet that fall independently below what is fallen below with the score, `crossings` a stretch.
-double log_parts(double score, double crossings, double turns, double stretches) {
-  // Below the table by the tail of the normal distribution.
-  const double p = score > -4 ? std::min(tabulated_probability(score), 1 - 1e-9)
-                              : fast_exp(-score * score / 2) / (std::sqrt(2 * pi) * -score) *
-                                    (1 - 1 / (score * score - 1 / (score * score + 2)));
-  const double both = std::max(p * (1 - p), 1e-300);
-  const double crossed = both * (1 - fast_exp(-crossings / both));
-  const double apart = 1 + 0.27 * fast_exp(-squared(turns / 0.12));
-  if (p < 1e-6) return fast_log(std::clamp(1 + (stretches - 1) * apart * crossed / both, 1.0, stretches));
-  const double once = -fast_log(1 - p);
-  const double all = once - (stretches - 1) * apart * fast_log(std::max(1 - crossed / (1 - p), 1e-300));
-  return fast_log(std::clamp(all / once, 1.0, stretches));
+Values log_parts(const Values& scores, const Values& crossings, const Values& turns, double stretches) {
+  const Values below = probabilities(scores);
+  Values crossed, more, all, few, logs;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const double both = below[i] * (1 - below[i]);
+    crossed[i] = both * (1 - fast_exp(-crossings[i] / both));
+  }
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    more[i] = (stretches - 1) * (1 + 0.27 * fast_exp(-squared(turns[i] / 0.12)));
+    few[i] = crossed[i] / (below[i] * (1 - below[i]));
+  }
+  for (std::size_t i = 0; i < scores.size(); ++i) all[i] = at_least(1 - crossed[i] / (1 - below[i]), 1e-300);
+  for (std::size_t i = 0; i < scores.size(); ++i) all[i] = fast_log(all[i]) / fast_log(1 - below[i]);
+  for (std::size_t i = 0; i < scores.size(); ++i) logs[i] = more[i] * (below[i] < 1e-6 ? few[i] : all[i]);
+  for (std::size_t i = 0; i < scores.size(); ++i) logs[i] = at_least(1 + logs[i], 1);
+  for (std::size_t i = 0; i < scores.size(); ++i) logs[i] = fast_log(at_most(logs[i], stretches));
+  return logs;
 }
 
 }  // namespace
@@ -112,12 +137,13 @@ BandLaw::BandLaw(const CollectedSound& sound, double threshold, double slow_powe
   if (variance_ > 0) skewness_ = third / (variance_ * std::sqrt(variance_));
 }
 
+// Loops over the points without sums and calls, which compilers make vectors.
 BandLaw::Points BandLaw::points(const Stretches& stretches) const {
   Points points;
-  points.fill({mean_, 0, 0});
   if (!(variance_ > 1e-9 * squared(mean_))) {
+    points.powers.fill(mean_);
     for (std::size_t i = 0; i < kPoints; ++i)
-      points[i].score = -4 + 7.0 * static_cast<double>(i) / (kPoints - 1);
+      points.scores[i] = -4 + 7.0 * static_cast<double>(i) / (kPoints - 1);
     return points;
   }
   const double deviation = std::sqrt(variance_);
@@ -126,37 +152,44 @@ BandLaw::Points BandLaw::points(const Stretches& stretches) const {
     if (term.scale > 0) most = std::min(most, 1 / term.scale);
     if (term.scale < 0) least = std::max(least, 1 / term.scale);
   }
-  const auto point = [&](double s) {
-    double k = 0, first = 0, second = 0, slope = 0;
-    for (const Term& term : terms()) {
-      const double a = 1 / (1 - term.scale * s), rest = term.rest * a * a;
-      k += term.count * fast_log(a) + s * term.rest * a;
-      const double here = term.count * term.scale * a + rest;
-      first += here;
-      second += term.count * squared(term.scale * a) + 2 * rest * term.scale * a;
-      slope += term.rate * here;
-    }
-    double score = skewness_ / 6;
-    const double exponent = std::max(s * first - k, 0.0);
-    if (s != 0) {
-      const double r = std::copysign(std::sqrt(std::max(2 * exponent, 1e-12)), s);
-      const double u = s * std::sqrt(std::max(second, 1e-30));
-      score = r + fast_log(u / r) / r;
-    }
-    const double crossings = fast_exp(-exponent) / (2 * pi) * std::sqrt(std::max(slope / second, 0.0));
-    const double turns = stretches.step_s * std::sqrt(std::max(slope / (2 * second), 0.0)) / (2 * pi);
-    return BandPoint{offset_ + first, score,
-                     log_parts(score, crossings * stretches.step_s, turns, stretches.count)};
-  };
-  std::size_t i = 0;
   // Toward the ends that the terms set, never at them.
-  const auto toward = [&](double end, double deviations) {
-    const double s = deviations / deviation;
-    return s * end / (end + s);
-  };
-  for (const double below : kBelow) points[i++] = point(toward(least, below));
-  points[i++] = point(0);
-  for (const double above : kAbove) points[i++] = point(toward(most, above));
+  Values s;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double plain = kDeviations[i] / deviation, end = i < kMean ? least : most;
+    s[i] = plain * end / (end + plain);
+  }
+  Values k{}, first{}, second{}, slope{}, crossings, turns;
+  for (const Term& term : terms()) {
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      const double a = 1 / (1 - term.scale * s[i]), rest = term.rest * a * a;
+      k[i] += term.count * fast_log(a) + s[i] * term.rest * a;
+      const double here = term.count * term.scale * a + rest;
+      first[i] += here;
+      second[i] += term.count * squared(term.scale * a) + 2 * rest * term.scale * a;
+      slope[i] += term.rate * here;
+    }
+  }
+  Values squares, roots, changes;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    squares[i] = at_least(2 * (s[i] * first[i] - k[i]), 1e-12);
+    second[i] = at_least(second[i], 1e-300);
+    changes[i] = at_least(slope[i], 0);
+  }
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    points.powers[i] = offset_ + first[i];
+    roots[i] = std::copysign(std::sqrt(squares[i]), s[i]);
+  }
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double u = s[i] * std::sqrt(second[i]);
+    points.scores[i] = roots[i] + fast_log(u / roots[i]) / roots[i];
+  }
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double rate = changes[i] / second[i];
+    crossings[i] = fast_exp(-squares[i] / 2) / (2 * pi) * std::sqrt(rate) * stretches.step_s;
+    turns[i] = stretches.step_s * std::sqrt(rate / 2) / (2 * pi);
+  }
+  points.scores[kMean] = skewness_ / 6;
+  points.log_parts = log_parts(points.scores, crossings, turns, stretches.count);
   return points;
 }
 

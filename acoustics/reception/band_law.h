@@ -22,12 +22,6 @@
 
 namespace halocline::acoustics {
 
-struct BandPoint {
-  double power = 0,
-         score = 0;  // Q is below the power with the probability that a standard normal is below the score
-  double log_parts = 0;  // of a packet that fall below it independently
-};
-
 // Instants at which a packet is met.
 struct Stretches {
   double count = 1, step_s = 0;
@@ -42,7 +36,12 @@ double interference_share(const CollectedSound& sound, double threshold, double 
 class BandLaw {
  public:
   static constexpr std::size_t kPoints = 14;
-  using Points = std::array<BandPoint, kPoints>;
+  using Values = std::array<double, kPoints>;
+  struct Points {
+    Values powers{},
+        scores{};  // Q is below the power with the probability that a standard normal is below the score
+    Values log_parts{};  // of a packet that fall below it independently
+  };
 
   // While the power that does not fade within a packet is `slow_power`.
   BandLaw(const CollectedSound& sound, double threshold, double slow_power);

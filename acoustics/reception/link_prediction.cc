@@ -97,10 +97,17 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
                                                   const PowerLaw& slow) {
   const auto& scores = slow_states().powers;
   std::array<StrataMean::Levels, kPowers> levels;
+  std::array<double, StrataMean::kLevels>
+      parts{};  // guessed as those of the power before, or else of the level before
+  double last = 0;
   const auto compute = [&](std::size_t i) {
     const FadingSignal fading = packet.fading_signal(std::max(slow.at(scores[i]), 0.0));
-    double parts = 0;
-    levels[i] = mean.levels([&](std::size_t k) { return packet.bits(fading, mean.noise(k), parts); });
+    levels[i] = mean.levels([&](std::size_t k) {
+      if (!(parts[k] > 0)) parts[k] = last;
+      const Level bits = packet.bits(fading, mean.noise(k), parts[k]);
+      last = parts[k];
+      return bits;
+    });
   };
   compute(0);
   if (!(slow.variance > 0) || mean.decodes(levels.front().front())) {
@@ -143,13 +150,51 @@ void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& 
   }
 }
 
+// Frequency-shift keying: the middle level of each state; those on both sides of it as far from it as in the states nearest in
+// power of those of which all are computed. Where those are certain, each state by itself.
+std::array<StrataMean::Levels, kPatterns> levels_of(const PacketLevels& packet, const StrataMean& mean,
+                                                    const std::array<SlowSound, kPatterns>& patterns) {
+  constexpr std::size_t kMiddle = StrataMean::kLevels / 2, kApart = 5;
+  const auto level = [&](std::size_t i) {
+    return [&, i](std::size_t k) { return packet.bits(patterns[i], mean.noise(k)); };
+  };
+  std::array<StrataMean::Levels, kPatterns> levels;
+  bool decoded = true, lost = true;
+  for (std::size_t i = 0; i < kPatterns; i += kApart) {
+    decoded = decoded && mean.decodes(level(i)(0));
+    lost = lost && !decoded && mean.loses(level(i)(StrataMean::kLevels - 1));
+    if (!decoded && !lost) break;
+  }
+  if (decoded || lost) {
+    for (std::size_t i = 0; i < kPatterns; ++i) levels[i] = mean.levels(level(i));
+    return levels;
+  }
+  for (std::size_t i = 0; i < kPatterns; i += kApart) levels[i] = mean.uncertain_levels(level(i));
+  for (std::size_t i = 0; i < kPatterns; ++i) {
+    if (i % kApart == 0) continue;
+    const StrataMean::Levels &low = levels[i - i % kApart], &high = levels[i - i % kApart + kApart];
+    const double part = static_cast<double>(i % kApart) / kApart;
+    const Level middle = level(i)(kMiddle);
+    const auto beside = [&](double one, double one_middle, double other, double other_middle) {
+      return (1 - part) * (one - one_middle) + part * (other - other_middle);
+    };
+    for (std::size_t k = 0; k < StrataMean::kLevels; ++k) {
+      levels[i][k] = {middle.median_db + beside(low[k].median_db, low[kMiddle].median_db, high[k].median_db,
+                                                high[kMiddle].median_db),
+                      middle.deviation_db + beside(low[k].deviation_db, low[kMiddle].deviation_db,
+                                                   high[k].deviation_db, high[kMiddle].deviation_db)};
+    }
+  }
+  return levels;
+}
+
 void add_patterns(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
   const auto patterns = patterns_of(sound);
+  const auto levels = levels_of(packet, mean, patterns);
   Level preamble;
   for (std::size_t i = 0; i < kPatterns; ++i) {
     if (i == 0 || !mean.finds(preamble)) preamble = packet.preamble(patterns[i].slow_power);
-    mean.add(preamble, mean.levels([&](std::size_t k) { return packet.bits(patterns[i], mean.noise(k)); }), i,
-             1.0 / kPatterns);
+    mean.add(preamble, levels[i], i, 1.0 / kPatterns);
   }
 }
 

@@ -22,6 +22,7 @@ constexpr double kLeastLoss = 1e-6;   // of packets
 constexpr double kAlike = 0.02;       // of the variance: of no effect
 constexpr double kNoLoss = -5.5;      // score: nothing falls below
 constexpr int kRounds = 3, kRoundsOfGuess = 2;
+constexpr double kSettled = 0.03;  // change of the parts by a round that needs no other
 constexpr double kNarrow =
     0.15;  // deviation over mean, 0.65 dB: below, fading is less than the steps of the curve
 // Our fits to judged packets (tests/channel_server/packets/link_prediction_test.cc): the softer the curve, the longer the
@@ -41,6 +42,12 @@ double of_beat(double constant, double varying, double scale, double exponent) {
   return (fast_exp(exponent - mean - swing) + fast_exp(exponent - mean + swing)) / 2;
 }
 
+double mean_of(const std::array<double, kFrequencies>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / kFrequencies;
+}
+
 double decibels(double power) { return fast_decibels(std::max(power, 1e-30)); }
 
 }  // namespace
@@ -54,49 +61,81 @@ FadingSignal::FadingSignal(const CollectedSound& sound, double slow_power,
     sides_[i] = Side(thresholds[i], law, stretches);
   }
   if (alike_) sides_.front() = sides_.back();
-  narrow_parts_ = fast_exp(std::max(sides_.back().at(std::max(mean_ - deviation(), 0.0)).parts, 0.0));
+  narrow_parts_ = fast_exp(std::max(sides_.back().log_parts_at(std::max(mean_ - deviation(), 0.0)), 0.0));
 }
 
 FadingSignal::Side::Side(double at_threshold, const BandLaw& law, const Stretches& stretches)
     : threshold(at_threshold), deviation(std::sqrt(law.variance())), points(law.points(stretches)) {
-  for (std::size_t k = 0; k < kPoints; ++k) {
-    logs[k] = points[k].power > 0 ? fast_log(points[k].power) : 0;
-    if (k == 0) continue;
-    const double rise =
-        points[k - 1].power > 0 ? logs[k] - logs[k - 1] : points[k].power - points[k - 1].power;
+  const BandLaw::Values& powers = points.powers;
+  for (std::size_t k = 0; k < kPoints; ++k) logs[k] = fast_log(powers[k] > 1e-300 ? powers[k] : 1);
+  for (std::size_t k = 1; k < kPoints; ++k) {
+    const double rise = powers[k - 1] > 0 ? logs[k] - logs[k - 1] : powers[k] - powers[k - 1];
     rises[k] = rise > 0 ? 1 / rise : 0;
   }
 }
 
-FadingSignal::State FadingSignal::Side::at(double power) const {
-  std::size_t above = 0;
-  while (above < kPoints && points[above].power <= power) ++above;
-  if (above == 0) return {-kMostScore, points.front().log_parts};
-  if (above == kPoints) return {kMostScore, points.back().log_parts};
-  const BandPoint &low = points[above - 1], &high = points[above];
-  const double part = (low.power > 0 ? fast_log(power) - logs[above - 1] : power - low.power) * rises[above];
-  return {low.score + part * (high.score - low.score),
-          low.log_parts + part * (high.log_parts - low.log_parts)};
+// `above` is a guess of the first point that has more power, and becomes it.
+FadingSignal::Side::Place FadingSignal::Side::place(double power, double log_power,
+                                                    std::size_t& above) const {
+  const BandLaw::Values& powers = points.powers;
+  while (above < kPoints && powers[above] <= power) ++above;
+  while (above > 0 && powers[above - 1] > power) --above;
+  if (above == 0) return {0, 0, 0};
+  if (above == kPoints) return {kPoints - 1, kPoints - 1, 0};
+  const std::size_t low = above - 1;
+  return {low, above, (powers[low] > 0 ? log_power - logs[low] : power - powers[low]) * rises[above]};
+}
+
+void FadingSignal::Side::at(const Thresholds& powers, States& states) const {
+  Thresholds log_powers;
+  for (std::size_t k = 0; k < kThresholds; ++k) log_powers[k] = fast_log(powers[k] > 1e-300 ? powers[k] : 1);
+  std::size_t above = kPoints / 2;
+  for (std::size_t k = 0; k < kThresholds; ++k) {
+    const auto [low, high, part] = place(powers[k], log_powers[k], above);
+    const double from = points.scores[low], parts = points.log_parts[low];
+    states.scores[k] = above == 0         ? -kMostScore
+                       : above == kPoints ? kMostScore
+                                          : from + part * (points.scores[high] - from);
+    states.parts[k] = parts + part * (points.log_parts[high] - parts);
+  }
+}
+
+double FadingSignal::Side::log_parts_at(double power) const {
+  std::size_t above = kPoints / 2;
+  const auto [low, high, part] = place(power, fast_log(power > 1e-300 ? power : 1), above);
+  return points.log_parts[low] + part * (points.log_parts[high] - points.log_parts[low]);
 }
 
 // As many deviations from the mean on both sides.
-FadingSignal::State FadingSignal::at(double threshold, double disturbance) const {
+FadingSignal::States FadingSignal::at(const ReceptionCurves::Thresholds& thresholds,
+                                      double disturbance) const {
   const Side &low = sides_.front(), &high = sides_.back();
+  States states;
+  Thresholds powers, low_powers, shares;
   if (alike_) {
-    const State state = high.at(threshold * disturbance);
-    return {state.score, fast_exp(std::max(state.parts, 0.0))};
+    for (std::size_t k = 0; k < kThresholds; ++k) powers[k] = fast_exp(thresholds.logs[k]) * disturbance;
+    high.at(powers, states);
+  } else {
+    for (std::size_t k = 0; k < kThresholds; ++k) {
+      const double threshold = fast_exp(thresholds.logs[k]);
+      const double part = (threshold - low.threshold) / (high.threshold - low.threshold);
+      const double below = threshold * disturbance - mean_,
+                   deviation = low.deviation + part * (high.deviation - low.deviation),
+                   deviations = below / deviation;
+      low_powers[k] = mean_ + (deviation > 0 ? deviations * low.deviation : below);
+      powers[k] = mean_ + (deviation > 0 ? deviations * high.deviation : below);
+      shares[k] = part < 0 ? 0 : part > 1 ? 1 : part;
+    }
+    States others;
+    low.at(low_powers, states);
+    high.at(powers, others);
+    for (std::size_t k = 0; k < kThresholds; ++k) {
+      states.scores[k] += shares[k] * (others.scores[k] - states.scores[k]);
+      states.parts[k] += shares[k] * (others.parts[k] - states.parts[k]);
+    }
   }
-  const double part = (threshold - low.threshold) / (high.threshold - low.threshold);
-  const double below = threshold * disturbance - mean_,
-               deviation = std::max(low.deviation + part * (high.deviation - low.deviation), 0.0);
-  const double deviations = deviation > 0 ? below / deviation : 0;
-  const auto at = [&](const Side& side) {
-    return side.at(mean_ + (deviation > 0 ? deviations * side.deviation : below));
-  };
-  const double share = std::clamp(part, 0.0, 1.0);
-  const State one = at(low), other = at(high);
-  return {one.score + share * (other.score - one.score),
-          fast_exp(std::max(one.parts + share * (other.parts - one.parts), 0.0))};
+  for (double& parts : states.parts) parts = fast_exp(parts > 0 ? parts : 0);
+  return states;
 }
 
 PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound)
@@ -175,18 +214,19 @@ double PacketLevels::wide_loss(const FadingSignal& signal, double disturbance, d
   if (!(parts > 0)) parts = std::sqrt(stretches_);
   double loss = 0;
   for (int i = 0; i < rounds; ++i) {
-    const ReceptionCurves::Thresholds needed = thresholds(parts);
+    const FadingSignal::States states = signal.at(thresholds(parts), disturbance);
+    const double guess = parts;
     double below = 0, sum = 1e-12 * parts, weight = 1e-12;
     for (std::size_t k = 0; k < ReceptionCurves::kThresholds; ++k) {
-      const FadingSignal::State state = signal.at(fast_exp(needed.logs[k]), disturbance);
-      if (state.score < kNoLoss) break;  // nor below the thresholds to come, which are lower
-      const double share = shares[k] * tabulated_probability(state.score);
+      if (states.scores[k] < kNoLoss) break;  // nor below the thresholds to come, which are lower
+      const double share = shares[k] * tabulated_probability(states.scores[k]);
       below += share;
       weight += share;
-      sum += share * std::min(state.parts, stretches_);
+      sum += share * std::min(states.parts[k], stretches_);
     }
     parts = sum / weight;
     loss = -parts * fast_log(std::max(1 - below, 1e-30));
+    if (std::abs(parts - guess) < kSettled * guess) break;
   }
   return loss;
 }
@@ -219,36 +259,36 @@ Level PacketLevels::bits(const SlowSound& slow, double noise) const {
 }
 
 // Of exp(-scale power) over time and the band, each frequency Rician: E = exp(-c / (1 + d)) / (1 + d).
+// Loops over the frequencies without sums, which compilers make vectors; the sums apart.
 PacketLevels::Cells PacketLevels::cells_of(const SlowSound& slow, double scale) const {
   using Frequencies = std::array<double, kFrequencies>;
   const double d = scale * sound_.fast;
-  Frequencies c, b, losses, ones;
+  Frequencies c, b, losses, ones, squares;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
     c[m] = scale * slow.steady[m];
     b[m] = d + scale * slow.varying[m];
     losses[m] = c[m] / (1 + b[m]);
   }
   const double least = *std::min_element(losses.begin(), losses.end());  // taken out: loud cells underflow
-  double mean = 0;
-  for (std::size_t m = 0; m < kFrequencies; ++m) {
-    ones[m] = coded_ ? fast_exp(least - losses[m]) / (1 + b[m])
-                     : of_beat(slow.steady[m], slow.varying[m], scale / (1 + d), least) / (1 + d);
-    mean += ones[m] / kFrequencies;
+  if (coded_) {
+    for (std::size_t m = 0; m < kFrequencies; ++m) ones[m] = fast_exp(least - losses[m]) / (1 + b[m]);
+  } else {
+    for (std::size_t m = 0; m < kFrequencies; ++m) {
+      ones[m] = of_beat(slow.steady[m], slow.varying[m], scale / (1 + d), least) / (1 + d);
+    }
   }
-  const double nepers = least - fast_log(mean);
+  const double mean = mean_of(ones), nepers = least - fast_log(mean);
   const double single = d * d + 2 * d * scale * slow.slow_power;
   if (!(single > 0)) return {nepers, 0};
-  double all = 0;
   for (std::size_t m = 0; m < kFrequencies; ++m) {
-    const double twice = 1 / (1 + 2 * b[m]);
-    all += (fast_exp(std::min(2 * (least - c[m] * twice), kMaxExponent)) * twice - ones[m] * ones[m]) /
-           kFrequencies;
+    const double twice = 1 / (1 + 2 * b[m]), exponent = 2 * (least - c[m] * twice);
+    squares[m] = fast_exp(exponent < kMaxExponent ? exponent : kMaxExponent) * twice - ones[m] * ones[m];
   }
   const double of_mean =
       squared(scale) * sound_.power(slow.slow_power, sound_.bits_variance).variance / single;
   // Deep fades, which count most, are shorter than the power's coherence, in time and in frequency.
   const double shorter = fast_exp(2.0 / 3 * fast_log((1 + 2 * d) / squared(1 + d)));
-  return {nepers, all * of_mean * shorter / (mean * mean)};
+  return {nepers, mean_of(squares) * of_mean * shorter / (mean * mean)};
 }
 
 }  // namespace halocline::acoustics

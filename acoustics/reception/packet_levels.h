@@ -27,28 +27,38 @@ class FadingSignal {
   FadingSignal(const CollectedSound& sound, double slow_power, const std::array<double, 2>& thresholds,
                const Stretches& stretches);
 
-  // Where the ratio to a disturbance is the threshold.
-  struct State {
-    double score = 0;  // normal, of the signal below the power
-    double parts = 1;  // independent ones of a packet, of fades below the power
+  // Where the ratio to a disturbance is one of the thresholds, which fall.
+  struct States {
+    std::array<double, ReceptionCurves::kThresholds> scores{};  // normal, of the signal below the power
+    std::array<double, ReceptionCurves::kThresholds>
+        parts{};  // independent ones of a packet, of fades below the power
   };
-  State at(double threshold, double disturbance) const;
+  States at(const ReceptionCurves::Thresholds& thresholds, double disturbance) const;
   double mean() const { return mean_; }
   double deviation() const { return sides_.back().deviation; }
   // Of fades that are less than the steps of the curve.
   double narrow_parts() const { return narrow_parts_; }
 
  private:
-  static constexpr std::size_t kPoints = BandLaw::kPoints;
+  static constexpr std::size_t kPoints = BandLaw::kPoints, kThresholds = ReceptionCurves::kThresholds;
+  using Thresholds = std::array<double, kThresholds>;
   struct Side {
     double threshold = 0, deviation = 0;
     BandLaw::Points points{};
-    std::array<double, kPoints> logs{};  // of their powers; of a power below 0, none
-    std::array<double, kPoints>
-        rises{};  // 1 over what the logarithm, or else the power, rises by to the point
+    BandLaw::Values logs{};   // of their powers; of a power below 0, none
+    BandLaw::Values rises{};  // 1 over what the logarithm, or else the power, rises by to the point
     Side() = default;
     Side(double at_threshold, const BandLaw& law, const Stretches& stretches);
-    State at(double power) const;  // its parts are a logarithm
+    // Of powers, best falling; the parts are logarithms.
+    void at(const Thresholds& powers, States& states) const;
+    double log_parts_at(double power) const;
+
+   private:
+    struct Place {
+      std::size_t low, high;
+      double part;
+    };
+    Place place(double power, double log_power, std::size_t& above) const;
   };
   std::array<Side, 2> sides_;
   bool alike_ = false;  // the same for both thresholds

@@ -12,8 +12,6 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kLeastDb = -40, kStepDb = 0.1;
-constexpr std::size_t kRows = 1001;
 // Of parts, the bounds of the shares that ReceptionCurves::Parts has a ratio for: finer where few are lost.
 constexpr std::array<double, ReceptionCurves::kThresholds + 1> kLosses{0,   0.0004, 0.003, 0.015, 0.06,
                                                                        0.2, 0.5,    0.85,  1};
@@ -87,14 +85,6 @@ ReceptionCurves::Parts ReceptionCurves::make_parts() const {
 }
 
 double ReceptionCurves::decibels(double sinr) { return sinr > 1e-30 ? fast_decibels(sinr) : kLeastDb; }
-
-double ReceptionCurves::interpolated(const std::vector<double>& table, double sinr_db) {
-  const double place = (sinr_db - kLeastDb) / kStepDb;
-  if (!(place > 0)) return table.front();
-  if (place >= static_cast<double>(kRows - 1)) return table.back();
-  const auto row = static_cast<std::size_t>(place);
-  return table[row] + (place - static_cast<double>(row)) * (table[row + 1] - table[row]);
-}
 
 double ReceptionCurves::ratio_db_of(double log_bit_success) const {
   const auto above = std::upper_bound(log_bit_success_.begin(), log_bit_success_.end(), log_bit_success);

@@ -54,7 +54,15 @@ class ReceptionCurves {
   Parts make_parts() const;
   template <typename Chance>
   static Flank flank_of(Chance chance);
-  static double interpolated(const std::vector<double>& table, double sinr_db);
+  static constexpr double kLeastDb = -40, kStepDb = 0.1;
+  static constexpr std::size_t kRows = 1001;
+  static double interpolated(const std::vector<double>& table, double sinr_db) {
+    const double place = (sinr_db - kLeastDb) / kStepDb;
+    if (!(place > 0)) return table.front();
+    if (place >= static_cast<double>(kRows - 1)) return table.back();
+    const auto row = static_cast<std::size_t>(place);
+    return table[row] + (place - static_cast<double>(row)) * (table[row + 1] - table[row]);
+  }
 
   Modem modem_;
   PacketTiming timing_;

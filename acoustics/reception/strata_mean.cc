@@ -7,8 +7,6 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kHopeless = -16;  // ln of a chance that does not count
-
 // All sound is louder by this factor, at a score of large-scale fading of `deviation` nepers of power.
 double loudness(double deviation, double z) { return fast_exp(deviation * z - deviation * deviation / 2); }
 
@@ -122,6 +120,23 @@ StrataMean::Levels& StrataMean::fill_parabola(Levels& bits) const {
   return bits;
 }
 
+// Lagrange's, through levels 0, 1, 3, 5 and 6.
+StrataMean::Levels& StrataMean::fill_quartic(Levels& bits) const {
+  constexpr std::array<std::size_t, 5> kFrom{0, 1, 3, 5, 6};
+  constexpr std::array<double, 5> kShares{-2.0 / 15, 3.0 / 5, 2.0 / 3, -1.0 / 5, 1.0 / 15};  // of level 2
+  Level low{-disturbance_db_[2]}, high{-disturbance_db_[4]};
+  for (std::size_t i = 0; i < kFrom.size(); ++i) {
+    const Level &one = bits[kFrom[i]], &other = bits[kLevels - 1 - kFrom[i]];
+    low.median_db += kShares[i] * (one.median_db + disturbance_db_[kFrom[i]]);
+    low.deviation_db += kShares[i] * one.deviation_db;
+    high.median_db += kShares[i] * (other.median_db + disturbance_db_[kLevels - 1 - kFrom[i]]);
+    high.deviation_db += kShares[i] * other.deviation_db;
+  }
+  bits[2] = low;
+  bits[4] = high;
+  return bits;
+}
+
 void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t state, double share) {
   const bool found = finds(preamble), lost = loses(bits.back()), decoded = decodes(bits.front());
   if (found && (lost || decoded)) {
@@ -129,29 +144,28 @@ void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t stat
     delivered_ += decoded ? share : 0;
     return;
   }
-  const double weight = share * static_cast<double>(turns_) / kStrata;
-  for (std::size_t i = state % turns_; i < kStrata; i += turns_) {
-    const double acquired =
-        found ? 1 : curves_.acquisition_at(preamble.at(scores().preamble(i, state)) - preamble_db_[i]);
-    acquired_ += weight * acquired;
-    if (lost) continue;
-    const double log_success = decoded ? 0 : log_success_at(bits, i, state);
-    if (log_success > kHopeless) delivered_ += weight * acquired * fast_exp(log_success);
+  const Scores& normals = scores();
+  const std::size_t count = kStrata / turns_;
+  std::array<double, kStrata> acquired, logs{};
+  for (std::size_t j = 0, i = state % turns_; j < count; ++j, i += turns_) {
+    acquired[j] =
+        found ? 1 : curves_.acquisition_at(preamble.at(normals.preamble(i, state)) - preamble_db_[i]);
   }
-}
-
-// ln of the chance of all bits.
-double StrataMean::log_success_at(const Levels& levels, std::size_t stratum, std::size_t state) const {
-  const auto below = static_cast<std::size_t>(places_[stratum]);
-  const double part = places_[stratum] - static_cast<double>(below);
-  double log_success = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const double z = scores().block(stratum, state, b) * blocks_[b].wider;
-    const double low = levels[below].at(z), high = levels[below + 1].at(z);
-    log_success +=
-        blocks_[b].bits * curves_.log_bit_success_at(low + part * (high - low) - echoes_db_[stratum]);
+  for (std::size_t b = 0; b < blocks_.size() && !lost && !decoded; ++b) {
+    for (std::size_t j = 0, i = state % turns_; j < count; ++j, i += turns_) {
+      const auto below = static_cast<std::size_t>(places_[i]);
+      const double part = places_[i] - static_cast<double>(below),
+                   z = normals.block(i, state, b) * blocks_[b].wider;
+      const double low = bits[below].at(z), high = bits[below + 1].at(z);
+      logs[j] += blocks_[b].bits * curves_.log_bit_success_at(low + part * (high - low) - echoes_db_[i]);
+    }
   }
-  return log_success;
+  for (double& chance : logs) chance = fast_exp(chance);
+  const double weight = share / static_cast<double>(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    acquired_ += weight * acquired[j];
+    if (!lost) delivered_ += weight * acquired[j] * logs[j];
+  }
 }
 
 }  // namespace halocline::acoustics

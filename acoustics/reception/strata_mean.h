@@ -70,9 +70,24 @@ class StrataMean {
     if (loses(bits.back())) return spread(bits, kLevels - 1, 0, kLevels);
     bits[kMiddle] = at(kMiddle);
     if (lie_on_parabola(bits)) return fill_parabola(bits);
+    if (!decodes(bits[kMiddle]) && !loses(bits[kMiddle])) {
+      bits[1] = at(1);
+      bits[kLevels - 2] = at(kLevels - 2);
+      return fill_quartic(bits);
+    }
     fill_between(0, kMiddle, bits, at);
     fill_between(kMiddle, kLevels - 1, bits, at);
     return bits;
+  }
+  // The same, as if none were certain.
+  template <typename At>
+  Levels uncertain_levels(At at) const {
+    Levels bits;
+    for (const std::size_t k : {std::size_t{0}, kLevels / 2, kLevels - 1}) bits[k] = at(k);
+    if (lie_on_parabola(bits)) return fill_parabola(bits);
+    bits[1] = at(1);
+    bits[kLevels - 2] = at(kLevels - 2);
+    return fill_quartic(bits);
   }
   // Adds what becomes of packets in a slow state that has this `share` of the probability; of phase-shift keying the mean over the
   // even strata of even states, the odd ones of odd. Normals of fast fading come in another order in each state.
@@ -93,6 +108,7 @@ class StrataMean {
   Levels& spread(Levels& bits, std::size_t from, std::size_t begin, std::size_t end) const;
   bool lie_on_parabola(const Levels& bits) const;
   Levels& fill_parabola(Levels& bits) const;
+  Levels& fill_quartic(Levels& bits) const;
   template <typename At>
   void fill_between(std::size_t low, std::size_t high, Levels& bits, At at) const {
     if (high - low < 2) return;
@@ -105,7 +121,6 @@ class StrataMean {
     fill_between(low, middle, bits, at);
     fill_between(middle, high, bits, at);
   }
-  double log_success_at(const Levels& levels, std::size_t stratum, std::size_t state) const;
 
   const ReceptionCurves& curves_;
   std::array<double, kStrata> preamble_db_{};  // noise and interference over large-scale fading
