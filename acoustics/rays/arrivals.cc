@@ -105,9 +105,11 @@ std::vector<FoldPair> fold_pairs(const std::vector<Arrival>& paths, const std::v
   for (std::size_t i = 1; i < order.size(); ++i) {
     const std::size_t one = order[i - 1], other = order[i];
     if (members[one].family != members[other].family || members[one].family == kNoFamily) continue;
-    const int more = paths[other].caustics - paths[one].caustics;
+    const int more = members[other].touched - members[one].touched;
     if (std::abs(more) != 1) continue;
-    const double apart_s = std::abs(paths[other].delay_s - paths[one].delay_s);
+    const double apart_s =
+        std::abs(paths[other].delay_s - paths[one].delay_s -
+                 (members[other].phase_rad - members[one].phase_rad) / (2 * pi * frequency_hz));
     const double x = members[one].x > 0 ? members[one].x : fold_place(apart_s, frequency_hz);
     if (x < kLitFold) pairs.push_back({more > 0 ? one : other, more > 0 ? other : one, x});
   }

@@ -120,7 +120,9 @@ constexpr std::uint64_t continued_family(std::uint64_t family, std::uint64_t wha
 struct FoldMember {
   std::uint64_t family = 0;
   double order_rad = 0;
-  double x = 0;  // of the fold with its neighbour (acoustics/math/fold_field.h); 0: by the delays
+  int touched = 0;       // of the caustics of the family
+  double phase_rad = 0;  // beside what all of the family have
+  double x = 0;          // of the fold with its neighbour (acoustics/math/fold_field.h); 0: by the delays
 };
 inline constexpr std::uint64_t kNoFamily = 0;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "acoustics/math/arc_math.h"
 #include "acoustics/sea/ray_water.h"
@@ -9,26 +10,36 @@
 namespace halocline::acoustics {
 namespace {
 
+using std::numbers::pi;
+
 constexpr double kThinnestLayer = 1e-9;    // m
 constexpr double kMinSquaredSine = 1e-28;  // keeps a ray that just grazes finite
+// Of x of turning_field.h, from an end of the link to a boundary: nearer, rays are left as they are by and by.
+constexpr double kNearBoundary = 1, kEndReach = 2;
 
 // Snell's law: with cos = xi c and xi = cos* / c*, sin^2 = ((c* - c)(c* + c) + sin*^2 c^2) / c*^2, sin* at the barrier.
 struct SineAt {
   double barrier, inverse_barrier_squared, squared_sine;
-  double operator()(double c) const {
-    const double exact = ((barrier - c) * (barrier + c) + squared_sine * c * c) * inverse_barrier_squared;
-    return std::sqrt(std::max(exact, kMinSquaredSine));
+  // Below 0 where the ray turns before.
+  double square(double c) const {
+    return ((barrier - c) * (barrier + c) + squared_sine * c * c) * inverse_barrier_squared;
   }
+  double operator()(double c) const { return std::sqrt(std::max(square(c), kMinSquaredSine)); }
 };
 
 constexpr std::size_t index_of(Leg leg) { return static_cast<std::size_t>(leg); }
 
 }  // namespace
 
-LayeredLegs::LayeredLegs(const RayWater& water, double upper_m, double lower_m, double bottom_m) {
+LayeredLegs::LayeredLegs(const RayWater& water, double upper_m, double lower_m, double bottom_m,
+                         double frequency_hz) {
   append(up_, water, upper_m, 0);
   append(between_, water, upper_m, lower_m);
   append(down_, water, lower_m, bottom_m);
+  if (frequency_hz > 0) {
+    mark_knots(up_, frequency_hz);
+    mark_knots(down_, frequency_hz);
+  }
   barrier_ = std::max(water.speed_at(upper_m), water.speed_at(lower_m));
   for (const LegLayer& layer : between_) barrier_ = std::max({barrier_, layer.c1, layer.c2});
   pass_what_is_slower();
@@ -59,6 +70,63 @@ void LayeredLegs::append(std::vector<LegLayer>& layers, const RayWater& water, d
   }
 }
 
+// Where speed rises on both sides of a knot, or up to a boundary.
+void LayeredLegs::mark_knots(std::vector<LegLayer>& layers, double frequency_hz) {
+  if (layers.empty()) return;
+  const double start = layers.front().c1;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    LegLayer& layer = layers[i];
+    layer.is_last = i + 1 == layers.size();
+    const double before = layer.gradient, beyond = layer.is_last ? before : layers[i + 1].gradient;
+    if (before <= 0 || beyond <= 0 || layer.c2 <= start) continue;
+    // Squares of sines: of the scale, and at the knot of the ray that is horizontal at the end of the link.
+    const double wave = std::pow(turning_sine(std::min(before, beyond), frequency_hz), 2);
+    const double end = (layer.c2 - start) * (layer.c2 + start) / (layer.c2 * layer.c2);
+    if (layer.is_last) {
+      const double x = end / wave, t = std::min(x / kNearBoundary, 1.0);
+      layer.knot_s = -t * t * (3 - 2 * t) / before;
+      layer.turning_sine = std::sqrt(wave);
+      layer.end_x = x;
+      layer.at_end = turning_at_boundary(-std::min(x, -kDeepTurning));
+    } else {
+      layer.knot_s = 1 / beyond - 1 / before;
+      const double wider = knot_widening(std::min(before, beyond) * std::abs(layer.knot_s));
+      layer.turning_sine = std::sqrt(std::min(wave * wider, end / kKnotHalfWidth));
+    }
+  }
+}
+
+template <class Visit>
+void LayeredLegs::visit_knots(const std::vector<LegLayer>& layers, std::size_t reach, double squared_sine,
+                              Visit visit) const {
+  const SineAt sine{barrier_, inverse_barrier_squared_, squared_sine};
+  const auto is_near = [&](const LegLayer& layer, bool is_passed) {
+    if (layer.knot_s == 0) return layer.gradient > 0;
+    const double square = sine.square(layer.c2), x = square / (layer.turning_sine * layer.turning_sine);
+    if (!(x > kDeepTurning && x < kSteepTurning)) return false;
+    NearKnot knot{layer, layer.is_last ? turning_at_boundary(x) : turning_at_knot(x), square, 0};
+    if (square > 0 && is_passed) {
+      knot.inverse_sine = 1 / std::sqrt(std::max(square, kMinSquaredSine));
+    } else if (square > 0) {  // of a ray that is followed beyond the knot as if there were none
+      knot.share.sine += std::sqrt(x);
+      knot.share.phase += 2.0 / 3 * x * std::sqrt(x);
+    }
+    // Of the ray that is horizontal at the end, which a leg to the boundary does not change, nothing is left.
+    const double off = 1 - (layer.end_x + x) / kEndReach;
+    if (layer.is_last && off > 0) {
+      knot.share.sine -= off * off * layer.at_end.sine;
+      knot.share.slope += 4 / kEndReach * off * layer.at_end.sine;
+      knot.share.phase -= off * off * layer.at_end.phase;
+    }
+    visit(knot);
+    return true;
+  };
+  for (std::size_t i = reach; i > 0 && is_near(layers[i - 1], true); --i) {
+  }
+  for (std::size_t i = reach; i < layers.size() && is_near(layers[i], false); ++i) {
+  }
+}
+
 void LayeredLegs::pass_what_is_slower() {
   while (up_reach_ < up_.size() && up_[up_reach_].c2 <= barrier_) ++up_reach_;
   while (down_reach_ < down_.size() && down_[down_reach_].c2 <= barrier_) ++down_reach_;
@@ -74,6 +142,12 @@ double LayeredLegs::next_barrier_mps() const {
 bool LayeredLegs::advance() {
   const double next = next_barrier_mps();
   if (next <= 0) return false;
+  const auto is_smooth = [next](const std::vector<LegLayer>& layers, std::size_t reach) {
+    if (reach == layers.size() || layers[reach].c2 != next) return true;
+    return layers[reach].knot_s != 0 ||
+           (reach + 1 < layers.size() && layers[reach].gradient == layers[reach + 1].gradient);
+  };
+  smooth_ = is_smooth(up_, up_reach_) && is_smooth(down_, down_reach_);
   barrier_ = next;
   pass_what_is_slower();
   return true;
@@ -104,6 +178,11 @@ void LayeredLegs::add_sums(const std::vector<LegLayer>& layers, std::size_t reac
     m -= scale / s1;
     end_sine = 0;
   }
+  visit_knots(layers, reach, squared_sine, [&](const NearKnot& knot) {
+    const double s0 = knot.layer.turning_sine, scale = knot.layer.knot_s / (sums.xi * sums.xi);
+    q += scale * s0 * knot.share.sine;
+    m -= scale * (s0 * knot.share.sine + (1 - knot.square) * (knot.share.slope / s0 - knot.inverse_sine));
+  });
   sums.q[index_of(leg)] = q;
   sums.m[index_of(leg)] = m;
 }
@@ -144,6 +223,16 @@ void LayeredLegs::add_details(const std::vector<LegLayer>& layers, std::size_t r
     add_layer(layers[i], s1, s2, xi, index_of(leg), details);
     s1 = s2;
   }
+  visit_knots(layers, reach, squared_sine, [&](const NearKnot& knot) {
+    const LegLayer& layer = knot.layer;
+    const double s0 = layer.turning_sine, range = layer.knot_s / xi * s0 * knot.share.sine;
+    details.length_m[index_of(leg)] += range;
+    details.absorption_db[index_of(leg)] += range * mean_absorption(restricted(layer.absorption, 1, 1), 1, 1);
+    // At a boundary its phase is that of the touch.
+    if (!layer.is_last)
+      details.intercept_s[index_of(leg)] +=
+          layer.knot_s * s0 * s0 * s0 / 2 * knot.share.phase / (1 - knot.square);
+  });
   if (reach == layers.size()) return;
   LegLayer part =
       layers[reach];  // as far as the turn, where c = 1 / xi: 1 / xi - c1 = s1^2 / (xi^2 (1 / xi + c1))
@@ -161,6 +250,24 @@ LegDetails LayeredLegs::details(double sine, double cosine) const {
   add_details(between_, between_.size(), squared_sine, xi, Leg::kBetween, details);
   add_details(down_, down_reach_, squared_sine, xi, Leg::kDown, details);
   return details;
+}
+
+BoundaryTouch LayeredLegs::touch(Leg leg, double sine) const {
+  const std::vector<LegLayer>& layers = leg == Leg::kUp ? up_ : down_;
+  const std::size_t reach = leg == Leg::kUp ? up_reach_ : down_reach_;
+  const bool reflects = reach == layers.size();
+  BoundaryTouch touch;
+  if (layers.empty()) return touch;
+  const double inverse = reflects ? 1 / sine_at(layers.back().c2, sine) : 0;
+  touch.turned_rad = reflects ? pi / 4 : 0;
+  visit_knots(layers, reach, sine * sine, [&](const NearKnot& knot) {
+    if (!knot.layer.is_last) return;
+    const double weight = -knot.layer.knot_s * knot.layer.gradient;
+    touch.phase_rad = weight * (knot.share.phase - touch.turned_rad);
+    touch.turned_rad += touch.phase_rad;
+    touch.inverse_sine = inverse + weight * (knot.share.slope / knot.layer.turning_sine - inverse);
+  });
+  return touch;
 }
 
 }  // namespace halocline::acoustics

@@ -35,10 +35,17 @@ Bounces bounces_of(const LayeredLegs& legs, const LayeredRay& ray) {
           legs.meets_bottom() ? 0 : below};
 }
 
-// A ray of m turns has touched m - 1 caustics, and one more when dr/dxi > 0.
+// What the two boundaries are to the legs of a ray.
+struct Touches {
+  BoundaryTouch top, bottom;
+};
+
+// A ray of m turns has touched m - 1 caustics, and one more when dr/dxi > 0: -1 where reflection at grazing acts like a
+// turn.
 int caustics_of(const Bounces& bounces, double range_slope) {
   const int turns = bounces.upper_turns + bounces.lower_turns;
-  return turns == 0 ? 0 : turns - 1 + (range_slope > 0 ? 1 : 0);
+  if (turns + bounces.surface + bounces.bottom == 0) return 0;
+  return turns - 1 + (range_slope > 0 ? 1 : 0);
 }
 
 // Signed angle, positive down, of a ray whose sine is `sine` >= 0.
@@ -59,8 +66,23 @@ void set_directions(const LayeredLink& link, const LayeredLegs& legs, const Laye
   path.identity.launched_up = !leaves_down;
 }
 
+// Of one touch of the surface, dB.
+double surface_loss_of(const LayeredLink& link, const LegSums& sums, const BoundaryTouch& touch,
+                       bool reflects) {
+  const RaySurface& surface = link.sea.surface;
+  const double frequency = link.sea.options.frequency_hz;
+  if (surface.model == SurfaceModel::kFlat) return 0;
+  if (touch.inverse_sine > 0 && surface.model == SurfaceModel::kAplBubbles)
+    return SurfaceLoss(surface, frequency).db_at_sine(1) * touch.inverse_sine;
+  if (!reflects) return 0;
+  const double grazing = std::atan2(sums.sine_top, sums.xi * link.surface_speed_mps);
+  const double factor = surface_magnitude(surface, grazing, frequency);
+  return factor < 1 ? -20 * std::log10(factor) : 0;
+}
+
 // False when the bounces leave too little.
-bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces& bounces, Arrival& path) {
+bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces& bounces,
+                    const Touches& touches, Arrival& path) {
   const RayOptions& options = link.sea.options;
   double factor = 1, phase = pi * (bounces.surface % 2);
   if (bounces.bottom > 0) {
@@ -70,12 +92,12 @@ bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces&
     phase += one.phase_rad * bounces.bottom;
     path.bottom_loss_db = bounces.bottom * one.loss_db();
   }
-  if (bounces.surface > 0 && link.sea.surface.model != SurfaceModel::kFlat) {
-    const double grazing = std::atan2(sums.sine_top, sums.xi * link.surface_speed_mps);
-    const double one = surface_magnitude(link.sea.surface, grazing, options.frequency_hz);
-    if (one < 1) path.surface_loss_db = -20 * bounces.surface * std::log10(one);
-    factor *= std::pow(one, bounces.surface);
-  }
+  const int touched = bounces.surface + bounces.upper_turns;
+  path.surface_loss_db =
+      touched > 0 ? touched * surface_loss_of(link, sums, touches.top, bounces.surface > 0) : 0;
+  if (path.surface_loss_db > 0) factor *= std::pow(10.0, -path.surface_loss_db / 20);
+  phase += 2 * touched * touches.top.phase_rad +
+           2 * (bounces.bottom + bounces.lower_turns) * touches.bottom.phase_rad;
   path.amplitude = factor;
   path.phase_rad = phase;
   return factor >= options.min_boundary_factor;
@@ -92,9 +114,11 @@ void set_spreading(const LayeredLink& link, const LayeredLegs& legs, const Layer
   const bool is_dark = ray.fold_slope > 0;
   const double tube = q * (is_dark ? ray.fold_slope : std::max(std::abs(m), kMinRangeSlope)) * sines;
   path.amplitude *= std::sqrt(link.source_speed_mps * link.receiver_speed_mps / tube);
-  path.caustics = caustics_of(bounces, is_dark ? 0 : m);
+  const int caustics = caustics_of(bounces, is_dark ? 0 : m);
+  path.caustics = std::max(caustics, 0);
   // On a fold half way between before and after it.
-  path.phase_rad = std::fmod(path.phase_rad + (path.caustics + (is_dark ? 0.5 : 0)) * pi / 2, 2 * pi);
+  const double phase = path.phase_rad + (caustics + (is_dark ? 0.5 : 0)) * pi / 2;
+  path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
 }
 
 void set_lengths(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray, double xi,
@@ -188,12 +212,13 @@ bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldB
   return true;
 }
 
-void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
-                    const LegSums& sums, std::vector<Arrival>& paths) {
+Passed append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
+                      const LegSums& sums, std::vector<Arrival>& paths) {
   const Bounces bounces = bounces_of(legs, ray);
-  if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return;
+  if (bounces.surface + bounces.bottom > link.sea.options.max_bounces) return {};
+  const Touches touches{legs.touch(Leg::kUp, ray.sine), legs.touch(Leg::kDown, ray.sine)};
   Arrival path;
-  if (!set_boundaries(link, sums, bounces, path)) return;
+  if (!set_boundaries(link, sums, bounces, touches, path)) return {};
   set_spreading(link, legs, ray, sums, bounces, path);
   set_directions(link, legs, ray, sums.xi, path);
   set_lengths(link, legs, ray, sums.xi, path);
@@ -204,6 +229,10 @@ void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const Laye
   path.identity.upper_turns = bounces.upper_turns;
   path.identity.lower_turns = bounces.lower_turns;
   paths.push_back(path);
+  const RangeTerms terms = range_terms(sums, ray.family);
+  const int above = bounces.surface + bounces.upper_turns, below = bounces.bottom + bounces.lower_turns;
+  return {above + below + (terms.bm + ray.cycles * terms.xm > 0 ? 1 : 0),
+          2 * (above * touches.top.turned_rad + below * touches.bottom.turned_rad)};
 }
 
 }  // namespace halocline::acoustics

@@ -75,8 +75,13 @@ struct FoldBracket {
 [[nodiscard]] bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldBracket& bracket,
                                  LayeredRay& ray, LegSums& sums);
 
+// Which side of a fold a ray is on, and the phase that it has beside a ray that turns in place of its bounces.
+struct Passed {
+  int touched = 0;
+  double phase_rad = 0;
+};
 // Appends the arrival unless the options exclude it; `sums` are those of the ray.
-void append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
-                    const LegSums& sums, std::vector<Arrival>& paths);
+Passed append_arrival(const LayeredLink& link, const LayeredLegs& legs, const LayeredRay& ray,
+                      const LegSums& sums, std::vector<Arrival>& paths);
 
 }  // namespace halocline::acoustics

@@ -43,10 +43,19 @@ struct Bracket {
   double guess;
 };
 
+// Intervals between barriers over which ranges go on smoothly.
+struct Run {
+  int number = 0;
+  bool at_upper = false,
+       at_lower = false;  // it begins where rays are horizontal at that end and turn back at once
+};
+
 class Search {
  public:
   Search(const FlatSea& sea, const RayLink& link)
-      : link_(sea, link), legs_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m) {}
+      : link_(sea, link),
+        legs_(sea.water, link_.upper_m, link_.lower_m, sea.bottom_depth_m,
+              sea.options.airy_folds ? sea.options.frequency_hz : 0) {}
 
   std::vector<Arrival> run() {
     paths_.reserve(kUsualPaths);
@@ -62,6 +71,7 @@ class Search {
   // Ends at one depth within a layer of one speed: the straight horizontal ray, which no angle > 0 reaches.
   void add_horizontal();
   void scan_interval();
+  void start_run();
   // The angle at the barrier at which rays reach speed `c`, which is at least the barrier's.
   double theta_reaching(double c) const;
   Node node_at(double theta) const;
@@ -78,13 +88,13 @@ class Search {
   void add_dark_path(const Node& a, const Node& b, const Node& turn, bool is_greatest, std::size_t family);
   // How far beyond a turn of f between two nodes sound reaches, about: of f.
   double dark_reach(const Node& a, const Node& b, std::size_t family) const;
-  FoldMember member_of(const Arrival& path, std::size_t family, int cycles) const;
+  FoldMember member_of(const Arrival& path, std::size_t family, int cycles, const Passed& passed) const;
 
   LayeredLink link_;
   LayeredLegs legs_;
   std::vector<Arrival> paths_;
   std::vector<FoldMember> members_;  // of the paths
-  int interval_ = 0;                 // between barriers
+  Run run_;
   bool direct_only_ = false, past_steepest_ = false;
 };
 
@@ -122,7 +132,7 @@ void Search::scan_interval() {
   const double steepest = cosine > 1e-12
                               ? theta_reaching(std::max(link_.source_speed_mps / cosine, legs_.barrier_mps()))
                               : pi / 2;
-  ++interval_;
+  if (run_.number == 0 || !legs_.is_smooth() || !link_.sea.options.airy_folds) start_run();
   double to = next > 0 ? theta_reaching(next) : pi / 2;
   past_steepest_ = next <= 0;
   const double limit = direct_only_ ? kMinAngle : std::min(to, steepest);
@@ -240,7 +250,7 @@ double Search::dark_reach(const Node& a, const Node& b, std::size_t family) cons
     const double tangent = std::tan(node.theta);
     return std::abs(node.slope[family]) * range_terms(node.sums, kFamilies[family]).xq / tangent;
   };
-  const double bend = 2 * std::min(range_slope(a), range_slope(b)) / std::abs(b.sums.xi - a.sums.xi);
+  const double bend = (range_slope(a) + range_slope(b)) / std::abs(b.sums.xi - a.sums.xi);
   const double cycle_m = a.sums.xi * range_terms(a.sums, kFamilies[family]).xq;
   return std::min(kDarkReach * Fold{bend, 1}.length_m(link_.sea.options.frequency_hz) / cycle_m, kNearFold);
 }
@@ -294,27 +304,34 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
     theta = next > low && next < high ? next : 0.5 * (low + high);
     if (high - low < 1e-15 * high) break;
   }
-  append_arrival(link_, legs_, ray, sums, paths_);
+  const Passed passed = append_arrival(link_, legs_, ray, sums, paths_);
   if (members_.size() == paths_.size()) return;  // excluded
-  members_.push_back(member_of(paths_.back(), family, cycles));
+  members_.push_back(member_of(paths_.back(), family, cycles, passed));
 }
 
 // Rays that leave an end all but horizontally, one upward and one downward, are neighbours where the water turns the one
 // back at once.
-FoldMember Search::member_of(const Arrival& path, std::size_t family, int cycles) const {
+void Search::start_run() {
   const double barrier = legs_.barrier_mps();
   const double upper_mps = link_.source_is_upper ? link_.source_speed_mps : link_.receiver_speed_mps;
   const double lower_mps = link_.source_is_upper ? link_.receiver_speed_mps : link_.source_speed_mps;
-  const bool at_upper = upper_mps == barrier && lower_mps < barrier && legs_.turns_at_once(Leg::kUp);
-  const bool at_lower = lower_mps == barrier && upper_mps < barrier && legs_.turns_at_once(Leg::kDown);
+  ++run_.number;
+  run_.at_upper = upper_mps == barrier && lower_mps < barrier && legs_.turns_at_once(Leg::kUp);
+  run_.at_lower = lower_mps == barrier && upper_mps < barrier && legs_.turns_at_once(Leg::kDown);
+}
+
+FoldMember Search::member_of(const Arrival& path, std::size_t family, int cycles,
+                             const Passed& passed) const {
   std::uint64_t legs = family;
-  if (at_upper) legs = 4 + (family & 2);
-  if (at_lower) legs = 8 + (family & 1);
-  const bool by_launch = at_upper ? link_.source_is_upper : at_lower ? !link_.source_is_upper : true;
+  if (run_.at_upper) legs = 4 + (family & 2);
+  if (run_.at_lower) legs = 8 + (family & 1);
+  const bool by_launch = run_.at_upper   ? link_.source_is_upper
+                         : run_.at_lower ? !link_.source_is_upper
+                                         : true;
   const std::uint64_t of_cycles =
       continued_family(continued_family(0, legs), static_cast<std::uint64_t>(cycles));
-  return {continued_family(of_cycles, static_cast<std::uint64_t>(interval_)),
-          by_launch ? path.launch_angle_rad : path.arrival_angle_rad};
+  return {continued_family(of_cycles, static_cast<std::uint64_t>(run_.number)),
+          by_launch ? path.launch_angle_rad : path.arrival_angle_rad, passed.touched, passed.phase_rad};
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ constexpr double kFoldMargin = 1.25;     // of lengths of Airy
 constexpr double kFoldStep = 1e-4;       // rad: to the rays that show how a fold bends
 
 constexpr double kSimplifiedWithin = 0.05;  // m
+constexpr double kTouched = 1e-3;           // m
 constexpr double kMissed =
     1;  // m of depth at the receiver: a ray of other turns and further off is not the path
 
@@ -64,6 +65,46 @@ std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const A
   }
   return way;
 }
+
+// That of the ray of the same launch angle that passes the receiver's depth after as many bounces, nearest to
+// where it should: its ranges are those of the link when all are made shorter or longer alike. Rays that graze a boundary
+// or turn beside a knot have another range as waves (acoustics/math/turning_field.h). Empty over a bottom that is not level.
+std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const RayLink& link,
+                                                const Arrival& path) {
+  constexpr double kLonger = 1.5;
+  const double bottom = sea.profile.depth_at(0);
+  RayLink far = link;
+  far.range_m *= kLonger;
+  if (!sea.profile.is_flat_until(far.range_m)) return std::nullopt;
+  std::vector<RayPoint> way{{0, link.source_depth_m}};
+  TracedRay ray;
+  TracedDetails details;
+  details.track = &way;
+  ArcTracer(sea, far).trace(path.launch_angle_rad, ray, &details);
+  const bool comes_down = path.arrival_angle_rad > 0;
+  std::size_t end = 0;
+  double end_range = 0;
+  int surface = 0, bottoms = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const RayPoint &a = way[i - 1], &b = way[i];
+    const double above = link.receiver_depth_m - a.depth_m, down = b.depth_m - a.depth_m;
+    const bool passes = (down > 0) == comes_down && above / down >= 0 && above / down <= 1;
+    if (passes && surface == path.surface_bounces && bottoms == path.bottom_bounces) {
+      const double range = a.range_m + above / down * (b.range_m - a.range_m);
+      if (end == 0 || std::abs(range - link.range_m) < std::abs(end_range - link.range_m)) {
+        end = i;
+        end_range = range;
+      }
+    }
+    if (b.depth_m < kTouched) ++surface;
+    if (b.depth_m > bottom - kTouched) ++bottoms;
+  }
+  if (end == 0) return std::nullopt;
+  way.resize(end + 1);
+  for (RayPoint& point : way) point.range_m *= link.range_m / end_range;
+  return way;
+}
+
 bool is_kept(const ArcTracer& tracer, const TracedRay& ray) {
   const RayOptions& options = tracer.sea().options;
   return ray.arrived && ray.factor >= options.min_boundary_factor &&
@@ -171,8 +212,13 @@ std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& path
     }
     if (!below || !above) continue;
     const bool is_one = found.x < kMergedFold;
-    members[*below] = {++family, arrivals[*below].launch_angle_rad, found.x};
-    members[*above] = {is_one ? ++family : family, arrivals[*above].launch_angle_rad, found.x};
+    const auto member = [&](std::size_t i) {
+      return FoldMember{family, arrivals[i].launch_angle_rad, arrivals[i].caustics, 0, found.x};
+    };
+    ++family;
+    members[*below] = member(*below);
+    if (is_one) ++family;
+    members[*above] = member(*above);
     if (!is_one) continue;
     arrivals[*below] = found.path;
     arrivals[*above].amplitude = 0;
@@ -237,11 +283,14 @@ std::vector<RayPoint> polyline(const ProfiledSea& sea, const RayLink& link, cons
   const bool is_path = ray.arrived && ray.surface_bounces == path.surface_bounces &&
                        ray.bottom_bounces == path.bottom_bounces &&
                        (turns_alike || std::abs(ray.z - tracer.receiver_depth_m()) <= kMissed);
-  if (!is_path) {
-    way = straight_way(tracer.bottom_at_receiver_m(), held, path);
-  } else {
-    way.back() = {held.range_m, tracer.receiver_depth_m()};
+  if (!is_path || std::abs(ray.z - tracer.receiver_depth_m()) > kMissed) {
+    if (auto longer = scaled_way(open, held, path)) {
+      way = *longer;
+    } else if (!is_path) {
+      way = straight_way(tracer.bottom_at_receiver_m(), held, path);
+    }
   }
+  way.back() = {held.range_m, tracer.receiver_depth_m()};
   return simplified(way, max_points);
 }
 

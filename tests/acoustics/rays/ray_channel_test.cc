@@ -151,10 +151,10 @@ TEST(Folds, ARayWithoutAPartnerKeepsTheLevelOfItsTube) {
                                       {6000, munk_sound_speed_mps(6000)}};
   const RayLink link{2866, 674, 48'600};
   for (const double frequency : {5e3, 25e3}) {
-    RaySea sea = sea_of(rows, BottomProfile::flat(5000));
+    RaySea sea = sea_of(rows, BottomProfile::flat(5500));
     sea.options.frequency_hz = frequency;
     sea.options.airy_folds = true;
-    const BruteSea brute{rows, {{0, 5000}}, false, sea.bottom, 0.005};
+    const BruteSea brute{rows, {{0, 5500}}, false, sea.bottom, 0.005};
     for (const RaySolver solver : {RaySolver::kSnell, RaySolver::kArcs}) {
       for (const Arrival& path : arrivals(sea, link, solver).paths) {
         if (path.surface_bounces + path.bottom_bounces > 0) continue;

@@ -1,0 +1,70 @@
+#include "acoustics/math/turning_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "acoustics/math/airy.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kFading = 2.5;  // of x: from there on differences to rays fade out
+
+// `share` of a field given in full, its phase less `far`, less that of rays, faded out.
+TurningShare less_rays(double x, TurningShare share, double far) {
+  if (x <= 0) return share;
+  const double root = std::sqrt(x);
+  share.sine -= root;
+  share.phase -= 2.0 / 3 * x * root;
+  if (x <= kFading) return share;
+  const double width = kSteepTurning - kFading, t = (x - kFading) / width;
+  const double kept = 1 - t * t * (3 - 2 * t), kept_slope = -6 * t * (1 - t) / width;
+  return {share.sine * kept, 1 / root + (share.slope - 1 / root) * kept + 2 * share.sine * kept_slope,
+          far + (share.phase - far) * kept};
+}
+
+}  // namespace
+
+TurningShare turning_at_boundary(double x) {
+  const Airy a = airy(-x);
+  const double square = a.ai * a.ai + a.bi * a.bi;
+  TurningShare share{1 / (pi * square), 4 / pi * (a.ai * a.ai_slope + a.bi * a.bi_slope) / (square * square),
+                     std::atan2(a.ai, a.bi)};
+  if (x > 0) {  // theta is (2/3) x^(3/2) and up to pi / 4 more
+    const double ray = 2.0 / 3 * x * std::sqrt(x);
+    share.phase = ray + std::remainder(share.phase - ray, 2 * pi);
+  }
+  return less_rays(x, share, pi / 4);
+}
+
+TurningShare turning_at_knot(double x) {
+  // The second difference of f, g and h, whose second derivatives are (2/3) x^(3/2), sqrt(x) and 1 / sqrt(x).
+  TurningShare share{0, 0, 0};
+  const auto add = [&share](double at, double weight) {
+    if (at <= 0) return;
+    const double part = weight / (kKnotHalfWidth * kKnotHalfWidth) * at * std::sqrt(at);
+    share.slope += 4.0 / 3 * part;
+    share.sine += 4.0 / 15 * at * part;
+    share.phase += 8.0 / 105 * at * at * part;
+  };
+  add(x + kKnotHalfWidth, 1);
+  add(x, -2);
+  add(x - kKnotHalfWidth, 1);
+  return less_rays(x, share, 0);
+}
+
+double knot_widening(double change) {
+  // At x = 0 the phase is 16 / 105 2^(3/2) of it, and grows with the 3/2 power of the width.
+  constexpr double kMostPhase = 0.05, kPhase = 0.431;  // rad
+  const double widest = 10;
+  return change > 0 ? std::clamp(std::cbrt(std::pow(kMostPhase / (kPhase * change), 2)), 1.0, widest) : 1;
+}
+
+double turning_sine(double gradient_per_s, double frequency_hz) {
+  return std::cbrt(gradient_per_s / (pi * frequency_hz));
+}
+
+}  // namespace halocline::acoustics
