@@ -8,7 +8,8 @@
 // of what is left of the range. Amplitude from dr/dxi in closed form,
 //   A^2 = c_s c_r / ((r / xi) |dr/dxi| sin_s sin_r),
 // which is the same with the ends swapped. A ray of m turns in the water has touched m - 1 caustics, and one
-// more when dr/dxi > 0. At a fold the field is that of acoustics/math/fold_field.h; a family ends at each barrier.
+// more when dr/dxi > 0. At a fold the field is that of acoustics/math/fold_field.h;
+// at barriers that rays pass smoothly, that of acoustics/math/turning_field.h. A family ends at the others.
 //
 // Accuracy: exact for the knots given (delays to 1e-9 s). Left out: diffraction into shadows beyond caustics' own, beam
 // displacement at the bottom, rays within the core of a channel.

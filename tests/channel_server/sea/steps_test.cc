@@ -116,12 +116,52 @@ class Predictor {
   std::vector<acoustics::ReceptionCurves> curves_;
 };
 
+// A share of the change `what`.
+Place moved(Place place, std::size_t what, double share) {
+  switch (what) {
+    case 0:
+      place.to.x() += 0.1 * share;
+      break;
+    case 1:
+      place.to.z() += 0.1 * share;
+      break;
+    case 2:
+      place.from.z() += 0.1 * share;
+      break;
+    case 3:
+      place.wind_mps += 0.05 * share;
+      break;
+    case 4:
+      place.speed_mps += 0.05 * share;
+      break;
+    default:
+      place.source_db += 0.1 * share;
+  }
+  return place;
+}
+
+double difference(const acoustics::LinkPrediction& a, const acoustics::LinkPrediction& b) {
+  return std::max(std::abs(a.delivery_probability - b.delivery_probability),
+                  std::abs(a.acquisition_probability - b.acquisition_probability));
+}
+
+// Whether a tenth of a change makes half of the greatest step.
+bool is_jump(const Predictor& predictor, const Place& place, std::size_t what, double noise) {
+  acoustics::LinkPrediction last = predictor.predict(place, noise);
+  for (int i = 1; i <= 10; ++i) {
+    const acoustics::LinkPrediction next = predictor.predict(moved(place, what, 0.1 * i), noise);
+    if (difference(last, next) > kMaxStep / 2) return true;
+    last = next;
+  }
+  return false;
+}
+
 TEST(Steps, NoSmallChangeMovesAProbabilityByATenth) {
   const char* wanted = std::getenv("HALOCLINE_STEP_PLACES");
   const int places = wanted != nullptr ? std::atoi(wanted) : 1300;
   const Predictor predictor;
   std::array<int, kWhat.size()> steps{};
-  int in_reach = 0;
+  int in_reach = 0, jumps = 0;
   for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(places); ++i) {
     const Place place = place_of(i);
     const Reception reception = predictor.reception_at(place);
@@ -130,24 +170,16 @@ TEST(Steps, NoSmallChangeMovesAProbabilityByATenth) {
     const double noise = to_power_ratio(total_level(reception.paths) - Decibels{draw(i, 6, -5, 25)}).value;
     const acoustics::LinkPrediction base = predictor.predict(place, noise);
     in_reach += base.delivery_probability > 0.05 && base.delivery_probability < 0.95;
-    std::array<Place, kWhat.size()> moved;
-    moved.fill(place);
-    moved[0].to.x() += 0.1;
-    moved[1].to.z() += 0.1;
-    moved[2].from.z() += 0.1;
-    moved[3].wind_mps += 0.05;
-    moved[4].speed_mps += 0.05;
-    moved[5].source_db += 0.1;
-    for (std::size_t k = 0; k < moved.size(); ++k) {
-      const acoustics::LinkPrediction other = predictor.predict(moved[k], noise);
-      const double step = std::max(std::abs(other.delivery_probability - base.delivery_probability),
-                                   std::abs(other.acquisition_probability - base.acquisition_probability));
-      if (step <= kMaxStep) continue;
+    for (std::size_t k = 0; k < kWhat.size(); ++k) {
+      const acoustics::LinkPrediction other = predictor.predict(moved(place, k, 1), noise);
+      if (difference(base, other) <= kMaxStep) continue;
       ++steps[k];
-      std::printf("place %llu, %s, %s, %s: delivery %.3f to %.3f, SINR %.1f to %.1f dB\n",
+      const bool jumps_here = is_jump(predictor, place, k, noise);
+      jumps += jumps_here;
+      std::printf("place %llu, %s, %s, %s%s: delivery %.3f to %.3f, SINR %.1f to %.1f dB\n",
                   static_cast<unsigned long long>(i), kSeas[place.sea], kModems[place.modem], kWhat[k],
-                  base.delivery_probability, other.delivery_probability, to_decibels({base.sinr}).value,
-                  to_decibels({other.sinr}).value);
+                  jumps_here ? ", at once" : "", base.delivery_probability, other.delivery_probability,
+                  to_decibels({base.sinr}).value, to_decibels({other.sinr}).value);
     }
   }
   for (std::size_t k = 0; k < kWhat.size(); ++k) {
@@ -156,9 +188,10 @@ TEST(Steps, NoSmallChangeMovesAProbabilityByATenth) {
       EXPECT_LE(steps[k], places / 6500) << kWhat[k];  // none of 1300
     }
   }
-  // At edges of ray families, where rays graze the surface or a knot of the profile, a path appears at once: 3 of 2600
-  // moves (docs/validation.md). 13 000 places have 45, their bound is 50.
-  EXPECT_LE(steps[1] + steps[2], places / 260);
+  halocline::testing::doc_row("steps", {"of these at once", fmt::format("{} of {}", jumps, places)});
+  // Two of 2600 are as steep in the sea (docs/validation.md). Of 26 000, jumps are left at edges of ray families that it names.
+  EXPECT_LE(steps[1] + steps[2], places <= 1300 ? 2 : places / 350);
+  EXPECT_LE(jumps, places <= 1300 ? 0 : places / 600);
   EXPECT_GT(in_reach, places / 4);
 }
 
