@@ -122,12 +122,6 @@ TEST(RayTurning, TheEdgeOfASurfaceShadowIsThatOfWaves) {
   }
 }
 
-double power_of(const Arrivals& found) {
-  double power = 0;
-  for (const Arrival& path : found.paths) power += path.amplitude * path.amplitude;
-  return power;
-}
-
 // The greatest change from one level to the next, dB.
 double greatest_step(const std::vector<double>& levels) {
   double greatest = 0;
