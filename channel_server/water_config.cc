@@ -1,4 +1,3 @@
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +19,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "core/units.h"
@@ -318,8 +318,8 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.bounces_follow_range = p.options.max_bounces < 0;
   if (rays.bounces_follow_range) rays.options.max_bounces = 0;
   rays.options.keep_steep_direct = true;
-  rays.options.min_amplitude = std::pow(10.0, p.min_amplitude_db / 20);
-  rays.options.min_boundary_factor = std::pow(10.0, -p.max_bounce_loss_db / 20);
+  rays.options.min_amplitude = elementary::exp10(p.min_amplitude_db / 20);
+  rays.options.min_boundary_factor = elementary::exp10(-p.max_bounce_loss_db / 20);
   rays.speed_tolerance_mps = p.speed_tolerance_mps;
   rays.reuse_distance_m = p.reuse_distance_m;
   rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;

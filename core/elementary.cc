@@ -23,6 +23,8 @@ double acos(double x) { return Sleef_cinz_acosd1_u10purec(x); }
 double atan(double x) { return Sleef_cinz_atand1_u10purec(x); }
 double atan2(double y, double x) { return Sleef_cinz_atan2d1_u10purec(y, x); }
 double cosh(double x) { return Sleef_cinz_coshd1_u10purec(x); }
+double acosh(double x) { return Sleef_cinz_acoshd1_u10purec(x); }
+double atanh(double x) { return Sleef_cinz_atanhd1_u10purec(x); }
 double expm1(double x) { return Sleef_cinz_expm1d1_u10purec(x); }
 double log1p(double x) { return Sleef_cinz_log1pd1_u10purec(x); }
 double cbrt(double x) { return Sleef_cinz_cbrtd1_u10purec(x); }

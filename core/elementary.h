@@ -7,7 +7,7 @@
 // are those of SLEEF (Shibata and Petrogalli 2020) that take neither FMA nor vectors.
 //
 //   exp 0.9, log 0.9, exp10 1.3, log10 1.8, log2 1.7, sin and cos 1.1, hypot 1.2 (sides from 1e-150 to 1e150),
-//   pow, tan, asin, acos, atan, atan2, cosh, expm1, log1p, cbrt 1.0, erfc 1.5
+//   pow, tan, asin, acos, atan, atan2, cosh, acosh, atanh, expm1, log1p, cbrt 1.0, erfc 1.5
 #pragma once
 
 #include <bit>
@@ -174,12 +174,24 @@ inline double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
 inline double hypot(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
 double pow(double x, double y);
+// By repeated multiplication: within |n| units.
+inline double pow(double x, int n) {
+  double result = 1, power = x;
+  for (unsigned left = n < 0 ? 0U - static_cast<unsigned>(n) : static_cast<unsigned>(n); left != 0;
+       left >>= 1) {
+    if ((left & 1) != 0) result *= power;
+    power *= power;
+  }
+  return n < 0 ? 1 / result : result;
+}
 double tan(double x);
 double asin(double x);
 double acos(double x);
 double atan(double x);
 double atan2(double y, double x);
 double cosh(double x);
+double acosh(double x);
+double atanh(double x);
 double expm1(double x);
 double log1p(double x);
 double cbrt(double x);

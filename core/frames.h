@@ -7,10 +7,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+
+#include "core/elementary.h"
 
 namespace halocline {
 
@@ -43,7 +44,8 @@ inline Quaternion to_quaternion(const EulerAngles& e) {
 inline EulerAngles to_euler(const Quaternion& q) {
   const Eigen::Matrix3d r = q.toRotationMatrix();
   const double sine_pitch = std::clamp(-r(2, 0), -1.0, 1.0);
-  return {std::atan2(r(2, 1), r(2, 2)), std::asin(sine_pitch), std::atan2(r(1, 0), r(0, 0))};
+  return {elementary::atan2(r(2, 1), r(2, 2)), elementary::asin(sine_pitch),
+          elementary::atan2(r(1, 0), r(0, 0))};
 }
 
 // Depth below the sea surface, metres, positive down; `sea_surface_z_m` is the surface's z in the world

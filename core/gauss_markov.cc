@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline {
 namespace {
@@ -23,11 +24,12 @@ GaussMarkovProcess::GaussMarkovProcess(double deviation, double correlation_time
   require_in_range(correlation_time_s, 0.1, 1e6, "correlation time", "s");
   for (int i = 0; i < kHalvings; ++i) {
     const double half_s = static_cast<double>(kLast >> (i + 1)) / 1000;
-    const double c = std::exp(-half_s / correlation_time_s);
-    middles_.push_back({c / (1 + c * c),
-                        deviation * std::sqrt(-std::expm1(-2 * half_s / correlation_time_s) / (1 + c * c))});
+    const double c = elementary::exp(-half_s / correlation_time_s);
+    middles_.push_back(
+        {c / (1 + c * c),
+         deviation * std::sqrt(-elementary::expm1(-2 * half_s / correlation_time_s) / (1 + c * c))});
   }
-  last_correlation_ = std::exp(-static_cast<double>(kLast) / 1000 / correlation_time_s);
+  last_correlation_ = elementary::exp(-static_cast<double>(kLast) / 1000 / correlation_time_s);
 }
 
 double GaussMarkovProcess::draw(std::int64_t millisecond) const {

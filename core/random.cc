@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline {
 namespace {
 
@@ -62,8 +64,8 @@ double uniform_at(const DrawAddress& address) {
 
 double normal_at(const DrawAddress& address) {
   const auto block = block_at(address);
-  const double radius = std::sqrt(-2.0 * std::log(to_open_unit_interval(block[0], block[1])));
-  return radius * std::cos(2.0 * std::numbers::pi * to_open_unit_interval(block[2], block[3]));
+  const double radius = std::sqrt(-2.0 * elementary::log(to_open_unit_interval(block[0], block[1])));
+  return radius * elementary::cos(2.0 * std::numbers::pi * to_open_unit_interval(block[2], block[3]));
 }
 
 }  // namespace halocline

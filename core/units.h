@@ -5,9 +5,10 @@
 // received levels, dB re 1 uPa at 1 m for source levels, dB re 1 uPa^2/Hz for noise spectra).
 #pragma once
 
-#include <cmath>
 #include <compare>
 #include <numbers>
+
+#include "core/elementary.h"
 
 namespace halocline {
 
@@ -28,9 +29,9 @@ struct PowerRatio {
   constexpr PowerRatio operator+(PowerRatio other) const { return {value + other.value}; }
 };
 
-inline PowerRatio to_power_ratio(Decibels level) { return {std::pow(10.0, level.value / 10.0)}; }
+inline PowerRatio to_power_ratio(Decibels level) { return {elementary::exp10(level.value / 10.0)}; }
 // A ratio of 0 gives -infinity.
-inline Decibels to_decibels(PowerRatio ratio) { return {10.0 * std::log10(ratio.value)}; }
+inline Decibels to_decibels(PowerRatio ratio) { return {10.0 * elementary::log10(ratio.value)}; }
 
 constexpr double to_radians(double degrees) { return degrees * (std::numbers::pi / 180.0); }
 constexpr double to_degrees(double radians) { return radians * (180.0 / std::numbers::pi); }

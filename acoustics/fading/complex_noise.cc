@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "acoustics/math/functions.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -51,7 +52,7 @@ std::complex<double> ComplexNoise::at(double time_s, double doppler_spread_hz) c
   std::complex<double> sum = 0;
   for (std::size_t k = 0; k < kSines; ++k) {
     const double cycles = frequencies_[k] * doppler_spread_hz * time_s + phases_[k];
-    sum += std::polar(1.0, 2 * pi * (cycles - std::floor(cycles)));
+    sum += elementary::polar(1.0, 2 * pi * (cycles - std::floor(cycles)));
   }
   return sum / std::sqrt(static_cast<double>(kSines));
 }

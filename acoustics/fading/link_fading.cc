@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "acoustics/math/functions.h"
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/units.h"
 
@@ -58,10 +59,10 @@ class TurningSines {
   // Phases in cycles; `cycles_per_step` by which each turns.
   void set(std::size_t k, double phase, double cycles_per_step) {
     const double at = 2 * pi * (phase - std::floor(phase)), turn = 2 * pi * cycles_per_step;
-    re_[k] = std::cos(at);
-    im_[k] = std::sin(at);
-    turn_re_[k] = std::cos(turn);
-    turn_im_[k] = std::sin(turn);
+    re_[k] = elementary::cos(at);
+    im_[k] = elementary::sin(at);
+    turn_re_[k] = elementary::cos(turn);
+    turn_im_[k] = elementary::sin(turn);
   }
   Complex sum() const {
     double re = 0, im = 0;
@@ -134,11 +135,11 @@ CrossingPath crossing_path(const SoundPath& path, double mean_delay_s, const Ban
   const double turns = band.width_hz() * (path.delay_s - mean_delay_s);
   return {std::sqrt(power * path.fading.coherent),
           std::sqrt(power * path.fading.medium),
-          std::cos(phase),
-          std::sin(phase),
+          elementary::cos(phase),
+          elementary::sin(phase),
           turns,
-          std::cos(pi * turns),
-          std::sin(pi * turns),
+          elementary::cos(pi * turns),
+          elementary::sin(pi * turns),
           place_of(path, mean_delay_s, band, false)};
 }
 
@@ -149,7 +150,7 @@ double cross_power(const CrossingPath& p, const CrossingPath& q, double negligib
   if (coherent + medium < negligible) return 0;
   const double apart = squared(p.place.delay - q.place.delay) + squared(p.place.launch - q.place.launch) +
                        squared(p.place.arrival - q.place.arrival);
-  const double shared = apart < kFarApart ? medium * std::exp(-apart / 2) : 0;
+  const double shared = apart < kFarApart ? medium * elementary::exp(-apart / 2) : 0;
   const double x = pi * (p.turns - q.turns);
   const double sinc = std::abs(x) < 1e-9 ? 1 : (p.sin_half * q.cos_half - p.cos_half * q.sin_half) / x;
   return (coherent + shared) * (p.cos_phase * q.cos_phase + p.sin_phase * q.sin_phase) * sinc;
@@ -167,7 +168,7 @@ double LinkFading::large_scale(SimTime time) const {
                                    address_of(link_, "fading-large-scale"));
   const double sigma = model_.large_scale_db;
   const double level_db = process.at(time) - sigma * sigma * std::numbers::ln10 / 20;
-  return std::pow(10, level_db / 20);
+  return elementary::exp10(level_db / 20);
 }
 
 std::vector<Complex> LinkFading::responses(const std::vector<SoundPath>& paths, const Band& band,
@@ -183,7 +184,7 @@ std::vector<Complex> LinkFading::responses(const std::vector<SoundPath>& paths, 
     // h = sqrt(P) 10^(X/20) (sqrt(c) e^(j phi) + e^(j phi) sqrt(m) g_m + sqrt(s) g_s): the medium turns what is coherent.
     const PathFading& shares = path.fading;
     const double pressure = std::sqrt(to_power_ratio(path.level).value) * large_scale;
-    const Complex phase = std::polar(1.0, path.phase_rad);
+    const Complex phase = elementary::polar(1.0, path.phase_rad);
     const Complex steady = pressure * std::sqrt(shares.coherent) * phase;
     const bool turns = shares.medium > kNegligible, scatters = shares.scattered > kNegligible;
     TurningSines in_medium, scattered;

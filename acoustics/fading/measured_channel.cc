@@ -8,6 +8,7 @@
 
 #include "acoustics/math/functions.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -39,7 +40,7 @@ BandTable band_table(const ChannelRecord& record, const Band& band) {
     const double place = static_cast<double>(k) * samples_per_delay;
     const double cycles =
         (band.centre_hz() - record.carrier_hz) * static_cast<double>(k) / record.delay_rate_hz;
-    const Complex turn = std::polar(1.0, -2 * pi * std::fmod(cycles, 1.0));
+    const Complex turn = elementary::polar(1.0, -2 * pi * std::fmod(cycles, 1.0));
     const auto from = static_cast<std::ptrdiff_t>(std::ceil(place - kLobes));
     const auto to = static_cast<std::ptrdiff_t>(std::floor(place + kLobes));
     for (std::ptrdiff_t n = from; n <= to; ++n) {
@@ -76,7 +77,7 @@ MeasuredTap statistics(const BandTable& table, std::size_t n, double time_rate_h
   tap.phase_rad = std::arg(sum);
   const double correlation = std::abs(next_product) / neighbours;
   if (correlation < 1 - kSameFromInstantToInstant) {
-    const double spread_hz = std::sqrt(-2 * std::log(correlation)) / (2 * pi) * time_rate_hz;
+    const double spread_hz = std::sqrt(-2 * elementary::log(correlation)) / (2 * pi) * time_rate_hz;
     tap.doppler_spread_hz = std::min(spread_hz, time_rate_hz / 2);
   }
   return tap;
@@ -120,7 +121,7 @@ MeasuredChannel::MeasuredChannel(const ChannelRecord& record, const Band& band)
     tap.delay_s = static_cast<double>(kept[p] - kept.front()) / band.width_hz();
     // A path's response lacks exp(-j 2 pi f0 delay), which g has.
     const double cycles = std::fmod(band.centre_hz() * tap.delay_s, 1.0);
-    const Complex turn = std::polar(1.0, 2 * pi * cycles);
+    const Complex turn = elementary::polar(1.0, 2 * pi * cycles);
     tap.phase_rad = std::remainder(tap.phase_rad + 2 * pi * cycles, 2 * pi);
     power_ += tap.power;
     taps_.push_back(tap);

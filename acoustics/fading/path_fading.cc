@@ -7,6 +7,7 @@
 
 #include "acoustics/sea/boundary_reflection.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -48,16 +49,16 @@ PathFading path_fading(const FadingModel& model, double wind_mps, double frequen
   if (!model.enabled) return {};
   const double surface = rayleigh_squares(rms_wave_height_m(wind_mps), frequency_hz, surface_sine_squares);
   const double bottom = rayleigh_squares(model.bottom_roughness_m, frequency_hz, bottom_sine_squares);
-  const double log_kept = std::log(kept);
-  const double steady = std::exp(std::min(-surface - bottom - log_kept, 0.0));  // E / kept
+  const double log_kept = elementary::log(kept);
+  const double steady = elementary::exp(std::min(-surface - bottom - log_kept, 0.0));  // E / kept
   const double rice = to_power_ratio(Decibels{model.rice_factor_db}).value;
   PathFading fading;
   fading.coherent = steady * rice / (1 + rice);
   fading.medium = steady / (1 + rice);
-  fading.scattered = -std::expm1(std::min(-surface - bottom - log_kept, 0.0));
+  fading.scattered = -elementary::expm1(std::min(-surface - bottom - log_kept, 0.0));
   const double waves_hz =
       surface > 0 ? mean_wave_frequency_radps(wind_mps) / (2 * pi) * std::sqrt(surface) : 0;
-  fading.doppler_spread_hz = std::hypot(waves_hz, doppler_spread_of(model.medium_coherence_s));
+  fading.doppler_spread_hz = elementary::hypot(waves_hz, doppler_spread_of(model.medium_coherence_s));
   return fading;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -53,13 +54,13 @@ std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, co
   }
   if (!(fed > 0)) return paths;
   const double begin_s = tail.delay_s, x = tail_decay_per_s(reverberation, duct) * begin_s;
-  const double step = std::acosh(1 + kLeastDecay / x) / kTailPaths;
+  const double step = elementary::acosh(1 + kLeastDecay / x) / kTailPaths;
   tail.fading = {.scattered = 1, .doppler_spread_hz = spread_hz};
   for (std::size_t k = 0; k < kTailPaths; ++k) {
     // exp(-x (cosh u - 1)) du, by the middle of each of the equal steps of u.
-    const double later = std::cosh((static_cast<double>(k) + 0.5) * step) - 1;
+    const double later = elementary::cosh((static_cast<double>(k) + 0.5) * step) - 1;
     tail.delay_s = begin_s * (1 + later);
-    tail.level = to_decibels(PowerRatio{fed * std::exp(-x * later) * step});
+    tail.level = to_decibels(PowerRatio{fed * elementary::exp(-x * later) * step});
     tail.identity = kTailIdentity + k;
     paths.push_back(tail);
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline::acoustics {
 namespace {
 
@@ -12,13 +14,13 @@ constexpr double kSoundSpeedMps = 1500;
 // Integral over slopes a above `from` of (tangent + a) times the normal density of deviation `slope`.
 double facing(double tangent, double slope, double from) {
   const double x = from / slope;
-  return tangent * std::erfc(x / std::numbers::sqrt2) / 2 +
-         slope * std::exp(-x * x / 2) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+  return tangent * elementary::erfc(x / std::numbers::sqrt2) / 2 +
+         slope * elementary::exp(-x * x / 2) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
 }
 
 // What is left of the power after bounces of Gamma^2 in all, of which each loses `share` of what it scatters.
 double kept_of_bounces(int count, double rayleigh_squares, double share) {
-  return count == 0 ? 1 : std::pow(1 + share * std::expm1(-rayleigh_squares / count), count);
+  return count == 0 ? 1 : elementary::pow(1 + share * elementary::expm1(-rayleigh_squares / count), count);
 }
 
 double kept_at_surface(double wind_mps, double frequency_hz, double trapped_share,

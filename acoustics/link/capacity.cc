@@ -1,10 +1,10 @@
 #include "acoustics/link/capacity.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "acoustics/link/transmission_loss.h"
 #include "acoustics/math/frequency_band.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -20,7 +20,7 @@ double density_ratio(const UniformLink& link, const Band& band, double frequency
 
 }  // namespace
 
-double log2_of_1_plus(double x) { return std::log1p(x) * std::numbers::log2e; }
+double log2_of_1_plus(double x) { return elementary::log1p(x) * std::numbers::log2e; }
 
 double capacity_bps(const UniformLink& link, const Band& band) {
   // Shannon's capacity over frequency (Stojanovic 2006; equation 8 of the 2010 IEEE SMC paper):

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
 #include "acoustics/link/capacity.h"
@@ -11,6 +10,7 @@
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/math/gauss_legendre.h"
 #include "acoustics/sea/absorption.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -30,7 +30,7 @@ double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWa
 
 double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m) {
   const Vec3 way = to_ned_m - from_ned_m;
-  return std::atan2(way.z(), std::hypot(way.x(), way.y()));
+  return elementary::atan2(way.z(), elementary::hypot(way.x(), way.y()));
 }
 
 struct LinkModel::Sample {
@@ -131,12 +131,12 @@ double LinkModel::mean_absorption(const Samples& samples, std::size_t frequency)
 double LinkModel::capacity(const Samples& samples, double range_m, Decibels beams) const {
   // C = integral of log2(1 + DI (P / B) / (A N)) df, A = l^k e^(alpha l), with the beams' loss.
   const bool lossless = range_m < kReferenceRange;
-  const double spread = lossless ? 1 : std::pow(range_m, -environment_.spreading_exponent);
+  const double spread = lossless ? 1 : elementary::pow(range_m, -environment_.spreading_exponent);
   const double gain = spread * to_power_ratio(-beams).value;
   const double nepers_per_db_per_km = lossless ? 0 : kNepersPerDecibel * range_m / kMetresPerKilometre;
   double bits = 0;
   for (std::size_t f = 1; f < unit_ratio_.size(); ++f) {
-    const double absorbed = std::exp(-nepers_per_db_per_km * mean_absorption(samples, f));
+    const double absorbed = elementary::exp(-nepers_per_db_per_km * mean_absorption(samples, f));
     bits += weight_hz_[f] * log2_of_1_plus(unit_ratio_[f] * gain * absorbed);
   }
   return bits;
@@ -149,7 +149,7 @@ double LinkModel::capacity_of_path(const Samples& samples, Decibels loss, double
   const double at_centre = mean_absorption(samples, 0);
   double bits = 0;
   for (std::size_t f = 1; f < unit_ratio_.size(); ++f) {
-    const double more = std::exp(-nepers_per_db_per_km * (mean_absorption(samples, f) - at_centre));
+    const double more = elementary::exp(-nepers_per_db_per_km * (mean_absorption(samples, f) - at_centre));
     bits += weight_hz_[f] * log2_of_1_plus(unit_ratio_[f] * gain * more);
   }
   return bits;

@@ -6,15 +6,16 @@
 #include "acoustics/link/transmission_loss.h"
 #include "acoustics/math/frequency_band.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
 
 constexpr double kLowestHz = 1;  // the search's ends: beyond them turbulence or thermal noise hides all
 constexpr double kHighestHz = 1e7;
-const double kBandEdgeDb = 10 * std::log10(2.0);     // "3 dB": twice the minimum
-constexpr int kBisections = 64;                      // halves 16 nepers to below the last bit
-constexpr double kGoldenShare = 0.3819660112501051;  // (3 - sqrt 5) / 2
+const double kBandEdgeDb = 10 * elementary::log10(2.0);  // "3 dB": twice the minimum
+constexpr int kBisections = 64;                          // halves 16 nepers to below the last bit
+constexpr double kGoldenShare = 0.3819660112501051;      // (3 - sqrt 5) / 2
 
 // A(l, f) and N(f).
 class Channel {
@@ -58,16 +59,17 @@ double slope_db(const Channel& channel, double frequency_hz) {
 
 // Golden section narrows the minimum, the root of the slope finishes it.
 double minimum_frequency(const Channel& channel) {
-  double a = std::log(kLowestHz), b = std::log(kHighestHz);
+  double a = elementary::log(kLowestHz), b = elementary::log(kHighestHz);
   while (b - a > 0.1) {
     const double left = a + kGoldenShare * (b - a), right = b - kGoldenShare * (b - a);
-    if (channel.loss_and_noise_db(std::exp(left)) < channel.loss_and_noise_db(std::exp(right))) {
+    if (channel.loss_and_noise_db(elementary::exp(left)) <
+        channel.loss_and_noise_db(elementary::exp(right))) {
       b = right;
     } else {
       a = left;
     }
   }
-  return boundary(std::exp(a), std::exp(b), [&](double f) { return slope_db(channel, f) < 0; });
+  return boundary(elementary::exp(a), elementary::exp(b), [&](double f) { return slope_db(channel, f) < 0; });
 }
 
 Band band_below(const Channel& channel, double optimum_hz, double level_db) {
@@ -113,7 +115,7 @@ BandPlan water_filling_plan(const Channel& channel, double optimum_hz, double sn
   const double level = to_power_ratio(Decibels{high}).value;
   const double power = integrate_over(band, [&](double f) { return level - channel.loss_and_noise(f); });
   const double bits =
-      integrate_over(band, [&](double f) { return std::log2(level / channel.loss_and_noise(f)); });
+      integrate_over(band, [&](double f) { return elementary::log2(level / channel.loss_and_noise(f)); });
   return {band, to_decibels(PowerRatio{power}), bits};
 }
 

@@ -7,6 +7,7 @@
 
 #include "acoustics/math/delay_profile.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -21,7 +22,7 @@ Decibels level_of(double power, const FieldOptions& options) {
 // A path of phase phi (which grows as its delay shrinks) and delay t at f: e^(i (phi - 2 pi f t)).
 std::complex<double> phasor(const Arrival& path, double pressure, double frequency_hz) {
   const double cycles = std::fmod(frequency_hz * path.delay_s, 1.0);
-  return std::polar(pressure, path.phase_rad - 2 * std::numbers::pi * cycles);
+  return elementary::polar(pressure, path.phase_rad - 2 * std::numbers::pi * cycles);
 }
 
 std::vector<WeightedDelay> weighted_delays(const Arrivals& arrivals, const Transducers& transducers) {

@@ -1,6 +1,6 @@
 #include "acoustics/link/transmission_loss.h"
 
-#include <cmath>
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 
@@ -8,7 +8,7 @@ TransmissionLoss transmission_loss(double range_m, double spreading_exponent, do
   if (range_m < kReferenceRange) return {};
   // TL = k 10 log(l) + alpha l / 1000 (Urick 1983, chapter 5; Stojanovic 2006).
   constexpr double kMetresPerKilometre = 1000;
-  const Decibels spreading{spreading_exponent * 10 * std::log10(range_m)};
+  const Decibels spreading{spreading_exponent * 10 * elementary::log10(range_m)};
   const Decibels absorption{absorption_db_per_km * range_m / kMetresPerKilometre};
   return {spreading, absorption, spreading + absorption};
 }

@@ -15,19 +15,21 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline::acoustics {
 
 // ln(1 + y) / y for y > -1, to 1e-14; 1 at 0. Near 0 by the series of 2 atanh(y / (2 + y)), else by the
 // logarithm.
 inline double log1p_over(double y) {
-  if (std::abs(y) > 0.1) return std::log1p(y) / y;
+  if (std::abs(y) > 0.1) return elementary::log1p(y) / y;
   const double z = y / (2 + y), z2 = z * z;  // |z| < 0.053: the next term is below 1e-14
   return 2 / (2 + y) * (1 + z2 * (1.0 / 3 + z2 * (1.0 / 5 + z2 * (1.0 / 7 + z2 * (1.0 / 9)))));
 }
 
 // asin(v) / v for |v| <= 1, to 1e-13; 1 at 0.
 inline double asin_over(double v) {
-  if (std::abs(v) > 0.1) return std::asin(std::fmin(1.0, std::fmax(-1.0, v))) / v;
+  if (std::abs(v) > 0.1) return elementary::asin(std::fmin(1.0, std::fmax(-1.0, v))) / v;
   const double v2 = v * v;
   return 1 +
          v2 * (1.0 / 6 + v2 * (3.0 / 40 + v2 * (15.0 / 336 + v2 * (105.0 / 3456 + v2 * (945.0 / 42240)))));
@@ -35,7 +37,7 @@ inline double asin_over(double v) {
 
 // atanh(x) / x for |x| < 1, to 1e-13; 1 at 0.
 inline double atanh_over(double x) {
-  if (std::abs(x) > 0.1) return std::atanh(x) / x;
+  if (std::abs(x) > 0.1) return elementary::atanh(x) / x;
   const double x2 = x * x;
   return 1 + x2 * (1.0 / 3 + x2 * (1.0 / 5 + x2 * (1.0 / 7 + x2 * (1.0 / 9 + x2 * (1.0 / 11)))));
 }
@@ -43,7 +45,7 @@ inline double atanh_over(double x) {
 // atan(k/8), k = 0..8.
 inline const std::array<double, 9> kArctangents = [] {
   std::array<double, 9> table{};
-  for (std::size_t k = 0; k < table.size(); ++k) table[k] = std::atan(static_cast<double>(k) / 8);
+  for (std::size_t k = 0; k < table.size(); ++k) table[k] = elementary::atan(static_cast<double>(k) / 8);
   return table;
 }();
 
@@ -52,7 +54,7 @@ inline const std::array<double, 9> kArctangents = [] {
 inline double angle_of(double y, double x) {
   const double ax = std::abs(x), ay = std::abs(y);
   const double larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
-  if (!(larger > 0)) return std::atan2(y, x);
+  if (!(larger > 0)) return elementary::atan2(y, x);
   const double share = 8 * smaller / larger + 0.5;
   const auto k = static_cast<std::size_t>(share);
   const double b = static_cast<double>(k) / 8, t = (smaller - b * larger) / (larger + b * smaller),

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "acoustics/math/airy.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -16,19 +17,19 @@ constexpr double kLeastTime = 1e-13;  // s: rounding of a delay
 }  // namespace
 
 double fold_place(double time_s, double frequency_hz) {
-  return std::pow(0.75 * 2 * pi * frequency_hz * std::max(time_s, kLeastTime), 2.0 / 3);
+  return elementary::pow(0.75 * 2 * pi * frequency_hz * std::max(time_s, kLeastTime), 2.0 / 3);
 }
 
 FoldShare fold_share(double x) {
   const auto [ai, bi, ai_slope, bi_slope] = airy(-x);
   // Far from the fold phi = (2/3) x^(3/2) - pi / 4, which the rays have by themselves.
-  const double turned = -std::atan2(bi, ai) - (2.0 / 3 * x * std::sqrt(x) - pi / 4);
-  return {std::sqrt(pi * std::sqrt(x)) * std::hypot(ai, bi), std::remainder(turned, 2 * pi)};
+  const double turned = -elementary::atan2(bi, ai) - (2.0 / 3 * x * std::sqrt(x) - pi / 4);
+  return {std::sqrt(pi * std::sqrt(x)) * elementary::hypot(ai, bi), std::remainder(turned, 2 * pi)};
 }
 
 double Fold::length_m(double frequency_hz) const {
   const double omega_p = 2 * pi * frequency_hz * slowness_slope;
-  return std::cbrt(std::abs(curvature) / (2 * omega_p * omega_p));
+  return elementary::cbrt(std::abs(curvature) / (2 * omega_p * omega_p));
 }
 
 double Fold::tube_slope(double x, double frequency_hz) const {

@@ -5,19 +5,20 @@
 
 #include "acoustics/math/gauss_legendre.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
 
 void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz, double panel_ratio) {
   // Panels of equal ratio, f_k = low (high / low)^(k / n) with n = ceil(ln(high / low) / ln(panel_ratio)).
-  const double wanted = std::log(high_hz / low_hz) / std::log(panel_ratio);
+  const double wanted = elementary::log(high_hz / low_hz) / elementary::log(panel_ratio);
   const int panels = std::max(1, static_cast<int>(std::ceil(wanted)));
   const GaussLegendreRule& rule = gauss_legendre_16();
   double from = low_hz;
   for (int panel = 1; panel <= panels; ++panel) {
     const double share = static_cast<double>(panel) / panels;
-    const double to = panel == panels ? high_hz : low_hz * std::pow(high_hz / low_hz, share);
+    const double to = panel == panels ? high_hz : low_hz * elementary::pow(high_hz / low_hz, share);
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       nodes.push_back({(from + to) / 2 + (to - from) / 2 * rule.nodes[i], (to - from) / 2 * rule.weights[i]});
     }

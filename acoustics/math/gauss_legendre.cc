@@ -1,9 +1,9 @@
 #include "acoustics/math/gauss_legendre.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -26,7 +26,7 @@ LegendreValue legendre(int n, double x) {
 // The i-th root from above; the start is Tricomi's estimate, close enough for Newton to converge.
 double legendre_root(int n, int i) {
   constexpr int kNewtonSteps = 12;  // quadratic convergence: 5 suffice for n = 64
-  double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
+  double x = elementary::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
   for (int step = 0; step < kNewtonSteps; ++step) {
     const LegendreValue p = legendre(n, x);
     x -= p.value / p.derivative;

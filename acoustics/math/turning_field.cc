@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "acoustics/math/airy.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -32,7 +33,7 @@ TurningShare turning_at_boundary(double x) {
   const Airy a = airy(-x);
   const double square = a.ai * a.ai + a.bi * a.bi;
   TurningShare share{1 / (pi * square), 4 / pi * (a.ai * a.ai_slope + a.bi * a.bi_slope) / (square * square),
-                     std::atan2(a.ai, a.bi)};
+                     elementary::atan2(a.ai, a.bi)};
   if (x > 0) {  // theta is (2/3) x^(3/2) and up to pi / 4 more
     const double ray = 2.0 / 3 * x * std::sqrt(x);
     share.phase = ray + std::remainder(share.phase - ray, 2 * pi);
@@ -60,11 +61,13 @@ double knot_widening(double change) {
   // At x = 0 the phase is 16 / 105 2^(3/2) of it, and grows with the 3/2 power of the width.
   constexpr double kMostPhase = 0.05, kPhase = 0.431;  // rad
   const double widest = 10;
-  return change > 0 ? std::clamp(std::cbrt(std::pow(kMostPhase / (kPhase * change), 2)), 1.0, widest) : 1;
+  return change > 0
+             ? std::clamp(elementary::cbrt(elementary::pow(kMostPhase / (kPhase * change), 2)), 1.0, widest)
+             : 1;
 }
 
 double turning_sine(double gradient_per_s, double frequency_hz) {
-  return std::cbrt(gradient_per_s / (pi * frequency_hz));
+  return elementary::cbrt(gradient_per_s / (pi * frequency_hz));
 }
 
 }  // namespace halocline::acoustics

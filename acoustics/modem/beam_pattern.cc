@@ -1,11 +1,11 @@
 #include "acoustics/modem/beam_pattern.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <string>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 
@@ -37,7 +37,7 @@ Decibels BeamPattern::loss(double elevation_rad) const {
 
 double BeamPattern::factor(double elevation_rad) const {
   // On pressure, 10^(-loss / 20).
-  return rows_.empty() ? 1 : std::pow(10.0, -loss(elevation_rad).value / 20);
+  return rows_.empty() ? 1 : elementary::exp10(-loss(elevation_rad).value / 20);
 }
 
 }  // namespace halocline::acoustics

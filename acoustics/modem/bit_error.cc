@@ -3,12 +3,13 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
 
 // Q(sqrt(2 x)).
-double tail_of_root(double x) { return std::erfc(std::sqrt(x)) / 2; }
+double tail_of_root(double x) { return elementary::erfc(std::sqrt(x)) / 2; }
 
 // (1 - s) / 2 for s = sqrt(g / (k + g)), as (1 - s^2) / (2 (1 + s)) with 1 - s^2 = k / (k + g): no difference
 // of nearly equal numbers, and no infinity over infinity.
@@ -23,13 +24,13 @@ double error_without_fading(Modulation modulation, double g) {
     case Modulation::kBpsk:
       return tail_of_root(g);
     case Modulation::kDbpsk:
-      return std::exp(-g) / 2;
+      return elementary::exp(-g) / 2;
     case Modulation::kCoherentBfsk:
       return tail_of_root(g / 2);
     case Modulation::kNoncoherentBfsk:
       break;
   }
-  return std::exp(-g / 2) / 2;
+  return elementary::exp(-g / 2) / 2;
 }
 
 // Their means over exponentially distributed g (section 14.3): BPSK (1 - sqrt(g / (1 + g))) / 2, DBPSK 1 / (2 (1 + g)),
@@ -61,7 +62,7 @@ double packet_error_rate(double bit_error_rate, std::int64_t bits) {
   require(bits >= 0, "a packet has no negative number of bits");
   if (bits == 0) return 0;
   // 1 - (1 - p)^n
-  return -std::expm1(static_cast<double>(bits) * std::log1p(-bit_error_rate));
+  return -elementary::expm1(static_cast<double>(bits) * elementary::log1p(-bit_error_rate));
 }
 
 }  // namespace halocline::acoustics

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -75,20 +76,21 @@ double soft_without_fading(int d, double g) {
     sum += power * choices[static_cast<std::size_t>(d - 1 - k)];
     power *= half / (k + 1);
   }
-  return std::ldexp(std::exp(-half) * sum, 1 - 2 * d);
+  return std::ldexp(elementary::exp(-half) * sum, 1 - 2 * d);
 }
 
 // d independent fades (section 14.4): P2 = p^d sum_{k<d} C(d-1+k, k) (1-p)^k.
 double soft_in_rayleigh(int d, double p) {
   double sum = 0, power = 1;
   for (int k = 0; k < d; ++k, power *= 1 - p) sum += binomial(d - 1 + k, k) * power;
-  return std::pow(p, d) * sum;
+  return elementary::pow(p, d) * sum;
 }
 
 // More than half of d chips wrong, a tie by a coin (section 8.2): P2 = sum_{k>d/2} C(d, k) p^k (1-p)^(d-k) + tie / 2.
 double hard(int d, double p) {
-  double sum = d % 2 == 0 ? binomial(d, d / 2) * std::pow(p * (1 - p), d / 2) / 2 : 0;
-  for (int k = d / 2 + 1; k <= d; ++k) sum += binomial(d, k) * std::pow(p, k) * std::pow(1 - p, d - k);
+  double sum = d % 2 == 0 ? binomial(d, d / 2) * elementary::pow(p * (1 - p), d / 2) / 2 : 0;
+  for (int k = d / 2 + 1; k <= d; ++k)
+    sum += binomial(d, k) * elementary::pow(p, k) * elementary::pow(1 - p, d - k);
   return sum;
 }
 

@@ -1,6 +1,6 @@
 #include "acoustics/modem/half_delivery.h"
 
-#include <cmath>
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 
@@ -10,7 +10,8 @@ std::optional<Decibels> half_delivery_sinr(const Modem& modem, std::size_t paylo
   const auto delivers_half = [&](double sinr_db) {
     const PowerRatio sinr = to_power_ratio(Decibels{sinr_db});
     // P = P_acquired (1 - BER)^bits
-    return acquisition_probability(modem, sinr) * std::exp(bits * std::log1p(-bit_error_rate(modem, sinr))) >=
+    return acquisition_probability(modem, sinr) *
+               elementary::exp(bits * elementary::log1p(-bit_error_rate(modem, sinr))) >=
            kHalf;
   };
   double low_db = kLeast_db, high_db = kGreatest_db;

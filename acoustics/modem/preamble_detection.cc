@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 // False alarm of half the threshold T = `mean` for M = `pieces`: P(chi-square of 2 M degrees > 2 T) = e^-T sum_{n<M}
 // T^n / n! (Kay 1998, section 7.6).
 double noise_above(double mean, int pieces) {
-  double sum = 0, term = std::exp(-mean);
+  double sum = 0, term = elementary::exp(-mean);
   for (int n = 0; n < pieces; ++n) {
     sum += term;
     term *= mean / (n + 1);
@@ -40,9 +41,9 @@ double detection_probability(int pieces, double false_alarm, PowerRatio energy_o
   // Marcum 1960: P_detect = Q_M(sqrt(2 h), sqrt(2 T)) = 1 - sum_{n>=M} e^-T T^n / n! P(Poisson(h) <= n - M).
   // Terms beyond the mean by 12 deviations and more (Chernoff: below 1e-20) add nothing.
   const int last = static_cast<int>(threshold + 12 * std::sqrt(threshold) + 60) + pieces;
-  double noise_term = std::exp(-threshold), missed = 0;
+  double noise_term = elementary::exp(-threshold), missed = 0;
   for (int n = 1; n <= pieces; ++n) noise_term *= threshold / n;
-  double signal_term = std::exp(-h), signal_at_most = signal_term;
+  double signal_term = elementary::exp(-h), signal_at_most = signal_term;
   for (int n = pieces; n <= last; ++n) {
     missed += noise_term * signal_at_most;
     noise_term *= threshold / (n + 1);

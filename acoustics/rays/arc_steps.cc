@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/elementary.h"
+
 namespace halocline::acoustics {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double kMargin = 1e-7;    // m: added to bounds of depth
 // sin(x) to 1e-16 by its series for |x| up to 0.3, which is more than half of any bend but those of a wide crease
 // angle.
 double sine_of_bend(double x) {
-  if (std::abs(x) > 0.3) return std::sin(x);
+  if (std::abs(x) > 0.3) return elementary::sin(x);
   constexpr double k3 = 1.0 / 6, k5 = k3 / 20, k7 = k5 / 42, k9 = k7 / 72, k11 = k9 / 110;
   const double y = x * x;
   return x * (1 - y * (k3 - y * (k5 - y * (k7 - y * (k9 - y * k11)))));

@@ -8,6 +8,7 @@
 #include "acoustics/math/arc_math.h"
 #include "acoustics/sea/ray_water.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -135,7 +136,7 @@ bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) c
   ++ray.surface_bounces;
   if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
   const double lost_db = surface_loss_.db_at_sine(std::min(sine, 1.0));
-  if (lost_db > 0) ray.factor *= std::exp(-std::numbers::ln10 / 20 * lost_db);
+  if (lost_db > 0) ray.factor *= elementary::exp(-std::numbers::ln10 / 20 * lost_db);
   if (details != nullptr) {
     details->surface_loss_db += lost_db;
     details->surface_sine_squares += sine * sine;
@@ -208,7 +209,8 @@ ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
   ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
   ray.events.clear();
   ray.events.reserve(kUsualEvents);
-  const double sine = std::sin(theta), xi = std::cos(theta) / source_speed_, p = 1 / source_speed_;
+  const double sine = elementary::sin(theta), xi = elementary::cos(theta) / source_speed_,
+               p = 1 / source_speed_;
   State s{{0, source_depth_, sine, xi, source_speed_, 1 / xi, source_layer_, source_facet_}, 0, p, 0, p};
   // At a knot the layer is the one into which the ray goes.
   const bool rises = sine < 0 || (sine == 0 && sea_.water.gradients_per_s()[s.layer] > 0);

@@ -8,6 +8,7 @@
 
 #include "acoustics/math/fold_field.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -46,7 +47,8 @@ double positive_angle(double angle_rad) { return angle_rad - 2 * pi * std::floor
 // The stronger of the two, with the pressure of both: the sum of A e^(i (phi - 2 pi f t)) at the carrier f.
 Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   const auto phasor = [frequency_hz](const Arrival& path) {
-    return std::polar(path.amplitude, path.phase_rad - 2 * pi * std::fmod(frequency_hz * path.delay_s, 1.0));
+    return elementary::polar(path.amplitude,
+                             path.phase_rad - 2 * pi * std::fmod(frequency_hz * path.delay_s, 1.0));
   };
   Arrival both = a.amplitude >= b.amplitude ? a : b;
   const std::complex<double> sum = phasor(a) + phasor(b);
@@ -141,7 +143,7 @@ void apply_folds(std::vector<Arrival>& paths, const std::vector<FoldMember>& mem
 
 }  // namespace
 
-double Arrival::received_pressure() const { return amplitude * std::pow(10.0, -absorption_db / 20); }
+double Arrival::received_pressure() const { return amplitude * elementary::exp10(-absorption_db / 20); }
 
 std::string_view to_name(RaySolver solver) {
   switch (solver) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline::acoustics {
 namespace {
 
@@ -117,19 +119,19 @@ std::optional<ChannelCore> channel_core(const RayWater& water, double bottom_m, 
 
 Arrival axial_ray(const RayWater& water, const ChannelCore& core, const RayLink& link) {
   const double down = link.receiver_depth_m - link.source_depth_m;
-  const double length = std::hypot(link.range_m, down);
+  const double length = elementary::hypot(link.range_m, down);
   const double source_mps = water.speed_at(link.source_depth_m),
                receiver_mps = water.speed_at(link.receiver_depth_m);
   const double turned = core.kappa_per_m * length;
   const double least = turned > pi / 2 ? 0.5 : 0;
-  const double tube = std::max(std::abs(std::sin(turned)), least) / core.kappa_per_m;
+  const double tube = std::max(std::abs(elementary::sin(turned)), least) / core.kappa_per_m;
   Arrival path;
   path.delay_s = 2 * length / (source_mps + receiver_mps);
   path.amplitude = 1 / std::sqrt(length * tube);
   path.caustics = static_cast<int>(turned / pi);
   path.phase_rad = std::fmod(path.caustics * pi / 2, 2 * pi);
-  path.launch_angle_rad = path.arrival_angle_rad = std::atan2(down, link.range_m);
-  path.launch_slowness_spm = std::cos(path.launch_angle_rad) / source_mps;
+  path.launch_angle_rad = path.arrival_angle_rad = elementary::atan2(down, link.range_m);
+  path.launch_slowness_spm = elementary::cos(path.launch_angle_rad) / source_mps;
   path.range_slowness_spm = path.launch_slowness_spm;
   path.path_length_m = length;
   path.absorption_db = length * water.absorption_db_per_m((link.source_depth_m + link.receiver_depth_m) / 2);

@@ -12,6 +12,7 @@
 #include "acoustics/rays/profile_rays.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -23,7 +24,7 @@ constexpr double kLoudestFocus = 10;              // of a path's amplitude over 
 constexpr int kBouncesThatTell = 40;              // of rays that are searched only to know why none is kept
 const double kNearlyVertical = to_radians(89.5);  // rays over a profile stop at 89.9 degrees
 
-double factor_of(double loss_db) { return std::pow(10.0, -loss_db / 20); }
+double factor_of(double loss_db) { return elementary::exp10(-loss_db / 20); }
 double bounce_loss_db(const Arrival& path) { return path.surface_loss_db + path.bottom_loss_db; }
 
 // By received pressure, which is at most the amplitude.
@@ -90,7 +91,7 @@ std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
 // Rays over a profile are not followed where they all but stand: there the direct one is that of a flat sea.
 void LinkSearch::add_vertical(const RayOptions& options, std::vector<Arrival>& paths) const {
   const double down = std::abs(link_.receiver_depth_m - link_.source_depth_m);
-  if (solver_ != RaySolver::kArcs || std::atan2(down, link_.range_m) < kNearlyVertical) return;
+  if (solver_ != RaySolver::kArcs || elementary::atan2(down, link_.range_m) < kNearlyVertical) return;
   RayOptions direct = options;
   direct.max_bounces = 0;
   std::erase_if(paths, [](const Arrival& path) { return path.surface_bounces + path.bottom_bounces == 0; });
@@ -139,13 +140,14 @@ RayOptions LinkSearch::with_bounce_loss(double loss_db) const {
 double LinkSearch::most_bounce_loss_db() const {
   if (sea_.options.min_amplitude <= 0) return kNoLessDb;
   const double spherical = kLoudestFocus / std::max(link_.range_m, kMinDistance);
-  return std::min(20 * std::log10(spherical / sea_.options.min_amplitude), kNoLessDb);
+  return std::min(20 * elementary::log10(spherical / sea_.options.min_amplitude), kNoLessDb);
 }
 
 std::vector<Arrival> LinkSearch::paths() const {
   std::vector<Arrival> paths = paths_with(sea_.options);
   if (!(sea_.options.min_boundary_factor > 0)) return paths;
-  const double limit_db = -20 * std::log10(sea_.options.min_boundary_factor), most_db = most_bounce_loss_db();
+  const double limit_db = -20 * elementary::log10(sea_.options.min_boundary_factor),
+               most_db = most_bounce_loss_db();
   double searched_db = limit_db;
   while (paths.empty() && searched_db < most_db) {
     searched_db = std::min(kWidening * searched_db, most_db);

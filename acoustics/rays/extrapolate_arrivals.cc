@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace halocline::acoustics {
 namespace {
 
@@ -13,15 +15,17 @@ struct Displacement {
 
 // Angle of a straight ray of `angle_rad` and `length_m` once its end has moved: the direction of the moved end.
 double turned(double angle_rad, double length_m, double apart_m, double down_m) {
-  return std::atan2(length_m * std::sin(angle_rad) + down_m, length_m * std::cos(angle_rad) + apart_m);
+  return elementary::atan2(length_m * elementary::sin(angle_rad) + down_m,
+                           length_m * elementary::cos(angle_rad) + apart_m);
 }
 
 Arrival extrapolated(Arrival path, const EndSpeeds& speeds, const Displacement& moved) {
   // Fermat: d tau = <cos / c> dr + sin(arrival) / c_r dz_r - sin(launch) / c_s dz_s.
   const double delay_s = path.delay_s, speed_mps = path.path_length_m / delay_s;
-  const double gradient_s = path.range_slowness_spm * moved.apart +
-                            std::sin(path.arrival_angle_rad) / speeds.receiver_mps * moved.receiver_down -
-                            std::sin(path.launch_angle_rad) / speeds.source_mps * moved.source_down;
+  const double gradient_s =
+      path.range_slowness_spm * moved.apart +
+      elementary::sin(path.arrival_angle_rad) / speeds.receiver_mps * moved.receiver_down -
+      elementary::sin(path.launch_angle_rad) / speeds.source_mps * moved.source_down;
   // Unfolded as the source sees it, the receiver's down is up after an odd number of bounces and turns.
   const bool flipped = (path.surface_bounces + path.bottom_bounces) % 2 != 0;
   const double turn = flipped ? -1 : 1, down = turn * moved.receiver_down - moved.source_down;

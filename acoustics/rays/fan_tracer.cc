@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "acoustics/sea/boundary_reflection.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -44,7 +45,7 @@ FanTracer::FanTracer(const ArcTracer& exact)
       column_(water_, profile_.shallowest_m(), profile_.deepest_m()),
       range_(exact.range_m()),
       shallowest_(profile_.shallowest_m()),
-      max_loss_db_(kGiveUpDb - 20 * std::log10(exact.sea().options.min_boundary_factor)),
+      max_loss_db_(kGiveUpDb - 20 * elementary::log10(exact.sea().options.min_boundary_factor)),
       steepest_rise_(0) {
   events_.reserve(kUsualEvents);
   for (const Facet& facet : profile_.facets()) steepest_rise_ = std::max(steepest_rise_, -facet.sine);
@@ -53,15 +54,15 @@ FanTracer::FanTracer(const ArcTracer& exact)
   const SurfaceLoss surface(sea.surface, sea.options.frequency_hz);
   for (std::size_t i = 0; i <= kLossSteps; ++i) {
     const double sine = std::max(static_cast<double>(i) / static_cast<double>(kLossSteps), 1e-3);
-    const double bottom_db = -20 * std::log10(bottom_magnitude_at_sine(sea.bottom, sine, speed));
+    const double bottom_db = -20 * elementary::log10(bottom_magnitude_at_sine(sea.bottom, sine, speed));
     bottom_loss_db_.push_back(std::min(bottom_db, kMaxLossOfABounceDb));
-    surface_loss_db_.push_back(sine *
-                               surface_loss_db(sea.surface, std::asin(sine), sea.options.frequency_hz));
+    surface_loss_db_.push_back(
+        sine * surface_loss_db(sea.surface, elementary::asin(sine), sea.options.frequency_hz));
   }
 }
 
 FanTracer::State FanTracer::start(double theta) const {
-  const double c = exact_.source_speed_mps(), sine = std::sin(theta), xi = std::cos(theta) / c;
+  const double c = exact_.source_speed_mps(), sine = elementary::sin(theta), xi = elementary::cos(theta) / c;
   State s{{0, exact_.source_depth_m(), sine, xi, c, 1 / xi, exact_.source_layer(), exact_.source_facet()},
           0,
           1 / c,

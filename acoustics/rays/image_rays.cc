@@ -9,6 +9,7 @@
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -41,7 +42,7 @@ class ImageSum {
         up_(std::min(link.source_depth_m, link.receiver_depth_m)),
         between_(std::abs(link.source_depth_m - link.receiver_depth_m)),
         down_(sea.bottom_depth_m - std::max(link.source_depth_m, link.receiver_depth_m)),
-        min_sine_(std::sin(sea.options.max_launch_angle_rad)),
+        min_sine_(elementary::sin(sea.options.max_launch_angle_rad)),
         steepest_factor_(bottom_magnitude_at_sine(sea.bottom, min_sine_, speed_)),
         absorption_up_(mean_absorption_over(0, up_)),
         absorption_between_(mean_absorption_over(up_, up_ + between_)),
@@ -121,7 +122,7 @@ bool ImageSum::add(const Image& image) {
   if (factor < options.min_boundary_factor || factor / length < options.min_amplitude) return true;
   Arrival& path = paths_.emplace_back();
   path.amplitude = factor / length;
-  if (top < 1) path.surface_loss_db = -20 * surface * std::log10(top);
+  if (top < 1) path.surface_loss_db = -20 * surface * elementary::log10(top);
   path.delay_s = length / speed_;
   path.launch_slowness_spm = path.range_slowness_spm = range_ / (length * speed_);
   path.path_length_m = length;

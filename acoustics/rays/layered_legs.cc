@@ -6,6 +6,7 @@
 
 #include "acoustics/math/arc_math.h"
 #include "acoustics/sea/ray_water.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -80,7 +81,7 @@ void LayeredLegs::mark_knots(std::vector<LegLayer>& layers, double frequency_hz)
     const double before = layer.gradient, beyond = layer.is_last ? before : layers[i + 1].gradient;
     if (before <= 0 || beyond <= 0 || layer.c2 <= start) continue;
     // Squares of sines: of the scale, and at the knot of the ray that is horizontal at the end of the link.
-    const double wave = std::pow(turning_sine(std::min(before, beyond), frequency_hz), 2);
+    const double wave = elementary::pow(turning_sine(std::min(before, beyond), frequency_hz), 2);
     const double end = (layer.c2 - start) * (layer.c2 + start) / (layer.c2 * layer.c2);
     if (layer.is_last) {
       const double x = end / wave, t = std::min(x / kNearBoundary, 1.0);

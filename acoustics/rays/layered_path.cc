@@ -9,6 +9,7 @@
 #include "acoustics/math/fold_field.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -75,9 +76,9 @@ double surface_loss_of(const LayeredLink& link, const LegSums& sums, const Bound
   if (touch.inverse_sine > 0 && surface.model == SurfaceModel::kAplBubbles)
     return SurfaceLoss(surface, frequency).db_at_sine(1) * touch.inverse_sine;
   if (!reflects) return 0;
-  const double grazing = std::atan2(sums.sine_top, sums.xi * link.surface_speed_mps);
+  const double grazing = elementary::atan2(sums.sine_top, sums.xi * link.surface_speed_mps);
   const double factor = surface_magnitude(surface, grazing, frequency);
-  return factor < 1 ? -20 * std::log10(factor) : 0;
+  return factor < 1 ? -20 * elementary::log10(factor) : 0;
 }
 
 // False when the bounces leave too little.
@@ -88,14 +89,14 @@ bool set_boundaries(const LayeredLink& link, const LegSums& sums, const Bounces&
   if (bounces.bottom > 0) {
     const Reflection one =
         bottom_reflection_at_sine(link.sea.bottom, sums.sine_bottom, link.bottom_speed_mps);
-    factor *= std::pow(one.magnitude, bounces.bottom);
+    factor *= elementary::pow(one.magnitude, bounces.bottom);
     phase += one.phase_rad * bounces.bottom;
     path.bottom_loss_db = bounces.bottom * one.loss_db();
   }
   const int touched = bounces.surface + bounces.upper_turns;
   path.surface_loss_db =
       touched > 0 ? touched * surface_loss_of(link, sums, touches.top, bounces.surface > 0) : 0;
-  if (path.surface_loss_db > 0) factor *= std::pow(10.0, -path.surface_loss_db / 20);
+  if (path.surface_loss_db > 0) factor *= elementary::exp10(-path.surface_loss_db / 20);
   phase += 2 * touched * touches.top.phase_rad +
            2 * (bounces.bottom + bounces.lower_turns) * touches.bottom.phase_rad;
   path.amplitude = factor;
@@ -159,7 +160,7 @@ LayeredLink::LayeredLink(const FlatSea& flat_sea, const RayLink& link)
   receiver_speed_mps = sea.water.speed_at(receiver);
   surface_speed_mps = sea.water.speed_at(0);
   bottom_speed_mps = sea.water.speed_at(sea.bottom_depth_m);
-  log_min_factor = sea.options.min_boundary_factor > 0 ? std::log(sea.options.min_boundary_factor)
+  log_min_factor = sea.options.min_boundary_factor > 0 ? elementary::log(sea.options.min_boundary_factor)
                                                        : -std::numeric_limits<double>::infinity();
 }
 
@@ -170,8 +171,8 @@ bool find_dark_ray(const LayeredLink& link, const LayeredLegs& legs, const FoldB
     return t.bm + ray.cycles * t.xm;
   };
   const auto slope_at = [&](double theta) {
-    ray.sine = std::sin(theta);
-    ray.cosine = std::cos(theta);
+    ray.sine = elementary::sin(theta);
+    ray.cosine = elementary::cos(theta);
     sums = legs.sums(ray.sine, ray.cosine);
     return range_slope(sums);
   };

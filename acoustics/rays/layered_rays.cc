@@ -11,6 +11,7 @@
 #include "acoustics/rays/layered_legs.h"
 #include "acoustics/rays/layered_path.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -122,12 +123,12 @@ void Search::add_horizontal() {
 
 double Search::theta_reaching(double c) const {
   const double barrier = legs_.barrier_mps();
-  return std::atan2(std::sqrt(std::max(0.0, (c - barrier) * (c + barrier))), barrier);
+  return elementary::atan2(std::sqrt(std::max(0.0, (c - barrier) * (c + barrier))), barrier);
 }
 
 void Search::scan_interval() {
   // Launched at the greatest angle a ray reaches speed c_source / cos(angle) where it is horizontal.
-  const double cosine = std::cos(link_.sea.options.max_launch_angle_rad);
+  const double cosine = elementary::cos(link_.sea.options.max_launch_angle_rad);
   const double next = legs_.next_barrier_mps();
   const double steepest = cosine > 1e-12
                               ? theta_reaching(std::max(link_.source_speed_mps / cosine, legs_.barrier_mps()))
@@ -147,7 +148,7 @@ void Search::scan_interval() {
 Node Search::node_at(double theta) const {
   Node node;
   node.theta = theta;
-  const double sine = std::sin(theta), cosine = std::cos(theta), r = link_.range_m;
+  const double sine = elementary::sin(theta), cosine = elementary::cos(theta), r = link_.range_m;
   node.sums = legs_.sums(sine, cosine);
   for (std::size_t k = 0; k < kFamilies.size(); ++k) {
     const RangeTerms t = range_terms(node.sums, kFamilies[k]);
@@ -155,7 +156,7 @@ Node Search::node_at(double theta) const {
     node.f[k] = (r - node.sums.xi * t.bq) / (node.sums.xi * t.xq);
     node.slope[k] = (t.bm + node.f[k] * t.xm) * sine / (cosine * t.xq);
   }
-  node.log_factor = legs_.meets_bottom() ? std::log(link_.bottom_factor(node.sums)) : 0;
+  node.log_factor = legs_.meets_bottom() ? elementary::log(link_.bottom_factor(node.sums)) : 0;
   return node;
 }
 
@@ -247,7 +248,7 @@ double Search::dark_reach(const Node& a, const Node& b, std::size_t family) cons
   if (!(a.slope[family] * b.slope[family] < 0) || !link_.sea.options.airy_folds || direct_only_) return 0;
   // d range/d xi is about d f/d theta (cos / sin) X / xi. At the edge of a family it is no measure of the bend.
   const auto range_slope = [family](const Node& node) {
-    const double tangent = std::tan(node.theta);
+    const double tangent = elementary::tan(node.theta);
     return std::abs(node.slope[family]) * range_terms(node.sums, kFamilies[family]).xq / tangent;
   };
   const double bend = (range_slope(a) + range_slope(b)) / std::abs(b.sums.xi - a.sums.xi);
@@ -289,8 +290,8 @@ void Search::polish(const Bracket& bracket, std::size_t family, int cycles) {
   LegSums sums;
   RangeTerms t{};
   for (int i = 0; i < 60; ++i) {
-    ray.sine = std::sin(theta);
-    ray.cosine = std::cos(theta);
+    ray.sine = elementary::sin(theta);
+    ray.cosine = elementary::cos(theta);
     sums = legs_.sums(ray.sine, ray.cosine);
     t = range_terms(sums, ray.family);
     // Newton on f: f - n = (r - b - n X) / X, all of it in units of xi.

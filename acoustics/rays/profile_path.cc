@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "acoustics/sea/ray_water.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -122,14 +123,14 @@ Arrival arrival_of(const ArcTracer& tracer, const TracedRay& ray, const TracedDe
   // The receiver is not quite where the ray is: a front of slowness sin / c moves over the difference.
   const double down = (ray.surface_bounces + ray.bottom_bounces) % 2 == 0 ? 1 : -1;
   path.delay_s = details.delay_s + ray.sine / speed * down * (target - ray.zeta);
-  path.amplitude = ray.factor * std::sqrt(speed * std::cos(ray.theta) /
+  path.amplitude = ray.factor * std::sqrt(speed * elementary::cos(ray.theta) /
                                           (tracer.source_speed_mps() * tracer.range_m() * tube));
   const double phase = pi * (ray.surface_bounces % 2) + details.bottom_phase_rad + ray.caustics * pi / 2;
   path.phase_rad = phase - 2 * pi * std::floor(phase / (2 * pi));
   path.launch_angle_rad = ray.theta;
-  path.launch_slowness_spm = std::cos(ray.theta) / tracer.source_speed_mps();
+  path.launch_slowness_spm = elementary::cos(ray.theta) / tracer.source_speed_mps();
   path.range_slowness_spm = details.slowness_over_range / tracer.range_m();
-  path.arrival_angle_rad = std::asin(ray.sine);
+  path.arrival_angle_rad = elementary::asin(ray.sine);
   path.path_length_m = details.length_m;
   path.absorption_db = details.absorption_db;
   path.surface_loss_db = details.surface_loss_db;
@@ -242,9 +243,9 @@ std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {
   for (std::size_t i = 0; i < water.speeds_mps().size(); ++i) {
     if (i > 0 && water.depths_m()[i - 1] > tracer.sea().profile.deepest_m()) break;
     const double cosine = tracer.source_speed_mps() / water.speeds_mps()[i];
-    if (cosine >= 1 || cosine < std::cos(limit)) continue;
-    add_both(std::acos(cosine) - kBesideGrazing);
-    add_both(std::acos(cosine) + kBesideGrazing);
+    if (cosine >= 1 || cosine < elementary::cos(limit)) continue;
+    add_both(elementary::acos(cosine) - kBesideGrazing);
+    add_both(elementary::acos(cosine) + kBesideGrazing);
   }
   if (limit < steepest) {
     for (int i = 1; i <= 8; ++i) add_both(limit + (steepest - limit) * i / 8);
@@ -257,7 +258,7 @@ std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {
 double leave_out_core(const ArcTracer& tracer, std::vector<double>& angles) {
   const double core = tracer.sea().core_speed_mps;
   if (core <= tracer.source_speed_mps()) return 0;
-  const double edge = std::acos(tracer.source_speed_mps() / core);
+  const double edge = elementary::acos(tracer.source_speed_mps() / core);
   std::erase_if(angles, [edge](double theta) { return std::abs(theta) < edge; });
   angles.insert(std::upper_bound(angles.begin(), angles.end(), 0.0), {-edge, edge});
   return edge;

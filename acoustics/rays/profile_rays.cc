@@ -12,6 +12,7 @@
 #include "acoustics/math/hermite_cubic.h"
 #include "acoustics/rays/fan_tracer.h"
 #include "acoustics/rays/profile_path.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -51,7 +52,7 @@ class Search {
         images_(tracer),
         folds_(tracer),
         depth_(tracer.bottom_at_receiver_m()),
-        faint_db_(kFaintDb - 20 * std::log10(tracer.sea().options.min_boundary_factor)) {}
+        faint_db_(kFaintDb - 20 * elementary::log10(tracer.sea().options.min_boundary_factor)) {}
 
   // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
   // horizontal, which is one of the angles, as is its opposite.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -20,7 +21,7 @@ Vec3 ray_direction(const Vec3& from_ned_m, const Vec3& to_ned_m, double angle_ra
   along.z() = 0;
   const double range = along.norm();
   along = range > 0 ? Vec3(along / range) : Vec3(1, 0, 0);
-  return std::cos(angle_rad) * along + std::sin(angle_rad) * Vec3(0, 0, 1);
+  return elementary::cos(angle_rad) * along + elementary::sin(angle_rad) * Vec3(0, 0, 1);
 }
 
 double doppler_factor(const Arrival& path, const MovingEnds& ends) {

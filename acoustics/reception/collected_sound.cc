@@ -8,6 +8,7 @@
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/steady_band.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -38,13 +39,13 @@ Member member_of(const CollectedPath& path, std::size_t index, const Band& band,
           .fast = fast,
           .steady_root = std::sqrt(steady),
           .turned_root = std::sqrt(medium),
-          .cos_phase = std::cos(path.phase_rad),
-          .sin_phase = std::sin(path.phase_rad),
+          .cos_phase = elementary::cos(path.phase_rad),
+          .sin_phase = elementary::sin(path.phase_rad),
           .turns = turns,
-          .cos_half = std::cos(half),
-          .sin_half = std::sin(half),
-          .launch_sine = std::sin(path.launch_angle_rad),
-          .arrival_sine = std::sin(path.arrival_angle_rad),
+          .cos_half = elementary::cos(half),
+          .sin_half = elementary::sin(half),
+          .launch_sine = elementary::sin(path.launch_angle_rad),
+          .arrival_sine = elementary::sin(path.arrival_angle_rad),
           .beats = steady + medium,
           .unit = fast};
 }

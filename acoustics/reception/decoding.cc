@@ -1,8 +1,8 @@
 #include "acoustics/reception/decoding.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -22,16 +22,16 @@ BlockDecoder::BlockDecoder(const Modem& modem, bool fades)
     : modem_(modem), interleaved_(fades && is_coded_frequency_shift_keying(modem.error_model)) {}
 
 void BlockDecoder::add(double share, double sinr) {
-  sum_ += share * (interleaved_ ? std::exp(-chip_energy(modem_) * sinr / kEffectiveRatioBeta)
-                                : std::log1p(-bit_error_rate(modem_, PowerRatio{sinr})));
+  sum_ += share * (interleaved_ ? elementary::exp(-chip_energy(modem_) * sinr / kEffectiveRatioBeta)
+                                : elementary::log1p(-bit_error_rate(modem_, PowerRatio{sinr})));
 }
 
 double BlockDecoder::success(std::int64_t bits) const {
-  if (!interleaved_) return std::exp(static_cast<double>(bits) * sum_);
+  if (!interleaved_) return elementary::exp(static_cast<double>(bits) * sum_);
   // No ratio at all of cells that are loud throughout: there exp(-gamma / beta) is 0.
-  const double effective = -kEffectiveRatioBeta * std::log(std::max(sum_, 1e-300));
+  const double effective = -kEffectiveRatioBeta * elementary::log(std::max(sum_, 1e-300));
   const double error = bit_error_rate(modem_, PowerRatio{effective / chip_energy(modem_)});
-  return std::exp(static_cast<double>(bits) * std::log1p(-error));
+  return elementary::exp(static_cast<double>(bits) * elementary::log1p(-error));
 }
 
 }  // namespace halocline::acoustics

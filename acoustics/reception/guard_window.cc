@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -17,7 +18,7 @@ constexpr double kShared =
 // 1 before 0, 0 after 1, half a cosine between.
 double raised_cosine(double x) {
   if (x <= 0) return 1;
-  return x >= 1 ? 0 : (1 + std::cos(std::numbers::pi * x)) / 2;
+  return x >= 1 ? 0 : (1 + elementary::cos(std::numbers::pi * x)) / 2;
 }
 
 double weight(const Modem& modem, double after_begin_s) {

@@ -15,6 +15,7 @@
 #include "acoustics/reception/packet_levels.h"
 #include "acoustics/reception/power_law.h"
 #include "acoustics/reception/strata_mean.h"
+#include "core/elementary.h"
 #include "core/random.h"
 #include "core/units.h"
 
@@ -224,7 +225,7 @@ LinkPrediction predict_still(const std::vector<SoundPath>& paths, const Lock& lo
   LinkPrediction prediction;
   prediction.sinr = signal / (noise + bits_echoes);
   prediction.acquisition_probability = curves.acquisition(signal / (noise + preamble_echoes));
-  prediction.delivery_probability = prediction.acquisition_probability * std::exp(log_success);
+  prediction.delivery_probability = prediction.acquisition_probability * elementary::exp(log_success);
   return prediction;
 }
 
@@ -244,8 +245,8 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
   const MeanSound sound = mean_sound(paths, lock, band, curves.timing());
   const PacketLevels packet(curves, sound);
   // What changes as the ends sway holds through a packet too.
-  const double deviation =
-      std::hypot(std::numbers::ln10 / 10 * model.large_scale_db, std::sqrt(std::log1p(sound.sway_variance)));
+  const double deviation = elementary::hypot(std::numbers::ln10 / 10 * model.large_scale_db,
+                                             std::sqrt(elementary::log1p(sound.sway_variance)));
   StrataMean mean(deviation, curves, sound, noise);
   if (packet.collects_band()) {
     add_powers(packet, sound, mean);

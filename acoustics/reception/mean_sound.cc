@@ -11,6 +11,7 @@
 #include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/steady_band.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -74,15 +75,15 @@ class BandSums {
         steady_(receiver, band) {}
 
   void add(const SoundPath& path, double power, double turned_share, double fast, double excess_s) {
-    const Complex turn = std::polar(1.0, -2 * pi * turned(spacing_hz_ * excess_s, 1));
+    const Complex turn = elementary::polar(1.0, -2 * pi * turned(spacing_hz_ * excess_s, 1));
     // What is hardly coherent turns as the medium does.
     const bool steadily = power * path.fading.coherent > kIncoherent * strongest_;
     if (steadily) {
       const double coherent = std::sqrt(power * path.fading.coherent);
       const double at_low = path.phase_rad - 2 * pi * turned(band_.low_hz * excess_s, 1);
-      steady_.add(
-          {coherent, at_low, excess_s, std::sin(path.launch_angle_rad), std::sin(path.arrival_angle_rad)});
-      Complex pressure = std::polar(coherent, at_low - pi * turned(spacing_hz_ * excess_s, 2));
+      steady_.add({coherent, at_low, excess_s, elementary::sin(path.launch_angle_rad),
+                   elementary::sin(path.arrival_angle_rad)});
+      Complex pressure = elementary::polar(coherent, at_low - pi * turned(spacing_hz_ * excess_s, 2));
       for (Complex& sum : pressures_) {
         sum += pressure;
         pressure = product(pressure, turn);

@@ -8,6 +8,7 @@
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/decoding.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -150,11 +151,11 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
   stretches_ = std::clamp(std::ceil(4 * bits_s_ / coherence_time_of(sound.window_spread_hz)), 8.0, 64.0);
   const auto ratio_db = [&](double loss) { return curves.ratio_db_of(-loss / bits_); };
   if (collects_band_) {
-    thresholds_ = {std::exp(curves.parts()[5].logs[4]), std::exp(curves.parts()[1].logs[4])};
+    thresholds_ = {elementary::exp(curves.parts()[5].logs[4]), elementary::exp(curves.parts()[1].logs[4])};
   } else if (!coded_) {
-    const double low = std::pow(10, ratio_db(4) / 10);
-    slope_ = std::log(20) / std::max(std::pow(10, ratio_db(0.2) / 10) - low, 1e-9);
-    errors_at_zero_ = 4 * std::exp(slope_ * low);
+    const double low = elementary::exp10(ratio_db(4) / 10);
+    slope_ = elementary::log(20) / std::max(elementary::exp10(ratio_db(0.2) / 10) - low, 1e-9);
+    errors_at_zero_ = 4 * elementary::exp(slope_ * low);
   }
 }
 

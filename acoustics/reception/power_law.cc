@@ -10,6 +10,7 @@
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -40,7 +41,7 @@ const QuantileTable& quantiles() {
       const double k = 4 / squared(skewness);
       for (std::size_t j = 0; j < kZs; ++j) {
         const double p = normal_probability(kLeastZ + kStepZ * static_cast<double>(j));
-        made[i][j] = std::log(boost::math::gamma_p_inv(k, p) / k);
+        made[i][j] = elementary::log(boost::math::gamma_p_inv(k, p) / k);
       }
     }
     return made;

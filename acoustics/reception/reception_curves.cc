@@ -1,12 +1,12 @@
 #include "acoustics/reception/reception_curves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/reception/decoding.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -25,11 +25,11 @@ ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
   for (std::size_t i = 0; i < kRows; ++i) {
     const PowerRatio sinr = to_power_ratio(Decibels{kLeastDb + kStepDb * static_cast<double>(i)});
     acquisition_.push_back(acquisition_probability(modem, sinr));
-    log_bit_success_.push_back(std::log1p(-bit_error_rate(modem, sinr)));
+    log_bit_success_.push_back(elementary::log1p(-bit_error_rate(modem, sinr)));
   }
   acquisition_flank_ = flank_of([&](std::size_t row) { return acquisition_[row]; });
   bits_flank_ = flank_of([&](std::size_t row) {
-    return std::exp(static_cast<double>(timing_.information_bits) * log_bit_success_[row]);
+    return elementary::exp(static_cast<double>(timing_.information_bits) * log_bit_success_[row]);
   });
   parts_ = make_parts();
 }
@@ -63,12 +63,12 @@ const std::array<double, ReceptionCurves::kThresholds>& ReceptionCurves::thresho
 ReceptionCurves::Parts ReceptionCurves::make_parts() const {
   Parts parts;
   for (std::size_t h = 0; h < kHalvings; ++h) {
-    const double bits = static_cast<double>(timing_.information_bits) / std::exp2(static_cast<double>(h));
-    const double lowest = 1 - std::exp(bits * log_bit_success_.front());
+    const double bits = std::ldexp(static_cast<double>(timing_.information_bits), -static_cast<int>(h));
+    const double lowest = 1 - elementary::exp(bits * log_bit_success_.front());
     std::array<double, kThresholds> weights{}, sums{};
     for (std::size_t i = 1; i < kRows; ++i) {
-      const double above = -std::expm1(bits * log_bit_success_[i]) / lowest,
-                   below = -std::expm1(bits * log_bit_success_[i - 1]) / lowest;
+      const double above = -elementary::expm1(bits * log_bit_success_[i]) / lowest,
+                   below = -elementary::expm1(bits * log_bit_success_[i - 1]) / lowest;
       const double log = std::numbers::ln10 / 10 * (kLeastDb + kStepDb * (static_cast<double>(i) - 0.5));
       for (std::size_t k = 0; k < kThresholds; ++k) {
         const double share = std::min(below, kLosses[k + 1]) - std::max(above, kLosses[k]);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "acoustics/math/functions.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -22,7 +23,7 @@ constexpr double kPhaseLockTimeS = 0.01;                    // likewise, against
 
 // exp(-(2 pi B T)^2 / 2).
 double kept_over(double time_s, double spread_hz) {
-  return std::exp(-squared(2 * pi * spread_hz * time_s) / 2);
+  return elementary::exp(-squared(2 * pi * spread_hz * time_s) / 2);
 }
 
 // When a path of the packet sounds, from the begin of the window.
@@ -62,11 +63,11 @@ class BandSum {
                  step_hz = spacing_hz / static_cast<double>(places_);
     for (std::size_t p = 0; p < paths.size(); ++p) {
       const double excess_s = paths[p].delay_s - strongest.delay_s;
-      const Complex between = std::polar(1.0, -2 * pi * cycles_in(step_hz, excess_s));
+      const Complex between = elementary::polar(1.0, -2 * pi * cycles_in(step_hz, excess_s));
       Complex turn =
-          std::polar(lock.window.weights[p], -2 * pi * cycles_in(band.low_hz + step_hz / 2, excess_s));
+          elementary::polar(lock.window.weights[p], -2 * pi * cycles_in(band.low_hz + step_hz / 2, excess_s));
       for (std::size_t i = 0; i < places_; ++i, turn *= between) first_.push_back(turn);
-      next_.push_back(std::polar(1.0, -2 * pi * cycles_in(spacing_hz, excess_s)));
+      next_.push_back(elementary::polar(1.0, -2 * pi * cycles_in(spacing_hz, excess_s)));
     }
   }
   // Adds path `p` of response `h` in a stretch to the sums, one a frequency.
@@ -93,9 +94,9 @@ class BandMean {
       if (!(lock.window.weights[p] > 0)) continue;
       for (const std::size_t q : within_) {
         const double apart_s = paths[p].delay_s - paths[q].delay_s;
-        pairs_.push_back(
-            std::polar(2 * lock.window.weights[p] * lock.window.weights[q] * sinc(band.width_hz() * apart_s),
-                       -2 * pi * cycles_in(band.centre_hz(), apart_s)));
+        pairs_.push_back(elementary::polar(
+            2 * lock.window.weights[p] * lock.window.weights[q] * sinc(band.width_hz() * apart_s),
+            -2 * pi * cycles_in(band.centre_hz(), apart_s)));
       }
       within_.push_back(p);
       squares_.push_back(squared(lock.window.weights[p]));
@@ -169,7 +170,7 @@ class HistoryMaker {
                 share_within(when, at_s - times.step_s / 2, at_s + times.step_s / 2);
       if (!(w2 > 0)) continue;
       const double turned = band_.centre_hz() * (paths_[p].doppler_factor - strongest.doppler_factor) * at_s;
-      turned_[p] = h * std::polar(std::sqrt(tracked_[p]), 2 * pi * turned);
+      turned_[p] = h * elementary::polar(std::sqrt(tracked_[p]), 2 * pi * turned);
       if (!collects_band_) sums_over_band_.add(p, turned_[p], static_cast<std::size_t>(i), sums);
     }
     if (collects_band_) {

@@ -7,6 +7,7 @@
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -37,8 +38,8 @@ void SteadyBand::add(const Path& path) {
   const auto& [pressure, phase_rad, excess_s, launch_sine, arrival_sine] = path;
   Samples re{}, im{};
   const double half_step = pi * turned(spacing_hz_ * excess_s, 2);
-  const std::complex<double> turn = std::polar(1.0, -2 * half_step);
-  std::complex<double> sample = std::polar(pressure, phase_rad - half_step);
+  const std::complex<double> turn = elementary::polar(1.0, -2 * half_step);
+  std::complex<double> sample = elementary::polar(pressure, phase_rad - half_step);
   for (std::size_t k = 0; k < samples_; ++k) {
     re[k] = sample.real();
     im[k] = sample.imag();
@@ -46,7 +47,7 @@ void SteadyBand::add(const Path& path) {
               sample.real() * turn.imag() + sample.imag() * turn.real()};
   }
   const double angle = 2 * pi * turned(spacing_hz_ * static_cast<double>(samples_) * excess_s, 1);
-  const double c = std::cos(angle), s = -std::sin(angle);
+  const double c = elementary::cos(angle), s = -elementary::sin(angle);
   for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
     for (std::size_t k = 0; k < samples_; ++k) {
       re_[m][k] += re[k];
@@ -93,7 +94,7 @@ SteadyBand::Sway SteadyBand::sway() const {
       const double sines =
           squared(one.launch_sine - other.launch_sine) + squared(one.arrival_sine - other.arrival_sine);
       const double kept = fast_exp(exponent * sines), interference = product * sinc(cycles),
-                   cosine = std::cos(one.phase_rad - other.phase_rad - pi * cycles);
+                   cosine = elementary::cos(one.phase_rad - other.phase_rad - pi * cycles);
       sway.change -= interference * (1 - kept) * cosine;
       // cos(2 phase) = 2 cos(phase)^2 - 1
       sway.variance +=

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -33,8 +34,8 @@ AbsorptionSpectrum fisher_simmons(const AbsorbingWater& water) {
   const double a1 = 1.03e-8 + 2.36e-10 * t - 5.22e-12 * t * t;
   const double a2 = 5.62e-8 + 7.52e-10 * t;
   const double a3 = (55.9 - 2.37 * t + 4.77e-2 * t * t - 3.48e-4 * t * t * t) * 1e-15;
-  const double f1_hz = 1.32e3 * kelvin * std::exp(-1700 / kelvin);
-  const double f2_hz = 1.55e7 * kelvin * std::exp(-3052 / kelvin);
+  const double f1_hz = 1.32e3 * kelvin * elementary::exp(-1700 / kelvin);
+  const double f2_hz = 1.55e7 * kelvin * elementary::exp(-3052 / kelvin);
   const double p2 = 1 - 10.3e-4 * p + 3.7e-7 * p * p;
   const double p3 = 1 - 3.84e-4 * p + 7.57e-8 * p * p;
   constexpr double k = kDbPerKmPerNeperPerMetre;
@@ -58,11 +59,11 @@ double francois_garrison_a3(double t) {
 AbsorptionSpectrum francois_garrison(const AbsorbingWater& water) {
   const double t = water.temperature_degc, s = water.salinity_psu, d = water.depth_m;
   const double c = 1412 + 3.21 * t + 1.19 * s + 0.0167 * d;  // their own estimate of sound speed
-  const double a1 = 8.86 / c * std::pow(10, 0.78 * water.ph - 5);
-  const double f1 = 2.8 * std::sqrt(s / 35) * std::pow(10, 4 - 1245 / (t + 273));
+  const double a1 = 8.86 / c * elementary::exp10(0.78 * water.ph - 5);
+  const double f1 = 2.8 * std::sqrt(s / 35) * elementary::exp10(4 - 1245 / (t + 273));
   const double a2 = 21.44 * s / c * (1 + 0.025 * t);
   const double p2 = 1 - 1.37e-4 * d + 6.2e-9 * d * d;
-  const double f2 = 8.17 * std::pow(10, 8 - 1990 / (t + 273)) / (1 + 0.0018 * (s - 35));
+  const double f2 = 8.17 * elementary::exp10(8 - 1990 / (t + 273)) / (1 + 0.0018 * (s - 35));
   const double p3 = 1 - 3.83e-5 * d + 4.9e-10 * d * d;
   return {.constant = 0,
           .boric = a1 * f1,
@@ -78,14 +79,14 @@ AbsorptionSpectrum francois_garrison(const AbsorbingWater& water) {
 //         + 0.52 (1 + T / 43) (S / 35) f2 f^2 / (f2^2 + f^2) e^(-z / 6) + 0.00049 f^2 e^(-(T / 27 + z / 17)).
 AbsorptionSpectrum ainslie_mccolm(const AbsorbingWater& water) {
   const double t = water.temperature_degc, s = water.salinity_psu, z_km = water.depth_m / 1000;
-  const double f1 = 0.78 * std::sqrt(s / 35) * std::exp(t / 26);
-  const double f2 = 42 * std::exp(t / 17);
+  const double f1 = 0.78 * std::sqrt(s / 35) * elementary::exp(t / 26);
+  const double f2 = 42 * elementary::exp(t / 17);
   return {.constant = 0,
-          .boric = 0.106 * f1 * std::exp((water.ph - 8) / 0.56),
+          .boric = 0.106 * f1 * elementary::exp((water.ph - 8) / 0.56),
           .boric_khz_squared = f1 * f1,
-          .sulphate = 0.52 * (1 + t / 43) * (s / 35) * f2 * std::exp(-z_km / 6),
+          .sulphate = 0.52 * (1 + t / 43) * (s / 35) * f2 * elementary::exp(-z_km / 6),
           .sulphate_khz_squared = f2 * f2,
-          .water = 0.00049 * std::exp(-(t / 27 + z_km / 17)),
+          .water = 0.00049 * elementary::exp(-(t / 27 + z_km / 17)),
           .low_below_400_hz = false};
 }
 

@@ -6,6 +6,7 @@
 
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -16,7 +17,8 @@ constexpr double kMinShareOfBend = 0.5;    // of a bend that the ones beside it 
 constexpr double kPatienceAmongBends = 3;  // there facets may be that much longer and turn that much more
 
 Facet facet_between(const ProfiledDepth& a, const ProfiledDepth& b) {
-  const double slope = (b.depth_m - a.depth_m) / (b.range_m - a.range_m), hypotenuse = std::hypot(1.0, slope);
+  const double slope = (b.depth_m - a.depth_m) / (b.range_m - a.range_m),
+               hypotenuse = elementary::hypot(1.0, slope);
   return {a.range_m,
           b.range_m,
           a.depth_m,
@@ -67,7 +69,9 @@ void BottomProfile::build_facets() {
 // Whether facets i - 1 and i sample a curve where they meet.
 bool BottomProfile::is_bend(std::size_t i) const {
   const auto turn_at = [this](std::size_t k) {
-    return k > 0 && k < facets_.size() ? std::atan(facets_[k].slope) - std::atan(facets_[k - 1].slope) : 0;
+    return k > 0 && k < facets_.size()
+               ? elementary::atan(facets_[k].slope) - elementary::atan(facets_[k - 1].slope)
+               : 0;
   };
   const auto length = [](const Facet& facet) { return facet.r1 - facet.r0; };
   const double turn = turn_at(i);
@@ -80,7 +84,7 @@ bool BottomProfile::is_bend(std::size_t i) const {
 void BottomProfile::bend_facets() {
   for (std::size_t i = 1; i < facets_.size(); ++i) {
     Facet &left = facets_[i - 1], &right = facets_[i];
-    const double turn = std::atan(right.slope) - std::atan(left.slope);
+    const double turn = elementary::atan(right.slope) - elementary::atan(left.slope);
     right.smooth_group = left.smooth_group;
     if (turn == 0) continue;  // one straight piece: no corner to part rays at
     // At the common point of a bend the reflecting direction is the mean of both: half the turn from each.

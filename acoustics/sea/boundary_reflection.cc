@@ -7,6 +7,7 @@
 
 #include "acoustics/math/arc_math.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -98,16 +99,16 @@ Quotient rayleigh(const FluidBottom& bottom, double sine, double water_speed_mps
 // times e^(1.2 (w - 6)). f in kHz.
 double apl_bubble_loss_db(double wind_mps, double grazing_rad, double khz) {
   constexpr double kJoin = 6;  // m/s
-  const double steady =
-      1.26e-3 / std::sin(grazing_rad) * std::pow(std::max(wind_mps, kJoin), 1.57) * std::pow(khz, 0.85);
+  const double steady = 1.26e-3 / elementary::sin(grazing_rad) *
+                        elementary::pow(std::max(wind_mps, kJoin), 1.57) * elementary::pow(khz, 0.85);
   if (wind_mps <= 0) return 0;  // the fit leaves 7e-4 of its 6 m/s value: a still sea has no bubbles
-  return wind_mps >= kJoin ? steady : steady * std::exp(1.2 * (wind_mps - kJoin));
+  return wind_mps >= kJoin ? steady : steady * elementary::exp(1.2 * (wind_mps - kJoin));
 }
 
 // Eckart 1953: the coherent part is e^(-Gamma^2 / 2), Gamma = 2 k h sin G.
 double eckart_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double wavenumber = 2 * pi * khz_to_hz(khz) / kWaveModelSpeed;
-  const double gamma = 2 * wavenumber * rms_wave_height_m(wind_mps) * std::sin(grazing_rad);
+  const double gamma = 2 * wavenumber * rms_wave_height_m(wind_mps) * elementary::sin(grazing_rad);
   return 10 * std::numbers::log10e * gamma * gamma;  // -20 log10 e^(-Gamma^2 / 2)
 }
 
@@ -117,7 +118,7 @@ double eckart_loss_db(double wind_mps, double grazing_rad, double khz) {
 double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double knots = wind_mps * kKnotsPerMps;
   const double f2 = knots > 0 ? 378 / (knots * knots) : 1e30, f1 = std::sqrt(10.0) * f2;  // kHz
-  const double low = 10 * std::log10((1 + khz * khz / (f1 * f1)) / (1 + khz * khz / (f2 * f2)));
+  const double low = 10 * elementary::log10((1 + khz * khz / (f1 * f1)) / (1 + khz * khz / (f2 * f2)));
   const double tilt = to_degrees(grazing_rad) / 30;
   return -(low - (1 + (90 - knots) / 60) * tilt * tilt);
 }
@@ -127,11 +128,11 @@ double coates_loss_db(double wind_mps, double grazing_rad, double khz) {
 //   V3 = max(sin(G) / 2, (1 - e^(-a G^2 / 4) / sqrt(pi a G^2)) sin G), at most 0.99.
 double jones_loss_db(double wind_mps, double grazing_rad, double khz) {
   const double a = 1 / (2 * (0.003 + 5.1e-3 * wind_mps)), theta = grazing_rad;
-  const double sine = std::sin(theta), hz = khz_to_hz(khz), spread = a * theta * theta;
-  const double shadowed = (1 - std::exp(-spread / 4) / std::sqrt(pi * spread)) * sine;
+  const double sine = elementary::sin(theta), hz = khz_to_hz(khz), spread = a * theta * theta;
+  const double shadowed = (1 - elementary::exp(-spread / 4) / std::sqrt(pi * spread)) * sine;
   const double v3 = std::min(std::max(sine / 2, shadowed), 0.99);
-  const double low = 0.3 + 0.7 / (1 + 6.0e-11 * std::pow(wind_mps, 4) * hz * hz);
-  return -20 * std::log10(low) - 10 * std::log10(1 - v3);
+  const double low = 0.3 + 0.7 / (1 + 6.0e-11 * elementary::pow(wind_mps, 4) * hz * hz);
+  return -20 * elementary::log10(low) - 10 * elementary::log10(1 - v3);
 }
 
 }  // namespace
@@ -179,7 +180,7 @@ std::vector<std::string_view> sediment_names() {
 }
 
 Reflection bottom_reflection(const FluidBottom& bottom, double grazing_rad, double water_speed_mps) {
-  return bottom_reflection_at_sine(bottom, std::sin(grazing_rad), water_speed_mps);
+  return bottom_reflection_at_sine(bottom, elementary::sin(grazing_rad), water_speed_mps);
 }
 
 Reflection bottom_reflection_at_sine(const FluidBottom& bottom, double sine, double water_speed_mps) {
@@ -246,14 +247,14 @@ double SurfaceLoss::db_at_sine(double sine) const {
   if (surface_.model == SurfaceModel::kFlat) return 0;
   const double loss = surface_.model == SurfaceModel::kAplBubbles
                           ? bubbles_db_ / std::max(sine, kMinGrazing)
-                          : surface_loss_db(surface_, std::asin(sine), frequency_hz_);
+                          : surface_loss_db(surface_, elementary::asin(sine), frequency_hz_);
   return std::min(loss, kMaxLoss);
 }
 
 double surface_magnitude(const RaySurface& surface, double grazing_rad, double frequency_hz) {
   if (surface.model == SurfaceModel::kFlat) return 1;
   if (surface.model == SurfaceModel::kAplBubbles && surface.wind_mps <= 0) return 1;
-  return std::pow(10.0, -std::min(surface_loss_db(surface, grazing_rad, frequency_hz), kMaxLoss) / 20);
+  return elementary::exp10(-std::min(surface_loss_db(surface, grazing_rad, frequency_hz), kMaxLoss) / 20);
 }
 
 }  // namespace halocline::acoustics

@@ -17,10 +17,11 @@
 //   const double lost_db = bottom_reflection(sand, to_radians(15), 1500).loss_db();
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
+
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 
@@ -55,7 +56,7 @@ std::vector<std::string_view> sediment_names();
 struct Reflection {
   double magnitude = 1;
   double phase_rad = 0;
-  double loss_db() const { return -20 * std::log10(magnitude); }
+  double loss_db() const { return -20 * elementary::log10(magnitude); }
 };
 
 // At `grazing_rad` (0..pi/2 to the bottom's own slope) under water of speed `water_speed_mps`.

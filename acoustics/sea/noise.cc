@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "acoustics/math/frequency_band.h"
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 
@@ -10,11 +11,11 @@ NoiseComponents noise_components(double frequency_hz, const NoiseSources& source
   // Coates 1990 as in Stojanovic 2006 (WUWNet); f in kHz, s shipping, w wind; dB re 1 uPa^2/Hz:
   //   turbulence 17 - 30 log f, shipping 40 + 20 (s - 0.5) + 26 log f - 60 log(f + 0.03),
   //   wind 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4), thermal -15 + 20 log f. Powers add.
-  const double f = hz_to_khz(frequency_hz), log_f = std::log10(f);
+  const double f = hz_to_khz(frequency_hz), log_f = elementary::log10(f);
   NoiseComponents n;
   n.turbulence = {17 - 30 * log_f};
-  n.shipping = {40 + 20 * (sources.shipping - 0.5) + 26 * log_f - 60 * std::log10(f + 0.03)};
-  n.wind = {50 + 7.5 * std::sqrt(sources.wind_mps) + 20 * log_f - 40 * std::log10(f + 0.4)};
+  n.shipping = {40 + 20 * (sources.shipping - 0.5) + 26 * log_f - 60 * elementary::log10(f + 0.03)};
+  n.wind = {50 + 7.5 * std::sqrt(sources.wind_mps) + 20 * log_f - 40 * elementary::log10(f + 0.4)};
   n.thermal = {-15 + 20 * log_f};
   n.total_power = to_power_ratio(n.turbulence) + to_power_ratio(n.shipping) + to_power_ratio(n.wind) +
                   to_power_ratio(n.thermal);

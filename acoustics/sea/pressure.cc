@@ -1,6 +1,6 @@
 #include "acoustics/sea/pressure.h"
 
-#include <cmath>
+#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -8,7 +8,7 @@ namespace {
 constexpr double kDecibarPerMegapascal = 100;
 
 double squared_sine(double angle_rad) {
-  const double s = std::sin(angle_rad);
+  const double s = elementary::sin(angle_rad);
   return s * s;
 }
 

@@ -16,6 +16,7 @@
 #include "acoustics/sea/sound_speed.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -130,10 +131,10 @@ class Grid {
 double distance_m(double latitude_a, double longitude_a, double latitude_b, double longitude_b) {
   const double half_lat = to_radians(latitude_b - latitude_a) / 2,
                half_lon = to_radians(longitude_b - longitude_a) / 2;
-  const double h = std::pow(std::sin(half_lat), 2) + std::cos(to_radians(latitude_a)) *
-                                                         std::cos(to_radians(latitude_b)) *
-                                                         std::pow(std::sin(half_lon), 2);
-  return 2 * kEarthRadius * std::asin(std::sqrt(std::min(h, 1.0)));
+  const double h = elementary::pow(elementary::sin(half_lat), 2) +
+                   elementary::cos(to_radians(latitude_a)) * elementary::cos(to_radians(latitude_b)) *
+                       elementary::pow(elementary::sin(half_lon), 2);
+  return 2 * kEarthRadius * elementary::asin(std::sqrt(std::min(h, 1.0)));
 }
 
 struct Column {

@@ -7,6 +7,7 @@
 #include "acoustics/math/depth_cells.h"
 #include "acoustics/math/gauss_legendre.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -178,7 +179,7 @@ double munk_sound_speed_mps(double depth_m) {
   // Munk 1974 (JASA 55, 220): c = c1 (1 + eps (n - 1 + e^-n)), n = 2 (z - z1) / B.
   constexpr double kAxisSpeed = 1500, kAxisDepth = 1300, kScale = 1300, kPerturbation = 0.00737;
   const double n = 2 * (depth_m - kAxisDepth) / kScale;
-  return kAxisSpeed * (1 + kPerturbation * (n - 1 + std::exp(-n)));
+  return kAxisSpeed * (1 + kPerturbation * (n - 1 + elementary::exp(-n)));
 }
 
 SoundSpeedProfile SoundSpeedProfile::global_mean(SoundSpeedModel model) {

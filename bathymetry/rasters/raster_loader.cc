@@ -9,6 +9,7 @@
 
 #include "bathymetry/rasters/raster_source.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::bathymetry {
@@ -92,7 +93,7 @@ class BlockMap {
         between(between(corners_[0], corners_[1], 0.5), between(corners_[2], corners_[3], 0.5), 0.5);
     const PixelPosition middle =
         map.pixel(0.5 * (g.x_at(i) + g.x_at(i + rows - 1)), 0.5 * (g.y_at(j) + g.y_at(j + columns - 1)), 0);
-    smooth_ = std::hypot(mean.column - middle.column, mean.row - middle.row) < kMaxMapError;
+    smooth_ = elementary::hypot(mean.column - middle.column, mean.row - middle.row) < kMaxMapError;
   }
   PixelPosition pixel(int i, int j) const {
     if (!smooth_) return exact(i, j);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/random.h"
 
 namespace halocline::bathymetry {
@@ -34,7 +35,7 @@ Gradient gradient_at(std::uint64_t seed, std::uint32_t octave, std::int64_t i, s
   const double angle =
       2 * std::numbers::pi *
       uniform_at({.seed = seed, .purpose = purpose_of("relief"), .who = octave, .which = cell});
-  return {std::cos(angle), std::sin(angle)};
+  return {elementary::cos(angle), elementary::sin(angle)};
 }
 
 // Noise at the place (u, v) of a lattice cell with these gradients at its corners.
@@ -52,7 +53,7 @@ std::vector<Octave> octaves_of(const FractalRelief& relief) {
   double variance = 0;
   double wavelength = relief.longest_wavelength_m;
   for (std::uint32_t n = 0; n == 0 || wavelength >= relief.shortest_wavelength_m; ++n, wavelength /= 2) {
-    const double amplitude = std::pow(wavelength / relief.longest_wavelength_m, relief.hurst);
+    const double amplitude = elementary::pow(wavelength / relief.longest_wavelength_m, relief.hurst);
     variance += amplitude * amplitude * kNoiseMeanSquare;
     const DrawAddress shift{.seed = relief.seed, .purpose = purpose_of("relief-shift"), .who = n};
     octaves.push_back({wavelength, amplitude, n, wavelength * uniform_at(shift),

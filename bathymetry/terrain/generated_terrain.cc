@@ -1,10 +1,10 @@
 #include "bathymetry/terrain/generated_terrain.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::bathymetry {
 namespace {
@@ -14,24 +14,24 @@ constexpr double kMaxDepthM = 12'000;
 
 double gaussian(double distance_m, double scale_m) {
   const double d = distance_m / scale_m;
-  return std::exp(-0.5 * d * d);
+  return elementary::exp(-0.5 * d * d);
 }
 
 double depth_at(const FlatShape& flat, double, double) { return flat.depth_m; }
 
 double depth_at(const SlopeShape& slope, double x_m, double y_m) {
   return slope.depth_m +
-         slope.slope * (x_m * std::cos(slope.azimuth_rad) + y_m * std::sin(slope.azimuth_rad));
+         slope.slope * (x_m * elementary::cos(slope.azimuth_rad) + y_m * elementary::sin(slope.azimuth_rad));
 }
 
 double depth_at(const RidgeShape& ridge, double x_m, double y_m) {
-  const double across = (y_m - ridge.crest_y_m) * std::cos(ridge.azimuth_rad) -
-                        (x_m - ridge.crest_x_m) * std::sin(ridge.azimuth_rad);
+  const double across = (y_m - ridge.crest_y_m) * elementary::cos(ridge.azimuth_rad) -
+                        (x_m - ridge.crest_x_m) * elementary::sin(ridge.azimuth_rad);
   return ridge.depth_m - ridge.height_m * gaussian(across, ridge.half_width_m);
 }
 
 double depth_at(const SeamountShape& mount, double x_m, double y_m) {
-  const double distance = std::hypot(x_m - mount.summit_x_m, y_m - mount.summit_y_m);
+  const double distance = elementary::hypot(x_m - mount.summit_x_m, y_m - mount.summit_y_m);
   return mount.depth_m - mount.height_m * gaussian(distance, mount.radius_m);
 }
 

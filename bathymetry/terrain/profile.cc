@@ -5,6 +5,7 @@
 
 #include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::bathymetry {
 namespace {
@@ -19,7 +20,7 @@ struct Line {
 };
 
 Line line_between(PlanePoint from, PlanePoint to) {
-  const double length = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  const double length = elementary::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
   return {from, length, length > 0 ? (to.x_m - from.x_m) / length : 0,
           length > 0 ? (to.y_m - from.y_m) / length : 0};
 }

@@ -10,6 +10,7 @@
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "acoustics/reception/signal_history.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "core/units.h"
 
@@ -54,7 +55,7 @@ Vec3 slowness_at(const Flight& flight, Propagation& propagation) {
   const double speed_mps = sound_speed_at(propagation.environment(flight.packet->departure), to);
   const auto& paths = flight.reception.paths;
   const Vec3 way = to - from;
-  const double angle = paths.empty() ? std::atan2(way.z(), std::hypot(way.x(), way.y()))
+  const double angle = paths.empty() ? elementary::atan2(way.z(), elementary::hypot(way.x(), way.y()))
                                      : paths[first_significant(paths)].arrival_angle_rad;
   return acoustics::ray_direction(from, to, angle) / speed_mps;
 }

@@ -5,6 +5,7 @@
 
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "core/names.h"
 #include "core/units.h"
@@ -15,11 +16,12 @@ namespace {
 // Where the sound comes from, seen by the receiver.
 void set_direction(const Flight& flight, PacketOutcome& outcome) {
   const Vec3 back = flight.packet->departure_ned_m - flight.place.position_ned_m;
-  outcome.arrival_azimuth_rad = std::atan2(back.y(), back.x());
+  outcome.arrival_azimuth_rad = elementary::atan2(back.y(), back.x());
   const auto& paths = flight.reception.paths;
   // Sound that travels downwards comes from above.
-  outcome.arrival_elevation_rad = paths.empty() ? std::atan2(-back.z(), std::hypot(back.x(), back.y()))
-                                                : paths[first_significant(paths)].arrival_angle_rad;
+  outcome.arrival_elevation_rad = paths.empty()
+                                      ? elementary::atan2(-back.z(), elementary::hypot(back.x(), back.y()))
+                                      : paths[first_significant(paths)].arrival_angle_rad;
 }
 
 bool is_for(const SendRequest& request, VehicleId receiver) {

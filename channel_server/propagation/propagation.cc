@@ -1,12 +1,12 @@
 #include "channel_server/propagation/propagation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -65,7 +65,7 @@ LinkTracks Propagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& t
   const Vec3 way = to.position_ned_m - from.position_ned_m;
   LinkTracks tracks{.link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
                              depth_below_surface_m(to.position_ned_m, surface_z_m),
-                             std::hypot(way.x(), way.y())}};
+                             elementary::hypot(way.x(), way.y())}};
   for (const SoundPath& path : reception.paths) {
     PathTrack track{.path = path, .length_m = budget.range_m};
     track.absorption_db = budget.absorption_db_per_km * budget.range_m / 1000;

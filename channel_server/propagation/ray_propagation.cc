@@ -19,6 +19,7 @@
 #include "channel_server/propagation/ray_tracks.h"
 #include "channel_server/propagation/received_path.h"
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -167,7 +168,7 @@ RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, co
   const Vec3 way = last.position_ned_m - first.position_ned_m;
   const double frequency_hz = from.modem->centre_frequency_hz;
   const acoustics::RayLink link = acoustics::held_apart(
-      {depth_of(first, environment), depth_of(last, environment), std::hypot(way.x(), way.y())});
+      {depth_of(first, environment), depth_of(last, environment), elementary::hypot(way.x(), way.y())});
   const Places places{first.position_ned_m.x(), first.position_ned_m.y(), last.position_ned_m.x(),
                       last.position_ned_m.y()};
   return {{from, to},

@@ -1,13 +1,13 @@
 #include "channel_server/propagation/ray_tracks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/profile_path.h"
 #include "acoustics/sea/bottom_profile.h"
+#include "core/elementary.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -44,7 +44,8 @@ PathTrack track_of(const FoundPath& found, const acoustics::Modem& transmitter,
   track.surface_db = arrival.surface_loss_db - kept_at_surface.value;
   track.beam_db =
       (transmitter.beam.loss(path.launch_angle_rad) + receiver.beam.loss(-path.arrival_angle_rad)).value;
-  track.spreading_db = -20 * std::log10(arrival.amplitude) - arrival.surface_loss_db - arrival.bottom_loss_db;
+  track.spreading_db =
+      -20 * elementary::log10(arrival.amplitude) - arrival.surface_loss_db - arrival.bottom_loss_db;
   track.bottom_db = (transmitter.source_level - path.level).value - track.spreading_db - track.absorption_db -
                     track.surface_db - track.beam_db;
   return track;

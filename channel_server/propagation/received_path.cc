@@ -1,12 +1,12 @@
 #include "channel_server/propagation/received_path.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/ray_doppler.h"
 #include "channel_server/propagation/ray_limits.h"
+#include "core/elementary.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -43,7 +43,7 @@ std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
                                      to.velocity_ned_mps,
                                      sound_speed_at(environment, from.position_ned_m),
                                      sound_speed_at(environment, to.position_ned_m)};
-  const Decibels level = from.modem->source_level + Decibels{20 * std::log10(pressure)};
+  const Decibels level = from.modem->source_level + Decibels{20 * elementary::log10(pressure)};
   SoundPath sound;
   sound.delay_s = path.delay_s;
   sound.level = std::max(level + to_decibels(PowerRatio{kept}), kSilence);

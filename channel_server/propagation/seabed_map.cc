@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -135,7 +136,7 @@ SeabedMap::SeabedMap(const SeabedRule& rule) : rule_(rule) {
 }
 
 SeabedMap::Line SeabedMap::line_between(const Vec3& from, const Vec3& to) const {
-  const double north = to.x() - from.x(), east = to.y() - from.y(), range = std::hypot(north, east);
+  const double north = to.x() - from.x(), east = to.y() - from.y(), range = elementary::hypot(north, east);
   Line line{from.x(),
             from.y(),
             1,

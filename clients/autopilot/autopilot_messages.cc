@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/elementary.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -124,7 +125,7 @@ LeaderReport to_report(const Situation& situation) {
   const Vec3& velocity = situation.velocity_ned_mps;
   const double speed = velocity.head<2>().norm();
   // At rest the way it would go is where its bow points.
-  const double course = speed > 0.05 ? std::atan2(velocity.y(), velocity.x()) : situation.attitude.yaw;
+  const double course = speed > 0.05 ? elementary::atan2(velocity.y(), velocity.x()) : situation.attitude.yaw;
   return {situation.position_ned_m, course, speed, situation.time_s};
 }
 

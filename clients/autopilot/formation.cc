@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -34,7 +35,7 @@ std::uint8_t check_of(std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint8_t>(~sum & 0xff);
 }
 
-Vec3 along(double course_rad) { return {std::cos(course_rad), std::sin(course_rad), 0}; }
+Vec3 along(double course_rad) { return {elementary::cos(course_rad), elementary::sin(course_rad), 0}; }
 
 }  // namespace
 
@@ -104,7 +105,7 @@ SetPoints Follower::beside_leader(double time_s, const Vec3& position_ned_m) con
                      formation_.along_m * ahead + formation_.across_m * starboard;
   const Vec3 error = place - position_ned_m;
   SetPoints points{.z_ned_m = report_->position_ned_m.z() + formation_.below_m};
-  points.course_rad = wrapped(report_->course_rad + std::atan(error.dot(starboard) / kLookaheadM));
+  points.course_rad = wrapped(report_->course_rad + elementary::atan(error.dot(starboard) / kLookaheadM));
   const double slowest = std::min(kSlowest * report_->speed_mps, formation_.max_speed_mps);
   points.speed_mps =
       std::clamp(report_->speed_mps + kCatchUpPerS * error.dot(ahead), slowest, formation_.max_speed_mps);

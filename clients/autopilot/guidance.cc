@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -13,7 +14,9 @@ constexpr double kOrbitGain = 2.0;  // how sharply the orbit is approached; Bear
 
 Eigen::Vector2d horizontal(const Vec3& from, const Vec3& to) { return (to - from).head<2>(); }
 
-double azimuth(const Eigen::Vector2d& north_east) { return std::atan2(north_east.y(), north_east.x()); }
+double azimuth(const Eigen::Vector2d& north_east) {
+  return elementary::atan2(north_east.y(), north_east.x());
+}
 
 bool is_reached(const Mission& mission, const Progress& progress, const Vec3& position) {
   const Vec3& waypoint = mission.waypoints[progress.target];
@@ -30,7 +33,7 @@ double course_on_leg(const Mission& mission, const Progress& progress, const Vec
   const Eigen::Vector2d along = leg.normalized();
   const Eigen::Vector2d starboard(-along.y(), along.x());
   const double cross_track_m = horizontal(progress.leg_start_ned_m, position).dot(starboard);
-  return wrapped(azimuth(along) - std::atan2(cross_track_m, mission.lookahead_m));
+  return wrapped(azimuth(along) - elementary::atan2(cross_track_m, mission.lookahead_m));
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ SetPoints set_points(const Mission& mission, const Progress& progress, const Vec
 double course_on_circle(const Vec3& center_ned_m, double radius_m, bool clockwise,
                         const Vec3& position_ned_m) {
   const Eigen::Vector2d from_center = horizontal(center_ned_m, position_ned_m);
-  const double inwards = kPi / 2 + std::atan(kOrbitGain * (from_center.norm() - radius_m) / radius_m);
+  const double inwards = kPi / 2 + elementary::atan(kOrbitGain * (from_center.norm() - radius_m) / radius_m);
   return wrapped(azimuth(from_center) + (clockwise ? inwards : -inwards));
 }
 

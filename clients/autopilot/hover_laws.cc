@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clients/autopilot/guidance.h"
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -50,20 +51,20 @@ double down_force(const HoverGains& g, const StationPoint& point, const HoverMea
 // On the way the hull points along its path, so that the flow does not turn it further: nose up to climb. At rest it
 // lies level.
 double wanted_pitch(const HoverGains& g, const StationPoint& point, const HoverMeasured& m) {
-  const double forward_mps =
-      m.velocity_ned_mps.x() * std::cos(m.heading_rad) + m.velocity_ned_mps.y() * std::sin(m.heading_rad);
+  const double forward_mps = m.velocity_ned_mps.x() * elementary::cos(m.heading_rad) +
+                             m.velocity_ned_mps.y() * elementary::sin(m.heading_rad);
   if (forward_mps <= 0) return 0;
   const double too_high_m = point.position_ned_m.z() - m.position_ned_m.z();
   const double descent_mps = g.depth_p_n_per_m / g.depth_d_n_s_per_m * too_high_m;
-  const double steepest = std::tan(g.max_pitch_rad);
+  const double steepest = elementary::tan(g.max_pitch_rad);
   const double slope = std::clamp(descent_mps / forward_mps, -steepest, steepest);
-  return -std::atan(slope * std::min(forward_mps / kSlowMps, 1.0));
+  return -elementary::atan(slope * std::min(forward_mps / kSlowMps, 1.0));
 }
 
 double wanted_heading(const HoverGains& g, const Vec2& force, double heading_rad, HoverIntegrals& integrals) {
   if (!integrals.has_heading) integrals.heading_rad = heading_rad;
   integrals.has_heading = true;
-  if (force.norm() > g.min_force_n) integrals.heading_rad = std::atan2(force.y(), force.x());
+  if (force.norm() > g.min_force_n) integrals.heading_rad = elementary::atan2(force.y(), force.x());
   return integrals.heading_rad;
 }
 
@@ -73,7 +74,8 @@ std::array<double, 4> hover_command(const HoverGains& g, const StationPoint& poi
                                     double dt_s, HoverIntegrals& integrals) {
   const Vec2 force = horizontal_force(g, point, m, dt_s, integrals);
   const double turn = wrapped(wanted_heading(g, force, m.heading_rad, integrals) - m.heading_rad);
-  const double surge = force.x() * std::cos(m.heading_rad) + force.y() * std::sin(m.heading_rad);
+  const double surge =
+      force.x() * elementary::cos(m.heading_rad) + force.y() * elementary::sin(m.heading_rad);
   const double yaw = g.heading_p_nm * turn - g.heading_d_nm_s * m.yaw_rate_radps;
   const double heave = down_force(g, point, m, dt_s, integrals);
   const double pitch =

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -63,7 +64,8 @@ SetPoints without_route(const Behaviour& behaviour, double speed_mps, const Vec3
 std::vector<Vec3> survey_points(const Behaviour& s) {
   require(s.track_spacing_m > 0 && s.length_m > 0 && s.width_m >= 0,
           "a survey needs a box and a spacing above 0");
-  const Vec2 along(std::cos(s.heading_rad), std::sin(s.heading_rad)), starboard(-along.y(), along.x());
+  const Vec2 along(elementary::cos(s.heading_rad), elementary::sin(s.heading_rad)),
+      starboard(-along.y(), along.x());
   const Vec2 center(s.center_north_m, s.center_east_m);
   const auto gaps = static_cast<int>(std::floor(s.width_m / s.track_spacing_m + 1e-9));
   std::vector<Vec3> points;

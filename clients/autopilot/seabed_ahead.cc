@@ -1,7 +1,8 @@
 #include "clients/autopilot/seabed_ahead.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -17,8 +18,8 @@ void SeabedAhead::add(const AltimeterLook& look) {
   if (last_) way_m_ += (look.position_ned_m - last_->position_ned_m).head<2>().norm();
   last_ = look;
   if (look.has_echo) {
-    const double upright = std::cos(look.attitude.pitch) * std::cos(look.attitude.roll);
-    const double forward = std::sin(look.attitude.pitch) * std::cos(look.attitude.roll);
+    const double upright = elementary::cos(look.attitude.pitch) * elementary::cos(look.attitude.roll);
+    const double forward = elementary::sin(look.attitude.pitch) * elementary::cos(look.attitude.roll);
     points_.push_back({way_m_ + look.altitude_m * forward,
                        look.position_ned_m.z() + look.altitude_m * upright, look.time_s});
   }
@@ -67,14 +68,14 @@ SetPoints above_ground(const SeabedRules& rules, const SeabedAhead& seabed, doub
   if (keeps_height) {
     const double wanted = shallowest - std::max(points.altitude_m, rules.min_altitude_m);
     points.z_ned_m = std::min(wanted, points.max_z_ned_m);
-    if (wanted <= points.max_z_ned_m) points.climb_rad = -std::atan(ground->slope);
+    if (wanted <= points.max_z_ned_m) points.climb_rad = -elementary::atan(ground->slope);
   }
   const double floor_z = shallowest - rules.min_altitude_m;
   if (points.z_ned_m > floor_z || z_ned_m > floor_z + kClearlyBelowM)
     points.depth_rule = DepthRule::kAvoidingSeabed;
   if (points.z_ned_m >= floor_z) {
     points.z_ned_m = floor_z;
-    points.climb_rad = -std::atan(ground->slope);
+    points.climb_rad = -elementary::atan(ground->slope);
   }
   points.climb_rad += kPullUpRadPerM * std::max(z_ned_m - floor_z, 0.0);
   return points;

@@ -1,7 +1,8 @@
 #include "clients/autopilot/vehicle_pilot.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -34,7 +35,7 @@ SetPoints VehiclePilot::planned(const Situation& situation) {
   if (!follower || progress_->ended) return set_points(plan_, *progress_, situation.position_ned_m);
   SetPoints points = follower->steer_for(situation.time_s, situation.position_ned_m);
   // What the current adds on the way, the propeller need not.
-  const Vec3 bow(std::cos(situation.attitude.yaw), std::sin(situation.attitude.yaw), 0);
+  const Vec3 bow(elementary::cos(situation.attitude.yaw), elementary::sin(situation.attitude.yaw), 0);
   points.speed_mps += situation.water_speed_mps - situation.velocity_ned_mps.dot(bow);
   points.speed_mps = std::max(points.speed_mps, kMinSpeedMps);
   return points;
@@ -55,7 +56,8 @@ ActuatorCommand VehiclePilot::with_fins(const Gains& gains, const SetPoints& poi
 std::array<double, 4> VehiclePilot::with_thrusters(const HoverGains& gains, const SetPoints& points,
                                                    const Situation& s, double dt_s) {
   if (!points.propel) return {};
-  const Vec3 ahead = kCarrotM * Vec3(std::cos(points.course_rad), std::sin(points.course_rad), 0);
+  const Vec3 ahead =
+      kCarrotM * Vec3(elementary::cos(points.course_rad), elementary::sin(points.course_rad), 0);
   StationPoint point{points.station_ned_m.value_or(s.position_ned_m + ahead), points.speed_mps};
   point.position_ned_m.z() = points.z_ned_m;
   const HoverMeasured measured{s.position_ned_m, s.velocity_ned_mps, s.attitude.yaw,

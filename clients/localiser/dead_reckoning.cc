@@ -4,13 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline::clients {
 
 void DeadReckoning::take(const OwnMotion& motion) {
-  const double horizontal_mps = motion.water_speed_mps * std::cos(motion.pitch_rad);
+  const double horizontal_mps = motion.water_speed_mps * elementary::cos(motion.pitch_rad);
   Point point{motion.at,
               Vec2::Zero(),
-              horizontal_mps * Vec2(std::cos(motion.heading_rad), std::sin(motion.heading_rad)),
+              horizontal_mps * Vec2(elementary::cos(motion.heading_rad), elementary::sin(motion.heading_rad)),
               motion.depth_m,
               motion.heading_rad,
               0};

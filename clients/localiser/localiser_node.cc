@@ -10,6 +10,7 @@
 #include "clients/localiser/dead_reckoning.h"
 #include "clients/localiser/localiser_messages.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 
 namespace halocline::clients {
@@ -166,8 +167,8 @@ std::optional<RangeMeasurement> LocaliserNode::range_of(const Vehicle& vehicle,
   const double speed_mps =
       water_->profile.mean_sound_speed_mps(range.beacon_m.z(), track.depth_m(range.at.back()));
   range.length_m = travel_s * speed_mps;
-  range.sigma_m = std::hypot(vehicle.config.timing_sigma_s * speed_mps,
-                             vehicle.config.sound_speed_sigma * range.length_m);
+  range.sigma_m = elementary::hypot(vehicle.config.timing_sigma_s * speed_mps,
+                                    vehicle.config.sound_speed_sigma * range.length_m);
   return range;
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -20,7 +21,7 @@ constexpr int kIterations = 4;      // of an update; each squares the error of t
 constexpr std::size_t kMaxWaiting = 16;
 
 double gaussian(double normalised_square, double variance) {
-  return std::exp(-0.5 * normalised_square) / std::sqrt(2 * std::numbers::pi * variance);
+  return elementary::exp(-0.5 * normalised_square) / std::sqrt(2 * std::numbers::pi * variance);
 }
 
 }  // namespace

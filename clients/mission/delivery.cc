@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "clients/mission/packet_book.h"
+#include "core/elementary.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -57,7 +58,7 @@ std::vector<PairDelivery> delivery_by_pair(const MissionStore& mission) {
 }
 
 double round_step(double least) {
-  const double power = std::pow(10, std::floor(std::log10(least)));
+  const double power = elementary::exp10(std::floor(elementary::log10(least)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * power >= least * (1 - 1e-9)) return factor * power;
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline::clients {
 namespace {
 
@@ -31,7 +33,7 @@ TrackPoint track_point_of(const vehicle_state_t& state) {
   TrackPoint point;
   point.position_ned_m = Vec3(state.position_ned_m[0], state.position_ned_m[1], state.position_ned_m[2]);
   point.attitude = to_euler(Quaternion(q[0], q[1], q[2], q[3]).normalized());
-  point.speed_mps = std::hypot(state.velocity_ned_mps[0], state.velocity_ned_mps[1]);
+  point.speed_mps = elementary::hypot(state.velocity_ned_mps[0], state.velocity_ned_mps[1]);
   return point;
 }
 

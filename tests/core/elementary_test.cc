@@ -110,6 +110,8 @@ TEST(ElementaryFunctions, TheOthersAreWithinTheirErrors) {
   EXPECT_LT(worst({-1, 1}, elementary::acos, [](Real x) { return std::acos(x); }), 1);
   EXPECT_LT(worst({-10, 10}, elementary::atan, [](Real x) { return std::atan(x); }), 1);
   EXPECT_LT(worst({-10, 10}, elementary::cosh, [](Real x) { return std::cosh(x); }), 1);
+  EXPECT_LT(worst({1, 100}, elementary::acosh, [](Real x) { return std::acosh(x); }), 1);
+  EXPECT_LT(worst({-0.99, 0.99}, elementary::atanh, [](Real x) { return std::atanh(x); }), 1);
   EXPECT_LT(worst({-5, 5}, elementary::expm1, [](Real x) { return std::expm1(x); }), 1);
   EXPECT_LT(worst({-0.9, 5}, elementary::log1p, [](Real x) { return std::log1p(x); }), 1);
   EXPECT_LT(worst({-100, 100}, elementary::cbrt, [](Real x) { return std::cbrt(x); }), 1);
@@ -129,6 +131,15 @@ TEST(ElementaryFunctions, TheOthersAreWithinTheirErrors) {
                   [&](Real x) { return std::pow(x, y); }),
               1);
   }
+}
+
+TEST(ElementaryFunctions, WholePowersAreProducts) {
+  for (const int n : {-7, -2, -1, 0, 1, 2, 3, 4, 17}) {
+    const auto power = [&](double x) { return elementary::pow(x, n); };
+    EXPECT_LT(worst({0.1, 10}, power, [&](long double x) { return std::pow(x, n); }), std::abs(n) / 2.0 + 1)
+        << n;
+  }
+  EXPECT_EQ(elementary::pow(-3.0, 3), -27);
 }
 
 TEST(ElementaryFunctions, SpecialValuesAreThoseOfTheLibrary) {

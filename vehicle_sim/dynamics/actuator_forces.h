@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "vehicle_sim/dynamics/body_axes.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
@@ -28,7 +29,7 @@ inline FinForce fin_force(const FinPair& fins, double density, double u, double 
     const double slope = half_rho_area * speed_squared * fins.lift_slope_per_rad;
     return {slope * deflection_rad * deflection_rad, slope * deflection_rad};
   }
-  const double s = std::sin(deflection_rad), c = std::cos(deflection_rad);
+  const double s = elementary::sin(deflection_rad), c = elementary::cos(deflection_rad);
   const double chordwise = u * c - across_fin * s, normal = u * s + across_fin * c;
   const double force = half_rho_area * normal *
                        (fins.lift_slope_per_rad * std::abs(chordwise) + fins.normal_drag * std::abs(normal));

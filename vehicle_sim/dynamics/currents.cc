@@ -1,10 +1,10 @@
 #include "vehicle_sim/dynamics/currents.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -45,10 +45,10 @@ OceanCurrent::OceanCurrent(const CurrentSettings& settings, std::uint64_t seed)
 // in east (Fossen 2021, section 10.3).
 Vec3 OceanCurrent::changing_part(SimTime now) {
   const TidalCurrent& tide = settings_.tide;
-  const double along =
-      tide.amplitude_mps * std::cos(2 * std::numbers::pi * now.seconds() / tide.period_s + tide.phase_rad);
-  return {along * std::cos(tide.toward_rad) + north_.at(now, north_cursor_),
-          along * std::sin(tide.toward_rad) + east_.at(now, east_cursor_), 0};
+  const double along = tide.amplitude_mps *
+                       elementary::cos(2 * std::numbers::pi * now.seconds() / tide.period_s + tide.phase_rad);
+  return {along * elementary::cos(tide.toward_rad) + north_.at(now, north_cursor_),
+          along * elementary::sin(tide.toward_rad) + east_.at(now, east_cursor_), 0};
 }
 
 // The acceleration is (v(t + h) - v(t)) / h, so that the velocity is exact at both ends of the step.

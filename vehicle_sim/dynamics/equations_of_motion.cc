@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
 #include "vehicle_sim/dynamics/hull_forces.h"
 #include "vehicle_sim/dynamics/submergence.h"
@@ -42,7 +43,7 @@ WorldAxes world_axes(const std::array<double, 4>& q) {
 // u_c = V cos(beta - psi), v_c = V sin(beta - psi), w_c = 0; (cos psi, sin psi) is the heading of the body's
 // x axis.
 Axes turned_by_yaw(const WorldAxes& axes, const Vec3& v) {
-  const double north = axes.north.x, east = axes.east.x, level = std::hypot(north, east);
+  const double north = axes.north.x, east = axes.east.x, level = elementary::hypot(north, east);
   const double cos_yaw = level > 0 ? north / level : 1, sin_yaw = level > 0 ? east / level : 0;
   return {cos_yaw * v.x() + sin_yaw * v.y(), cos_yaw * v.y() - sin_yaw * v.x(), 0};
 }

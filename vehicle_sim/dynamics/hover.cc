@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 
@@ -32,7 +33,7 @@ Thruster thruster_at(const Vec3& position, const Vec3& direction) {
   t.advance_speed_ratio = 1;
   t.max_hz = 60;
   // T = K_T0 rho n^2 D^4 at the bollard: 51.5 N at 60 Hz
-  t.thrust_at_rest = 51.5 / (kDensity * std::pow(t.max_hz, 2) * std::pow(t.diameter_m, 4));
+  t.thrust_at_rest = 51.5 / (kDensity * elementary::pow(t.max_hz, 2) * elementary::pow(t.diameter_m, 4));
   t.thrust_at_max = 0.3 * t.thrust_at_rest;  // of ducted propellers of unit pitch: Oosterveld 1970
   t.advance_max = 0.6;
   t.torque_at_rest = t.torque_at_max = 0.04;

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline::vehicle_sim {
 
 // Kirchhoff's equations (Fossen 2021, eq. 3.46) with a = M_11 v + M_12 omega, h = M_21 v + M_22 omega, less the elements
@@ -19,7 +21,7 @@ BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
 BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity& nu_r,
                           double relative_speed_mps) {
   const double u = nu_r.u, w = nu_r.w + 0.0;  // -0 + 0 = +0: one branch of atan2 for both zeros
-  const double alpha = std::atan2(w, u);
+  const double alpha = elementary::atan2(w, u);
   const double in_plane = std::sqrt(u * u + w * w);
   const double cos_alpha = in_plane > 0 ? u / in_plane : 1, sin_alpha = in_plane > 0 ? w / in_plane : 0;
   const double cl = l.lift_slope_per_rad * alpha;

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "vehicle_sim/dynamics/body_axes.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 
@@ -36,7 +37,7 @@ inline BodyForce damping_force(const Damping& damping, const BodyVelocity& nu_r,
     const double decay = damping.decay_s_per_m[k];
     if (decay == 0) continue;
     if (decay != last_decay)
-      attenuation = std::exp(-decay * relative_speed_mps);  // degrees of freedom share it
+      attenuation = elementary::exp(-decay * relative_speed_mps);  // degrees of freedom share it
     last_decay = decay;
     share[k] = attenuation;
   }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "core/units.h"
 
@@ -61,7 +62,7 @@ LiftDrag lift_drag() {
   l.reference_area_m2 = kPlanformShare * kLength * kDiameter;
   l.zero_lift_drag = kHullZeroLiftDrag * pi * kSemiTransverse * kSemiTransverse / l.reference_area_m2;
   l.aspect_ratio = kDiameter * kDiameter / l.reference_area_m2;
-  l.lift_slope_per_rad = pi * l.aspect_ratio / (1 + std::sqrt(1 + std::pow(l.aspect_ratio / 2, 2)));
+  l.lift_slope_per_rad = pi * l.aspect_ratio / (1 + std::sqrt(1 + elementary::pow(l.aspect_ratio / 2, 2)));
   l.oswald_efficiency = kOswald;
   return l;
 }
@@ -96,7 +97,7 @@ Thruster propeller() {
 LambFactors lamb_factors(double a, double b) {
   require(b > 0 && a > b, "Lamb's factors need 0 < transverse < axial semi-axis");
   const double e2 = 1 - (b / a) * (b / a), e = std::sqrt(e2);
-  const double half_log = 0.5 * std::log((1 + e) / (1 - e));
+  const double half_log = 0.5 * elementary::log((1 + e) / (1 - e));
   const double alpha0 = 2 * (1 - e2) / (e * e2) * (half_log - e);
   const double beta0 = 1 / e2 - (1 - e2) / (e * e2) * half_log;
   return {alpha0 / (2 - alpha0), beta0 / (2 - beta0),

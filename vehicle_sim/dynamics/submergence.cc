@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace halocline::vehicle_sim {
 namespace {
 
@@ -20,7 +22,7 @@ double submerged_share_of_circle(double depth_in_radii) {
   const double s = depth_in_radii;
   if (s >= 1) return 1;
   if (s <= -1) return 0;
-  return 1 - (std::acos(s) - s * std::sqrt(1 - s * s)) / std::numbers::pi;
+  return 1 - (elementary::acos(s) - s * std::sqrt(1 - s * s)) / std::numbers::pi;
 }
 
 // Sections at xi in (-1, 1) along the axis have the radius D/2 sqrt(1 - xi^2) and the volume 1 - xi^2; their sum by the

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/random.h"
 
 namespace halocline::vehicle_sim {
@@ -28,8 +29,9 @@ double uniform(std::uint64_t seed, const char* purpose, int component) {
 // Moskowitz 1964.
 double spectrum(double omega, double peak, double gamma) {
   const double sigma = omega <= peak ? kNarrowBelow : kNarrowAbove;
-  const double bell = std::exp(-std::pow((omega - peak) / (sigma * peak), 2) / 2);
-  return std::pow(omega, -5) * std::exp(-1.25 * std::pow(peak / omega, 4)) * std::pow(gamma, bell);
+  const double bell = elementary::exp(-elementary::pow((omega - peak) / (sigma * peak), 2) / 2);
+  return elementary::pow(omega, -5) * elementary::exp(-1.25 * elementary::pow(peak / omega, 4)) *
+         elementary::pow(gamma, bell);
 }
 
 // Deep water: k = omega^2 / g.
@@ -56,7 +58,7 @@ std::vector<WaveField::Component> sea(const WaveSettings& s, double gamma, std::
 }  // namespace
 
 WaveField::WaveField(const WaveSettings& s, std::uint64_t seed)
-    : north_(std::cos(s.toward_rad)), east_(std::sin(s.toward_rad)) {
+    : north_(elementary::cos(s.toward_rad)), east_(elementary::sin(s.toward_rad)) {
   require_in_range(s.height_m, 0, 40, "wave height", "m");
   require_in_range(s.period_s, 1, 30, "wave period", "s");
   require_in_range(s.peakedness, 1, 10, "peakedness");
@@ -78,8 +80,8 @@ WaterMotion WaveField::at(const Vec3& position_ned_m, double depth_m, SimTime no
   double forward = 0, down = 0, forward_rate = 0, down_rate = 0;
   for (const Component& c : components_) {
     const double theta = c.wave_number_per_m * along - c.frequency_radps * t + c.phase_rad;
-    const double speed = c.amplitude_m * c.frequency_radps * std::exp(-c.wave_number_per_m * depth);
-    const double cosine = speed * std::cos(theta), sine = speed * std::sin(theta);
+    const double speed = c.amplitude_m * c.frequency_radps * elementary::exp(-c.wave_number_per_m * depth);
+    const double cosine = speed * elementary::cos(theta), sine = speed * elementary::sin(theta);
     forward += cosine;
     down -= sine;
     forward_rate += c.frequency_radps * sine;  // d theta / dt = -omega

@@ -1,10 +1,11 @@
 #include "vehicle_sim/sensors/doppler_log.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include <Eigen/Dense>
+
+#include "core/elementary.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -16,7 +17,8 @@ std::array<Vec3, 4> beams_at(double angle, double yaw) {
   std::array<Vec3, 4> beams;
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const double azimuth = yaw + kPi / 4 + static_cast<double>(k) * kPi / 2;
-    beams[k] = {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle)};
+    beams[k] = {elementary::sin(angle) * elementary::cos(azimuth),
+                elementary::sin(angle) * elementary::sin(azimuth), elementary::cos(angle)};
   }
   return beams;
 }
@@ -73,10 +75,10 @@ std::vector<double> sonar_azimuths_rad(const SonarSettings& sonar) {
 
 std::vector<EchoBeam> sonar_beams(const SonarSettings& sonar, const VehicleState& state) {
   const Vec3 origin = state.position_ned_m + state.orientation * sonar.place_m;
-  const Vec3 ahead(std::cos(sonar.tilt_rad), 0, std::sin(sonar.tilt_rad));
+  const Vec3 ahead(elementary::cos(sonar.tilt_rad), 0, elementary::sin(sonar.tilt_rad));
   std::vector<EchoBeam> beams;
   for (const double azimuth : sonar_azimuths_rad(sonar)) {
-    const Vec3 direction = std::cos(azimuth) * ahead + std::sin(azimuth) * Vec3::UnitY();
+    const Vec3 direction = elementary::cos(azimuth) * ahead + elementary::sin(azimuth) * Vec3::UnitY();
     beams.push_back({origin, state.orientation * direction, sonar.range_m});
   }
   return beams;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 
@@ -125,10 +126,10 @@ Eigen::Vector2d read_gps(const GpsSettings& gps, const SensorIdentity& sensor, s
 
 SoundDirection read_usbl(const UsblSettings& usbl, const SensorIdentity& sensor, std::uint64_t draw,
                          double azimuth_rad, double elevation_rad, const Quaternion& orientation) {
-  const double level = std::cos(elevation_rad);
+  const double level = elementary::cos(elevation_rad);
   const Vec3 towards =
-      orientation.conjugate() *
-      Vec3(level * std::cos(azimuth_rad), level * std::sin(azimuth_rad), -std::sin(elevation_rad));
+      orientation.conjugate() * Vec3(level * elementary::cos(azimuth_rad),
+                                     level * elementary::sin(azimuth_rad), -elementary::sin(elevation_rad));
   const auto error = [&](std::uint64_t axis) {
     return usbl.errors.bias +
            usbl.errors.noise * normal_at({.seed = sensor.seed,
@@ -136,8 +137,8 @@ SoundDirection read_usbl(const UsblSettings& usbl, const SensorIdentity& sensor,
                                           .who = static_cast<std::uint32_t>(sensor.vehicle_id),
                                           .which = identity_of({draw, axis})});
   };
-  const double bearing = std::atan2(towards.y(), towards.x()) + error(0);
-  const double elevation = std::asin(std::clamp(-towards.z(), -1.0, 1.0)) + error(1);
+  const double bearing = elementary::atan2(towards.y(), towards.x()) + error(0);
+  const double elevation = elementary::asin(std::clamp(-towards.z(), -1.0, 1.0)) + error(1);
   return {std::remainder(bearing, 2 * kPi), std::clamp(elevation, -kPi / 2, kPi / 2)};
 }
 

@@ -11,6 +11,7 @@
 #include "acoustics/link/received_field.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -104,7 +105,7 @@ nlohmann::ordered_json to_json(const LinkArrivals& found) {
 
 void print_row(std::ostream& out, const acoustics::Arrival& path) {
   out << std::setprecision(6) << std::setw(12) << path.delay_s << std::setprecision(2) << std::setw(11)
-      << 20 * std::log10(path.amplitude) << std::setw(13) << path.absorption_db << std::setprecision(3)
+      << 20 * elementary::log10(path.amplitude) << std::setw(13) << path.absorption_db << std::setprecision(3)
       << std::setw(12) << to_degrees(path.launch_angle_rad) << std::setw(13)
       << to_degrees(path.arrival_angle_rad) << std::setprecision(1) << std::setw(11)
       << to_degrees(path.phase_rad) << std::setw(9) << path.surface_bounces << std::setw(8)
@@ -142,7 +143,7 @@ void print_table(std::ostream& out, const LinkArrivals& found) {
 
 double path_level_db(const LinkArrivals& found, std::size_t index) {
   if (found.modems_known) return found.received.at(index).level_db;
-  return 20 * std::log10(found.arrivals.paths.at(index).received_pressure());
+  return 20 * elementary::log10(found.arrivals.paths.at(index).received_pressure());
 }
 
 std::string why_silent(const LinkArrivals& found) {
@@ -172,7 +173,7 @@ void print_impulse_response(std::ostream& out, const LinkArrivals& found, double
     out << format_number((first + static_cast<double>(i)) / rate_hz) << ',' << format_number(taps[i].real())
         << ',' << format_number(taps[i].imag()) << ',';
     // An empty sample has no level.
-    if (std::abs(taps[i]) > 0) out << format_number(20 * std::log10(std::abs(taps[i])));
+    if (std::abs(taps[i]) > 0) out << format_number(20 * elementary::log10(std::abs(taps[i])));
     out << '\n';
   }
 }

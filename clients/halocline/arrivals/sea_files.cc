@@ -1,7 +1,6 @@
 #include "clients/halocline/arrivals/sea_files.h"
 
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <istream>
 #include <string_view>
@@ -16,6 +15,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/elementary.h"
 
 namespace halocline::clients {
 namespace {
@@ -125,7 +125,7 @@ acoustics::RayOptions options_of(const SeaDescription& sea) {
   options.keep_steep_direct = sea.keep_steep_direct;
   options.max_bounces = sea.max_bounces;
   options.min_boundary_factor = sea.min_boundary_factor;
-  if (sea.min_amplitude_db) options.min_amplitude = std::pow(10.0, *sea.min_amplitude_db / 20);
+  if (sea.min_amplitude_db) options.min_amplitude = elementary::exp10(*sea.min_amplitude_db / 20);
   validate(options);
   return options;
 }

@@ -1,5 +1,4 @@
 // Quantities of the sea's boundaries: reflection at the bottom, loss at the surface, its waves and their roughness.
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include "acoustics/sea/boundary_reflection.h"
 #include "clients/halocline/calc/columns.h"
 #include "clients/halocline/calc/quantity.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::clients {
@@ -89,7 +89,7 @@ Quantity rayleigh_parameter() {
                  {"Rayleigh_parameter_Gamma(c=1500)"}, [](const std::vector<double>& v) {
                    const double wave_number = 2 * std::numbers::pi * khz_to_hz(v[0]) / kWaterSpeed;
                    return std::vector{2 * wave_number * acoustics::rms_wave_height_m(v[1]) *
-                                      std::sin(to_radians(v[2]))};
+                                      elementary::sin(to_radians(v[2]))};
                  })}};
 }
 

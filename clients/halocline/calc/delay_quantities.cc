@@ -1,5 +1,4 @@
 // Quantities that need a profile of the water: delays, and the figures of the 2010 IEEE SMC paper.
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "clients/halocline/calc/columns.h"
 #include "clients/halocline/calc/quantity.h"
 #include "core/check.h"
+#include "core/elementary.h"
 #include "core/units.h"
 
 namespace halocline::clients {
@@ -65,7 +65,7 @@ Quantity delay() {
               {depth_column("depth_tx_m"), depth_column("depth_rx_m"), {{"horizontal_range_m"}, 0, 1e8, {}}},
               {"path_length_m", "delay_s", "mean_speed_m_per_s"},
               [](const SoundSpeedProfile& profile, const std::vector<double>& v) {
-                const double length = std::hypot(v[2], v[1] - v[0]);
+                const double length = elementary::hypot(v[2], v[1] - v[0]);
                 return std::vector{length, profile.travel_time_s(v[0], v[1], length),
                                    profile.mean_sound_speed_mps(v[0], v[1])};
               })};

@@ -14,6 +14,7 @@
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/timed_series.h"
 #include "core/csv_table.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -126,7 +127,7 @@ class DepthStrip {
   std::string tics() const { return format_number(nice_step()); }
   double nice_step() const {
     const double least = (range_.greatest_m - range_.least_m) / 3;
-    const double power = std::pow(10, std::floor(std::log10(least)));
+    const double power = elementary::exp10(std::floor(elementary::log10(least)));
     return least <= 2 * power ? 2 * power : least <= 5 * power ? 5 * power : 10 * power;
   }
   std::string row(SimTime at, double depth) const {

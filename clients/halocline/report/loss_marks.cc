@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string_view>
@@ -15,6 +14,7 @@
 #include "clients/mission/outcome_classes.h"
 #include "clients/mission/packet_book.h"
 #include "clients/mission/packet_reasons.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 
 namespace halocline::clients {
@@ -73,9 +73,10 @@ std::string loss_marks(const MissionStore& mission, const PacketLinks& links, co
     std::string text = packet_title(shown, name) + ". " + sentence(shown, name);
     if (cluster.packets > 1)
       text = fmt::format("{} packets lost here ({}). One of them: {}", cluster.packets, c.label, text);
-    const double size = std::min(8 + 2 * std::log2(static_cast<double>(cluster.packets)), 16.0);
+    const double size = std::min(8 + 2 * elementary::log2(static_cast<double>(cluster.packets)), 16.0);
     // Beside the track, to starboard.
-    const double x = cluster.x_px + 11 * std::cos(cluster.yaw), y = cluster.y_px + 11 * std::sin(cluster.yaw);
+    const double x = cluster.x_px + 11 * elementary::cos(cluster.yaw),
+                 y = cluster.y_px + 11 * elementary::sin(cluster.yaw);
     // Most that are lost are out of reach: a dash without a disc, so that the others stand out.
     const std::string disc =
         c.mark == std::string_view("dash")

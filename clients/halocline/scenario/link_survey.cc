@@ -27,6 +27,7 @@
 #include "channel_server/propagation/terrain_rays.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/elementary.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -93,7 +94,8 @@ acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
   path.arrival_angle_rad = reception.paths.front().arrival_angle_rad;
   const Decibels weighed =
       beams.source.loss(path.launch_angle_rad) + beams.receiver.loss(-path.arrival_angle_rad);
-  path.amplitude = std::pow(10, (path.absorption_db + weighed.value - budget.transmission_loss.value) / 20);
+  path.amplitude =
+      elementary::exp10((path.absorption_db + weighed.value - budget.transmission_loss.value) / 20);
   return {.paths = {path}};
 }
 
@@ -122,7 +124,7 @@ LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& fr
   const double surface_z_m = config.scenario.sea_surface_z_m;
   LinkArrivals all{
       .link = {depth_below_surface_m(from.position_ned_m, surface_z_m),
-               depth_below_surface_m(to.position_ned_m, surface_z_m), std::hypot(way.x(), way.y())},
+               depth_below_surface_m(to.position_ned_m, surface_z_m), elementary::hypot(way.x(), way.y())},
       .arrivals = std::move(arrivals)};
   all.modems_known = true;
   all.beams = {from.modem.modem.beam, to.modem.modem.beam};

@@ -13,6 +13,7 @@
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/scenario_checks.h"
 #include "core/csv_table.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "vehicle_sim/start_checks.h"
 #include "vehicle_sim/world/terrain_seabed.h"
@@ -138,8 +139,8 @@ class MissionChecks {
     std::vector<Vec3> points;
     for (int k = 0; k < steps; ++k) {
       const double angle = 2 * std::numbers::pi * k / steps;
-      points.emplace_back(b.center_north_m + b.radius_m * std::cos(angle),
-                          b.center_east_m + b.radius_m * std::sin(angle), b.depth_m);
+      points.emplace_back(b.center_north_m + b.radius_m * elementary::cos(angle),
+                          b.center_east_m + b.radius_m * elementary::sin(angle), b.depth_m);
     }
     return points;
   }

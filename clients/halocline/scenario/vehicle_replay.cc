@@ -1,7 +1,6 @@
 #include "clients/halocline/scenario/vehicle_replay.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "clients/halocline/analysis/run_files.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "core/units.h"
@@ -172,7 +172,7 @@ void write_samples(std::ostream& out, const std::vector<OpenLoopSample>& samples
 
 int replay_vehicle(const VehicleReplay& r) {
   const double toward = to_radians(r.current_toward_deg);
-  const Vec3 current = r.current_mps * Vec3(std::cos(toward), std::sin(toward), 0);
+  const Vec3 current = r.current_mps * Vec3(elementary::cos(toward), elementary::sin(toward), 0);
   OpenLoopRun run;
   run.start = start_of(r, current);
   run.schedule = schedule_of(r);

@@ -9,6 +9,7 @@
 #include "clients/mission/link_history.h"
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/packet_book.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 
 namespace halocline::monitor {
@@ -241,7 +242,7 @@ json link_view_json(const clients::MissionStore& mission, PacketIndex& packets, 
                {"fading", fading_json(mission, packets, link)}};
   if (from && to) {
     const Vec3 way = to->point.position_ned_m - from->point.position_ned_m;
-    view["range_m"] = std::hypot(way.x(), way.y());
+    view["range_m"] = elementary::hypot(way.x(), way.y());
     view["from_depth_m"] = from->point.position_ned_m.z();
     view["to_depth_m"] = to->point.position_ned_m.z();
   }

@@ -14,6 +14,7 @@
 #include "clients/mission/timed_series.h"
 #include "clients/monitor/pages/mission_json.h"
 #include "clients/monitor/pages/plan_json.h"
+#include "core/elementary.h"
 
 namespace halocline::monitor {
 namespace {
@@ -142,7 +143,7 @@ void add_actuators(Panels& panels, const clients::MissionVehicle& vehicle) {
 
 double horizontal_error_m(const position_estimate_t& estimate) {
   const bool is_known = estimate.truth_known != 0 && estimate.estimate_status != position_estimate_t::NONE;
-  return is_known ? std::hypot(estimate.error_ned_m[0], estimate.error_ned_m[1]) : kMissing;
+  return is_known ? elementary::hypot(estimate.error_ned_m[0], estimate.error_ned_m[1]) : kMissing;
 }
 
 // Of the horizontal position: the root of the sum of both variances.
