@@ -29,5 +29,6 @@ double expm1(double x) { return Sleef_cinz_expm1d1_u10purec(x); }
 double log1p(double x) { return Sleef_cinz_log1pd1_u10purec(x); }
 double cbrt(double x) { return Sleef_cinz_cbrtd1_u10purec(x); }
 double erfc(double x) { return Sleef_cinz_erfcd1_u15purec(x); }
+double lgamma(double x) { return Sleef_cinz_lgammad1_u10purec(x); }
 
 }  // namespace halocline::elementary

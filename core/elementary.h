@@ -7,7 +7,7 @@
 // are those of SLEEF (Shibata and Petrogalli 2020) that take neither FMA nor vectors.
 //
 //   exp 0.9, log 0.9, exp10 1.3, log10 1.8, log2 1.7, sin and cos 1.1, hypot 1.2 (sides from 1e-150 to 1e150),
-//   pow, tan, asin, acos, atan, atan2, cosh, acosh, atanh, expm1, log1p, cbrt 1.0, erfc 1.5
+//   pow, tan, asin, acos, atan, atan2, cosh, acosh, atanh, expm1, log1p, cbrt 1.0, erfc and, for x of 1 and more, lgamma 1.5
 #pragma once
 
 #include <bit>
@@ -196,6 +196,7 @@ double expm1(double x);
 double log1p(double x);
 double cbrt(double x);
 double erfc(double x);
+double lgamma(double x);
 
 inline double abs(const std::complex<double>& z) { return hypot(z.real(), z.imag()); }
 inline double arg(const std::complex<double>& z) { return atan2(z.imag(), z.real()); }

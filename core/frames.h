@@ -35,9 +35,27 @@ struct EulerAngles {
   double roll = 0, pitch = 0, yaw = 0;
 };
 
+// The rotation by the angle |v|, radians, about the axis v. Eigen's AngleAxis and slerp call the C library's functions.
+inline Quaternion rotation_by(const Vec3& v) {
+  const double angle = v.norm();
+  if (angle == 0) return Quaternion::Identity();
+  const auto [sine, cosine] = elementary::sin_cos(angle / 2);
+  const Vec3 part = sine / angle * v;
+  return {cosine, part.x(), part.y(), part.z()};
+}
+
 inline Quaternion to_quaternion(const EulerAngles& e) {
-  return Quaternion(Eigen::AngleAxisd(e.yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(e.pitch, Vec3::UnitY()) *
-                    Eigen::AngleAxisd(e.roll, Vec3::UnitX()));
+  return rotation_by(e.yaw * Vec3::UnitZ()) * rotation_by(e.pitch * Vec3::UnitY()) *
+         rotation_by(e.roll * Vec3::UnitX());
+}
+
+// From `a` (share 0) to `b` (share 1) at a constant rate the shorter way.
+inline Quaternion between(const Quaternion& a, const Quaternion& b, double share) {
+  const Quaternion way = a.conjugate() * b;
+  const double side = way.w() < 0 ? -1 : 1, sine = way.vec().norm();
+  if (sine == 0) return a;
+  const double angle = 2 * elementary::atan2(sine, side * way.w());
+  return a * rotation_by(share * angle * side / sine * way.vec());
 }
 
 // At pitch = +-pi/2 roll and yaw are not unique; the pair returned is one of the possible.

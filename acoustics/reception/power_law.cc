@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <numbers>
 
-#include <boost/math/special_functions/gamma.hpp>
-
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "core/elementary.h"
@@ -40,8 +38,7 @@ const QuantileTable& quantiles() {
       const double skewness = kLeastSkewness + kStepSkewness * static_cast<double>(i);
       const double k = 4 / squared(skewness);
       for (std::size_t j = 0; j < kZs; ++j) {
-        const double p = normal_probability(kLeastZ + kStepZ * static_cast<double>(j));
-        made[i][j] = elementary::log(boost::math::gamma_p_inv(k, p) / k);
+        made[i][j] = elementary::log(gamma_quantile_at(k, kLeastZ + kStepZ * static_cast<double>(j)) / k);
       }
     }
     return made;

@@ -13,9 +13,7 @@ namespace {
 constexpr double kUnknown = std::numbers::pi / std::numbers::sqrt3;
 
 Quaternion turned(const Quaternion& q, const Vec3& turn_body_rad) {
-  const double size = turn_body_rad.norm();
-  if (size == 0) return q;
-  return (q * Quaternion(Eigen::AngleAxisd(size, turn_body_rad / size))).normalized();
+  return (q * rotation_by(turn_body_rad)).normalized();
 }
 
 }  // namespace

@@ -21,8 +21,6 @@
 #include <halocline/sim_clock_t.hpp>
 #include <halocline/vehicle_state_t.hpp>
 
-#include "core/elementary.h"
-
 namespace {
 
 constexpr const char* kUsage =
@@ -99,20 +97,20 @@ class Vehicle {
   // A circle, clockwise: angle = speed / radius * t.
   void publish_state(std::int64_t utime) {
     const double rate = settings_.speed_mps / settings_.radius_m;
-    const double angle = std::remainder(static_cast<double>(utime) * 1e-6 * rate, 2 * elementary::acos(-1.0));
-    const double heading = angle + elementary::acos(-1.0) / 2;
+    const double angle = std::remainder(static_cast<double>(utime) * 1e-6 * rate, 2 * std::acos(-1.0));
+    const double heading = angle + std::acos(-1.0) / 2;
     halocline::vehicle_state_t state{};
     state.utime = utime;
     state.session = session_;
     state.sequence = states_++;
     state.vehicle_id = settings_.id;
-    state.position_ned_m[0] = settings_.north_m + settings_.radius_m * elementary::cos(angle);
-    state.position_ned_m[1] = settings_.east_m + settings_.radius_m * elementary::sin(angle);
+    state.position_ned_m[0] = settings_.north_m + settings_.radius_m * std::cos(angle);
+    state.position_ned_m[1] = settings_.east_m + settings_.radius_m * std::sin(angle);
     state.position_ned_m[2] = settings_.depth_m;
-    state.orientation_wxyz[0] = elementary::cos(heading / 2);
-    state.orientation_wxyz[3] = elementary::sin(heading / 2);
-    state.velocity_ned_mps[0] = settings_.speed_mps * elementary::cos(heading);
-    state.velocity_ned_mps[1] = settings_.speed_mps * elementary::sin(heading);
+    state.orientation_wxyz[0] = std::cos(heading / 2);
+    state.orientation_wxyz[3] = std::sin(heading / 2);
+    state.velocity_ned_mps[0] = settings_.speed_mps * std::cos(heading);
+    state.velocity_ned_mps[1] = settings_.speed_mps * std::sin(heading);
     state.angular_velocity_body_radps[2] = rate;
     lcm_.publish("STATE." + settings_.name, &state);
   }

@@ -116,6 +116,7 @@ TEST(ElementaryFunctions, TheOthersAreWithinTheirErrors) {
   EXPECT_LT(worst({-0.9, 5}, elementary::log1p, [](Real x) { return std::log1p(x); }), 1);
   EXPECT_LT(worst({-100, 100}, elementary::cbrt, [](Real x) { return std::cbrt(x); }), 1);
   EXPECT_LT(worst({-5, 26}, elementary::erfc, [](Real x) { return std::erfc(x); }), 1.5);
+  EXPECT_LT(worst({3, 500}, elementary::lgamma, [](Real x) { return std::lgamma(x); }), 1.5);
   for (const double other : {-3.0, -1e-3, 0.7, 200.0}) {
     const Real y = other;
     EXPECT_LT(worst(

@@ -42,6 +42,20 @@ TEST(Frames, EulerAnglesSurviveTheRoundTrip) {
   }
 }
 
+TEST(Frames, RotationsAreThoseOfEigen) {
+  const Vec3 v(0.3, -0.9, 1.4);
+  const Quaternion a = rotation_by(v), b = rotation_by(Vec3(-1, 0.2, 0.4));
+  EXPECT_TRUE(a.isApprox(Quaternion(Eigen::AngleAxisd(v.norm(), v.normalized())), 1e-15));
+  EXPECT_TRUE(rotation_by(Vec3::Zero()).isApprox(Quaternion::Identity()));
+  for (const double share : {0.0, 0.25, 1.0}) {
+    EXPECT_TRUE(between(a, b, share).isApprox(a.slerp(share, b), 1e-14)) << share;
+    const Quaternion other_sign(-b.coeffs());
+    EXPECT_TRUE(
+        (between(a, other_sign, share) * Vec3::UnitX()).isApprox(a.slerp(share, b) * Vec3::UnitX(), 1e-14));
+    EXPECT_TRUE(between(a, a, share).isApprox(a, 1e-15));
+  }
+}
+
 TEST(Frames, ATideMovesTheSurfaceAndNotTheVehicle) {
   EXPECT_EQ(depth_below_surface_m({0, 0, 10}, 0), 10);
   EXPECT_EQ(depth_below_surface_m({0, 0, 10}, -2), 12);  // high water: the surface lies 2 m above the datum

@@ -6,8 +6,8 @@ namespace halocline::layers {
 
 const std::vector<Room>& rooms() {
   static const std::vector<Room> table{
-      {"core", {}, {"Eigen/"}, "values that every room may use stand on no room"},
-      {"acoustics/math", {"core"}, {"boost/math/"}, "quadrature and grids know no sea"},
+      {"core", {}, {"Eigen/", "sleef.h"}, "values that every room may use stand on no room"},
+      {"acoustics/math", {"core"}, {}, "quadrature and grids know no sea"},
       {"acoustics/sea", {"core", "acoustics/math"}, {}, "the water is there before sound and modems"},
       {"acoustics/modem", {"core", "acoustics/math"}, {}, "a modem is the same in every water"},
       {"acoustics/rays",
@@ -20,7 +20,7 @@ const std::vector<Room>& rooms() {
        "fading depends on paths and the sea, not on modems"},
       {"acoustics/reception",
        {"core", "acoustics/math", "acoustics/modem", "acoustics/fading"},
-       {"boost/math/", "Eigen/"},
+       {"Eigen/"},
        "a receiver makes of paths what its modem can, and knows no vehicles"},
       {"acoustics/link",
        {"core", "acoustics/math", "acoustics/sea", "acoustics/modem", "acoustics/rays"},

@@ -5,12 +5,8 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-// exp(theta / 2) q: q turned by the rotation vector `angle` = theta of the world frame, radians.
-Quaternion turned(const Quaternion& q, const Vec3& angle) {
-  const double size = angle.norm();
-  if (size == 0) return q;
-  return (Quaternion(Eigen::AngleAxisd(size, angle / size)) * q).normalized();
-}
+// q turned by the rotation vector `angle` of the world frame, radians.
+Quaternion turned(const Quaternion& q, const Vec3& angle) { return (rotation_by(angle) * q).normalized(); }
 
 // nu_r = nu - (R^T v_c, 0): velocity over ground less the water's.
 Vec6 relative_velocity(const VehicleState& state, const Vec3& current_ned) {

@@ -53,7 +53,7 @@ std::optional<Quaternion> UsblFixAssembler::orientation_at(SimTime when) const {
   if (after == poses_.begin()) return after->orientation;  // before the first pose noted
   const Pose& before = *(after - 1);
   const double share = (when - before.when).seconds() / (after->when - before.when).seconds();
-  return before.orientation.slerp(share, after->orientation);
+  return between(before.orientation, after->orientation, share);
 }
 
 std::vector<UsblFix> UsblFixAssembler::take(bool is_dead) {

@@ -95,7 +95,7 @@ HullPath path_of(const HullShape& hull, const VehicleState& from, const VehicleS
 }
 
 HullPose HullPath::at(double time) const {
-  return {hull, from + time * (to - from), orientation_from.slerp(time, orientation_to) * Vec3::UnitX()};
+  return {hull, from + time * (to - from), between(orientation_from, orientation_to, time) * Vec3::UnitX()};
 }
 
 double find_first_touch(const HullPath& first, const HullPath& second, double margin_m,
