@@ -3,117 +3,35 @@
 // calls these; the layers test forbids those of <cmath>. What IEEE 754 rounds correctly (sqrt, floor, fma, remainder) is the same everywhere.
 //
 // Errors, in units in the last place, over all arguments unless a range is given; domains, signs, infinities and NaN as
-// those of <cmath>, but for the sign of sin(-0). The functions here are inline and without tables, so that a loop over them can be vectorised; the others
-// are those of SLEEF (Shibata and Petrogalli 2020) that take neither FMA nor vectors.
+// those of <cmath>, but for the sign of sin(-0). What is inline has no tables, so that a loop over it can be vectorised. The
+// rest, and the ends of the ranges, are functions of SLEEF (Shibata and Petrogalli 2020) that take neither FMA nor vectors.
 //
-//   exp 0.9, log 0.9, exp10 1.3, log10 1.8, log2 1.7, sin and cos 1.1, hypot 1.2 (sides from 1e-150 to 1e150),
-//   pow, tan, asin, acos, atan, atan2, cosh, acosh, atanh, expm1, log1p, cbrt 1.0, erfc and, for x of 1 and more, lgamma 1.5
+//   exp, log, log1p 0.9; sin, cos 1.1; hypot 1.2 (sides from 1e-150 to 1e150); exp10, atan 1.3; atan2 1.6;
+//   log2 1.7; log10, expm1 1.8; erfc 4.5; tan, asin, acos, cosh, acosh, atanh, cbrt, pow 1; lgamma 1.5 (x of 1 and more)
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <complex>
-#include <cstdint>
 #include <limits>
 
+#include "core/elementary_series.h"
+
 namespace halocline::elementary {
-
-namespace detail {
-
-// Added to and taken from a double below 2^51, rounds it to an integer, whose low bits are then those of the sum.
-constexpr double kRound = 0x1.8p52;
-
-// ln 2, log10 2 and pi / 2 in parts whose leading ones have 32 or 33 bits: their multiples by integers below 2^20 are exact.
-constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
-constexpr double kLog10Of2High = 0x1.34413508p-2, kLog10Of2Low = 0x1.f79fef311f12bp-34;
-constexpr double kHalfPiHigh = 0x1.921fb544p+0, kHalfPiMiddle = 0x1.0b4611a6p-34,
-                 kHalfPiLow = 0x1.3198a2e037073p-69;
-constexpr double kLog2OfE = 0x1.71547652b82fep+0, kLog2Of10 = 0x1.a934f0979a371p+1;
-constexpr double kLn10 = 0x1.26bb1bbb55516p+1, kLog10OfE = 0x1.bcb7b1526e50ep-2;
-
-// Arguments that the inline code leaves: not finite, without a normal result, or (sine) beyond its reduction.
-double exp_beyond(double x);
-double exp10_beyond(double x);
-double log_beyond(double x);
-double log2_beyond(double x);
-double log10_beyond(double x);
-double sin_beyond(double x);
-double cos_beyond(double x);
-
-// exp(r + low), |r| <= ln 2 / 2, low its rounding error: the series of exp to r^13.
-inline double exp_of_rest(double r, double low) {
-  const double r2 = r * r, r4 = r2 * r2;
-  const double a = 1.0 / 2 + r * (1.0 / 6), b = 1.0 / 24 + r * (1.0 / 120), c = 1.0 / 720 + r * (1.0 / 5040),
-               d = 1.0 / 40320 + r * (1.0 / 362880), e = 1.0 / 3628800 + r * (1.0 / 39916800),
-               f = 1.0 / 479001600 + r * (1.0 / 6227020800);
-  return 1 + (r + (low + r2 * ((a + r2 * b) + r4 * ((c + r2 * d) + r4 * (e + r2 * f)))));
-}
-
-// y 2^n, n the low bits of `rounded` as kRound leaves them, the result a normal number.
-inline double times_power_of_two(double y, double rounded) {
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(y) +
-                               (std::bit_cast<std::uint64_t>(rounded) << 52));
-}
-
-// x = 2^n (1 + f), 1 + f within sqrt(1/2)..sqrt(2).
-struct Split {
-  double n, f;
-};
-inline Split split(double x) {
-  constexpr std::uint64_t kRootOfHalf = 0x3fe6a09e667f3bcd;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const auto n = static_cast<std::int64_t>(bits - kRootOfHalf) >> 52;
-  return {static_cast<double>(n), std::bit_cast<double>(bits - (static_cast<std::uint64_t>(n) << 52)) - 1};
-}
-
-// f - ln(1 + f) = f^2 / 2 - s (f^2 / 2 + R), s = f / (2 + f), R = 2 s^2 / 3 + 2 s^4 / 5 + ...: that ln(1 + f) is the sum of a
-// large exact term and this small one keeps its error below one unit.
-inline double shortfall_of_log(double f, double carried) {
-  const double s = f / (2 + f), z = s * s, z2 = z * z, z4 = z2 * z2;
-  const double low = (2.0 / 3 + z * (2.0 / 5)) + z2 * (2.0 / 7 + z * (2.0 / 9)),
-               high = (2.0 / 11 + z * (2.0 / 13)) + z2 * (2.0 / 15 + z * (2.0 / 17));
-  const double r = z * (low + z4 * (high + z4 * (2.0 / 19 + z * (2.0 / 21)))), half = 0.5 * f * f;
-  return half - (s * (half + r) + carried);
-}
-
-// x less the nearest multiple of pi / 2, as a sum of two; `quarter` counts the multiples, of which the low bits matter.
-struct Reduced {
-  double high, low;
-  std::uint64_t quarter;
-};
-inline bool is_reducible(double x) { return std::abs(x) < 0x1p20; }
-inline Reduced reduced(double x) {
-  const double rounded = x * (2 / 3.14159265358979323846) + kRound, n = rounded - kRound;
-  const double a = x - n * kHalfPiHigh, b = n * kHalfPiMiddle;  // both exact
-  const double difference = a - b, taken = difference - a;
-  const double error = (a - (difference - taken)) - (b + taken);
-  const double c = n * kHalfPiLow, high = difference - c;
-  return {high, ((difference - high) - c) + error, std::bit_cast<std::uint64_t>(rounded)};
-}
-
-// sin(x + low) and cos(x + low), |x| <= pi / 4: their series to x^17 and x^16.
-inline double sin_of_rest(double x, double low) {
-  const double z = x * x, z2 = z * z, z4 = z2 * z2;
-  const double a = -1.0 / 6 + z * (1.0 / 120), b = -1.0 / 5040 + z * (1.0 / 362880),
-               c = -1.0 / 39916800 + z * (1.0 / 6227020800),
-               d = -1.0 / 1307674368000 + z * (1.0 / 355687428096000);
-  return x + (x * z * ((a + z2 * b) + z4 * (c + z2 * d)) + low * (1 - 0.5 * z));
-}
-inline double cos_of_rest(double x, double low) {
-  const double z = x * x, z2 = z * z, z4 = z2 * z2;
-  const double a = 1.0 / 24 - z * (1.0 / 720), b = 1.0 / 40320 - z * (1.0 / 3628800),
-               c = 1.0 / 479001600 - z * (1.0 / 87178291200), d = 1.0 / 20922789888000;
-  const double half = 0.5 * z, most = 1 - half;
-  return most + (((1 - most) - half) + (z2 * ((a + z2 * b) + z4 * (c + z2 * d)) - x * low));
-}
-
-}  // namespace detail
 
 inline double exp(double x) {
   if (!(std::abs(x) < 708)) return detail::exp_beyond(x);
   const double rounded = x * detail::kLog2OfE + detail::kRound, n = rounded - detail::kRound;
   const double high = x - n * detail::kLn2High, low = n * detail::kLn2Low, r = high - low;
-  return detail::times_power_of_two(detail::exp_of_rest(r, (high - r) - low), rounded);
+  return detail::times_power_of_two(1 + detail::expm1_of_rest(r, (high - r) - low), rounded);
+}
+
+// exp(x) - 1 = 2^n (exp(r) - 1) + (2^n - 1).
+inline double expm1(double x) {
+  if (!(std::abs(x) < 708)) return detail::expm1_beyond(x);
+  const double rounded = x * detail::kLog2OfE + detail::kRound, n = rounded - detail::kRound;
+  const double high = x - n * detail::kLn2High, low = n * detail::kLn2Low, r = high - low;
+  const double power = detail::times_power_of_two(1, rounded);
+  return power * detail::expm1_of_rest(r, (high - r) - low) + (power - 1);
 }
 
 // 10^x.
@@ -122,7 +40,7 @@ inline double exp10(double x) {
   const double rounded = x * detail::kLog2Of10 + detail::kRound, n = rounded - detail::kRound;
   const double high = x - n * detail::kLog10Of2High, low = n * detail::kLog10Of2Low, r = high - low;
   return detail::times_power_of_two(
-      detail::exp_of_rest(r * detail::kLn10, ((high - r) - low) * detail::kLn10), rounded);
+      1 + detail::expm1_of_rest(r * detail::kLn10, ((high - r) - low) * detail::kLn10), rounded);
 }
 
 inline double log(double x) {
@@ -130,6 +48,16 @@ inline double log(double x) {
     return detail::log_beyond(x);
   const auto [n, f] = detail::split(x);
   return n * detail::kLn2High - (detail::shortfall_of_log(f, n * detail::kLn2Low) - f);
+}
+
+// ln(1 + x): 1 + x is rounded, and the relative error of that taken up.
+inline double log1p(double x) {
+  constexpr double kRootOfHalfLessOne = -0.2928, kRootOfTwoLessOne = 0.4142;
+  if (x > kRootOfHalfLessOne && x < kRootOfTwoLessOne) return x - detail::shortfall_of_log(x, 0);
+  if (!(x > -1 && x < 1e300)) return detail::log1p_beyond(x);
+  const double sum = 1 + x, lost = x > 1 ? 1 - (sum - x) : x - (sum - 1);
+  const auto [n, f] = detail::split(sum);
+  return n * detail::kLn2High - (detail::shortfall_of_log(f, n * detail::kLn2Low + lost / sum) - f);
 }
 
 inline double log2(double x) {
@@ -192,8 +120,6 @@ double atan2(double y, double x);
 double cosh(double x);
 double acosh(double x);
 double atanh(double x);
-double expm1(double x);
-double log1p(double x);
 double cbrt(double x);
 double erfc(double x);
 double lgamma(double x);

@@ -108,21 +108,21 @@ TEST(ElementaryFunctions, TheOthersAreWithinTheirErrors) {
   EXPECT_LT(worst({-10, 10}, elementary::tan, [](Real x) { return std::tan(x); }), 1);
   EXPECT_LT(worst({-1, 1}, elementary::asin, [](Real x) { return std::asin(x); }), 1);
   EXPECT_LT(worst({-1, 1}, elementary::acos, [](Real x) { return std::acos(x); }), 1);
-  EXPECT_LT(worst({-10, 10}, elementary::atan, [](Real x) { return std::atan(x); }), 1);
+  EXPECT_LT(worst({-10, 10}, elementary::atan, [](Real x) { return std::atan(x); }), 1.3);
   EXPECT_LT(worst({-10, 10}, elementary::cosh, [](Real x) { return std::cosh(x); }), 1);
   EXPECT_LT(worst({1, 100}, elementary::acosh, [](Real x) { return std::acosh(x); }), 1);
   EXPECT_LT(worst({-0.99, 0.99}, elementary::atanh, [](Real x) { return std::atanh(x); }), 1);
-  EXPECT_LT(worst({-5, 5}, elementary::expm1, [](Real x) { return std::expm1(x); }), 1);
-  EXPECT_LT(worst({-0.9, 5}, elementary::log1p, [](Real x) { return std::log1p(x); }), 1);
+  EXPECT_LT(worst({-5, 5}, elementary::expm1, [](Real x) { return std::expm1(x); }), 1.8);
+  EXPECT_LT(worst({-0.9, 5}, elementary::log1p, [](Real x) { return std::log1p(x); }), 0.9);
   EXPECT_LT(worst({-100, 100}, elementary::cbrt, [](Real x) { return std::cbrt(x); }), 1);
-  EXPECT_LT(worst({-5, 26}, elementary::erfc, [](Real x) { return std::erfc(x); }), 1.5);
+  EXPECT_LT(worst({-5, 26}, elementary::erfc, [](Real x) { return std::erfc(x); }), 4.5);
   EXPECT_LT(worst({3, 500}, elementary::lgamma, [](Real x) { return std::lgamma(x); }), 1.5);
   for (const double other : {-3.0, -1e-3, 0.7, 200.0}) {
     const Real y = other;
     EXPECT_LT(worst(
                   {-10, 10}, [&](double x) { return elementary::atan2(x, other); },
                   [&](Real x) { return std::atan2(x, y); }),
-              1);
+              1.6);
     EXPECT_LT(worst(
                   {-10, 10}, [&](double x) { return elementary::hypot(x, other); },
                   [&](Real x) { return std::hypot(x, y); }),
@@ -198,7 +198,7 @@ TEST(ElementaryFunctions, BitsAreTheSameEverywhere) {
          elementary::log1p(positive), elementary::cbrt(x), elementary::erfc(unit * 5)});
   }
   EXPECT_EQ(xxh3({reinterpret_cast<const char*>(results.data()), results.size() * sizeof(double)}),
-            10042858202957512255u);
+            12001449962275370798u);
 }
 
 }  // namespace
