@@ -11,7 +11,10 @@ target_compile_options(halocline_options INTERFACE
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<CONFIG:Debug>>>:-Wno-stringop-overflow>
   # A fused multiply-add rounds once where two operations round twice: results would depend on the
   # optimisation level and the processor. The same scenario has to give the same bytes everywhere.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Nobody looks at errno or at floating-point exceptions: a root is one instruction, and loops with comparisons and roots
+  # become vectors, of the same values.
+  -fno-math-errno -fno-trapping-math)
 target_include_directories(halocline_options INTERFACE ${CMAKE_SOURCE_DIR})
 
 if(HALOCLINE_SANITIZE)

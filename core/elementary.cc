@@ -80,7 +80,13 @@ double acos(double x) { return Sleef_cinz_acosd1_u10purec(x); }
 double cosh(double x) { return Sleef_cinz_coshd1_u10purec(x); }
 double acosh(double x) { return Sleef_cinz_acoshd1_u10purec(x); }
 double atanh(double x) { return Sleef_cinz_atanhd1_u10purec(x); }
-double cbrt(double x) { return Sleef_cinz_cbrtd1_u10purec(x); }
+// exp(ln x / 3), to some twenty units, and one of Newton's steps.
+double cbrt(double x) {
+  const double size = std::abs(x);
+  if (!(size > 1e-300 && size < 1e300)) return Sleef_cinz_cbrtd1_u10purec(x);
+  const double root = exp(log(size) / 3), square = root * root;
+  return std::copysign(root - (root * square - size) / (3 * square), x);
+}
 double erfc(double x) {
   if (!(std::abs(x) < 26)) return Sleef_cinz_erfcd1_u15purec(x);
   return x < 0 ? 2 - erfc_above(-x) : erfc_above(x);
