@@ -74,7 +74,7 @@ MeasuredTap statistics(const BandTable& table, std::size_t n, double time_rate_h
   tap.power = between / count;
   if (!(tap.power > 0)) return tap;
   tap.coherent = std::min(std::norm(sum / count) / tap.power, 1.0);
-  tap.phase_rad = std::arg(sum);
+  tap.phase_rad = elementary::arg(sum);
   const double correlation = std::abs(next_product) / neighbours;
   if (correlation < 1 - kSameFromInstantToInstant) {
     const double spread_hz = std::sqrt(-2 * elementary::log(correlation)) / (2 * pi) * time_rate_hz;

@@ -52,8 +52,8 @@ Arrival merged(const Arrival& a, const Arrival& b, double frequency_hz) {
   };
   Arrival both = a.amplitude >= b.amplitude ? a : b;
   const std::complex<double> sum = phasor(a) + phasor(b);
-  const double turned = std::arg(sum) + 2 * pi * std::fmod(frequency_hz * both.delay_s, 1.0);
-  both.amplitude = std::abs(sum);
+  const double turned = elementary::arg(sum) + 2 * pi * std::fmod(frequency_hz * both.delay_s, 1.0);
+  both.amplitude = elementary::abs(sum);
   both.phase_rad = positive_angle(turned);
   return both;
 }

@@ -10,7 +10,7 @@
 // relative error below 1e-14.
 //
 //   const auto water = SoundSpeedProfile::global_mean();
-//   const double delay_s = water.travel_time_s(100, 900, elementary::hypot(2000, 800));
+//   const double delay_s = water.travel_time_s(100, 900, std::hypot(2000, 800));
 //
 // Depths are below the sea surface, m; above it (negative) the water of the surface is used. Immutable: calls
 // may overlap between threads. Left out: change with place and time, bending of the path (the ray model's

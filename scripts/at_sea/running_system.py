@@ -128,8 +128,8 @@ def system_times(halocline, folder, survey, shots, place, types):
     scenario.write_text(SCENARIO.format(
         duration_s=duration_s, north_m=place[1], east_m=place[0], size_m=size_m, spacing_m=size_m / 100, bottom_m=bottom_m,
         depths=[depth for depth, _ in water], speeds=[speed for _, speed in water], ping_s=ping_s))
-    run(halocline, "replay", log, "--scenario", scenario, "--log", out, "--no-comparison", "--quiet")
-    run(halocline, "log", "export", out, "--out", folder / "csv", "--channel", r"RECEIVE\.ship")
+    run(halocline, "replay", log, "--scenario", scenario, "--log", out, "--no-comparison", "--quiet", "--force")
+    run(halocline, "log", "export", out, "--out", folder / "csv", "--channel", r"RECEIVE\.ship", "--force")
     with open(folder / "csv" / "receive.csv") as file:
         answers = {int(row["packet_sequence"]): float(row["two_way_travel_time_s"]) for row in csv.DictReader(file)}
     return [answers.get(number) for number in range(len(shots))]
