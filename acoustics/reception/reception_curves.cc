@@ -1,6 +1,7 @@
 #include "acoustics/reception/reception_curves.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 

@@ -140,8 +140,8 @@ TEST(Scripts, WithoutHelpTheBuildIsStarted) {
 TEST(Scripts, ProgressIsShownEveryFourSecondsAndTheRestPassedOn) {
   const std::string lines = ". " + script("shell/progress") +
                             "; take() { case $1 in at*) text=$1 ;; *) pass_on \"$1\" ;; esac; }; "
-                            "{ echo 'at 1'; sleep 2; printf 'at '; sleep 1.5; echo 2; echo 'an error'; sleep "
-                            "1.5; } | show_progress start take";
+                            "{ echo 'at 1'; sleep 1.5; printf 'at '; sleep 1; echo 2; echo 'an error'; sleep "
+                            "3; } | show_progress start take";
   Process process({"/bin/bash", "-euo", "pipefail", "-c", lines});
   EXPECT_EQ(process.wait(), 0);
   EXPECT_EQ(process.output(), "an error\nat 2\n");
