@@ -1,4 +1,4 @@
-// The series and reductions behind core/elementary.h; for no other file.
+// The series and reductions behind core/elementary.h and acoustics/math/fast_functions.h; for no other file.
 #pragma once
 
 #include <bit>
@@ -49,10 +49,12 @@ struct Split {
   double n, f;
 };
 inline Split split(double x) {
-  constexpr std::uint64_t kRootOfHalf = 0x3fe6a09e667f3bcd;
+  constexpr std::uint64_t kRootOfHalf = 0x3fe6a09e667f3bcd, kOne = 0x3ff0000000000000;
+  constexpr double kWhole = 0x1p52;  // its mantissa counts: vectors convert no 64-bit integers before AVX-512
   const auto bits = std::bit_cast<std::uint64_t>(x);
-  const auto n = static_cast<std::int64_t>(bits - kRootOfHalf) >> 52;
-  return {static_cast<double>(n), std::bit_cast<double>(bits - (static_cast<std::uint64_t>(n) << 52)) - 1};
+  const std::uint64_t raised = (bits - kRootOfHalf + kOne) >> 52;  // n + 1023
+  const double n = std::bit_cast<double>(raised | std::bit_cast<std::uint64_t>(kWhole)) - (kWhole + 1023);
+  return {n, std::bit_cast<double>(bits - (raised << 52) + kOne) - 1};
 }
 
 // f - ln(1 + f) = f^2 / 2 - s (f^2 / 2 + R), s = f / (2 + f), R = 2 s^2 / 3 + 2 s^4 / 5 + ...: that ln(1 + f) is the sum of a

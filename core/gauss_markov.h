@@ -1,8 +1,8 @@
 // A Gauss-Markov (Ornstein-Uhlenbeck) process as a function of time: stationary, variance sigma^2, correlation
 // exp(-|t| / T).
 //
-// The value at an instant is one fixed number, whatever the step and the order of evaluation: the process is built from its ends
-// inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants hold that value), it is
+// The value at an instant is one fixed number, whatever the step and the order of evaluation: the process is built from its
+// ends inwards (Levy's construction). Known at 0 and at 2^36 ms (two years; later instants hold that value), it is
 // drawn at the middle of each interval given both ends, which for a Gauss-Markov process is exact: with h
 // half the interval and c = exp(-h / T), mean (a + b) c / (1 + c^2), variance sigma^2 (1 - c^2) / (1 + c^2)
 // (Rasmussen and Williams 2006, appendix B). Each draw is addressed by the millisecond it stands for

@@ -1,5 +1,5 @@
-// Optional: what rough boundaries scatter out of shallow water. Steeper than the bottom's critical angle, sound is gone within a
-// few bounces; forward and below that angle it goes on. Without this all of it goes on (acoustics/fading/path_fading.h).
+// Optional: what rough boundaries scatter out of shallow water. Steeper than the bottom's critical angle, sound is gone within
+// a few bounces; forward and below that angle it goes on. Without this all of it goes on (acoustics/fading/path_fading.h).
 //
 // Model, q = sin^2 of the critical angle, cos(critical) = c_water / c_bottom, and Gamma^2 of one bounce as there:
 // - Bottom: what is scattered, 1 - exp(-Gamma^2), leaves by Lambert's law (Urick 1983, section 8.5; the law is our choice

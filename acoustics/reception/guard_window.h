@@ -26,8 +26,8 @@ struct GuardWindow {
 // `paths` by delay, not empty.
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem);
 
-// Windows that hold nearly the same power, for predictions: as paths fade, now the one and now the other is the stronger. With the
-// best there is at most one, the best without its strongest path: of a power lower by d < 1 dB it is chosen with the
+// Windows that hold nearly the same power, for predictions: as paths fade, now the one and now the other is the stronger. With
+// the best there is at most one, the best without its strongest path: of a power lower by d < 1 dB it is chosen with the
 // probability (1 - d / 1 dB)^2 / 2 (our choice), so that no small change of the power exchanges one for the other.
 struct LikelyWindow {
   GuardWindow window;

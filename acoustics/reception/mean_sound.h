@@ -32,7 +32,8 @@ struct MeanSound {
   double preamble_variance = 1, bits_variance = 1;  // shares of its variance that its mean over them keeps
   double untracked = 0;  // interference by what the receiver does not track, in units of the signal
   double preamble_echoes = 0, bits_echoes = 0;  // uPa^2, late ones, on average over preamble and bits
-  // Late ones while they sound, `late_share` of the bits; and of those what fades beside the signal: of phase-shift keying, slowly.
+  // Late ones while they sound, `late_share` of the bits; and of those what fades beside the signal: of phase-shift keying,
+  // slowly.
   double late_echoes = 0, late_share = 1, fading_echoes = 0;
   // Of those means, relative: each path fades by itself, sum p^2 (1 - c^2) kept / (sum p)^2.
   double preamble_echo_variance = 0, bits_echo_variance = 0;

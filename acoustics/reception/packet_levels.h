@@ -76,8 +76,8 @@ class PacketLevels {
   // The mean signal over the preamble while the power without fast fading is `slow_power`, uPa^2 in dB.
   Level preamble(double slow_power) const;
   // The ratios to noise and interference, dB, that decide of the bits. Of phase-shift keying: `disturbance` is noise and
-  // mean interference, uPa^2 over the band, `parts` a guess of how many fade independently, 0 of none, in which what comes out is
-  // left; of frequency-shift keying, noise alone.
+  // mean interference, uPa^2 over the band, `parts` a guess of how many fade independently, 0 of none, in which what comes out
+  // is left; of frequency-shift keying, noise alone.
   FadingSignal fading_signal(double slow_power) const;
   Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
   Level bits(const SlowSound& slow, double noise) const;

@@ -21,8 +21,8 @@ struct PowerLaw {
 // Of a gamma variable of mean 1 whose skewness is `skewness`, 0.1..2: variance = skewness^2 / 4.
 double gamma_quantile(double z, double skewness);
 
-// Of the third cumulant of a sum of powers over the cube of its mean, for its variance over the square: of two unequal parts, or
-// of many equal ones.
+// Of the third cumulant of a sum of powers over the cube of its mean, for its variance over the square: of two unequal parts,
+// or of many equal ones.
 double third_share(double kept);
 
 }  // namespace halocline::acoustics

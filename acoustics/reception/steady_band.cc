@@ -77,7 +77,8 @@ std::array<SteadyBand::Part, kSignalFrequencies> SteadyBand::parts(const Sway& s
   return parts;
 }
 
-// By pairs that interfere few enough times over the band: a product of 2 a_p a_q, kept to g, its phase at the middle of the band.
+// By pairs that interfere few enough times over the band: a product of 2 a_p a_q, kept to g, its phase at the middle of the
+// band.
 SteadyBand::Sway SteadyBand::sway() const {
   const double wave_number = 2 * pi * band_.centre_hz() / kSoundSpeedMps,
                exponent = -squared(wave_number * kSwayM) / 2;

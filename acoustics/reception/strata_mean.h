@@ -89,8 +89,8 @@ class StrataMean {
     bits[kLevels - 2] = at(kLevels - 2);
     return fill_quartic(bits);
   }
-  // Adds what becomes of packets in a slow state that has this `share` of the probability; of phase-shift keying the mean over the
-  // even strata of even states, the odd ones of odd. Normals of fast fading come in another order in each state.
+  // Adds what becomes of packets in a slow state that has this `share` of the probability; of phase-shift keying the mean over
+  // the even strata of even states, the odd ones of odd. Normals of fast fading come in another order in each state.
   void add(const Level& preamble, const Levels& bits, std::size_t state, double share);
 
   double acquisition_probability() const { return std::min(acquired_, 1.0); }  // sums of rounded parts

@@ -4,9 +4,9 @@
 // table of depth and speed is taken as it is (exact); temperature-salinity tables and Munk's formula are
 // sampled where the straight line between knots would be further than `speed_tolerance_mps` from the profile.
 // A kink where the speed is least makes a channel that the water has not: there, and there alone, a parabola takes its
-// place (rounded_channels), by no more than the tolerance. Below the last knot and above the first the speed is constant. Absorption in a layer is the parabola
-// through its value at the top, the middle and the bottom. Delay error of sampling and of thinning: below
-// tolerance / speed of the delay, mostly far less, as errors of both signs cancel (0.01 m/s: below 7e-6 of
+// place (rounded_channels), by no more than the tolerance. Below the last knot and above the first the speed is constant.
+// Absorption in a layer is the parabola through its value at the top, the middle and the bottom. Delay error of sampling and of
+// thinning: below tolerance / speed of the delay, mostly far less, as errors of both signs cancel (0.01 m/s: below 7e-6 of
 // the delay).
 //
 // Immutable: calls may overlap between threads. Left out: change of the water with range.

@@ -76,8 +76,8 @@ class CrashJournal {
   // ---- recovery
   // The earlier incarnation's last step; empty without one.
   std::optional<SimTime> last_step() const { return last_step_; }
-  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step. Once, before anything else is dispatched: what follows an input in
-  // its flow is then known to be missing, and is repaired.
+  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step. Once, before
+  // anything else is dispatched: what follows an input in its flow is then known to be missing, and is repaired.
   void replay_inputs(const std::function<void(const ReplayedStep&)>& end_step);
   // Takes up the outputs: they are not published again, their channels' numbers go on, and they are kept for
   // repair. False when the journal belongs to another run, or is too old, and is empty now.

@@ -10,9 +10,9 @@
 
 namespace halocline::channel_server {
 
-// Bounces that a link's paths may have: 0.6 of range over mean depth (above 0), 60 at least and 10 000 at most. A path that drops by the
-// depth D from one bounce to the next meets the boundaries r tan(angle) / D times over the range r, so these are all up to
-// 31 degrees, the critical angle of medium sand; steeper ones lose several dB at each bounce.
+// Bounces that a link's paths may have: 0.6 of range over mean depth (above 0), 60 at least and 10 000 at most. A path that
+// drops by the depth D from one bounce to the next meets the boundaries r tan(angle) / D times over the range r, so these are
+// all up to 31 degrees, the critical angle of medium sand; steeper ones lose several dB at each bounce.
 int bounces_for(double range_m, double depth_m);
 
 // Of the bottom between the ends of a link, m.

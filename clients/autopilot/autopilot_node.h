@@ -1,5 +1,6 @@
 // Steers the vehicles that have a mission: receives their STATE and SENSORS and publishes their COMMAND on the time
-// grid, with PLAN at each change and once a minute and AUTOPILOT at each change and once a second; leaders of a formation also publish SEND, followers receive RECEIVE.
+// grid, with PLAN at each change and once a minute and AUTOPILOT at each change and once a second; leaders of a formation also
+// publish SEND, followers receive RECEIVE.
 //
 // Position and attitude come from STATE (the true position), speed through the water and altitude
 // from SENSORS where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h),

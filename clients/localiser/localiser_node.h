@@ -1,8 +1,8 @@
 // Estimates the positions of vehicles from acoustic ranges to beacons, and publishes them as ESTIMATE.<vehicle>.
 //
 // Inputs are those the vehicle itself has: its SENSORS (depth, heading, pitch, speed through the
-// water) and the packets its modem receives. The node sends pings in its name, to one beacon after the other, and takes ranges from
-// the travel times of the answers; with `use_stamps` also from stamped packets of beacons. A travel time becomes
+// water) and the packets its modem receives. The node sends pings in its name, to one beacon after the other, and takes ranges
+// from the travel times of the answers; with `use_stamps` also from stamped packets of beacons. A travel time becomes
 // a length by the mean sound speed between the two depths, of the profile in ENVIRONMENT: a straight path;
 // where the water bends sound, the range is off: by Fermat's principle
 // the bent way is quicker, by (g r)^2 / (24 c^2) of the time for a gradient g (5 cm in 1 km at 0.05 1/s, 4 m

@@ -4,9 +4,9 @@
 // transmits it again while transmissions are left; where it has come from, or whoever had it before, does not take it
 // again (controlled flooding: Tanenbaum and Wetherall 2011, Computer Networks, section 5.2.3). A packet that the modem refuses
 // because it is transmitting is kept and tried again. The vehicle it goes to may confirm it: a packet of its own that
-// goes back the same way. The wait is uniform between 0 and `longest_wait`, drawn from seed, vehicle and packet, so that two relays
-// that received the same packet do not transmit it at once. Bounded: kMaxStored packets, the latest kMaxKnown names, kMaxTries.
-// Left out: routes, acknowledgement from hop to hop. Values in, values out.
+// goes back the same way. The wait is uniform between 0 and `longest_wait`, drawn from seed, vehicle and packet, so that two
+// relays that received the same packet do not transmit it at once. Bounded: kMaxStored packets, the latest kMaxKnown names,
+// kMaxTries. Left out: routes, acknowledgement from hop to hop. Values in, values out.
 #pragma once
 
 #include <cstddef>

@@ -27,7 +27,8 @@ using testing::Process;
 
 constexpr std::chrono::seconds kLimit{120};
 
-// Bytes of the log by which a run is under way: all have joined, and the first instant, of 55 kB with terrain and scenario, is over.
+// Bytes of the log by which a run is under way: all have joined, and the first instant, of 55 kB with terrain and scenario, is
+// over.
 constexpr std::size_t kUnderWay = 80'000;
 
 LockstepFleet fleet_of(const std::string& duration_s, NetworkFaults faults = {}) {

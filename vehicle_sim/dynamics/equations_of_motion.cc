@@ -109,7 +109,8 @@ BodyForce stern_force(const ModelParameters& p, const Numbers& state, const Rela
          thruster_force(p.propeller, rho, flow.nu_r, inflow_speed, state.actuators.propeller_hz);
 }
 
-// -g(eta) = ((W - B) d, (W r_g - B r_b) x d) (Fossen 2021, section 4.1): weight at CG, buoyancy at CB; `down` = d is the world's z axis in the body frame.
+// -g(eta) = ((W - B) d, (W r_g - B r_b) x d) (Fossen 2021, section 4.1): weight at CG, buoyancy at CB; `down` = d is the
+// world's z axis in the body frame.
 BodyForce restoring_force(const Model& model, const Axes& down, const Submergence& under) {
   const ModelParameters& p = model.parameters();
   const double weight = model.weight_n(), buoyancy = p.buoyancy_n * under.hull;

@@ -53,7 +53,8 @@ BodyForce lift_drag_force(const LiftDrag& lift_drag, double density, const BodyV
 // X = -1/2 rho S C_Da u |u|, and across the hull -1/2 rho S C_L |u| v_l with v_l the velocity across it at the place of
 // the lift, center_aft behind the middle as the hull moves (x_l = -sign(u) center_aft): the sin(alpha)
 // cos(alpha) law of a slender body (Allen and Perkins 1951, NACA 1048; Hoerner 1965, chapter 19, for
-// coefficient and place), which is bounded, and the same for both directions of the flow. Smooth where u changes its sign: |u| x_l = -center_aft u.
+// coefficient and place), which is bounded, and the same for both directions of the flow. Smooth where u changes its sign: |u|
+// x_l = -center_aft u.
 inline BodyForce body_lift_force(const BodyLift& b, double density, const BodyVelocity& nu_r) {
   const double u = nu_r.u, v = nu_r.v, w = nu_r.w, q = nu_r.q, r = nu_r.r, x = b.center_aft_m;
   const double scale = -0.5 * density * b.reference_area_m2, lift = scale * b.lift_slope_per_rad;

@@ -17,8 +17,8 @@ struct PacketLanes {
   std::string note;  // a sentence on what is left out; empty: nothing
 };
 
-// All of it where it fits, else the stretch of time that holds the most outcomes of as many as fit. Adds the marks that it draws
-// to `links`.
+// All of it where it fits, else the stretch of time that holds the most outcomes of as many as fit. Adds the marks that it
+// draws to `links`.
 PacketLanes packet_lanes(const MissionStore& mission, PacketLinks& links);
 
 }  // namespace halocline::clients

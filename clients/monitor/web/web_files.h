@@ -17,7 +17,8 @@ struct WebAnswer {
 };
 
 // The answer to a request for a file in `folder`: the file; or why not, as `access` allows. Links that lead out of the folder
-// are not followed. Without a bundle `/` is a page that names the command that builds it, without the token one with a form for it.
+// are not followed. Without a bundle `/` is a page that names the command that builds it, without the token one with a form for
+// it.
 WebAnswer answer_to(const WebAccess& access, const std::string& folder, std::string_view method,
                     const WebRequest& request);
 

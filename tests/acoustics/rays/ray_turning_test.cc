@@ -1,5 +1,5 @@
-// Rays that all but graze a boundary or turn beside a knot: the functions that give them the range of waves, and the field about
-// them against the integral over all waves.
+// Rays that all but graze a boundary or turn beside a knot: the functions that give them the range of waves, and the field
+// about them against the integral over all waves.
 #include <algorithm>
 #include <cmath>
 #include <complex>

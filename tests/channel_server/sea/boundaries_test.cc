@@ -83,7 +83,8 @@ Losses losses_at_2_km(const LevelSea& sea, const char* profile) {
 
 // 20 m of water at 25 kHz, whose loss would be 76 dB by spherical spreading and absorption. Smooth and rough, surface and
 // bottom return every path: 60.4 dB in calm; bubbles take their share. With the loss by scattering, what a bottom of 2 cm and
-// the waves of a light breeze scatter beyond the critical angle is lost. Mud, which is slower than the water, returns few paths.
+// the waves of a light breeze scatter beyond the critical angle is lost. Mud, which is slower than the water, returns few
+// paths.
 TEST(ShallowWater, LosesBySpreadingBubblesAndWhatRoughBoundariesScatter) {
   struct Case {
     const char *wind, *loss;
