@@ -14,7 +14,6 @@ namespace channels = bus::channels;
 // How far back the journal reaches. Sound has gone 90 km by then; what is under way for longer is not resumed, nor
 // is anything after a longer absence.
 constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
-constexpr SimDuration kInstant = SimDuration::from_nanoseconds(1);
 
 bool is_input(std::string_view channel) {
   const auto in = [&](const bus::Family& family) { return channel.starts_with(family.prefix); };
@@ -27,11 +26,7 @@ bool is_input(std::string_view channel) {
 ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path)
     : journal_(journal), inbox_(inbox) {
   journal_.open({path, kJournalled, is_input, {channels::kModem}, {std::string(channels::kSetEnvironment)}});
-  journal_.replay_inputs([this](const bus::ReplayedStep& step) {
-    // What was due before a step happened before its inputs were taken.
-    if (!step.after_absence) steps_.push_back({step.at - kInstant, {}});
-    steps_.push_back({step.at, inbox_.take_inputs()});
-  });
+  journal_.replay_inputs([this](SimTime at) { steps_.push_back({at, inbox_.take_inputs()}); });
 }
 
 bool ServerRecovery::begin(const bus::Now& now) {

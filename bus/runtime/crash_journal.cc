@@ -55,18 +55,14 @@ void CrashJournal::open(Rule rule) {
   });
 }
 
-void CrashJournal::replay_inputs(const std::function<void(const ReplayedStep&)>& end_step) {
+void CrashJournal::replay_inputs(const std::function<void(SimTime at)>& end_step) {
   replays_ = true;
-  ReplayedStep step;
   const auto history = std::exchange(history_, {});
   for (std::size_t i = 0; i < history.size(); ++i) {
     const JournalledMessage& entry = history[i];
-    step.at = entry.at;
-    step.after_absence = step.after_absence || entry.kind == Kind::kInputAfterAbsence;
-    if (entry.kind != Kind::kOutput) bus_.replay(entry.channel, entry.bytes);
+    if (entry.kind == Kind::kInput) bus_.replay(entry.channel, entry.bytes);
     if (i + 1 < history.size() && history[i + 1].at == entry.at) continue;
-    end_step(step);
-    step = {};
+    end_step(entry.at);
   }
   replays_ = false;
 }
@@ -85,7 +81,7 @@ bool CrashJournal::resume(SimTime now) {
     if (auto output = to_output(entry)) restore(std::move(*output));
   }
   published_forgotten_at_ = *last_step_ + kept_ * 2;
-  recovers_ = was_absent_ = true;
+  recovers_ = true;
   return true;
 }
 
@@ -98,8 +94,7 @@ void CrashJournal::restore(Output output) {
 void CrashJournal::write_inputs(SimTime now) {
   step_ = now;
   if (!is_open()) return;
-  journal_->write_inputs(now, was_absent_ ? Kind::kInputAfterAbsence : Kind::kInput);
-  was_absent_ = false;
+  journal_->write_inputs(now);
   if (now > published_forgotten_at_) published_.clear();
 }
 
@@ -112,7 +107,7 @@ bool CrashJournal::claim(const std::string& channel, const std::string& identity
 void CrashJournal::clear() {
   if (is_open()) journal_->clear();
   published_.clear();
-  recovers_ = was_absent_ = false;
+  recovers_ = false;
 }
 
 }  // namespace halocline::bus

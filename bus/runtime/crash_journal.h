@@ -9,7 +9,7 @@
 //
 //   CrashJournal journal(bus(), publisher);  // does nothing until it is open: publish_once() publishes
 //   journal.open(rule);                      // when the node is made, before anything is dispatched
-//   journal.replay_inputs([&](const ReplayedStep& step) { history.push_back({step.at, take_inbox()}); });
+//   journal.replay_inputs([&](SimTime at) { history.push_back({at, take_inbox()}); });
 //
 // In the first step whose simulation time is known, and nothing more until kRepairTime has passed (inputs published
 // meanwhile come by repair):
@@ -47,12 +47,6 @@
 
 namespace halocline::bus {
 
-// A step of an earlier incarnation, whose inputs have been replayed.
-struct ReplayedStep {
-  SimTime at;
-  bool after_absence = false;  // its inputs are those that were published while the node was away
-};
-
 class CrashJournal {
  public:
   struct Rule {
@@ -76,9 +70,9 @@ class CrashJournal {
   // ---- recovery
   // The earlier incarnation's last step; empty without one.
   std::optional<SimTime> last_step() const { return last_step_; }
-  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step. Once, before
+  // Hands the inputs to the node's own handlers, oldest first, and calls `end_step` after those of each step, some of which took none. Once, before
   // anything else is dispatched: what follows an input in its flow is then known to be missing, and is repaired.
-  void replay_inputs(const std::function<void(const ReplayedStep&)>& end_step);
+  void replay_inputs(const std::function<void(SimTime at)>& end_step);
   // Takes up the outputs: they are not published again, their channels' numbers go on, and they are kept for
   // repair. False when the journal belongs to another run, or is too old, and is empty now.
   [[nodiscard]] bool resume(SimTime now);
@@ -140,7 +134,6 @@ class CrashJournal {
   SimTime published_forgotten_at_ = SimTime::never();
   SimTime step_;
   bool replays_ = false, recovers_ = false;
-  bool was_absent_ = false;  // what is written next was published while the node was away
 };
 
 }  // namespace halocline::bus

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -104,9 +103,13 @@ void MessageJournal::add_input(std::string_view channel, const void* data, std::
   inputs_.push_back({Kind::kInput, {}, std::string(channel), {bytes, bytes + size}});
 }
 
-void MessageJournal::write_inputs(SimTime now, Kind kind) {
+void MessageJournal::write_inputs(SimTime now) {
+  if (inputs_.empty()) {
+    idle_step_ = now;
+    return;
+  }
+  if (const auto idle = std::exchange(idle_step_, std::nullopt)) write({{Kind::kStep, *idle, {}, {}}});
   for (JournalledMessage& entry : inputs_) {
-    entry.kind = kind;
     entry.at = now;
     carry(entry);
   }
@@ -118,6 +121,7 @@ void MessageJournal::write_output(SimTime now, std::string_view channel, std::ve
 }
 
 void MessageJournal::clear() {
+  idle_step_.reset();
   kept_last_.clear();
   kept_all_.clear();
   std::remove((rule_.path + ".1").c_str());
@@ -151,7 +155,7 @@ void MessageJournal::write(const std::vector<JournalledMessage>& entries) {
 }
 
 void MessageJournal::carry(const JournalledMessage& entry) {
-  if (entry.kind == Kind::kOutput) return;
+  if (entry.kind != Kind::kInput) return;
   for (const Family& family : rule_.keep_last) {
     if (entry.channel.starts_with(family.prefix)) kept_last_[entry.channel] = entry;
   }

@@ -1,4 +1,4 @@
-// Write-ahead journal of a node's recent inputs and outputs: a file from which the next incarnation of a node that was
+// Write-ahead journal of a node's recent steps, their inputs and outputs: a file from which the next incarnation of a node that was
 // killed restores what was under way (crash_journal.h). A node whose state can be written whole keeps that instead
 // (state_journal.h).
 //
@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,7 +30,7 @@ struct JournalledMessage {
   enum class Kind : std::uint8_t {
     kInput,
     kOutput,
-    kInputAfterAbsence,  // received after the node's return, perhaps much later than it was published
+    kStep,  // that took no input
   };
   Kind kind = Kind::kInput;
   SimTime at;  // simulation time of the step that took it, or made it
@@ -56,8 +57,9 @@ class MessageJournal {
 
   // Keeps a received message in memory until the step that takes it.
   void add_input(std::string_view channel, const void* data, std::size_t size);
-  // Writes the inputs added since, as taken at `now`.
-  void write_inputs(SimTime now, JournalledMessage::Kind kind = JournalledMessage::Kind::kInput);
+  // Writes the inputs added since, as taken at `now`; before them the latest step without any, if it came after what was
+  // written last: what it did, it did before it knew them.
+  void write_inputs(SimTime now);
   void write_output(SimTime now, std::string_view channel, std::vector<std::uint8_t> bytes);
   // Another run: forgets everything but the inputs added since the last step.
   void clear();
@@ -72,6 +74,7 @@ class MessageJournal {
   Rule rule_;
   int file_ = -1;
   SimTime file_begins_ = SimTime::never();
+  std::optional<SimTime> idle_step_;
   std::vector<JournalledMessage> inherited_, inputs_;
   std::map<std::string, JournalledMessage> kept_last_;  // by channel
   std::deque<JournalledMessage> kept_all_;

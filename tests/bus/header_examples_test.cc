@@ -143,7 +143,7 @@ TEST_F(NodeExamples, CrashJournal) {
 
     CrashJournal journal(bus(), publisher);
     journal.open(rule);
-    journal.replay_inputs([&](const ReplayedStep& step) { history.push_back({step.at, take_inbox()}); });
+    journal.replay_inputs([&](SimTime at) { history.push_back({at, take_inbox()}); });
 
     if (!history.empty() && !journal.resume(now.sim)) forget_all();
     for (const auto& [at, inbox] : history) {

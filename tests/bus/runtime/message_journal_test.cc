@@ -27,13 +27,14 @@ class MessageJournalTest : public ::testing::Test {
     journal.add_input(channel, &byte, 1);
     journal.write_inputs(SimTime::from_seconds(time_s));
   }
-  // "o12 CHANNEL 5": output or input, seconds, channel, the only byte.
+  // "o12 CHANNEL 5": output or input, seconds, channel, the only byte; "s12": a step without input.
   static std::vector<std::string> inherited(MessageJournal& journal) {
     std::vector<std::string> all;
     for (const JournalledMessage& m : journal.take_inherited()) {
-      all.push_back((m.kind == Kind::kOutput ? "o" : "i") +
-                    std::to_string(m.at.nanoseconds() / 1'000'000'000) + ' ' + m.channel + ' ' +
-                    std::to_string(m.bytes.at(0)));
+      const std::string second = std::to_string(m.at.nanoseconds() / 1'000'000'000);
+      all.push_back(m.kind == Kind::kStep ? "s" + second
+                                          : (m.kind == Kind::kOutput ? "o" : "i") + second + ' ' + m.channel +
+                                                ' ' + std::to_string(m.bytes.at(0)));
     }
     return all;
   }
@@ -50,6 +51,18 @@ TEST_F(MessageJournalTest, TheNextIncarnationReadsInputsAndOutputs) {
   }
   EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5", "o2 OUTCOME 6"}));
   EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5", "o2 OUTCOME 6"})) << "and the one after it";
+}
+
+TEST_F(MessageJournalTest, TheLatestStepWithoutInputStandsBeforeTheNextWithOne) {
+  {
+    const auto journal = open();
+    receive(*journal, 1, "STATE.a", 5);
+    for (const double t : {2.0, 3.0}) journal->write_inputs(SimTime::from_seconds(t));
+    receive(*journal, 4, "STATE.a", 6);
+    receive(*journal, 5, "STATE.a", 7);
+    journal->write_inputs(SimTime::from_seconds(6.0));
+  }
+  EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5", "s3", "i4 STATE.a 6", "i5 STATE.a 7"}));
 }
 
 TEST_F(MessageJournalTest, AnInputThatNoStepTookIsNotKept) {
