@@ -34,8 +34,7 @@ struct Incarnation {
                   [](std::string_view channel) { return channel == kInputs; },
                   {},
                   {}});
-    journal.replay_inputs(
-        [this](SimTime at) { replayed.emplace_back(at, std::exchange(inbox, {})); });
+    journal.replay_inputs([this](SimTime at) { replayed.emplace_back(at, std::exchange(inbox, {})); });
     bus.enable_repair();
   }
   void add(double t, const Numbers& numbers) {
