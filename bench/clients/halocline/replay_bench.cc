@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "bench/clients/halocline/recorded_run.h"
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 #include "bus/event_log.h"
 #include "bus/logs/log_reader.h"
@@ -20,27 +20,9 @@
 namespace halocline::clients {
 namespace {
 
-std::string temporary(const char* name) {
-  return (std::filesystem::temp_directory_path() / "halocline-bench-").string() + std::to_string(getpid()) +
-         name;
-}
-
 ScenarioConfig scenario(const char* name) {
   return load_scenario(std::string(HALOCLINE_SOURCE_DIR) + "/scenarios/" + name + ".toml",
                        {"scenario.duration_s=120"});
-}
-
-// A log of 120 s, made once.
-std::string recorded(const ScenarioConfig& config) {
-  const std::string path = temporary(("-" + config.scenario.name + ".lcm").c_str());
-  if (std::filesystem::exists(path)) return path;
-  bus::set_log_level(bus::LogLevel::kSilent);
-  lcm::LCM lcm("memq://");
-  Composition all(lcm, config, Composition::kRun);
-  EmbeddedRun run{.end = SimTime() + config.scenario.duration, .log_path = path};
-  run.quiet = true;
-  run_embedded(lcm, all.nodes(), run);
-  return path;
 }
 
 // Items are seconds of the log; terrain and water are made before.

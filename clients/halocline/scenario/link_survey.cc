@@ -169,17 +169,19 @@ channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, con
   return survey;
 }
 
+void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed) {
+  for (channel_server::TileSurvey& tile : seabed.take_requests()) {
+    tile.take(query(terrain, bathymetry::QueryMode::kDepth, tile.rays()));
+    seabed.store(tile);
+  }
+}
+
 std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
                                                                    const Vec3& from_ned_m,
                                                                    const Vec3& to_ned_m,
                                                                    const channel_server::SeabedRule& rule) {
   channel_server::SeabedMap seabed(rule);
-  while (!seabed.is_surveyed(from_ned_m, to_ned_m)) {
-    for (channel_server::TileSurvey& tile : seabed.take_requests()) {
-      tile.take(query(terrain, bathymetry::QueryMode::kDepth, tile.rays()));
-      seabed.store(tile);
-    }
-  }
+  while (!seabed.is_surveyed(from_ned_m, to_ned_m)) answer_requests(terrain, seabed);
   return seabed.between(from_ned_m, to_ned_m);
 }
 

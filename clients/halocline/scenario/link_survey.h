@@ -50,6 +50,9 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                          const Vec3& to_ned_m, int bottom_points);
 
+// Answers what the map has requested.
+void answer_requests(const bathymetry::Terrain& terrain, channel_server::SeabedMap& seabed);
+
 // How the bottom runs between them; null where the terrain does not reach.
 std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathymetry::Terrain& terrain,
                                                                    const Vec3& from_ned_m,
