@@ -1,11 +1,14 @@
 #include "acoustics/reception/band_law.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
+#include "core/vector_clones.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -34,6 +37,13 @@ struct Octave {
   double mean = 0, variance = 0, rest = 0, rest_variance = 0, rate = 0;
 };
 
+// -floor(log2(x)), 0..`most`, of x >= 0.
+std::size_t octaves_below(double x, std::size_t most) {
+  constexpr std::uint64_t kExponentOfOne = 1023;
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(x) >> 52;
+  return exponent >= kExponentOfOne ? 0 : std::min<std::size_t>(kExponentOfOne - exponent, most);
+}
+
 using Values = BandLaw::Values;
 
 double at_least(double x, double least) { return x > least ? x : least; }
@@ -55,6 +65,7 @@ Values probabilities(const Values& scores) {
 }
 
 // ln of the parts of a packet that fall independently below what is fallen below with the score, `crossings` a stretch.
+HALOCLINE_VECTOR_CLONES
 Values log_parts(const Values& scores, const Values& crossings, const Values& turns, double stretches) {
   const Values below = probabilities(scores);
   Values crossed, more, all, few, logs;
@@ -100,16 +111,15 @@ BandLaw::BandLaw(const CollectedSound& sound, double threshold, double slow_powe
   double greatest = 0;
   for (const FadingTerm& term : sound.terms)
     greatest = std::max({greatest, term.unit, threshold * term.interference});
+  const double inverse = greatest > 0 ? 1 / greatest : 0;
   for (const FadingTerm& term : sound.terms) {
     const double taken = threshold * term.interference;
     const double variance = term.signal * (term.unit - 2 * taken) + squared(taken);
     if (!(variance > 1e-12 * squared(greatest))) continue;
     double scale = std::max(term.unit, term.signal) - taken;
-    const double least = std::sqrt(variance) / 2;
-    if (std::abs(scale) < least) scale = std::copysign(least, scale);
+    if (4 * squared(scale) < variance) scale = std::copysign(std::sqrt(variance) / 2, scale);
     const double rest = louder * term.signal_beats - threshold * term.interference_beats;
-    const auto octave = static_cast<std::size_t>(
-        std::clamp(-std::ilogb(std::abs(scale) / greatest), 0, static_cast<int>(kOctaves) - 1));
+    const std::size_t octave = octaves_below(std::abs(scale) * inverse, kOctaves - 1);
     Octave& sum = octaves[scale > 0 ? octave : kOctaves + octave];
     sum.mean += variance / scale;
     sum.variance += variance;
@@ -138,6 +148,7 @@ BandLaw::BandLaw(const CollectedSound& sound, double threshold, double slow_powe
 }
 
 // Loops over the points without sums and calls, which compilers make vectors.
+HALOCLINE_VECTOR_CLONES
 BandLaw::Points BandLaw::points(const Stretches& stretches) const {
   Points points;
   if (!(variance_ > 1e-9 * squared(mean_))) {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
+#include "acoustics/math/fast_functions.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "core/vector_clones.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -21,13 +24,25 @@ double raised_cosine(double x) {
   return x >= 1 ? 0 : (1 + elementary::cos(std::numbers::pi * x)) / 2;
 }
 
-double weight(const Modem& modem, double after_begin_s) {
-  if (after_begin_s < 0) return 0;
-  const double late_s = after_begin_s - modem.guard_time.seconds();
-  if (late_s <= 0) return 1;
-  const double taper_s = modem.guard_taper_or_default().seconds();
-  return taper_s > 0 ? raised_cosine(late_s / taper_s) : 0;
-}
+// The weights of a modem's window.
+class Guard {
+ public:
+  explicit Guard(const Modem& modem)
+      : guard_s_(modem.guard_time.seconds()),
+        taper_s_(modem.guard_taper_or_default().seconds()),
+        longest_s_((modem.guard_time + modem.guard_taper_or_default()).seconds()) {}
+
+  double weight(double after_begin_s) const {
+    if (after_begin_s < 0) return 0;
+    const double late_s = after_begin_s - guard_s_;
+    if (late_s <= 0) return 1;
+    return taper_s_ > 0 ? raised_cosine(late_s / taper_s_) : 0;
+  }
+  double longest_s() const { return longest_s_; }
+
+ private:
+  double guard_s_, taper_s_, longest_s_;
+};
 
 // Share of the power of an echo that meets the tones of its own packet.
 double hop_overlap(const Modem& modem, double apart_s) {
@@ -36,38 +51,55 @@ double hop_overlap(const Modem& modem, double apart_s) {
   return (1 - raised_cosine(back_s / modem.chip.seconds())) / modem.hop_count;
 }
 
-std::vector<double> powers_of(const std::vector<SoundPath>& paths) {
-  std::vector<double> powers;
-  powers.reserve(paths.size());
-  for (const SoundPath& path : paths) powers.push_back(to_power_ratio(path.level).value);
-  return powers;
+HALOCLINE_VECTOR_CLONES
+void replace_by_powers(std::span<double> levels_db) {
+  for (double& value : levels_db) value = fast_power(value);
 }
 
-// Sum of w^2 P of the window that begins at each path.
+// Sum of w^2 P of the window that begins at each path; 0 of those whose paths of full weight are together weaker than the best
+// by more than what likely_windows() looks at.
 std::vector<double> window_powers(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
-                                  const Modem& modem) {
-  const double longest_s = (modem.guard_time + modem.guard_taper_or_default()).seconds();
-  std::vector<double> sums;
-  for (std::size_t first = 0; first < paths.size(); ++first) {
+                                  const Guard& guard) {
+  const double counts = fast_power(-1.01 * kEqualDb);
+  std::vector<double> sums(paths.size()), wholes(paths.size());  // wholes: of all paths in reach
+  double whole = 0;
+  for (std::size_t first = 0, end = 0; first < paths.size(); ++first) {
+    for (; end < paths.size() && !(paths[end].delay_s - paths[first].delay_s > guard.longest_s()); ++end) {
+      whole += powers[end];
+    }
+    wholes[first] = whole;
+    whole -= powers[first];
+  }
+  const auto sum_from = [&](std::size_t first) {
     double sum = 0;
     for (std::size_t i = first; i < paths.size(); ++i) {
       const double after_s = paths[i].delay_s - paths[first].delay_s;
-      if (after_s > longest_s) break;
-      const double w = weight(modem, after_s);
+      if (after_s > guard.longest_s()) break;
+      const double w = guard.weight(after_s);
       sum += w * w * powers[i];
     }
-    sums.push_back(sum);
+    return sum;
+  };
+  const auto most = static_cast<std::size_t>(std::max_element(wholes.begin(), wholes.end()) - wholes.begin());
+  sums[most] = sum_from(most);
+  double best = sums[most];
+  for (std::size_t first = 0; first < paths.size(); ++first) {
+    if (first == most || wholes[first] < counts * best) continue;
+    sums[first] = sum_from(first);
+    best = std::max(best, sums[first]);
   }
   return sums;
 }
 
 GuardWindow window_from(std::size_t first, const std::vector<SoundPath>& paths,
-                        const std::vector<double>& powers, const Modem& modem) {
+                        const std::vector<double>& powers, const Modem& modem, const Guard& guard) {
   GuardWindow window{.first = first, .strongest = first, .weights = {}, .interference = {}};
+  window.weights.reserve(paths.size());
+  window.interference.reserve(paths.size());
   double strongest = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const double after_s = paths[i].delay_s - paths[first].delay_s;
-    const double w = i < first ? 0 : weight(modem, after_s);
+    const double w = i < first ? 0 : guard.weight(after_s);
     window.weights.push_back(w);
     window.interference.push_back((1 - w * w) * (w < 1 ? hop_overlap(modem, std::abs(after_s)) : 0));
     if (w * w * powers[i] > strongest) {
@@ -80,26 +112,36 @@ GuardWindow window_from(std::size_t first, const std::vector<SoundPath>& paths,
 
 }  // namespace
 
+std::vector<double> mean_powers(const std::vector<SoundPath>& paths) {
+  std::vector<double> powers;
+  powers.reserve(paths.size());
+  for (const SoundPath& path : paths) powers.push_back(path.level.value);
+  replace_by_powers(powers);
+  return powers;
+}
+
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem) {
-  const std::vector<double> powers = powers_of(paths), sums = window_powers(paths, powers, modem);
+  const Guard guard(modem);
+  const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
   const auto best = std::max_element(sums.begin(), sums.end());
-  return window_from(static_cast<std::size_t>(best - sums.begin()), paths, powers, modem);
+  return window_from(static_cast<std::size_t>(best - sums.begin()), paths, powers, modem, guard);
 }
 
 std::vector<LikelyWindow> likely_windows(const std::vector<SoundPath>& paths, const Modem& modem) {
-  const std::vector<double> powers = powers_of(paths), sums = window_powers(paths, powers, modem);
+  const Guard guard(modem);
+  const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
   const auto best = static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
-  std::vector<LikelyWindow> windows{{window_from(best, paths, powers, modem), 1}};
+  std::vector<LikelyWindow> windows{{window_from(best, paths, powers, modem, guard), 1}};
   const double strongest_s = paths[windows[0].window.strongest].delay_s;
   std::size_t other = best;
   for (std::size_t first = 0; first < paths.size(); ++first) {
-    if (weight(modem, strongest_s - paths[first].delay_s) > kShared) continue;
+    if (guard.weight(strongest_s - paths[first].delay_s) > kShared) continue;
     if (other == best || sums[first] > sums[other]) other = first;
   }
   if (other == best || !(sums[other] > 0)) return windows;
   const double close = 1 - to_decibels({sums[best] / sums[other]}).value / kEqualDb;
   if (!(close > 0)) return windows;
-  windows.push_back({window_from(other, paths, powers, modem), close * close / 2});
+  windows.push_back({window_from(other, paths, powers, modem, guard), close * close / 2});
   windows[0].probability -= windows[1].probability;
   return windows;
 }

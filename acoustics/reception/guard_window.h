@@ -23,6 +23,9 @@ struct GuardWindow {
   std::vector<double> interference;  // share of each path's power that interferes, 0..1
 };
 
+// Mean powers of paths, uPa^2, within 1e-9.
+std::vector<double> mean_powers(const std::vector<SoundPath>& paths);
+
 // `paths` by delay, not empty.
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem);
 

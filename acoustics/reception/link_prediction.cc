@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <cstdint>
 #include <numbers>
+#include <span>
 
 #include "acoustics/math/delay_profile.h"
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/mean_sound.h"
+#include "acoustics/reception/medium_states.h"
 #include "acoustics/reception/packet_levels.h"
 #include "acoustics/reception/power_law.h"
 #include "acoustics/reception/strata_mean.h"
@@ -22,16 +23,14 @@
 namespace halocline::acoustics {
 namespace {
 
-using Complex = std::complex<double>;
-
-constexpr std::size_t kPowers = 8, kPatterns = 16;
+constexpr std::size_t kPowers = 8, kPatterns = kMediumStates;
 constexpr double kAlike = 0.03;  // slow fading of less than this share of the signal counts as none
 
 // The medium's states: scores of the slow power, and normals of its pressures.
 struct SlowStates {
   std::array<double, kPowers> powers = normal_strata<kPowers>();
   std::array<double, kPatterns> pattern_powers = normal_strata<kPatterns>();
-  std::array<BandPressures, kPatterns> patterns{};  // normals of the medium
+  MediumNormals patterns{};
 
   SlowStates() {
     for (std::size_t c = 0; c < 2 * kSignalFrequencies; ++c) add_coordinate(c);
@@ -40,8 +39,8 @@ struct SlowStates {
   // with those before, by itself and by squares.
   void add_coordinate(std::size_t c) {
     constexpr std::uint64_t kTrials = 300;
-    const auto value = [&](std::size_t i, std::size_t k) {
-      return k % 2 == 0 ? patterns[i][k / 2].real() : patterns[i][k / 2].imag();
+    const auto coordinate = [&](std::size_t k) -> std::array<double, kPatterns>& {
+      return k % 2 == 0 ? patterns.re[k / 2] : patterns.im[k / 2];
     };
     std::array<double, kPatterns> best{};
     double least = 1e300;
@@ -55,8 +54,8 @@ struct SlowStates {
       for (std::size_t k = 0; k < c; ++k) {
         double products = 0, squares = 0;
         for (std::size_t i = 0; i < kPatterns; ++i) {
-          products += order[i] * value(i, k);
-          squares += (squared(order[i]) - 1) * (2 * squared(value(i, k)) - 1);
+          products += order[i] * coordinate(k)[i];
+          squares += (squared(order[i]) - 1) * (2 * squared(coordinate(k)[i]) - 1);
         }
         correlated += squared(products) + squared(squares);
       }
@@ -65,10 +64,7 @@ struct SlowStates {
         best = order;
       }
     }
-    for (std::size_t i = 0; i < kPatterns; ++i) {
-      const double normal = best[i] / std::numbers::sqrt2;
-      patterns[i][c / 2] += c % 2 == 0 ? Complex(normal, 0) : Complex(0, normal);
-    }
+    for (std::size_t i = 0; i < kPatterns; ++i) coordinate(c)[i] = best[i] / std::numbers::sqrt2;
   }
 };
 
@@ -79,15 +75,16 @@ const SlowStates& slow_states() {
 
 // The medium's states over the band, the quietest first, with the strata of the slow power.
 std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
-  const MediumStates medium(sound);
-  const PowerLaw slow = sound.slow;
+  const std::array<SlowSound, kPatterns> states = medium_states(sound, slow_states().patterns);
   std::array<SlowSound, kPatterns> patterns;
-  for (std::size_t i = 0; i < kPatterns; ++i) patterns[i] = medium.state(slow_states().patterns[i]);
-  std::sort(patterns.begin(), patterns.end(),
-            [](const SlowSound& a, const SlowSound& b) { return a.slow_power < b.slow_power; });
+  std::array<std::size_t, kPatterns> order;
+  for (std::size_t i = 0; i < kPatterns; ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return states[a].slow_power < states[b].slow_power; });
+  const std::array<double, kPatterns> powers = sound.slow.at(slow_states().pattern_powers);
   for (std::size_t i = 0; i < kPatterns; ++i) {
-    const double power = std::max(slow.at(slow_states().pattern_powers[i]), 0.0);
-    if (patterns[i].slow_power > 0) patterns[i].scale(power / patterns[i].slow_power);
+    patterns[i] = states[order[i]];
+    if (patterns[i].slow_power > 0) patterns[i].scale(std::max(powers[i], 0.0) / patterns[i].slow_power);
   }
   return patterns;
 }
@@ -95,14 +92,14 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
 // Phase-shift keying: levels by the slow power, which rises; computed at four scores, between them by the cubic through those.
 // Where the quietest are decoded or the loudest lost, all are.
 std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const StrataMean& mean,
-                                                  const PowerLaw& slow) {
+                                                  const std::array<double, kPowers>& powers) {
   const auto& scores = slow_states().powers;
   std::array<StrataMean::Levels, kPowers> levels;
   std::array<double, StrataMean::kLevels>
       parts{};  // guessed as those of the power before, or else of the level before
   double last = 0;
   const auto compute = [&](std::size_t i) {
-    const FadingSignal fading = packet.fading_signal(std::max(slow.at(scores[i]), 0.0));
+    const FadingSignal fading = packet.fading_signal(powers[i]);
     levels[i] = mean.levels([&](std::size_t k) {
       if (!(parts[k] > 0)) parts[k] = last;
       const Level bits = packet.bits(fading, mean.noise(k), parts[k]);
@@ -111,7 +108,7 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
     });
   };
   compute(0);
-  if (!(slow.variance > 0) || mean.decodes(levels.front().front())) {
+  if (!(powers.back() > powers.front()) || mean.decodes(levels.front().front())) {
     std::fill(levels.begin() + 1, levels.end(), levels.front());
     return levels;
   }
@@ -140,42 +137,90 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
 void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
   const PowerLaw slow = sound.slow;
   const bool alike = slow.variance < squared(kAlike * (slow.mean + sound.fast));
-  const PowerLaw powers = alike ? PowerLaw{slow.mean} : slow;
+  std::array<double, kPowers> powers = (alike ? PowerLaw{slow.mean} : slow).at(slow_states().powers);
+  for (double& power : powers) power = std::max(power, 0.0);
   const auto levels = levels_of(packet, mean, powers);
   Level preamble;
   for (std::size_t i = 0; i < kPowers; ++i) {
     if (i == 0 || (!alike && !mean.finds(preamble))) {
-      preamble = packet.preamble(std::max(powers.at(slow_states().powers[i]), 0.0));
+      preamble = packet.preamble(powers[i]);
     }
     mean.add(preamble, levels[i], i, 1.0 / kPowers);
   }
 }
 
-// Frequency-shift keying: the middle level of each state; those on both sides of it as far from it as in the states nearest in
-// power of those of which all are computed. Where those are certain, each state by itself.
+// Frequency-shift keying: levels of the bits, of many states together.
+class StateLevels {
+ public:
+  StateLevels(const PacketLevels& packet, const StrataMean& mean,
+              const std::array<SlowSound, kPatterns>& states)
+      : packet_(packet), mean_(mean), states_(states) {}
+
+  std::array<StrataMean::Levels, kPatterns> levels{};
+
+  // Level `k` of these states.
+  void compute(std::span<const std::size_t> states, std::size_t k) {
+    std::array<PacketLevels::StateAndNoise, kPatterns> cases{};
+    std::array<Level, kPatterns> made;
+    for (std::size_t i = 0; i < states.size(); ++i) cases[i] = {&states_[states[i]], mean_.noise(k)};
+    packet_.bits(std::span(cases).first(states.size()), std::span(made).first(states.size()));
+    for (std::size_t i = 0; i < states.size(); ++i) levels[states[i]][k] = made[i];
+  }
+  // Of a state by itself, where its level `k` is not as certain as that of others.
+  void compute_unless(bool certain, std::size_t i, std::size_t k) {
+    if (certain) {
+      mean_.spread(levels[i], k, 0, StrataMean::kLevels);
+    } else {
+      levels[i] = mean_.levels([&](std::size_t at) { return packet_.bits(states_[i], mean_.noise(at)); });
+    }
+  }
+
+ private:
+  const PacketLevels& packet_;
+  const StrataMean& mean_;
+  const std::array<SlowSound, kPatterns>& states_;
+};
+
+// The middle level of each state; those on both sides of it as far from it as in the states nearest in power of those of which
+// all are computed. Where those are certain, each state by itself.
 std::array<StrataMean::Levels, kPatterns> levels_of(const PacketLevels& packet, const StrataMean& mean,
                                                     const std::array<SlowSound, kPatterns>& patterns) {
-  constexpr std::size_t kMiddle = StrataMean::kLevels / 2, kApart = 5;
-  const auto level = [&](std::size_t i) {
-    return [&, i](std::size_t k) { return packet.bits(patterns[i], mean.noise(k)); };
-  };
-  std::array<StrataMean::Levels, kPatterns> levels;
-  bool decoded = true, lost = true;
-  for (std::size_t i = 0; i < kPatterns; i += kApart) {
-    decoded = decoded && mean.decodes(level(i)(0));
-    lost = lost && !decoded && mean.loses(level(i)(StrataMean::kLevels - 1));
-    if (!decoded && !lost) break;
-  }
-  if (decoded || lost) {
-    for (std::size_t i = 0; i < kPatterns; ++i) levels[i] = mean.levels(level(i));
+  constexpr std::size_t kMiddle = StrataMean::kLevels / 2, kLast = StrataMean::kLevels - 1, kApart = 5;
+  constexpr std::array<std::size_t, 4> kComputed{0, 5, 10, 15};
+  constexpr std::array<std::size_t, 12> kOthers{1, 2, 3, 4, 6, 7, 8, 9, 11, 12, 13, 14};
+  StateLevels all(packet, mean, patterns);
+  auto& levels = all.levels;
+  all.compute(kComputed, 0);
+  if (std::all_of(kComputed.begin(), kComputed.end(),
+                  [&](std::size_t i) { return mean.decodes(levels[i][0]); })) {
+    all.compute(kOthers, 0);
+    for (std::size_t i = 0; i < kPatterns; ++i) all.compute_unless(mean.decodes(levels[i][0]), i, 0);
     return levels;
   }
-  for (std::size_t i = 0; i < kPatterns; i += kApart) levels[i] = mean.uncertain_levels(level(i));
-  for (std::size_t i = 0; i < kPatterns; ++i) {
-    if (i % kApart == 0) continue;
+  all.compute(kComputed, kLast);
+  if (std::all_of(kComputed.begin(), kComputed.end(),
+                  [&](std::size_t i) { return mean.loses(levels[i][kLast]); })) {
+    all.compute(kOthers, kLast);
+    for (std::size_t i = 0; i < kPatterns; ++i) all.compute_unless(mean.loses(levels[i][kLast]), i, kLast);
+    return levels;
+  }
+  all.compute(kComputed, kMiddle);
+  all.compute(kOthers, kMiddle);
+  std::array<std::size_t, kComputed.size()> bent{};
+  std::size_t bent_count = 0;
+  for (const std::size_t i : kComputed) {
+    if (mean.lie_on_parabola(levels[i])) {
+      mean.fill_parabola(levels[i]);
+    } else {
+      bent[bent_count++] = i;
+    }
+  }
+  for (const std::size_t k : {std::size_t{1}, kLast - 1}) all.compute(std::span(bent).first(bent_count), k);
+  for (std::size_t i = 0; i < bent_count; ++i) mean.fill_quartic(levels[bent[i]]);
+  for (const std::size_t i : kOthers) {
     const StrataMean::Levels &low = levels[i - i % kApart], &high = levels[i - i % kApart + kApart];
     const double part = static_cast<double>(i % kApart) / kApart;
-    const Level middle = level(i)(kMiddle);
+    const Level middle = levels[i][kMiddle];
     const auto beside = [&](double one, double one_middle, double other, double other_middle) {
       return (1 - part) * (one - one_middle) + part * (other - other_middle);
     };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/math/fast_functions.h"
@@ -13,6 +14,7 @@
 #include "acoustics/reception/steady_band.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "core/vector_clones.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -30,11 +32,9 @@ Complex product(Complex a, Complex b) {
 }
 double real_product(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }  // of a b*
 
-void add_to(BandCorrelation& correlation, double power, Complex turn) {
-  Complex term = power;
-  for (Complex& value : correlation) {
-    value += term;
-    term = product(term, turn);
+void add_to(BandCorrelation& correlation, double power, const BandTurns& turns) {
+  for (std::size_t k = 0; k < kFrequencies; ++k) {
+    correlation[k] += Complex(power * turns.re[k], power * turns.im[k]);
   }
 }
 
@@ -68,30 +68,32 @@ double mean_product(const BandPressures& a, const BandPressures& b) {
 // Sums over the paths of frequency-shift keying.
 class BandSums {
  public:
-  BandSums(const Modem& receiver, const Band& band, double strongest)
+  BandSums(const Modem& receiver, const Band& band, double strongest, std::size_t paths)
       : band_(band),
         spacing_hz_(band.width_hz() / kFrequencies),
         strongest_(strongest),
-        steady_(receiver, band) {}
+        steady_(receiver, band, paths) {}
 
   void add(const SoundPath& path, double power, double turned_share, double fast, double excess_s) {
-    const Complex turn = elementary::polar(1.0, -2 * pi * turned(spacing_hz_ * excess_s, 1));
+    const BandTurns turns = band_turns(-spacing_hz_ * excess_s);
     // What is hardly coherent turns as the medium does.
     const bool steadily = power * path.fading.coherent > kIncoherent * strongest_;
     if (steadily) {
       const double coherent = std::sqrt(power * path.fading.coherent);
       const double at_low = path.phase_rad - 2 * pi * turned(band_.low_hz * excess_s, 1);
-      steady_.add({coherent, at_low, excess_s, elementary::sin(path.launch_angle_rad),
-                   elementary::sin(path.arrival_angle_rad)});
-      Complex pressure = elementary::polar(coherent, at_low - pi * turned(spacing_hz_ * excess_s, 2));
-      for (Complex& sum : pressures_) {
-        sum += pressure;
-        pressure = product(pressure, turn);
+      const Complex pressure =
+          steady_.add({coherent, at_low, excess_s, elementary::sin(path.launch_angle_rad),
+                       elementary::sin(path.arrival_angle_rad)},
+                      turns);
+      for (std::size_t m = 0; m < kFrequencies; ++m) {
+        pressures_[m] += product(pressure, {turns.re[m], turns.im[m]});
       }
     }
-    add_to(medium_, power * (turned_share + (steadily ? 0 : path.fading.coherent)), turn);
-    add_to(scattered_, power * fast, turn);
-    add_to(beating_, power * fast * squared(sinc(spacing_hz_ * excess_s)), turn);
+    add_to(medium_, power * (turned_share + (steadily ? 0 : path.fading.coherent)), turns);
+    add_to(scattered_, power * fast, turns);
+    // sin(pi x) / (pi x) by the turn of half a part: 1 - cos(2 pi x) = 2 sin(pi x)^2.
+    const double x = pi * spacing_hz_ * excess_s;
+    add_to(beating_, power * fast * (std::abs(x) < 1e-4 ? 1 : (1 - turns.re[1]) / (2 * x * x)), turns);
   }
 
   void finish(MeanSound& sound) {
@@ -136,6 +138,35 @@ class BandSums {
   BandCorrelation medium_{}, scattered_{}, beating_{};
 };
 
+// Of each path's fading, what single values need of it: slowly computed, all paths together.
+struct PathRates {
+  std::vector<double> rates;  // 1 / L of its power, 1/s
+  std::vector<double> holds;  // share of what is scattered that holds through the bits
+  std::vector<double> kept_preamble, kept_bits;
+};
+HALOCLINE_VECTOR_CLONES
+void compute(double preamble_s, double bits_s, PathRates& paths) {
+  const std::size_t count = paths.rates.size();
+  const double* rates = paths.rates.data();
+  double *holds = paths.holds.data(), *preambles = paths.kept_preamble.data(), *bits = paths.kept_bits.data();
+  for (std::size_t p = 0; p < count; ++p) {
+    holds[p] = 1 / (1 + squared(rates[p] * bits_s));
+    preambles[p] = kept_variance(rates[p] * preamble_s);
+    bits[p] = kept_variance(rates[p] * bits_s);
+  }
+}
+PathRates rates_of(const std::vector<SoundPath>& paths, double preamble_s, double bits_s) {
+  const std::size_t count = paths.size();
+  PathRates made;
+  made.rates.reserve(count);
+  for (const SoundPath& path : paths) made.rates.push_back(2 * pi * path.fading.doppler_spread_hz);
+  made.holds.resize(count);
+  made.kept_preamble.resize(count);
+  made.kept_bits.resize(count);
+  compute(preamble_s, bits_s, made);
+  return made;
+}
+
 double share_within(double begin_s, double end_s, double from_s, double to_s) {
   return to_s > from_s
              ? std::clamp((std::min(end_s, to_s) - std::max(begin_s, from_s)) / (to_s - from_s), 0.0, 1.0)
@@ -143,14 +174,14 @@ double share_within(double begin_s, double end_s, double from_s, double to_s) {
 }
 
 // Of the bits, by the power that sounds in them.
-double late_share(const std::vector<SoundPath>& paths, const GuardWindow& window, double preamble_s,
-                  double end_s) {
+double late_share(const std::vector<SoundPath>& paths, const std::vector<double>& powers,
+                  const GuardWindow& window, double preamble_s, double end_s) {
   double all = 0, shared = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     if (!(window.interference[p] > 0)) continue;
     const double begin_s = paths[p].delay_s - paths[window.first].delay_s,
                  share = share_within(begin_s, begin_s + end_s, preamble_s, end_s),
-                 power = window.interference[p] * fast_power(paths[p].level.value) * share;
+                 power = window.interference[p] * powers[p] * share;
     all += power;
     shared += share * power;
   }
@@ -158,8 +189,6 @@ double late_share(const std::vector<SoundPath>& paths, const GuardWindow& window
 }
 
 }  // namespace
-
-double kept_variance(double x) { return 1 / std::sqrt(1 + x * x / pi); }
 
 double kept_of_longer(double kept) { return kept / std::sqrt(kept * kept + (1 - kept * kept) / 2); }
 double kept_of_part(double kept, double part) {
@@ -173,19 +202,22 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
   const double kept = doppler_share(*lock.modem, strongest, band.centre_hz());
   const double preamble_s = timing.preamble.seconds(), end_s = timing.duration.seconds(),
                bits_s = end_s - preamble_s;
+  const std::vector<double> powers = mean_powers(paths);
+  const PathRates rates = rates_of(paths, preamble_s, bits_s);
   MeanSound sound;
-  if (collects) sound.late_share = late_share(paths, lock.window, preamble_s, end_s);
-  BandSums sums(*lock.modem, band, fast_power(strongest.level.value));
+  if (collects) sound.late_share = late_share(paths, powers, lock.window, preamble_s, end_s);
+  std::optional<BandSums> sums;
+  if (!collects) sums.emplace(*lock.modem, band, powers[lock.window.strongest], paths.size());
   std::vector<CollectedPath> collected;
   if (collects) collected.reserve(paths.size());
   double signal = 0, untracked = 0, spread = 0, all = 0, all_spread = 0, preamble_root = 0, bits_root = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     const SoundPath& path = paths[p];
     const PathFading& fading = path.fading;
-    const double power = fast_power(path.level.value), begin_s = path.delay_s - first.delay_s;
-    const double rate = 2 * pi * fading.doppler_spread_hz;  // 1 / L of its power
+    const double power = powers[p], begin_s = path.delay_s - first.delay_s;
+    const double kept_preamble = rates.kept_preamble[p], kept_bits = rates.kept_bits[p];
     // What is scattered so slowly that it holds through a packet fades as the medium does.
-    const double holds = 1 / (1 + squared(rate * bits_s));
+    const double holds = rates.holds[p];
     const double fast = fading.scattered * (1 - holds),
                  turned_share = fading.medium + fading.scattered * holds,
                  within = squared(lock.window.weights[p]) * power;
@@ -201,11 +233,11 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
       sound.bits_echoes += of_bits;
       sound.late_echoes += sounding;
       sound.fading_echoes += sounding * (collects ? 1 - fast : 1);
-      sound.preamble_echo_variance += squared(of_preamble) * fades * kept_variance(rate * preamble_s);
+      sound.preamble_echo_variance += squared(of_preamble) * fades * kept_preamble;
       // What fades within a packet does so with the signal of phase-shift keying.
       sound.bits_echo_variance +=
-          squared(sounding) * (collects ? turned_share * (turned_share + 2 * fading.coherent)
-                                        : fades * kept_variance(rate * bits_s));
+          squared(sounding) *
+          (collects ? turned_share * (turned_share + 2 * fading.coherent) : fades * kept_bits);
       interference += sounding;
     }
     const double excess_s = path.delay_s - strongest.delay_s;
@@ -226,11 +258,11 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     untracked += rest;
     all += within;
     all_spread += within * squared(fading.doppler_spread_hz);
-    if (!collects) sums.add(path, of_path, turned_share, fast, excess_s);
+    if (!collects) sums->add(path, of_path, turned_share, fast, excess_s);
     const double scattered = of_path * fast;
     spread += scattered * squared(fading.doppler_spread_hz);
-    preamble_root += scattered * std::sqrt(kept_variance(rate * preamble_s));
-    bits_root += scattered * std::sqrt(kept_variance(rate * bits_s));
+    preamble_root += scattered * std::sqrt(kept_preamble);
+    bits_root += scattered * std::sqrt(kept_bits);
   }
   if (collects) {
     sound.collected = collected_sound(collected, band);
@@ -239,7 +271,7 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
     sound.own = sound.collected.own;
     sound.beats = sound.collected.beats;
   } else {
-    sums.finish(sound);
+    sums->finish(sound);
   }
   if (untracked > kNegligible * signal) sound.untracked = untracked / signal;
   sound.window_spread_hz = all > 0 ? std::sqrt(all_spread / all) : 0;
@@ -260,41 +292,6 @@ PowerLaw MeanSound::power(double slow_power, double kept) const {
   return {slow_power + fast, kept * own + longer * mixed,
           fast * third_share(over_band) *
               (2 * fast * fast * third_share(kept) + 3 * mixed / over_band * third_share(longer))};
-}
-
-void SlowSound::scale(double factor) {
-  for (double& power : steady) power *= factor;
-  for (double& power : varying) power *= factor;
-  slow_power *= factor;
-}
-
-MediumStates::MediumStates(const MeanSound& sound) : sound_(sound) {
-  // Cholesky's root. Few paths leave the correlation without full rank: pivots of rounding's size count as none.
-  const auto& correlation = sound.medium;
-  for (std::size_t m = 0; m < kFrequencies; ++m) {
-    for (std::size_t n = 0; n <= m; ++n) {
-      Complex rest = correlation[m - n];
-      for (std::size_t k = 0; k < n; ++k) rest -= product(rows_[m][k], std::conj(rows_[n][k]));
-      const double pivot = rows_[n][n].real();
-      if (n < m) {
-        rows_[m][n] = pivot > 0 ? rest / pivot : 0;
-      } else {
-        rows_[m][m] = rest.real() > 1e-9 * correlation[0].real() ? std::sqrt(rest.real()) : 0;
-      }
-    }
-  }
-}
-
-SlowSound MediumStates::state(const BandPressures& normals) const {
-  SlowSound slow;
-  for (std::size_t m = 0; m < kFrequencies; ++m) {
-    Complex pressure = sound_.steady[m];
-    for (std::size_t k = 0; k <= m; ++k) pressure += product(rows_[m][k], normals[k]);
-    slow.steady[m] = std::norm(pressure);
-    slow.varying[m] = sound_.varying[m];
-    slow.slow_power += (slow.steady[m] + slow.varying[m]) / kFrequencies;
-  }
-  return slow;
 }
 
 }  // namespace halocline::acoustics

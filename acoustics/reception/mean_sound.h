@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "acoustics/fading/sound_path.h"
@@ -51,28 +53,9 @@ MeanSound mean_sound(const std::vector<SoundPath>& paths, const Lock& lock, cons
 
 // Share of its variance that the mean over a time keeps of a power whose autocorrelation is exp(-(tau / L)^2), for
 // x = time / L: 1 - x^2 / 6 of short times, sqrt(pi) / x of long ones, within 6 % between.
-double kept_variance(double x);
+inline double kept_variance(double x) { return 1 / std::sqrt(1 + x * x / std::numbers::pi); }
 // The same share for a power whose L is sqrt(2) times as long, and for a part of the time.
 double kept_of_longer(double kept);
 double kept_of_part(double kept, double part);
-
-// Powers while the medium holds in one state, by frequency.
-struct SlowSound {
-  std::array<double, kSignalFrequencies> steady{}, varying{};
-  double slow_power = 0;  // without what fades within a packet, over the band
-
-  void scale(double factor);
-};
-
-// States of the medium: pressures that have its correlation, from complex normals of variance 1.
-class MediumStates {
- public:
-  explicit MediumStates(const MeanSound& sound);
-  SlowSound state(const BandPressures& normals) const;
-
- private:
-  const MeanSound& sound_;
-  std::array<BandPressures, kSignalFrequencies> rows_{};  // of the lower triangular root of the correlation
-};
 
 }  // namespace halocline::acoustics

@@ -8,45 +8,26 @@
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/decoding.h"
+#include "acoustics/reception/exponential_means.h"
 #include "core/elementary.h"
+#include "core/vector_clones.h"
 
 namespace halocline::acoustics {
 namespace {
 
-using std::numbers::pi;
-
-constexpr std::size_t kFrequencies = kSignalFrequencies;
-constexpr double kDbPerNeper = 10 / std::numbers::ln10;
 constexpr double kMostScore = 6;
-constexpr double kMaxExponent = 300;  // of a ratio of variances: no packet of it is lost
-constexpr double kLeastLoss = 1e-6;   // of packets
-constexpr double kAlike = 0.02;       // of the variance: of no effect
-constexpr double kNoLoss = -5.5;      // score: nothing falls below
+constexpr double kLeastLoss = 1e-6;  // of packets
+constexpr double kAlike = 0.02;      // of the variance: of no effect
+constexpr double kNoLoss = -5.5;     // score: nothing falls below
 constexpr int kRounds = 3, kRoundsOfGuess = 2;
 constexpr double kSettled = 0.03;  // change of the parts by a round that needs no other
 constexpr double kNarrow =
     0.15;  // deviation over mean, 0.65 dB: below, fading is less than the steps of the curve
-// Our fits to judged packets (tests/channel_server/packets/link_prediction_test.cc): the softer the curve, the longer the
-// fades that count, by 1 / dB; of the variance of errors, and of the beats of coherent paths, what counts for single errors.
-constexpr double kErrorShare = 0.15, kBeatShare = 1;
+// Our fit to judged packets (tests/channel_server/packets/link_prediction_test.cc): of the variance of errors, what counts.
+constexpr double kErrorShare = 0.15;
 
 double halvings(double parts) {
   return std::clamp(fast_log(parts) / std::numbers::ln2, 0.0, ReceptionCurves::kHalvings - 1.001);
-}
-
-// Mean of exp(exponent - scale power) of a power that varies as S + sqrt(V) and S - sqrt(V), S^2 - V = constant^2, of which
-// single errors feel a part (our fit): the signal is met at one place of each part of the band.
-double of_beat(double constant, double varying, double scale, double exponent) {
-  const double mean = scale * (constant + varying);
-  const double swing =
-      std::min(kBeatShare * scale * std::sqrt(std::max(varying, 0.0) * (2 * constant + varying)), mean);
-  return (fast_exp(exponent - mean - swing) + fast_exp(exponent - mean + swing)) / 2;
-}
-
-double mean_of(const std::array<double, kFrequencies>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / kFrequencies;
 }
 
 double decibels(double power) { return fast_decibels(std::max(power, 1e-30)); }
@@ -87,6 +68,7 @@ FadingSignal::Side::Place FadingSignal::Side::place(double power, double log_pow
   return {low, above, (powers[low] > 0 ? log_power - logs[low] : power - powers[low]) * rises[above]};
 }
 
+HALOCLINE_VECTOR_CLONES
 void FadingSignal::Side::at(const Thresholds& powers, States& states) const {
   Thresholds log_powers;
   for (std::size_t k = 0; k < kThresholds; ++k) log_powers[k] = fast_log(powers[k] > 1e-300 ? powers[k] : 1);
@@ -108,6 +90,7 @@ double FadingSignal::Side::log_parts_at(double power) const {
 }
 
 // As many deviations from the mean on both sides.
+HALOCLINE_VECTOR_CLONES
 FadingSignal::States FadingSignal::at(const ReceptionCurves::Thresholds& thresholds,
                                       double disturbance) const {
   const Side &low = sides_.front(), &high = sides_.back();
@@ -146,7 +129,9 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
       bits_(static_cast<double>(curves.timing().information_bits)),
       bits_s_((curves.timing().duration - curves.timing().preamble).seconds()),
       coded_(is_coded_frequency_shift_keying(curves.modem().error_model)),
-      collects_band_(!is_frequency_shift_keying(curves.modem().error_model)) {
+      collects_band_(!is_frequency_shift_keying(curves.modem().error_model)),
+      own_(sound.bits_variance * sound.own),
+      beats_(kept_of_longer(sound.bits_variance) * sound.beats) {
   // The stretches of signal_history.h.
   stretches_ = std::clamp(std::ceil(4 * bits_s_ / coherence_time_of(sound.window_spread_hz)), 8.0, 64.0);
   const auto ratio_db = [&](double loss) { return curves.ratio_db_of(-loss / bits_); };
@@ -161,7 +146,8 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
 
 Level PacketLevels::preamble(double slow_power) const {
   const PowerLaw law = sound_.power(slow_power, sound_.preamble_variance);
-  const double low = decibels(law.at(-1.5)), middle = decibels(law.at(0)), high = decibels(law.at(1.5));
+  const std::array<double, 3> powers = law.at(std::array{-1.5, 0.0, 1.5});
+  const double low = decibels(powers[0]), middle = decibels(powers[1]), high = decibels(powers[2]);
   return {middle, (high - low) / 3, (high + low - 2 * middle) / 4.5};
 }
 
@@ -176,11 +162,15 @@ double PacketLevels::narrow_loss(const FadingSignal& signal, double disturbance)
   constexpr std::array<double, 5> kWeights{0.011257411327720689, 0.22207592200561266, 0.53333333333333333,
                                            0.22207592200561266, 0.011257411327720689};
   const double parts = std::min(signal.narrow_parts(), stretches_);
-  double success = 0;
+  std::array<double, kScores.size()> chances;
   for (std::size_t i = 0; i < kScores.size(); ++i) {
     const double ratio = (signal.mean() + kScores[i] * signal.deviation()) / disturbance;
-    success += kWeights[i] * fast_exp(bits_ / parts * curves_.log_bit_success(ratio));
+    chances[i] = fast_decibels(ratio > 1e-30 ? ratio : 1e-30);
   }
+  for (double& chance : chances) chance = bits_ / parts * curves_.log_bit_success_at(chance);
+  for (double& chance : chances) chance = fast_exp(chance);
+  double success = 0;
+  for (std::size_t i = 0; i < kScores.size(); ++i) success += kWeights[i] * chances[i];
   return -parts * fast_log(std::max(success, 1e-30));
 }
 
@@ -245,51 +235,37 @@ ReceptionCurves::Thresholds PacketLevels::thresholds(double parts) const {
 }
 
 Level PacketLevels::bits(const SlowSound& slow, double noise) const {
-  const double power = slow.slow_power + sound_.fast;
-  const double disturbance = noise + sound_.bits_echoes + sound_.untracked * power;
-  const Cells cells = cells_of(slow, (coded_ ? chip_ : slope_) / disturbance);
+  const StateAndNoise state{&slow, noise};
+  Level level;
+  bits({&state, 1}, {&level, 1});
+  return level;
+}
+
+void PacketLevels::bits(std::span<const StateAndNoise> states, std::span<Level> levels) const {
+  ExponentialMeans cells({sound_.fast, own_, beats_, !coded_});
+  std::array<double, ExponentialMeans::kMax> ratios;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const SlowSound& slow = *states[i].slow;
+    const double power = slow.slow_power + sound_.fast;
+    const double disturbance = states[i].noise + sound_.bits_echoes + sound_.untracked * power;
+    ratios[i] = power / disturbance;
+    cells.add(slow, (coded_ ? chip_ : slope_) / disturbance);
+  }
+  cells.finish();
   if (coded_) {
-    const double v = fast_log(1 + cells.variance), nepers = cells.nepers + v / 2;
-    return {decibels(std::max(nepers, 1e-12) / chip_), kDbPerNeper * std::sqrt(v) / nepers};
+    const ExponentialMeans::Ratios effective = cells.ratios();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      levels[i] = {effective.medians_db[i] - decibels(chip_), effective.deviations_db[i]};
+    }
+    return;
   }
   // Errors of single bits, a exp(-slope ratio): as if their number were gamma distributed over the fading,
   // E exp(-X) = (1 + mean v)^(-1 / v). Its tail is longer: of its variance a part counts (our fit).
-  const double errors = errors_at_zero_ * fast_exp(-cells.nepers), v = kErrorShare * cells.variance;
-  const double loss = v > 1e-6 ? fast_log(1 + errors * v) / v : errors;
-  return {std::min(curves_.ratio_db_of(-loss / bits_), decibels(power / disturbance))};
-}
-
-// Of exp(-scale power) over time and the band, each frequency Rician: E = exp(-c / (1 + d)) / (1 + d).
-// Loops over the frequencies without sums, which compilers make vectors; the sums apart.
-PacketLevels::Cells PacketLevels::cells_of(const SlowSound& slow, double scale) const {
-  using Frequencies = std::array<double, kFrequencies>;
-  const double d = scale * sound_.fast;
-  Frequencies c, b, losses, ones, squares;
-  for (std::size_t m = 0; m < kFrequencies; ++m) {
-    c[m] = scale * slow.steady[m];
-    b[m] = d + scale * slow.varying[m];
-    losses[m] = c[m] / (1 + b[m]);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double errors = errors_at_zero_ * fast_exp(-cells.nepers(i)), v = kErrorShare * cells.variance(i);
+    const double loss = v > 1e-6 ? fast_log(1 + errors * v) / v : errors;
+    levels[i] = {std::min(curves_.ratio_db_of(-loss / bits_), decibels(ratios[i]))};
   }
-  const double least = *std::min_element(losses.begin(), losses.end());  // taken out: loud cells underflow
-  if (coded_) {
-    for (std::size_t m = 0; m < kFrequencies; ++m) ones[m] = fast_exp(least - losses[m]) / (1 + b[m]);
-  } else {
-    for (std::size_t m = 0; m < kFrequencies; ++m) {
-      ones[m] = of_beat(slow.steady[m], slow.varying[m], scale / (1 + d), least) / (1 + d);
-    }
-  }
-  const double mean = mean_of(ones), nepers = least - fast_log(mean);
-  const double single = d * d + 2 * d * scale * slow.slow_power;
-  if (!(single > 0)) return {nepers, 0};
-  for (std::size_t m = 0; m < kFrequencies; ++m) {
-    const double twice = 1 / (1 + 2 * b[m]), exponent = 2 * (least - c[m] * twice);
-    squares[m] = fast_exp(exponent < kMaxExponent ? exponent : kMaxExponent) * twice - ones[m] * ones[m];
-  }
-  const double of_mean =
-      squared(scale) * sound_.power(slow.slow_power, sound_.bits_variance).variance / single;
-  // Deep fades, which count most, are shorter than the power's coherence, in time and in frequency.
-  const double shorter = fast_exp(2.0 / 3 * fast_log((1 + 2 * d) / squared(1 + d)));
-  return {nepers, mean_of(squares) * of_mean * shorter / (mean * mean)};
 }
 
 }  // namespace halocline::acoustics

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "acoustics/reception/band_law.h"
 #include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/mean_sound.h"
+#include "acoustics/reception/medium_states.h"
 #include "acoustics/reception/power_law.h"
 #include "acoustics/reception/reception_curves.h"
 
@@ -80,6 +82,12 @@ class PacketLevels {
   // is left; of frequency-shift keying, noise alone.
   FadingSignal fading_signal(double slow_power) const;
   Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
+  struct StateAndNoise {
+    const SlowSound* slow;
+    double noise;
+  };
+  // Of ExponentialMeans::kMax at most.
+  void bits(std::span<const StateAndNoise> states, std::span<Level> levels) const;
   Level bits(const SlowSound& slow, double noise) const;
 
  private:
@@ -88,12 +96,6 @@ class PacketLevels {
   double wide_loss(const FadingSignal& signal, double disturbance, double& parts) const;
   // Where so many parts turn from right to wrong.
   ReceptionCurves::Thresholds thresholds(double parts) const;
-  // -ln of the mean over a packet of exp(-scale power), and its relative variance over the fast fading.
-  struct Cells {
-    double nepers = 0, variance = 0;
-  };
-  Cells cells_of(const SlowSound& slow, double scale) const;
-
   const ReceptionCurves& curves_;
   const MeanSound& sound_;
   double chip_, bits_, bits_s_;
@@ -101,6 +103,7 @@ class PacketLevels {
   double stretches_ = 1;
   std::array<double, 2> thresholds_{};     // of phase-shift keying: those of FadingSignal
   double slope_ = 0, errors_at_zero_ = 0;  // of -ln(1 - BER) over the ratio
+  double own_, beats_;                     // MeanSound's, as the mean over the bits keeps them
 };
 
 }  // namespace halocline::acoustics

@@ -48,21 +48,46 @@ const QuantileTable& quantiles() {
 
 }  // namespace
 
-double gamma_quantile(double z, double skewness) {
-  const Place i = place((skewness - kLeastSkewness) / kStepSkewness, kSkewnesses),
-              j = place((z - kLeastZ) / kStepZ, kZs);
-  const auto &low = quantiles()[i.row], &high = quantiles()[i.row + 1];
-  return fast_exp(
-      mix(mix(low[j.row], low[j.row + 1], j.part), mix(high[j.row], high[j.row + 1], j.part), i.part));
-}
+namespace {
 
-double PowerLaw::at(double z) const {
-  if (!(variance > 1e-12 * mean * mean)) return mean;
+// ln of gamma quantiles of one skewness.
+class LogQuantiles {
+ public:
+  explicit LogQuantiles(double skewness) {
+    const Place i = place((skewness - kLeastSkewness) / kStepSkewness, kSkewnesses);
+    low_ = &quantiles()[i.row];
+    high_ = &quantiles()[i.row + 1];
+    part_ = i.part;
+  }
+  double at(double z) const {
+    const Place j = place((z - kLeastZ) / kStepZ, kZs);
+    return mix(mix((*low_)[j.row], (*low_)[j.row + 1], j.part),
+               mix((*high_)[j.row], (*high_)[j.row + 1], j.part), part_);
+  }
+
+ private:
+  const QuantileTable::value_type *low_, *high_;
+  double part_;
+};
+
+}  // namespace
+
+double gamma_quantile(double z, double skewness) { return fast_exp(LogQuantiles(skewness).at(z)); }
+
+double PowerLaw::at(double z) const { return at(std::array{z})[0]; }
+
+void PowerLaw::replace(std::span<double> scores) const {
+  if (!(variance > 1e-12 * mean * mean)) return std::fill(scores.begin(), scores.end(), mean);
   const double deviation = std::sqrt(variance);
   const double skewness = std::clamp(third / (variance * deviation), -2.0, 2.0);
-  if (std::abs(skewness) < kLeastSkewness) return mean + deviation * (z + skewness * (z * z - 1) / 6);
-  if (skewness < 0) return mean - deviation * 2 / -skewness * (gamma_quantile(-z, -skewness) - 1);
-  return mean + deviation * 2 / skewness * (gamma_quantile(z, skewness) - 1);
+  if (std::abs(skewness) < kLeastSkewness) {
+    for (double& z : scores) z = mean + deviation * (z + skewness * (z * z - 1) / 6);
+    return;
+  }
+  const double sign = skewness < 0 ? -1 : 1, unit = deviation * 2 / skewness;
+  const LogQuantiles logs(sign * skewness);
+  for (double& z : scores) z = logs.at(sign * z);
+  for (double& z : scores) z = mean + unit * (fast_exp(z) - 1);
 }
 
 double third_share(double kept) { return kept > 0.5 ? (3 * kept - 1) / 2 : kept * kept; }

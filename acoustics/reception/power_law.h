@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace halocline::acoustics {
 
@@ -16,6 +17,16 @@ struct PowerLaw {
 
   // The value that is fallen below with the probability that a standard normal falls below `z`.
   double at(double z) const;
+  // At many scores.
+  template <std::size_t count>
+  std::array<double, count> at(const std::array<double, count>& scores) const {
+    std::array<double, count> values = scores;
+    replace(values);
+    return values;
+  }
+
+ private:
+  void replace(std::span<double> scores) const;  // by the values there
 };
 
 // Of a gamma variable of mean 1 whose skewness is `skewness`, 0.1..2: variance = skewness^2 / 4.

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstddef>
 #include <vector>
 
@@ -28,20 +29,35 @@ namespace halocline::acoustics {
 
 inline constexpr double kSwayM = 0.2, kNearCycles = 4;
 
+// exp(j 2 pi m turns), m = 0..7; of half a turn, exp(j pi turns).
+struct BandTurns {
+  std::array<double, kSignalFrequencies> re{}, im{};
+  std::complex<double> half;
+};
+BandTurns band_turns(double turns);
+
 class SteadyBand {
  public:
   struct Part {
     double constant = 0, varying = 0;  // of the power, uPa^2
   };
 
-  SteadyBand(const Modem& receiver, const Band& band);
+  SteadyBand(const Modem& receiver, const Band& band, std::size_t paths = 0);  // about so many are added
   struct Path {
     double pressure = 0, phase_rad = 0,
            excess_s = 0;  // phase at the band's low end; delay after that of the reference
     double launch_sine = 0, arrival_sine = 0;
   };
 
-  void add(const Path& path);
+  // By path, for its pairs: pressure at the middle of the band, half of its turn over the band with sine and cosine.
+  struct Member {
+    double re, im, half, sine, cosine, launch_sine, arrival_sine, pressure;
+  };
+
+  // By rising delay.
+  void add(const Path& path) { add(path, band_turns(-part_hz_ * path.excess_s)); }
+  // The same, with the turns of its phase from part to part. Returns its pressure at the middle of the lowest.
+  std::complex<double> add(const Path& path, const BandTurns& turns);
   // From low to high.
   std::array<Part, kSignalFrequencies> parts() const { return parts(sway()); }
   // Variance of the mean over the band as the ends sway, uPa^4.
@@ -60,11 +76,11 @@ class SteadyBand {
   static void add(const Sway& sway, std::array<Part, kSignalFrequencies>& parts);
 
   Band band_;
-  std::vector<Path> paths_;
-  double spacing_hz_;  // of samples
+  double part_hz_;
   std::size_t samples_;
-  using Samples = std::array<double, kMaxSamples>;
-  std::array<Samples, kSignalFrequencies> re_{}, im_{};
+  using Samples = std::array<std::array<double, kSignalFrequencies>, kMaxSamples>;
+  Samples re_{}, im_{};  // by sample, then part
+  std::vector<Member> members_;
 };
 
 }  // namespace halocline::acoustics

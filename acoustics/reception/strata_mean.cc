@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "acoustics/math/fast_functions.h"
+#include "core/vector_clones.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -10,25 +11,57 @@ namespace {
 // All sound is louder by this factor, at a score of large-scale fading of `deviation` nepers of power.
 double loudness(double deviation, double z) { return fast_exp(deviation * z - deviation * deviation / 2); }
 
-// A gamma distribution of mean 1 at a normal score (Wilson and Hilferty 1931).
-double gamma_at(double variance, double score) {
-  const double root = 1 - variance / 9 + score * std::sqrt(variance) / 3;
-  return root > 0 ? root * root * root : 0;
+using Strata = std::array<double, 32>;
+
+// To `power`, what a gamma distribution of the mean `mean` has beyond `less` of it at normal scores (Wilson and Hilferty 1931).
+HALOCLINE_VECTOR_CLONES
+void add_gamma(double mean, double variance, double less, const Strata& scores, Strata& power) {
+  const double median = 1 - variance / 9, deviation = std::sqrt(variance) / 3;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const double root = median + scores[i] * deviation, held = root > 0 ? root : 0;
+    power[i] += mean * (held * held * held - less);
+  }
+}
+
+HALOCLINE_VECTOR_CLONES
+void set_decibels(const Strata& powers, Strata& levels_db) {
+  for (std::size_t i = 0; i < powers.size(); ++i) levels_db[i] = fast_decibels(powers[i]);
+}
+
+// Noise in units of the sound's loudness at scores of large-scale fading.
+HALOCLINE_VECTOR_CLONES
+void set_quiet(double noise, double deviation, double untracked, const Strata& scores, Strata& powers) {
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    powers[i] = noise / loudness(deviation, scores[i]) + untracked;
+  }
+}
+
+HALOCLINE_VECTOR_CLONES
+void exponentiate(std::size_t begin, std::size_t end, Strata& values) {
+  for (std::size_t i = begin; i < end; ++i) values[i] = fast_exp(values[i]);
 }
 
 }  // namespace
 
 // The levels, and the strata between which they are interpolated, each with normals for what fades fast.
 struct StrataMean::Scores {
+  static constexpr std::size_t kOrders = 8;
   std::array<double, kLevels> levels{-2.4, -1.6, -0.8, 0, 0.8, 1.6, 2.4};  // standard deviations
-  std::array<double, kStrata> strata = normal_strata<kStrata>();
-  // Beside stratum i: of late echoes; of the preamble, of even and odd blocks.
-  double echoes(std::size_t i) const { return strata[(11 * i + 5) % kStrata]; }
-  double preamble(std::size_t i, std::size_t state) const {
-    return strata[(9 * i + 4 * state + 12) % kStrata];
-  }
-  double block(std::size_t i, std::size_t state, std::size_t block) const {
-    return strata[block % 2 == 0 ? (7 * i + 4 * state + 19) % kStrata : (13 * i + 4 * state + 18) % kStrata];
+  Strata strata = normal_strata<kStrata>();
+  // Beside stratum i: of late echoes; by state, of the preamble, of even and odd blocks.
+  Strata echoes{};
+  std::array<Strata, kOrders> preambles{};
+  std::array<std::array<Strata, 2>, kOrders> blocks{};
+
+  Scores() {
+    for (std::size_t i = 0; i < kStrata; ++i) {
+      echoes[i] = strata[(11 * i + 5) % kStrata];
+      for (std::size_t state = 0; state < kOrders; ++state) {
+        preambles[state][i] = strata[(9 * i + 4 * state + 12) % kStrata];
+        blocks[state][0][i] = strata[(7 * i + 4 * state + 19) % kStrata];
+        blocks[state][1][i] = strata[(13 * i + 4 * state + 18) % kStrata];
+      }
+    }
   }
 };
 
@@ -40,16 +73,18 @@ const StrataMean::Scores& StrataMean::scores() {
 StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const MeanSound& sound, double noise)
     : curves_(curves) {
   const double untracked = sound.untracked * (sound.slow.mean + sound.fast);
-  std::array<double, kStrata> mean_db{};
-  for (std::size_t i = 0; i < kStrata; ++i) {
-    const double quiet = noise / loudness(deviation, scores().strata[i]) + untracked,
-                 score = scores().echoes(i);
-    preamble_db_[i] =
-        fast_decibels(quiet + sound.preamble_echoes * gamma_at(sound.preamble_echo_variance, score));
-    const double mean = quiet + sound.late_echoes,
-                 echoes = sound.fading_echoes * (gamma_at(sound.bits_echo_variance, score) - 1);
-    mean_db[i] = fast_decibels(mean);
-    echoes_db_[i] = fast_decibels((mean + echoes) / mean);
+  Strata quiet, mean, all;
+  set_quiet(noise, deviation, untracked, scores().strata, quiet);
+  mean = all = quiet;
+  if (sound.preamble_echoes > 0) {
+    add_gamma(sound.preamble_echoes, sound.preamble_echo_variance, 0, scores().echoes, quiet);
+  }
+  set_decibels(quiet, preamble_db_);
+  most_preamble_db_ = *std::max_element(preamble_db_.begin(), preamble_db_.end());
+  for (double& power : mean) power += sound.late_echoes;
+  all = mean;
+  if (sound.fading_echoes > 0) {
+    add_gamma(sound.fading_echoes, sound.bits_echo_variance, 1, scores().echoes, all);
   }
   if (is_frequency_shift_keying(curves.modem().error_model)) {
     const auto& levels = scores().levels;
@@ -57,24 +92,31 @@ StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const Me
       noise_[k] = noise / loudness(deviation, levels[k]);
       disturbance_db_[k] = fast_decibels(noise_[k] + sound.late_echoes + untracked);
     }
+    Strata places;
     for (std::size_t i = 0; i < kStrata; ++i)
-      places_[i] = (scores().strata[i] - levels[0]) / (levels[1] - levels[0]);
+      places[i] = (scores().strata[i] - levels[0]) / (levels[1] - levels[0]);
+    set_places(places);
+    if (sound.fading_echoes > 0) {
+      for (std::size_t i = 0; i < kStrata; ++i) all[i] /= mean[i];
+      set_decibels(all, echoes_db_);
+    }
     const auto [least, most] = std::minmax_element(echoes_db_.begin(), echoes_db_.end());
     least_echoes_db_ = *least;
     most_echoes_db_ = *most;
   } else {
     turns_ = 2;
     // The levels are those of all that disturbs, from the most to the least.
-    for (std::size_t i = 0; i < kStrata; ++i) mean_db[i] += echoes_db_[i];
-    echoes_db_.fill(0);
-    const auto [least, most] = std::minmax_element(mean_db.begin(), mean_db.end());
+    Strata all_db;
+    set_decibels(all, all_db);
+    const auto [least, most] = std::minmax_element(all_db.begin(), all_db.end());
     const double step_db = (*most - *least) / (kLevels - 1);
     for (std::size_t k = 0; k < kLevels; ++k) {
       disturbance_db_[k] = *most - step_db * static_cast<double>(k);
       noise_[k] = fast_power(disturbance_db_[k]);
     }
-    for (std::size_t i = 0; i < kStrata; ++i)
-      places_[i] = step_db > 1e-9 ? std::clamp((*most - mean_db[i]) / step_db, 0.0, kLevels - 1.001) : 0;
+    Strata places{};
+    for (std::size_t i = 0; i < kStrata && step_db > 1e-9; ++i) places[i] = (*most - all_db[i]) / step_db;
+    set_places(places);
   }
   const auto all_bits = static_cast<double>(curves.timing().information_bits);
   for (const std::int64_t bits : curves.blocks()) {
@@ -84,11 +126,17 @@ StrataMean::StrataMean(double deviation, const ReceptionCurves& curves, const Me
   }
 }
 
+void StrataMean::set_places(const Strata& places) {
+  for (std::size_t i = 0; i < kStrata; ++i) {
+    const double held = std::clamp(places[i], 0.0, kLevels - 1.001);
+    below_[i] = static_cast<std::size_t>(held);
+    parts_[i] = held - static_cast<double>(below_[i]);
+  }
+}
+
 bool StrataMean::finds(const Level& preamble) const {
   const double z = scores().strata.back();
-  return std::min(preamble.at(-z), preamble.at(z)) -
-             *std::max_element(preamble_db_.begin(), preamble_db_.end()) >
-         curves_.acquisition_flank().high_db;
+  return std::min(preamble.at(-z), preamble.at(z)) - most_preamble_db_ > curves_.acquisition_flank().high_db;
 }
 
 StrataMean::Levels& StrataMean::spread(Levels& bits, std::size_t from, std::size_t begin,
@@ -137,6 +185,25 @@ StrataMean::Levels& StrataMean::fill_quartic(Levels& bits) const {
   return bits;
 }
 
+void StrataMean::ratios_of_block(const Levels& bits, std::size_t state, std::size_t block,
+                                 Strata& ratios_db) const {
+  const Strata& normals = scores().blocks[state % Scores::kOrders][block % 2];
+  const double wider = blocks_[block].wider;
+  for (std::size_t j = 0, i = state % turns_; i < kStrata; ++j, i += turns_) {
+    const Level &low = bits[below_[i]], &high = bits[below_[i] + 1];
+    const double median = low.median_db + parts_[i] * (high.median_db - low.median_db),
+                 deviation = low.deviation_db + parts_[i] * (high.deviation_db - low.deviation_db);
+    ratios_db[j] = median + normals[i] * wider * deviation - echoes_db_[i];
+  }
+}
+
+void StrataMean::acquisitions(const Level& preamble, std::size_t state, Strata& chances) const {
+  const Strata& normals = scores().preambles[state % Scores::kOrders];
+  for (std::size_t j = 0, i = state % turns_; i < kStrata; ++j, i += turns_) {
+    chances[j] = curves_.acquisition_at(preamble.at(normals[i]) - preamble_db_[i]);
+  }
+}
+
 void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t state, double share) {
   const bool found = finds(preamble), lost = loses(bits.back()), decoded = decodes(bits.front());
   if (found && (lost || decoded)) {
@@ -144,28 +211,32 @@ void StrataMean::add(const Level& preamble, const Levels& bits, std::size_t stat
     delivered_ += decoded ? share : 0;
     return;
   }
-  const Scores& normals = scores();
   const std::size_t count = kStrata / turns_;
-  std::array<double, kStrata> acquired, logs{};
-  for (std::size_t j = 0, i = state % turns_; j < count; ++j, i += turns_) {
-    acquired[j] =
-        found ? 1 : curves_.acquisition_at(preamble.at(normals.preamble(i, state)) - preamble_db_[i]);
-  }
+  Strata acquired, ratios_db, chances{};
+  acquired.fill(1);
+  if (!found) acquisitions(preamble, state, acquired);
+  // Strata before `begin` are lost, from `end` on decoded.
+  std::size_t begin = lost ? count : blocks_.size() == 1 ? count : 0, end = lost ? count : 0;
   for (std::size_t b = 0; b < blocks_.size() && !lost && !decoded; ++b) {
-    for (std::size_t j = 0, i = state % turns_; j < count; ++j, i += turns_) {
-      const auto below = static_cast<std::size_t>(places_[i]);
-      const double part = places_[i] - static_cast<double>(below),
-                   z = normals.block(i, state, b) * blocks_[b].wider;
-      const double low = bits[below].at(z), high = bits[below + 1].at(z);
-      logs[j] += blocks_[b].bits * curves_.log_bit_success_at(low + part * (high - low) - echoes_db_[i]);
+    ratios_of_block(bits, state, b, ratios_db);
+    std::size_t first = 0, last = count;
+    while (first < count && !(ratios_db[first] > curves_.bits_flank().low_db)) ++first;
+    while (last > 0 && !(ratios_db[last - 1] < curves_.bits_flank().high_db)) --last;
+    begin = std::min(begin, first);
+    end = std::max(end, last);
+    for (std::size_t j = begin; j < last; ++j) {
+      chances[j] += blocks_[b].bits * curves_.log_bit_success_at(ratios_db[j]);
     }
   }
-  for (double& chance : logs) chance = fast_exp(chance);
+  if (decoded) begin = 0;
+  exponentiate(begin, end, chances);
+  double all = 0, right = 0;
+  for (std::size_t j = 0; j < count; ++j) all += acquired[j];
+  for (std::size_t j = begin; j < end; ++j) right += acquired[j] * chances[j];
+  for (std::size_t j = std::max(begin, end); j < count; ++j) right += acquired[j];
   const double weight = share / static_cast<double>(count);
-  for (std::size_t j = 0; j < count; ++j) {
-    acquired_ += weight * acquired[j];
-    if (!lost) delivered_ += weight * acquired[j] * logs[j];
-  }
+  acquired_ += weight * all;
+  delivered_ += weight * right;
 }
 
 }  // namespace halocline::acoustics

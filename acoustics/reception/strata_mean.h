@@ -79,16 +79,11 @@ class StrataMean {
     fill_between(kMiddle, kLevels - 1, bits, at);
     return bits;
   }
-  // The same, as if none were certain.
-  template <typename At>
-  Levels uncertain_levels(At at) const {
-    Levels bits;
-    for (const std::size_t k : {std::size_t{0}, kLevels / 2, kLevels - 1}) bits[k] = at(k);
-    if (lie_on_parabola(bits)) return fill_parabola(bits);
-    bits[1] = at(1);
-    bits[kLevels - 2] = at(kLevels - 2);
-    return fill_quartic(bits);
-  }
+  // Parts of levels(): `begin`..`end` as that of `from`, by noise and interference; by those at 0, 3 and 6; by 1 and 5, too.
+  Levels& spread(Levels& bits, std::size_t from, std::size_t begin, std::size_t end) const;
+  bool lie_on_parabola(const Levels& bits) const;
+  Levels& fill_parabola(Levels& bits) const;
+  Levels& fill_quartic(Levels& bits) const;
   // Adds what becomes of packets in a slow state that has this `share` of the probability; of phase-shift keying the mean over
   // the even strata of even states, the odd ones of odd. Normals of fast fading come in another order in each state.
   void add(const Level& preamble, const Levels& bits, std::size_t state, double share);
@@ -98,17 +93,19 @@ class StrataMean {
 
  private:
   static constexpr std::size_t kStrata = 32;
+  using Strata = std::array<double, kStrata>;
   struct Block {
     double bits, wider;
   };
   struct Scores;
   static const Scores& scores();
 
-  // Levels `begin`..`end` as that of `from`, by noise and interference.
-  Levels& spread(Levels& bits, std::size_t from, std::size_t begin, std::size_t end) const;
-  bool lie_on_parabola(const Levels& bits) const;
-  Levels& fill_parabola(Levels& bits) const;
-  Levels& fill_quartic(Levels& bits) const;
+  // The ratio, dB, that decides of a block, at those of the strata that take part in the state.
+  void ratios_of_block(const Levels& bits, std::size_t state, std::size_t block, Strata& ratios_db) const;
+  // Whether preambles are found.
+  void acquisitions(const Level& preamble, std::size_t state, Strata& chances) const;
+  void set_places(const Strata& places);
+
   template <typename At>
   void fill_between(std::size_t low, std::size_t high, Levels& bits, At at) const {
     if (high - low < 2) return;
@@ -123,14 +120,16 @@ class StrataMean {
   }
 
   const ReceptionCurves& curves_;
-  std::array<double, kStrata> preamble_db_{};  // noise and interference over large-scale fading
-  std::array<double, kStrata>
-      echoes_db_{};        // interference of the bits over its mean, as late echoes fade by themselves
+  Strata preamble_db_{};  // noise and interference over large-scale fading
+  double most_preamble_db_ = 0;
+  Strata echoes_db_{};     // interference of the bits over its mean, as late echoes fade by themselves
   std::size_t turns_ = 1;  // of states among which the strata are divided
   double least_echoes_db_ = 0, most_echoes_db_ = 0;
   std::array<double, kLevels> noise_{}, disturbance_db_{};
-  std::array<double, kStrata> places_{};  // of the strata between the levels
-  double widest_ = 0;                     // score of what fades fast
+  std::array<std::size_t, kStrata>
+      below_{};  // of the strata, the level below; the part of the way to the next
+  Strata parts_{};
+  double widest_ = 0;  // score of what fades fast
   std::vector<Block> blocks_;
   double acquired_ = 0, delivered_ = 0;
 };

@@ -1,4 +1,4 @@
-// What rows of link tables cost beside their paths: the predictions of all rates of each row, for the rows of 60 s of scenarios.
+// What rows of link tables cost beside their paths: predictions of all rates of a row, for the rows of 60 s of scenarios.
 #include <memory>
 #include <string>
 #include <utility>
