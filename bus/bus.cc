@@ -1,6 +1,8 @@
 #include "bus/bus.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -43,6 +45,17 @@ struct Bus::Subscription {
   RawHandler handler;
   lcm::Subscription* lcm_subscription = nullptr;
 
+  // Throws std::logic_error when LCM refuses the expression.
+  void begin(lcm::LCM& lcm, const std::string& regular_expression) {
+    lcm_subscription = lcm.subscribe("(" + escaped(channels::kRepair.prefix) + ")?" + regular_expression,
+                                     &Subscription::on_message, this);
+    ensure(lcm_subscription != nullptr, "LCM refuses the channel " + regular_expression);
+    lcm_subscription->setQueueCapacity(kQueueCapacity);
+  }
+  void end(lcm::LCM& lcm) {
+    if (lcm_subscription != nullptr) lcm.unsubscribe(std::exchange(lcm_subscription, nullptr));
+  }
+
   // LCM takes no const handler. NOLINTNEXTLINE(readability-make-member-function-const)
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
     if (bus->failure_) return;  // one failure ends the node; nothing more is handled on its way out
@@ -58,6 +71,14 @@ struct Bus::Subscription {
   }
 };
 
+// Subscriptions to single channels of one family. LCM compares each new channel with every subscription, so many of them
+// share one of LCM's.
+struct Bus::ChannelGroup {
+  std::map<std::string, std::vector<const Subscription*>, std::less<>> by_channel;
+  std::vector<Subscription*> all;
+  std::unique_ptr<Subscription> shared;  // to the whole family; null: each has its own
+};
+
 Bus::Bus(lcm::LCM& lcm, NodeIdentity identity)
     : lcm_(lcm), identity_(std::move(identity)), log_(identity_.name) {
   require(is_valid_name(identity_.name),
@@ -66,7 +87,10 @@ Bus::Bus(lcm::LCM& lcm, NodeIdentity identity)
 }
 
 Bus::~Bus() {
-  for (const auto& subscription : subscriptions_) lcm_.unsubscribe(subscription->lcm_subscription);
+  for (const auto& subscription : subscriptions_) subscription->end(lcm_);
+  for (const auto& [prefix, group] : groups_) {
+    if (group->shared) group->shared->end(lcm_);
+  }
 }
 
 void Bus::rethrow_if_failed() {
@@ -95,15 +119,37 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
   ++counters_.sent;
 }
 
-void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup) {
-  auto subscription = std::make_unique<Subscription>(Subscription{this, std::move(handler)});
-  subscription->lcm_subscription =
-      lcm_.subscribe("(" + escaped(channels::kRepair.prefix) + ")?" + regular_expression,
-                     &Subscription::on_message, subscription.get());
-  ensure(subscription->lcm_subscription != nullptr, "LCM refuses the channel " + regular_expression);
-  subscription->lcm_subscription->setQueueCapacity(kQueueCapacity);
-  subscriptions_.push_back(std::move(subscription));
+Bus::Subscription& Bus::add_subscription(const std::string& regular_expression, RawHandler handler,
+                                         Wakeup wakeup) {
   subscribed_.push_back({regular_expression, wakeup});
+  return *subscriptions_.emplace_back(std::make_unique<Subscription>(Subscription{this, std::move(handler)}));
+}
+
+void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup) {
+  add_subscription(regular_expression, std::move(handler), wakeup).begin(lcm_, regular_expression);
+}
+
+// A program for one vehicle keeps subscriptions of its own, so that LCM drops the messages of others as they arrive.
+void Bus::subscribe_channel(std::string_view channel, RawHandler handler, Wakeup wakeup) {
+  constexpr std::size_t kSharedFrom = 8;
+  const std::string_view prefix = channel.substr(0, channel.find('.') + 1);
+  if (prefix.empty()) return subscribe_raw(escaped(channel), std::move(handler), wakeup);
+  Subscription& subscription = add_subscription(escaped(channel), std::move(handler), wakeup);
+  std::unique_ptr<ChannelGroup>& group = groups_[std::string(prefix)];
+  if (!group) group = std::make_unique<ChannelGroup>();
+  group->by_channel[std::string(channel)].push_back(&subscription);
+  if (group->shared) return;
+  group->all.push_back(&subscription);
+  if (group->all.size() < kSharedFrom) return subscription.begin(lcm_, escaped(channel));
+  for (Subscription* own : group->all) own->end(lcm_);
+  const auto pass_on = [&by_channel = group->by_channel](std::string_view received_on, const void* data,
+                                                         std::size_t size) {
+    const auto subscribers = by_channel.find(received_on);
+    if (subscribers == by_channel.end()) return;
+    for (const Subscription* one : subscribers->second) one->handler(received_on, data, size);
+  };
+  group->shared = std::make_unique<Subscription>(Subscription{this, pass_on});
+  group->shared->begin(lcm_, escaped(prefix) + ".*");
 }
 
 void Bus::replay(std::string_view channel, const std::vector<std::uint8_t>& bytes) {

@@ -1,9 +1,8 @@
 // Typed publish and subscribe on an lcm::LCM, safe against what a bus may carry.
 //
-// A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its
-// channel and reason (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session,
-// sequence) is counted and, with enable_repair(), repaired. An exception that a handler throws never crosses
-// LCM's C frames: it is kept, and thrown by rethrow_if_failed().
+// A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its channel and reason
+// (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session, sequence) is counted and repaired after
+// enable_repair(). An exception that a handler throws never crosses LCM's C frames: rethrow_if_failed() throws it.
 //
 //   Bus bus(lcm, {"channel-server", session});
 //   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
@@ -80,9 +79,8 @@ class Bus {
   SimTime received_at() const { return received_at_; }
   // `tap` is called with each message that is accepted, before its handler.
   void set_tap(RawHandler tap) { tap_ = std::move(tap); }
-  // Handles a message as if LCM had dispatched it, before anything else is received: an input of an earlier
-  // incarnation of this node (message_journal.h). What follows it in its flow is then known to be missing, and
-  // is repaired.
+  // Handles a message as if LCM had dispatched it, before anything else is received: an input of an earlier incarnation of this
+  // node (message_journal.h). What follows it in its flow is then known to be missing, and is repaired.
   void replay(std::string_view channel, const std::vector<std::uint8_t>& bytes);
   // Takes a message that an earlier incarnation of this node published into the history from which repair
   // requests are answered. After enable_repair().
@@ -96,9 +94,8 @@ class Bus {
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
 
-  // For a bus that loses datagrams: from now on this Bus keeps what it publishes, requests what it misses, and
-  // drops duplicates (flow_repair.h). Its runner calls set_steady() before LCM dispatches, and repair() at
-  // next_repair() or earlier.
+  // For a bus that loses datagrams: from now on this Bus keeps what it publishes, requests what it misses, and drops duplicates
+  // (flow_repair.h). Its runner calls set_steady() before LCM dispatches, and repair() at next_repair() or earlier.
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady);
@@ -116,8 +113,11 @@ class Bus {
 
  private:
   struct Subscription;
+  struct ChannelGroup;
   // `regular_expression` matches channels; a repair on REPAIR.<channel> is handled as if received there.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
+  void subscribe_channel(std::string_view channel, RawHandler handler, Wakeup wakeup);
+  Subscription& add_subscription(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
@@ -136,6 +136,7 @@ class Bus {
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  std::map<std::string, std::unique_ptr<ChannelGroup>, std::less<>> groups_;  // by prefix
   std::vector<Subscribed> subscribed_;
   Outbox outbox_;
   RawHandler tap_;
@@ -163,7 +164,7 @@ void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup w
     Message message;
     if (accept(received_on, data, size, message)) handler(message);
   };
-  subscribe_raw(escaped(channel), decode_and_handle, wakeup);
+  subscribe_channel(channel, decode_and_handle, wakeup);
 }
 
 template <class Message>

@@ -82,6 +82,32 @@ TEST_F(BusTest, ALiteralChannelReceivesNoOtherChannel) {
   EXPECT_EQ(received, 1);
 }
 
+// Beyond a few they share one subscription of LCM's.
+TEST_F(BusTest, ManyChannelsOfAFamilyReceiveTheirOwnMessagesAlone) {
+  constexpr int kChannels = 50;
+  std::vector<std::vector<std::int64_t>> received(kChannels);
+  int twice = 0;
+  for (int i = 0; i < kChannels; ++i) {
+    bus_.subscribe<vehicle_state_t>("STATE.v" + std::to_string(i),
+                                    [&received, i](const vehicle_state_t& state) {
+                                      received[static_cast<std::size_t>(i)].push_back(state.sequence);
+                                    });
+  }
+  bus_.subscribe<vehicle_state_t>("STATE.v7", [&](const vehicle_state_t&) { ++twice; });
+  for (int i = 0; i < kChannels; ++i) {
+    vehicle_state_t state = valid_message<vehicle_state_t>(1);
+    state.sequence = i;
+    bus_.publish("STATE.v" + std::to_string(i), state);
+  }
+  bus_.publish("STATE.v", valid_message<vehicle_state_t>(1));
+  bus_.publish("STATE.v70", valid_message<vehicle_state_t>(1));
+  drain();
+  for (int i = 0; i < kChannels; ++i) EXPECT_THAT(received[static_cast<std::size_t>(i)], ElementsAre(i));
+  EXPECT_EQ(twice, 1);
+  EXPECT_EQ(bus_.counters().received, kChannels + 1);
+  EXPECT_EQ(bus_.subscribed().size(), kChannels + 1u);
+}
+
 TEST(Escaped, EverySpecialCharacterIsEscaped) {
   EXPECT_EQ(escaped(R"(a.b*c+(d)[e]{f}^g$h|i?j\k)"), R"(a\.b\*c\+\(d\)\[e\]\{f\}\^g\$h\|i\?j\\k)");
   EXPECT_EQ(escaped("plain_NAME-1"), "plain_NAME-1");
