@@ -1,7 +1,9 @@
 #include "bathymetry/terrain/profile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
@@ -105,6 +107,51 @@ void append_piece(std::vector<ProfilePoint>& points, const Piece& piece) {
   append_point(points, piece.end_m, piece.depth(length), piece.status);
 }
 
+// The samples of a line over one grid, finite: what HeightGrid::locate and Terrain::depth_at compute, in passes over a block of
+// samples without a branch, so that compilers make vectors of the first, and all posts of a block are on their way to the cache
+// before one is read.
+class GridSampler {
+ public:
+  explicit GridSampler(const HeightGrid& grid) : grid_(grid) {}
+
+  static constexpr std::size_t kBlock = 64;
+  // Sets depth and status of the points, at most kBlock, at x_m[..], y_m[..].
+  void sample(const double* x_m, const double* y_m, std::span<ProfilePoint> points) {
+    locate(x_m, y_m, points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const float* low = grid_.posts().data() + grid_.index(i_[k], j_[k]);
+      __builtin_prefetch(low);
+      __builtin_prefetch(low + grid_.geometry().posts_y);
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double z = grid_.cell(i_[k], j_[k]).depth(u_[k], v_[k]);  // NaN in a no-data cell
+      const DepthStatus over_grid = std::isnan(z) ? DepthStatus::kNoData : DepthStatus::kOk;
+      points[k].status = inside_[k] ? over_grid : DepthStatus::kOutside;
+      points[k].z_m = points[k].status == DepthStatus::kOk ? z : kUnknown;
+    }
+  }
+
+ private:
+  void locate(const double* x_m, const double* y_m, std::size_t count) {
+    const GridGeometry g = grid_.geometry();
+    const double cells_x = g.cells_x(), cells_y = g.cells_y();
+    for (std::size_t k = 0; k < count; ++k) {
+      const double gx = (x_m[k] - g.first_x_m) / g.spacing_m, gy = (y_m[k] - g.first_y_m) / g.spacing_m;
+      inside_[k] = gx >= 0 && gy >= 0 && gx <= cells_x && gy <= cells_y;
+      const double x = std::clamp(gx, 0.0, cells_x), y = std::clamp(gy, 0.0, cells_y);
+      i_[k] = std::min(static_cast<int>(x), g.posts_x - 2);
+      j_[k] = std::min(static_cast<int>(y), g.posts_y - 2);
+      u_[k] = x - i_[k];
+      v_[k] = y - j_[k];
+    }
+  }
+
+  const HeightGrid& grid_;
+  std::array<double, kBlock> u_, v_;
+  std::array<int, kBlock> i_, j_;
+  std::array<bool, kBlock> inside_;
+};
+
 }  // namespace
 
 std::vector<ProfilePoint> uniform_profile(const Terrain& terrain, PlanePoint from, PlanePoint to,
@@ -115,13 +162,30 @@ std::vector<ProfilePoint> uniform_profile(const Terrain& terrain, PlanePoint fro
   const double step = line.length_m / static_cast<double>(count - 1);
   const double step_x = (to.x_m - from.x_m) / static_cast<double>(count - 1);
   const double step_y = (to.y_m - from.y_m) / static_cast<double>(count - 1);
-  for (std::size_t k = 0; k < count; ++k) {
-    // The last sample is `to` itself, bit by bit.
-    const auto n = static_cast<double>(k);
-    const bool last = k + 1 == count;
-    const DepthSample sample =
-        terrain.depth_at(last ? to.x_m : from.x_m + n * step_x, last ? to.y_m : from.y_m + n * step_y);
-    points[k] = {n * step, sample.z_m, sample.status};
+  const bool one_grid = terrain.grid_count() == 1 && is_finite(line);
+  GridSampler sampler(terrain.grid(0));
+  std::array<double, GridSampler::kBlock> x, y;
+  for (std::size_t first = 0; first < count; first += x.size()) {
+    const std::span<ProfilePoint> block = std::span(points).subspan(first, std::min(x.size(), count - first));
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const auto n = static_cast<double>(first + k);
+      block[k].distance_m = n * step;
+      x[k] = from.x_m + n * step_x;
+      y[k] = from.y_m + n * step_y;
+    }
+    if (first + block.size() == count) {  // the last sample is `to` itself, bit by bit
+      x[block.size() - 1] = to.x_m;
+      y[block.size() - 1] = to.y_m;
+    }
+    if (one_grid) {
+      sampler.sample(x.data(), y.data(), block);
+      continue;
+    }
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      const DepthSample sample = terrain.depth_at(x[k], y[k]);
+      block[k].z_m = sample.z_m;
+      block[k].status = sample.status;
+    }
   }
   return points;
 }

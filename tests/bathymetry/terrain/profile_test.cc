@@ -1,11 +1,18 @@
 #include "bathymetry/terrain/profile.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bathymetry/terrain/generated_terrain.h"
 #include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
@@ -38,6 +45,36 @@ TEST(UniformProfile, MarksTheSamplesOutside) {
   EXPECT_EQ(points[0].status, DepthStatus::kOutside);
   EXPECT_TRUE(std::isnan(points[0].z_m));
   EXPECT_EQ(points[2].status, DepthStatus::kOk);
+}
+
+// From outside over a nested grid and a hole to outside.
+TEST(UniformProfile, HasTheDepthsOfItsPointsBitByBit) {
+  HeightGrid with_hole = testing::rugged_grid(129);
+  with_hole.posts_for_editing()[with_hole.index(64, 64)] = kNoData;
+  std::vector<NestedGrid> nested;
+  nested.push_back({make_grid({200, 200, 5, 41, 41}, FlatShape{.depth_m = 100}), 50});
+  const Terrain one_grid(with_hole), two_grids(with_hole, std::move(nested));
+  for (const Terrain* terrain : {&one_grid, &two_grids}) {
+    for (const std::size_t count : {2, 63, 64, 65, 1000}) {
+      const PlanePoint from{-40, -40}, to{1280.1, 1280};
+      const auto points = uniform_profile(*terrain, from, to, count);
+      std::array<int, 4> statuses{};
+      for (std::size_t k = 0; k < count; ++k) {
+        const auto n = static_cast<double>(k), last = static_cast<double>(count - 1);
+        const bool ends = k + 1 == count;
+        const DepthSample sample =
+            terrain->depth_at(ends ? to.x_m : from.x_m + n * ((to.x_m - from.x_m) / last),
+                              ends ? to.y_m : from.y_m + n * ((to.y_m - from.y_m) / last));
+        EXPECT_EQ(points[k].status, sample.status) << k << " of " << count;
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(points[k].z_m), std::bit_cast<std::uint64_t>(sample.z_m))
+            << k << " of " << count;
+        ++statuses[static_cast<std::size_t>(sample.status)];
+      }
+      if (count == 1000) {
+        EXPECT_TRUE(statuses[0] > 900 && statuses[1] > 20 && statuses[2] > 5);
+      }
+    }
+  }
 }
 
 TEST(UniformProfile, RefusesFewerThanTwoSamples) {
