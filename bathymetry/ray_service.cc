@@ -114,15 +114,12 @@ RayAnswers answer(const Terrain& terrain, const std::string& terrain_version, co
   if (is_profile(batch.mode)) return answer_profile(terrain, batch);
   answers.statuses.reserve(batch.rays.size());
   answers.results_m.reserve(batch.rays.size());
-  for (const Ray& ray : batch.rays) {
-    if (batch.mode == QueryMode::kDepth) {
-      append_depth(terrain, ray, answers);
-    } else {
-      // Occlusion is a closest hit: the search runs along the ray and ends at the first one.
-      const RayHit hit = terrain.closest_hit(ray);
-      append(answers, hit.status, hit.range_m);
-    }
+  if (batch.mode == QueryMode::kDepth) {
+    for (const Ray& ray : batch.rays) append_depth(terrain, ray, answers);
+    return answers;
   }
+  // Occlusion is a closest hit: the search runs along the ray and ends at the first one.
+  for (const RayHit& hit : terrain.closest_hits(batch.rays)) append(answers, hit.status, hit.range_m);
   return answers;
 }
 

@@ -7,9 +7,6 @@ namespace halocline::bathymetry {
 namespace {
 
 constexpr double kTinyDirection = 1e-20;
-// A block is leapt over only when the ray clears it by this: far above the rounding of the ray's depth (1e-12
-// m), far below what anyone measures.
-constexpr double kBlockSlackM = 1e-9;
 
 // The tiny component points into the grid, so that a ray along the grid's edge stays inside.
 double away_from_zero(double component, double position, int cells) {
@@ -50,7 +47,14 @@ double first_root(double a, double b, double c, double length) {
   return s <= length ? s : kNone;
 }
 
-// The walk over blocks: block (bi, bj) of `level` holds parameter t.
+// True when a + b s + c s^2 stays above the slack for s in [0, length]: a parabola sags by c length^2 / 4 at most below
+// the chord between its ends. Spares most cells the root.
+bool stays_above(double a, double b, double c, double length) {
+  const double end = a + (b + c * length) * length;
+  return std::min(a, end) - std::max(c, 0.0) * (0.25 * length * length) > kSlackM;
+}
+
+// The walk over blocks: block `at_` holds parameter t.
 class Walk {
  public:
   Walk(const HeightGrid& grid, const ShallowestPyramid& pyramid, const GridRay& ray, Interval interval)
@@ -60,29 +64,22 @@ class Walk {
         t_(interval.begin_m),
         end_(interval.end_m),
         forward_x_(ray.direction_x > 0),
-        forward_y_(ray.direction_y > 0) {
-    const GridGeometry& g = grid.geometry();
-    level_ = std::min(kStartLevel, pyramid.top_level());
-    bi_ = start_cell(ray.origin_x + ray.direction_x * t_, g.cells_x(), forward_x_, t_,
-                     [&](int n) { return ray.crossing_x(n); }) >>
-          level_;
-    bj_ = start_cell(ray.origin_y + ray.direction_y * t_, g.cells_y(), forward_y_, t_,
-                     [&](int n) { return ray.crossing_y(n); }) >>
-          level_;
-  }
+        forward_y_(ray.direction_y > 0),
+        at_(start_block(grid.geometry(), pyramid, ray, t_)) {}
 
   TraceResult run() {
     for (;;) {
-      const double exit_x = ray_.crossing_x((bi_ + forward_x_) << level_);
-      const double exit_y = ray_.crossing_y((bj_ + forward_y_) << level_);
+      const double exit_x = ray_.crossing_x((at_.i + forward_x_) << at_.level);
+      const double exit_y = ray_.crossing_y((at_.j + forward_y_) << at_.level);
       const double exit = std::min(std::min(exit_x, exit_y), end_);
-      if (level_ > 0) {
+      if (at_.level > 0) {
         const double deepest = ray_.origin_z_m + ray_.direction_z * (ray_.direction_z > 0 ? exit : t_);
-        if (deepest + kBlockSlackM >= pyramid_.shallowest(level_, bi_, bj_)) {
+        if (deepest + kSlackM >= pyramid_.shallowest(at_.level, at_.i, at_.j)) {
           descend();
           continue;
         }
-      } else if (const TraceResult result = enter_cell(exit); result.end != TraceEnd::kPassed) {
+      } else if (const TraceResult result = trace_cell(grid_, ray_, at_.i, at_.j, {t_, exit});
+                 result.end != TraceEnd::kPassed) {
         return result;
       }
       if (exit >= end_) return {};
@@ -94,44 +91,27 @@ class Walk {
  private:
   // To the block across the boundary just reached; up a level whenever that boundary is also the parent's.
   void advance(bool across_x) {
-    int& block = across_x ? bi_ : bj_;
+    int& block = across_x ? at_.i : at_.j;
     const bool forward = across_x ? forward_x_ : forward_y_;
     const bool leaves_parent = (block & 1) == (forward ? 1 : 0);
     block += forward ? 1 : -1;
-    if (leaves_parent && level_ < pyramid_.top_level()) {
-      ++level_;
-      bi_ >>= 1;
-      bj_ >>= 1;
+    if (leaves_parent && at_.level < pyramid_.top_level()) {
+      ++at_.level;
+      at_.i >>= 1;
+      at_.j >>= 1;
     }
   }
 
   // To the quarter of the block that holds t: on the far side of the middle line once t has reached its
   // crossing.
   void descend() {
-    --level_;
-    bi_ = 2 * bi_ + 1;
-    bj_ = 2 * bj_ + 1;
-    const bool beyond_x = t_ >= ray_.crossing_x(bi_ << level_);
-    const bool beyond_y = t_ >= ray_.crossing_y(bj_ << level_);
-    bi_ -= beyond_x != forward_x_;
-    bj_ -= beyond_y != forward_y_;
-  }
-
-  TraceResult enter_cell(double exit) const {
-    const BilinearCell cell = grid_.cell(bi_, bj_);
-    const double u = std::clamp(ray_.origin_x + ray_.direction_x * t_ - bi_, 0.0, 1.0);
-    const double v = std::clamp(ray_.origin_y + ray_.direction_y * t_ - bj_, 0.0, 1.0);
-    const double du = ray_.direction_x, dv = ray_.direction_y;
-    // Bottom minus ray along the ray: f(s) = a + b s + c s^2, s from the entry into the cell.
-    const double a = cell.depth(u, v) - (ray_.origin_z_m + ray_.direction_z * t_);
-    if (is_no_data(cell)) return {TraceEnd::kNoData, t_, {bi_, bj_, u, v}};
-    if (a <= 0) return {TraceEnd::kHit, t_, {bi_, bj_, u, v}};
-    const double b = cell.slope_u(v) * du + cell.slope_v(u) * dv - ray_.direction_z;
-    const double s = first_root(a, b, cell.c * du * dv, exit - t_);
-    if (s < 0) return {};
-    return {TraceEnd::kHit,
-            t_ + s,
-            {bi_, bj_, std::clamp(u + du * s, 0.0, 1.0), std::clamp(v + dv * s, 0.0, 1.0)}};
+    --at_.level;
+    at_.i = 2 * at_.i + 1;
+    at_.j = 2 * at_.j + 1;
+    const bool beyond_x = t_ >= ray_.crossing_x(at_.i << at_.level);
+    const bool beyond_y = t_ >= ray_.crossing_y(at_.j << at_.level);
+    at_.i -= beyond_x != forward_x_;
+    at_.j -= beyond_y != forward_y_;
   }
 
   const HeightGrid& grid_;
@@ -139,7 +119,7 @@ class Walk {
   const GridRay& ray_;
   double t_, end_;
   bool forward_x_, forward_y_;
-  int level_ = 0, bi_ = 0, bj_ = 0;
+  Block at_;
 };
 
 }  // namespace
@@ -162,11 +142,43 @@ Interval clip_to_cells(const CellBlock& block, const GridRay& ray, Interval inte
           std::min({interval.end_m, std::max(x_first, x_last), std::max(y_first, y_last)})};
 }
 
-TraceResult trace_grid(const HeightGrid& grid, const ShallowestPyramid& pyramid, const GridRay& ray,
-                       Interval interval) {
+Block start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid, const GridRay& ray,
+                  double t) {
+  const int level = std::min(kStartLevel, pyramid.top_level());
+  const int i = start_cell(ray.origin_x + ray.direction_x * t, geometry.cells_x(), ray.direction_x > 0, t,
+                           [&](int n) { return ray.crossing_x(n); });
+  const int j = start_cell(ray.origin_y + ray.direction_y * t, geometry.cells_y(), ray.direction_y > 0, t,
+                           [&](int n) { return ray.crossing_y(n); });
+  return {level, i >> level, j >> level};
+}
+
+TraceResult trace_cell(const HeightGrid& grid, const GridRay& ray, int i, int j, Interval interval) {
+  const double t = interval.begin_m, length = interval.end_m - t;
+  const BilinearCell cell = grid.cell(i, j);
+  const double u = std::clamp(ray.origin_x + ray.direction_x * t - i, 0.0, 1.0);
+  const double v = std::clamp(ray.origin_y + ray.direction_y * t - j, 0.0, 1.0);
+  const double du = ray.direction_x, dv = ray.direction_y;
+  // Bottom minus ray along the ray: f(s) = a + b s + c s^2, s from the entry into the cell.
+  const double a = cell.depth(u, v) - (ray.origin_z_m + ray.direction_z * t);
+  const double b = cell.slope_u(v) * du + cell.slope_v(u) * dv - ray.direction_z;
+  const double c = cell.c * du * dv;
+  if (stays_above(a, b, c, length)) return {};
+  if (is_no_data(cell)) return {TraceEnd::kNoData, t, {i, j, u, v}};
+  if (a <= 0) return {TraceEnd::kHit, t, {i, j, u, v}};
+  const double s = first_root(a, b, c, length);
+  if (s < 0) return {};
+  return {TraceEnd::kHit, t + s, {i, j, std::clamp(u + du * s, 0.0, 1.0), std::clamp(v + dv * s, 0.0, 1.0)}};
+}
+
+bool clears_grid(const ShallowestPyramid& pyramid, const GridRay& ray, Interval interval) {
   const double deepest =
       ray.origin_z_m + ray.direction_z * (ray.direction_z > 0 ? interval.end_m : interval.begin_m);
-  if (deepest + kBlockSlackM < pyramid.shallowest_of_all()) return {};
+  return deepest + kSlackM < pyramid.shallowest_of_all();
+}
+
+TraceResult trace_grid(const HeightGrid& grid, const ShallowestPyramid& pyramid, const GridRay& ray,
+                       Interval interval) {
+  if (clears_grid(pyramid, ray, interval)) return {};
   return Walk(grid, pyramid, ray, interval).run();
 }
 

@@ -8,9 +8,8 @@
 // quadratic in the parameter; a value at or below zero on entry is a hit, which closes the seams that
 // rounding leaves between cells. Blocks whose shallowest post lies below the ray's deepest point there are
 // leapt over. Accuracy: 3e-10 m against long double on rays of 20 km (tests/bathymetry/terrain/ray_reference_test.cc
-// holds 1e-6). Left out: rays from below the bottom (the caller tests the start), and wide vectors:
-// `trace_grid` takes one ray; a vector version belongs behind a function of the same contract that takes
-// several.
+// holds 1e-6). Left out: rays from below the bottom (the caller tests the start). `trace_grid` takes one ray;
+// wide_trace.h follows many by the same steps.
 #pragma once
 
 #include "bathymetry/terrain/height_grid.h"
@@ -61,6 +60,25 @@ struct TraceResult {
   double range_m = 0;    // of the hit, or of the entry into the no-data cell
   CellPosition at = {};  // valid with hit
 };
+
+// Clearances of a block, or of the ray in a cell, above this are open water: far above the rounding of the
+// ray's depth (1e-12 m), far below what anyone measures.
+inline constexpr double kSlackM = 1e-9;
+
+// A block of the pyramid, or a cell: level 0. It covers the cells from (i << level, j << level).
+struct Block {
+  int level = 0, i = 0, j = 0;
+};
+
+// The block of the starting level that holds parameter t; t lies inside the grid.
+Block start_block(const GridGeometry& geometry, const ShallowestPyramid& pyramid, const GridRay& ray,
+                  double t);
+
+// The end of the ray in cell (i, j), where it lies within `interval`.
+TraceResult trace_cell(const HeightGrid& grid, const GridRay& ray, int i, int j, Interval interval);
+
+// True when the ray leaves the pyramid's shallowest post above all of `interval`: nothing to follow.
+bool clears_grid(const ShallowestPyramid& pyramid, const GridRay& ray, Interval interval);
 
 // The first end of the ray within `interval`, which lies inside the grid (clip_to_cells). `passed` when the
 // whole of it is in water over known bottom.

@@ -28,6 +28,12 @@ class ShallowestPyramid {
     return depths_[l.offset + static_cast<std::size_t>(bi) * l.blocks_y + static_cast<std::size_t>(bj)];
   }
 
+  // The level's blocks for those who index them: block (bi, bj) is first(level)[bi * row_length(level) + bj].
+  const float* first(int level) const {
+    return depths_.data() + levels_[static_cast<std::size_t>(level - 1)].offset;
+  }
+  std::size_t row_length(int level) const { return levels_[static_cast<std::size_t>(level - 1)].blocks_y; }
+
   float shallowest_of_all() const { return depths_.back(); }
 
  private:

@@ -1,7 +1,10 @@
 #include "bathymetry/terrain/terrain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "bathymetry/terrain/nesting.h"
@@ -25,6 +28,34 @@ Ray normalised(const Ray& ray) {
 
 Vec3 upward_normal(double slope_north, double slope_east) {
   return Vec3(slope_north, slope_east, -1).normalized();
+}
+
+// Spreads the lowest 6 bits of n to the even ones.
+std::uint32_t spread(std::uint32_t n) {
+  n = (n | n << 4) & 0x030f;
+  n = (n | n << 2) & 0x0333;
+  return (n | n << 1) & 0x0555;
+}
+
+// The numbers of the rays, ordered along a Morton curve over 64 x 64 tiles of the grid where they begin: neighbours read the
+// same posts. Rays outside, or not finite, belong to a tile at the edge.
+std::vector<std::uint32_t> in_morton_order(const GridGeometry& grid, std::span<const Ray> rays) {
+  constexpr std::size_t kTiles = 64;
+  const auto tile = [](double from_m, double length_m) {
+    const double n = from_m / length_m * kTiles;
+    return n > 0 ? static_cast<std::uint32_t>(std::min(n, kTiles - 1.0)) : 0;
+  };
+  std::vector<std::uint32_t> tiles(rays.size()), order(rays.size());
+  std::array<std::uint32_t, kTiles * kTiles + 1> begins{};
+  const double length_x_m = grid.last_x_m() - grid.first_x_m, length_y_m = grid.last_y_m() - grid.first_y_m;
+  for (std::size_t n = 0; n < rays.size(); ++n) {
+    tiles[n] = spread(tile(rays[n].origin_ned_m.x() - grid.first_x_m, length_x_m)) << 1 |
+               spread(tile(rays[n].origin_ned_m.y() - grid.first_y_m, length_y_m));
+    ++begins[tiles[n] + 1];
+  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  for (std::size_t n = 0; n < rays.size(); ++n) order[begins[tiles[n]]++] = static_cast<std::uint32_t>(n);
+  return order;
 }
 
 }  // namespace
@@ -97,79 +128,159 @@ DepthSample Terrain::depth_at(double x_m, double y_m) const {
 // The interval above nested grids belongs to them, the rest to this patch; pieces are taken in the ray's
 // order. Where a piece begins and ends is given by the crossings of the patch around, so that its walk stops
 // and resumes exactly at the border and never looks into a cell that the nested grid covers.
-TraceResult Terrain::trace(const Patch& patch, const Ray& unit_ray, Interval interval,
-                           const Patch** owner) const {
+void Terrain::append_segments(const Patch& patch, const Ray& unit_ray, Interval interval,
+                              std::vector<Segment>& out) const {
   struct Piece {
     Interval interval;
     const Patch* patch;
   };
   std::vector<Piece> pieces;
   const GridRay ray = to_grid_ray(patch.grid.geometry(), unit_ray.origin_ned_m, unit_ray.direction);
+  const auto append_own = [&](Interval own) {
+    const Interval clipped = clip_to_cells(all_cells(patch.grid.geometry()), ray, own);
+    if (!clipped.empty()) out.push_back({&patch, {ray, clipped}});
+  };
   for (const std::size_t child : patch.inside) {
     const Interval above = clip_to_cells(patches_[child].covers, ray, interval);
     if (!above.empty()) pieces.push_back({above, &patches_[child]});
   }
   std::sort(pieces.begin(), pieces.end(),
             [](const Piece& p, const Piece& q) { return p.interval.begin_m < q.interval.begin_m; });
-  *owner = &patch;
   for (const Piece& piece : pieces) {
-    const Interval before =
-        clip_to_cells(all_cells(patch.grid.geometry()), ray, {interval.begin_m, piece.interval.begin_m});
-    if (!before.empty()) {
-      const TraceResult own = trace_grid(patch.grid, patch.pyramid, ray, before);
-      if (own.end != TraceEnd::kPassed) return own;
-    }
-    const TraceResult inner = trace(*piece.patch, unit_ray, piece.interval, owner);
-    if (inner.end != TraceEnd::kPassed) return inner;
+    append_own({interval.begin_m, piece.interval.begin_m});
+    append_segments(*piece.patch, unit_ray, piece.interval, out);
     interval.begin_m = std::max(interval.begin_m, piece.interval.end_m);
-    *owner = &patch;
   }
-  const Interval rest = clip_to_cells(all_cells(patch.grid.geometry()), ray, interval);
-  return rest.empty() ? TraceResult{} : trace_grid(patch.grid, patch.pyramid, ray, rest);
+  append_own(interval);
 }
 
-RayHit Terrain::finish(const Ray& unit_ray, const TraceResult& result, const Patch* owner,
-                       Interval inside) const {
+RayHit Terrain::finish(const Departure& departure, const TraceResult& result, const Patch& owner) const {
   if (result.end == TraceEnd::kNoData) return ended(RayStatus::kNoData, result.range_m);
   if (result.end == TraceEnd::kPassed) {
-    const bool whole = inside.end_m >= unit_ray.max_range_m;
-    return ended(whole ? RayStatus::kMiss : RayStatus::kOutside, inside.end_m);
+    const bool whole = departure.inside.end_m >= departure.ray.max_range_m;
+    return ended(whole ? RayStatus::kMiss : RayStatus::kOutside, departure.inside.end_m);
   }
-  const BilinearCell cell = owner->grid.cell(result.at.i, result.at.j);
-  const double spacing = owner->grid.geometry().spacing_m;
+  const BilinearCell cell = owner.grid.cell(result.at.i, result.at.j);
+  const double spacing = owner.grid.geometry().spacing_m;
   return {RayStatus::kHit, result.range_m,
           upward_normal(cell.slope_u(result.at.v) / spacing, cell.slope_v(result.at.u) / spacing)};
 }
 
-// A bound spares most rays the two cache misses of looking up the bottom where they start.
-bool Terrain::is_surely_in_water(const Vec3& point_ned_m) const {
+// The bound on the bottom's depth where a ray starts: it spares most rays the two cache misses of looking up the bottom.
+const float* Terrain::shallowest_around(const Vec3& point_ned_m) const {
   const Patch& base = patches_.front();
   const auto at = base.grid.locate(point_ned_m.x(), point_ned_m.y());
-  if (!at || !base.inside.empty()) return false;
+  if (!at || !base.inside.empty()) return nullptr;
   const int level = std::min(kStartLevel, base.pyramid.top_level());
-  return point_ned_m.z() < base.pyramid.shallowest(level, at->i >> level, at->j >> level);
+  return base.pyramid.first(level) +
+         static_cast<std::size_t>(at->i >> level) * base.pyramid.row_length(level) +
+         static_cast<std::size_t>(at->j >> level);
+}
+
+Terrain::Departure Terrain::depart(const Ray& ray) const {
+  Departure out{normalised(ray)};
+  const Ray& unit = out.ray;
+  const auto decided = [&](const RayHit& answer) {
+    out.answer = answer;
+    return out;
+  };
+  if (unit.direction.isZero(0)) return decided(ended(RayStatus::kBadInput));
+  const float* shallowest = shallowest_around(unit.origin_ned_m);
+  const bool surely_in_water = shallowest != nullptr && unit.origin_ned_m.z() < *shallowest;
+  if (!surely_in_water) {
+    const DepthSample start = depth_at(unit.origin_ned_m.x(), unit.origin_ned_m.y());
+    if (start.status == DepthStatus::kOutside) return decided(ended(RayStatus::kOutside, 0));
+    if (start.status == DepthStatus::kNoData) return decided(ended(RayStatus::kNoData, 0));
+    if (unit.origin_ned_m.z() > start.z_m) return decided(ended(RayStatus::kStartedBelowBottom));
+    if (unit.origin_ned_m.z() == start.z_m) return decided({RayStatus::kHit, 0, start.normal_ned()});
+  }
+  const GridGeometry& base = extent();
+  out.base_ray = to_grid_ray(base, unit.origin_ned_m, unit.direction);
+  out.inside = clip_to_cells(all_cells(base), out.base_ray, {0, unit.max_range_m});
+  if (out.inside.empty())
+    return decided(ended(unit.max_range_m == 0 ? RayStatus::kMiss : RayStatus::kOutside, 0));
+  return out;
 }
 
 RayHit Terrain::closest_hit(const Ray& ray) const {
-  const Ray unit = normalised(ray);
-  if (unit.direction.isZero(0)) return ended(RayStatus::kBadInput);
-  if (!is_surely_in_water(unit.origin_ned_m)) {
-    const DepthSample start = depth_at(unit.origin_ned_m.x(), unit.origin_ned_m.y());
-    if (start.status == DepthStatus::kOutside) return ended(RayStatus::kOutside, 0);
-    if (start.status == DepthStatus::kNoData) return ended(RayStatus::kNoData, 0);
-    if (unit.origin_ned_m.z() > start.z_m) return ended(RayStatus::kStartedBelowBottom);
-    if (unit.origin_ned_m.z() == start.z_m) return {RayStatus::kHit, 0, start.normal_ned()};
-  }
+  const Departure departure = depart(ray);
+  if (departure.answer) return *departure.answer;
   const Patch& base = patches_.front();
-  const GridRay base_ray = to_grid_ray(base.grid.geometry(), unit.origin_ned_m, unit.direction);
-  const Interval inside = clip_to_cells(all_cells(base.grid.geometry()), base_ray, {0, unit.max_range_m});
-  if (inside.empty()) {
-    return unit.max_range_m == 0 ? ended(RayStatus::kMiss, 0) : ended(RayStatus::kOutside, 0);
+  if (base.inside.empty()) {
+    return finish(departure, trace_grid(base.grid, base.pyramid, departure.base_ray, departure.inside), base);
   }
-  const Patch* owner = &base;
-  const TraceResult result = base.inside.empty() ? trace_grid(base.grid, base.pyramid, base_ray, inside)
-                                                 : trace(base, unit, inside, &owner);
-  return finish(unit, result, owner, inside);
+  std::vector<Segment> segments;
+  append_segments(base, departure.ray, departure.inside, segments);
+  for (const auto& [patch, trace] : segments) {
+    const TraceResult result = trace_grid(patch->grid, patch->pyramid, trace.ray, trace.interval);
+    if (result.end != TraceEnd::kPassed) return finish(departure, result, *patch);
+  }
+  return finish(departure, {}, base);
+}
+
+// Follows rays[numbers[..]]: all their first segments, then the second ones of those that passed, and so on.
+void Terrain::trace_some(std::span<const Ray> rays, std::span<const std::uint32_t> numbers, VectorUnit unit,
+                         std::vector<RayHit>& hits) const {
+  struct Flight {
+    Departure departure;
+    std::size_t segment, last;
+    std::uint32_t number;
+  };
+  const Patch& base = patches_.front();
+  std::vector<Flight> flights;
+  std::vector<Segment> segments;
+  for (const std::uint32_t number : numbers) {
+    if (const float* post = shallowest_around(rays[number].origin_ned_m)) __builtin_prefetch(post);
+  }
+  for (const std::uint32_t number : numbers) {
+    Departure departure = depart(rays[number]);
+    if (departure.answer) {
+      hits[number] = *departure.answer;
+      continue;
+    }
+    const std::size_t first = segments.size();
+    if (base.inside.empty()) {
+      segments.push_back({&base, {departure.base_ray, departure.inside}});
+    } else {
+      append_segments(base, departure.ray, departure.inside, segments);
+    }
+    flights.push_back({std::move(departure), first, segments.size(), number});
+  }
+  const auto has_passed_all = [&](const Flight& flight) { return flight.segment == flight.last; };
+  const auto has_ended = [&](const Flight& flight) {
+    return has_passed_all(flight) || segments[flight.segment].trace.result.end != TraceEnd::kPassed;
+  };
+  std::vector<GridTrace*> traces;
+  while (!flights.empty()) {
+    for (const Patch& patch : patches_) {
+      traces.clear();
+      for (const Flight& flight : flights) {
+        if (!has_passed_all(flight) && segments[flight.segment].patch == &patch)
+          traces.push_back(&segments[flight.segment].trace);
+      }
+      trace_grid(patch.grid, patch.pyramid, traces, unit);
+    }
+    for (Flight& flight : flights) {
+      if (!has_ended(flight)) ++flight.segment;
+      if (!has_ended(flight)) continue;
+      const bool passed = has_passed_all(flight);
+      hits[flight.number] =
+          finish(flight.departure, passed ? TraceResult{} : segments[flight.segment].trace.result,
+                 passed ? base : *segments[flight.segment].patch);
+    }
+    std::erase_if(flights, has_ended);
+  }
+}
+
+std::vector<RayHit> Terrain::closest_hits(std::span<const Ray> rays, VectorUnit unit) const {
+  constexpr std::size_t kAtOnce = 1024;  // what is computed of so many rays stays in the cache
+  std::vector<RayHit> hits(rays.size());
+  const std::vector<std::uint32_t> order = in_morton_order(extent(), rays);
+  for (std::size_t first = 0; first < rays.size(); first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, rays.size() - first);
+    trace_some(rays, std::span(order).subspan(first, count), unit, hits);
+  }
+  return hits;
 }
 
 RayHit Terrain::occluded(const Vec3& from_ned_m, const Vec3& to_ned_m, double skin_m) const {

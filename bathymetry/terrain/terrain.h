@@ -20,11 +20,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/ray_trace.h"
 #include "bathymetry/terrain/shallowest_pyramid.h"
+#include "bathymetry/terrain/wide_trace.h"
 #include "core/frames.h"
 
 namespace halocline::bathymetry {
@@ -86,6 +89,10 @@ class Terrain {
   // Where the ray first meets the bottom. A ray that begins exactly on the bottom hits at range 0.
   RayHit closest_hit(const Ray& ray) const;
 
+  // The same of many rays, in their order: each answer is that of closest_hit, bit by bit. They are followed in Morton order
+  // (Morton 1966) of where they begin, several at a time (wide_trace.h): 1.5 to 2 times as fast from some hundred rays on.
+  std::vector<RayHit> closest_hits(std::span<const Ray> rays, VectorUnit unit = widest_vector_unit()) const;
+
   // Whether the bottom stands between two points: `hit` blocked (range from `from`), `miss` free, else as
   // above. The first and the last `skin_m` (0 or more) of the segment are not looked at, for ends that lie on
   // the bottom.
@@ -111,13 +118,29 @@ class Terrain {
     CellBlock covers = {};                 // cells of the patch around; unused in the base
     std::vector<std::size_t> inside = {};  // patches nested directly in this one
   };
+  // A ray before it is followed: its direction has length 1; `answer` is set when there is nothing to follow.
+  struct Departure {
+    Ray ray;
+    GridRay base_ray = {};
+    Interval inside = {};  // the base grid
+    std::optional<RayHit> answer = {};
+  };
+  // A part of a ray that one patch decides; parts are in the ray's order.
+  struct Segment {
+    const Patch* patch;
+    GridTrace trace;
+  };
   void nest(NestedGrid nested, std::size_t number);
   std::size_t patch_around(const GridGeometry& geometry, std::size_t number) const;
   const Patch& finest_patch(const Patch& from, double x_m, double y_m) const;
-  bool is_surely_in_water(const Vec3& point_ned_m) const;
+  const float* shallowest_around(const Vec3& point_ned_m) const;
   DepthSample sample(const Patch& patch, double x_m, double y_m) const;
-  TraceResult trace(const Patch& patch, const Ray& unit_ray, Interval interval, const Patch** owner) const;
-  RayHit finish(const Ray& unit_ray, const TraceResult& result, const Patch* owner, Interval inside) const;
+  Departure depart(const Ray& ray) const;
+  void append_segments(const Patch& patch, const Ray& unit_ray, Interval interval,
+                       std::vector<Segment>& out) const;
+  void trace_some(std::span<const Ray> rays, std::span<const std::uint32_t> numbers, VectorUnit unit,
+                  std::vector<RayHit>& hits) const;
+  RayHit finish(const Departure& departure, const TraceResult& result, const Patch& owner) const;
 
   std::vector<Patch> patches_;
   std::uint64_t version_ = 0;
