@@ -1,8 +1,5 @@
-// Rays, profiles, pyramid and loading on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep.
-//
-// Rays start 5 to 250 m above the bottom at random places: V near-vertical to 500 m, S slanted 45 degrees to 10 km,
-// G grazing (within 2 degrees of level) to 1..20 km, mix a third each. Targets a core: mix 2.2 million rays/s, a
-// profile sample 15 ns, a 4096 x 4096 GeoTIFF with its pyramid 0.2 s; two threads 1.9 times one.
+// Profiles, pyramid and loading on 4096 x 4096 posts of rugged bottom, 10 m apart, about 300 m deep (rays: terrain_rays_bench).
+// Targets: a profile sample 12 ns, a 4096 x 4096 GeoTIFF with its pyramid 0.2 s.
 #include <cmath>
 #include <cstdint>
 #include <mutex>
@@ -26,49 +23,11 @@ namespace {
 
 constexpr int kPosts = 4096;
 constexpr double kExtentM = 10.0 * (kPosts - 1);
-constexpr std::size_t kRays = 1 << 18;  // drawn before the clock runs
 
 const Terrain& rugged_terrain() {
   static const Terrain terrain(testing::rugged_grid(kPosts));
   return terrain;
 }
-
-enum Kind : std::int64_t { kVertical, kSlanted, kGrazing, kMix };
-
-Ray draw_ray(std::int64_t kind, std::uint64_t n) {
-  const auto draw = [&](std::uint32_t what, double low, double high) {
-    return low +
-           (high - low) * uniform_at({.seed = 1, .purpose = purpose_of("bench"), .who = what, .which = n});
-  };
-  if (kind == kMix) kind = static_cast<std::int64_t>(n % 3);
-  const double x = draw(0, 0, kExtentM), y = draw(1, 0, kExtentM), azimuth = draw(2, -3.1416, 3.1416);
-  const double down = kind == kVertical  ? draw(3, 1.4, 1.5708)
-                      : kind == kSlanted ? 0.7854
-                                         : draw(3, -0.035, 0.035);
-  const double range = kind == kVertical ? 500 : kind == kSlanted ? 10'000 : draw(4, 1000, 20'000);
-  return {{x, y, rugged_terrain().depth_at(x, y).z_m - draw(5, 5, 250)},
-          {std::cos(azimuth) * std::cos(down), std::sin(azimuth) * std::cos(down), std::sin(down)},
-          range};
-}
-
-void trace_rays(benchmark::State& state) {
-  static std::vector<Ray> rays[4];
-  static std::once_flag drawn;
-  std::call_once(drawn, [] {
-    for (std::int64_t kind = 0; kind < 4; ++kind) {
-      for (std::uint64_t n = 0; n < kRays; ++n) rays[kind].push_back(draw_ray(kind, n));
-    }
-  });
-  const std::vector<Ray>& batch = rays[state.range(0)];
-  std::size_t n = static_cast<std::size_t>(state.thread_index()) * kRays / 2;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(rugged_terrain().closest_hit(batch[n]));
-    n = (n + 1) % kRays;
-  }
-  state.SetItemsProcessed(state.iterations());
-}
-BENCHMARK(trace_rays)->ArgName("V0_S1_G2_mix3")->DenseRange(0, 3)->UseRealTime();
-BENCHMARK(trace_rays)->ArgName("V0_S1_G2_mix3")->Arg(kMix)->Threads(2)->UseRealTime();
 
 // Lines of 10 km, a sample every 10 m.
 void sample_profile(benchmark::State& state) {
