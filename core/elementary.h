@@ -20,12 +20,18 @@
 
 namespace halocline::elementary {
 
-inline double exp(double x) {
-  if (!(std::abs(x) < 708)) return detail::exp_beyond(x);
+// Without branches, for loops that are to become vectors: exp of |x| < 708 (0.9), ln(1 + x) of 0 <= x < 1e300 (1.5).
+inline double exp_within(double x) {
   const double rounded = x * detail::kLog2OfE + detail::kRound, n = rounded - detail::kRound;
   const double high = x - n * detail::kLn2High, low = n * detail::kLn2Low, r = high - low;
   return detail::times_power_of_two(1 + detail::expm1_of_rest(r, (high - r) - low), rounded);
 }
+inline double log1p_within(double x) {
+  const auto [n, f] = detail::split_one_and(x);
+  return n * detail::kLn2High - (detail::shortfall_of_log(f, n * detail::kLn2Low) - f);
+}
+
+inline double exp(double x) { return std::abs(x) < 708 ? exp_within(x) : detail::exp_beyond(x); }
 
 // exp(x) - 1 = 2^n (exp(r) - 1) + (2^n - 1).
 inline double expm1(double x) {

@@ -57,6 +57,12 @@ inline Split split(double x) {
   return {n, std::bit_cast<double>(bits - (raised << 52) + kOne) - 1};
 }
 
+// The same of 1 + x, x >= 0, with f rounded once: in 1 + x = 2^n (1 + f) both 2^-n x and 2^-n - 1 are exact.
+inline Split split_one_and(double x) {
+  const double n = split(1 + x).n, scale = times_power_of_two(1, kRound - n);
+  return {n, x * scale + (scale - 1)};
+}
+
 // f - ln(1 + f) = f^2 / 2 - s (f^2 / 2 + R), s = f / (2 + f), R = 2 s^2 / 3 + 2 s^4 / 5 + ...: that ln(1 + f) is the sum of a
 // large exact term and this small one keeps its error below one unit.
 inline double shortfall_of_log(double f, double carried) {

@@ -33,6 +33,47 @@ double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m) {
   return elementary::atan2(way.z(), elementary::hypot(way.x(), way.y()));
 }
 
+LinkTerms::LinkTerms(const Environment& environment, const Modem& transmitter, const Modem& receiver)
+    : environment_(environment), transmitter_(transmitter), receiver_(receiver) {
+  validate(environment);
+  validate(transmitter);
+  validate(receiver);
+  const Band band = transmitter.band();
+  density_ = to_power_ratio(transmitter.source_level + receiver.directivity_index).value / band.width_hz();
+  centre_noise_ = noise_components(band.centre_hz(), environment.noise).total;
+  noise_level_ = noise_level_over_band(band.low_hz, band.high_hz, environment.noise);
+  gain_ = receiver.directivity_index - band_loss(transmitter, receiver);
+  bandwidth_ = to_decibels(PowerRatio{transmitter.bandwidth_hz});
+  of_one_kind_ = same_family(transmitter, receiver) && band_share(band, receiver.band()) > 0;
+}
+
+void LinkTerms::set_levels(LinkBudget& link, Decibels loss) const {
+  // RL = SL - TL; SNR = RL - NL + DI (Urick 1983, sonar equation; equation 7 of the 2010 IEEE SMC paper has
+  // NL = N(fc) + 10 log B).
+  link.transmission_loss = loss;
+  link.received_level = transmitter_.source_level - loss;
+  link.noise_level = noise_level_;
+  link.noise_spectrum_level = centre_noise_;
+  link.snr = link.received_level - noise_level_ + gain_;
+  link.snr_narrowband = link.received_level - centre_noise_ - bandwidth_ + gain_;
+  link.receivable = of_one_kind_ && link.received_level >= receiver_.min_receivable_level;
+}
+
+Decibels LinkTerms::beam_loss(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
+  if (transmitter_.beam.rows().empty() && receiver_.beam.rows().empty()) return {0};
+  const double down_rad = angle_down_rad(from_ned_m, to_ned_m);
+  return transmitter_.beam.loss(down_rad) + receiver_.beam.loss(-down_rad);
+}
+
+double LinkTerms::unit_ratio(double frequency_hz) const {
+  return density_ / noise_power_density(frequency_hz, environment_.noise).value;
+}
+
+Band LinkTerms::shared_band() const {
+  const Band of = transmitter_.band(), in = receiver_.band();
+  return {std::max(of.low_hz, in.low_hz), std::min(of.high_hz, in.high_hz)};
+}
+
 struct LinkModel::Sample {
   AbsorptionSpectrum spectrum;
   double share;
@@ -56,32 +97,23 @@ struct LinkModel::Samples {
 };
 
 LinkModel::LinkModel(const Environment& environment, const Modem& transmitter, const Modem& receiver)
-    : environment_(environment), transmitter_(transmitter), receiver_(receiver) {
-  validate(environment);
-  validate(transmitter);
-  validate(receiver);
-  const Band band = transmitter.band();
-  const double low_hz = std::max(band.low_hz, receiver.band().low_hz);
-  const double high_hz = std::min(band.high_hz, receiver.band().high_hz);
+    : terms_(environment, transmitter, receiver) {
+  const Band shared = terms_.shared_band();
   std::vector<FrequencyNode> nodes;
-  if (low_hz < high_hz) nodes = frequency_nodes(low_hz, high_hz);
-  nodes.insert(nodes.begin(), {band.centre_hz(), 0});
-  const double density =
-      to_power_ratio(transmitter.source_level + receiver.directivity_index).value / band.width_hz();
+  if (shared.width_hz() > 0) nodes = frequency_nodes(shared.low_hz, shared.high_hz);
+  nodes.insert(nodes.begin(), {transmitter.band().centre_hz(), 0});
   for (const FrequencyNode& node : nodes) {
     frequency_khz_squared_.push_back(hz_to_khz(node.frequency_hz) * hz_to_khz(node.frequency_hz));
     weight_hz_.push_back(node.weight_hz);
-    unit_ratio_.push_back(density / noise_power_density(node.frequency_hz, environment.noise).value);
+    unit_ratio_.push_back(terms_.unit_ratio(node.frequency_hz));
   }
-  centre_noise_ = noise_components(band.centre_hz(), environment.noise).total;
-  noise_level_ = noise_level_over_band(band.low_hz, band.high_hz, environment.noise);
   tabulate_absorption();
 }
 
 // The running integral of alpha(z, f) dz, boundary by boundary, by Gauss-Legendre. A straight path has
 // integral of alpha ds = L / (z2 - z1) integral of alpha dz.
 void LinkModel::tabulate_absorption() {
-  const std::vector<double>& boundaries = environment_.profile.cell_boundaries_m();
+  const std::vector<double>& boundaries = terms_.environment().profile.cell_boundaries_m();
   const GaussLegendreRule& rule = gauss_legendre_5();
   std::vector<double> sum(frequency_khz_squared_.size(), 0);
   absorption_to_boundary_ = sum;
@@ -89,7 +121,7 @@ void LinkModel::tabulate_absorption() {
     const double half = (boundaries[cell] - boundaries[cell - 1]) / 2;
     for (int i = 0; i < kNodesPerPiece; ++i) {
       const double depth = boundaries[cell - 1] + half * (1 + rule.nodes[i]);
-      const AbsorptionSpectrum spectrum = absorption_spectrum_at(environment_, depth);
+      const AbsorptionSpectrum spectrum = absorption_spectrum_at(terms_.environment(), depth);
       for (std::size_t f = 0; f < sum.size(); ++f) {
         sum[f] += rule.weights[i] * half * spectrum.db_per_km(frequency_khz_squared_[f]);
       }
@@ -103,13 +135,13 @@ LinkModel::Samples LinkModel::sample_path(double from_depth_m, double to_depth_m
   const double z2 = within_water(std::max(from_depth_m, to_depth_m));
   Samples samples;
   if (z1 == z2) {
-    samples.of[samples.count++] = {absorption_spectrum_at(environment_, z1), 1};
+    samples.of[samples.count++] = {absorption_spectrum_at(terms_.environment(), z1), 1};
     return samples;
   }
-  const DepthSpan span = split_span(environment_.profile.cell_boundaries_m(), z1, z2);
-  samples.add_piece(environment_, span.head_from_m, span.head_to_m, z2 - z1);
+  const DepthSpan span = split_span(terms_.environment().profile.cell_boundaries_m(), z1, z2);
+  samples.add_piece(terms_.environment(), span.head_from_m, span.head_to_m, z2 - z1);
   if (!span.crosses) return samples;
-  samples.add_piece(environment_, span.tail_from_m, span.tail_to_m, z2 - z1);
+  samples.add_piece(terms_.environment(), span.tail_from_m, span.tail_to_m, z2 - z1);
   samples.first_boundary = span.first_boundary;
   samples.last_boundary = span.last_boundary;
   samples.cells_share = 1 / (z2 - z1);
@@ -131,7 +163,7 @@ double LinkModel::mean_absorption(const Samples& samples, std::size_t frequency)
 double LinkModel::capacity(const Samples& samples, double range_m, Decibels beams) const {
   // C = integral of log2(1 + DI (P / B) / (A N)) df, A = l^k e^(alpha l), with the beams' loss.
   const bool lossless = range_m < kReferenceRange;
-  const double spread = lossless ? 1 : elementary::pow(range_m, -environment_.spreading_exponent);
+  const double spread = lossless ? 1 : elementary::pow(range_m, -terms_.environment().spreading_exponent);
   const double gain = spread * to_power_ratio(-beams).value;
   const double nepers_per_db_per_km = lossless ? 0 : kNepersPerDecibel * range_m / kMetresPerKilometre;
   double bits = 0;
@@ -155,68 +187,34 @@ double LinkModel::capacity_of_path(const Samples& samples, Decibels loss, double
   return bits;
 }
 
-PathLoss LinkModel::path_loss(double from_depth_m, double to_depth_m, double path_length_m) const {
-  const double alpha = mean_absorption(sample_path(from_depth_m, to_depth_m), 0);
-  return {alpha, transmission_loss(path_length_m, environment_.spreading_exponent, alpha).total};
-}
-
-double LinkModel::delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
-  return environment_.profile.travel_time_s(depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m),
-                                            depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m),
-                                            held_distance_m(from_ned_m, to_ned_m));
-}
-
 LinkBudget LinkModel::budget(const Vec3& from_ned_m, const Vec3& to_ned_m) const {
-  const double from_depth = depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m);
-  const double to_depth = depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m);
+  const Environment& sea = terms_.environment();
+  const double from_depth = depth_below_surface_m(from_ned_m, sea.sea_surface_z_m);
+  const double to_depth = depth_below_surface_m(to_ned_m, sea.sea_surface_z_m);
   const Samples samples = sample_path(from_depth, to_depth);
-  const double slowness = environment_.profile.travel_time_s(from_depth, to_depth, 1);  // s/m
+  const double slowness = sea.profile.travel_time_s(from_depth, to_depth, 1);  // s/m
 
   LinkBudget link;
   link.range_m = (to_ned_m - from_ned_m).norm();
   link.delay_s = held_distance_m(from_ned_m, to_ned_m) * slowness;
   link.mean_sound_speed_mps = 1 / slowness;
   link.absorption_db_per_km = mean_absorption(samples, 0);
-  // The receiver looks back along the line.
-  const double down_rad = angle_down_rad(from_ned_m, to_ned_m);
-  const Decibels beams = transmitter_.beam.loss(down_rad) + receiver_.beam.loss(-down_rad);
-  set_levels(
-      link,
-      transmission_loss(link.range_m, environment_.spreading_exponent, link.absorption_db_per_km).total +
-          beams);
+  const Decibels beams = terms_.beam_loss(from_ned_m, to_ned_m);
+  const auto loss = transmission_loss(link.range_m, sea.spreading_exponent, link.absorption_db_per_km);
+  terms_.set_levels(link, loss.total + beams);
   link.capacity_bps = capacity(samples, link.range_m, beams);
   return link;
-}
-
-void LinkModel::set_levels(LinkBudget& link, Decibels loss) const {
-  // RL = SL - TL; SNR = RL - NL + DI (Urick 1983, sonar equation; equation 7 of the 2010 IEEE SMC paper has
-  // NL = N(fc) + 10 log B).
-  link.transmission_loss = loss;
-  link.received_level = transmitter_.source_level - link.transmission_loss;
-  link.noise_level = noise_level_;
-  link.noise_spectrum_level = centre_noise_;
-  const Decibels gain = receiver_.directivity_index - band_loss(transmitter_, receiver_);
-  link.snr = link.received_level - noise_level_ + gain;
-  const Decibels bandwidth = to_decibels(PowerRatio{transmitter_.bandwidth_hz});
-  link.snr_narrowband = link.received_level - centre_noise_ - bandwidth + gain;
-  link.receivable = link.received_level >= receiver_.min_receivable_level &&
-                    same_family(transmitter_, receiver_) &&
-                    band_share(transmitter_.band(), receiver_.band()) > 0;
 }
 
 LinkBudget LinkModel::budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,
                                      double path_length_m) const {
   LinkBudget link = budget(from_ned_m, to_ned_m);
-  const Samples samples = sample_path(depth_below_surface_m(from_ned_m, environment_.sea_surface_z_m),
-                                      depth_below_surface_m(to_ned_m, environment_.sea_surface_z_m));
-  set_levels(link, loss);
+  const double surface_z_m = terms_.environment().sea_surface_z_m;
+  const Samples samples = sample_path(depth_below_surface_m(from_ned_m, surface_z_m),
+                                      depth_below_surface_m(to_ned_m, surface_z_m));
+  terms_.set_levels(link, loss);
   link.capacity_bps = capacity_of_path(samples, loss, path_length_m);
   return link;
-}
-
-LinkBudget link_budget(const Environment& environment, const Modem& transmitter, const Modem& receiver,
-                       const Vec3& from_ned_m, const Vec3& to_ned_m) {
-  return LinkModel(environment, transmitter, receiver).budget(from_ned_m, to_ned_m);
 }
 
 }  // namespace halocline::acoustics

@@ -21,6 +21,7 @@
 
 #include <vector>
 
+#include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "core/frames.h"
@@ -46,15 +47,35 @@ struct LinkBudget {
 // Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal points.
 double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m);
 
-// Loss along a straight path at one frequency.
-struct PathLoss {
-  double absorption_db_per_km;  // mean along the path
-  Decibels total;               // dB; 0 below 1 m
+// What of a link the two modems and the noise decide, wherever they are. Immutable.
+class LinkTerms {
+ public:
+  // Throws InvalidArgument when one of them is out of range (see their `validate`).
+  LinkTerms(const Environment& environment, const Modem& transmitter, const Modem& receiver);
+
+  // Level, noise, ratios and whether the link is receivable, at a loss.
+  void set_levels(LinkBudget& link, Decibels loss) const;
+  // Of both beams along the straight line: the receiver looks back.
+  Decibels beam_loss(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
+  // DI (P/B) / N(f): signal to noise densities at 1 m.
+  double unit_ratio(double frequency_hz) const;
+  // The part of the transmitter's band that the receiver has too; of no width or less where it has none.
+  Band shared_band() const;
+
+  const Environment& environment() const { return environment_; }
+  const Modem& transmitter() const { return transmitter_; }
+  const Modem& receiver() const { return receiver_; }
+
+ private:
+  Environment environment_;
+  Modem transmitter_, receiver_;
+  Decibels noise_level_, centre_noise_, gain_, bandwidth_;
+  double density_ = 0;        // of the signal at 1 m, times the receiver's directivity, uPa^2/Hz
+  bool of_one_kind_ = false;  // one family, and bands that overlap
 };
 
-// Everything about a transmitter, a receiver and the water that does not depend on where they are. Owns
-// copies of what it needs; immutable, so calls may overlap between threads. Making one costs about a
-// millisecond.
+// A link by the formulas as they stand: the reference of acoustics/link/link_kernel.h, which the simulator uses. Owns copies
+// of what it needs; immutable, so calls may overlap between threads. Making one costs about a millisecond.
 class LinkModel {
  public:
   // Throws InvalidArgument when one of them is out of range (see their `validate`).
@@ -70,17 +91,6 @@ class LinkModel {
   LinkBudget budget_of_path(const Vec3& from_ned_m, const Vec3& to_ned_m, Decibels loss,
                             double path_length_m) const;
 
-  // One-way travel time alone, s.
-  double delay_s(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
-
-  // Loss at the transmitter's centre frequency over `path_length_m` between two depths: for legs of echoes as
-  // well.
-  PathLoss path_loss(double from_depth_m, double to_depth_m, double path_length_m) const;
-
-  const Environment& environment() const { return environment_; }
-  const Modem& transmitter() const { return transmitter_; }
-  const Modem& receiver() const { return receiver_; }
-
  private:
   // A place along the depth of a path where absorption is sampled, and its share of the path.
   struct Sample;
@@ -91,20 +101,13 @@ class LinkModel {
   double mean_absorption(const Samples& samples, std::size_t frequency) const;
   double capacity(const Samples& samples, double range_m, Decibels beams) const;
   double capacity_of_path(const Samples& samples, Decibels loss, double path_length_m) const;
-  void set_levels(LinkBudget& link, Decibels loss) const;
 
-  Environment environment_;
-  Modem transmitter_, receiver_;
-  Decibels noise_level_, centre_noise_;
+  LinkTerms terms_;
   // Index 0 is the centre frequency (of weight 0), the rest are the nodes of the band.
   std::vector<double> frequency_khz_squared_, weight_hz_;
-  std::vector<double> unit_ratio_;  // DI (P/B) / N(f): signal to noise densities at 1 m
+  std::vector<double> unit_ratio_;
   // [boundary * frequencies + frequency]: integral of alpha dz from the surface to that boundary, dB/km * m.
   std::vector<double> absorption_to_boundary_;
 };
-
-// One link, when only one is wanted.
-LinkBudget link_budget(const Environment& environment, const Modem& transmitter, const Modem& receiver,
-                       const Vec3& from_ned_m, const Vec3& to_ned_m);
 
 }  // namespace halocline::acoustics

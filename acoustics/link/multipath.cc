@@ -14,7 +14,7 @@ std::vector<double> bottom_point_fractions(int count) {
   return fractions;
 }
 
-EchoPath echo_path(const LinkModel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
+EchoPath echo_path(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
                    const BottomPoint& point) {
   const double surface = model.environment().sea_surface_z_m;
   const double from = depth_below_surface_m(from_ned_m, surface),
@@ -46,7 +46,7 @@ EchoPath echo_path(const LinkModel& model, const Vec3& from_ned_m, const Vec3& t
   return path;
 }
 
-EchoAssessment assess_echoes(const LinkModel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
+EchoAssessment assess_echoes(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
                              const std::vector<BottomPoint>& points) {
   EchoAssessment assessment;
   for (const BottomPoint& point : points) {

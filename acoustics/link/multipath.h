@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "acoustics/link/link_budget.h"
+#include "acoustics/link/link_kernel.h"
 #include "core/frames.h"
 #include "core/units.h"
 
@@ -44,12 +44,12 @@ struct EchoAssessment {
 // >= 1 points in the middles of equal parts.
 std::vector<double> bottom_point_fractions(int count);
 
-// One path; positions as in LinkModel::budget.
-EchoPath echo_path(const LinkModel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
+// One path; positions as in LinkKernel::budget.
+EchoPath echo_path(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
                    const BottomPoint& point);
 
 // All paths. Without points an echo is unlikely; a caller that could not reach the terrain reports "unknown" itself.
-EchoAssessment assess_echoes(const LinkModel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
+EchoAssessment assess_echoes(const LinkKernel& model, const Vec3& from_ned_m, const Vec3& to_ned_m,
                              const std::vector<BottomPoint>& points);
 
 }  // namespace halocline::acoustics

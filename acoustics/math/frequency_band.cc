@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/math/gauss_legendre.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
 
-void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz, double panel_ratio) {
+void add_panels(std::vector<FrequencyNode>& nodes, double low_hz, double high_hz, double panel_ratio,
+                const GaussLegendreRule& rule) {
   // Panels of equal ratio, f_k = low (high / low)^(k / n) with n = ceil(ln(high / low) / ln(panel_ratio)).
   const double wanted = elementary::log(high_hz / low_hz) / elementary::log(panel_ratio);
   const int panels = std::max(1, static_cast<int>(std::ceil(wanted)));
-  const GaussLegendreRule& rule = gauss_legendre_16();
   double from = low_hz;
   for (int panel = 1; panel <= panels; ++panel) {
     const double share = static_cast<double>(panel) / panels;
@@ -33,12 +32,13 @@ double band_share(const Band& of, const Band& in) {
   return std::clamp(shared_hz / of.width_hz(), 0.0, 1.0);
 }
 
-std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio) {
+std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio,
+                                           const GaussLegendreRule& rule) {
   require(low_hz > 0 && low_hz <= high_hz && std::isfinite(high_hz), "a band needs 0 < low_hz <= high_hz");
   std::vector<FrequencyNode> nodes;
   const bool joint_inside = low_hz < kThorpJointHz && kThorpJointHz < high_hz;
-  if (joint_inside) add_panels(nodes, low_hz, kThorpJointHz, panel_ratio);
-  add_panels(nodes, joint_inside ? kThorpJointHz : low_hz, high_hz, panel_ratio);
+  if (joint_inside) add_panels(nodes, low_hz, kThorpJointHz, panel_ratio, rule);
+  add_panels(nodes, joint_inside ? kThorpJointHz : low_hz, high_hz, panel_ratio, rule);
   return nodes;
 }
 

@@ -1,12 +1,14 @@
 // The frequencies at which integrals over a modem's band are taken.
 //
-// Method: composite Gauss-Legendre, 16 nodes a panel. Noise, absorption and capacity are smooth in the
+// Method: composite Gauss-Legendre, 16 nodes a panel unless stated. Noise, absorption and capacity are smooth in the
 // logarithm of frequency, so panels are equal there: each spans at most a ratio of kPanelRatio, whatever the
 // band. One panel over a whole band errs by 5e-4 in capacity; these err by less than 1e-10
 // (tests/acoustics/link/capacity_test.cc measures it).
 #pragma once
 
 #include <vector>
+
+#include "acoustics/math/gauss_legendre.h"
 
 namespace halocline::acoustics {
 
@@ -32,8 +34,9 @@ struct FrequencyNode {
   double weight_hz;  // the weights of a band sum to its width
 };
 
-// Nodes from `low_hz` to `high_hz`, 0 < low_hz <= high_hz; rising frequency. A band of no width has weights
-// of 0.
-std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio = kPanelRatio);
+// Nodes from `low_hz` to `high_hz`, 0 < low_hz <= high_hz; rising frequency, those of `rule` in each panel. A band of no
+// width has weights of 0.
+std::vector<FrequencyNode> frequency_nodes(double low_hz, double high_hz, double panel_ratio = kPanelRatio,
+                                           const GaussLegendreRule& rule = gauss_legendre_16());
 
 }  // namespace halocline::acoustics

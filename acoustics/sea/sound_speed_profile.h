@@ -78,7 +78,7 @@ class SoundSpeedProfile {
 
   // Depths, m, rising from 0 to 12 000, between which everything here is smooth: quadrature of any property
   // of the water needs 5 nodes a cell for 1e-12. Rows are among them; cells are at most 100 m tall within the
-  // table.
+  // table, and their ends 5 degC apart.
   const std::vector<double>& cell_boundaries_m() const { return boundaries_m_; }
   // The depths of the table's rows, m; empty for Munk's formula.
   std::vector<double> row_depths_m() const;

@@ -42,7 +42,7 @@ void evaluate(Flight& flight, const Placement& place, const acoustics::Modem& mo
   ++flight.propagation_calls;
   flight.modem = modem;
   flight.place = place;
-  flight.reception = propagation.reception(
+  flight.reception = propagation.reception_without_capacity(
       flight.packet->departure, flight.packet->link_end(),
       {flight.receiver_id, place.position_ned_m, place.velocity_ned_mps, &flight.modem});
   const auto& paths = flight.reception.paths;

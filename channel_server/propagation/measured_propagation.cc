@@ -5,6 +5,7 @@
 #include "acoustics/fading/measured_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/math/frequency_band.h"
 
 namespace halocline::channel_server {
@@ -26,25 +27,31 @@ MeasuredPropagation::MeasuredPropagation(std::unique_ptr<Propagation> model,
       channels_(kMaxChannels) {}
 
 Reception MeasuredPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  return measured(at, from, to, model_->reception(at, from, to));
+  return measured(at, from, to, model_->reception(at, from, to), acoustics::Capacity::kComputed);
+}
+
+Reception MeasuredPropagation::reception_without_capacity(SimTime at, const LinkEnd& from,
+                                                          const LinkEnd& to) {
+  return measured(at, from, to, model_->reception_without_capacity(at, from, to),
+                  acoustics::Capacity::kLeftOut);
 }
 
 std::vector<Reception> MeasuredPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                        const ForEach& for_each) {
   std::vector<Reception> all = model_->receptions(at, links, for_each);
   for (std::size_t i = 0; i < links.size(); ++i) {
-    all[i] = measured(at, links[i].from, links[i].to, std::move(all[i]));
+    all[i] = measured(at, links[i].from, links[i].to, std::move(all[i]), acoustics::Capacity::kComputed);
   }
   return all;
 }
 
 Reception MeasuredPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                               const std::shared_ptr<const SeabedProfile>& seabed) {
-  return measured(at, from, to, model_->reception_over(at, from, to, seabed));
+  return measured(at, from, to, model_->reception_over(at, from, to, seabed), acoustics::Capacity::kComputed);
 }
 
 Reception MeasuredPropagation::measured(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                                        Reception modelled) {
+                                        Reception modelled, acoustics::Capacity capacity) {
   const MeasuredLinks::Record record = links_.of(from.id, to.id);
   const acoustics::Band band = from.modem->band();
   if (!record || modelled.paths.empty() || !holds(*record, band)) return modelled;
@@ -54,7 +61,7 @@ Reception MeasuredPropagation::measured(SimTime at, const LinkEnd& from, const L
   });
   if (links_.level_of_record) {
     const Decibels gain = to_decibels(PowerRatio{reception.measured->power()});
-    set_level(at, from, to, from.modem->source_level + gain, reception);
+    set_level(at, from, to, from.modem->source_level + gain, capacity, reception);
   }
   const SoundPath reference = reception.paths[first_significant(reception.paths)];
   reception.paths = measured_paths(*reception.measured, reference, reception.budget.received_level);
@@ -63,11 +70,11 @@ Reception MeasuredPropagation::measured(SimTime at, const LinkEnd& from, const L
 }
 
 void MeasuredPropagation::set_level(SimTime at, const LinkEnd& from, const LinkEnd& to, Decibels level,
-                                    Reception& reception) {
+                                    acoustics::Capacity capacity, Reception& reception) {
   const acoustics::LinkBudget modelled = reception.budget;
-  reception.budget = straight_.model_of(at, *from.modem, *to.modem)
+  reception.budget = straight_.kernel_of(at, *from.modem, *to.modem)
                          ->budget_of_path(from.position_ned_m, to.position_ned_m,
-                                          from.modem->source_level - level, modelled.range_m);
+                                          from.modem->source_level - level, modelled.range_m, capacity);
   reception.budget.delay_s = modelled.delay_s;
   reception.budget.mean_sound_speed_mps = modelled.mean_sound_speed_mps;
   reception.budget.absorption_db_per_km = modelled.absorption_db_per_km;

@@ -14,6 +14,7 @@
 
 #include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/measured_channel.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -51,6 +52,7 @@ class MeasuredPropagation : public Propagation {
                       MeasuredLinks links);
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
@@ -74,8 +76,10 @@ class MeasuredPropagation : public Propagation {
   const acoustics::Environment& environment(SimTime at) const override { return model_->environment(at); }
 
  private:
-  Reception measured(SimTime at, const LinkEnd& from, const LinkEnd& to, Reception modelled);
-  void set_level(SimTime at, const LinkEnd& from, const LinkEnd& to, Decibels level, Reception& reception);
+  Reception measured(SimTime at, const LinkEnd& from, const LinkEnd& to, Reception modelled,
+                     acoustics::Capacity capacity);
+  void set_level(SimTime at, const LinkEnd& from, const LinkEnd& to, Decibels level,
+                 acoustics::Capacity capacity, Reception& reception);
 
   std::unique_ptr<Propagation> model_;
   StraightPropagation straight_;  // whose budgets are those of a stated loss

@@ -94,30 +94,58 @@ Reception Propagation::reception_over(SimTime, const LinkEnd&, const LinkEnd&,
   return {};
 }
 
-StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_models)
+StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_kernels)
     : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)),
-                          acoustics::FadingModel(), max_models) {}
+                          acoustics::FadingModel(), max_kernels) {}
 
 StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                                         const acoustics::FadingModel& fading, std::size_t max_models)
-    : waters_(std::move(waters)), fading_(fading), models_(max_models) {}
+                                         const acoustics::FadingModel& fading, std::size_t max_kernels)
+    : waters_(std::move(waters)), fading_(fading), kernels_(max_kernels) {}
 
-Reception StraightPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
+                                          const acoustics::Environment& water, const LinkEnd& from,
+                                          const LinkEnd& to, acoustics::Capacity capacity) const {
   Reception reception;
-  reception.budget = model_of(at, *from.modem, *to.modem)->budget(from.position_ned_m, to.position_ned_m);
-  SoundPath path = straight_path(waters_->at(at), reception.budget, from, to);
-  path.fading = path_fading(fading_, waters_->at(at).noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
+  reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity);
+  SoundPath path = straight_path(water, reception.budget, from, to);
+  path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
   reception.paths = {path};
   return reception;
+}
+
+Reception StraightPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), from, to,
+                    acoustics::Capacity::kComputed);
+}
+
+Reception StraightPropagation::reception_without_capacity(SimTime at, const LinkEnd& from,
+                                                          const LinkEnd& to) {
+  return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), from, to,
+                    acoustics::Capacity::kLeftOut);
+}
+
+// The cache of kernels is read in turn; links are shared out.
+std::vector<Reception> StraightPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
+                                                       const ForEach& for_each) {
+  std::vector<std::shared_ptr<const acoustics::LinkKernel>> kernels;
+  for (const auto& [from, to] : links) kernels.push_back(kernel_of(at, *from.modem, *to.modem));
+  const acoustics::Environment& water = waters_->at(at);
+  std::vector<Reception> receptions(links.size());
+  for_each(links.size(), [&](std::size_t i) {
+    receptions[i] =
+        along_line(*kernels[i], water, links[i].from, links[i].to, acoustics::Capacity::kComputed);
+  });
+  return receptions;
 }
 
 Reception StraightPropagation::blocked(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   Reception reception;
   reception.state = PathState::kBlocked;
   const double distance_m = (to.position_ned_m - from.position_ned_m).norm();
-  reception.budget = model_of(at, *from.modem, *to.modem)
-                         ->budget_of_path(from.position_ned_m, to.position_ned_m,
-                                          from.modem->source_level - kSilence, distance_m);
+  reception.budget =
+      kernel_of(at, *from.modem, *to.modem)
+          ->budget_of_path(from.position_ned_m, to.position_ned_m, from.modem->source_level - kSilence,
+                           distance_m, acoustics::Capacity::kComputed);
   reception.budget.receivable = false;
   return reception;
 }
@@ -126,7 +154,7 @@ bool StraightPropagation::echo_is_receivable(SimTime at, const acoustics::Modem&
                                              const acoustics::Modem& receiver, const Vec3& from_ned_m,
                                              const Vec3& to_ned_m,
                                              const std::vector<acoustics::BottomPoint>& points) {
-  return assess_echoes(*model_of(at, transmitter, receiver), from_ned_m, to_ned_m, points).likelihood ==
+  return assess_echoes(*kernel_of(at, transmitter, receiver), from_ned_m, to_ned_m, points).likelihood ==
          acoustics::EchoLikelihood::kLikely;
 }
 
@@ -141,11 +169,10 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
   return {numbers, std::move(beam), modem.family};
 }
 
-std::shared_ptr<const acoustics::LinkModel> StraightPropagation::model_of(SimTime at,
-                                                                          const acoustics::Modem& transmitter,
-                                                                          const acoustics::Modem& receiver) {
-  return models_.find_or_make({waters_->water_at(at), key_of(transmitter), key_of(receiver)}, [&] {
-    return std::make_shared<const acoustics::LinkModel>(waters_->at(at), transmitter, receiver);
+std::shared_ptr<const acoustics::LinkKernel> StraightPropagation::kernel_of(
+    SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
+  return kernels_.find_or_make({waters_->water_at(at), key_of(transmitter), key_of(receiver)}, [&] {
+    return std::make_shared<const acoustics::LinkKernel>(waters_->at(at), transmitter, receiver);
   });
 }
 

@@ -22,6 +22,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -110,6 +111,10 @@ class Propagation {
 
   // Throws InvalidArgument when a modem is out of range.
   virtual Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) = 0;
+  // The same where nobody reads the capacity, as packets do not: it may be 0.
+  virtual Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+    return reception(at, from, to);
+  }
   // For many links that leave at one instant, shared out by `for_each`: as reception() one by one, or nearly where
   // an implementation lets links near each other share a search; the same whatever the sharing out.
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
@@ -137,21 +142,24 @@ class Propagation {
   virtual const acoustics::Environment& environment(SimTime at) const = 0;
 };
 
-// The straight path of acoustics/link/link_budget.h, in the water of the instant, weighed by both beams.
+// The straight path of acoustics/link/link_kernel.h, in the water of the instant, weighed by both beams.
 //
-// A LinkModel takes a millisecond to make and microseconds to evaluate, so one is kept for each pair of different
-// modems, `max_models` at most.
+// A LinkKernel takes a millisecond to make and a fraction of a microsecond to evaluate, so one is kept for each pair of
+// different modems, `max_kernels` at most.
 class StraightPropagation : public Propagation {
  public:
-  static constexpr std::size_t kMaxModels = 1024;
+  static constexpr std::size_t kMaxKernels = 1024;
   // Throws InvalidArgument when the environment is out of range.
-  explicit StraightPropagation(acoustics::Environment environment, std::size_t max_models = kMaxModels);
+  explicit StraightPropagation(acoustics::Environment environment, std::size_t max_kernels = kMaxKernels);
   explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
                                const acoustics::FadingModel& fading = {},
-                               std::size_t max_models = kMaxModels);
+                               std::size_t max_kernels = kMaxKernels);
 
   // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
+                                    const ForEach& for_each) override;
   // The same link where the terrain is known to stand in the line: no path, silence.
   Reception blocked(SimTime at, const LinkEnd& from, const LinkEnd& to);
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
@@ -159,20 +167,22 @@ class StraightPropagation : public Propagation {
                           const std::vector<acoustics::BottomPoint>& points) override;
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
-  std::shared_ptr<const acoustics::LinkModel> model_of(SimTime at, const acoustics::Modem& transmitter,
-                                                       const acoustics::Modem& receiver);
+  std::shared_ptr<const acoustics::LinkKernel> kernel_of(SimTime at, const acoustics::Modem& transmitter,
+                                                         const acoustics::Modem& receiver);
 
-  std::size_t models_kept() const { return models_.size(); }
+  std::size_t kernels_kept() const { return kernels_.size(); }
 
  private:
   // Numbers of a budget, beam, family.
   using ModemKey = std::tuple<std::array<double, 5>, std::vector<double>, std::string>;
   using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
   static ModemKey key_of(const acoustics::Modem& modem);
+  Reception along_line(const acoustics::LinkKernel& kernel, const acoustics::Environment& water,
+                       const LinkEnd& from, const LinkEnd& to, acoustics::Capacity capacity) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   acoustics::FadingModel fading_;
-  LruCache<PairKey, std::shared_ptr<const acoustics::LinkModel>> models_;
+  LruCache<PairKey, std::shared_ptr<const acoustics::LinkKernel>> kernels_;
 };
 
 }  // namespace halocline::channel_server

@@ -8,6 +8,7 @@
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/link_budget.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/extrapolate_arrivals.h"
@@ -56,14 +57,23 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
 }
 
 Reception RayPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  const Task task = task_of(at, from, to, from.id > to.id);
+  return reception_of(at, task_of(at, from, to, from.id > to.id));
+}
+
+Reception RayPropagation::reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Task task = task_of(at, from, to, from.id > to.id);
+  task.capacity = acoustics::Capacity::kLeftOut;
+  return reception_of(at, task);
+}
+
+Reception RayPropagation::reception_of(SimTime at, const Task& task) {
   const FoundPaths paths = found(task);
-  return paths ? answer(task, *paths) : without_bottom(at, from, to);
+  return paths ? answer(task, *paths) : without_bottom(at, task.ends, task.capacity);
 }
 
 Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                          const std::shared_ptr<const SeabedProfile>& seabed) {
-  if (!seabed) return without_bottom(at, from, to);
+  if (!seabed) return without_bottom(at, {from, to}, acoustics::Capacity::kComputed);
   const Task task = task_over(at, from, to, seabed);
   return answer(task, *found(task));
 }
@@ -113,7 +123,7 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
     if (paths_of(i)) receptions[i] = answer(tasks[i], *paths_of(i));
   });
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!paths_of(i)) receptions[i] = without_bottom(at, links[i].from, links[i].to);
+    if (!paths_of(i)) receptions[i] = without_bottom(at, links[i], acoustics::Capacity::kComputed);
   }
   return receptions;
 }
@@ -174,7 +184,7 @@ RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, co
   return {{from, to},
           &environment,
           water_of(at, frequency_hz),
-          straight_.model_of(at, *from.modem, *to.modem),
+          straight_.kernel_of(at, *from.modem, *to.modem),
           {waters_->water_at(at), frequency_hz, places, seabed_->version(), nullptr, link},
           link,
           reversed};
@@ -229,8 +239,10 @@ RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
   return found_.insert(key, search(task, *seabed));
 }
 
-Reception RayPropagation::without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  Reception reception = straight_.reception(at, from, to);
+Reception RayPropagation::without_bottom(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
+  Reception reception = capacity == acoustics::Capacity::kComputed
+                            ? straight_.reception(at, ends.from, ends.to)
+                            : straight_.reception_without_capacity(at, ends.from, ends.to);
   reception.used = PropagationUsed::kStraightWithoutBottom;
   return reception;
 }
@@ -323,8 +335,8 @@ void RayPropagation::set_open(const Task& task, const acoustics::Arrivals& arriv
   const auto arrival = std::find_if(arrivals.paths.begin(), arrivals.paths.end(),
                                     [&](const auto& one) { return one.delay_s == first.delay_s; });
   acoustics::LinkBudget& budget = reception.budget;
-  budget = task.budget->budget_of_path(from, to, task.ends.from.modem->source_level - level,
-                                       arrival->path_length_m);
+  budget = task.kernel->budget_of_path(from, to, task.ends.from.modem->source_level - level,
+                                       arrival->path_length_m, task.capacity);
   budget.delay_s = reception.paths[best_window(reception.paths, *task.ends.to.modem).strongest].delay_s;
   budget.mean_sound_speed_mps = std::max(budget.range_m, acoustics::kMinDistance) / first.delay_s;
   if (arrival->path_length_m > 0) {
@@ -337,8 +349,8 @@ void RayPropagation::set_silent(const Task& task, Reception& reception) const {
   const bool leaks = (reception.state == PathState::kShadow || reception.state == PathState::kTooWeak) &&
                      model_.shadow_loss.has_value();
   const Decibels silent = task.ends.from.modem->source_level - kSilence;
-  reception.budget =
-      task.budget->budget_of_path(from, to, leaks ? *model_.shadow_loss : silent, (to - from).norm());
+  reception.budget = task.kernel->budget_of_path(from, to, leaks ? *model_.shadow_loss : silent,
+                                                 (to - from).norm(), task.capacity);
   reception.budget.receivable = false;
 }
 

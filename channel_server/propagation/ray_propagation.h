@@ -8,7 +8,7 @@
 // transmission loss = source level - received level; noise, signal-to-noise ratio and what is receivable follow;
 // capacity takes that loss at the centre of the band, and elsewhere in the band as much more or less as water
 // between the two depths absorbs more or less over the length of the first significant path
-// (LinkModel::budget_of_path). Doppler of each path is that of acoustics/rays/ray_doppler.h.
+// (LinkKernel::budget_of_path). Doppler of each path is that of acoustics/rays/ray_doppler.h.
 // Where there is no path: too weak or too steep when rays arrive beyond the limits of the search, blocked when none does
 // and the bottom cuts the straight line between the ends, in a shadow otherwise; the level is kSilence or, in a shadow
 // and where rays are too weak, that of the stated floor, the delay that of the straight line, and nothing is receivable.
@@ -35,6 +35,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arrivals.h"
@@ -79,6 +80,7 @@ class RayPropagation : public Propagation {
                  const RayModel& model);
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
@@ -127,10 +129,11 @@ class RayPropagation : public Propagation {
     EndPair ends;
     const acoustics::Environment* environment;
     std::shared_ptr<const acoustics::RayWater> water;
-    std::shared_ptr<const acoustics::LinkModel> budget;
+    std::shared_ptr<const acoustics::LinkKernel> kernel;
     PathQuery query;
     acoustics::RayLink link;  // where the ends are; the query's own unless its paths are extrapolated
     bool reversed = false;    // the transmitter is the profile's last end
+    acoustics::Capacity capacity = acoustics::Capacity::kComputed;
   };
 
   static Key key_of(const PathQuery& query);
@@ -147,7 +150,9 @@ class RayPropagation : public Propagation {
   FoundPaths search(const Task& task, const SeabedProfile& seabed) const;
   // Null where the bottom is not known.
   FoundPaths found(const Task& task);
-  Reception without_bottom(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  // Along the straight line where the bottom is not known.
+  Reception reception_of(SimTime at, const Task& task);
+  Reception without_bottom(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
   Reception answer(const Task& task, const Found& found) const;
   static PathState state_without_path(const Found& found);
   // What was found, at the ends of the task.

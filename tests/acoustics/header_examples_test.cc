@@ -1,11 +1,14 @@
 // The examples in the comments of the headers of acoustics/, compiled and run (tests/docs/check_examples).
 #include <cmath>
 #include <iostream>
+#include <span>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/link/link_budget.h"
+#include "acoustics/link/link_kernel.h"
+#include "acoustics/math/depth_means.h"
 #include "acoustics/math/gauss_legendre.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
@@ -65,6 +68,22 @@ TEST(HeaderExamples, LinkBudget) {
   const LinkModel model(environment, transmitter, receiver);
   const LinkBudget link = model.budget(from_ned_m, to_ned_m);
   EXPECT_NEAR(link.range_m, std::hypot(1000, 10), 1e-9);
+}
+
+TEST(HeaderExamples, LinkKernel) {
+  const Environment environment;
+  const Modem transmitter, receiver;
+  const Vec3 from_ned_m(0, 0, 10), to_ned_m(1000, 0, 20);
+  const LinkKernel kernel(environment, transmitter, receiver);
+  const LinkBudget link = kernel.budget(from_ned_m, to_ned_m, Capacity::kComputed);
+  EXPECT_GT(link.capacity_bps, 0);
+}
+
+TEST(HeaderExamples, DepthMeans) {
+  const DepthMeans water({0, 50, 12'000}, 1,
+                         [](double, std::span<double> values) { values[0] = 1 / 1500.0; });
+  const double slowness_s_per_m = water.mean(0, water.place(10), water.place(70));
+  EXPECT_NEAR(slowness_s_per_m, 1 / 1500.0, 1e-18);
 }
 
 TEST(HeaderExamples, Absorption) {

@@ -77,6 +77,16 @@ TEST(ElementaryFunctions, LogarithmsAreWithinTheirErrors) {
   EXPECT_LT(worst_of_powers_of_two({-1073, 1023}, elementary::log10, exact10), 1.8);
 }
 
+TEST(ElementaryFunctions, ThoseForLoopsAreWithinTheirErrors) {
+  const auto exact = [](long double x) { return std::exp(x); };
+  const auto exact_log = [](long double x) { return std::log1p(x); };
+  EXPECT_LT(worst({-708, 708}, elementary::exp_within, exact), 0.9);
+  for (const Range range : {Range{0, 0.5}, {0.4, 0.45}, {0.9, 3}, {1e15, 1e16}})
+    EXPECT_LT(worst(range, elementary::log1p_within, exact_log), 1.5) << range.low;
+  EXPECT_LT(worst_of_powers_of_two({-1022, 996}, elementary::log1p_within, exact_log), 1.5);
+  EXPECT_EQ(elementary::log1p_within(0), 0);
+}
+
 TEST(ElementaryFunctions, SinesAreWithinTheirErrorsAtAllAngles) {
   const auto sine = [](long double x) { return std::sin(x); };
   const auto cosine = [](long double x) { return std::cos(x); };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "acoustics/link/link_budget.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/environment.h"

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "acoustics/link/capacity.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/link/transmission_loss.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/sea/absorption.h"
@@ -239,8 +240,8 @@ TEST(LinkBudget, CutOffDecidesWhatIsReceivable) {
 
 TEST(LinkBudget, PathLossOfALegIsTheLinksLoss) {
   const Case c;
-  const LinkModel model(c.sea, c.tx, c.rx);
-  const LinkBudget link = model.budget(c.from, c.to);
+  const LinkKernel model(c.sea, c.tx, c.rx);
+  const LinkBudget link = model.budget(c.from, c.to, Capacity::kLeftOut);
   EXPECT_EQ(model.path_loss(30, 430, link.range_m).total, link.transmission_loss);
   EXPECT_EQ(model.delay_s(c.from, c.to), link.delay_s);
 }
@@ -248,10 +249,10 @@ TEST(LinkBudget, PathLossOfALegIsTheLinksLoss) {
 TEST(LinkBudget, RefusesImpossibleSeas) {
   Environment sea;
   sea.spreading_exponent = 3;
-  EXPECT_THROW(LinkModel(sea, Modem{}, Modem{}), InvalidArgument);
+  EXPECT_THROW(LinkKernel(sea, Modem{}, Modem{}), InvalidArgument);
   sea.spreading_exponent = 1.5;
   sea.noise.shipping = 1.5;
-  EXPECT_THROW(LinkModel(sea, Modem{}, Modem{}), InvalidArgument);
+  EXPECT_THROW(LinkKernel(sea, Modem{}, Modem{}), InvalidArgument);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/link_budget.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
@@ -19,15 +20,15 @@ const Vec3 kFrom{0, 0, 20}, kTo{400, 0, 20};
 
 BottomPoint flat_bottom_at(double north_m) { return {{north_m, 0, 120}, false, false}; }
 
-LinkModel model_with_cut_off(double cut_off_db) {
+LinkKernel model_with_cut_off(double cut_off_db) {
   const Modem modem = generic_modem({160}, {cut_off_db}, 25e3, 5e3);
-  return LinkModel(Environment{}, modem, modem);
+  return LinkKernel(Environment{}, modem, modem);
 }
 
 TEST(Multipath, BouncePathMatchesTheImageMethodInIsovelocityWater) {
   Environment sea;
   sea.profile = SoundSpeedProfile::isovelocity(1500, {10, 35});
-  const LinkModel model(sea, Modem{}, Modem{});
+  const LinkKernel model(sea, Modem{}, Modem{});
   const EchoPath path = echo_path(model, kFrom, kTo, flat_bottom_at(200));
   const double image = std::hypot(400, 200);  // the receiver's image lies 100 m under the bottom
   EXPECT_NEAR(path.length_m, image, tolerance(1e-12));
@@ -36,13 +37,13 @@ TEST(Multipath, BouncePathMatchesTheImageMethodInIsovelocityWater) {
 
 TEST(Multipath, LevelIsTheLossLawOverTheWholeLength) {
   // Two straight legs in one line are one straight link: same absorption integral, same spreading.
-  const LinkModel model = model_with_cut_off(0);
+  const LinkKernel model = model_with_cut_off(0);
   const Vec3 deep{400, 0, 220};
   const BottomPoint halfway{{200, 0, 120}, false, false};
   EXPECT_NEAR(echo_path(model, kFrom, deep, halfway).level.value,
-              model.budget(kFrom, deep).received_level.value, tolerance(1e-11));
-  EXPECT_NEAR(echo_path(model, kFrom, deep, halfway).delay_s, model.budget(kFrom, deep).delay_s,
-              tolerance(1e-15));
+              model.budget(kFrom, deep, Capacity::kLeftOut).received_level.value, tolerance(1e-11));
+  EXPECT_NEAR(echo_path(model, kFrom, deep, halfway).delay_s,
+              model.budget(kFrom, deep, Capacity::kLeftOut).delay_s, tolerance(1e-15));
 }
 
 TEST(Multipath, IsLikelyWhenAnyOpenPathExceedsTheCutOff) {
@@ -56,8 +57,8 @@ TEST(Multipath, IsLikelyWhenAnyOpenPathExceedsTheCutOff) {
 }
 
 TEST(Multipath, AnEchoIsFainterAndLaterThanTheDirectPath) {
-  const LinkModel model = model_with_cut_off(0);
-  const LinkBudget direct = model.budget(kFrom, kTo);
+  const LinkKernel model = model_with_cut_off(0);
+  const LinkBudget direct = model.budget(kFrom, kTo, Capacity::kLeftOut);
   for (const double fraction : bottom_point_fractions(9)) {
     const EchoPath path = echo_path(model, kFrom, kTo, flat_bottom_at(400 * fraction));
     EXPECT_LT(path.level, direct.received_level) << fraction;
@@ -66,7 +67,7 @@ TEST(Multipath, AnEchoIsFainterAndLaterThanTheDirectPath) {
 }
 
 TEST(Multipath, ABlockedPathDoesNotCount) {
-  const LinkModel model = model_with_cut_off(0);
+  const LinkKernel model = model_with_cut_off(0);
   BottomPoint point = flat_bottom_at(200);
   EXPECT_EQ(assess_echoes(model, kFrom, kTo, {point}).likelihood, EchoLikelihood::kLikely);
   point.blocked_from_transmitter = true;
@@ -83,9 +84,9 @@ TEST(Multipath, WithoutBottomThereIsNoEcho) {
 }
 
 TEST(Multipath, APointOnTheTransmitterLosesTheDirectLoss) {
-  const LinkModel model = model_with_cut_off(0);
+  const LinkKernel model = model_with_cut_off(0);
   EXPECT_NEAR(echo_path(model, kFrom, kTo, {kFrom, false, false}).level.value,
-              model.budget(kFrom, kTo).received_level.value, tolerance(1e-11));
+              model.budget(kFrom, kTo, Capacity::kLeftOut).received_level.value, tolerance(1e-11));
   EXPECT_EQ(echo_path(model, kFrom, kFrom, {kFrom, false, false}).level.value, 160);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/link_kernel.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
@@ -128,8 +129,8 @@ TEST_F(MultipathOfTest, ChangesAtTheLevelOfTheShortestEcho) {
   survey.take_ways(same_answer(6, {Kind::kMiss, 0}));
   const double level_db =
       acoustics::echo_path(
-          acoustics::LinkModel(testing::even_water(), modem_with_cutoff(0), modem_with_cutoff(0)), {0, 0, 70},
-          {900, 0, 70}, {{450, 0, 200}})
+          acoustics::LinkKernel(testing::even_water(), modem_with_cutoff(0), modem_with_cutoff(0)),
+          {0, 0, 70}, {900, 0, 70}, {{450, 0, 200}})
           .level.value;
   EXPECT_EQ(verdict_of(survey, level_db - 0.001), Multipath::kLikely);
   EXPECT_EQ(verdict_of(survey, level_db + 0.001), Multipath::kUnlikely);

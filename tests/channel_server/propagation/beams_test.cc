@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/beam_pattern.h"
@@ -214,7 +215,7 @@ TEST(Beams, TwoModemsThatDifferInTheirBeamsAloneAreNotTakenForEachOther) {
   const double bare = straight.reception(at_s(0), end_at(low, plain), end_at(high, plain)).budget.snr.value;
   EXPECT_NEAR(straight.reception(at_s(0), end_at(low, beam), end_at(high, plain)).budget.snr.value,
               bare - kDown20Db, tolerance(1e-9));
-  EXPECT_EQ(straight.models_kept(), 2u);
+  EXPECT_EQ(straight.kernels_kept(), 2u);
 }
 
 TEST(Beams, AnEchoOffTheBottomIsWeighedByBothWhereTheyLookDown) {
@@ -222,7 +223,8 @@ TEST(Beams, AnEchoOffTheBottomIsWeighedByBothWhereTheyLookDown) {
   const acoustics::BottomPoint middle{Vec3(50, 0, 100)};  // 45 degrees down
   const acoustics::Modem plain, beam = flat_looking();
   const auto level = [&](const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
-    return echo_path(acoustics::LinkModel(even_water(), transmitter, receiver), from, to, middle).level.value;
+    return echo_path(acoustics::LinkKernel(even_water(), transmitter, receiver), from, to, middle)
+        .level.value;
   };
   EXPECT_NEAR(level(beam, plain), level(plain, plain) - kDown20Db, tolerance(1e-9));
   EXPECT_NEAR(level(beam, beam), level(plain, plain) - 2 * kDown20Db, tolerance(1e-9));

@@ -33,7 +33,7 @@ SoundPath path_of(double delay_s, double level_db) {
   return path;
 }
 
-TEST(StraightPropagation, AnswersAsTheLinkModelOfTheTwoModems) {
+TEST(StraightPropagation, AnswersAsTheLinkBudgetOfTheTwoModems) {
   const acoustics::Environment water;
   StraightPropagation propagation(water);
   const auto quiet = modem_of_level(160), loud = modem_of_level(190);
@@ -92,13 +92,13 @@ TEST(StraightPropagation, EqualModemsShareOneModel) {
                           end_at({9, 0, 1}, modem_of_level(receiver_db)));
   };
   for (int i = 0; i < 5; ++i) evaluate(180, 180);
-  EXPECT_EQ(propagation.models_kept(), 1u);
+  EXPECT_EQ(propagation.kernels_kept(), 1u);
   evaluate(181, 180);
-  EXPECT_EQ(propagation.models_kept(), 2u);
+  EXPECT_EQ(propagation.kernels_kept(), 2u);
 }
 
 TEST(StraightPropagation, TheModelUsedLeastRecentlyMakesRoom) {
-  StraightPropagation propagation(acoustics::Environment{}, /*max_models=*/3);
+  StraightPropagation propagation(acoustics::Environment{}, /*max_kernels=*/3);
   const acoustics::Modem receiver;
   for (int level = 150; level < 170; ++level) {
     const auto transmitter = modem_of_level(level);
@@ -106,7 +106,7 @@ TEST(StraightPropagation, TheModelUsedLeastRecentlyMakesRoom) {
         propagation.reception(SimTime(), end_at({0, 0, 1}, transmitter), end_at({1, 0, 1}, receiver));
     // At 1 m, absorption alone is lost.
     EXPECT_NEAR(reception.budget.received_level.value, level, tolerance(1e-2));
-    EXPECT_LE(propagation.models_kept(), 3u);
+    EXPECT_LE(propagation.kernels_kept(), 3u);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(StraightPropagation, AnImpossibleModemIsRefusedAndNothingKept) {
   const acoustics::Modem impossible = modem_of_level(900), modem;
   EXPECT_THROW(propagation.reception(SimTime(), end_at({0, 0, 1}, impossible), end_at({1, 0, 1}, modem)),
                InvalidArgument);
-  EXPECT_EQ(propagation.models_kept(), 0u);
+  EXPECT_EQ(propagation.kernels_kept(), 0u);
 }
 
 TEST(Paths, TheFirstSignificantOneLiesWithinTwentyDecibelsOfTheStrongest) {
