@@ -121,6 +121,7 @@ std::vector<double> mean_powers(const std::vector<SoundPath>& paths) {
 }
 
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem) {
+  if (paths.size() == 1) return {.first = 0, .strongest = 0, .weights = {1}, .interference = {0}};
   const Guard guard(modem);
   const std::vector<double> powers = mean_powers(paths), sums = window_powers(paths, powers, guard);
   const auto best = std::max_element(sums.begin(), sums.end());

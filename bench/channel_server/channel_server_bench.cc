@@ -35,11 +35,11 @@ constexpr double kSpeedMps = 2;
 Vec3 start_of(VehicleId id) { return {150.0 * id, 70.0 * (id % 5), 20.0 + 7 * id}; }
 
 // States ten times a second over the last ten seconds before `end`.
-void add_states(VehicleRegistry& fleet, int vehicles, SimTime end) {
+void add_states(VehicleRegistry& fleet, int vehicles, SimTime end, double speed_mps = kSpeedMps) {
   for (VehicleId id = 1; id <= vehicles; ++id) {
     for (int tick = -100; tick <= 0; ++tick) {
       const SimTime time = end + SimDuration::from_milliseconds(100) * tick;
-      const Vec3 velocity(kSpeedMps, 0, 0);
+      const Vec3 velocity(speed_mps, 0, 0);
       const std::string problem = fleet.add_state("v" + std::to_string(id), id,
                                                   {time, start_of(id) + time.seconds() * velocity, velocity});
       require(problem.empty(), problem);
@@ -74,18 +74,20 @@ double seamount_z_m(const Vec3& place) {
   return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
 }
 
+void answer_requests(SeabedMap& seabed) {
+  for (TileSurvey& tile : seabed.take_requests()) {
+    std::vector<RayAnswer> answers;
+    for (const TerrainRay& ray : tile.rays()) {
+      answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
+    }
+    tile.take(answers);
+    seabed.store(tile);
+  }
+}
+
 void survey_tables(RayPropagation& propagation, SeabedMap& seabed, const std::vector<PlacedVehicle>& vehicles,
                    SimTime now) {
-  while (!tables_are_ready(now, vehicles, propagation)) {
-    for (TileSurvey& tile : seabed.take_requests()) {
-      std::vector<RayAnswer> answers;
-      for (const TerrainRay& ray : tile.rays()) {
-        answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
-      }
-      tile.take(answers);
-      seabed.store(tile);
-    }
-  }
+  while (!tables_are_ready(now, vehicles, propagation)) answer_requests(seabed);
 }
 
 // The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
@@ -120,10 +122,11 @@ BENCHMARK(ray_link_table)->Arg(3)->Arg(20)->Unit(benchmark::kMillisecond);
 
 // A medium and its fleet, whose time moves on while the clock of the benchmark stands.
 struct BusyWater {
-  void move_on(benchmark::State& state, int vehicles, SimDuration states_ahead) {
+  void move_on(benchmark::State& state, int vehicles, SimDuration states_ahead,
+               double speed_mps = kSpeedMps) {
     state.PauseTiming();
     now = now + SimDuration::from_milliseconds(20'000);
-    add_states(fleet, vehicles, now + states_ahead);
+    add_states(fleet, vehicles, now + states_ahead, speed_mps);
     fleet.forget_before(now - SimDuration::from_milliseconds(20'000));
     medium.forget_before(now - SimDuration::from_milliseconds(11'000));
     state.ResumeTiming();
@@ -138,11 +141,18 @@ struct BusyWater {
     request.payload.resize(bytes);
     benchmark::DoNotOptimize(medium.transmit(request, now));
   }
-  void run(SimDuration time) { benchmark::DoNotOptimize(medium.advance_to(now + time)); }
+  void run(SimDuration time) {
+    benchmark::DoNotOptimize(medium.advance_to(now + time));
+    while (medium.is_waiting()) {
+      answer_requests(*seabed);
+      benchmark::DoNotOptimize(medium.advance_to(now + time));
+    }
+  }
 
+  std::shared_ptr<SeabedMap> seabed = std::make_shared<SeabedMap>(SeabedRule{});
   VehicleRegistry fleet{{}, {}};
-  StraightPropagation propagation{acoustics::Environment{}};
-  PacketMedium medium{fleet, propagation, {}};
+  std::unique_ptr<Propagation> propagation = std::make_unique<StraightPropagation>(acoustics::Environment{});
+  PacketMedium medium{fleet, *propagation, {}};
   SimTime now = SimTime::from_seconds(100);
   std::int64_t sequence = 0;
 };
@@ -162,6 +172,28 @@ void packet(benchmark::State& state) {
       static_cast<double>(state.iterations()) * (vehicles - 1), benchmark::Counter::kIsRate);
 }
 BENCHMARK(packet)->Arg(3)->Arg(20)->Arg(100);
+
+// The same along rays over the seamount, of vehicles at rest: after the first packet every link's rays are known.
+void packet_along_kept_rays(benchmark::State& state) {
+  const int vehicles = static_cast<int>(state.range(0));
+  const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  BusyWater water{.seabed = seabed,
+                  .propagation = std::make_unique<RayPropagation>(
+                      std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), seabed, RayModel{})};
+  for (bool first = true; first || state.KeepRunning(); first = false) {
+    if (first) {
+      add_states(water.fleet, vehicles, water.now, 0);
+    } else {
+      water.move_on(state, vehicles, SimDuration(), 0);
+    }
+    water.send(1, water.now, 16);
+    water.run(SimDuration::from_milliseconds(10'000));
+  }
+  state.SetItemsProcessed(state.iterations());
+  state.counters["outcomes_per_second"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * (vehicles - 1), benchmark::Counter::kIsRate);
+}
+BENCHMARK(packet_along_kept_rays)->Arg(3)->Arg(20);
 
 // Everybody talks at once: each of a fleet broadcasts twice within two seconds, so that at every receiver all
 // packets overlap. Items are packets; each ends at (vehicles - 1) receivers.

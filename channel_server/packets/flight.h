@@ -52,6 +52,7 @@ struct Flight {
   bool receiver_absent = false;  // at the first significant path: its state is older than the time-out
   double large_scale = 1;        // of the pressures, by the link's large-scale fading
   ReceivedSignal signal;
+  PacketDraws draws = {};
   std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before
   bool acquired = false;
   double timing_error_s = 0;  // of the arrival, as the receiver measures it; 0 unless acquired

@@ -210,6 +210,7 @@ void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
   flight->receiver_absent = !fleet_.placement(flight->receiver_id, arrival, at);
   flight->large_scale = large_scale_of(*flight, rule_.fading, rule_.seed);
   flight->signal = received_signal(*flight, to_power_ratio(noise).value, rule_.fading);
+  flight->draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
   state_of(flight->receiver_id).open(audible_packet(*flight));
   flight->stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
@@ -226,9 +227,8 @@ void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
   if (!is_impossible && !flight->followed) {
     evaluate_signal(*flight, rule_.fading, rule_.seed);
     const auto others = receiver.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
-    const PacketDraws draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
-    flight->acquired = acquires(signal, others, draws, flight->statistics);
-    if (flight->acquired) flight->timing_error_s = timing_error_s(signal, others, draws.timing);
+    flight->acquired = acquires(signal, others, flight->draws, flight->statistics);
+    if (flight->acquired) flight->timing_error_s = timing_error_s(signal, others, flight->draws.timing);
   }
   if (flight->acquired) receiver.acquire({flight->packet, signal.begin, signal.end}, signal.preamble_end);
   flight->stage = Flight::Stage::kBits;
@@ -239,9 +239,8 @@ void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
 OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
   const ReceivedSignal& signal = flight.signal;
   DecisionStatistics& statistics = flight.statistics;
-  const PacketDraws draws = draws_of(rule_.seed, *flight.packet, flight.receiver_id);
-  statistics.acquisition_draw = draws.acquisition;
-  statistics.success_draw = draws.success;
+  statistics.acquisition_draw = flight.draws.acquisition;
+  statistics.success_draw = flight.draws.success;
   flight.receiver_absent = flight.receiver_absent || !fleet_.placement(flight.receiver_id, at, at);
   const OutcomeKind before = outcome_before_acquisition(flight);
   if (before != OutcomeKind::kReceived) return before;
@@ -256,7 +255,7 @@ OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
     return OutcomeKind::kCollided;
   }
   const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
-  return decide_reception(signal, others, draws, flight.acquired, statistics);
+  return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {

@@ -51,8 +51,8 @@ struct ReceivedSignal {
 };
 
 struct PacketDraws {
-  double acquisition, success;  // in (0, 1)
-  double timing;                // standard normal
+  double acquisition = 0, success = 0;  // in (0, 1)
+  double timing = 0;                    // standard normal
 };
 PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver);
 

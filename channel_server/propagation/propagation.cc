@@ -103,25 +103,15 @@ StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeli
     : waters_(std::move(waters)), fading_(fading), kernels_(max_kernels) {}
 
 Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
-                                          const acoustics::Environment& water, const LinkEnd& from,
-                                          const LinkEnd& to, acoustics::Capacity capacity) const {
+                                          const acoustics::Environment& water, const EndPair& ends,
+                                          acoustics::Capacity capacity) const {
+  const auto& [from, to] = ends;
   Reception reception;
   reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity);
   SoundPath path = straight_path(water, reception.budget, from, to);
   path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
   reception.paths = {path};
   return reception;
-}
-
-Reception StraightPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), from, to,
-                    acoustics::Capacity::kComputed);
-}
-
-Reception StraightPropagation::reception_without_capacity(SimTime at, const LinkEnd& from,
-                                                          const LinkEnd& to) {
-  return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), from, to,
-                    acoustics::Capacity::kLeftOut);
 }
 
 // The cache of kernels is read in turn; links are shared out.
@@ -132,8 +122,7 @@ std::vector<Reception> StraightPropagation::receptions(SimTime at, const std::ve
   const acoustics::Environment& water = waters_->at(at);
   std::vector<Reception> receptions(links.size());
   for_each(links.size(), [&](std::size_t i) {
-    receptions[i] =
-        along_line(*kernels[i], water, links[i].from, links[i].to, acoustics::Capacity::kComputed);
+    receptions[i] = along_line(*kernels[i], water, links[i], acoustics::Capacity::kComputed);
   });
   return receptions;
 }
@@ -171,9 +160,14 @@ StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem
 
 std::shared_ptr<const acoustics::LinkKernel> StraightPropagation::kernel_of(
     SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
-  return kernels_.find_or_make({waters_->water_at(at), key_of(transmitter), key_of(receiver)}, [&] {
+  const EnvironmentTimeline::WaterId water = waters_->water_at(at);
+  if (last_ && water == last_water_ && last_->transmitter() == transmitter && last_->receiver() == receiver)
+    return last_;
+  last_ = kernels_.find_or_make({water, key_of(transmitter), key_of(receiver)}, [&] {
     return std::make_shared<const acoustics::LinkKernel>(waters_->at(at), transmitter, receiver);
   });
+  last_water_ = water;
+  return last_;
 }
 
 }  // namespace halocline::channel_server

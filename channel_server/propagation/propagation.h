@@ -156,8 +156,16 @@ class StraightPropagation : public Propagation {
                                std::size_t max_kernels = kMaxKernels);
 
   // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
-  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
-  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  Reception along_line(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
+    const auto& [from, to] = ends;
+    return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), ends, capacity);
+  }
+  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return along_line(at, {from, to}, acoustics::Capacity::kComputed);
+  }
+  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return along_line(at, {from, to}, acoustics::Capacity::kLeftOut);
+  }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   // The same link where the terrain is known to stand in the line: no path, silence.
@@ -178,11 +186,14 @@ class StraightPropagation : public Propagation {
   using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
   static ModemKey key_of(const acoustics::Modem& modem);
   Reception along_line(const acoustics::LinkKernel& kernel, const acoustics::Environment& water,
-                       const LinkEnd& from, const LinkEnd& to, acoustics::Capacity capacity) const;
+                       const EndPair& ends, acoustics::Capacity capacity) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   acoustics::FadingModel fading_;
   LruCache<PairKey, std::shared_ptr<const acoustics::LinkKernel>> kernels_;
+  // What was asked for last, which is what most links ask for.
+  EnvironmentTimeline::WaterId last_water_ = 0;
+  std::shared_ptr<const acoustics::LinkKernel> last_;
 };
 
 }  // namespace halocline::channel_server

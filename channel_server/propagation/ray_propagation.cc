@@ -56,19 +56,11 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
   require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
 }
 
-Reception RayPropagation::reception(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  return reception_of(at, task_of(at, from, to, from.id > to.id));
-}
-
-Reception RayPropagation::reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  Task task = task_of(at, from, to, from.id > to.id);
-  task.capacity = acoustics::Capacity::kLeftOut;
-  return reception_of(at, task);
-}
-
-Reception RayPropagation::reception_of(SimTime at, const Task& task) {
+Reception RayPropagation::along_rays(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
+  Task task = task_of(at, ends.from, ends.to, ends.from.id > ends.to.id);
+  task.capacity = capacity;
   const FoundPaths paths = found(task);
-  return paths ? answer(task, *paths) : without_bottom(at, task.ends, task.capacity);
+  return paths ? answer(task, *paths) : without_bottom(at, ends, capacity);
 }
 
 Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
@@ -240,9 +232,7 @@ RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
 }
 
 Reception RayPropagation::without_bottom(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
-  Reception reception = capacity == acoustics::Capacity::kComputed
-                            ? straight_.reception(at, ends.from, ends.to)
-                            : straight_.reception_without_capacity(at, ends.from, ends.to);
+  Reception reception = straight_.along_line(at, ends, capacity);
   reception.used = PropagationUsed::kStraightWithoutBottom;
   return reception;
 }

@@ -79,8 +79,12 @@ class RayPropagation : public Propagation {
   RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters, std::shared_ptr<SeabedMap> seabed,
                  const RayModel& model);
 
-  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
-  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return along_rays(at, {from, to}, acoustics::Capacity::kComputed);
+  }
+  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return along_rays(at, {from, to}, acoustics::Capacity::kLeftOut);
+  }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
@@ -150,8 +154,8 @@ class RayPropagation : public Propagation {
   FoundPaths search(const Task& task, const SeabedProfile& seabed) const;
   // Null where the bottom is not known.
   FoundPaths found(const Task& task);
-  // Along the straight line where the bottom is not known.
-  Reception reception_of(SimTime at, const Task& task);
+  // Straight where the bottom is not known.
+  Reception along_rays(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
   Reception without_bottom(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
   Reception answer(const Task& task, const Found& found) const;
   static PathState state_without_path(const Found& found);

@@ -23,26 +23,35 @@ Placement carried_on(const StampedState& state, SimTime instant) {
 }  // namespace
 
 bool StateHistory::insert(const StampedState& state) {
-  const auto place = std::lower_bound(states_.begin(), states_.end(), state.time, is_earlier);
+  const auto place = std::lower_bound(begin(), states_.cend(), state.time, is_earlier);
   if (place != states_.end() && place->time == state.time) return false;
   states_.insert(place, state);
-  if (states_.size() > kMaxStates) states_.pop_front();
+  if (size() > kMaxStates) forget_first(1);
   return true;
 }
 
 std::optional<Placement> StateHistory::at(SimTime instant, SimTime decided_at,
                                           const PositionRule& rule) const {
   const SimTime known_until = decided_at - rule.state_lag;
-  const auto unknown = std::upper_bound(states_.begin(), states_.end(), known_until, is_later);
-  const auto after = std::upper_bound(states_.begin(), unknown, instant, is_later);
-  if (after == states_.begin()) return std::nullopt;
+  const Place after = std::upper_bound(begin(), states_.end(), std::min(instant, known_until), is_later);
+  if (after == begin()) return std::nullopt;
   const StampedState& before = *std::prev(after);
-  const bool bracketed = after != unknown && after->time - before.time <= rule.state_timeout;
+  const bool bracketed =
+      after != states_.end() && after->time <= known_until && after->time - before.time <= rule.state_timeout;
   return bracketed ? between(before, *after, instant) : carried_on(before, instant);
 }
 
 void StateHistory::forget_before(SimTime time) {
-  while (states_.size() > 1 && states_[1].time < time) states_.pop_front();
+  std::size_t count = 0;
+  while (count + 1 < size() && begin()[static_cast<std::ptrdiff_t>(count + 1)].time < time) ++count;
+  forget_first(count);
+}
+
+void StateHistory::forget_first(std::size_t count) {
+  forgotten_ += count;
+  if (forgotten_ < size()) return;
+  states_.erase(states_.begin(), begin());
+  forgotten_ = 0;
 }
 
 }  // namespace halocline::channel_server

@@ -16,8 +16,8 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <optional>
+#include <vector>
 
 #include "core/frames.h"
 #include "core/sim_time.h"
@@ -56,13 +56,18 @@ class StateHistory {
   // Drops what no instant at or after `time` can need: all states but the last before it.
   void forget_before(SimTime time);
 
-  bool empty() const { return states_.empty(); }
-  std::size_t size() const { return states_.size(); }
+  bool empty() const { return size() == 0; }
+  std::size_t size() const { return states_.size() - forgotten_; }
   // Of the latest state; only while not empty.
   SimTime latest() const { return states_.back().time; }
 
  private:
-  std::deque<StampedState> states_;  // ascending by time, each time once
+  using Place = std::vector<StampedState>::const_iterator;
+  Place begin() const { return states_.begin() + static_cast<std::ptrdiff_t>(forgotten_); }
+  void forget_first(std::size_t count);
+
+  std::vector<StampedState> states_;  // ascending by time, each time once
+  std::size_t forgotten_ = 0;         // of them, the first; fewer than the rest, so that each is moved once
 };
 
 }  // namespace halocline::channel_server
