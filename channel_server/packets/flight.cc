@@ -37,18 +37,6 @@ bool serves(const Flight& flight, const Placement& place, const acoustics::Modem
   return same || flight.propagation_calls >= kMaxPropagationCalls;
 }
 
-void evaluate(Flight& flight, const Placement& place, const acoustics::Modem& modem,
-              Propagation& propagation) {
-  ++flight.propagation_calls;
-  flight.modem = modem;
-  flight.place = place;
-  flight.reception = propagation.reception_without_capacity(
-      flight.packet->departure, flight.packet->link_end(),
-      {flight.receiver_id, place.position_ned_m, place.velocity_ned_mps, &flight.modem});
-  const auto& paths = flight.reception.paths;
-  flight.window = paths.empty() ? acoustics::GuardWindow() : best_window(paths, flight.modem);
-}
-
 // Along the first significant path, s/m; along the straight line without one.
 Vec3 slowness_at(const Flight& flight, Propagation& propagation) {
   const Vec3 &from = flight.packet->departure_ned_m, &to = flight.place.position_ned_m;
@@ -60,14 +48,23 @@ Vec3 slowness_at(const Flight& flight, Propagation& propagation) {
   return acoustics::ray_direction(from, to, angle) / speed_mps;
 }
 
-// Of the first significant path, at the place that the reception holds for.
-double solved_delay_s(const Reception& reception) {
-  const auto& paths = reception.paths;
-  return paths.empty() ? reception.budget.delay_s : paths[first_significant(paths)].delay_s;
+void evaluate(Flight& flight, const Placement& place, const acoustics::Modem& modem,
+              Propagation& propagation) {
+  ++flight.propagation_calls;
+  flight.modem = modem;
+  flight.place = place;
+  flight.reception = propagation.reception_without_capacity(
+      flight.packet->departure, flight.packet->link_end(),
+      {flight.receiver_id, place.position_ned_m, place.velocity_ned_mps, &flight.modem});
+  const auto& paths = flight.reception.paths;
+  flight.window = paths.empty() ? acoustics::GuardWindow() : best_window(paths, flight.modem);
+  flight.solved_delay_s =
+      paths.empty() ? flight.reception.budget.delay_s : paths[first_significant(paths)].delay_s;
+  flight.slowness_s_per_m = slowness_at(flight, propagation);
 }
 
 // How much later than in the reception, because the receiver has moved on.
-double shift_s(const Flight& flight) { return flight.travel_time_s - solved_delay_s(flight.reception); }
+double shift_s(const Flight& flight) { return flight.travel_time_s - flight.solved_delay_s; }
 
 // When a path of the reception begins to sound.
 SimTime begin_of(const Flight& flight, const SoundPath& path) {
@@ -116,11 +113,10 @@ void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fl
   if (!predicted) return;
   const acoustics::Modem& modem = fleet.modem(flight.receiver_id, expected).modem;
   if (!serves(flight, *predicted, modem)) evaluate(flight, *predicted, modem, propagation);
-  const Vec3 slowness = slowness_at(flight, propagation);
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto receiver = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
     const Vec3 moved = receiver->position_ned_m - flight.place.position_ned_m;
-    const double travel_time_s = std::max(solved_delay_s(flight.reception) + slowness.dot(moved), 0.0);
+    const double travel_time_s = std::max(flight.solved_delay_s + flight.slowness_s_per_m.dot(moved), 0.0);
     const double change_s = std::abs(travel_time_s - flight.travel_time_s);
     flight.travel_time_s = travel_time_s;
     if (change_s < kSettledS) return;

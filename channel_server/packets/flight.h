@@ -45,6 +45,8 @@ struct Flight {
   Placement place;         // the receiver's that `reception` holds for
   Reception reception;
   acoustics::GuardWindow window;  // where the receiver locks; of no path, empty
+  double solved_delay_s = 0;  // of the first significant path at `place`; of the straight line without one
+  Vec3 slowness_s_per_m = Vec3::Zero();  // of that path where it arrives
   int propagation_calls = 0, solutions = 0;
   double travel_time_s = 0;  // of the first significant path
 

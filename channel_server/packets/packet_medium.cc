@@ -83,7 +83,8 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
       waiting_ = true;
       reached = next;
     } else {
-      on_flight_event(std::move(flights_.extract(flights_.begin()).mapped()), next, events);
+      spare_ = flights_.extract(flights_.begin());
+      on_flight_event(std::move(spare_.mapped()), next, events);
     }
   }
   advanced_to_ = std::max(advanced_to_, reached);
@@ -272,8 +273,14 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
 }
 
 void PacketMedium::schedule(SimTime at, FlightPointer flight) {
-  FlightKey key{at, flight->stage, flight->receiver_id, flight->packet->name()};
-  const bool fresh = flights_.emplace(std::move(key), std::move(flight)).second;
+  const FlightKey key{at, flight->stage, flight->receiver_id, flight->packet->name()};
+  if (spare_.empty()) {
+    const bool fresh = flights_.emplace(key, std::move(flight)).second;
+    return ensure(fresh, "two flights of one packet to one receiver");
+  }
+  spare_.key() = key;
+  spare_.mapped() = std::move(flight);
+  const bool fresh = flights_.insert(std::move(spare_)).inserted;
   ensure(fresh, "two flights of one packet to one receiver");
 }
 

@@ -139,6 +139,8 @@ class PacketMedium {
   NoiseLevelCache noise_;
   std::map<DepartureKey, Departure> departures_;
   std::map<FlightKey, FlightPointer> flights_;
+  std::map<FlightKey, FlightPointer>::node_type
+      spare_;  // of the flight that was taken last, for its next event
   std::map<VehicleId, ReceiverState> receivers_;
   std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
       answered_;  // see add_answer

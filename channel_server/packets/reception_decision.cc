@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -112,14 +111,13 @@ PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receive
       {static_cast<std::uint64_t>(request.source_id), static_cast<std::uint64_t>(request.destination_id),
        static_cast<std::uint64_t>(request.kind), static_cast<std::uint64_t>(request.packet_sequence),
        static_cast<std::uint64_t>(packet.departure.nanoseconds())});
-  const auto address = [&](std::string_view purpose) {
-    return DrawAddress{.seed = seed,
-                       .purpose = purpose_of(purpose),
-                       .who = static_cast<std::uint32_t>(receiver),
-                       .which = identity};
+  constexpr std::uint32_t kAcquisition = purpose_of("packet-acquisition"), kBits = purpose_of("packet-bits"),
+                          kTiming = purpose_of("packet-timing");
+  const auto address = [&](std::uint32_t purpose) {
+    return DrawAddress{
+        .seed = seed, .purpose = purpose, .who = static_cast<std::uint32_t>(receiver), .which = identity};
   };
-  return {uniform_at(address("packet-acquisition")), uniform_at(address("packet-bits")),
-          normal_at(address("packet-timing"))};
+  return {uniform_at(address(kAcquisition)), uniform_at(address(kBits)), normal_at(address(kTiming))};
 }
 
 double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
