@@ -71,8 +71,8 @@ double baseline_capacity(const BandNodes& nodes, const BandLeg& leg) { return ca
 [[gnu::target("avx2")]] double avx2_capacity(const BandNodes& nodes, const BandLeg& leg) {
   return capacity(nodes, leg);
 }
-[[gnu::target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")]] double avx512_capacity(
-    const BandNodes& nodes, const BandLeg& leg) {
+[[gnu::target("avx512f,avx512dq,avx512vl")]] double avx512_capacity(const BandNodes& nodes,
+                                                                    const BandLeg& leg) {
   return capacity(nodes, leg);
 }
 #endif
