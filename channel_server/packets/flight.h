@@ -28,6 +28,7 @@
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
