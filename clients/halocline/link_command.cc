@@ -87,7 +87,7 @@ void print_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSu
   json["multipath"] = name_of(answer.multipath);
   json["path_state"] = name_of(answer.reception.state);
   json["propagation"] = name_of(answer.reception.used);
-  json["num_paths"] = number_of_paths(answer.reception.paths);
+  json["num_paths"] = channel_server::number_of_paths(answer.reception.paths);
   json["diffuse_level_db"] = answer.reception.diffuse_level.value;
   json["delay_spread_s"] = answer.reception.delay_spread_s;
   const channel_server::LinkForecast& f = answer.forecast;
@@ -123,8 +123,9 @@ void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkS
   line("capacity", b.capacity_bps, 1, "bit/s");
   fmt::print(std::cout,
              "receivable            {}\nbottom echo           {}\npaths                 {}, {}, {}\n",
-             b.receivable ? "yes" : "no", name_of(answer.multipath), number_of_paths(answer.reception.paths),
-             name_of(answer.reception.state), name_of(answer.reception.used));
+             b.receivable ? "yes" : "no", name_of(answer.multipath),
+             channel_server::number_of_paths(answer.reception.paths), name_of(answer.reception.state),
+             name_of(answer.reception.used));
   if (answer.reception.diffuse_level > channel_server::kSilence)
     line("diffuse level", answer.reception.diffuse_level.value, 3, "dB re 1 uPa");
   line("delay spread", answer.reception.delay_spread_s, 6, "s");
