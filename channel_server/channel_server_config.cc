@@ -48,6 +48,10 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
            {0.1, 1000, "m", "rays, link tables: lattice of the ends of bottom profiles"});
   v.number("profile_spacing_m", r.seabed.spacing_m,
            {1, 1000, "m", "rays: lattice of the depths that the bottom is made of"});
+  visit_count(v, "max_searches_per_tick", r.max_searches_per_tick,
+              {0, 1e6, "",
+               "rays, link tables: paths searched for at a tick, the most audible and most changed links "
+               "first; 0: all"});
   visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});
   visit_count(v, "predicted_payload_bytes", r.predicted_payload_bytes,
               {1, acoustics::kMaxPayloadBytes, "bytes", "of the packets whose delivery link tables predict"});

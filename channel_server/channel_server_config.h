@@ -21,6 +21,7 @@
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/replay_config.h"
@@ -106,6 +107,7 @@ struct ServerRules {
       5;  // how far the ends of a link may move before its echoes are surveyed again
   SeabedRule seabed;
   double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
+  int max_searches_per_tick = 0;         // of paths, for link tables; 0: as many as they need
   int threads = 1;                       // that compute link tables
   int predicted_payload_bytes = 32;      // of the packets whose delivery link tables predict
 };

@@ -122,6 +122,8 @@ link_t to_message(const LinkRow& row) {
   message.path_state = static_cast<std::int8_t>(row.state);
   message.propagation_used = static_cast<std::int8_t>(row.used);
   message.num_paths = row.path_count;
+  message.diffuse_level_db = row.diffuse_level.value;
+  message.paths_age_s = row.paths_age.seconds();
   message.delay_spread_s = row.delay_spread_s;
   message.first_path_doppler_factor = row.doppler_factor;
   message.first_path_delay_s = row.forecast.first_path_delay_s;

@@ -16,7 +16,7 @@ namespace halocline::channel_server {
 
 link_t to_message(const LinkRow& row);
 // A table of more rows than a message holds comes in parts, by receiver id; one without rows is one message.
-inline constexpr std::size_t kMaxPeers = 300;  // of link_table_t: 51 kB
+inline constexpr std::size_t kMaxPeers = 300;  // of link_table_t: 56 kB
 std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at);
 
 // An end that cannot be read (a modem with a NaN) carries the problem.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "core/check.h"
 #include "core/elementary.h"
@@ -190,16 +192,15 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
                {0.1, 90, "deg", "rays: of paths that bounce, from the horizontal"});
   v.number("min_amplitude_db", p.min_amplitude_db,
            {-400, 0, "dB re 1 m", "rays: of a path by spreading and bounces; weaker ones are dropped"});
-  v.number(
-      "max_bounce_loss_db", p.max_bounce_loss_db,
-      {1, 200, "dB",
-       "rays: of all bounces of a path beyond those of the strongest; paths that lose more are dropped"});
+  v.number("max_bounce_loss_db", p.max_bounce_loss_db,
+           {1, 200, "dB", "rays: of all bounces beyond those of the strongest path; others are dropped"});
+  v.number("diffuse_below_db", p.options.diffuse_below_db,
+           {0, 100, "dB", "rays: over a rough bottom weaker paths come as their power alone; 0: none"});
   v.number(
       "speed_tolerance_mps", p.speed_tolerance_mps,
       {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});
-  v.number(
-      "reuse_distance_m", p.reuse_distance_m,
-      {0, 1000, "m", "rays, link tables: length of the cells that share a search, a tenth high; 0: none"});
+  v.number("reuse_distance_m", p.reuse_distance_m,
+           {0, 1000, "m", "rays, link tables: length of cells that share a search, a tenth high; 0: none"});
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
   visit_fading(v, p);
@@ -316,17 +317,17 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.surface = *surface;
   rays.options = p.options;
   rays.bounces_follow_range = p.options.max_bounces < 0;
-  if (rays.bounces_follow_range) rays.options.max_bounces = 0;
+  rays.options.max_bounces = std::max(p.options.max_bounces, 0);
   rays.options.keep_steep_direct = true;
   rays.options.min_amplitude = elementary::exp10(p.min_amplitude_db / 20);
   rays.options.min_boundary_factor = elementary::exp10(-p.max_bounce_loss_db / 20);
   rays.speed_tolerance_mps = p.speed_tolerance_mps;
   rays.reuse_distance_m = p.reuse_distance_m;
+  rays.max_searches_per_tick = config.rules.max_searches_per_tick;
   rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;
   using Solver = acoustics::RaySolver;
-  for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs}) {
+  for (const Solver solver : {Solver::kImages, Solver::kSnell, Solver::kArcs})
     if (p.solver == to_name(solver)) rays.solver = solver;
-  }
   if (p.shadow_loss_db > 0) rays.shadow_loss = Decibels{p.shadow_loss_db};
   rays.fading = p.fading;
   rays.reverberation = p.reverberation;

@@ -9,6 +9,7 @@
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"

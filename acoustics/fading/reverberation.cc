@@ -53,6 +53,7 @@ std::vector<SoundPath> with_reverberation(const Reverberation& reverberation, co
     if (path.level > tail.level) tail = path;
   }
   if (!(fed > 0)) return paths;
+  tail.diffuse = false;
   const double begin_s = tail.delay_s, x = tail_decay_per_s(reverberation, duct) * begin_s;
   const double step = elementary::acosh(1 + kLeastDecay / x) / kTailPaths;
   tail.fading = {.scattered = 1, .doppler_spread_hz = spread_hz};

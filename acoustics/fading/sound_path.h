@@ -18,6 +18,7 @@ struct SoundPath {
   double phase_rad = 0;        // of its reflections and caustics, beside that of the delay
   std::uint64_t identity = 0;  // the same for both directions of a link, and while its ends move a little
   PathFading fading = {};
+  bool diffuse = false;  // not one path: many weak ones in a window of angles (acoustics/rays/arrivals.h)
 };
 
 }  // namespace halocline::acoustics

@@ -73,11 +73,17 @@ ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& optio
 Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options) {
   require_in_range(frequency_hz, 10, 1e6, "frequency of a coherent level", "Hz");
   std::complex<double> sum =
-      0;  // Jensen and others 2011, section 3.3: p = sum over eigenrays of their phasors
+      0;               // Jensen and others 2011, section 3.3: p = sum over eigenrays of their phasors
+  double diffuse = 0;  // of any phase: powers add
   for (const Arrival& path : arrivals.paths) {
-    sum += phasor(path, weighted_pressure(path, options.transducers), frequency_hz);
+    const double pressure = weighted_pressure(path, options.transducers);
+    if (path.diffuse) {
+      diffuse += pressure * pressure;
+    } else {
+      sum += phasor(path, pressure, frequency_hz);
+    }
   }
-  return level_of(std::norm(sum), options);
+  return level_of(std::norm(sum) + diffuse, options);
 }
 
 std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
@@ -88,6 +94,7 @@ std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, dou
   require_in_range(static_cast<double>(count), 1, 1e7, "samples of an impulse response");
   std::vector<std::complex<double>> taps(count);
   for (const Arrival& path : arrivals.paths) {
+    if (path.diffuse) continue;
     const double place = std::round((path.delay_s - from_s) * rate_hz);
     if (place < 0 || place >= static_cast<double>(count)) continue;
     taps[static_cast<std::size_t>(place)] += phasor(path, weighted_pressure(path, transducers), carrier_hz);

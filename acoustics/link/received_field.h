@@ -46,12 +46,12 @@ struct ReceivedField {
 };
 ReceivedField received_field(const Arrivals& arrivals, const FieldOptions& options = {});
 
-// Level of the phasor sum at `frequency_hz`, dB re the source level; absorption as found at
-// RayOptions::frequency_hz.
+// Level of the phasor sum at `frequency_hz`, and of the power of what is diffuse, dB re the source level; absorption as found
+// at RayOptions::frequency_hz.
 Decibels coherent_level(const Arrivals& arrivals, double frequency_hz, const FieldOptions& options = {});
 
 // Taps of the complex envelope about `carrier_hz`, sampled at `rate_hz` from `from_s` on, `count` of them:
-// each path falls on its nearest sample with the phase of its own delay. Paths outside are left out. rate_hz
+// each path falls on its nearest sample with the phase of its own delay. Paths outside, and diffuse ones, are left out. rate_hz
 // in (0, 1e7], count 1..1e7.
 std::vector<std::complex<double>> impulse_response(const Arrivals& arrivals, double carrier_hz,
                                                    double rate_hz, double from_s, std::size_t count,

@@ -57,6 +57,14 @@ class HermiteCubic {
     return values;
   }
 
+  // The least |slope| over 0..1 of one that does not turn there.
+  double least_slope() const {
+    double least = std::min(std::abs(slope(0)), std::abs(slope(1)));
+    const double bend = -c_ / (3 * d_);
+    if (bend > 0 && bend < 1) least = std::min(least, std::abs(slope(bend)));
+    return least;
+  }
+
   // About where it passes `value`, 0..1, when its ends lie on both sides of it: a start for Newton's method.
   double crossing(double value) const {
     const double end = (*this)(1);

@@ -145,6 +145,14 @@ void apply_folds(std::vector<Arrival>& paths, const std::vector<FoldMember>& mem
 
 double Arrival::received_pressure() const { return amplitude * elementary::exp10(-absorption_db / 20); }
 
+double Arrivals::diffuse_power() const {
+  double power = 0;
+  for (const Arrival& path : paths) {
+    if (path.diffuse) power += path.received_pressure() * path.received_pressure();
+  }
+  return power;
+}
+
 std::string_view to_name(RaySolver solver) {
   switch (solver) {
     case RaySolver::kImages:
@@ -182,6 +190,9 @@ void validate(const RayOptions& options) {
   require_in_range(options.max_bounces, 0, 10'000, "greatest number of bounces");
   require_in_range(options.min_boundary_factor, 0, 0.999, "least factor of all bounces");
   require_in_range(options.min_amplitude, 0, 1e6, "least amplitude");
+  if (options.diffuse_below_db != 0)
+    require_in_range(options.diffuse_below_db, 10, 100, "level of diffuse sound below the strongest path",
+                     "dB");
 }
 
 void finish(std::vector<Arrival>& paths, const std::vector<FoldMember>& members, const RayOptions& options) {

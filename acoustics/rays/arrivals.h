@@ -44,6 +44,9 @@ struct Arrival {
   double surface_sine_squares = 0, bottom_sine_squares = 0;
   int surface_bounces = 0, bottom_bounces = 0;
   int caustics = 0;  // touched on the way
+  // Not one path: all rays within a window of launch angles that are not sought one by one (acoustics/rays/diffuse_windows.h).
+  // The amplitude is the root of their mean power, the phase stands for none, the rest is that of a ray among them.
+  bool diffuse = false;
   PathIdentity identity;
 
   // Pressure relative to that at 1 m with everything in it.
@@ -75,6 +78,8 @@ struct Arrivals {
   // The receiver lies in a shadow zone. Diffraction and scattering, which ray theory leaves out, still bring some sound
   // there; FieldOptions::floor stands for it.
   bool shadow() const { return silent() && lack == PathLack::kShadow; }
+  // Sum of the powers of what is diffuse, relative to that at 1 m, with everything in it.
+  double diffuse_power() const;
 };
 
 // Limits of the search. The defaults keep what can matter to a modem.
@@ -89,6 +94,9 @@ struct RayOptions {
   // strongest is kept whatever it loses; while it loses less than 6 dB, paths are compared with one that does not bounce.
   double min_boundary_factor = 0.005;
   double min_amplitude = 0;  // paths of less amplitude are dropped, >= 0; 1e-6 is -120 dB
+  // Over a rough bottom, where rays are many, paths more than this below the strongest are not sought one by one: their energy
+  // comes in windows, Arrival::diffuse. 10..100, dB; 0: every ray is sought everywhere.
+  double diffuse_below_db = 22;
   // Near caustics the field of waves, and one path on their dark side; else rays as they are, without bound there.
   bool airy_folds = true;
 };

@@ -24,6 +24,8 @@ constexpr double kLeastFoldShare = 0.5;  // of the way from a fold to its rays, 
 constexpr double kFoldMargin = 1.25;     // of lengths of Airy
 constexpr double kFoldStep = 1e-4;       // rad: to the rays that show how a fold bends
 
+constexpr int kDiffuseBounces = 16'383;  // more than RayOptions::max_bounces may be
+
 constexpr double kSimplifiedWithin = 0.05;  // m
 constexpr double kTouched = 1e-3;           // m
 constexpr double kMissed =
@@ -153,6 +155,19 @@ std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, d
   tracer.trace(theta, ray, &details);
   if (!is_kept(tracer, ray) || std::abs(ray.zeta - target) > kFarOff) return std::nullopt;
   return ProfilePath{arrival_of(tracer, ray, details, target, std::max(std::abs(ray.q), kMinTube)), target};
+}
+
+// Counts of bounces that no path has make the identity one of its own.
+std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std::size_t window) {
+  TracedRay ray;
+  TracedDetails details;
+  tracer.trace(theta, ray, &details);
+  if (!ray.arrived) return std::nullopt;
+  Arrival path = arrival_of(tracer, ray, details, ray.zeta, 1);
+  path.phase_rad = 0;
+  path.diffuse = true;
+  path.identity = {ray.theta < 0, kDiffuseBounces, kDiffuseBounces, 0, static_cast<int>(window), 0};
+  return DiffuseRay{path, ray.xi};
 }
 
 double ProfileFolds::length_m(const Fold& fold) const {

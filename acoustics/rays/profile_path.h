@@ -52,6 +52,14 @@ struct ProfilePath {
 // empty when the options exclude it.
 std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target);
 
+// What stands for a window of diffuse sound: the ray of `theta`, which arrives somewhere at the receiver's range, as an
+// arrival without an amplitude. `window` distinguishes it from others of one search. Empty when the ray does not arrive.
+struct DiffuseRay {
+  Arrival arrival;
+  double xi;  // Snell's, at the receiver's range, s/m
+};
+std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std::size_t window);
+
 // The folds of one search, and what they make of its paths.
 class ProfileFolds {
  public:

@@ -10,9 +10,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "acoustics/link/extrapolate_arrivals.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
@@ -75,6 +75,32 @@ void cold(benchmark::State& state) {
   state.counters["paths"] = static_cast<double>(paths);
 }
 BENCHMARK(cold)->DenseRange(0, 7)->Unit(benchmark::kMicrosecond);
+
+// Over four bottoms of 5 m of relief, the range in metres; every ray one by one, or what is weak as power.
+void rough_bottoms(benchmark::State& state) {
+  std::vector<Situation> all;
+  const auto range = static_cast<double>(state.range(0));
+  for (std::uint32_t seed = 0; seed < 4; ++seed)
+    all.push_back({sea_of(kRoughWater, rough_bottom(seed, range)), {40, 70, range}});
+  if (state.range(1) != 0) {
+    for (Situation& at : all) at.sea.options.diffuse_below_db = 0;
+  }
+  std::size_t paths = 0;
+  for (auto _ : state) {
+    paths = 0;
+    for (Situation& at : all) {
+      at.link.range_m += 1e-6;
+      paths += arrivals(at.sea, at.link).paths.size();
+    }
+    benchmark::DoNotOptimize(paths);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+  state.counters["paths"] = static_cast<double>(paths) / static_cast<double>(all.size());
+}
+BENCHMARK(rough_bottoms)
+    ->ArgNames({"range_m", "every_ray"})
+    ->ArgsProduct({{500, 1000, 2000, 3000, 5000}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 
 // To first order, as the channel server does within a cell. Items are paths.
 void extrapolate(benchmark::State& state) {

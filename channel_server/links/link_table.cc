@@ -35,7 +35,9 @@ void LinkRow::set(const Reception& reception, const LinkForecast& predicted) {
   budget = reception.budget;
   state = reception.state;
   used = reception.used;
-  path_count = static_cast<std::int32_t>(reception.paths.size());
+  path_count = static_cast<std::int32_t>(number_of_paths(reception.paths));
+  diffuse_level = reception.diffuse_level;
+  paths_age = reception.paths_age;
   delay_spread_s = reception.delay_spread_s;
   doppler_factor =
       reception.paths.empty() ? 1 : reception.paths[first_significant(reception.paths)].doppler_factor;
@@ -54,6 +56,7 @@ bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicle
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath, const ForEach& for_each, Shard shard) {
+  if (propagation.plans_ticks()) propagation.begin_tick(instant, links_between(vehicles, {}));
   const std::vector<EndPair> links = links_between(vehicles, shard);
   std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;  // of each link's transmitter
   for (const EndPair& link : links) rates.push_back(predictor.rates_of(*link.from.modem));

@@ -35,7 +35,9 @@ struct LinkRow {
   SimDuration transmitter_age, receiver_age;  // of the states used
   PathState state = PathState::kOpen;
   PropagationUsed used = PropagationUsed::kStraight;
-  std::int32_t path_count = 0;
+  std::int32_t path_count = 0;        // but those that are diffuse
+  Decibels diffuse_level = kSilence;  // of Reception
+  SimDuration paths_age;              // of Reception
   double delay_spread_s = 0;
   double doppler_factor = 1;  // of the first significant path; 1 without one
 

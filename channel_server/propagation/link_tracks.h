@@ -23,7 +23,7 @@ struct PathTrack {
   double length_m = 0;
   double spreading_db = 0, absorption_db = 0, surface_db = 0, bottom_db = 0, beam_db = 0;
   std::vector<acoustics::RayPoint> points =
-      {};  // from the transmitter to the receiver; none of a measured channel
+      {};  // from the transmitter to the receiver; none of a measured channel and of diffuse sound
 };
 
 struct LinkTracks {

@@ -53,6 +53,8 @@ class MeasuredPropagation : public Propagation {
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  bool plans_ticks() const override { return model_->plans_ticks(); }
+  void begin_tick(SimTime at, const std::vector<EndPair>& all) override { model_->begin_tick(at, all); }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override {

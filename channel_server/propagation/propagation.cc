@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/beam_pattern.h"
-#include "acoustics/rays/ray_doppler.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
@@ -23,6 +23,15 @@ SoundPath straight_path(const acoustics::Environment& water, const acoustics::Li
                                 to.velocity_ned_mps.dot(along), sound_speed_at(water, to.position_ned_m));
   path.launch_angle_rad = path.arrival_angle_rad = angle;
   return path;
+}
+
+template <class Counts>
+Decibels summed_level(const std::vector<SoundPath>& paths, const Counts& counts) {
+  PowerRatio sum;
+  for (const SoundPath& path : paths) {
+    if (counts(path)) sum = sum + to_power_ratio(path.level);
+  }
+  return sum.value > 0 ? std::max(to_decibels(sum), kSilence) : kSilence;
 }
 
 }  // namespace
@@ -48,9 +57,16 @@ double delay_spread_s(const std::vector<SoundPath>& paths) {
 }
 
 Decibels total_level(const std::vector<SoundPath>& paths) {
-  PowerRatio sum;
-  for (const SoundPath& path : paths) sum = sum + to_power_ratio(path.level);
-  return sum.value > 0 ? std::max(to_decibels(sum), kSilence) : kSilence;
+  return summed_level(paths, [](const SoundPath&) { return true; });
+}
+
+std::size_t number_of_paths(const std::vector<SoundPath>& paths) {
+  return static_cast<std::size_t>(
+      std::count_if(paths.begin(), paths.end(), [](const SoundPath& path) { return !path.diffuse; }));
+}
+
+Decibels diffuse_level(const std::vector<SoundPath>& paths) {
+  return summed_level(paths, [](const SoundPath& path) { return path.diffuse; });
 }
 
 double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m) {

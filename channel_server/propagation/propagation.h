@@ -79,6 +79,7 @@ enum class PropagationUsed {
   kStraight,               // one straight path
   kRays,                   // rays in the water above the known bottom
   kStraightWithoutBottom,  // rays were wanted, the bottom is not known: one straight path
+  kStraightNotSearched,  // of tables alone: rays were wanted, no search has been granted yet: one straight path
 };
 
 // What arrives over one link. In the budget, `delay_s` is that of the strongest path in the receiver's guard window,
@@ -89,8 +90,13 @@ struct Reception {
   acoustics::LinkBudget budget;
   PathState state = PathState::kOpen;
   PropagationUsed used = PropagationUsed::kStraight;
-  double delay_spread_s = 0;     // from the first significant path to the last
+  double delay_spread_s = 0;  // from the first significant path to the last
+  // Part of the received level: that of the paths that are diffuse; kSilence of none.
+  Decibels diffuse_level = kSilence;
   std::vector<SoundPath> paths;  // by delay; empty unless the state is kOpen
+  // Of tables: since when the paths are not those of a search for the link as it was, but extrapolated from it; 0 where they
+  // are. Only with a budget of searches.
+  SimDuration paths_age = {};
   // The paths are its taps, and fade as it does; null: they fade by the model.
   std::shared_ptr<const acoustics::MeasuredChannel> measured = {};
 };
@@ -101,6 +107,10 @@ std::size_t first_significant(const std::vector<SoundPath>& paths);
 double delay_spread_s(const std::vector<SoundPath>& paths);
 // Sum of the powers; kSilence of none.
 Decibels total_level(const std::vector<SoundPath>& paths);
+// But those that are diffuse.
+std::size_t number_of_paths(const std::vector<SoundPath>& paths);
+// The level of these.
+Decibels diffuse_level(const std::vector<SoundPath>& paths);
 
 // Sound speed where an end is, m/s; above the surface and below the deepest water, that of these.
 double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m);
@@ -115,6 +125,10 @@ class Propagation {
   virtual Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return reception(at, from, to);
   }
+  // Whether begin_tick() is to be called before receptions(), once for each tick, with all links between all vehicles whoever
+  // asks for them: an implementation that has time for some searches only plans which.
+  virtual bool plans_ticks() const { return false; }
+  virtual void begin_tick(SimTime /*at*/, const std::vector<EndPair>& /*all*/) {}
   // For many links that leave at one instant, shared out by `for_each`: as reception() one by one, or nearly where
   // an implementation lets links near each other share a search; the same whatever the sharing out.
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
@@ -155,7 +169,7 @@ class StraightPropagation : public Propagation {
                                const acoustics::FadingModel& fading = {},
                                std::size_t max_kernels = kMaxKernels);
 
-  // One path, straight; never in a shadow, never blocked. Doppler by acoustics/rays/ray_doppler.h.
+  // One path, straight; never in a shadow, never blocked. Doppler by acoustics/link/ray_doppler.h.
   Reception along_line(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
     const auto& [from, to] = ends;
     return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), ends, capacity);

@@ -4,7 +4,7 @@
 // range and a tenth of that in depth (fronts of sound that travels nearly level bend most across depth), and
 // half as large as often as it takes for a link to be at least 20 cells long. Below 20 / 64 of `distance_m`
 // nothing is replaced. So the searched link is a function of the link alone, whatever was searched before, and
-// lies within 2.5 % of the range in range and 0.25 % of it in depth. acoustics/rays/extrapolate_arrivals.h takes the paths
+// lies within 2.5 % of the range in range and 0.25 % of it in depth. acoustics/link/extrapolate_arrivals.h takes the paths
 // from there to the link.
 #pragma once
 

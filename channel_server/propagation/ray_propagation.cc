@@ -7,11 +7,11 @@
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/scattering_loss.h"
+#include "acoustics/link/extrapolate_arrivals.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/extrapolate_arrivals.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "channel_server/propagation/link_tracks.h"
@@ -19,7 +19,6 @@
 #include "channel_server/propagation/ray_limits.h"
 #include "channel_server/propagation/ray_tracks.h"
 #include "channel_server/propagation/received_path.h"
-#include "core/check.h"
 #include "core/elementary.h"
 
 namespace halocline::channel_server {
@@ -47,38 +46,70 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
       ray_waters_(kMaxRayWaters),
       found_(kMaxFound),
       shared_found_(kMaxSharedFound) {
-  validate(model.bottom);
-  validate(model.options);
-  validate(model.fading);
-  validate(model.reverberation);
-  require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
-  require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
-  require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
+  validate(model);
+  if (model.max_searches_per_tick > 0) budget_.emplace(model.max_searches_per_tick);
 }
 
 Reception RayPropagation::along_rays(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
   Task task = task_of(at, ends.from, ends.to, ends.from.id > ends.to.id);
   task.capacity = capacity;
-  const FoundPaths paths = found(task);
-  return paths ? answer(task, *paths) : without_bottom(at, ends, capacity);
+  const PathsPointer paths = found(task);
+  return paths ? answer(task, *paths)
+               : straight_instead(at, ends, PropagationUsed::kStraightWithoutBottom, capacity);
 }
 
 Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                          const std::shared_ptr<const SeabedProfile>& seabed) {
-  if (!seabed) return without_bottom(at, {from, to}, acoustics::Capacity::kComputed);
+  if (!seabed) {
+    return straight_instead(at, {from, to}, PropagationUsed::kStraightWithoutBottom,
+                            acoustics::Capacity::kComputed);
+  }
   const Task task = task_over(at, from, to, seabed);
   return answer(task, *found(task));
 }
 
 acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                                   const std::shared_ptr<const SeabedProfile>& seabed) {
-  const FoundPaths found_paths = found(task_over(at, from, to, seabed));
+  const PathsPointer found_paths = found(task_over(at, from, to, seabed));
   acoustics::Arrivals all = found_paths->arrivals;
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::erase_if(all.paths,
                 [&](const acoustics::Arrival& path) { return !(weighted_pressure(path, beams) > 0); });
   if (all.silent() && !found_paths->arrivals.silent()) all.lack = acoustics::PathLack::kTooWeak;
   return all;
+}
+
+// Both directions want the same.
+void RayPropagation::begin_tick(SimTime at, const std::vector<EndPair>& all) {
+  if (!budget_) return;
+  std::vector<SearchBudget::Wanted> wanted;
+  for (const auto& [from, to] : all) {
+    const Task task = shared_task_of(at, from, to);
+    const double range_m =
+        std::max((to.position_ned_m - from.position_ned_m).norm(), acoustics::kMinDistance);
+    const Decibels level = from.modem->source_level - Decibels{20 * elementary::log10(range_m)};
+    wanted.push_back(
+        {SearchBudget::id_of(task.ends), task.query, (level - to.modem->min_receivable_level).value});
+  }
+  budget_->begin_tick(at, wanted);
+}
+
+RayPropagation::Task RayPropagation::table_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Task task = shared_task_of(at, from, to);
+  if (!budget_) return task;
+  task.granted = budget_->find(SearchBudget::id_of(task.ends));
+  task.waits = task.granted == nullptr;
+  if (task.waits) return task;
+  task.query = task.granted->query;
+  task.age = at - task.granted->current_at;
+  return task;
+}
+
+// What a budget has granted is kept for as long as it is used; the cache forgets.
+RayPropagation::PathsPointer RayPropagation::known(const Task& task) {
+  if (task.granted != nullptr && task.granted->paths) return task.granted->paths;
+  const PathsPointer* paths = shared_found_.find(task.query.key());
+  return paths == nullptr ? nullptr : *paths;
 }
 
 // The caches are read and written in turn; searches and results are shared out.
@@ -89,33 +120,38 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
     std::shared_ptr<const SeabedProfile> seabed;
   };
   std::vector<Task> tasks;
-  std::map<Key, std::size_t> place_of;  // of each query, among `paths`
-  std::vector<FoundPaths> paths;        // null where the bottom is not known
+  std::map<PathQuery::Key, std::size_t> place_of;  // of each query, among `paths`
+  std::vector<PathsPointer> paths;                 // null where the bottom is not known
   std::vector<Search> searches;
   for (const auto& [from, to] : links) {
-    tasks.push_back(shared_task_of(at, from, to));
-    const PathQuery& query = tasks.back().query;
-    if (!place_of.emplace(key_of(query), paths.size()).second) continue;
-    const FoundPaths* known = shared_found_.find(key_of(query));
-    paths.push_back(known == nullptr ? nullptr : *known);
-    if (known != nullptr) continue;
-    if (auto seabed = seabed_of(query))
+    tasks.push_back(table_task_of(at, from, to));
+    const Task& task = tasks.back();
+    if (task.waits || !place_of.emplace(task.query.key(), paths.size()).second) continue;
+    paths.push_back(known(task));
+    if (paths.back()) continue;
+    if (auto seabed = seabed_of(task.query))
       searches.push_back({tasks.size() - 1, paths.size() - 1, std::move(seabed)});
   }
   for_each(searches.size(), [&](std::size_t i) {
     paths[searches[i].place] = search(tasks[searches[i].task], *searches[i].seabed);
   });
-  for (const Search& done : searches) shared_found_.insert(key_of(tasks[done.task].query), paths[done.place]);
+  for (const Search& done : searches) shared_found_.insert(tasks[done.task].query.key(), paths[done.place]);
   searches_ += static_cast<std::int64_t>(searches.size());
   std::vector<Reception> receptions(links.size());
-  const auto paths_of = [&](std::size_t i) -> const FoundPaths& {
-    return paths[place_of.at(key_of(tasks[i].query))];
+  const auto paths_of = [&](const Task& task) {
+    return task.waits ? nullptr : paths[place_of.at(task.query.key())];
   };
   for_each(tasks.size(), [&](std::size_t i) {
-    if (paths_of(i)) receptions[i] = answer(tasks[i], *paths_of(i));
+    if (const PathsPointer found = paths_of(tasks[i])) receptions[i] = answer(tasks[i], *found);
   });
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!paths_of(i)) receptions[i] = without_bottom(at, links[i], acoustics::Capacity::kComputed);
+    const PathsPointer found = paths_of(tasks[i]);
+    if (tasks[i].granted != nullptr) tasks[i].granted->paths = found;
+    if (found) continue;
+    receptions[i] = straight_instead(
+        at, links[i],
+        tasks[i].waits ? PropagationUsed::kStraightNotSearched : PropagationUsed::kStraightWithoutBottom,
+        acoustics::Capacity::kComputed);
   }
   return receptions;
 }
@@ -140,17 +176,6 @@ bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& tran
   return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
 }
 
-RayPropagation::Key RayPropagation::key_of(const PathQuery& q) {
-  return {q.water_id,
-          q.frequency_hz,
-          q.places,
-          q.seabed_version,
-          q.given.get(),
-          q.link.source_depth_m,
-          q.link.receiver_depth_m,
-          q.link.range_m};
-}
-
 std::shared_ptr<const SeabedProfile> RayPropagation::seabed_of(const PathQuery& q) const {
   if (q.given) return q.given;
   return seabed_->between({q.places[0], q.places[1], 0}, {q.places[2], q.places[3], 0});
@@ -171,8 +196,8 @@ RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, co
   const double frequency_hz = from.modem->centre_frequency_hz;
   const acoustics::RayLink link = acoustics::held_apart(
       {depth_of(first, environment), depth_of(last, environment), elementary::hypot(way.x(), way.y())});
-  const Places places{first.position_ned_m.x(), first.position_ned_m.y(), last.position_ned_m.x(),
-                      last.position_ned_m.y()};
+  const ProfileEnds places{first.position_ned_m.x(), first.position_ned_m.y(), last.position_ned_m.x(),
+                           last.position_ned_m.y()};
   return {{from, to},
           &environment,
           water_of(at, frequency_hz),
@@ -204,46 +229,31 @@ RayPropagation::Task RayPropagation::shared_task_of(SimTime at, const LinkEnd& f
   return task;
 }
 
-RayPropagation::FoundPaths RayPropagation::search(const Task& task, const SeabedProfile& seabed) const {
-  const PathQuery& q = task.query;
-  acoustics::RayOptions options = model_.options;
-  options.frequency_hz = q.frequency_hz;
-  const acoustics::BottomProfile bottom = bottom_under(seabed, q.link, task.environment->sea_surface_z_m);
-  const double depth_m = mean_depth_m(bottom, q.link.range_m);
-  if (model_.bounces_follow_range) options.max_bounces = bounces_for(q.link.range_m, depth_m);
-  const acoustics::RaySea sea{*task.water, bottom, model_.bottom,
-                              acoustics::RaySurface{model_.surface, task.environment->noise.wind_mps},
-                              options};
-  auto found = std::make_shared<Found>();
-  found->given = q.given;
-  found->mean_depth_m = depth_m;
-  found->arrivals = arrivals(sea, q.link, usable_solver(model_.solver, sea, q.link));
-  found->blocked = cuts_straight_line(sea.bottom_profile, q.link);
-  return found;
-}
-
-RayPropagation::FoundPaths RayPropagation::found(const Task& task) {
-  const Key key = key_of(task.query);
-  if (const FoundPaths* known = found_.find(key)) return *known;
+RayPropagation::PathsPointer RayPropagation::found(const Task& task) {
+  const PathQuery::Key key = task.query.key();
+  if (const PathsPointer* known = found_.find(key)) return *known;
   const auto seabed = seabed_of(task.query);
   if (!seabed) return nullptr;
   ++searches_;
   return found_.insert(key, search(task, *seabed));
 }
 
-Reception RayPropagation::without_bottom(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
+Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
+                                           acoustics::Capacity capacity) {
   Reception reception = straight_.along_line(at, ends, capacity);
-  reception.used = PropagationUsed::kStraightWithoutBottom;
+  reception.used = used;
   return reception;
 }
 
-Reception RayPropagation::answer(const Task& task, const Found& found) const {
+Reception RayPropagation::answer(const Task& task, const FoundPaths& found) const {
   Reception reception;
   reception.used = PropagationUsed::kRays;
+  reception.paths_age = task.age;
   const acoustics::Arrivals arrivals = arrivals_at(task, found);
   reception.paths = with_reverberation(model_.reverberation, {found.mean_depth_m, boundaries_.trapped_share},
                                        sound_paths(task, arrivals));
   reception.delay_spread_s = delay_spread_s(reception.paths);
+  reception.diffuse_level = diffuse_level(reception.paths);
   if (!reception.paths.empty()) {
     set_open(task, arrivals, reception);
   } else {
@@ -253,7 +263,7 @@ Reception RayPropagation::answer(const Task& task, const Found& found) const {
   return reception;
 }
 
-PathState RayPropagation::state_without_path(const Found& found) {
+PathState RayPropagation::state_without_path(const FoundPaths& found) {
   using acoustics::PathLack;
   if (!found.arrivals.silent()) return PathState::kTooWeak;  // absorbed beyond what a double holds
   if (found.arrivals.lack == PathLack::kTooWeak) return PathState::kTooWeak;
@@ -261,7 +271,7 @@ PathState RayPropagation::state_without_path(const Found& found) {
   return found.blocked ? PathState::kBlocked : PathState::kShadow;
 }
 
-acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const Found& found) const {
+acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const FoundPaths& found) const {
   const acoustics::RayLink &searched = task.query.link, &link = task.link;
   const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
                       searched.receiver_depth_m == link.receiver_depth_m;
@@ -283,7 +293,7 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
 
 LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Task task = task_of(at, from, to, from.id > to.id);
-  const FoundPaths found_paths = found(task);
+  const PathsPointer found_paths = found(task);
   if (!found_paths) return Propagation::tracks(at, from, to);
   const acoustics::BottomProfile bottom =
       bottom_under(*seabed_of(task.query), task.link, task.environment->sea_surface_z_m);

@@ -8,7 +8,7 @@
 // transmission loss = source level - received level; noise, signal-to-noise ratio and what is receivable follow;
 // capacity takes that loss at the centre of the band, and elsewhere in the band as much more or less as water
 // between the two depths absorbs more or less over the length of the first significant path
-// (LinkKernel::budget_of_path). Doppler of each path is that of acoustics/rays/ray_doppler.h.
+// (LinkKernel::budget_of_path). Doppler of each path is that of acoustics/link/ray_doppler.h.
 // Where there is no path: too weak or too steep when rays arrive beyond the limits of the search, blocked when none does
 // and the bottom cuts the straight line between the ends, in a shadow otherwise; the level is kSilence or, in a shadow
 // and where rays are too weak, that of the stated floor, the delay that of the straight line, and nothing is receivable.
@@ -19,16 +19,15 @@
 // the bottom between its very ends. receptions(), for tables, may let links share: with a distance of reuse, both
 // ends go to the nearest points of a horizontal lattice for the bottom, the search is for the middle of the cell that the
 // link lies in (ray_cells.h), and its paths are extrapolated from there to the link
-// (acoustics/rays/extrapolate_arrivals.h); not for coherent levels. Results are functions of environment, terrain and ends
-// alone: a search is kept for the very same query, and done again when it was forgotten. Ends above the surface are
-// taken at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
+// (acoustics/link/extrapolate_arrivals.h); not for coherent levels. With a budget of searches a tick (search_budget.h) a link
+// may keep the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Otherwise results are functions of
+// environment, terrain and ends alone: a search is kept for the very same query, and done again when it was forgotten. Ends
+// above the surface are taken at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -45,10 +44,12 @@
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/received_path.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/search_budget.h"
 #include "core/for_each.h"
 #include "core/frames.h"
 #include "core/lru_cache.h"
@@ -56,22 +57,6 @@
 #include "core/units.h"
 
 namespace halocline::channel_server {
-
-struct RayModel {
-  acoustics::FluidBottom bottom;
-  acoustics::SurfaceModel surface = acoustics::SurfaceModel::kAplBubbles;
-  acoustics::RayOptions options;               // its frequency is not used: the transmitter's is
-  bool bounces_follow_range = false;           // bounces_for() a link instead of options.max_bounces
-  std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
-  std::optional<Decibels>
-      shadow_loss;        // transmission loss where no ray gets, or too little of it; empty: silence
-  bool coherent = false;  // received level: sum of phasors at the centre frequency
-  acoustics::FadingModel fading;
-  acoustics::Reverberation reverberation;
-  double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
-  double reuse_distance_m = 0;     // of ray_cells.h, 0..1000; 0: every link of a table is searched for itself
-  double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
-};
 
 class RayPropagation : public Propagation {
  public:
@@ -85,6 +70,8 @@ class RayPropagation : public Propagation {
   Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
     return along_rays(at, {from, to}, acoustics::Capacity::kLeftOut);
   }
+  bool plans_ticks() const override { return budget_.has_value(); }
+  void begin_tick(SimTime at, const std::vector<EndPair>& all) override;
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
@@ -108,26 +95,7 @@ class RayPropagation : public Propagation {
   std::int64_t searches() const { return searches_; }  // of paths, since the start
 
  private:
-  // Horizontal places of the ends of a bottom profile: north and east of the first, of the last, m.
-  using Places = std::array<double, 4>;
-  // What paths depend on. The link runs from the profile's first end.
-  struct PathQuery {
-    EnvironmentTimeline::WaterId water_id;
-    double frequency_hz;
-    Places places;  // of the bottom, unless it is given
-    std::int64_t seabed_version;
-    std::shared_ptr<const SeabedProfile> given;
-    acoustics::RayLink link;
-  };
-  using Key = std::tuple<EnvironmentTimeline::WaterId, double, Places, std::int64_t, const SeabedProfile*,
-                         double, double, double>;
-  struct Found {
-    std::shared_ptr<const SeabedProfile> given;  // whose address is in the key
-    acoustics::Arrivals arrivals;
-    double mean_depth_m = 0;  // between the ends
-    bool blocked = false;     // the bottom cuts the straight line
-  };
-  using FoundPaths = std::shared_ptr<const Found>;
+  using PathsPointer = std::shared_ptr<const FoundPaths>;
   // A link, ready to be computed without touching the caches once its bottom is there.
   struct Task {
     EndPair ends;
@@ -138,29 +106,39 @@ class RayPropagation : public Propagation {
     acoustics::RayLink link;  // where the ends are; the query's own unless its paths are extrapolated
     bool reversed = false;    // the transmitter is the profile's last end
     acoustics::Capacity capacity = acoustics::Capacity::kComputed;
+    SearchBudget::Granted* granted =
+        nullptr;           // the query's; null without a budget, and before the link's first turn
+    bool waits = false;    // for that turn
+    SimDuration age = {};  // since the query was the link's own
   };
 
-  static Key key_of(const PathQuery& query);
   std::shared_ptr<const SeabedProfile> seabed_of(const PathQuery& query) const;
   std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
   Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed);
   Task task_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                  const std::shared_ptr<const SeabedProfile>& seabed);
-  bool is_surveyed(const Places& places) {
+  bool is_surveyed(const ProfileEnds& places) {
     return seabed_->is_surveyed({places[0], places[1], 0}, {places[2], places[3], 0});
   }
   // For a table: the query may be that of a cell, shared by links near it.
   Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  FoundPaths search(const Task& task, const SeabedProfile& seabed) const;
+  // The same; where the budget does not allow for that, the query that the link was last granted.
+  Task table_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  PathsPointer search(const Task& task, const SeabedProfile& seabed) const {
+    return search_paths(model_, *task.water, *task.environment, task.query, seabed);
+  }
   // Null where the bottom is not known.
-  FoundPaths found(const Task& task);
+  PathsPointer found(const Task& task);
+  // What is known already; null otherwise.
+  PathsPointer known(const Task& task);
   // Straight where the bottom is not known.
   Reception along_rays(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
-  Reception without_bottom(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
-  Reception answer(const Task& task, const Found& found) const;
-  static PathState state_without_path(const Found& found);
+  Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
+                             acoustics::Capacity capacity);
+  Reception answer(const Task& task, const FoundPaths& found) const;
+  static PathState state_without_path(const FoundPaths& found);
   // What was found, at the ends of the task.
-  acoustics::Arrivals arrivals_at(const Task& task, const Found& found) const;
+  acoustics::Arrivals arrivals_at(const Task& task, const FoundPaths& found) const;
   std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
   Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
                           const std::vector<SoundPath>& paths) const;
@@ -174,7 +152,8 @@ class RayPropagation : public Propagation {
   StraightPropagation straight_;
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
       ray_waters_;
-  LruCache<Key, FoundPaths> found_, shared_found_;  // of links for themselves; of tables
+  LruCache<PathQuery::Key, PathsPointer> found_, shared_found_;  // of links for themselves; of tables
+  std::optional<SearchBudget> budget_;
   std::int64_t searches_ = 0;
 };
 

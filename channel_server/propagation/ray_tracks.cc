@@ -64,6 +64,7 @@ LinkTracks tracks_of(const acoustics::ProfiledSea& sea, const acoustics::RayLink
   tracks.paths_left_out = keep_strongest(found);
   for (const FoundPath& one : found) {
     tracks.paths.push_back(track_of(one, transmitter, receiver));
+    if (one.arrival.diffuse) continue;  // has many ways
     tracks.paths.back().points =
         from_transmitter(polyline(sea, searched, one.arrival, points_for(found.size())));
   }

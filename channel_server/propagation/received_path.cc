@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "acoustics/fading/scattering_loss.h"
+#include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
-#include "acoustics/rays/ray_doppler.h"
 #include "channel_server/propagation/ray_limits.h"
 #include "core/elementary.h"
 
@@ -56,6 +56,10 @@ std::optional<SoundPath> received_path(const RoughBoundaries& boundaries,
   sound.identity = number_of(arrival.identity);
   sound.fading = path_fading(boundaries.fading, environment.noise.wind_mps, frequency_hz,
                              path.surface_sine_squares, path.bottom_sine_squares, kept);
+  sound.diffuse = path.diffuse;
+  // Many paths of any phase add to complex Gaussian noise.
+  if (path.diffuse && boundaries.fading.enabled)
+    sound.fading = {.coherent = 0, .scattered = 1, .doppler_spread_hz = sound.fading.doppler_spread_hz};
   return sound;
 }
 

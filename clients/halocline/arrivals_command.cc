@@ -94,6 +94,8 @@ void add_ray_options(CLI::App& command, ArrivalsArguments& arguments) {
   command.add_option(
       "--min-boundary-factor", arguments.sea.min_boundary_factor,
       "paths whose bounces leave less than this of what those of the strongest leave are dropped");
+  command.add_option("--diffuse-below-db", arguments.sea.diffuse_below_db,
+                     "over a rough bottom weaker paths come as power; 0: every path");
   command.add_option("--min-amplitude-db", arguments.sea.min_amplitude_db, "paths below are dropped");
   command.add_option("--solver", arguments.solver, "auto, images, snell or arcs");
 }

@@ -52,7 +52,7 @@ const char* name_of(channel_server::PathState state) {
 }
 
 const char* name_of(channel_server::PropagationUsed used) {
-  constexpr std::array kNames{"straight", "rays", "straight (bottom unknown)"};
+  constexpr std::array kNames{"straight", "rays", "straight (bottom unknown)", "straight (not searched)"};
   return kNames.at(static_cast<std::size_t>(used));
 }
 
@@ -87,7 +87,8 @@ void print_json(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkSu
   json["multipath"] = name_of(answer.multipath);
   json["path_state"] = name_of(answer.reception.state);
   json["propagation"] = name_of(answer.reception.used);
-  json["num_paths"] = answer.reception.paths.size();
+  json["num_paths"] = channel_server::number_of_paths(answer.reception.paths);
+  json["diffuse_level_db"] = answer.reception.diffuse_level.value;
   json["delay_spread_s"] = answer.reception.delay_spread_s;
   const channel_server::LinkForecast& f = answer.forecast;
   json["first_path_delay_s"] = f.first_path_delay_s;
@@ -122,8 +123,11 @@ void print_table(const LinkSurveyEnd& from, const LinkSurveyEnd& to, const LinkS
   line("capacity", b.capacity_bps, 1, "bit/s");
   fmt::print(std::cout,
              "receivable            {}\nbottom echo           {}\npaths                 {}, {}, {}\n",
-             b.receivable ? "yes" : "no", name_of(answer.multipath), answer.reception.paths.size(),
-             name_of(answer.reception.state), name_of(answer.reception.used));
+             b.receivable ? "yes" : "no", name_of(answer.multipath),
+             channel_server::number_of_paths(answer.reception.paths), name_of(answer.reception.state),
+             name_of(answer.reception.used));
+  if (answer.reception.diffuse_level > channel_server::kSilence)
+    line("diffuse level", answer.reception.diffuse_level.value, 3, "dB re 1 uPa");
   line("delay spread", answer.reception.delay_spread_s, 6, "s");
   const channel_server::LinkForecast& f = answer.forecast;
   line("rms delay spread", f.rms_delay_spread_s, 6, "s");

@@ -26,6 +26,8 @@ constexpr std::array kColumns = std::to_array<LinkColumn>({
     {"path_state", "state of the path", "", value_of<&link_t::path_state>},
     {"propagation_used", "computed with", "", value_of<&link_t::propagation_used>},
     {"num_paths", "paths", "", value_of<&link_t::num_paths>},
+    {"diffuse_level_db", "level of diffuse sound", "dB re 1 uPa", value_of<&link_t::diffuse_level_db>},
+    {"paths_age_s", "age of the paths", "s", value_of<&link_t::paths_age_s>},
     {"delay_spread_s", "delay spread", "s", value_of<&link_t::delay_spread_s>},
     {"first_path_doppler_factor", "Doppler factor", "", value_of<&link_t::first_path_doppler_factor>},
     {"first_path_delay_s", "travel time of the first path", "s", value_of<&link_t::first_path_delay_s>},

@@ -11,6 +11,7 @@
 #include "acoustics/modem/beam_pattern.h"
 #include "bus/event_log.h"
 #include "bus/message_checks.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/water_model.h"

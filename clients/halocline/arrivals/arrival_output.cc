@@ -12,6 +12,7 @@
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"
+#include "core/units.h"
 
 namespace halocline::clients {
 namespace {
@@ -23,7 +24,7 @@ std::array<Column, 4> link_columns(const acoustics::RayLink& link, std::size_t i
           Column{"rcv_range_m", link.range_m}, Column{"index", static_cast<double>(index)}};
 }
 
-std::array<Column, 12> path_columns(const acoustics::Arrival& path) {
+std::array<Column, 13> path_columns(const acoustics::Arrival& path) {
   return {Column{"delay_s", path.delay_s},
           Column{"amplitude", path.amplitude},
           Column{"phase_deg", to_degrees(path.phase_rad)},
@@ -35,7 +36,8 @@ std::array<Column, 12> path_columns(const acoustics::Arrival& path) {
           Column{"path_length_m", path.path_length_m},
           Column{"absorption_db", path.absorption_db},
           Column{"surface_loss_db", path.surface_loss_db},
-          Column{"bottom_loss_db", path.bottom_loss_db}};
+          Column{"bottom_loss_db", path.bottom_loss_db},
+          Column{"diffuse", path.diffuse ? 1 : 0}};
 }
 
 template <class Columns, class Text>
@@ -86,6 +88,8 @@ nlohmann::ordered_json to_json(const LinkArrivals& found) {
   } else {
     const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
     json["transmission_loss_db"] = -field.level.value;
+    if (found.arrivals.diffuse_power() > 0)
+      json["diffuse_loss_db"] = -to_decibels(PowerRatio{found.arrivals.diffuse_power()}).value;
     json["first_delay_s"] = field.first_delay_s;
     json["mean_delay_s"] = field.mean_delay_s;
     if (found.spreads) json["delay_spread_s"] = found.spreads->first_to_last_s;
@@ -109,7 +113,12 @@ void print_row(std::ostream& out, const acoustics::Arrival& path) {
       << std::setw(12) << to_degrees(path.launch_angle_rad) << std::setw(13)
       << to_degrees(path.arrival_angle_rad) << std::setprecision(1) << std::setw(11)
       << to_degrees(path.phase_rad) << std::setw(9) << path.surface_bounces << std::setw(8)
-      << path.bottom_bounces << std::setw(10) << path.caustics;
+      << path.bottom_bounces;
+  if (path.diffuse) {
+    out << std::setw(10) << "diffuse";
+  } else {
+    out << std::setw(10) << path.caustics;
+  }
 }
 
 void print_received(std::ostream& out, const ReceivedPath& path) {
@@ -135,6 +144,10 @@ void print_table(std::ostream& out, const LinkArrivals& found) {
   const acoustics::ReceivedField field = acoustics::received_field(found.arrivals, {found.beams, {}});
   out << std::setprecision(2) << "transmission loss " << -field.level.value << " dB (incoherent)"
       << std::setprecision(6);
+  if (found.arrivals.diffuse_power() > 0) {
+    out << std::setprecision(2) << ", of it diffuse "
+        << -to_decibels(PowerRatio{found.arrivals.diffuse_power()}).value << " dB" << std::setprecision(6);
+  }
   if (found.spreads) out << ", delay spread " << found.spreads->first_to_last_s << " s";
   out << ", rms delay spread " << (found.spreads ? found.spreads->rms_s : field.delay_spread_s) << " s\n";
 }

@@ -124,6 +124,7 @@ acoustics::RayOptions options_of(const SeaDescription& sea) {
   options.max_launch_angle_rad = to_radians(sea.max_launch_angle_deg);
   options.keep_steep_direct = sea.keep_steep_direct;
   options.max_bounces = sea.max_bounces;
+  options.diffuse_below_db = sea.diffuse_below_db;
   options.min_boundary_factor = sea.min_boundary_factor;
   if (sea.min_amplitude_db) options.min_amplitude = elementary::exp10(*sea.min_amplitude_db / 20);
   validate(options);

@@ -41,6 +41,7 @@ struct SeaDescription {
   int max_bounces = 400;                   // 0..10 000
   double min_boundary_factor = 0.005;      // of the pressure, product over all bounces, 0..1
   std::optional<double> min_amplitude_db;  // re 1 m, without absorption
+  double diffuse_below_db = acoustics::RayOptions{}.diffuse_below_db;  // 0: every path one by one
 };
 
 // Throws InvalidArgument, naming the option or the file with its line, when something cannot be.

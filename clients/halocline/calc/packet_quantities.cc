@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/convolutional_code.h"
 #include "acoustics/modem/modem.h"
-#include "acoustics/rays/ray_doppler.h"
 #include "channel_server/modems/modem_config.h"
 #include "clients/halocline/calc/columns.h"
 #include "clients/halocline/calc/quantity.h"

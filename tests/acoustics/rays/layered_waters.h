@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "core/random.h"
 
 namespace halocline::acoustics {
 
@@ -36,5 +38,34 @@ inline BottomProfile cosine_hill() {
   }
   return BottomProfile(std::move(points));
 }
+
+// A bottom 150 m deep with a relief of 5 m rms: waves of 1 km to 62 m that are halved in length, as high as their length to
+// the power of 1.1, eight of each; sampled each 12.5 m.
+inline BottomProfile rough_bottom(std::uint32_t seed, double to_m) {
+  constexpr int kOctaves = 5, kWaves = 8;
+  constexpr double kHurst = 1.1;
+  double squares = 0;
+  for (int octave = 0; octave < kOctaves; ++octave) squares += std::pow(0.5, 2 * kHurst * octave);
+  std::vector<ProfiledDepth> points;
+  for (int i = -3; i <= to_m / 12.5 + 3; ++i) {
+    double depth = 150;
+    for (int octave = 0; octave < kOctaves; ++octave) {
+      const double height = 5 * std::sqrt(2.0 / kWaves / squares) * std::pow(0.5, kHurst * octave);
+      for (int wave = 0; wave < kWaves; ++wave) {
+        const auto draw = [&](std::uint64_t which) {
+          const std::uint64_t index = 2 * static_cast<std::uint64_t>(kWaves * octave + wave) + which;
+          return uniform_at({.seed = 7, .purpose = purpose_of("rough bottom"), .who = seed, .which = index});
+        };
+        const double length = 1000 * std::pow(0.5, octave + draw(0) - 0.5);
+        depth += height * std::cos(2 * std::numbers::pi * (12.5 * i / length + draw(1)));
+      }
+    }
+    points.push_back({12.5 * i, depth});
+  }
+  return BottomProfile(std::move(points));
+}
+
+inline const std::vector<SpeedRow> kRoughWater = {
+    {0, 1520}, {20, 1518}, {50, 1495}, {100, 1491}, {200, 1492}};
 
 }  // namespace halocline::acoustics

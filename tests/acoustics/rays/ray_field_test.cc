@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/ray_doppler.h"
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/acoustics/reference_rows.h"

@@ -34,7 +34,7 @@ inline double no_absorption(double) { return 0; }
 inline RaySea sea_of(std::vector<SpeedRow> knots, BottomProfile bottom,
                      const AbsorptionAtDepth& absorption = no_absorption) {
   return {RayWater(std::move(knots), absorption), std::move(bottom), kReferenceBottom, kFlatSurface,
-          RayOptions{.airy_folds = false}};
+          RayOptions{.diffuse_below_db = 0, .airy_folds = false}};
 }
 
 inline RaySea reference_sea(const std::string& name) {

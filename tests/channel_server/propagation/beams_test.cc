@@ -15,6 +15,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"

@@ -11,6 +11,7 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_propagation.h"

@@ -21,6 +21,7 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "core/random.h"
 #include "core/units.h"

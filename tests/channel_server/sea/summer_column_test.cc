@@ -15,6 +15,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"

@@ -1,5 +1,5 @@
 // Arrivals extrapolated from one link to another near by, against those that are searched for there.
-#include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/link/extrapolate_arrivals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "acoustics/rays/ray_doppler.h"
+#include "acoustics/link/ray_doppler.h"
 
 #include <cmath>
 

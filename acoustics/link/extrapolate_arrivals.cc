@@ -1,4 +1,4 @@
-#include "acoustics/rays/extrapolate_arrivals.h"
+#include "acoustics/link/extrapolate_arrivals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,131 @@
+#include "acoustics/rays/diffuse_windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "acoustics/rays/profile_path.h"
+#include "acoustics/sea/ray_water.h"
+#include "core/elementary.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kLeastSine = 0.02;  // where a ray turns p is bounded by this
+constexpr double kBesideMargin = 8;  // of power
+// Of the field of a fold over that of a single ray in its shadow's edge: Ai(-1.02)^2 / Ai(0)^2.
+constexpr double kFoldPeak = 2.3;
+
+}  // namespace
+
+DiffuseWindows::DiffuseWindows(const ArcTracer& tracer)
+    : tracer_(tracer),
+      receiver_speed_(tracer.sea().water.speed_at(tracer.receiver_depth_m())),
+      max_loss_db_(-20 * elementary::log10(tracer.sea().options.min_boundary_factor)),
+      weak_(elementary::exp10(-tracer.sea().options.diffuse_below_db / 10)) {}
+
+void DiffuseWindows::begin_cell(std::size_t cell) {
+  cell_ = cell;
+  if (cells_.size() <= cell) cells_.resize(cell + 1);
+}
+
+// Near a caustic the tube is too narrow to tell how strong the path will be: no focusing then.
+void DiffuseWindows::note(const Arrival& path) {
+  const double spherical =
+      elementary::exp10(-(path.surface_loss_db + path.bottom_loss_db) / 20) / path.path_length_m;
+  const double pressure = std::min(path.amplitude, spherical);
+  strongest_ = std::max(strongest_, pressure * pressure);
+}
+
+double DiffuseWindows::strength(const FanRay& ray) const {
+  if (!ray.arrived || ray.loss_db > max_loss_db_) return 0;
+  const double xi_s = elementary::cos(ray.theta) / tracer_.source_speed_mps(), s = ray.slowness;
+  const double xi_r = std::sqrt(std::max(1 / (receiver_speed_ * receiver_speed_) - s * s,
+                                         kMinCosine * kMinCosine / (receiver_speed_ * receiver_speed_)));
+  return elementary::exp10(-ray.loss_db / 10) * xi_s / (xi_r * tracer_.range_m());
+}
+
+bool DiffuseWindows::is_weak_branch(const FanRay& a, const FanRay& b) const {
+  if (!a.arrived || !b.arrived) return false;
+  const double most = std::max(strength(a), strength(b));
+  if (a.zeta_slope * b.zeta_slope > 0)
+    return most * (b.theta - a.theta) < weak_ * strongest_ * cubic_of(a, b).least_slope();
+  // Both rays of the fold and what is about it.
+  const double tube = fold_between(a, b).tube_slope(0, tracer_.sea().options.frequency_hz);
+  return most * kFoldPeak < weak_ * strongest_ * tube;
+}
+
+bool DiffuseWindows::is_weak_beside(const FanRay& a, const FanRay& b) const {
+  const auto is_weak = [&](const FanRay& ray) {
+    return !ray.arrived || kBesideMargin * strength(ray) < weak_ * strongest_ * std::abs(ray.zeta_slope);
+  };
+  return is_weak(a) && is_weak(b);
+}
+
+void DiffuseWindows::weigh(Cell& cell, const FanRay& ray, double power) const {
+  if (power <= cell.most) return;
+  cell.most = power;
+  cell.theta = ray.theta;
+}
+
+void DiffuseWindows::add_branch(const FanRay& a, const FanRay& b, int images) {
+  const double apart = std::abs(b.zeta - a.zeta), width = b.theta - a.theta;
+  if (images == 0 || !(apart > 0)) return;
+  Cell& cell = cells_[cell_];
+  for (const FanRay* ray : {&a, &b}) {
+    const double power = 0.5 * images * strength(*ray) * width / apart;
+    cell.branch += power;
+    weigh(cell, *ray, power);
+  }
+}
+
+void DiffuseWindows::add_mixed(const FanRay& a, const FanRay& b) {
+  Cell& cell = cells_[cell_];
+  for (const FanRay* ray : {&a, &b}) {
+    const double flux = 0.5 * strength(*ray) * (b.theta - a.theta);
+    cell.mixed += flux;
+    weigh(cell, *ray, flux / tracer_.bottom_at_receiver_m());
+  }
+}
+
+double DiffuseWindows::mixed_power(const FanRay& a, const FanRay& b) const {
+  return 0.5 * (strength(a) + strength(b)) * (b.theta - a.theta) / tracer_.bottom_at_receiver_m();
+}
+
+// Half a cycle is the integral of cot(angle) dz over the water at the receiver that the ray reaches: in a layer
+// dr = h xi (c1 + c2) / (s1 + s2), to where it turns s / (xi |g|).
+double DiffuseWindows::density(double xi) const {
+  const auto square = [xi](double speed) { return 1 - xi * xi * speed * speed; };
+  const RayWater& water = tracer_.sea().water;
+  const double bottom = tracer_.bottom_at_receiver_m(), here = square(receiver_speed_);
+  if (here <= 0) return 0;
+  double half = 0;
+  for (std::size_t i = 0; i + 1 < water.depths_m().size() && water.depths_m()[i] < bottom; ++i) {
+    const double top = water.depths_m()[i], end = std::min(water.depths_m()[i + 1], bottom);
+    const double c1 = water.speeds_mps()[i], g = water.gradients_per_s()[i], c2 = c1 + g * (end - top);
+    const double s1 = std::sqrt(std::max(square(c1), 0.0)), s2 = std::sqrt(std::max(square(c2), 0.0));
+    if (s1 == 0 && s2 == 0) continue;
+    half += s1 > 0 && s2 > 0 ? (end - top) * xi * (c1 + c2) / (s1 + s2) : (s1 + s2) / (xi * std::abs(g));
+  }
+  return xi * receiver_speed_ / std::max(std::sqrt(here), kLeastSine) / half;
+}
+
+std::vector<Arrival> DiffuseWindows::arrivals() const {
+  std::vector<Arrival> all;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell& cell = cells_[i];
+    if (!(cell.most > 0)) continue;
+    std::optional<DiffuseRay> ray = diffuse_ray(tracer_, cell.theta, i);
+    if (!ray) continue;
+    const double power = cell.branch + cell.mixed * density(ray->xi);
+    if (!(power > 0)) continue;
+    ray->arrival.amplitude = std::sqrt(power);
+    all.push_back(ray->arrival);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+  return all;
+}
+
+}  // namespace halocline::acoustics

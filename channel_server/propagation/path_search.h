@@ -1,0 +1,85 @@
+// The search of one link's paths: what it depends on, and what it finds.
+//
+// Free function on values: calls may overlap between threads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/reverberation.h"
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/ray_water.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/seabed_profile.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+
+// How sound goes along rays.
+struct RayModel {
+  acoustics::FluidBottom bottom;
+  acoustics::SurfaceModel surface = acoustics::SurfaceModel::kAplBubbles;
+  acoustics::RayOptions options;               // its frequency is not used: the transmitter's is
+  bool bounces_follow_range = false;           // bounces_for() a link instead of options.max_bounces
+  std::optional<acoustics::RaySolver> solver;  // used where it can do the link; empty: the simplest that can
+  std::optional<Decibels>
+      shadow_loss;        // transmission loss where no ray gets, or too little of it; empty: silence
+  bool coherent = false;  // received level: sum of phasors at the centre frequency
+  acoustics::FadingModel fading;
+  acoustics::Reverberation reverberation;
+  double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
+  double reuse_distance_m = 0;     // of ray_cells.h, 0..1000; 0: every link of a table is searched for itself
+  int max_searches_per_tick = 0;   // of link tables, by search_budget.h; 0: as many as they need
+  double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
+};
+
+// Throws InvalidArgument, naming the field, its value and what is allowed, unless every field is in range.
+void validate(const RayModel& model);
+
+// Horizontal places of the ends of a bottom profile: north and east of the first, of the last, m.
+using ProfileEnds = std::array<double, 4>;
+
+// The link runs from the profile's first end.
+struct PathQuery {
+  using Key = std::tuple<EnvironmentTimeline::WaterId, double, ProfileEnds, std::int64_t,
+                         const SeabedProfile*, double, double, double>;
+
+  EnvironmentTimeline::WaterId water_id = 0;
+  double frequency_hz = 0;
+  ProfileEnds places = {};  // of the bottom, unless it is given
+  std::int64_t seabed_version = 0;
+  std::shared_ptr<const SeabedProfile> given = {};
+  acoustics::RayLink link = {};
+
+  // Equal for queries of the same answer.
+  Key key() const {
+    return {water_id,
+            frequency_hz,
+            places,
+            seabed_version,
+            given.get(),
+            link.source_depth_m,
+            link.receiver_depth_m,
+            link.range_m};
+  }
+};
+
+struct FoundPaths {
+  std::shared_ptr<const SeabedProfile> given;  // whose address is in the key
+  acoustics::Arrivals arrivals;
+  double mean_depth_m = 0;  // between the ends
+  bool blocked = false;     // the bottom cuts the straight line
+};
+
+// Over the bottom that is given, in the water of the query at its instant.
+std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
+                                               const acoustics::Environment& environment,
+                                               const PathQuery& query, const SeabedProfile& seabed);
+
+}  // namespace halocline::channel_server
