@@ -71,6 +71,11 @@ class MeasuredPropagation : public Propagation {
                           const std::vector<acoustics::BottomPoint>& points) override {
     return model_->echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
   }
+  // A record's level holds at every range.
+  std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
+                                                 double deepest_end_m) const override {
+    return links_.level_of_record ? std::nullopt : model_->least_loss(at, frequency_hz, deepest_end_m);
+  }
   const acoustics::Environment& environment(SimTime at) const override { return model_->environment(at); }
 
  private:

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "acoustics/fading/measured_channel.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
@@ -133,6 +135,12 @@ class Propagation {
                                   const acoustics::Modem& receiver, const Vec3& from_ned_m,
                                   const Vec3& to_ned_m,
                                   const std::vector<acoustics::BottomPoint>& points) = 0;
+  // The least loss of every link at a frequency between ends no deeper than `deepest_end_m` (acoustics/link/least_loss.h);
+  // empty: levels have no bound by range.
+  virtual std::optional<acoustics::LeastLoss> least_loss(SimTime /*at*/, double /*frequency_hz*/,
+                                                         double /*deepest_end_m*/) const {
+    return std::nullopt;
+  }
   // The water at `at`; valid until the next change.
   virtual const acoustics::Environment& environment(SimTime at) const = 0;
 };
@@ -157,6 +165,10 @@ class StraightPropagation : public Propagation {
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
                           const std::vector<acoustics::BottomPoint>& points) override;
+  std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
+                                                 double deepest_end_m) const override {
+    return acoustics::LeastLoss::of_straight_path(waters_->at(at), frequency_hz, deepest_end_m);
+  }
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
   std::shared_ptr<const acoustics::LinkModel> model_of(SimTime at, const acoustics::Modem& transmitter,

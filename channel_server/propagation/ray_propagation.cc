@@ -131,11 +131,10 @@ bool RayPropagation::are_ready(SimTime at, const std::vector<EndPair>& links) {
   return ready;
 }
 
-bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
-                                        const acoustics::Modem& receiver, const Vec3& from_ned_m,
-                                        const Vec3& to_ned_m,
-                                        const std::vector<acoustics::BottomPoint>& points) {
-  return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
+std::optional<acoustics::LeastLoss> RayPropagation::least_loss(SimTime at, double frequency_hz,
+                                                               double deepest_end_m) const {
+  const Decibels gain = gain_beyond_powers(model_, waters_->at(at));
+  return acoustics::LeastLoss::of_rays(waters_->at(at), frequency_hz, deepest_end_m, gain);
 }
 
 RayPropagation::Key RayPropagation::key_of(const PathQuery& q) {

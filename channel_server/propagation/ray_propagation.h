@@ -96,7 +96,11 @@ class RayPropagation : public Propagation {
   LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
-                          const std::vector<acoustics::BottomPoint>& points) override;
+                          const std::vector<acoustics::BottomPoint>& points) override {
+    return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
+  }
+  std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
+                                                 double deepest_end_m) const override;
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
   std::int64_t searches() const { return searches_; }  // of paths, since the start

@@ -22,6 +22,7 @@ constexpr auto kCollided = static_cast<std::size_t>(packet_outcome_t::COLLIDED);
 packet_outcome_t outcome(std::int32_t from, std::int32_t to, std::int64_t sequence,
                          std::int64_t departure_utime, std::int8_t result) {
   packet_outcome_t o{};
+  o.num_receivers = 1;
   o.utime = departure_utime + 1'500'000;
   o.source_id = from;
   o.receiver_id = to;
