@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "acoustics/fading/sound_path.h"
+#include "core/frames.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -35,6 +35,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/least_loss.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arrivals.h"

@@ -7,6 +7,9 @@
 
 #include "acoustics/link/least_loss.h"
 #include "acoustics/math/frequency_band.h"
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/sea/noise.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/frames.h"
