@@ -85,12 +85,12 @@ Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem&
   const bool fades = rule.fading.enabled;
   const Decibels fading{fades ? kLargeScaleDeviations * rule.fading.large_scale_db : 0};
   const Decibels noise =
-      to_decibels({noise_density.value * sender.bandwidth_hz}) - receiver.directivity_index - fading;
+      to_decibels({noise_density.value * sender.bandwidth_hz}) - receiver.directivity_index;
   const Decibels disturbs = noise - rule.below_noise;
   const bool may_receive =
       same_family(sender, receiver) && acoustics::band_share(sender.band(), receiver.band()) > 0;
   if (!may_receive) return disturbs;
-  const Decibels acquired = noise + Decibels{unnoticed_sinr_db(sender, fades)};
+  const Decibels acquired = noise - fading + Decibels{unnoticed_sinr_db(sender, fades)};
   return std::min(disturbs, std::max(acquired, receiver.min_receivable_level));
 }
 

@@ -2,15 +2,16 @@
 // anything of its link is surveyed, searched or computed.
 //
 // Of each receiver's modem, two levels count. The sound is of no consequence where it is surely below both:
-// - what disturbs: its power within any band is `below_noise` (20 dB) below the noise there; so much takes 0.04 dB off a ratio:
+// - what disturbs: its power within any band is `below_noise` (30 dB) below the noise there; so much takes 0.004 dB off a ratio,
+//   and 0.04 dB where large-scale fading raises it by three standard deviations of 3 dB:
 //     least noise density over the sender's band * its bandwidth - directivity index - below_noise
 // - what a receiver of the same family and with a common band notices: the greater of its cut-off level, and the level at which
 //   the preamble is acquired with a probability of 1e-5, the power of the preamble exponentially distributed where it fades. A
 //   packet without a preamble is always acquired: then the cut-off alone counts. One that is not acquired is neither
 //   received nor followed.
 // The sender's reach is the range at which source level + both beams at their best - least loss (acoustics/link/least_loss.h)
-// falls below the lower of them; of all modems in use (its own is among them) the greatest. Large-scale fading is taken at
-// three standard deviations.
+// falls below the lower of them; of all modems in use (its own is among them) the greatest. What is noticed takes
+// large-scale fading at three standard deviations.
 //
 // Noise: the least of the waters known to hold within kLongestFlight from then on. Modems: those carried then, or announced
 // to be carried within that time. Left out: changes of water and modems that are announced after the departure.
@@ -35,7 +36,7 @@ namespace halocline::channel_server {
 
 struct ReachRule {
   bool by_level = true;      // false: everybody reaches everybody
-  Decibels below_noise{20};  // 0..200
+  Decibels below_noise{30};  // 0..200
   acoustics::FadingModel fading = {};
 };
 

@@ -43,6 +43,21 @@ class OutcomeSummaryTest : public ::testing::Test {
   TemporaryLog file_;
 };
 
+TEST_F(OutcomeSummaryTest, ReceiversOutOfReachCountOneByOneButAreNoPair) {
+  packet_outcome_t others = outcome(1, 0, 0, 0, packet_outcome_t::OUT_OF_REACH);
+  others.num_receivers = 97;
+  add(others);
+  add(others);  // a repetition
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  const OutcomeSummary sums = summary();
+  EXPECT_EQ(sums.total()[packet_outcome_t::OUT_OF_REACH], 97);
+  EXPECT_EQ(sum(sums.total()), 98);
+  EXPECT_EQ(sum(sums.by_window().at(0)), 98);
+  EXPECT_EQ(sums.by_pair().size(), 1u);
+  EXPECT_EQ(sums.by_propagation()[packet_outcome_t::STRAIGHT], 1);
+  EXPECT_EQ(sums.name(0), "several");
+}
+
 TEST_F(OutcomeSummaryTest, CountsByOutcomePairAndWindowOfDepartureAgree) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
   add(outcome(1, 3, 0, 0, packet_outcome_t::COLLIDED));
