@@ -2,8 +2,8 @@
 // anything of its link is surveyed, searched or computed.
 //
 // Of each receiver's modem, two levels count. The sound is of no consequence where it is surely below both:
-// - what disturbs: its power within any band is `below_noise` (30 dB) below the noise there; so much takes 0.004 dB off a ratio,
-//   and 0.04 dB where large-scale fading raises it by three standard deviations of 3 dB:
+// - what disturbs: its power within any band is `below_noise` (30 dB) below the noise there; so much takes 0.004 dB off a
+//   ratio, and 0.04 dB where large-scale fading raises it by three standard deviations of 3 dB:
 //     least noise density over the sender's band * its bandwidth - directivity index - below_noise
 // - what a receiver of the same family and with a common band notices: the greater of its cut-off level, and the level at which
 //   the preamble is acquired with a probability of 1e-5, the power of the preamble exponentially distributed where it fades. A
