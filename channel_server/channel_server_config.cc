@@ -40,6 +40,10 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
                {0, 600, "s", "how long after its start a SEND may be received"});
   bus::seconds(v, "max_earliness_s", r.medium.max_earliness,
                {0, 3600, "s", "how long before its start a transmission may be announced"});
+  bus::choice(v, "reach", r.reach.by_level, {"none", "level"},
+              "level: links over which sound cannot matter are left out (docs/packets.md); none: none is");
+  v.number("reach_below_noise_db", r.reach.below_noise.value,
+           {0, 200, "dB", "reach: how far below the noise sound disturbs nobody"});
   visit_count(v, "bottom_points", r.bottom_points,
               {1, 64, "", "points of the bottom surveyed for each link"});
   v.number("echo_reuse_distance_m", r.echo_reuse_distance_m,

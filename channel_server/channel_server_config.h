@@ -23,6 +23,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/reach.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/replay_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -101,6 +102,7 @@ struct ServerRules {
   SimDuration link_period = SimDuration::from_milliseconds(1000);  // between two LINKS of a vehicle
   PositionRule position;
   MediumRule medium;
+  ReachRule reach;
   RayQueryRule ray_queries;
   int bottom_points = 9;  // under each link, for its echoes
   double echo_reuse_distance_m =

@@ -20,14 +20,13 @@ namespace channels = bus::channels;
 
 // Due as soon as simulation time is known: before every time that a message may hold.
 constexpr SimTime kBeforeAll = SimTime::from_nanoseconds(-4'000'000'000'000'000'000);
-// Sound that left before is not under way any more: it has gone 180 km.
-constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
 constexpr SimDuration kEnvironmentPeriod = SimDuration::from_milliseconds(60'000);
 constexpr SimDuration kScenarioPeriod = SimDuration::from_milliseconds(60'000);
 // After a jump of time no more tables than these are made up for.
 constexpr std::int64_t kMaxTicksBehind = 100;
 // How much longer than their rules states and receipts are kept, for every instant that may still be evaluated.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
+constexpr SimDuration kForgettingPeriod = SimDuration::from_milliseconds(1000);
 
 SimTime on_grid_from(SimTime now, SimDuration period) {
   return next_on_grid(now - SimDuration::from_nanoseconds(1), period);
@@ -42,7 +41,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       rules_(rules),
       water_(std::move(water)),
       vehicles_(rules.position, modems),
-      medium_(vehicles_, *water_.propagation, rules.medium),
+      reach_(water_.waters, *water_.propagation, rules.reach),
+      medium_(vehicles_, *water_.propagation, rules.medium, &reach_),
       predictor_(make_predictor(rules)),
       echoes_(rules.echo_reuse_distance_m),
       rays_(rules.ray_queries),
@@ -60,7 +60,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       scenario_(std::move(scenario)),
       next_tick_(kBeforeAll),
       next_environment_(kBeforeAll),
-      next_scenario_(kBeforeAll) {
+      next_scenario_(kBeforeAll),
+      next_forgetting_(kBeforeAll) {
   if (rules.medium.shard.index != 0) scenario_.clear();
 }
 
@@ -121,9 +122,11 @@ bool ChannelServerNode::run_instant(SimTime instant) {
 bool ChannelServerNode::run_tick(SimTime tick) {
   if (recovery_) return true;
   const auto present = place_all(vehicles_, tick);
-  if (!tables_are_ready(tick, present, *water_.propagation, rules_.medium.shard)) return false;
-  tables_.publish(tick, present);
-  seabed_.begin_tick(present);
+  const auto reaches_m = reach_.reaches_m(tick, vehicles_, present);
+  const Shard& shard = rules_.medium.shard;
+  if (!tables_are_ready(tick, present, *water_.propagation, shard, reaches_m)) return false;
+  tables_.publish(tick, present, reaches_m);
+  seabed_.begin_tick(present, reaches_m);
   return true;
 }
 
@@ -153,7 +156,10 @@ void ChannelServerNode::publish_scenario(SimTime instant) {
 }
 
 // The earliest instant evaluated is the start of a SEND received late, whose sender may have timed out before.
+// It walks over all vehicles and receivers, so it is done once a second.
 void ChannelServerNode::forget_old(SimTime now) {
+  if (now < next_forgetting_) return;
+  next_forgetting_ = next_on_grid(now, kForgettingPeriod);
   const SimTime horizon = now - rules_.medium.max_lateness - kKeptLonger;
   medium_.forget_before(horizon);
   water_.waters->forget_before(horizon - kLongestFlight);
@@ -210,7 +216,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   journal_.clear();
   recovery_.reset();
   inbox_.forget_after(now.sim + InputProcessor::kMaxAhead);
-  next_tick_ = next_environment_ = next_scenario_ = kBeforeAll;
+  next_tick_ = next_environment_ = next_scenario_ = next_forgetting_ = kBeforeAll;
   table_waits_ = false;
 }
 
@@ -229,7 +235,7 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
                                          "; allowed is 0 to shards - 1, " + std::to_string(shard.count - 1));
   ServerRules rules = config.rules;
   rules.medium.seed = scenario.seed;
-  rules.medium.fading = config.propagation.fading;
+  rules.medium.fading = rules.reach.fading = config.propagation.fading;
   const ConfiguredModems modems = make_modems(config);
   return std::make_unique<ChannelServerNode>(lcm, identity, make_water_model(config, scenario, folder),
                                              modems, rules, to_messages(scenario, modems));

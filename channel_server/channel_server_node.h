@@ -27,6 +27,7 @@
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/propagation/reach.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -71,6 +72,7 @@ class ChannelServerNode : public bus::Node {
   ServerRules rules_;
   WaterModel water_;
   VehicleRegistry vehicles_;
+  ReachModel reach_;
   PacketMedium medium_;
   LinkPredictor predictor_;
   MultipathCache echoes_;
@@ -87,7 +89,7 @@ class ChannelServerNode : public bus::Node {
   std::unique_ptr<ServerRecovery> recovery_;
 
   std::vector<scenario_info_t> scenario_;
-  SimTime next_tick_, next_environment_, next_scenario_;
+  SimTime next_tick_, next_environment_, next_scenario_, next_forgetting_;
   bool table_waits_ = false;
 };
 

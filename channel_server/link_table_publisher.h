@@ -30,8 +30,9 @@ class LinkTablePublisher {
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, Shard shard,
                      int threads);
 
-  // `vehicles`: those present at `tick`.
-  void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles);
+  // `vehicles`: those present at `tick`, with their reaches (links/link_table.h).
+  void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles,
+               const std::vector<double>& reaches_m);
 
   // Another run has begun.
   void clear() { present_.clear(); }

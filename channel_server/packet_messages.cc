@@ -111,6 +111,7 @@ modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at) {
 packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at) {
   auto message = common_fields<packet_outcome_t>(outcome, at);
   message.outcome = static_cast<std::int8_t>(outcome.kind);
+  message.num_receivers = static_cast<std::int32_t>(outcome.receivers);
   message.duration_s = outcome.packet->timing.duration.seconds();
   message.range_m = outcome.budget.range_m;
   message.transmission_loss_db = outcome.budget.transmission_loss.value;

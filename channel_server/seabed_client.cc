@@ -93,11 +93,12 @@ void SeabedClient::store(const VehiclePair& pair, RayQueryClient::Finished finis
   if (finished.answered) models_.echoes.store(pair, std::move(std::get<EchoSurvey>(finished.survey)));
 }
 
-void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles) {
+void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles,
+                              const std::vector<double>& reaches_m) {
   models_.seabed.forget_unused();
   for (const RayQueryClient::SurveyId dropped : models_.rays.begin_tick()) surveyed_pairs_.erase(dropped);
   if (models_.propagation.uses_bottom()) return;  // rays hold the echoes
-  for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, shard_)) {
+  for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, shard_, reaches_m)) {
     const EchoSurvey survey(models_.echoes.place(pair.first), models_.echoes.place(pair.second),
                             bottom_points_);
     surveyed_pairs_.emplace(models_.rays.submit_routine(survey), pair);

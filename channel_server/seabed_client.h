@@ -47,7 +47,7 @@ class SeabedClient {
   // True when the replies received are of another terrain than those before: what was known of that is forgotten.
   [[nodiscard]] bool take_replies();
   // Echo surveys that no batch has taken yet make room for those of `vehicles`, which are present at the tick.
-  void begin_tick(const std::vector<PlacedVehicle>& vehicles);
+  void begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& reaches_m);
   void publish_queries(const bus::Now& now);
 
   // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed may

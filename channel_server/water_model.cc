@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "channel_server/propagation/measured_propagation.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/replay_config.h"
 
 namespace halocline::channel_server {

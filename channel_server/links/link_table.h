@@ -1,10 +1,12 @@
 // The link tables of an instant: the quality of the link from every vehicle present to every other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/propagation/propagation.h"
@@ -50,6 +52,8 @@ struct LinkRow {
 struct LinkTable {
   VehicleId vehicle_id = 0;   // the transmitter of every row
   std::vector<LinkRow> rows;  // by receiver id
+  double reach_m = acoustics::kGreatestBoundedRange;
+  std::size_t out_of_reach = 0;  // vehicles present without a row
 };
 
 // As the propagation takes it.
@@ -60,13 +64,15 @@ using MultipathFunction =
 
 // Whether link_tables() need not wait for what the propagation lacks.
 bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicles, Propagation& propagation,
-                      Shard shard = {});
+                      Shard shard = {}, const std::vector<double>& reaches_m = {});
 
 // One table a vehicle that `shard` serves, by id, of links whose sound leaves at `instant`; a vehicle alone has an
-// empty one. `multipath` is called where paths are straight by choice: rays hold the echoes of the bottom.
+// empty one. `multipath` is called where paths are straight by choice: rays hold the echoes of the bottom. `reaches_m`: of each
+// vehicle (propagation/reach.h); those further away have no row. Empty: everybody has one.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,
-                                   const ForEach& for_each = one_after_the_other, Shard shard = {});
+                                   const ForEach& for_each = one_after_the_other, Shard shard = {},
+                                   const std::vector<double>& reaches_m = {});
 
 }  // namespace halocline::channel_server

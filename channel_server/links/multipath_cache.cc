@@ -43,7 +43,8 @@ Multipath MultipathCache::verdict_of(Entry& entry, SimTime at, const PlacedVehic
   return verdict.multipath;
 }
 
-std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard) {
+std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard,
+                                                    const std::vector<double>& reaches_m) {
   ++tick_;
   places_.clear();
   for (const auto& vehicle : vehicles) places_.emplace(vehicle.id, vehicle.placement.position_ned_m);
@@ -51,12 +52,16 @@ std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehi
     return !places_.contains(entry.first.first) || !places_.contains(entry.first.second);
   });
   std::vector<std::pair<std::int64_t, VehiclePair>> wanted;
-  for (auto low = places_.begin(); low != places_.end(); ++low) {
-    for (auto high = std::next(low); high != places_.end(); ++high) {
-      if (!shard.serves(low->first) && !shard.serves(high->first)) continue;
-      const Entry& entry = entries_[{low->first, high->first}];
-      if (serves(entry, low->second, high->second)) continue;
-      wanted.push_back({entry.queried_at_tick, {low->first, high->first}});
+  for (std::size_t low = 0; low < vehicles.size(); ++low) {
+    for (std::size_t high = low + 1; high < vehicles.size(); ++high) {
+      const VehicleId low_id = vehicles[low].id, high_id = vehicles[high].id;
+      if (!shard.serves(low_id) && !shard.serves(high_id)) continue;
+      const Vec3 &from = vehicles[low].placement.position_ned_m,
+                 &to = vehicles[high].placement.position_ned_m;
+      if (!reaches_m.empty() && (to - from).norm() > std::max(reaches_m[low], reaches_m[high])) continue;
+      const Entry& entry = entries_[{low_id, high_id}];
+      if (serves(entry, from, to)) continue;
+      wanted.push_back({entry.queried_at_tick, {low_id, high_id}});
     }
   }
   std::sort(wanted.begin(), wanted.end());

@@ -95,6 +95,16 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind) {
   return outcome;
 }
 
+PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) {
+  PacketOutcome outcome;
+  outcome.kind = OutcomeKind::kOutOfReach;
+  outcome.packet = packet;
+  outcome.budget.range_m = range_m;
+  outcome.budget.received_level = kSilence;
+  outcome.budget.transmission_loss = packet->modem.source_level - kSilence;
+  return outcome;
+}
+
 PingAnswer answer_of(const Flight& flight, SimTime at) {
   const Packet& ping = *flight.packet;
   SendRequest answer;

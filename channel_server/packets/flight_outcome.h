@@ -14,6 +14,9 @@ bool is_shifted_too_far(const Flight& flight);
 
 // The record of a flight that ended as `kind`.
 PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind);
+// Of a packet that does not get as far as `range_m`, at several receivers: kOutOfReach. Levels are kSilence, nothing else was
+// computed.
+PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m);
 // Of a ping that was received by `at`: its addressee's modem answers.
 PingAnswer answer_of(const Flight& flight, SimTime at);
 

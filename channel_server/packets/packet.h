@@ -119,6 +119,7 @@ enum class OutcomeKind {
   kForeign,       // [2] the waveform families of the two modems differ: its detector does not know this sound
   kTooWeak,       // [4] no path: the bounces leave too little of every ray
   kTooSteep,      // [4] no path: every ray that arrives is launched more steeply than is searched
+  kOutOfReach,    // [0] so far away at the departure that its sound cannot matter (propagation/reach.h)
 };
 
 // What the outcome was decided by.
@@ -132,11 +133,12 @@ struct DecisionStatistics {
   std::vector<PacketName> colliders;   // the loudest first, 16 at most
 };
 
-// The outcome of a packet at one possible receiver.
+// The outcome of a packet at one possible receiver; or, kOutOfReach, at all that are out of reach but for its destination.
 struct PacketOutcome {
   PacketPointer packet;
-  VehicleId receiver_id = 0;
-  std::string receiver;  // its name when the packet left
+  VehicleId receiver_id = 0;  // 0: several receivers
+  std::size_t receivers = 1;  // that it stands for
+  std::string receiver;       // its name when the packet left
   OutcomeKind kind = OutcomeKind::kReceived;
   bool deliver = false;      // received, and addressed to this receiver or to all
   double travel_time_s = 0;  // of the first significant path

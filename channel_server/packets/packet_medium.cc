@@ -21,8 +21,9 @@ constexpr int kMaxSolutions = 64;
 
 }  // namespace
 
-PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule)
-    : fleet_(fleet), propagation_(propagation), rule_(rule) {
+PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
+                           ReachModel* reach)
+    : fleet_(fleet), propagation_(propagation), rule_(rule), reach_(reach) {
   require(rule.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
   require(rule.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
 }
@@ -99,7 +100,7 @@ bool PacketMedium::must_be_put_off(const Departure& departure) const {
 }
 
 void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events) {
-  if (departure.queued) return launch(at_its_departure(*departure.queued));
+  if (departure.queued) return launch(at_its_departure(*departure.queued), events);
   if (must_be_put_off(departure)) {
     departure.is_put_off = true;
     const SimTime later = departure.request.start + fleet_.rule().state_lag;
@@ -121,7 +122,7 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
                                                               place->position_ned_m, place->velocity_ned_mps,
                                                               departure.answers});
     if (decision.result == SendResult::kAccepted) {
-      launch(packet);
+      launch(packet, events);
     } else {
       add_departure(decision.start, {request, nullptr, packet});
     }
@@ -162,19 +163,39 @@ PacketPointer PacketMedium::at_its_departure(const Packet& queued) const {
   return std::make_shared<const Packet>(std::move(packet));
 }
 
-void PacketMedium::launch(const PacketPointer& packet) {
+// Everybody knows the states of all, so the shard of the sender counts those out of reach.
+void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>& events) {
   const SimTime departure = packet->departure;
-  const VehicleId source = packet->request.source_id;
-  if (rule_.shard.serves(source)) {
-    state_of(source).transmit({packet, departure, departure + packet->timing.duration});
+  const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
+  const bool is_served = rule_.shard.serves(source);
+  if (is_served) state_of(source).transmit({packet, departure, departure + packet->timing.duration});
+  const std::vector<PlacedVehicle> present = place_all(fleet_, departure);
+  const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present)
+                                           : acoustics::kGreatestBoundedRange;
+  PacketOutcome others = outcome_out_of_reach(packet, reach_m);
+  others.receivers = 0;
+  for (const PlacedVehicle& receiver : present) {
+    if (receiver.id == source) continue;
+    const double range_m = (receiver.placement.position_ned_m - packet->departure_ned_m).norm();
+    if (stays_beyond(reach_m, range_m, receiver.placement.velocity_ned_mps.norm())) {
+      if (receiver.id != destination) {
+        ++others.receivers;
+      } else if (is_served) {
+        PacketOutcome lost = outcome_out_of_reach(packet, range_m);
+        lost.receiver_id = receiver.id;
+        lost.receiver = fleet_.name_of(receiver.id);
+        events.push_back({departure, departure < advanced_to_, std::move(lost)});
+      }
+    } else if (rule_.shard.serves(receiver.id)) {
+      auto flight = std::make_unique<Flight>();
+      flight->packet = packet;
+      flight->receiver_id = receiver.id;
+      flight->receiver = fleet_.name_of(receiver.id);
+      schedule(departure, std::move(flight));  // solved there
+    }
   }
-  for (const VehicleId receiver : fleet_.present(departure)) {
-    if (receiver == source || !rule_.shard.serves(receiver)) continue;
-    auto flight = std::make_unique<Flight>();
-    flight->packet = packet;
-    flight->receiver_id = receiver;
-    flight->receiver = fleet_.name_of(receiver);
-    schedule(departure, std::move(flight));  // solved there
+  if (is_served && others.receivers > 0) {
+    events.push_back({departure, departure < advanced_to_, std::move(others)});
   }
 }
 

@@ -51,6 +51,7 @@
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/send_register.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/reach.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -70,8 +71,10 @@ class PacketMedium {
  public:
   static constexpr std::size_t kMaxQueued = 16;  // at one modem
 
-  // Both must outlive the medium; the owner adds the states to the registry before advance_to.
-  PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule);
+  // All must outlive the medium; the owner adds the states to the registry before advance_to. Without `reach` everybody
+  // is within reach.
+  PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
+               ReachModel* reach = nullptr);
 
   // A request received at `now`. A receipt when it can be given without waiting for the start:
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
@@ -119,7 +122,7 @@ class PacketMedium {
   void depart(Departure departure, std::vector<MediumEvent>& events);
   [[nodiscard]] bool must_be_put_off(const Departure& departure) const;
   Decision decide(const SendRequest& request, SimDuration duration) const;
-  void launch(const PacketPointer& packet);
+  void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
   PacketPointer at_its_departure(const Packet& queued) const;
 
   using FlightPointer = std::unique_ptr<Flight>;
@@ -135,6 +138,7 @@ class PacketMedium {
   const VehicleRegistry& fleet_;
   Propagation& propagation_;
   MediumRule rule_;
+  ReachModel* reach_;
   SendRegister register_;
   NoiseLevelCache noise_;
   std::map<DepartureKey, Departure> departures_;

@@ -8,12 +8,14 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "acoustics/fading/channel_record.h"
 #include "acoustics/fading/measured_channel.h"
+#include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
@@ -22,6 +24,7 @@
 #include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/for_each.h"
 #include "core/frames.h"
@@ -74,6 +77,11 @@ class MeasuredPropagation : public Propagation {
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
                           const std::vector<acoustics::BottomPoint>& points) override {
     return model_->echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
+  }
+  // A record's level holds at every range.
+  std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
+                                                 double deepest_end_m) const override {
+    return links_.level_of_record ? std::nullopt : model_->least_loss(at, frequency_hz, deepest_end_m);
   }
   const acoustics::Environment& environment(SimTime at) const override { return model_->environment(at); }
 

@@ -1,11 +1,22 @@
 #include "channel_server/propagation/path_search.h"
 
+#include <cmath>
+
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "channel_server/propagation/ray_limits.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
+namespace {
+
+constexpr double kMinCellsOfALink = 20;
+constexpr int kMaxHalvings = 6;
+constexpr double kDepthShare = 0.1;  // height of a cell over its length
+
+double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
+
+}  // namespace
 
 void validate(const RayModel& model) {
   validate(model.bottom);
@@ -33,6 +44,16 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
   found->arrivals = arrivals(sea, query.link, usable_solver(model.solver, sea, query.link));
   found->blocked = cuts_straight_line(sea.bottom_profile, query.link);
   return found;
+}
+
+std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m) {
+  double cell = distance_m;
+  for (int halvings = 0; link.range_m < kMinCellsOfALink * cell; ++halvings, cell /= 2) {
+    if (halvings == kMaxHalvings) return std::nullopt;
+  }
+  const double height = kDepthShare * cell;
+  return acoustics::RayLink{middle(link.source_depth_m, height), middle(link.receiver_depth_m, height),
+                            middle(link.range_m, cell)};
 }
 
 }  // namespace halocline::channel_server

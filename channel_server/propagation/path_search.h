@@ -34,8 +34,9 @@ struct RayModel {
   acoustics::FadingModel fading;
   acoustics::Reverberation reverberation;
   double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
-  double reuse_distance_m = 0;     // of ray_cells.h, 0..1000; 0: every link of a table is searched for itself
-  int max_searches_per_tick = 0;   // of link tables, by search_budget.h; 0: as many as they need
+  double reuse_distance_m =
+      0;  // of middle_of_cell(), 0..1000; 0: every link of a table is searched for itself
+  int max_searches_per_tick = 0;         // of link tables, by search_budget.h; 0: as many as they need
   double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
 };
 
@@ -81,5 +82,16 @@ struct FoundPaths {
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed);
+
+// Between which points the paths of a link of a table are searched, so that one search serves links that differ little; empty:
+// this very one, as it is too short for cells of `distance_m` (above 0).
+//
+// Range and both depths are each replaced by the middle of their cell: cells are `distance_m` long in
+// range and a tenth of that in depth (fronts of sound that travels nearly level bend most across depth), and
+// half as large as often as it takes for a link to be at least 20 cells long. Below 20 / 64 of `distance_m`
+// nothing is replaced. So the searched link is a function of the link alone, whatever was searched before, and
+// lies within 2.5 % of the range in range and 0.25 % of it in depth. acoustics/link/extrapolate_arrivals.h takes the paths
+// from there to the link.
+std::optional<acoustics::RayLink> middle_of_cell(const acoustics::RayLink& link, double distance_m);
 
 }  // namespace halocline::channel_server

@@ -3,27 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "core/check.h"
 #include "core/elementary.h"
 
 namespace halocline::channel_server {
 namespace {
-
-SoundPath straight_path(const acoustics::Environment& water, const acoustics::LinkBudget& budget,
-                        const LinkEnd& from, const LinkEnd& to) {
-  const double angle = acoustics::angle_down_rad(from.position_ned_m, to.position_ned_m);
-  const Vec3 along = acoustics::ray_direction(from.position_ned_m, to.position_ned_m, angle);
-  SoundPath path;
-  path.delay_s = budget.delay_s;
-  path.level = budget.received_level;
-  path.doppler_factor =
-      acoustics::doppler_factor(from.velocity_ned_mps.dot(along), sound_speed_at(water, from.position_ned_m),
-                                to.velocity_ned_mps.dot(along), sound_speed_at(water, to.position_ned_m));
-  path.launch_angle_rad = path.arrival_angle_rad = angle;
-  return path;
-}
 
 template <class Counts>
 Decibels summed_level(const std::vector<SoundPath>& paths, const Counts& counts) {
@@ -108,82 +93,6 @@ Reception Propagation::reception_over(SimTime, const LinkEnd&, const LinkEnd&,
                                       const std::shared_ptr<const SeabedProfile>&) {
   ensure(false, "reception_over() of a propagation without a bottom");
   return {};
-}
-
-StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_kernels)
-    : StraightPropagation(std::make_shared<const EnvironmentTimeline>(std::move(environment)),
-                          acoustics::FadingModel(), max_kernels) {}
-
-StraightPropagation::StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                                         const acoustics::FadingModel& fading, std::size_t max_kernels)
-    : waters_(std::move(waters)), fading_(fading), kernels_(max_kernels) {}
-
-Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
-                                          const acoustics::Environment& water, const EndPair& ends,
-                                          acoustics::Capacity capacity) const {
-  const auto& [from, to] = ends;
-  Reception reception;
-  reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity);
-  SoundPath path = straight_path(water, reception.budget, from, to);
-  path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
-  reception.paths = {path};
-  return reception;
-}
-
-// The cache of kernels is read in turn; links are shared out.
-std::vector<Reception> StraightPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
-                                                       const ForEach& for_each) {
-  std::vector<std::shared_ptr<const acoustics::LinkKernel>> kernels;
-  for (const auto& [from, to] : links) kernels.push_back(kernel_of(at, *from.modem, *to.modem));
-  const acoustics::Environment& water = waters_->at(at);
-  std::vector<Reception> receptions(links.size());
-  for_each(links.size(), [&](std::size_t i) {
-    receptions[i] = along_line(*kernels[i], water, links[i], acoustics::Capacity::kComputed);
-  });
-  return receptions;
-}
-
-Reception StraightPropagation::blocked(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  Reception reception;
-  reception.state = PathState::kBlocked;
-  const double distance_m = (to.position_ned_m - from.position_ned_m).norm();
-  reception.budget =
-      kernel_of(at, *from.modem, *to.modem)
-          ->budget_of_path(from.position_ned_m, to.position_ned_m, from.modem->source_level - kSilence,
-                           distance_m, acoustics::Capacity::kComputed);
-  reception.budget.receivable = false;
-  return reception;
-}
-
-bool StraightPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
-                                             const acoustics::Modem& receiver, const Vec3& from_ned_m,
-                                             const Vec3& to_ned_m,
-                                             const std::vector<acoustics::BottomPoint>& points) {
-  return assess_echoes(*kernel_of(at, transmitter, receiver), from_ned_m, to_ned_m, points).likelihood ==
-         acoustics::EchoLikelihood::kLikely;
-}
-
-StraightPropagation::ModemKey StraightPropagation::key_of(const acoustics::Modem& modem) {
-  std::vector<double> beam;
-  for (const acoustics::BeamRow& row : modem.beam.rows()) {
-    beam.insert(beam.end(), {row.elevation_rad, row.loss_db});
-  }
-  const std::array<double, 5> numbers{modem.source_level.value, modem.min_receivable_level.value,
-                                      modem.centre_frequency_hz, modem.bandwidth_hz,
-                                      modem.directivity_index.value};
-  return {numbers, std::move(beam), modem.family};
-}
-
-std::shared_ptr<const acoustics::LinkKernel> StraightPropagation::kernel_of(
-    SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver) {
-  const EnvironmentTimeline::WaterId water = waters_->water_at(at);
-  if (last_ && water == last_water_ && last_->transmitter() == transmitter && last_->receiver() == receiver)
-    return last_;
-  last_ = kernels_.find_or_make({water, key_of(transmitter), key_of(receiver)}, [&] {
-    return std::make_shared<const acoustics::LinkKernel>(waters_->at(at), transmitter, receiver);
-  });
-  last_water_ = water;
-  return last_;
 }
 
 }  // namespace halocline::channel_server

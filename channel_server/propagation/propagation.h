@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "acoustics/fading/measured_channel.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
@@ -152,62 +154,14 @@ class Propagation {
                                   const acoustics::Modem& receiver, const Vec3& from_ned_m,
                                   const Vec3& to_ned_m,
                                   const std::vector<acoustics::BottomPoint>& points) = 0;
+  // The least loss of every link at a frequency between ends no deeper than `deepest_end_m` (acoustics/link/least_loss.h);
+  // empty: levels have no bound by range.
+  virtual std::optional<acoustics::LeastLoss> least_loss(SimTime /*at*/, double /*frequency_hz*/,
+                                                         double /*deepest_end_m*/) const {
+    return std::nullopt;
+  }
   // The water at `at`; valid until the next change.
   virtual const acoustics::Environment& environment(SimTime at) const = 0;
-};
-
-// The straight path of acoustics/link/link_kernel.h, in the water of the instant, weighed by both beams.
-//
-// A LinkKernel takes a millisecond to make and a fraction of a microsecond to evaluate, so one is kept for each pair of
-// different modems, `max_kernels` at most.
-class StraightPropagation : public Propagation {
- public:
-  static constexpr std::size_t kMaxKernels = 1024;
-  // Throws InvalidArgument when the environment is out of range.
-  explicit StraightPropagation(acoustics::Environment environment, std::size_t max_kernels = kMaxKernels);
-  explicit StraightPropagation(std::shared_ptr<const EnvironmentTimeline> waters,
-                               const acoustics::FadingModel& fading = {},
-                               std::size_t max_kernels = kMaxKernels);
-
-  // One path, straight; never in a shadow, never blocked. Doppler by acoustics/link/ray_doppler.h.
-  Reception along_line(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
-    const auto& [from, to] = ends;
-    return along_line(*kernel_of(at, *from.modem, *to.modem), waters_->at(at), ends, capacity);
-  }
-  Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    return along_line(at, {from, to}, acoustics::Capacity::kComputed);
-  }
-  Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    return along_line(at, {from, to}, acoustics::Capacity::kLeftOut);
-  }
-  std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
-                                    const ForEach& for_each) override;
-  // The same link where the terrain is known to stand in the line: no path, silence.
-  Reception blocked(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
-                          const Vec3& from_ned_m, const Vec3& to_ned_m,
-                          const std::vector<acoustics::BottomPoint>& points) override;
-  const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
-
-  std::shared_ptr<const acoustics::LinkKernel> kernel_of(SimTime at, const acoustics::Modem& transmitter,
-                                                         const acoustics::Modem& receiver);
-
-  std::size_t kernels_kept() const { return kernels_.size(); }
-
- private:
-  // Numbers of a budget, beam, family.
-  using ModemKey = std::tuple<std::array<double, 5>, std::vector<double>, std::string>;
-  using PairKey = std::tuple<EnvironmentTimeline::WaterId, ModemKey, ModemKey>;
-  static ModemKey key_of(const acoustics::Modem& modem);
-  Reception along_line(const acoustics::LinkKernel& kernel, const acoustics::Environment& water,
-                       const EndPair& ends, acoustics::Capacity capacity) const;
-
-  std::shared_ptr<const EnvironmentTimeline> waters_;
-  acoustics::FadingModel fading_;
-  LruCache<PairKey, std::shared_ptr<const acoustics::LinkKernel>> kernels_;
-  // What was asked for last, which is what most links ask for.
-  EnvironmentTimeline::WaterId last_water_ = 0;
-  std::shared_ptr<const acoustics::LinkKernel> last_;
 };
 
 }  // namespace halocline::channel_server

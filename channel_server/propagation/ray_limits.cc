@@ -27,6 +27,18 @@ std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySo
   return *wanted == Solver::kSnell && simplest == Solver::kSnell ? wanted : simplest;
 }
 
+Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment& environment) {
+  double gain_db = 0;
+  if (model.coherent) {
+    gain_db += 10;
+  } else if (model.fading.enabled) {
+    gain_db += 3;
+  }
+  if (model.reverberation.enabled) gain_db += 10;
+  if (environment.spreading_exponent < 1.5) gain_db += 6;
+  return Decibels{gain_db};
+}
+
 // Each count takes its low bits.
 std::uint64_t number_of(const acoustics::PathIdentity& identity) {
   std::uint64_t number = identity.launched_up ? 1 : 0;

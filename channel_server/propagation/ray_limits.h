@@ -7,6 +7,10 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/environment.h"
+#include "channel_server/propagation/path_search.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 
@@ -17,6 +21,11 @@ int bounces_for(double range_m, double depth_m);
 
 // Of the bottom between the ends of a link, m.
 double mean_depth_m(const acoustics::BottomProfile& bottom, double range_m);
+
+// What the level of a link may have beside the sum of its paths' powers in even water (acoustics/link/least_loss.h), our
+// choices: 10 dB where phasors are added, 3 dB where only those whose fading keeps together are; 10 dB for the tail of
+// reverberation; 6 dB where the straight path, which serves without a bottom, spreads less than by 1.5 * 10 log r.
+Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment& environment);
 
 // The solver that is wanted where it can do the link, else the simplest that can; empty: the simplest.
 std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySolver> wanted,

@@ -15,7 +15,6 @@
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "channel_server/propagation/link_tracks.h"
-#include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_limits.h"
 #include "channel_server/propagation/ray_tracks.h"
 #include "channel_server/propagation/received_path.h"
@@ -60,10 +59,7 @@ Reception RayPropagation::along_rays(SimTime at, const EndPair& ends, acoustics:
 
 Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                          const std::shared_ptr<const SeabedProfile>& seabed) {
-  if (!seabed) {
-    return straight_instead(at, {from, to}, PropagationUsed::kStraightWithoutBottom,
-                            acoustics::Capacity::kComputed);
-  }
+  if (!seabed) return straight_instead(at, {from, to}, PropagationUsed::kStraightWithoutBottom);
   const Task task = task_over(at, from, to, seabed);
   return answer(task, *found(task));
 }
@@ -150,8 +146,7 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
     if (found) continue;
     receptions[i] = straight_instead(
         at, links[i],
-        tasks[i].waits ? PropagationUsed::kStraightNotSearched : PropagationUsed::kStraightWithoutBottom,
-        acoustics::Capacity::kComputed);
+        tasks[i].waits ? PropagationUsed::kStraightNotSearched : PropagationUsed::kStraightWithoutBottom);
   }
   return receptions;
 }
@@ -169,11 +164,10 @@ bool RayPropagation::are_ready(SimTime at, const std::vector<EndPair>& links) {
   return ready;
 }
 
-bool RayPropagation::echo_is_receivable(SimTime at, const acoustics::Modem& transmitter,
-                                        const acoustics::Modem& receiver, const Vec3& from_ned_m,
-                                        const Vec3& to_ned_m,
-                                        const std::vector<acoustics::BottomPoint>& points) {
-  return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
+std::optional<acoustics::LeastLoss> RayPropagation::least_loss(SimTime at, double frequency_hz,
+                                                               double deepest_end_m) const {
+  const Decibels gain = gain_beyond_powers(model_, waters_->at(at));
+  return acoustics::LeastLoss::of_rays(waters_->at(at), frequency_hz, deepest_end_m, gain);
 }
 
 std::shared_ptr<const SeabedProfile> RayPropagation::seabed_of(const PathQuery& q) const {

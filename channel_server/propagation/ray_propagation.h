@@ -18,7 +18,7 @@
 // the same paths backwards, so the two are reciprocal to the last bit. reception() searches every link for itself, over
 // the bottom between its very ends. receptions(), for tables, may let links share: with a distance of reuse, both
 // ends go to the nearest points of a horizontal lattice for the bottom, the search is for the middle of the cell that the
-// link lies in (ray_cells.h), and its paths are extrapolated from there to the link
+// link lies in (path_search.h), and its paths are extrapolated from there to the link
 // (acoustics/link/extrapolate_arrivals.h); not for coherent levels. With a budget of searches a tick (search_budget.h) a link
 // may keep the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Otherwise results are functions of
 // environment, terrain and ends alone: a search is kept for the very same query, and done again when it was forgotten. Ends
@@ -34,6 +34,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
@@ -50,6 +51,7 @@
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/propagation/search_budget.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "core/for_each.h"
 #include "core/frames.h"
 #include "core/lru_cache.h"
@@ -89,7 +91,11 @@ class RayPropagation : public Propagation {
   LinkTracks tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   bool echo_is_receivable(SimTime at, const acoustics::Modem& transmitter, const acoustics::Modem& receiver,
                           const Vec3& from_ned_m, const Vec3& to_ned_m,
-                          const std::vector<acoustics::BottomPoint>& points) override;
+                          const std::vector<acoustics::BottomPoint>& points) override {
+    return straight_.echo_is_receivable(at, transmitter, receiver, from_ned_m, to_ned_m, points);
+  }
+  std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
+                                                 double deepest_end_m) const override;
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
   std::int64_t searches() const { return searches_; }  // of paths, since the start
@@ -134,7 +140,7 @@ class RayPropagation : public Propagation {
   // Straight where the bottom is not known.
   Reception along_rays(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
-                             acoustics::Capacity capacity);
+                             acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const FoundPaths& found) const;
   static PathState state_without_path(const FoundPaths& found);
   // What was found, at the ends of the task.

@@ -4,7 +4,7 @@
 // that need one as many are granted at a tick as the budget has, by urgency
 //   U = L + 20 log10(d / 25 m),
 // L the received level over the receiver's least one along a straight line without absorption, dB, d how far the ends have
-// moved since the link was granted a search (depths count ten times; ray_cells.h): the most audible and most changed first. A link
+// moved since the link was granted a search (depths count ten times; path_search.h): the most audible and most changed first. A link
 // without any search comes before all others, one in other water or over another seabed before those that only moved;
 // equals by id. The rest keeps the paths of its last search, extrapolated to where the ends are.
 //

@@ -44,6 +44,14 @@ class ModemSchedule {
   // already changes nothing.
   void announce(SimTime from, const VehicleModem& modem);
   const VehicleModem& at(SimTime instant) const;
+  // Calls visit(modem) for each that is carried at some instant of [from, to].
+  template <class Visit>
+  void visit_during(SimTime from, SimTime to, Visit&& visit) const {
+    visit(at(from));
+    for (auto next = announced_.upper_bound(from); next != announced_.end() && next->first <= to; ++next) {
+      visit(next->second);
+    }
+  }
   // Drops announcements that were superseded before `time`.
   void forget_before(SimTime time);
 

@@ -61,6 +61,13 @@ class VehicleRegistry {
   // The standard one for an unknown id.
   const VehicleModem& modem(VehicleId id, SimTime instant) const;
   const VehicleModem& modem(std::string_view name, SimTime instant) const;
+  // Calls visit(modem) for each that the vehicle carries at some instant of [from, to], as far as announced; never for an
+  // unknown id.
+  template <class Visit>
+  void visit_modems(VehicleId id, SimTime from, SimTime to, Visit&& visit) const {
+    const auto vehicle = vehicles_.find(id);
+    if (vehicle != vehicles_.end()) vehicle->second.modems.visit_during(from, to, visit);
+  }
 
   // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it, and
   // states and modems that no later instant needs.

@@ -9,7 +9,8 @@
 
 namespace halocline::clients {
 
-// What one vehicle received of another; every transmission counts, whomever it was addressed to.
+// What one vehicle received of another; every transmission counts, whomever it was addressed to, but those to others that
+// were summed up as out of reach.
 struct PairDelivery {
   std::int32_t from_id = 0, to_id = 0;
   std::int64_t packets = 0, received = 0;

@@ -116,7 +116,7 @@ void MissionStore::take(const Received&, packet_outcome_t outcome) {
   outcome.departure_utime -= time_.zero_us;
   if (SimTime::from_utime(outcome.departure_utime) < dropped_before_) return;
   vehicle(outcome.source_id);
-  vehicle(outcome.receiver_id);
+  if (outcome.receiver_id != 0) vehicle(outcome.receiver_id);
   if (packets_.add(outcome))
     ledger_.add(outcome);
   else

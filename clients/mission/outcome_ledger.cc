@@ -30,10 +30,13 @@ void OutcomeLedger::add(const packet_outcome_t& outcome) {
   const std::size_t number = number_of(outcome);
   const std::int64_t departure = outcome.departure_utime;
   const std::int64_t into_window = ((departure % window_us_) + window_us_) % window_us_;
-  ++total_.at(number);
-  ++by_propagation_.at(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.propagation_used)));
-  ++by_pair_[{outcome.source_id, outcome.receiver_id}].at(number);
-  ++by_window_[departure - into_window].at(number);
+  const std::int64_t receivers = outcome.num_receivers;
+  total_.at(number) += receivers;
+  by_window_[departure - into_window].at(number) += receivers;
+  if (outcome.receiver_id != 0) by_pair_[{outcome.source_id, outcome.receiver_id}].at(number) += receivers;
+  if (outcome.outcome == packet_outcome_t::OUT_OF_REACH) return;  // nothing was computed
+  by_propagation_.at(static_cast<std::size_t>(static_cast<std::uint8_t>(outcome.propagation_used))) +=
+      receivers;
 }
 
 std::int64_t sum(const OutcomeCounts& counts) {

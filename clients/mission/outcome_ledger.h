@@ -11,7 +11,7 @@
 
 namespace halocline::clients {
 
-inline constexpr std::size_t kOutcomes = 14;       // packet_outcome_t.RECEIVED to TOO_STEEP
+inline constexpr std::size_t kOutcomes = 15;       // packet_outcome_t.RECEIVED to OUT_OF_REACH
 inline constexpr std::size_t kReceiptResults = 9;  // modem_receipt_t.ACCEPTED to REFUSED_QUEUE_FULL
 inline constexpr std::size_t kPropagations = 3;    // packet_outcome_t.STRAIGHT to STRAIGHT_WITHOUT_BOTTOM
 using OutcomeCounts = std::array<std::int64_t, kOutcomes>;          // by packet_outcome_t.outcome
@@ -24,7 +24,7 @@ class OutcomeLedger {
   // Outcomes are summed over windows of `window_us` > 0 of simulation time, by the instant of departure.
   explicit OutcomeLedger(std::int64_t window_us);
 
-  // Counts one; it is for the caller to leave out repetitions.
+  // Counts each of its receivers, by pair only where there is one; it is for the caller to leave out repetitions.
   void add(const packet_outcome_t& outcome);
 
   const OutcomeCounts& total() const { return total_; }

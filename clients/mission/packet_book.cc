@@ -106,20 +106,26 @@ bool PacketBook::add(const packet_outcome_t& outcome) {
                         outcome.packet_sequence};
   const SimTime departure = SimTime::from_utime(outcome.departure_utime);
   const auto fits = [&](const PacketRecord& p) {
-    if (p.destination_id != outcome.destination_id && (p.sent || !p.outcomes.empty())) return false;
+    const bool has_outcomes = !p.outcomes.empty() || p.out_of_reach > 0;
+    if (p.destination_id != outcome.destination_id && (p.sent || has_outcomes)) return false;
     return p.departure ? is_same(*p.departure, departure) : !p.is_refused() && p.at() <= departure;
   };
   PacketRecord* packet = newest(name, fits);
   if (packet == nullptr) packet = &new_packet(name);
-  const auto place = std::lower_bound(
-      packet->outcomes.begin(), packet->outcomes.end(), outcome.receiver_id,
-      [](const packet_outcome_t& o, std::int32_t receiver) { return o.receiver_id < receiver; });
-  if (place != packet->outcomes.end() && place->receiver_id == outcome.receiver_id) return false;
-  packet->outcomes.insert(place, outcome);
+  if (outcome.receiver_id == 0) {
+    if (packet->out_of_reach > 0) return false;
+    packet->out_of_reach = outcome.num_receivers;
+  } else {
+    const auto place = std::lower_bound(
+        packet->outcomes.begin(), packet->outcomes.end(), outcome.receiver_id,
+        [](const packet_outcome_t& o, std::int32_t receiver) { return o.receiver_id < receiver; });
+    if (place != packet->outcomes.end() && place->receiver_id == outcome.receiver_id) return false;
+    packet->outcomes.insert(place, outcome);
+    ++outcome_count_;
+  }
   packet->departure = departure;
   packet->duration_s = outcome.duration_s;
   packet->destination_id = outcome.destination_id;
-  ++outcome_count_;
   touched(*packet);
   return true;
 }

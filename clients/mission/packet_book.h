@@ -35,6 +35,7 @@ struct PacketRecord {
   std::optional<SimTime> departure;    // empty: refused, or not known yet
   double duration_s = 0;
   std::vector<packet_outcome_t> outcomes;  // by the receiver's id; one each
+  std::int64_t out_of_reach = 0;           // other receivers, summed up in one OUTCOME
   std::uint64_t revision = 0;              // PacketBook::revision() of the last change
 
   bool is_refused() const;
@@ -53,7 +54,7 @@ class PacketBook {
   // Times are those of the mission. A repetition changes nothing.
   void add(const modem_send_t& send, std::int32_t source_id);
   void add(const modem_receipt_t& receipt, std::int32_t source_id);
-  // True when this (packet, receiver) had no outcome before.
+  // True when this (packet, receiver) had no outcome before; the receivers that are summed up count as one.
   bool add(const packet_outcome_t& outcome);
 
   // In the order in which they were met.

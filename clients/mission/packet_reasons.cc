@@ -102,6 +102,8 @@ std::string deciding_reason(const packet_outcome_t& o, const VehicleName& name) 
       return "no path: the bounces leave too little of every ray";
     case packet_outcome_t::TOO_STEEP:
       return "no path: every ray is launched more steeply than is searched";
+    case packet_outcome_t::OUT_OF_REACH:
+      return fmt::format("{:.0f} m away, where its sound is too weak to matter", o.range_m);
     case packet_outcome_t::OUT_OF_BAND:
       return "the bands of the two modems do not overlap";
     case packet_outcome_t::FOREIGN:

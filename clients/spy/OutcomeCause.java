@@ -60,6 +60,8 @@ final class OutcomeCause {
         return "the rays that arrive lost too much at their bounces";
       case packet_outcome_t.TOO_STEEP:
         return "rays arrive only more steeply than is searched";
+      case packet_outcome_t.OUT_OF_REACH:
+        return "so far away that its sound cannot matter";
       default:
         return "";
     }

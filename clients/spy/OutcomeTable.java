@@ -66,7 +66,7 @@ final class OutcomeTable extends AbstractTableModel implements Refreshed {
     switch (column) {
       case 0: return 1e-6 * outcome.utime;
       case 1: return names.name(outcome.source_id) + ":" + outcome.packet_sequence;
-      case 2: return names.name(outcome.receiver_id);
+      case 2: return outcome.receiver_id == 0 ? outcome.num_receivers + " others" : names.name(outcome.receiver_id);
       case 3: return outcome.packet_kind >= 0 && outcome.packet_kind < KINDS.length ? KINDS[outcome.packet_kind] : "?";
       case 4: return OutcomeCause.name(outcome);
       case 5: return OutcomeCause.cause(outcome, names::name);

@@ -29,6 +29,7 @@ TEST_F(NumberedPublisherTest, PublishesWithTheSessionAndTheNextNumberOfTheChanne
     received.emplace_back(message.session, message.sequence);
   });
   packet_outcome_t outcome{};
+  outcome.num_receivers = 1;
   outcome.source_id = outcome.receiver_id = 1;
   for (int i = 0; i < 2; ++i) {
     publisher_.publish(channels::kOutcome, outcome);

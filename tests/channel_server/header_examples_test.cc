@@ -6,6 +6,7 @@
 #include "acoustics/modem/modem.h"
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_table.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {

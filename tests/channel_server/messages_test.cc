@@ -181,6 +181,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(OutcomeKind::kForeign), packet_outcome_t::FOREIGN);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kTooWeak), packet_outcome_t::TOO_WEAK);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kTooSteep), packet_outcome_t::TOO_STEEP);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kOutOfReach), packet_outcome_t::OUT_OF_REACH);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kBitErrors), packet_outcome_t::BIT_ERRORS);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kStraight), packet_outcome_t::STRAIGHT);

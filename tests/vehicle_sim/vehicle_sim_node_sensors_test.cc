@@ -116,6 +116,7 @@ TEST_F(VehicleSimNodeTest, ABearingComesOfOutcomeAndReceive) {
   make_node();
   run_until(at_ms(1000));
   packet_outcome_t outcome{};
+  outcome.num_receivers = 1;
   outcome.utime = 900'000;
   outcome.source_id = 9;
   outcome.receiver_id = outcome.destination_id = 3;

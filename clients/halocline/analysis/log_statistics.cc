@@ -48,7 +48,7 @@ void LogStatistics::count_message(const LoggedEvent& event, const Message& messa
     ++packets_delivered;
     if (message.stamped != 0) travel_times_s.push_back(message.travel_time_s);
   } else if constexpr (std::is_same_v<Message, packet_outcome_t>) {
-    ++outcomes.at(static_cast<std::size_t>(message.outcome));
+    outcomes.at(static_cast<std::size_t>(message.outcome)) += message.num_receivers;
   }
 }
 

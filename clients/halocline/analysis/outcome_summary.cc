@@ -36,6 +36,7 @@ void OutcomeSummary::count(const packet_outcome_t& outcome) {
 }
 
 std::string OutcomeSummary::name(std::int32_t vehicle_id) const {
+  if (vehicle_id == 0) return "several";
   const auto found = names_.find(vehicle_id);
   return found != names_.end() ? found->second : std::to_string(vehicle_id);
 }

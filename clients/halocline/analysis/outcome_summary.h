@@ -33,7 +33,7 @@ class OutcomeSummary : public OutcomeLedger {
   // In the order of the log.
   const std::vector<packet_outcome_t>& outcomes() const { return outcomes_; }
   std::int64_t repeated() const { return repeated_; }  // outcomes that the log holds more than once
-  // Of a vehicle id: its name, or the id as text.
+  // Of a vehicle id: its name, or the id as text; "several" of 0, receivers that one outcome sums up.
   std::string name(std::int32_t vehicle_id) const;
   const std::map<std::int32_t, std::string>& names() const { return names_; }  // of the vehicles with a state
 

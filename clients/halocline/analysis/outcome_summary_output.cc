@@ -124,7 +124,7 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
          "received_level_db,cutoff_level_db,noise_level_db,snr_db,interference_level_db,sinr_db,doppler_"
          "factor,"
          "num_paths,delay_spread_s,acquisition_probability,acquisition_draw,success_probability,success_draw,"
-         "propagation,colliders\n";
+         "propagation,colliders,receivers\n";
   for (const packet_outcome_t& o : summary.outcomes()) {
     fmt::print(out, "{:.3f},{:.3f},{},{},{},{},{}", in_seconds(o.departure_utime), in_seconds(o.utime),
                summary.name(o.source_id), summary.name(o.receiver_id),
@@ -138,7 +138,8 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
       out << ',' << format_number(number);
     }
     out << ',' << propagation_name(static_cast<std::size_t>(o.propagation_used)) << ','
-        << colliders_text(o, [&](std::int32_t id) { return summary.name(id); }) << '\n';
+        << colliders_text(o, [&](std::int32_t id) { return summary.name(id); }) << ',' << o.num_receivers
+        << '\n';
   }
 }
 

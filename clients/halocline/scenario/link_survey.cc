@@ -24,6 +24,7 @@
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "core/check.h"
 #include "core/csv_table.h"

@@ -66,6 +66,10 @@ void add_delivery(const OutcomeSummary& outcomes, RunMetrics& metrics, std::vect
   for (const packet_outcome_t& o : outcomes.outcomes()) {
     if (o.destination_id != 0 && o.destination_id != o.receiver_id) continue;
     const bool received = o.outcome == packet_outcome_t::RECEIVED;
+    if (o.receiver_id == 0) {
+      metrics.all.packets += o.num_receivers;
+      continue;
+    }
     Delivered& pair = metrics.by_pair[{outcomes.name(o.source_id), outcomes.name(o.receiver_id)}];
     for (Delivered* count : {&metrics.all, &pair}) {
       ++count->packets;

@@ -58,6 +58,7 @@ json answer_overview(const Ask& ask) {
     ++sent[bin];
     for (const packet_outcome_t& outcome : packet->outcomes)
       ++(outcome.outcome == packet_outcome_t::RECEIVED ? received : lost)[bin];
+    lost[bin] += packet->out_of_reach;
   }
   return {{"sent", sent}, {"received", received}, {"lost", lost}};
 }
@@ -178,7 +179,9 @@ json answer_packet(const Ask& ask) {
   reply["receiver"] = receiver.index;
   const packet_outcome_t* outcome = outcome_at(*packet, receiver.id);
   if (outcome == nullptr) {
-    reply["sentence"] = "Not decided yet at " + receiver.name + ".";
+    reply["sentence"] = packet->out_of_reach > 0
+                            ? receiver.name + " is out of reach, or nothing is decided there yet."
+                            : "Not decided yet at " + receiver.name + ".";
     return reply;
   }
   reply["code"] = static_cast<int>(outcome->outcome);

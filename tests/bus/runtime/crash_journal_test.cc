@@ -40,6 +40,7 @@ struct Incarnation {
   void add(double t, const Numbers& numbers) {
     for (const std::int64_t number : numbers) sum += number;
     packet_outcome_t outcome{};
+    outcome.num_receivers = 1;
     outcome.utime = SimTime::from_seconds(t).to_utime();
     outcome.source_id = static_cast<std::int32_t>(sum);
     outcome.receiver_id = 1;

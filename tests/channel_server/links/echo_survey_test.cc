@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/link/link_kernel.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"

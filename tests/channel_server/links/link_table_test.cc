@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/modem.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"

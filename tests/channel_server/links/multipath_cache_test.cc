@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "tests/channel_server/channel_fixtures.h"

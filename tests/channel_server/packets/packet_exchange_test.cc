@@ -11,6 +11,7 @@
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"

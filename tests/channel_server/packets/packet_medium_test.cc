@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
 #include "core/frames.h"

@@ -20,6 +20,7 @@
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/propagation/terrain_rays.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"

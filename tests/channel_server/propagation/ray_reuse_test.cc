@@ -13,7 +13,6 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/ray_cells.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"

@@ -57,6 +57,7 @@ inline packet_outcome_t outcome(std::int32_t from, std::int32_t to, std::int64_t
   o.packet_sequence = sequence;
   o.source_id = from;
   o.receiver_id = to;
+  o.num_receivers = 1;
   o.outcome = result;
   o.departure_utime = departure_utime;
   o.travel_time_s = 1;

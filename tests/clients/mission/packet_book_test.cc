@@ -51,6 +51,19 @@ TEST(PacketBook, ARepetitionChangesNothing) {
   EXPECT_EQ(book.revision(), 3u);
 }
 
+TEST(PacketBook, ReceiversOutOfReachAreACountOfTheirPacket) {
+  PacketBook book;
+  packet_outcome_t others = outcome(1, 0, 0, 12 * kSecond, packet_outcome_t::OUT_OF_REACH);
+  others.num_receivers = 97;
+  EXPECT_TRUE(book.add(others));
+  EXPECT_TRUE(book.add(outcome(1, 2, 0, 12 * kSecond)));
+  EXPECT_FALSE(book.add(others));
+  ASSERT_EQ(book.all().size(), 1u);
+  EXPECT_EQ(book.all()[0].out_of_reach, 97);
+  ASSERT_EQ(book.all()[0].outcomes.size(), 1u);
+  EXPECT_EQ(book.all()[0].outcomes[0].receiver_id, 2);
+}
+
 TEST(PacketBook, ANameThatIsUsedAgainIsAnotherPacket) {
   PacketBook book;
   for (const std::int64_t second : {10, 90}) {

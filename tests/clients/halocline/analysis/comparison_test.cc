@@ -16,6 +16,7 @@ using testing::TemporaryLog;
 
 packet_outcome_t outcome(std::int64_t sequence, std::int8_t result, std::int32_t receiver = 2) {
   packet_outcome_t o{};
+  o.num_receivers = 1;
   o.utime = 2'000'000;
   o.departure_utime = 1'000'000;
   o.send_session = 7;

@@ -95,9 +95,11 @@ TEST_F(CsvExport, LinkTableHasARowForEachPeer) {
   EXPECT_EQ(exported().rows_by_file.begin()->second, 2);
   const auto rows = lines("links.csv");
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_THAT(rows[0], ::testing::HasSubstr("vehicle_id,num_peers,peers.transmitter_id,peers.receiver_id"));
-  EXPECT_THAT(rows[1], ::testing::HasSubstr(",4,2,0,7,"));
-  EXPECT_THAT(rows[2], ::testing::HasSubstr(",4,2,0,8,"));
+  EXPECT_THAT(rows[0],
+              ::testing::HasSubstr(
+                  "vehicle_id,reach_m,num_out_of_reach,num_peers,peers.transmitter_id,peers.receiver_id"));
+  EXPECT_THAT(rows[1], ::testing::HasSubstr(",4,0,0,2,0,7,"));
+  EXPECT_THAT(rows[2], ::testing::HasSubstr(",4,0,0,2,0,8,"));
 }
 
 TEST_F(CsvExport, EmptyTableHasARowWithEmptyCells) {
@@ -108,7 +110,7 @@ TEST_F(CsvExport, EmptyTableHasARowWithEmptyCells) {
   const auto rows = lines("links.csv");
   ASSERT_EQ(rows.size(), 2u);
   constexpr std::size_t kFieldsOfALink = 26;
-  EXPECT_THAT(rows[1], ::testing::EndsWith(",4,0" + std::string(kFieldsOfALink, ',')));
+  EXPECT_THAT(rows[1], ::testing::EndsWith(",4,0,0,0" + std::string(kFieldsOfALink, ',')));
   EXPECT_EQ(std::count(rows[0].begin(), rows[0].end(), ','), std::count(rows[1].begin(), rows[1].end(), ','));
 }
 

@@ -31,6 +31,7 @@ modem_receive_t packet(double travel_time_s) {
 
 packet_outcome_t outcome(std::int8_t result) {
   packet_outcome_t message{};
+  message.num_receivers = 1;
   message.source_id = 2;
   message.receiver_id = 1;
   message.outcome = result;

@@ -22,6 +22,7 @@ constexpr auto kCollided = static_cast<std::size_t>(packet_outcome_t::COLLIDED);
 packet_outcome_t outcome(std::int32_t from, std::int32_t to, std::int64_t sequence,
                          std::int64_t departure_utime, std::int8_t result) {
   packet_outcome_t o{};
+  o.num_receivers = 1;
   o.utime = departure_utime + 1'500'000;
   o.source_id = from;
   o.receiver_id = to;
@@ -41,6 +42,21 @@ class OutcomeSummaryTest : public ::testing::Test {
   }
   TemporaryLog file_;
 };
+
+TEST_F(OutcomeSummaryTest, ReceiversOutOfReachCountOneByOneButAreNoPair) {
+  packet_outcome_t others = outcome(1, 0, 0, 0, packet_outcome_t::OUT_OF_REACH);
+  others.num_receivers = 97;
+  add(others);
+  add(others);  // a repetition
+  add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));
+  const OutcomeSummary sums = summary();
+  EXPECT_EQ(sums.total()[packet_outcome_t::OUT_OF_REACH], 97);
+  EXPECT_EQ(sum(sums.total()), 98);
+  EXPECT_EQ(sum(sums.by_window().at(0)), 98);
+  EXPECT_EQ(sums.by_pair().size(), 1u);
+  EXPECT_EQ(sums.by_propagation()[packet_outcome_t::STRAIGHT], 1);
+  EXPECT_EQ(sums.name(0), "several");
+}
 
 TEST_F(OutcomeSummaryTest, CountsByOutcomePairAndWindowOfDepartureAgree) {
   add(outcome(1, 2, 0, 0, packet_outcome_t::RECEIVED));

@@ -13,6 +13,7 @@ using testing::TemporaryLog;
 packet_outcome_t outcome(std::int64_t sequence, std::int32_t destination, std::int32_t receiver,
                          std::int8_t result, double travel_time_s = 0.1) {
   packet_outcome_t o{};
+  o.num_receivers = 1;
   o.source_id = 1;
   o.destination_id = destination;
   o.receiver_id = receiver;

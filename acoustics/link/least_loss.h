@@ -1,0 +1,61 @@
+// The least loss of level over a range, whatever lies between the ends: a bound, by which links that cannot matter are
+// recognised before anything of them is computed.
+//
+//   TL(r) >= spreading(r) + min over D of alpha_min(D) l(D, r) - gain
+// - Straight path (acoustics/link/link_budget.h): spreading k 10 log r; l = r; D the deepest end. Exact but for
+//   alpha_min(D), the least absorption at the centre frequency between the surface and the depth D.
+// - All rays together: the images of a source between lossless walls a distance H apart stand on two vertical lattices of
+//   spacing 2 H. The sum of a function with one maximum over a lattice is at most its integral over the spacing and that
+//   maximum, so the powers 1 / (r^2 + z^2) of all images add to at most
+//     I(r) <= pi / (H r) + 2 / r^2,  spreading = -10 log I.
+//   A path down to the depth D is at least l = sqrt(r^2 + (2 (D - deepest end))^2) long.
+//   H is kChannelThickness. Deeper water spreads more. Shallower water and ducts spread less and are bounded all the same:
+//   over a bottom that takes kappa sin(angle) nepers a bounce, I = sqrt(2 pi / (kappa H)) r^(-3/2) (Weston 1971), which
+//   for sand (kappa = 0.5) in 5 m of water is the smaller from 0.6 km on; a duct of thickness h that holds angles up to
+//   theta = sqrt(2 g h / c), g the gradient of sound speed, gives 2 theta / (h r), the smaller unless g > 0.7 h (m and s:
+//   2 m that change sound speed by 3 m/s).
+// - gain: what focusing adds (kFocusingGain at caustics and convergence zones), and what the caller's way of adding paths may.
+// Left out: beams, which the caller adds; hard bottoms without any loss in water of less than H.
+//
+// It rises with range. Immutable: calls may overlap between threads. Making one costs a millisecond.
+#pragma once
+
+#include <vector>
+
+#include "acoustics/sea/environment.h"
+#include "core/units.h"
+
+namespace halocline::acoustics {
+
+inline constexpr double kChannelThickness = 50;  // H, m
+inline constexpr Decibels kFocusingGain{3};      // of all rays together, our choice
+// m, once around the Earth; what reaches further is not bounded.
+inline constexpr double kGreatestBoundedRange = 4e7;
+
+class LeastLoss {
+ public:
+  // Of the straight path between ends no deeper than `deepest_end_m`, >= 0.
+  static LeastLoss of_straight_path(const Environment& environment, double frequency_hz,
+                                    double deepest_end_m);
+  // Of all rays together. `gain` beside that of focusing, >= 0.
+  static LeastLoss of_rays(const Environment& environment, double frequency_hz, double deepest_end_m,
+                           Decibels gain);
+
+  // At `range_m` > 0; below 1 m that of 1 m. May be negative, down to minus the gain and 8 dB.
+  Decibels at(double range_m) const;
+  // All links that are longer lose more than `loss`; 0..kGreatestBoundedRange.
+  double range_of(Decibels loss) const;
+
+ private:
+  // Paths that go down to a depth: what they absorb at least, and twice the way down to there from the deepest end.
+  struct Depth {
+    double absorption_db_per_km, detour_m;
+  };
+  LeastLoss() = default;
+
+  double power_law_exponent_ = 0;  // 0: rays
+  Decibels gain_{0};
+  std::vector<Depth> depths_;
+};
+
+}  // namespace halocline::acoustics

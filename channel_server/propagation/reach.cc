@@ -1,0 +1,182 @@
+#include "channel_server/propagation/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "acoustics/link/least_loss.h"
+#include "acoustics/math/frequency_band.h"
+#include "acoustics/modem/beam_pattern.h"
+#include "acoustics/sea/noise.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "core/check.h"
+#include "core/elementary.h"
+#include "core/frames.h"
+
+namespace halocline::channel_server {
+namespace {
+
+constexpr std::size_t kMaxRanges = 4096;
+constexpr double kNegligibleProbability = 1e-5;
+constexpr double kLargeScaleDeviations = 3;
+// Depths are rounded up to these times a power of two, m: the reach of a crowd does not change whenever one dives.
+constexpr double kDepthUnit = 25;
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+double rounded_up(double depth_m) {
+  double rounded = kDepthUnit;
+  while (rounded < depth_m) rounded *= 2;
+  return rounded;
+}
+
+// Each component rises or falls with frequency, or has one maximum: its least value is at an end of the band.
+double least_noise_density(const acoustics::Band& band, const acoustics::NoiseSources& sources) {
+  const auto low = acoustics::noise_components(std::max(band.low_hz, 1.0), sources);
+  const auto high = acoustics::noise_components(band.high_hz, sources);
+  double density = 0;
+  for (const auto component : {&acoustics::NoiseComponents::turbulence, &acoustics::NoiseComponents::shipping,
+                               &acoustics::NoiseComponents::wind, &acoustics::NoiseComponents::thermal}) {
+    density += to_power_ratio(std::min(low.*component, high.*component)).value;
+  }
+  return density;
+}
+
+// At least the probability that a preamble of this mean ratio is acquired: the ratio is exponentially distributed where it
+// fades, and of each interval of it the upper end counts.
+double acquired_at_most(const acoustics::Modem& modem, double mean_sinr, bool fades) {
+  if (!fades) return acoustics::acquisition_probability(modem, {mean_sinr});
+  constexpr int kIntervals = 14;  // of one mean each; what is beyond counts as acquired
+  double probability = elementary::exp(-static_cast<double>(kIntervals));
+  for (int i = 0; i < kIntervals; ++i) {
+    const double share = elementary::exp(-static_cast<double>(i)) - elementary::exp(-(i + 1.0));
+    probability += share * acoustics::acquisition_probability(modem, {mean_sinr * (i + 1)});
+  }
+  return probability;
+}
+
+// The mean ratio below which a preamble is as good as never acquired, dB; -infinity of none.
+double unnoticed_sinr_db(const acoustics::Modem& modem, bool fades) {
+  if (modem.preamble == SimDuration()) return kNever;
+  double low_db = -80, high_db = 20;
+  if (acquired_at_most(modem, elementary::exp10(low_db / 10), fades) > kNegligibleProbability) return low_db;
+  while (high_db - low_db > 0.01) {
+    const double middle_db = (low_db + high_db) / 2;
+    const bool is_noticed =
+        acquired_at_most(modem, elementary::exp10(middle_db / 10), fades) > kNegligibleProbability;
+    (is_noticed ? high_db : low_db) = middle_db;
+  }
+  return low_db;
+}
+
+Decibels least_beam_loss(const acoustics::Modem& modem) {
+  Decibels least{0};
+  for (std::size_t i = 0; i < modem.beam.rows().size(); ++i) {
+    const Decibels loss{modem.beam.rows()[i].loss_db};
+    least = i == 0 ? loss : std::min(least, loss);
+  }
+  return least;
+}
+
+}  // namespace
+
+Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem& sender,
+                                  const acoustics::Modem& receiver, PowerRatio noise_density) {
+  const bool fades = rule.fading.enabled;
+  const Decibels fading{fades ? kLargeScaleDeviations * rule.fading.large_scale_db : 0};
+  const Decibels noise =
+      to_decibels({noise_density.value * sender.bandwidth_hz}) - receiver.directivity_index;
+  const Decibels disturbs = noise - rule.below_noise;
+  const bool may_receive =
+      same_family(sender, receiver) && acoustics::band_share(sender.band(), receiver.band()) > 0;
+  if (!may_receive) return disturbs;
+  const Decibels acquired = noise - fading + Decibels{unnoticed_sinr_db(sender, fades)};
+  return std::min(disturbs, std::max(acquired, receiver.min_receivable_level));
+}
+
+// It is met no later than after range / (c - v), and no nearer than range - v range / (c - v).
+bool stays_beyond(double reach_m, double range_m, double speed_mps) {
+  constexpr double kSpeedingUpMps = 5, kSlowestSoundMps = 1400;
+  const double speed = std::min(speed_mps + kSpeedingUpMps, kSlowestSoundMps / 2);
+  return range_m * (1 - speed / (kSlowestSoundMps - speed)) > reach_m;
+}
+
+ReachModel::ReachModel(std::shared_ptr<const EnvironmentTimeline> waters, const Propagation& propagation,
+                       const ReachRule& rule)
+    : waters_(std::move(waters)), propagation_(propagation), rule_(rule), ranges_(kMaxRanges) {
+  require_in_range(rule.below_noise.value, 0, 200, "level below the noise that disturbs nobody", "dB");
+}
+
+double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
+                           const std::vector<PlacedVehicle>& vehicles) {
+  if (!rule_.by_level) return acoustics::kGreatestBoundedRange;
+  return reach_m(at, sender, crowd_of(at, registry, vehicles));
+}
+
+std::vector<double> ReachModel::reaches_m(SimTime at, const VehicleRegistry& registry,
+                                          const std::vector<PlacedVehicle>& vehicles) {
+  if (!rule_.by_level) return std::vector<double>(vehicles.size(), acoustics::kGreatestBoundedRange);
+  const Crowd crowd = crowd_of(at, registry, vehicles);
+  std::vector<double> reaches;
+  const acoustics::Modem* last = nullptr;
+  for (const PlacedVehicle& vehicle : vehicles) {
+    const acoustics::Modem& modem = vehicle.modem->modem;
+    const bool is_same = last != nullptr && (last == &modem || *last == modem);
+    reaches.push_back(is_same ? reaches.back() : reach_m(at, modem, crowd));
+    last = &modem;
+  }
+  return reaches;
+}
+
+ReachModel::Crowd ReachModel::crowd_of(SimTime at, const VehicleRegistry& registry,
+                                       const std::vector<PlacedVehicle>& vehicles) const {
+  const double surface_z_m = waters_->at(at).sea_surface_z_m;
+  Crowd crowd;
+  const auto add = [&](const VehicleModem& carried) {
+    const acoustics::Modem& modem = carried.modem;
+    const auto is_known = [&](const acoustics::Modem* known) { return known == &modem || *known == modem; };
+    if (std::none_of(crowd.modems.begin(), crowd.modems.end(), is_known)) crowd.modems.push_back(&modem);
+  };
+  for (const PlacedVehicle& vehicle : vehicles) {
+    crowd.deepest_m =
+        std::max(crowd.deepest_m, depth_below_surface_m(vehicle.placement.position_ned_m, surface_z_m));
+    registry.visit_modems(vehicle.id, at, at + kLongestFlight, add);
+  }
+  crowd.deepest_m = rounded_up(crowd.deepest_m);
+  return crowd;
+}
+
+double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd) {
+  double density = least_noise_density(sender.band(), waters_->at(at).noise);
+  for (SimTime change = waters_->next_change_after(at); change <= at + kLongestFlight;
+       change = waters_->next_change_after(change)) {
+    density = std::min(density, least_noise_density(sender.band(), waters_->at(change).noise));
+  }
+  double reach_m = range_m(at, sender, sender, {density}, crowd.deepest_m);
+  for (const acoustics::Modem* receiver : crowd.modems) {
+    reach_m = std::max(reach_m, range_m(at, sender, *receiver, {density}, crowd.deepest_m));
+  }
+  return reach_m;
+}
+
+double ReachModel::range_m(SimTime at, const acoustics::Modem& sender, const acoustics::Modem& receiver,
+                           PowerRatio noise_density, double deepest_m) {
+  const Key key{waters_->water_at(at), noise_density.value, deepest_m, key_of(sender), key_of(receiver)};
+  return ranges_.find_or_make(key, [&] {
+    const auto loss = propagation_.least_loss(at, sender.centre_frequency_hz, deepest_m);
+    if (!loss) return acoustics::kGreatestBoundedRange;
+    const Decibels best = sender.source_level - least_beam_loss(sender) - least_beam_loss(receiver);
+    return loss->range_of(best - least_level_that_matters(rule_, sender, receiver, noise_density));
+  });
+}
+
+ReachModel::ModemKey ReachModel::key_of(const acoustics::Modem& m) {
+  std::vector<double> beam;
+  for (const acoustics::BeamRow& row : m.beam.rows()) beam.push_back(row.loss_db);
+  return {{m.source_level.value, m.min_receivable_level.value, m.centre_frequency_hz, m.bandwidth_hz,
+           m.directivity_index.value, m.preamble.seconds(), static_cast<double>(m.preamble_pieces)},
+          std::move(beam),
+          m.family};
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,92 @@
+// How far a sender reaches: the range beyond which its sound matters to nobody. What is further apart is left out before
+// anything of its link is surveyed, searched or computed.
+//
+// Of each receiver's modem, two levels count. The sound is of no consequence where it is surely below both:
+// - what disturbs: its power within any band is `below_noise` (30 dB) below the noise there; so much takes 0.004 dB off a
+//   ratio, and 0.04 dB where large-scale fading raises it by three standard deviations of 3 dB:
+//     least noise density over the sender's band * its bandwidth - directivity index - below_noise
+// - what a receiver of the same family and with a common band notices: the greater of its cut-off level, and the level at which
+//   the preamble is acquired with a probability of 1e-5, the power of the preamble exponentially distributed where it fades. A
+//   packet without a preamble is always acquired: then the cut-off alone counts. One that is not acquired is neither
+//   received nor followed.
+// The sender's reach is the range at which source level + both beams at their best - least loss (acoustics/link/least_loss.h)
+// falls below the lower of them; of all modems in use (its own is among them) the greatest. What is noticed takes
+// large-scale fading at three standard deviations.
+//
+// Noise: the least of the waters known to hold within kLongestFlight from then on. Modems: those carried then, or announced
+// to be carried within that time. Left out: changes of water and modems that are announced after the departure.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "acoustics/fading/path_fading.h"
+#include "acoustics/modem/modem.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/lru_cache.h"
+#include "core/sim_time.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+
+struct ReachRule {
+  bool by_level = true;      // false: everybody reaches everybody
+  Decibels below_noise{30};  // 0..200
+  acoustics::FadingModel fading = {};
+};
+
+// Sound that left before is not under way any more: it has gone 180 km.
+inline constexpr SimDuration kLongestFlight = SimDuration::from_milliseconds(120'000);
+
+// The level below which `receiver` does not notice sound of `sender`, nor is disturbed by it; `noise_density`, uPa^2/Hz, is
+// the least over the sender's band. dB re 1 uPa over that band.
+Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem& sender,
+                                  const acoustics::Modem& receiver, PowerRatio noise_density);
+
+// Whether a receiver `range_m` away when sound departs, at that speed over ground, is still further than `reach_m` away when
+// the sound comes there: it may speed up by 5 m/s (our choice), and sound is no slower than 1400 m/s on average.
+bool stays_beyond(double reach_m, double range_m, double speed_mps);
+
+// Not thread-safe.
+class ReachModel {
+ public:
+  // `propagation` of these waters; it must outlive the model.
+  ReachModel(std::shared_ptr<const EnvironmentTimeline> waters, const Propagation& propagation,
+             const ReachRule& rule);
+
+  // Of sound that leaves `sender` at `at`, with `vehicles` about, placed then; m, 0..kGreatestBoundedRange. That greatest
+  // range, which contains everybody, without a rule and where the propagation states no bound.
+  double reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
+                 const std::vector<PlacedVehicle>& vehicles);
+  // Of each of them, in their order.
+  std::vector<double> reaches_m(SimTime at, const VehicleRegistry& registry,
+                                const std::vector<PlacedVehicle>& vehicles);
+
+ private:
+  // The modems in use and how deep they are.
+  struct Crowd {
+    std::vector<const acoustics::Modem*> modems;  // all different
+    double deepest_m = 0;
+  };
+  using ModemKey = std::tuple<std::array<double, 7>, std::vector<double>, std::string>;
+  using Key = std::tuple<EnvironmentTimeline::WaterId, double, double, ModemKey, ModemKey>;
+
+  static ModemKey key_of(const acoustics::Modem& modem);
+  Crowd crowd_of(SimTime at, const VehicleRegistry& registry,
+                 const std::vector<PlacedVehicle>& vehicles) const;
+  double reach_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd);
+  double range_m(SimTime at, const acoustics::Modem& sender, const acoustics::Modem& receiver,
+                 PowerRatio noise_density, double deepest_m);
+
+  std::shared_ptr<const EnvironmentTimeline> waters_;
+  const Propagation& propagation_;
+  ReachRule rule_;
+  LruCache<Key, double> ranges_;
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,178 @@
+#include "channel_server/propagation/reach.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/fading/path_fading.h"
+#include "acoustics/link/least_loss.h"
+#include "acoustics/link/link_budget.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/noise.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/straight_propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_registry.h"
+#include "core/random.h"
+#include "core/units.h"
+#include "tests/channel_server/channel_fixtures.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using acoustics::LeastLoss;
+using halocline::testing::tolerance;
+using testing::at_s;
+using testing::for_s;
+
+acoustics::Environment windy_water(double wind_mps) {
+  acoustics::Environment water = testing::even_water();
+  water.noise.wind_mps = wind_mps;
+  return water;
+}
+
+VehicleModem modem_of(double source_level_db) {
+  VehicleModem modem = testing::quick_modem();
+  modem.modem.source_level = Decibels{source_level_db};
+  modem.modem.preamble = modem.modem.packet_overhead = for_s(0.1);
+  return modem;
+}
+
+class Reach : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    EXPECT_EQ(fleet_.add_state("v1", 1, testing::state_at(0, {0, 0, 20})), "");
+    EXPECT_EQ(fleet_.add_state("v2", 2, testing::state_at(0, {500, 0, 20})), "");
+  }
+  double reach_m(const acoustics::Modem& sender, const ReachRule& rule = {}, double time_s = 1) {
+    const StraightPropagation propagation(waters_);
+    return ReachModel(waters_, propagation, rule)
+        .reach_m(at_s(time_s), sender, fleet_, place_all(fleet_, at_s(time_s)));
+  }
+  acoustics::Modem modem_ = modem_of(160).modem;
+  std::shared_ptr<EnvironmentTimeline> waters_ = std::make_shared<EnvironmentTimeline>(windy_water(5));
+  VehicleRegistry fleet_{{for_s(0.05), for_s(50)}, {modem_of(160), {}}};
+};
+
+TEST(StraightBound, NoStraightLinkLosesLess) {
+  const acoustics::Environment water = windy_water(5);
+  const acoustics::Modem modem = modem_of(160).modem;
+  const acoustics::LinkModel link(water, modem, modem);
+  const LeastLoss least = LeastLoss::of_straight_path(water, modem.centre_frequency_hz, 400);
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const auto draw = [&](std::uint32_t what) { return uniform_at({.seed = 3, .who = what, .which = i}); };
+    const Vec3 from(0, 0, 400 * draw(0)), to(std::pow(10, 4.5 * draw(1)), 0, 400 * draw(2));
+    const double range_m = (to - from).norm();
+    const double loss_db = link.budget(from, to).transmission_loss.value;
+    EXPECT_GE(loss_db, least.at(range_m).value - tolerance(1e-9));
+    EXPECT_LE(loss_db, 1.05 * least.at(range_m).value + 0.01);  // nor much more: absorption varies with depth
+  }
+}
+
+TEST(LeastLoss, TheRangeOfALossIsWhereItIsReached) {
+  const acoustics::Environment water = windy_water(5);
+  for (const LeastLoss& least : {LeastLoss::of_straight_path(water, 25'000, 100),
+                                 LeastLoss::of_rays(water, 25'000, 100, Decibels{3})}) {
+    for (const double range_m : {3.0, 200.0, 4000.0, 60'000.0}) {
+      EXPECT_NEAR(least.range_of(least.at(range_m)), range_m, 2e-6 * range_m);
+    }
+    EXPECT_EQ(least.range_of(Decibels{-100}), 0);
+    EXPECT_EQ(least.range_of(Decibels{1e9}), acoustics::kGreatestBoundedRange);
+  }
+}
+
+// In lossless even water rays spread as the images of a source between walls: pi / (H r) + 2 / r^2; at 10 Hz nothing absorbs.
+TEST(LeastLoss, OfRaysIsThatOfAChannelWithoutLosses) {
+  const LeastLoss least = LeastLoss::of_rays(windy_water(0), 10, 100, Decibels{0});
+  const double images = std::acos(-1) / (acoustics::kChannelThickness * 3000) + 2 / 9e6;
+  EXPECT_NEAR(least.at(3000).value, -10 * std::log10(images) - acoustics::kFocusingGain.value, 0.01);
+}
+
+TEST_F(Reach, AtItsEndTheLevelIsTheLeastThatMatters) {
+  const double reach = reach_m(modem_);
+  const double level_db =
+      acoustics::link_budget(waters_->at(at_s(1)), modem_, modem_, {0, 0, 20}, {reach, 0, 20})
+          .received_level.value;
+  const double noise_db = acoustics::noise_level_over_band(22'500, 27'500, {.wind_mps = 5}).value;
+  // Noise falls by 2 dB over the band, of which the least counts; absorption is taken with a margin of 0.5 %.
+  EXPECT_NEAR(level_db, noise_db - 30 - 1, 1);
+}
+
+TEST_F(Reach, GrowsWithSourceLevelAndDirectivityAndFallsWithNoise) {
+  const double reach = reach_m(modem_);
+  acoustics::Modem louder = modem_;
+  louder.source_level = Decibels{180};
+  EXPECT_GT(reach_m(louder), reach + 1000);
+  ReachRule wider;
+  wider.below_noise = Decibels{50};
+  EXPECT_GT(reach_m(modem_, wider), reach + 1000);
+  ReachRule fading;
+  fading.fading.enabled = true;
+  acoustics::Modem without_cut_off = modem_;
+  without_cut_off.min_receivable_level = Decibels{-200};
+  EXPECT_GT(reach_m(without_cut_off, fading), reach_m(without_cut_off) + 500);
+  VehicleModem keen = modem_of(160);
+  keen.modem.directivity_index = Decibels{15};
+  fleet_.announce_modem("v2", at_s(0), keen, at_s(0));
+  EXPECT_GT(reach_m(modem_), reach + 1000);
+  fleet_.announce_modem("v2", at_s(0.5), modem_of(160), at_s(0));
+  waters_ = std::make_shared<EnvironmentTimeline>(windy_water(20));
+  EXPECT_LT(reach_m(modem_), reach - 500);
+}
+
+TEST_F(Reach, IncludesNoiseAndModemsThatAreKnownToChangeDuringTheFlight) {
+  const double reach = reach_m(modem_);
+  waters_->schedule(at_s(30), {.wind_mps = 0, .shipping = {}, .sea_surface_z_m = {}, .profile = {}});
+  const double calm = reach_m(modem_);
+  EXPECT_GT(calm, reach + 500);
+  VehicleModem keen = modem_of(160);
+  keen.modem.directivity_index = Decibels{15};
+  fleet_.announce_modem("v2", at_s(20), keen, at_s(0));
+  EXPECT_GT(reach_m(modem_), calm + 1000);
+}
+
+// A modem without a preamble and without a cut-off acquires whatever arrives; the noise does not hide it.
+TEST_F(Reach, IsTheCutOffsWithoutAPreamble) {
+  VehicleModem deaf = modem_of(160);
+  deaf.modem.preamble = SimDuration();
+  deaf.modem.min_receivable_level = Decibels{20};
+  for (const char* name : {"v1", "v2"}) fleet_.announce_modem(name, at_s(0), deaf, at_s(0));
+  const double reach = reach_m(deaf.modem);
+  const auto budget =
+      acoustics::link_budget(waters_->at(at_s(1)), deaf.modem, deaf.modem, {0, 0, 20}, {reach, 0, 20});
+  EXPECT_NEAR(budget.received_level.value, 20, 1);
+  EXPECT_LE(budget.received_level.value, 20);
+}
+
+TEST_F(Reach, EverybodyIsWithinReachWithoutARule) {
+  ReachRule none;
+  none.by_level = false;
+  EXPECT_EQ(reach_m(modem_, none), acoustics::kGreatestBoundedRange);
+}
+
+TEST_F(Reach, OfAFleetIsThatOfEachOfItsModems) {
+  const VehicleModem loud = modem_of(180);
+  fleet_.announce_modem("v2", at_s(0), loud, at_s(0));
+  const StraightPropagation propagation(waters_);
+  ReachModel model(waters_, propagation, {});
+  const auto present = place_all(fleet_, at_s(1));
+  EXPECT_EQ(model.reaches_m(at_s(1), fleet_, present),
+            (std::vector<double>{reach_m(modem_), reach_m(loud.modem)}));
+}
+
+// It is met where both will be: the range shrinks by v t while the sound goes r / c.
+TEST(StaysBeyond, AReceiverThatComesTowardsTheSoundIsGivenItsWay) {
+  EXPECT_TRUE(stays_beyond(1000, 1004, 0));
+  EXPECT_FALSE(stays_beyond(1000, 1003, 0));
+  EXPECT_FALSE(stays_beyond(1000, 1035, 45));
+  EXPECT_TRUE(stays_beyond(1000, 1045, 45));
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

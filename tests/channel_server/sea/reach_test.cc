@@ -1,0 +1,118 @@
+// The bound on levels behind the reach against the levels that rays give, at places drawn at random in waters that spread sound
+// least: shallow and deep, ducts at the surface, at depth and over the bottom, sand, gravel and rock, flat, sloping and wavy.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "acoustics/link/least_loss.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "bus/runtime/scenario.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "core/elementary.h"
+#include "core/random.h"
+#include "core/units.h"
+#include "tests/channel_server/channel_fixtures.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using testing::at_s;
+
+constexpr std::uint64_t kPlaces = 150;
+
+struct Sea {
+  const char* name;
+  std::vector<double> depths_m, speeds_mps;  // of sound; empty: the same everywhere
+  double bottom_m;
+  double slope = 0, waves_m = 0;     // of the bottom, of 300 m length
+  double greatest_range_m = 10'000;  // searches over waves grow with range
+  const char* sediment = "MediumSand";
+  double frequency_hz = 25'000;
+  bool fades = true;
+};
+
+double draw(std::uint64_t place, std::uint32_t what, double low, double high) {
+  return low + (high - low) * uniform_at({.seed = 57, .who = what, .which = place});
+}
+
+class LevelBound : public ::testing::TestWithParam<Sea> {
+ protected:
+  // Level over its bound, dB, at each place where anything arrives.
+  std::vector<double> excesses() const {
+    const Sea& sea = GetParam();
+    ChannelServerConfig config;
+    config.propagation.sediment = sea.sediment;
+    config.propagation.fading.enabled = sea.fades;
+    config.environment.noise.wind_mps = 0;
+    config.environment.profile.source = ProfileSource::kIsovelocity;
+    if (!sea.depths_m.empty()) {
+      config.environment.profile.source = ProfileSource::kSpeedTable;
+      config.environment.profile.speed_depths_m = sea.depths_m;
+      config.environment.profile.speeds_mps = sea.speeds_mps;
+    }
+    const auto waters =
+        std::make_shared<EnvironmentTimeline>(make_environment(config.environment, bus::Scenario(), "."));
+    acoustics::Modem modem;
+    modem.centre_frequency_hz = sea.frequency_hz;
+    modem.bandwidth_hz = sea.frequency_hz / 5;
+    std::vector<double> excesses;
+    for (std::uint64_t place = 0; place < kPlaces; ++place) {
+      const double range_m = elementary::exp10(draw(place, 1, 2, elementary::log10(sea.greatest_range_m)));
+      const auto bottom_at = [&](double north_m) {
+        return std::max(sea.bottom_m + sea.slope * north_m +
+                            sea.waves_m * elementary::sin(2 * std::numbers::pi * north_m / 300),
+                        3.0);
+      };
+      const Vec3 from(0, 0, draw(place, 2, 0.02, 0.98) * bottom_at(0));
+      const Vec3 to(range_m, 0, draw(place, 3, 0.02, 0.98) * bottom_at(range_m));
+      RayPropagation propagation(waters, testing::seabed_around(from, to, bottom_at), make_rays(config));
+      const Reception reception =
+          propagation.reception(at_s(1), {1, from, Vec3::Zero(), &modem}, {2, to, Vec3::Zero(), &modem});
+      if (reception.paths.empty()) continue;
+      const auto least =
+          propagation.least_loss(at_s(1), modem.centre_frequency_hz, std::max(from.z(), to.z()));
+      excesses.push_back(
+          (reception.budget.received_level - (modem.source_level - least->at(reception.budget.range_m)))
+              .value);
+    }
+    return excesses;
+  }
+};
+
+TEST_P(LevelBound, HoldsAtRandomPlaces) {
+  const std::vector<double> all = excesses();
+  ASSERT_GT(all.size(), kPlaces / 10);
+  const double greatest = *std::max_element(all.begin(), all.end());
+  RecordProperty("greatest_excess_db", fmt::format("{:.1f}", greatest));
+  EXPECT_LT(greatest, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Seas, LevelBound,
+    ::testing::Values(Sea{"Creek", {}, {}, 5}, Sea{"Shallow", {}, {}, 15}, Sea{"Shelf", {}, {}, 100},
+                      Sea{"Deep", {}, {}, 1500}, Sea{"Gravel", {}, {}, 30, 0, 0, 10'000, "SandyGravel"},
+                      Sea{"Rock", {}, {}, 30, 0, 0, 10'000, "Rock"},
+                      Sea{"SurfaceDuct", {0, 40, 60, 300}, {1500, 1504, 1490, 1488}, 300},
+                      Sea{"ThinDuct", {0, 8, 10, 80}, {1500, 1503, 1490, 1490}, 80},
+                      Sea{"Channel", {0, 60, 80, 100, 400}, {1510, 1500, 1480, 1500, 1508}, 400},
+                      Sea{"BottomDuct", {0, 50, 100}, {1520, 1500, 1495}, 100},
+                      Sea{"Upslope", {}, {}, 150, -0.012}, Sea{"Downslope", {}, {}, 8, 0.012},
+                      Sea{"Waves", {}, {}, 60, 0, 3, 1000},
+                      Sea{"WithoutFading", {}, {}, 100, 0, 0, 10'000, "MediumSand", 25'000, false},
+                      Sea{"LowFrequency", {}, {}, 100, 0, 0, 10'000, "MediumSand", 3'000}),
+    [](const auto& parameter) { return std::string(parameter.param.name); });
+
+}  // namespace
+}  // namespace halocline::channel_server
