@@ -19,7 +19,6 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/path_search.h"
-#include "channel_server/propagation/ray_propagation.h"
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/frames.h"

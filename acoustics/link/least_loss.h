@@ -1,7 +1,7 @@
 // The least loss of level over a range, whatever lies between the ends: a bound, by which links that cannot matter are
 // recognised before anything of them is computed.
 //
-//   TL(r) >= spreading(r) + min over D of alpha_min(D) l(D, r) - gain
+// TL(r) >= spreading(r) + min over D of alpha_min(D) l(D, r) - gain
 // - Straight path (acoustics/link/link_budget.h): spreading k 10 log r; l = r; D the deepest end. Exact but for
 //   alpha_min(D), the least absorption at the centre frequency between the surface and the depth D.
 // - All rays together: the images of a source between lossless walls a distance H apart stand on two vertical lattices of

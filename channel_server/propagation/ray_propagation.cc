@@ -25,8 +25,7 @@ namespace {
 
 constexpr std::size_t kMaxFound = 4096, kMaxSharedFound = 32'768;  // searches, 7 kB each
 constexpr std::size_t kMaxRayWaters = 256;                         // 20 kB each
-// The deepest that an end may be, m: there has to be bottom below it.
-constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;
+constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;      // there has to be bottom below it
 
 double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
   return std::clamp(depth_below_surface_m(end.position_ned_m, environment.sea_surface_z_m), 0.0,

@@ -28,8 +28,8 @@ class Runs:
         return {file.stem: read_csv(file) for file in (folder / "csv").glob("*.csv")}
 
     def links(self, name, scenario, changes=()):
-        """The last row of LINKS for each pair of vehicles, by (id of transmitter, id of receiver), after three seconds."""
-        rows = self.messages(name, scenario, r"LINKS\..*", (*changes, "scenario.duration_s=3"))["links"]
+        """The last row of LINKS for each pair of vehicles, however quiet, by (id of transmitter, id of receiver), after three seconds."""
+        rows = self.messages(name, scenario, r"LINKS\..*", (*changes, "scenario.duration_s=3", 'channel_server.reach="none"'))["links"]
         return {(int(row["peers.transmitter_id"]), int(row["peers.receiver_id"])): Link(row) for row in rows}
 
     def _call(self, *arguments):
