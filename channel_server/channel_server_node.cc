@@ -51,11 +51,9 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       publisher_(bus()),
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard),
-      seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.medium.shard,
-              rules.bottom_points),
+      seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points),
       packets_(bus(), journal_),
-      tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_},
-              rules.medium.shard, rules.threads),
+      tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_}, rules.threads),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
       scenario_(std::move(scenario)),
       next_tick_(kBeforeAll),
@@ -122,11 +120,15 @@ bool ChannelServerNode::run_instant(SimTime instant) {
 bool ChannelServerNode::run_tick(SimTime tick) {
   if (recovery_) return true;
   const auto present = place_all(vehicles_, tick);
-  const auto reaches_m = reach_.reaches_m(tick, vehicles_, present);
-  const Shard& shard = rules_.medium.shard;
-  if (!tables_are_ready(tick, present, *water_.propagation, shard, reaches_m)) return false;
-  tables_.publish(tick, present, reaches_m);
-  seabed_.begin_tick(present, reaches_m);
+  const auto ranges_m = reach_.reception_ranges_m(
+      tick, vehicles_, present,
+      [this](const acoustics::Modem& modem) { return predictor_.least_sinr_db(modem); });
+  const TableRows rows = table_rows(present, ranges_m, rules_.medium.shard);
+  Propagation& propagation = *water_.propagation;
+  if (!propagation.are_ready(tick, rows.links)) return false;
+  if (propagation.plans_ticks()) propagation.begin_tick(tick, table_rows(present, ranges_m).links);
+  tables_.publish(tick, present, rows);
+  seabed_.begin_tick(present, rows);
   return true;
 }
 

@@ -144,8 +144,8 @@ std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at) {
     link_table_t message{};
     message.utime = at.to_utime();
     message.vehicle_id = table.vehicle_id;
-    message.reach_m = table.reach_m;
-    message.num_out_of_reach = static_cast<std::int32_t>(table.out_of_reach);
+    message.reach_m = table.range_m;
+    message.num_out_of_reach = static_cast<std::int32_t>(table.out_of_range);
     const std::size_t end = std::min(row + kMaxPeers, table.rows.size());
     for (; row < end; ++row) message.peers.push_back(to_message(table.rows[row]));
     message.num_peers = static_cast<std::int32_t>(message.peers.size());

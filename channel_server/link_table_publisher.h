@@ -10,9 +10,9 @@
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/thread_pool.h"
 #include "channel_server/links/link_predictor.h"
+#include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
 
@@ -27,12 +27,10 @@ class LinkTablePublisher {
     LinkPredictor& predictor;
     MultipathCache& echoes;
   };
-  LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, Shard shard,
-                     int threads);
+  LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, int threads);
 
-  // `vehicles`: those present at `tick`, with their reaches (links/link_table.h).
-  void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles,
-               const std::vector<double>& reaches_m);
+  // `vehicles`: those present at `tick`; the rows of those that this server serves.
+  void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 
   // Another run has begun.
   void clear() { present_.clear(); }
@@ -45,7 +43,6 @@ class LinkTablePublisher {
   bus::NumberedPublisher& publisher_;
   bus::EventLog& log_;
   Models models_;
-  Shard shard_;
   bus::ThreadPool pool_;
   std::set<std::string> present_;
   std::int64_t links_published_ = 0;

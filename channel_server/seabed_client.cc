@@ -26,10 +26,9 @@ std::string in_base_36(std::uint64_t number) {
 
 }  // namespace
 
-SeabedClient::SeabedClient(bus::Bus& bus, Models models, Shard shard, int bottom_points)
+SeabedClient::SeabedClient(bus::Bus& bus, Models models, int bottom_points)
     : bus_(bus),
       models_(models),
-      shard_(shard),
       bottom_points_(bottom_points),
       client_name_(client_name(bus.identity().session)) {
   bus_.subscribe<ray_reply_t>(channels::kRayReply.of(client_name_),
@@ -93,12 +92,11 @@ void SeabedClient::store(const VehiclePair& pair, RayQueryClient::Finished finis
   if (finished.answered) models_.echoes.store(pair, std::move(std::get<EchoSurvey>(finished.survey)));
 }
 
-void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles,
-                              const std::vector<double>& reaches_m) {
+void SeabedClient::begin_tick(const std::vector<PlacedVehicle>& vehicles, const TableRows& rows) {
   models_.seabed.forget_unused();
   for (const RayQueryClient::SurveyId dropped : models_.rays.begin_tick()) surveyed_pairs_.erase(dropped);
   if (models_.propagation.uses_bottom()) return;  // rays hold the echoes
-  for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, shard_, reaches_m)) {
+  for (const VehiclePair& pair : models_.echoes.begin_tick(vehicles, rows)) {
     const EchoSurvey survey(models_.echoes.place(pair.first), models_.echoes.place(pair.second),
                             bottom_points_);
     surveyed_pairs_.emplace(models_.rays.submit_routine(survey), pair);

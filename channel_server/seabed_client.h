@@ -15,11 +15,11 @@
 #include "bus/bus.h"
 #include "bus/runtime/node.h"
 #include "channel_server/links/link_query_service.h"
+#include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
-#include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
@@ -37,7 +37,7 @@ class SeabedClient {
     const Propagation& propagation;
   };
   // `bottom_points`: of an echo survey.
-  SeabedClient(bus::Bus& bus, Models models, Shard shard, int bottom_points);
+  SeabedClient(bus::Bus& bus, Models models, int bottom_points);
   SeabedClient(const SeabedClient&) = delete;
   SeabedClient& operator=(const SeabedClient&) = delete;
 
@@ -46,8 +46,8 @@ class SeabedClient {
 
   // True when the replies received are of another terrain than those before: what was known of that is forgotten.
   [[nodiscard]] bool take_replies();
-  // Echo surveys that no batch has taken yet make room for those of `vehicles`, which are present at the tick.
-  void begin_tick(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& reaches_m);
+  // Echo surveys that no batch has taken yet make room for those of the rows of a tick, at which `vehicles` are present.
+  void begin_tick(const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
   void publish_queries(const bus::Now& now);
 
   // Steady time at which take_replies() or publish_queries() has something to do, or who waits for the seabed may
@@ -68,7 +68,6 @@ class SeabedClient {
 
   bus::Bus& bus_;
   Models models_;
-  Shard shard_;
   int bottom_points_;
   std::string client_name_;
   std::vector<ray_reply_t> replies_;

@@ -63,7 +63,7 @@ void link_table(benchmark::State& state) {
     now = now + SimDuration::from_microseconds(1);
     const auto placed = place_all(fleet, now);
     benchmark::DoNotOptimize(link_tables(
-        now, placed, propagation, predictor,
+        now, placed, table_rows(placed), propagation, predictor,
         [&](const auto& from, const auto& to) { return echoes.at_last_tick(now, from, to, propagation); }));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
@@ -89,7 +89,7 @@ void answer_requests(SeabedMap& seabed) {
 
 void survey_tables(RayPropagation& propagation, SeabedMap& seabed, const std::vector<PlacedVehicle>& vehicles,
                    SimTime now) {
-  while (!tables_are_ready(now, vehicles, propagation)) answer_requests(seabed);
+  while (!propagation.are_ready(now, table_rows(vehicles).links)) answer_requests(seabed);
 }
 
 // The same along rays over a seamount, in the global mean profile. Everybody moves between two ticks, so every
@@ -115,7 +115,7 @@ void ray_link_table(benchmark::State& state) {
     for (PlacedVehicle& vehicle : placed) vehicle.placement.position_ned_m.x() += 2e-3 * (vehicle.id % 3 + 1);
     survey_tables(propagation, *seabed, placed, now);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(link_tables(now, placed, propagation, predictor,
+    benchmark::DoNotOptimize(link_tables(now, placed, table_rows(placed), propagation, predictor,
                                          [](const auto&, const auto&) { return Multipath::kUnknown; }));
   }
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));

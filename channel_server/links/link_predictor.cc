@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
+#include "acoustics/fading/fading_bounds.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/link_prediction.h"
 #include "acoustics/reception/signal_history.h"
+#include "core/elementary.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -64,18 +67,41 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   return rates;
 }
 
-std::shared_ptr<const LinkPredictor::Rates> LinkPredictor::rates_of(const Modem& transmitter) {
+// A packet of a constant ratio is received no less often than one whose ratio varies about that mean within it.
+double LinkPredictor::least_sinr_db(const Rates& rates) const {
+  double least_db = std::numeric_limits<double>::infinity();
+  for (const ReceptionCurves& curves : rates) {
+    const auto bits = static_cast<double>(curves.timing().information_bits);
+    const auto received = [&](double sinr) {
+      return curves.acquisition(sinr) * elementary::exp(bits * curves.log_bit_success(sinr));
+    };
+    const double of_rate_db = acoustics::least_mean_db(kLeastDelivery, [&](double mean_sinr) {
+      return acoustics::most_over_fading(rule_.fading, mean_sinr, received);
+    });
+    least_db = std::min(least_db, of_rate_db);
+  }
+  return least_db;
+}
+
+const LinkPredictor::Entry& LinkPredictor::entry_of(const Modem& transmitter) {
   const Modem packets = of_packets(transmitter);
   auto known =
-      std::find_if(kept_.begin(), kept_.end(), [&](const auto& entry) { return entry.first == packets; });
+      std::find_if(kept_.begin(), kept_.end(), [&](const Entry& entry) { return entry.packets == packets; });
   if (known == kept_.end()) {
     if (kept_.size() == kMaxModems) kept_.pop_back();
-    kept_.emplace_front(packets, std::make_shared<const Rates>(make_rates(packets)));
+    const auto rates = std::make_shared<const Rates>(make_rates(packets));
+    kept_.push_front({packets, rates, least_sinr_db(*rates)});
   } else {
     kept_.splice(kept_.begin(), kept_, known);
   }
-  return kept_.front().second;
+  return kept_.front();
 }
+
+std::shared_ptr<const LinkPredictor::Rates> LinkPredictor::rates_of(const Modem& transmitter) {
+  return entry_of(transmitter).rates;
+}
+
+double LinkPredictor::least_sinr_db(const Modem& transmitter) { return entry_of(transmitter).least_sinr_db; }
 
 LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitter, const Modem& receiver,
                                      const Reception& reception) const {

@@ -46,16 +46,26 @@ class LinkPredictor {
 
   // Takes milliseconds for a modem that is new; those of kMaxModems are kept. Not thread-safe.
   std::shared_ptr<const Rates> rates_of(const acoustics::Modem& transmitter);
+  // The mean ratio, dB, below which no rate of this transmitter delivers a packet in a thousand, however the link fades
+  // (acoustics/fading/fading_bounds.h). Not thread-safe.
+  double least_sinr_db(const acoustics::Modem& transmitter);
   // Of a link whose transmitter has these rates. Thread-safe.
   LinkForecast forecast(const Rates& rates, const acoustics::Modem& transmitter,
                         const acoustics::Modem& receiver, const Reception& reception) const;
 
  private:
   static constexpr std::size_t kMaxModems = 256;
+  struct Entry {
+    acoustics::Modem packets;
+    std::shared_ptr<const Rates> rates;
+    double least_sinr_db;
+  };
+  const Entry& entry_of(const acoustics::Modem& transmitter);
   Rates make_rates(const acoustics::Modem& transmitter) const;
+  double least_sinr_db(const Rates& rates) const;
 
   Rule rule_;
-  std::list<std::pair<acoustics::Modem, std::shared_ptr<const Rates>>> kept_;  // used last, first
+  std::list<Entry> kept_;  // used last, first
 };
 
 }  // namespace halocline::channel_server

@@ -8,33 +8,6 @@
 #include "core/frames.h"
 
 namespace halocline::channel_server {
-namespace {
-
-// The rows of all tables, sender by sender, the receivers by id.
-struct Links {
-  std::vector<EndPair> ends;
-  std::vector<std::pair<std::size_t, std::size_t>> vehicles;  // indices of both
-};
-
-Links links_between(const std::vector<PlacedVehicle>& vehicles, Shard shard,
-                    const std::vector<double>& reaches_m) {
-  std::vector<Vec3> places;
-  for (const PlacedVehicle& vehicle : vehicles) places.push_back(vehicle.placement.position_ned_m);
-  Links links;
-  for (std::size_t from = 0; from < vehicles.size(); ++from) {
-    if (!shard.serves(vehicles[from].id)) continue;
-    const double reach_m = reaches_m.empty() ? acoustics::kGreatestBoundedRange : reaches_m[from];
-    for (std::size_t to = 0; to < vehicles.size(); ++to) {
-      if (to == from || (places[to] - places[from]).squaredNorm() > reach_m * reach_m) continue;
-      links.ends.push_back({link_end(vehicles[from]), link_end(vehicles[to])});
-      links.vehicles.emplace_back(from, to);
-    }
-  }
-  return links;
-}
-
-}  // namespace
-
 Multipath multipath_of(const Reception& reception, Decibels cutoff) {
   if (reception.used != PropagationUsed::kRays) return Multipath::kUnknown;
   const bool echoes = std::any_of(reception.paths.begin(), reception.paths.end(), [&](const SoundPath& path) {
@@ -61,37 +34,47 @@ LinkEnd link_end(const PlacedVehicle& vehicle) {
           &vehicle.modem->modem};
 }
 
-bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicles, Propagation& propagation,
-                      Shard shard, const std::vector<double>& reaches_m) {
-  return propagation.are_ready(instant, links_between(vehicles, shard, reaches_m).ends);
+TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& ranges_m,
+                     Shard shard) {
+  std::vector<Vec3> places;
+  for (const PlacedVehicle& vehicle : vehicles) places.push_back(vehicle.placement.position_ned_m);
+  TableRows rows;
+  for (std::size_t from = 0; from < vehicles.size(); ++from) {
+    if (!shard.serves(vehicles[from].id)) continue;
+    const double range_m = ranges_m.empty() ? acoustics::kGreatestBoundedRange : ranges_m[from];
+    TableRows::Transmitter transmitter{from, range_m, {}};
+    for (std::size_t to = 0; to < vehicles.size(); ++to) {
+      if (to == from || (places[to] - places[from]).squaredNorm() > range_m * range_m) continue;
+      transmitter.receivers.push_back(to);
+      rows.links.push_back({link_end(vehicles[from]), link_end(vehicles[to])});
+    }
+    rows.transmitters.push_back(std::move(transmitter));
+  }
+  return rows;
 }
 
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
-                                   Propagation& propagation, LinkPredictor& predictor,
-                                   const MultipathFunction& multipath, const ForEach& for_each, Shard shard,
-                                   const std::vector<double>& reaches_m) {
-  if (propagation.plans_ticks()) {
-    propagation.begin_tick(instant, links_between(vehicles, {}, reaches_m).ends);
-  }
-  const Links links = links_between(vehicles, shard, reaches_m);
+                                   const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
+                                   const MultipathFunction& multipath, const ForEach& for_each) {
+  const auto& links = rows.links;
   std::vector<std::shared_ptr<const LinkPredictor::Rates>> rates;  // of each link's transmitter
-  for (const EndPair& link : links.ends) rates.push_back(predictor.rates_of(*link.from.modem));
-  const std::vector<Reception> receptions = propagation.receptions(instant, links.ends, for_each);
-  std::vector<LinkForecast> forecasts(links.ends.size());
-  for_each(links.ends.size(), [&](std::size_t i) {
-    const auto& [from, to] = links.ends[i];
+  for (const TableRows::Transmitter& transmitter : rows.transmitters) {
+    rates.resize(rates.size() + transmitter.receivers.size(),
+                 predictor.rates_of(vehicles[transmitter.vehicle].modem->modem));
+  }
+  const std::vector<Reception> receptions = propagation.receptions(instant, links, for_each);
+  std::vector<LinkForecast> forecasts(links.size());
+  for_each(links.size(), [&](std::size_t i) {
+    const auto& [from, to] = links[i];
     forecasts[i] = predictor.forecast(*rates[i], *from.modem, *to.modem, receptions[i]);
   });
   std::vector<LinkTable> tables;
   std::size_t link = 0;
-  for (std::size_t sender = 0; sender < vehicles.size(); ++sender) {
-    const PlacedVehicle& from = vehicles[sender];
-    if (!shard.serves(from.id)) continue;
-    LinkTable table;
-    table.vehicle_id = from.id;
-    if (!reaches_m.empty()) table.reach_m = reaches_m[sender];
-    for (; link < links.ends.size() && links.vehicles[link].first == sender; ++link) {
-      const PlacedVehicle& to = vehicles[links.vehicles[link].second];
+  for (const TableRows::Transmitter& transmitter : rows.transmitters) {
+    const PlacedVehicle& from = vehicles[transmitter.vehicle];
+    LinkTable table{from.id, {}, transmitter.range_m, vehicles.size() - 1 - transmitter.receivers.size()};
+    for (const std::size_t receiver : transmitter.receivers) {
+      const PlacedVehicle& to = vehicles[receiver];
       LinkRow row;
       row.transmitter_id = from.id;
       row.receiver_id = to.id;
@@ -102,8 +85,8 @@ std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehi
                           ? multipath(from, to)
                           : multipath_of(receptions[link], to.modem->modem.min_receivable_level);
       table.rows.push_back(row);
+      ++link;
     }
-    table.out_of_reach = vehicles.size() - 1 - table.rows.size();
     tables.push_back(std::move(table));
   }
   return tables;

@@ -52,27 +52,38 @@ struct LinkRow {
 struct LinkTable {
   VehicleId vehicle_id = 0;   // the transmitter of every row
   std::vector<LinkRow> rows;  // by receiver id
-  double reach_m = acoustics::kGreatestBoundedRange;
-  std::size_t out_of_reach = 0;  // vehicles present without a row
+  double range_m = acoustics::kGreatestBoundedRange;  // beyond it there are no rows
+  std::size_t out_of_range = 0;                       // vehicles present without one
 };
 
 // As the propagation takes it.
 LinkEnd link_end(const PlacedVehicle& vehicle);
 
+// Which links have rows: of each transmitter that a shard serves those to receivers within its range, transmitter by
+// transmitter, the receivers in the order of the vehicles.
+struct TableRows {
+  struct Transmitter {
+    std::size_t vehicle;  // its index
+    double range_m;
+    std::vector<std::size_t> receivers;  // theirs
+  };
+  std::vector<Transmitter> transmitters;
+  std::vector<EndPair> links;  // of all of them
+};
+
+// `ranges_m`: of each vehicle, m (ReachModel::reception_ranges_m). Empty: everybody has rows to everybody.
+TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& ranges_m = {},
+                     Shard shard = {});
+
 using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
-// Whether link_tables() need not wait for what the propagation lacks.
-bool tables_are_ready(SimTime instant, const std::vector<PlacedVehicle>& vehicles, Propagation& propagation,
-                      Shard shard = {}, const std::vector<double>& reaches_m = {});
-
-// One table a vehicle that `shard` serves, by id, of links whose sound leaves at `instant`; a vehicle alone has an
-// empty one. `multipath` is called where paths are straight by choice: rays hold the echoes of the bottom. `reaches_m`: of each
-// vehicle (propagation/reach.h); those further away have no row. Empty: everybody has one.
+// One table a transmitter, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The propagation is ready
+// for the links of `rows`, which are of `vehicles`. `multipath` is called where paths are straight by choice: rays hold the
+// echoes of the bottom.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
-                                   Propagation& propagation, LinkPredictor& predictor,
+                                   const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,
-                                   const ForEach& for_each = one_after_the_other, Shard shard = {},
-                                   const std::vector<double>& reaches_m = {});
+                                   const ForEach& for_each = one_after_the_other);
 
 }  // namespace halocline::channel_server

@@ -1,6 +1,7 @@
 #include "channel_server/links/multipath_cache.h"
 
 #include <algorithm>
+#include <set>
 
 namespace halocline::channel_server {
 
@@ -43,25 +44,21 @@ Multipath MultipathCache::verdict_of(Entry& entry, SimTime at, const PlacedVehic
   return verdict.multipath;
 }
 
-std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard,
-                                                    const std::vector<double>& reaches_m) {
+std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehicle>& vehicles,
+                                                    const TableRows& rows) {
   ++tick_;
   places_.clear();
   for (const auto& vehicle : vehicles) places_.emplace(vehicle.id, vehicle.placement.position_ned_m);
   std::erase_if(entries_, [&](const auto& entry) {
     return !places_.contains(entry.first.first) || !places_.contains(entry.first.second);
   });
+  std::set<VehiclePair> pairs_with_rows;
+  for (const EndPair& link : rows.links) pairs_with_rows.insert(pair_of(link.from.id, link.to.id));
   std::vector<std::pair<std::int64_t, VehiclePair>> wanted;
-  for (std::size_t low = 0; low < vehicles.size(); ++low) {
-    for (std::size_t high = low + 1; high < vehicles.size(); ++high) {
-      const VehicleId low_id = vehicles[low].id, high_id = vehicles[high].id;
-      if (!shard.serves(low_id) && !shard.serves(high_id)) continue;
-      const Vec3 &from = vehicles[low].placement.position_ned_m,
-                 &to = vehicles[high].placement.position_ned_m;
-      if (!reaches_m.empty() && (to - from).norm() > std::max(reaches_m[low], reaches_m[high])) continue;
-      const Entry& entry = entries_[{low_id, high_id}];
-      if (serves(entry, from, to)) continue;
-      wanted.push_back({entry.queried_at_tick, {low_id, high_id}});
+  for (const VehiclePair& pair : pairs_with_rows) {
+    const Entry& entry = entries_[pair];
+    if (!serves(entry, places_.at(pair.first), places_.at(pair.second))) {
+      wanted.push_back({entry.queried_at_tick, pair});
     }
   }
   std::sort(wanted.begin(), wanted.end());

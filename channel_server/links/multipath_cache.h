@@ -35,10 +35,9 @@ class MultipathCache {
   Multipath at(SimTime at, const PlacedVehicle& transmitter, const PlacedVehicle& receiver,
                Propagation& propagation);
 
-  // The tables of a tick are made; its geometry is this. Returns the pairs that need a survey, those
-  // queried longest ago first; not of those that are out of each other's reach (link_table.h).
-  std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles, Shard shard = {},
-                                      const std::vector<double>& reaches_m = {});
+  // The tables of a tick are made; its geometry is this. Returns the pairs with rows that need a survey, those
+  // queried longest ago first.
+  std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
   // Place of a vehicle at the last tick; the vehicle was among those of begin_tick.
   const Vec3& place(VehicleId id) const { return places_.at(id); }
 

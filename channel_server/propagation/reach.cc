@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "acoustics/fading/fading_bounds.h"
 #include "acoustics/link/least_loss.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/beam_pattern.h"
@@ -42,31 +43,22 @@ double least_noise_density(const acoustics::Band& band, const acoustics::NoiseSo
   return density;
 }
 
-// At least the probability that a preamble of this mean ratio is acquired: the ratio is exponentially distributed where it
-// fades, and of each interval of it the upper end counts.
-double acquired_at_most(const acoustics::Modem& modem, double mean_sinr, bool fades) {
-  if (!fades) return acoustics::acquisition_probability(modem, {mean_sinr});
-  constexpr int kIntervals = 14;  // of one mean each; what is beyond counts as acquired
-  double probability = elementary::exp(-static_cast<double>(kIntervals));
-  for (int i = 0; i < kIntervals; ++i) {
-    const double share = elementary::exp(-static_cast<double>(i)) - elementary::exp(-(i + 1.0));
-    probability += share * acoustics::acquisition_probability(modem, {mean_sinr * (i + 1)});
-  }
-  return probability;
-}
-
 // The mean ratio below which a preamble is as good as never acquired, dB; -infinity of none.
 double unnoticed_sinr_db(const acoustics::Modem& modem, bool fades) {
   if (modem.preamble == SimDuration()) return kNever;
-  double low_db = -80, high_db = 20;
-  if (acquired_at_most(modem, elementary::exp10(low_db / 10), fades) > kNegligibleProbability) return low_db;
-  while (high_db - low_db > 0.01) {
-    const double middle_db = (low_db + high_db) / 2;
-    const bool is_noticed =
-        acquired_at_most(modem, elementary::exp10(middle_db / 10), fades) > kNegligibleProbability;
-    (is_noticed ? high_db : low_db) = middle_db;
-  }
-  return low_db;
+  const auto acquired = [&](double sinr) { return acoustics::acquisition_probability(modem, {sinr}); };
+  return acoustics::least_mean_db(kNegligibleProbability, [&](double mean_sinr) {
+    return fades ? acoustics::most_over_rayleigh_fading(mean_sinr, acquired) : acquired(mean_sinr);
+  });
+}
+
+bool may_receive(const acoustics::Modem& sender, const acoustics::Modem& receiver) {
+  return same_family(sender, receiver) && acoustics::band_share(sender.band(), receiver.band()) > 0;
+}
+
+// Over the sender's band.
+Decibels noise_at(const acoustics::Modem& sender, const acoustics::Modem& receiver, PowerRatio density) {
+  return to_decibels({density.value * sender.bandwidth_hz}) - receiver.directivity_index;
 }
 
 Decibels least_beam_loss(const acoustics::Modem& modem) {
@@ -84,12 +76,8 @@ Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem&
                                   const acoustics::Modem& receiver, PowerRatio noise_density) {
   const bool fades = rule.fading.enabled;
   const Decibels fading{fades ? kLargeScaleDeviations * rule.fading.large_scale_db : 0};
-  const Decibels noise =
-      to_decibels({noise_density.value * sender.bandwidth_hz}) - receiver.directivity_index;
-  const Decibels disturbs = noise - rule.below_noise;
-  const bool may_receive =
-      same_family(sender, receiver) && acoustics::band_share(sender.band(), receiver.band()) > 0;
-  if (!may_receive) return disturbs;
+  const Decibels noise = noise_at(sender, receiver, noise_density), disturbs = noise - rule.below_noise;
+  if (!may_receive(sender, receiver)) return disturbs;
   const Decibels acquired = noise - fading + Decibels{unnoticed_sinr_db(sender, fades)};
   return std::min(disturbs, std::max(acquired, receiver.min_receivable_level));
 }
@@ -113,19 +101,20 @@ double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const Veh
   return reach_m(at, sender, crowd_of(at, registry, vehicles));
 }
 
-std::vector<double> ReachModel::reaches_m(SimTime at, const VehicleRegistry& registry,
-                                          const std::vector<PlacedVehicle>& vehicles) {
+std::vector<double> ReachModel::reception_ranges_m(SimTime at, const VehicleRegistry& registry,
+                                                   const std::vector<PlacedVehicle>& vehicles,
+                                                   const LeastRatio& least_sinr_db) {
   if (!rule_.by_level) return std::vector<double>(vehicles.size(), acoustics::kGreatestBoundedRange);
   const Crowd crowd = crowd_of(at, registry, vehicles);
-  std::vector<double> reaches;
+  std::vector<double> ranges;
   const acoustics::Modem* last = nullptr;
   for (const PlacedVehicle& vehicle : vehicles) {
     const acoustics::Modem& modem = vehicle.modem->modem;
     const bool is_same = last != nullptr && (last == &modem || *last == modem);
-    reaches.push_back(is_same ? reaches.back() : reach_m(at, modem, crowd));
+    ranges.push_back(is_same ? ranges.back() : reception_range_m(at, modem, crowd, least_sinr_db(modem)));
     last = &modem;
   }
-  return reaches;
+  return ranges;
 }
 
 ReachModel::Crowd ReachModel::crowd_of(SimTime at, const VehicleRegistry& registry,
@@ -152,21 +141,34 @@ double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const Cro
        change = waters_->next_change_after(change)) {
     density = std::min(density, least_noise_density(sender.band(), waters_->at(change).noise));
   }
-  double reach_m = range_m(at, sender, sender, {density}, crowd.deepest_m);
-  for (const acoustics::Modem* receiver : crowd.modems) {
-    reach_m = std::max(reach_m, range_m(at, sender, *receiver, {density}, crowd.deepest_m));
-  }
+  const auto beyond_m = [&](const acoustics::Modem& receiver) {
+    return range_m(at, sender, receiver, least_level_that_matters(rule_, sender, receiver, {density}),
+                   crowd.deepest_m);
+  };
+  double reach_m = beyond_m(sender);
+  for (const acoustics::Modem* receiver : crowd.modems) reach_m = std::max(reach_m, beyond_m(*receiver));
   return reach_m;
 }
 
+double ReachModel::reception_range_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd,
+                                     double least_sinr_db) {
+  const PowerRatio density{least_noise_density(sender.band(), waters_->at(at).noise)};
+  double longest_m = 0;
+  for (const acoustics::Modem* receiver : crowd.modems) {
+    if (!may_receive(sender, *receiver)) continue;
+    const Decibels least = noise_at(sender, *receiver, density) + Decibels{least_sinr_db};
+    longest_m = std::max(longest_m, range_m(at, sender, *receiver, least, crowd.deepest_m));
+  }
+  return longest_m;
+}
+
 double ReachModel::range_m(SimTime at, const acoustics::Modem& sender, const acoustics::Modem& receiver,
-                           PowerRatio noise_density, double deepest_m) {
-  const Key key{waters_->water_at(at), noise_density.value, deepest_m, key_of(sender), key_of(receiver)};
+                           Decibels least, double deepest_m) {
+  const Key key{waters_->water_at(at), least.value, deepest_m, key_of(sender), key_of(receiver)};
   return ranges_.find_or_make(key, [&] {
     const auto loss = propagation_.least_loss(at, sender.centre_frequency_hz, deepest_m);
     if (!loss) return acoustics::kGreatestBoundedRange;
-    const Decibels best = sender.source_level - least_beam_loss(sender) - least_beam_loss(receiver);
-    return loss->range_of(best - least_level_that_matters(rule_, sender, receiver, noise_density));
+    return loss->range_of(sender.source_level - least_beam_loss(sender) - least_beam_loss(receiver) - least);
   });
 }
 

@@ -15,9 +15,14 @@
 //
 // Noise: the least of the waters known to hold within kLongestFlight from then on. Modems: those carried then, or announced
 // to be carried within that time. Left out: changes of water and modems that are announced after the departure.
+//
+// The range of reception, within which links have rows in tables, is less: beyond it nobody receives a packet in a thousand.
+// There source level + both beams at their best - least loss is less above the noise of the instant, the least over the band,
+// than the least ratio that the sender's packets need (links/link_predictor.h). The cut-off does not count: a row shows it.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -63,9 +68,12 @@ class ReachModel {
   // range, which contains everybody, without a rule and where the propagation states no bound.
   double reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
                  const std::vector<PlacedVehicle>& vehicles);
-  // Of each of them, in their order.
-  std::vector<double> reaches_m(SimTime at, const VehicleRegistry& registry,
-                                const std::vector<PlacedVehicle>& vehicles);
+  // The mean ratio, dB, below which no packet of this modem is received.
+  using LeastRatio = std::function<double(const acoustics::Modem&)>;
+  // The ranges of reception of each of them, in their order; m, as reach_m().
+  std::vector<double> reception_ranges_m(SimTime at, const VehicleRegistry& registry,
+                                         const std::vector<PlacedVehicle>& vehicles,
+                                         const LeastRatio& least_sinr_db);
 
  private:
   // The modems in use and how deep they are.
@@ -74,14 +82,18 @@ class ReachModel {
     double deepest_m = 0;
   };
   using ModemKey = std::tuple<std::array<double, 7>, std::vector<double>, std::string>;
+  // The water; what the level is compared with; how deep; sender and receiver.
   using Key = std::tuple<EnvironmentTimeline::WaterId, double, double, ModemKey, ModemKey>;
 
   static ModemKey key_of(const acoustics::Modem& modem);
   Crowd crowd_of(SimTime at, const VehicleRegistry& registry,
                  const std::vector<PlacedVehicle>& vehicles) const;
   double reach_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd);
+  double reception_range_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd,
+                           double least_sinr_db);
+  // Beyond it levels are below `least`.
   double range_m(SimTime at, const acoustics::Modem& sender, const acoustics::Modem& receiver,
-                 PowerRatio noise_density, double deepest_m);
+                 Decibels least, double deepest_m);
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   const Propagation& propagation_;

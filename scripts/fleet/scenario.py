@@ -29,9 +29,9 @@ water_rows = [[0.0, 22.0, 38.0], [15.0, 22.0, 38.0], [30.0, 15.0, 38.0], [50.0, 
 [propagation]
 model = "{model}"
 
-[modem] # carries 2 km
+[modem] # carries 2 km: 9 of 10 packets are received there
 profile = "micromodem-fsk"
-source_level_db = 168.0
+source_level_db = {source_level_db}
 
 [channel_server]
 link_rate_hz = 1.0
@@ -55,6 +55,8 @@ destination = "all"
 payload_bytes = 32
 """
 
+# Along rays the bottom and the surface scatter.
+SOURCE_LEVEL_DB = {"straight": 132.0, "rays": 145.0}
 DENSE_SIDE_M = 2000
 LINE_M = 300.0
 
@@ -79,5 +81,6 @@ def fleet(count, laying, model, duration_s):
     """The scenario as TOML. `laying`: "dense" (a square of 2 km) or "spread" (a vehicle a square kilometre)."""
     side = side_m(laying, count)
     size = 20 * math.ceil((side + 4 * LINE_M) / 20)
-    head = SEA.format(count=count, laying=laying, model=model, duration_s=duration_s, size_m=size, slope=f"{min(0.02, 60 / size):.5f}")
+    head = SEA.format(count=count, laying=laying, model=model, duration_s=duration_s, size_m=size, source_level_db=SOURCE_LEVEL_DB[model],
+                      slope=f"{min(0.02, 60 / size):.5f}")
     return head + "".join(vehicle(number, count, side) for number in range(1, count + 1))

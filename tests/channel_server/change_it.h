@@ -103,7 +103,9 @@ inline Numbers numbers_of(const packet_outcome_t& packet) {
 
 inline Numbers numbers_of(const World& world) {
   bus::set_log_level(bus::LogLevel::kSilent);
-  NodeBench bench({}, {world.modem, {}},
+  ServerRules rules;
+  rules.reach.by_level = false;  // rows of the weakest links, too
+  NodeBench bench(rules, {world.modem, {}},
                   world.rays ? ray_model(world.water, world.model, {}) : straight_model(world.water));
   FlatBottom bottom(bench.lcm(), world.bottom_z_m);
   for (double t = 0; t <= 8; t += 0.25) {  // steps and speeds that binary holds: places at kAt are exact

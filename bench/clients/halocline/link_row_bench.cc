@@ -61,13 +61,8 @@ std::vector<Row> rows_of(const ScenarioConfig& config, const VehicleRegistry& ve
   for (int second = 1; second <= 60; ++second) {
     const SimTime tick = SimTime::from_seconds(second);
     const std::vector<PlacedVehicle> placed = place_all(vehicles, tick);
-    while (!tables_are_ready(tick, placed, *water.propagation)) answer_requests(*terrain, *water.seabed);
-    std::vector<EndPair> links;
-    for (const PlacedVehicle& from : placed) {
-      for (const PlacedVehicle& to : placed) {
-        if (to.id != from.id) links.push_back({link_end(from), link_end(to)});
-      }
-    }
+    const std::vector<EndPair> links = table_rows(placed).links;
+    while (!water.propagation->are_ready(tick, links)) answer_requests(*terrain, *water.seabed);
     std::vector<channel_server::Reception> receptions =
         water.propagation->receptions(tick, links, one_after_the_other);
     for (std::size_t i = 0; i < links.size(); ++i) {

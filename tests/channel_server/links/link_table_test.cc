@@ -26,7 +26,8 @@ const MultipathFunction kUnknownMultipath = [](const PlacedVehicle&, const Place
 class LinkTableTest : public ::testing::Test {
  protected:
   std::vector<LinkTable> tables_at(double time_s, const MultipathFunction& multipath = kUnknownMultipath) {
-    return link_tables(at_s(time_s), place_all(fleet_, at_s(time_s)), propagation_, predictor_, multipath);
+    const auto placed = place_all(fleet_, at_s(time_s));
+    return link_tables(at_s(time_s), placed, table_rows(placed), propagation_, predictor_, multipath);
   }
   VehicleRegistry fleet_{{for_s(0.05), for_s(5)}, {quick_modem(), {}}};
   StraightPropagation propagation_{even_water()};
@@ -67,6 +68,24 @@ TEST_F(LinkTableTest, RowsHoldTheForecastOfTheirPaths) {
   EXPECT_EQ(forecast.sinr_db, by_hand.sinr_db);
   EXPECT_EQ(forecast.delivery_probability, by_hand.delivery_probability);
   EXPECT_EQ(forecast.best_rate_bps, by_hand.best_rate_bps);
+}
+
+TEST_F(LinkTableTest, ReceiversBeyondATransmittersRangeAreCounted) {
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v3", 3, state_at(0, {1500, 0, 50})), "");
+  const auto placed = place_all(fleet_, at_s(1));
+  const auto tables = link_tables(at_s(1), placed, table_rows(placed, {600, 1100, 0}), propagation_, predictor_,
+                                  kUnknownMultipath);
+  ASSERT_EQ(tables.size(), 3u);
+  EXPECT_EQ(tables[0].range_m, 600);
+  ASSERT_EQ(tables[0].rows.size(), 1u);
+  EXPECT_EQ(tables[0].rows[0].receiver_id, 2);
+  EXPECT_EQ(tables[0].out_of_range, 1u);
+  EXPECT_EQ(tables[1].rows.size(), 2u);
+  EXPECT_EQ(tables[1].out_of_range, 0u);
+  EXPECT_TRUE(tables[2].rows.empty());
+  EXPECT_EQ(tables[2].out_of_range, 2u);
 }
 
 TEST_F(LinkTableTest, AVehicleAloneHasAnEmptyTable) {

@@ -26,6 +26,12 @@ class MultipathCacheTest : public ::testing::Test {
     survey.take_ways(std::vector<RayAnswer>(6, {RayAnswer::Kind::kMiss, 0}));
     return survey;
   }
+  std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles, MultipathCache& echoes) {
+    return echoes.begin_tick(vehicles, table_rows(vehicles));
+  }
+  std::vector<VehiclePair> begin_tick(const std::vector<PlacedVehicle>& vehicles) {
+    return begin_tick(vehicles, echoes_);
+  }
   Multipath row(const PlacedVehicle& from, const PlacedVehicle& to) {
     return echoes_.at_last_tick(SimTime(), from, to, propagation_);
   }
@@ -41,7 +47,7 @@ TEST_F(MultipathCacheTest, KnowsNothingBeforeTheFirstTick) {
 
 TEST_F(MultipathCacheTest, ARowHoldsTheEchoesOfTheTickBefore) {
   const auto one = vehicle(1, 0), two = vehicle(2, 100);
-  EXPECT_THAT(echoes_.begin_tick({one, two}), ElementsAre(VehiclePair(1, 2)));
+  EXPECT_THAT(begin_tick({one, two}), ElementsAre(VehiclePair(1, 2)));
   EXPECT_EQ(row(one, two), Multipath::kUnknown);
   echoes_.store({1, 2}, survey_of({1, 2}));
   EXPECT_EQ(row(one, two), Multipath::kLikely);
@@ -49,33 +55,33 @@ TEST_F(MultipathCacheTest, ARowHoldsTheEchoesOfTheTickBefore) {
 }
 
 TEST_F(MultipathCacheTest, ASurveyServesWhileBothEndsStayNear) {
-  echoes_.begin_tick({vehicle(1, 0), vehicle(2, 100)});
+  begin_tick({vehicle(1, 0), vehicle(2, 100)});
   echoes_.store({1, 2}, survey_of({1, 2}));
-  EXPECT_THAT(echoes_.begin_tick({vehicle(1, 4.9), vehicle(2, 104.9)}), IsEmpty());
+  EXPECT_THAT(begin_tick({vehicle(1, 4.9), vehicle(2, 104.9)}), IsEmpty());
   EXPECT_EQ(row(vehicle(1, 9), vehicle(2, 109)), Multipath::kLikely);
-  EXPECT_THAT(echoes_.begin_tick({vehicle(1, 5.1), vehicle(2, 100)}), ElementsAre(VehiclePair(1, 2)));
+  EXPECT_THAT(begin_tick({vehicle(1, 5.1), vehicle(2, 100)}), ElementsAre(VehiclePair(1, 2)));
   EXPECT_EQ(row(vehicle(1, 5.1), vehicle(2, 100)), Multipath::kUnknown);
 }
 
 TEST_F(MultipathCacheTest, ThePairsQueriedLongestAgoComeFirst) {
   const std::vector<PlacedVehicle> fleet{vehicle(1, 0), vehicle(2, 100), vehicle(3, 200)};
-  echoes_.begin_tick(fleet);
+  begin_tick(fleet);
   echoes_.note_queried({1, 2});
-  EXPECT_THAT(echoes_.begin_tick(fleet),
+  EXPECT_THAT(begin_tick(fleet),
               ElementsAre(VehiclePair(1, 3), VehiclePair(2, 3), VehiclePair(1, 2)));
 }
 
 TEST_F(MultipathCacheTest, APairThatLeftIsForgotten) {
-  echoes_.begin_tick({vehicle(1, 0), vehicle(2, 100)});
+  begin_tick({vehicle(1, 0), vehicle(2, 100)});
   const EchoSurvey survey = survey_of({1, 2});
-  echoes_.begin_tick({vehicle(1, 0)});
+  begin_tick({vehicle(1, 0)});
   EXPECT_EQ(echoes_.surveys_kept(), 0u);
   echoes_.store({1, 2}, survey);  // its answer comes too late
   EXPECT_EQ(echoes_.surveys_kept(), 0u);
 }
 
 TEST_F(MultipathCacheTest, AnotherModemGetsItsOwnVerdict) {
-  echoes_.begin_tick({vehicle(1, 0), vehicle(2, 100)});
+  begin_tick({vehicle(1, 0), vehicle(2, 100)});
   echoes_.store({1, 2}, survey_of({1, 2}));
   EXPECT_EQ(row(vehicle(1, 0), vehicle(2, 100)), Multipath::kLikely);
   VehicleModem insensitive = modem_;
@@ -87,7 +93,7 @@ TEST_F(MultipathCacheTest, AnotherModemGetsItsOwnVerdict) {
 }
 
 TEST_F(MultipathCacheTest, PlacesOfNowAreServedBySurveysNearThem) {
-  echoes_.begin_tick({vehicle(1, 0), vehicle(2, 100)});
+  begin_tick({vehicle(1, 0), vehicle(2, 100)});
   echoes_.store({1, 2}, survey_of({1, 2}));
   EXPECT_EQ(echoes_.at(SimTime(), vehicle(1, 3), vehicle(2, 100), propagation_), Multipath::kLikely);
   EXPECT_EQ(echoes_.at(SimTime(), vehicle(1, 30), vehicle(2, 100), propagation_), Multipath::kUnknown);
@@ -95,11 +101,11 @@ TEST_F(MultipathCacheTest, PlacesOfNowAreServedBySurveysNearThem) {
 
 TEST_F(MultipathCacheTest, WithoutReuseOnlyVehiclesAtRestAreServed) {
   MultipathCache strict(0);
-  strict.begin_tick({vehicle(1, 0), vehicle(2, 100)});
+  begin_tick({vehicle(1, 0), vehicle(2, 100)}, strict);
   EchoSurvey survey(strict.place(1), strict.place(2), 1);
   strict.store({1, 2}, survey);
-  EXPECT_THAT(strict.begin_tick({vehicle(1, 0), vehicle(2, 100)}), IsEmpty());
-  EXPECT_THAT(strict.begin_tick({vehicle(1, 1e-6), vehicle(2, 100)}), ElementsAre(VehiclePair(1, 2)));
+  EXPECT_THAT(begin_tick({vehicle(1, 0), vehicle(2, 100)}, strict), IsEmpty());
+  EXPECT_THAT(begin_tick({vehicle(1, 1e-6), vehicle(2, 100)}, strict), ElementsAre(VehiclePair(1, 2)));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
+#include "channel_server/links/link_predictor.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/straight_propagation.h"
@@ -156,14 +157,52 @@ TEST_F(Reach, EverybodyIsWithinReachWithoutARule) {
   EXPECT_EQ(reach_m(modem_, none), acoustics::kGreatestBoundedRange);
 }
 
-TEST_F(Reach, OfAFleetIsThatOfEachOfItsModems) {
-  const VehicleModem loud = modem_of(180);
-  fleet_.announce_modem("v2", at_s(0), loud, at_s(0));
-  const StraightPropagation propagation(waters_);
-  ReachModel model(waters_, propagation, {});
-  const auto present = place_all(fleet_, at_s(1));
-  EXPECT_EQ(model.reaches_m(at_s(1), fleet_, present),
-            (std::vector<double>{reach_m(modem_), reach_m(loud.modem)}));
+class ReceptionRange : public Reach {
+ protected:
+  std::vector<double> ranges_m(const ReachRule& rule = {}) {
+    const StraightPropagation propagation(waters_, rule.fading);
+    LinkPredictor predictor({.fading = rule.fading, .profiles = {}});
+    ReachModel model(waters_, propagation, rule);
+    return model.reception_ranges_m(at_s(1), fleet_, place_all(fleet_, at_s(1)),
+                                    [&](const acoustics::Modem& m) { return predictor.least_sinr_db(m); });
+  }
+  // Of a packet of 32 bytes over `range_m`, both ends 20 m deep.
+  double delivery_at(double range_m, const acoustics::FadingModel& fading) {
+    StraightPropagation propagation(waters_, fading);
+    LinkPredictor predictor({.fading = fading, .profiles = {}});
+    const LinkEnd from{1, {0, 0, 20}, Vec3::Zero(), &modem_}, to{2, {range_m, 0, 20}, Vec3::Zero(), &modem_};
+    const Reception reception = propagation.reception(at_s(1), from, to);
+    return predictor.forecast(*predictor.rates_of(modem_), modem_, modem_, reception).delivery_probability;
+  }
+};
+
+// The cut-off is far below the noise: the noise alone decides.
+TEST_F(ReceptionRange, BeyondItAPacketInAThousandIsReceivedAtMost) {
+  VehicleModem keen = modem_of(160);
+  keen.modem.min_receivable_level = Decibels{-200};
+  modem_ = keen.modem;
+  for (const char* name : {"v1", "v2"}) fleet_.announce_modem(name, at_s(0), keen, at_s(0));
+  ReachRule fading;
+  fading.fading.enabled = true;
+  for (const ReachRule& rule : {ReachRule(), fading}) {
+    const double range_m = ranges_m(rule)[0];
+    for (const double further : {1.001, 1.1, 2.0}) {
+      EXPECT_LT(delivery_at(further * range_m, rule.fading), 1e-3) << further;
+    }
+    // Nor is it much longer than the range at which one is.
+    EXPECT_GT(delivery_at(0.75 * range_m, rule.fading), 1e-3);
+    EXPECT_LT(range_m, 0.7 * reach_m(modem_, rule));
+  }
+}
+
+TEST_F(ReceptionRange, IsThatOfEachModemOfAFleet) {
+  fleet_.announce_modem("v2", at_s(0), modem_of(180), at_s(0));
+  const auto ranges = ranges_m();
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_GT(ranges[1], ranges[0] + 1000);
+  ReachRule none;
+  none.by_level = false;
+  EXPECT_EQ(ranges_m(none), std::vector<double>(2, acoustics::kGreatestBoundedRange));
 }
 
 // It is met where both will be: the range shrinks by v t while the sound goes r / c.
