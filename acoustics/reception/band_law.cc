@@ -32,11 +32,6 @@ const std::array<double, kScoreRows> kProbabilities = [] {
   return made;
 }();
 
-// Sums of terms of alike scale.
-struct Octave {
-  double mean = 0, variance = 0, rest = 0, rest_variance = 0, rate = 0;
-};
-
 // -floor(log2(x)), 0..`most`, of x >= 0.
 std::size_t octaves_below(double x, std::size_t most) {
   constexpr std::uint64_t kExponentOfOne = 1023;
@@ -93,52 +88,67 @@ double tabulated_probability(double score) {
   return kProbabilities[i] + (place - static_cast<double>(i)) * (kProbabilities[i + 1] - kProbabilities[i]);
 }
 
-double interference_share(const CollectedSound& sound, double threshold, double slow_power) {
-  const double louder = sound.slow.mean > 0 ? slow_power / sound.slow.mean : 0;
-  double signal = 0, changed = 0;
-  for (const FadingTerm& term : sound.terms) {
-    const double taken = threshold * term.interference, beats = louder * term.signal_beats,
-                 taken_beats = threshold * term.interference_beats;
-    signal += term.signal * term.unit + 2 * beats * term.unit;
-    changed += taken * (2 * term.signal + taken) + 2 * (beats * taken + taken_beats * (term.unit + taken));
-  }
-  return signal > 0 ? changed / signal : changed > 0 ? 1 : 0;
-}
-
-BandLaw::BandLaw(const CollectedSound& sound, double threshold, double slow_power) {
-  const double louder = sound.slow.mean > 0 ? slow_power / sound.slow.mean : 0;
-  std::array<Octave, 2 * kOctaves> octaves{};
+BandTerms::BandTerms(const CollectedSound& sound, double threshold)
+    : threshold_(threshold), mean_slow_(sound.slow.mean), fast_(sound.fast) {
   double greatest = 0;
-  for (const FadingTerm& term : sound.terms)
+  for (const FadingTerm& term : sound.terms) {
     greatest = std::max({greatest, term.unit, threshold * term.interference});
+  }
   const double inverse = greatest > 0 ? 1 / greatest : 0;
   for (const FadingTerm& term : sound.terms) {
-    const double taken = threshold * term.interference;
+    const double taken = threshold * term.interference, taken_beats = threshold * term.interference_beats;
+    signal_ += term.signal * term.unit;
+    signal_beats_ += 2 * term.signal_beats * term.unit;
+    changed_ += taken * (2 * term.signal + taken) + 2 * taken_beats * (term.unit + taken);
+    changed_beats_ += 2 * term.signal_beats * taken;
     const double variance = term.signal * (term.unit - 2 * taken) + squared(taken);
     if (!(variance > 1e-12 * squared(greatest))) continue;
     double scale = std::max(term.unit, term.signal) - taken;
     if (4 * squared(scale) < variance) scale = std::copysign(std::sqrt(variance) / 2, scale);
-    const double rest = louder * term.signal_beats - threshold * term.interference_beats;
     const std::size_t octave = octaves_below(std::abs(scale) * inverse, kOctaves - 1);
-    Octave& sum = octaves[scale > 0 ? octave : kOctaves + octave];
+    Octave& sum = octaves_[scale > 0 ? octave : kOctaves + octave];
     sum.mean += variance / scale;
     sum.variance += variance;
-    sum.rest += rest;
-    sum.rest_variance += 2 * rest * scale;
-    sum.rate += (variance + 2 * std::max(rest * scale, 0.0)) * term.squared_spread;
+    sum.rate += variance * term.squared_spread;
+    const auto add = [&](double rest, Beats& beats) {
+      beats.rest += rest;
+      beats.variance += 2 * rest * scale;
+      beats.rate += 2 * rest * scale * term.squared_spread;
+    };
+    add(term.signal_beats, sum.signal);
+    add(taken_beats, sum.interference);
   }
-  mean_ = offset_ = slow_power + sound.fast;
+}
+
+double BandTerms::share(double louder) const {
+  const double signal = signal_ + louder * signal_beats_, changed = changed_ + louder * changed_beats_;
+  return signal > 0 ? changed / signal : changed > 0 ? 1 : 0;
+}
+
+// The ratio of two straight lines rises or falls throughout.
+double BandTerms::most_interference_share() const {
+  return std::max(share(0), signal_beats_ > 0 ? changed_beats_ / signal_beats_ : 0);
+}
+
+BandLaw::BandLaw(const BandTerms& terms, double slow_power) {
+  const double louder = terms.louder(slow_power);
+  mean_ = offset_ = slow_power + terms.fast_;
   double third = 0;
-  for (const Octave& sum : octaves) {
+  for (const BandTerms::Octave& sum : terms.octaves_) {
     if (!(sum.variance > 0)) continue;
-    double scale = (sum.variance + sum.rest_variance) / (sum.mean + 2 * sum.rest);
+    const auto beats = [&](double BandTerms::Beats::*part) {
+      return louder * sum.signal.*part - sum.interference.*part;
+    };
+    const double all_rest = beats(&BandTerms::Beats::rest), rest_variance = beats(&BandTerms::Beats::variance);
+    double scale = (sum.variance + rest_variance) / (sum.mean + 2 * all_rest);
     const double plain = sum.variance / sum.mean;
     if (!(scale * plain > 0) || std::abs(scale) > 2 * std::abs(plain) ||
         std::abs(scale) < std::abs(plain) / 2)
       scale = plain;
-    const double rest = sum.rest * plain > 0 ? sum.rest : 0;
-    const double all = sum.variance + std::max(sum.rest_variance, 0.0);
-    terms_[count_++] = {scale, rest, sum.mean / scale, 2 * scale * squared(2 * pi) * sum.rate / all};
+    const double rest = all_rest * plain > 0 ? all_rest : 0;
+    const double all = sum.variance + std::max(rest_variance, 0.0),
+                 rate = sum.rate + std::max(beats(&BandTerms::Beats::rate), 0.0);
+    terms_[count_++] = {scale, rest, sum.mean / scale, 2 * scale * squared(2 * pi) * rate / all};
     const Term& term = terms_[count_ - 1];
     offset_ -= term.count * scale + rest;
     variance_ += term.count * squared(scale) + 2 * rest * scale;

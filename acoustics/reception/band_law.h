@@ -30,8 +30,36 @@ struct Stretches {
 // Of a standard normal below `score`, within 1e-4.
 double tabulated_probability(double score);
 
-// How much of the variance of Q interference makes or takes away.
-double interference_share(const CollectedSound& sound, double threshold, double slow_power);
+// What Q is the sum of at a threshold, whatever the slow power is: terms of alike scale as one.
+class BandTerms {
+ public:
+  BandTerms(const CollectedSound& sound, double threshold);
+
+  double threshold() const { return threshold_; }
+  // How much of the variance of Q interference makes or takes away, while the power that does not fade within a packet is
+  // `slow_power`; at most, at any such power.
+  double interference_share(double slow_power) const { return share(louder(slow_power)); }
+  double most_interference_share() const;
+
+ private:
+  friend class BandLaw;
+  static constexpr std::size_t kOctaves = 8;
+  // Of what beats with the slow power, by the signal and by the interference times the threshold.
+  struct Beats {
+    double rest = 0, variance = 0, rate = 0;
+  };
+  struct Octave {
+    double mean = 0, variance = 0, rate = 0;
+    Beats signal, interference;
+  };
+  double louder(double slow_power) const { return mean_slow_ > 0 ? slow_power / mean_slow_ : 0; }
+  double share(double louder) const;
+
+  double threshold_, mean_slow_, fast_;
+  std::array<Octave, 2 * kOctaves> octaves_{};  // of falling positive scales, then negative ones
+  // The variance of the signal; of that, what interference changes; each times how loud the slow power is.
+  double signal_ = 0, signal_beats_ = 0, changed_ = 0, changed_beats_ = 0;
+};
 
 class BandLaw {
  public:
@@ -44,7 +72,7 @@ class BandLaw {
   };
 
   // While the power that does not fade within a packet is `slow_power`.
-  BandLaw(const CollectedSound& sound, double threshold, double slow_power);
+  BandLaw(const BandTerms& terms, double slow_power);
 
   double mean() const { return mean_; }
   double variance() const { return variance_; }
@@ -57,8 +85,7 @@ class BandLaw {
   };
   std::span<const Term> terms() const { return {terms_.data(), count_}; }
 
-  static constexpr std::size_t kOctaves = 8;
-  std::array<Term, 2 * kOctaves> terms_{};
+  std::array<Term, 2 * BandTerms::kOctaves> terms_{};
   std::size_t count_ = 0;  // of those
   double offset_ = 0;      // of the power, beside the terms
   double mean_ = 0, variance_ = 0, skewness_ = 0;

@@ -8,7 +8,6 @@
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "acoustics/reception/steady_band.h"
-#include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -33,7 +32,7 @@ Member member_of(const CollectedPath& path, std::size_t index, const Band& band,
   const double turns = band.width_hz() * (path.delay_s - reference_s), half = pi * turned(turns, 2);
   const double steady = path.signal * path.steady, medium = path.signal * path.turned,
                fast = path.signal * path.scattered;
-  const auto phase = elementary::sin_cos(path.phase_rad), half_turn = elementary::sin_cos(half);
+  const auto phase = fast_turn(path.phase_rad), half_turn = fast_turn(half);
   return {.path = index,
           .steady = steady,
           .turned = medium,
@@ -45,8 +44,8 @@ Member member_of(const CollectedPath& path, std::size_t index, const Band& band,
           .turns = turns,
           .cos_half = half_turn.cosine,
           .sin_half = half_turn.sine,
-          .launch_sine = elementary::sin(path.launch_angle_rad),
-          .arrival_sine = elementary::sin(path.arrival_angle_rad),
+          .launch_sine = fast_turn(path.launch_angle_rad).sine,
+          .arrival_sine = fast_turn(path.arrival_angle_rad).sine,
           .beats = steady + medium,
           .unit = fast};
 }

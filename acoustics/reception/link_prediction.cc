@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <span>
 
@@ -89,57 +90,63 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
   return patterns;
 }
 
-// Phase-shift keying: levels by the slow power, which rises; computed at four scores, between them by the cubic through those.
-// Where the quietest are decoded or the loudest lost, all are.
+// Phase-shift keying: levels by the slow power, which rises; computed at the least, the median and the most. Between them the
+// ratios to the mean power lie on the parabola through those. Where the loudest are lost or the quietest decoded, all are.
 std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const StrataMean& mean,
-                                                  const std::array<double, kPowers>& powers) {
-  const auto& scores = slow_states().powers;
-  std::array<StrataMean::Levels, kPowers> levels;
-  std::array<double, StrataMean::kLevels>
-      parts{};  // guessed as those of the power before, or else of the level before
+                                                  const std::array<double, kPowers>& powers, double median,
+                                                  double fast) {
+  std::array<double, StrataMean::kLevels> parts{};  // guessed as those of the power before, or else of the level before
   double last = 0;
-  const auto compute = [&](std::size_t i) {
-    const FadingSignal fading = packet.fading_signal(powers[i]);
-    levels[i] = mean.levels([&](std::size_t k) {
+  const auto levels_at = [&](double power) {
+    const FadingSignal fading = packet.fading_signal(power);
+    return mean.levels([&](std::size_t k) {
       if (!(parts[k] > 0)) parts[k] = last;
       const Level bits = packet.bits(fading, mean.noise(k), parts[k]);
       last = parts[k];
       return bits;
     });
   };
-  compute(0);
-  if (!(powers.back() > powers.front()) || mean.decodes(levels.front().front())) {
-    std::fill(levels.begin() + 1, levels.end(), levels.front());
-    return levels;
+  std::array<StrataMean::Levels, kPowers> levels;
+  const auto are_lost = [&](const StrataMean::Levels& of_loudest) { return mean.loses(of_loudest.back()); };
+  // What is more likely, first: the other is hardly needed then.
+  const bool likely_lost = packet.is_likely_lost(median, mean.noise(StrataMean::kLevels / 2));
+  StrataMean::Levels loud;
+  if (likely_lost) {
+    levels.fill(loud = levels_at(powers.back()));
+    if (are_lost(loud)) return levels;
   }
-  compute(kPowers - 1);
-  if (mean.loses(levels.back().back())) {
-    std::fill(levels.begin(), levels.end() - 1, levels.back());
-    return levels;
+  const StrataMean::Levels quiet = levels_at(powers.front());
+  levels.fill(quiet);
+  if (!(powers.back() > powers.front()) || mean.decodes(quiet.front())) return levels;
+  if (!likely_lost) {
+    loud = levels_at(powers.back());
+    if (are_lost(loud)) {
+      levels.fill(loud);
+      return levels;
+    }
   }
-  constexpr std::array<std::size_t, 4> kComputed{0, 2, 5, kPowers - 1};
-  compute(kComputed[1]);
-  compute(kComputed[2]);
-  for (const std::size_t i : {1, 3, 4, 6}) {
-    for (const std::size_t from : kComputed) {
-      double share = 1;  // Lagrange's
-      for (const std::size_t other : kComputed) {
-        if (other != from) share *= (scores[i] - scores[other]) / (scores[from] - scores[other]);
-      }
-      for (std::size_t k = 0; k < StrataMean::kLevels; ++k) {
-        levels[i][k].median_db += share * levels[from][k].median_db;
-      }
+  const StrataMean::Levels middle = levels_at(median);
+  const auto& scores = slow_states().powers;
+  const auto in_db = [&](double power) { return fast_decibels(std::max(power + fast, 1e-30)); };
+  const double quiet_db = in_db(powers.front()), middle_db = in_db(median), loud_db = in_db(powers.back());
+  for (std::size_t i = 1; i < kPowers; ++i) {
+    const double here_db = in_db(powers[i]);
+    for (std::size_t k = 0; k < StrataMean::kLevels; ++k) {
+      levels[i][k].median_db =
+          here_db + on_parabola(quiet[k].median_db - quiet_db, middle[k].median_db - middle_db,
+                                loud[k].median_db - loud_db, scores[i] / scores.back());
     }
   }
   return levels;
 }
 
 void add_powers(const PacketLevels& packet, const MeanSound& sound, StrataMean& mean) {
-  const PowerLaw slow = sound.slow;
+  PowerLaw slow = sound.slow;
   const bool alike = slow.variance < squared(kAlike * (slow.mean + sound.fast));
-  std::array<double, kPowers> powers = (alike ? PowerLaw{slow.mean} : slow).at(slow_states().powers);
+  if (alike) slow = {slow.mean};
+  std::array<double, kPowers> powers = slow.at(slow_states().powers);
   for (double& power : powers) power = std::max(power, 0.0);
-  const auto levels = levels_of(packet, mean, powers);
+  const auto levels = levels_of(packet, mean, powers, std::max(slow.at(0), 0.0), sound.fast);
   Level preamble;
   for (std::size_t i = 0; i < kPowers; ++i) {
     if (i == 0 || (!alike && !mean.finds(preamble))) {
@@ -299,6 +306,18 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
     add_patterns(packet, sound, mean);
   }
   return {sinr_of(sound, noise), mean.acquisition_probability(), mean.delivery_probability()};
+}
+
+const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
+                                            std::vector<SoundPath>& heard) {
+  constexpr Decibels kFaint{60};
+  Decibels strongest = paths.front().level;
+  for (const SoundPath& path : paths) strongest = std::max(strongest, path.level);
+  const auto is_heard = [&](const SoundPath& path) { return !(path.level < strongest - kFaint); };
+  if (std::all_of(paths.begin(), paths.end(), is_heard)) return paths;
+  heard.reserve(paths.size());
+  std::copy_if(paths.begin(), paths.end(), std::back_inserter(heard), is_heard);
+  return heard;
 }
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,

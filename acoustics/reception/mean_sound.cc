@@ -12,7 +12,6 @@
 #include "acoustics/reception/collected_sound.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/steady_band.h"
-#include "core/elementary.h"
 #include "core/units.h"
 #include "core/vector_clones.h"
 
@@ -82,8 +81,8 @@ class BandSums {
       const double coherent = std::sqrt(power * path.fading.coherent);
       const double at_low = path.phase_rad - 2 * pi * turned(band_.low_hz * excess_s, 1);
       const Complex pressure =
-          steady_.add({coherent, at_low, excess_s, elementary::sin(path.launch_angle_rad),
-                       elementary::sin(path.arrival_angle_rad)},
+          steady_.add({coherent, at_low, excess_s, fast_turn(path.launch_angle_rad).sine,
+                       fast_turn(path.arrival_angle_rad).sine},
                       turns);
       for (std::size_t m = 0; m < kFrequencies; ++m) {
         pressures_[m] += product(pressure, {turns.re[m], turns.im[m]});

@@ -34,15 +34,13 @@ double decibels(double power) { return fast_decibels(std::max(power, 1e-30)); }
 
 }  // namespace
 
-FadingSignal::FadingSignal(const CollectedSound& sound, double slow_power,
-                           const std::array<double, 2>& thresholds, const Stretches& stretches) {
-  alike_ = interference_share(sound, thresholds.back(), slow_power) < kAlike;
-  for (std::size_t i = alike_ ? 1 : 0; i < thresholds.size(); ++i) {
-    const BandLaw law(sound, thresholds[i], slow_power);
-    mean_ = law.mean();
-    sides_[i] = Side(thresholds[i], law, stretches);
-  }
-  if (alike_) sides_.front() = sides_.back();
+FadingSignal::FadingSignal(const BandTerms& high, const std::optional<BandTerms>& low, double slow_power,
+                           const Stretches& stretches) {
+  alike_ = !low || high.interference_share(slow_power) < kAlike;
+  const BandLaw law(high, slow_power);
+  mean_ = law.mean();
+  sides_.back() = Side(high.threshold(), law, stretches);
+  if (!alike_) sides_.front() = Side(low->threshold(), {*low, slow_power}, stretches);
   narrow_parts_ = fast_exp(std::max(sides_.back().log_parts_at(std::max(mean_ - deviation(), 0.0)), 0.0));
 }
 
@@ -136,7 +134,10 @@ PacketLevels::PacketLevels(const ReceptionCurves& curves, const MeanSound& sound
   stretches_ = std::clamp(std::ceil(4 * bits_s_ / coherence_time_of(sound.window_spread_hz)), 8.0, 64.0);
   const auto ratio_db = [&](double loss) { return curves.ratio_db_of(-loss / bits_); };
   if (collects_band_) {
-    thresholds_ = {elementary::exp(curves.parts()[5].logs[4]), elementary::exp(curves.parts()[1].logs[4])};
+    high_.emplace(sound.collected, elementary::exp(curves.parts()[1].logs[4]));
+    if (high_->most_interference_share() >= kAlike) {
+      low_.emplace(sound.collected, elementary::exp(curves.parts()[5].logs[4]));
+    }
   } else if (!coded_) {
     const double low = elementary::exp10(ratio_db(4) / 10);
     slope_ = elementary::log(20) / std::max(elementary::exp10(ratio_db(0.2) / 10) - low, 1e-9);
@@ -152,7 +153,7 @@ Level PacketLevels::preamble(double slow_power) const {
 }
 
 FadingSignal PacketLevels::fading_signal(double slow_power) const {
-  return {sound_.collected, slow_power, thresholds_, {stretches_, bits_s_ / stretches_}};
+  return {*high_, low_, slow_power, {stretches_, bits_s_ / stretches_}};
 }
 
 // -ln of the chance of all bits where fading is less than the steps of ReceptionCurves::Parts: by Hermite's five points.
@@ -196,6 +197,10 @@ Level PacketLevels::bits(const FadingSignal& signal, double disturbance, double&
   }
   const double ratio_db = curves_.ratio_db_of(-all / bits_);
   return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
+}
+
+bool PacketLevels::is_likely_lost(double slow_power, double disturbance) const {
+  return decibels((slow_power + sound_.fast) / disturbance) < curves_.bits_flank().high_db;
 }
 
 // -ln of the chance of all bits.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,11 +23,13 @@ struct Level {
   double at(double z) const { return median_db + z * (deviation_db + z * curvature_db); }
 };
 
-// How phase-shift keying fades within a packet, against two thresholds of the ratio between which it changes evenly.
+// How phase-shift keying fades within a packet, against two thresholds of the ratio between which it changes evenly, the higher
+// and the lower.
 class FadingSignal {
  public:
   FadingSignal() = default;
-  FadingSignal(const CollectedSound& sound, double slow_power, const std::array<double, 2>& thresholds,
+  // `low` alone where interference matters.
+  FadingSignal(const BandTerms& high, const std::optional<BandTerms>& low, double slow_power,
                const Stretches& stretches);
 
   // Where the ratio to a disturbance is one of the thresholds, which fall.
@@ -82,6 +85,8 @@ class PacketLevels {
   // is left; of frequency-shift keying, noise alone.
   FadingSignal fading_signal(double slow_power) const;
   Level bits(const FadingSignal& signal, double disturbance, double& parts) const;
+  // Whether the bits of packets of these are lost rather than right.
+  bool is_likely_lost(double slow_power, double disturbance) const;
   struct StateAndNoise {
     const SlowSound* slow;
     double noise;
@@ -101,7 +106,7 @@ class PacketLevels {
   double chip_, bits_, bits_s_;
   bool coded_, collects_band_;
   double stretches_ = 1;
-  std::array<double, 2> thresholds_{};     // of phase-shift keying: those of FadingSignal
+  std::optional<BandTerms> high_, low_;    // of phase-shift keying: those of FadingSignal
   double slope_ = 0, errors_at_zero_ = 0;  // of -ln(1 - BER) over the ratio
   double own_, beats_;                     // MeanSound's, as the mean over the bits keeps them
 };

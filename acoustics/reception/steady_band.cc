@@ -8,7 +8,6 @@
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
-#include "core/elementary.h"
 #include "core/vector_clones.h"
 
 namespace halocline::acoustics {
@@ -30,6 +29,11 @@ using Complex = std::complex<double>;
 
 Complex product(Complex a, Complex b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+Complex unit(double phase_rad) {
+  const FastTurn turn = fast_turn(phase_rad);
+  return {turn.cosine, turn.sine};
 }
 
 // Four of the parts at once: loops over eight are taken apart before compilers make vectors of them.
@@ -98,7 +102,7 @@ void sum_powers(std::size_t samples, const Samples& re, const Samples& im, Frequ
 
 BandTurns band_turns(double turns) {
   BandTurns all;
-  all.half = elementary::polar(1.0, pi * turned(turns, 2));
+  all.half = unit(pi * turned(turns, 2));
   const Complex one = product(all.half, all.half), two = product(one, one), four = product(two, two);
   const std::array<Complex, 4> low{1, one, two, product(two, one)};
   for (std::size_t m = 0; m < low.size(); ++m) {
@@ -121,8 +125,7 @@ SteadyBand::SteadyBand(const Modem& receiver, const Band& band, std::size_t path
 // The phase falls by 2 pi f delay. The pressures of all parts turn alike from sample to sample.
 Complex SteadyBand::add(const Path& path, const BandTurns& turns) {
   const double half_step = pi * turned(part_hz_ / static_cast<double>(samples_) * path.excess_s, 2);
-  const Complex low = elementary::polar(path.pressure, path.phase_rad),
-                half = elementary::polar(1.0, -half_step), first = product(low, half),
+  const Complex low = path.pressure * unit(path.phase_rad), half = unit(-half_step), first = product(low, half),
                 step = product(half, half);
   Frequencies re, im;
   for (std::size_t m = 0; m < kSignalFrequencies; ++m) {

@@ -105,8 +105,9 @@ double LinkPredictor::least_sinr_db(const Modem& transmitter) { return entry_of(
 
 LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitter, const Modem& receiver,
                                      const Reception& reception) const {
-  const auto& paths = reception.paths;
-  if (paths.empty()) return {};
+  if (reception.paths.empty()) return {};
+  std::vector<SoundPath> heard;
+  const std::vector<SoundPath>& paths = without_faint(reception.paths, heard);
   const std::vector<acoustics::LikelyWindow> windows = likely_windows(paths, receiver);
   const acoustics::GuardWindow& window = windows.front().window;
   const Decibels noise =
@@ -116,7 +117,7 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   forecast.first_path_delay_s = paths[first_significant(paths)].delay_s;
   forecast.coherence_time_s = std::min(coherence_s, kMaxCoherenceS);
   forecast.doppler_spread_hz = acoustics::doppler_spread_of(coherence_s);
-  forecast.rms_delay_spread_s = rms_delay_spread_s(paths);
+  forecast.rms_delay_spread_s = rms_delay_spread_s(reception.paths);
   const bool impossible = is_impossible(receiver, reception, paths[window.strongest], rule_.fading.enabled);
   const double noise_power = to_power_ratio(noise).value;
   if (impossible) {
@@ -130,8 +131,10 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
     const double rate_bps = curves.modem().bit_rate_bps;
     const bool own = &curves == &rates.front();
     if (!own && rate_bps <= best) break;  // nor are those that follow better
+    // Of the others the best window alone.
     const acoustics::LinkPrediction predicted =
-        predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves);
+        own ? predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves)
+            : predict_link(rule_.fading, paths, {&receiver, window}, transmitter.band(), noise_power, curves);
     if (own) {
       forecast.sinr_db = level_of(predicted.sinr).value;
       forecast.acquisition_probability = predicted.acquisition_probability;

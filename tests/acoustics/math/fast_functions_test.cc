@@ -18,6 +18,17 @@ TEST(FastFunctions, ExponentialAndLogarithmAreThoseOfTheLibrary) {
   EXPECT_NEAR(fast_power(30), 1000, 1e-6);
 }
 
+TEST(FastFunctions, TurnsAreThoseOfTheLibrary) {
+  for (int i = -100'000; i <= 100'000; ++i) {
+    const double x = i * 0.00503 + (i % 7) * 1e5;
+    const FastTurn turn = fast_turn(x);
+    ASSERT_NEAR(turn.cosine, std::cos(x), 1e-9) << x;
+    ASSERT_NEAR(turn.sine, std::sin(x), 1e-9) << x;
+  }
+  EXPECT_EQ(fast_turn(0).cosine, 1);
+  EXPECT_EQ(fast_turn(0).sine, 0);
+}
+
 TEST(FastFunctions, ExponentsBeyondTheRangeAreThoseOfItsEnds) {
   EXPECT_EQ(fast_exp(-1e9), fast_exp(-700));
   EXPECT_EQ(fast_exp(1e9), fast_exp(700));

@@ -40,6 +40,9 @@ CollectedSound scattered(double power, double interference, double spread_hz = 0
                   .squared_spread = squared(spread_hz)}};
   return sound;
 }
+BandLaw law_of(const CollectedSound& sound, double threshold, double slow_power) {
+  return {BandTerms(sound, threshold), slow_power};
+}
 constexpr Stretches kOne{1, 0};
 
 struct BandPoint {
@@ -55,7 +58,7 @@ std::vector<BandPoint> points_of(const BandLaw& law, const Stretches& stretches)
 
 // The saddle point's own error for an exponential, where it is greatest, is 3 % of the probability.
 TEST(BandLaw, IsExponentialForOnePath) {
-  for (const BandPoint& point : points_of(BandLaw(scattered(2, 0), 1, 0), kOne)) {
+  for (const BandPoint& point : points_of(law_of(scattered(2, 0), 1, 0), kOne)) {
     if (std::abs(point.score) > 3.5) continue;
     const double exact = -std::expm1(-point.power / 2);
     EXPECT_NEAR(normal_probability(point.score), exact, 0.01 + 0.06 * exact) << point.power;
@@ -66,7 +69,7 @@ TEST(BandLaw, IsExponentialForOnePath) {
 // S - t (I - mean I) = S + t mean I - t I of an exponential I.
 TEST(BandLaw, IsAnExponentialTurnedRoundForInterferenceOfOnePath) {
   CollectedSound sound = scattered(0, 0.5);
-  for (const BandPoint& point : points_of(BandLaw(sound, 2, 3), kOne)) {
+  for (const BandPoint& point : points_of(law_of(sound, 2, 3), kOne)) {
     if (std::abs(point.score) > 3.5) continue;
     const double exact = std::exp(-(4 - point.power));
     EXPECT_NEAR(normal_probability(point.score), exact, 0.01 + 0.06 * exact) << point.power;
@@ -75,7 +78,7 @@ TEST(BandLaw, IsAnExponentialTurnedRoundForInterferenceOfOnePath) {
 
 // S - t (I - mean I) = (1 - t i) S + t i mean S where interference is the share i of one path.
 TEST(BandLaw, InterferenceThatFadesWithTheSignalNarrowsIt) {
-  const BandLaw law(scattered(2, 0.5), 1, 0);
+  const BandLaw law = law_of(scattered(2, 0.5), 1, 0);
   EXPECT_NEAR(law.mean(), 2, 1e-12);
   EXPECT_NEAR(law.variance(), squared(1.5), 1e-12);
 }
@@ -86,22 +89,22 @@ TEST(BandLaw, PathsThatFadeTogetherAreOne) {
   two.terms.front().unit = 2;
   two.terms.push_back(two.terms.front());
   two.fast = 2;
-  const BandLaw one(scattered(2, 0), 1, 0), both(two, 1, 0);
+  const BandLaw one = law_of(scattered(2, 0), 1, 0), both = law_of(two, 1, 0);
   EXPECT_NEAR(both.variance(), one.variance(), 1e-12);
   EXPECT_NEAR(both.skewness(), one.skewness(), 1e-12);
 }
 
 TEST(BandLaw, IsASinglePowerWhereNothingFades) {
-  for (const BandPoint& point : points_of(BandLaw(CollectedSound(), 1, 5), kOne)) EXPECT_EQ(point.power, 5);
+  for (const BandPoint& point : points_of(law_of(CollectedSound(), 1, 5), kOne)) EXPECT_EQ(point.power, 5);
 }
 
 // Instants far apart are independent; close ones are one, but for fades that are shorter still.
 TEST(BandLaw, FadesFallIntoAsManyPartsAsThereAreInstantsFarApart) {
-  for (const BandPoint& point : points_of(BandLaw(scattered(2, 0, 1), 1, 0), {16, 3})) {
+  for (const BandPoint& point : points_of(law_of(scattered(2, 0, 1), 1, 0), {16, 3})) {
     if (std::abs(point.score) > 3) continue;
     EXPECT_NEAR(std::exp(point.log_parts), 16, 1.5) << point.score;
   }
-  for (const BandPoint& point : points_of(BandLaw(scattered(2, 0, 1), 1, 0), {16, 1e-4})) {
+  for (const BandPoint& point : points_of(law_of(scattered(2, 0, 1), 1, 0), {16, 1e-4})) {
     if (point.score < -1 || point.score > 2) continue;
     EXPECT_NEAR(std::exp(point.log_parts), 1, 0.1) << point.score;
   }
@@ -111,7 +114,7 @@ TEST(BandLaw, FadesFallIntoAsManyPartsAsThereAreInstantsFarApart) {
 // stretches of 1 ms fall below it, each of them anew.
 TEST(BandLaw, CrossesALevelAsOftenAsRice) {
   constexpr double kStepS = 1e-3;
-  for (const BandPoint& point : points_of(BandLaw(scattered(1, 0, 1), 1, 0), {2, kStepS})) {
+  for (const BandPoint& point : points_of(law_of(scattered(1, 0, 1), 1, 0), {2, kStepS})) {
     if (std::abs(point.score) > 1.5) continue;
     const double below = -std::expm1(-point.power);
     const double crossings =

@@ -69,6 +69,25 @@ TEST(LinkPredictor, ForecastIsThePredictionOfTheReceiversWindow) {
   EXPECT_EQ(forecast.best_rate_bps, 100);
 }
 
+// 30 paths 61 dB below take 0.03 dB of the ratio at most, had they been interference.
+TEST(LinkPredictor, FaintPathsChangeNothing) {
+  LinkPredictor predictor({.payload_bytes = 20, .fading = kSea, .profiles = {}});
+  const Modem modem = modem_of("a", 100);
+  Reception faint = reception_of(105), heard = reception_of(105);
+  for (int i = 0; i < 30; ++i) {
+    SoundPath path = faint.paths[1];
+    path.level = path.level - Decibels{61};
+    path.delay_s += 0.01 * (i + 1);
+    faint.paths.push_back(path);
+  }
+  const LinkForecast with = forecast_of(predictor, modem, modem, faint),
+                     without = forecast_of(predictor, modem, modem, heard);
+  EXPECT_EQ(with.sinr_db, without.sinr_db);
+  EXPECT_EQ(with.delivery_probability, without.delivery_probability);
+  EXPECT_EQ(with.coherence_time_s, without.coherence_time_s);
+  EXPECT_NE(with.rms_delay_spread_s, without.rms_delay_spread_s);
+}
+
 TEST(LinkPredictor, NothingIsForecastWithoutPathsAndNothingDeliveredToAnotherFamily) {
   LinkPredictor predictor({.fading = kSea, .profiles = {}});
   const Modem modem = modem_of("a", 100);
