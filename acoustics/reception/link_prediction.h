@@ -8,8 +8,7 @@
 //   keying 16 by turns. Few of these ratios are computed, the others interpolated (strata_mean.h, link_prediction.cc); none
 //   where all packets are certain to arrive or not.
 // - Late echoes: their powers fade each by itself, a gamma distribution in all. Of phase-shift keying that is what fades
-//   slowly,
-//   while they sound: through a part of the bits.
+//   slowly, while they sound: through a part of the bits.
 // - Preamble: the power of the band, with the variance that the mean over its time leaves.
 // - Coded frequency-shift keying: within the guard window, over the band, steady pressures A_m of the coherent parts
 //   (steady_band.h), the medium's M_m of covariance K, the scattered D_m. E exp(-gamma / beta) of Rician gamma is
