@@ -20,8 +20,8 @@ void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>&
   const auto for_each = [this](std::size_t count, const std::function<void(std::size_t)>& body) {
     pool_.for_each(count, body);
   };
-  for (const LinkTable& table : link_tables(tick, vehicles, rows, models_.propagation, models_.predictor,
-                                            multipath, for_each)) {
+  for (const LinkTable& table :
+       link_tables(tick, vehicles, rows, models_.propagation, models_.predictor, multipath, for_each)) {
     const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
     for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());

@@ -40,8 +40,9 @@ inline FastTurn fast_turn(double x) {
   using elementary::detail::kRound;
   const double rounded = x * (2 / std::numbers::pi) + kRound, n = rounded - kRound;
   const double r = x - n * (std::numbers::pi / 2), z = r * r, z2 = z * z, z4 = z2 * z2;
-  const double s = r + r * z * ((-1.0 / 6 + z * (1.0 / 120)) + z2 * (-1.0 / 5040 + z * (1.0 / 362880)) -
-                                z4 * (1.0 / 39916800)),
+  const double s = r + r * z *
+                           ((-1.0 / 6 + z * (1.0 / 120)) + z2 * (-1.0 / 5040 + z * (1.0 / 362880)) -
+                            z4 * (1.0 / 39916800)),
                c = 1 - z / 2 +
                    z2 * ((1.0 / 24 - z * (1.0 / 720)) + z2 * (1.0 / 40320 - z * (1.0 / 3628800)) +
                          z4 * (1.0 / 479001600));

@@ -139,7 +139,8 @@ BandLaw::BandLaw(const BandTerms& terms, double slow_power) {
     const auto beats = [&](double BandTerms::Beats::*part) {
       return louder * sum.signal.*part - sum.interference.*part;
     };
-    const double all_rest = beats(&BandTerms::Beats::rest), rest_variance = beats(&BandTerms::Beats::variance);
+    const double all_rest = beats(&BandTerms::Beats::rest),
+                 rest_variance = beats(&BandTerms::Beats::variance);
     double scale = (sum.variance + rest_variance) / (sum.mean + 2 * all_rest);
     const double plain = sum.variance / sum.mean;
     if (!(scale * plain > 0) || std::abs(scale) > 2 * std::abs(plain) ||

@@ -95,7 +95,8 @@ std::array<SlowSound, kPatterns> patterns_of(const MeanSound& sound) {
 std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, const StrataMean& mean,
                                                   const std::array<double, kPowers>& powers, double median,
                                                   double fast) {
-  std::array<double, StrataMean::kLevels> parts{};  // guessed as those of the power before, or else of the level before
+  std::array<double, StrataMean::kLevels>
+      parts{};  // guessed as those of the power before, or else of the level before
   double last = 0;
   const auto levels_at = [&](double power) {
     const FadingSignal fading = packet.fading_signal(power);

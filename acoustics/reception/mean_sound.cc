@@ -80,10 +80,9 @@ class BandSums {
     if (steadily) {
       const double coherent = std::sqrt(power * path.fading.coherent);
       const double at_low = path.phase_rad - 2 * pi * turned(band_.low_hz * excess_s, 1);
-      const Complex pressure =
-          steady_.add({coherent, at_low, excess_s, fast_turn(path.launch_angle_rad).sine,
-                       fast_turn(path.arrival_angle_rad).sine},
-                      turns);
+      const Complex pressure = steady_.add({coherent, at_low, excess_s, fast_turn(path.launch_angle_rad).sine,
+                                            fast_turn(path.arrival_angle_rad).sine},
+                                           turns);
       for (std::size_t m = 0; m < kFrequencies; ++m) {
         pressures_[m] += product(pressure, {turns.re[m], turns.im[m]});
       }

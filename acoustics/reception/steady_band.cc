@@ -125,8 +125,8 @@ SteadyBand::SteadyBand(const Modem& receiver, const Band& band, std::size_t path
 // The phase falls by 2 pi f delay. The pressures of all parts turn alike from sample to sample.
 Complex SteadyBand::add(const Path& path, const BandTurns& turns) {
   const double half_step = pi * turned(part_hz_ / static_cast<double>(samples_) * path.excess_s, 2);
-  const Complex low = path.pressure * unit(path.phase_rad), half = unit(-half_step), first = product(low, half),
-                step = product(half, half);
+  const Complex low = path.pressure * unit(path.phase_rad), half = unit(-half_step),
+                first = product(low, half), step = product(half, half);
   Frequencies re, im;
   for (std::size_t m = 0; m < kSignalFrequencies; ++m) {
     re[m] = turns.re[m] * first.real() - turns.im[m] * first.imag();

@@ -50,8 +50,8 @@ struct LinkRow {
 };
 
 struct LinkTable {
-  VehicleId vehicle_id = 0;   // the transmitter of every row
-  std::vector<LinkRow> rows;  // by receiver id
+  VehicleId vehicle_id = 0;                           // the transmitter of every row
+  std::vector<LinkRow> rows;                          // by receiver id
   double range_m = acoustics::kGreatestBoundedRange;  // beyond it there are no rows
   std::size_t out_of_range = 0;                       // vehicles present without one
 };

@@ -92,8 +92,8 @@ class ReachModel {
   double reception_range_m(SimTime at, const acoustics::Modem& sender, const Crowd& crowd,
                            double least_sinr_db);
   // Beyond it levels are below `least`.
-  double range_m(SimTime at, const acoustics::Modem& sender, const acoustics::Modem& receiver,
-                 Decibels least, double deepest_m);
+  double range_m(SimTime at, const acoustics::Modem& sender, const acoustics::Modem& receiver, Decibels least,
+                 double deepest_m);
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   const Propagation& propagation_;

@@ -75,8 +75,8 @@ TEST_F(LinkTableTest, ReceiversBeyondATransmittersRangeAreCounted) {
   EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");
   EXPECT_EQ(fleet_.add_state("v3", 3, state_at(0, {1500, 0, 50})), "");
   const auto placed = place_all(fleet_, at_s(1));
-  const auto tables = link_tables(at_s(1), placed, table_rows(placed, {600, 1100, 0}), propagation_, predictor_,
-                                  kUnknownMultipath);
+  const auto tables = link_tables(at_s(1), placed, table_rows(placed, {600, 1100, 0}), propagation_,
+                                  predictor_, kUnknownMultipath);
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(tables[0].range_m, 600);
   ASSERT_EQ(tables[0].rows.size(), 1u);

@@ -67,8 +67,7 @@ TEST_F(MultipathCacheTest, ThePairsQueriedLongestAgoComeFirst) {
   const std::vector<PlacedVehicle> fleet{vehicle(1, 0), vehicle(2, 100), vehicle(3, 200)};
   begin_tick(fleet);
   echoes_.note_queried({1, 2});
-  EXPECT_THAT(begin_tick(fleet),
-              ElementsAre(VehiclePair(1, 3), VehiclePair(2, 3), VehiclePair(1, 2)));
+  EXPECT_THAT(begin_tick(fleet), ElementsAre(VehiclePair(1, 3), VehiclePair(2, 3), VehiclePair(1, 2)));
 }
 
 TEST_F(MultipathCacheTest, APairThatLeftIsForgotten) {
