@@ -4,10 +4,12 @@
 #include <optional>
 #include <utility>
 
+#include "acoustics/modem/modem.h"
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/propagation/propagation.h"
 #include "channel_server/scenario_messages.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/world_messages.h"
