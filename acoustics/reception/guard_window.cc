@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <span>
 
@@ -118,6 +119,18 @@ std::vector<double> mean_powers(const std::vector<SoundPath>& paths) {
   for (const SoundPath& path : paths) powers.push_back(path.level.value);
   replace_by_powers(powers);
   return powers;
+}
+
+const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
+                                            std::vector<SoundPath>& heard) {
+  constexpr Decibels kFaint{60};
+  Decibels strongest = paths.front().level;
+  for (const SoundPath& path : paths) strongest = std::max(strongest, path.level);
+  const auto is_heard = [&](const SoundPath& path) { return !(path.level < strongest - kFaint); };
+  if (std::all_of(paths.begin(), paths.end(), is_heard)) return paths;
+  heard.reserve(paths.size());
+  std::copy_if(paths.begin(), paths.end(), std::back_inserter(heard), is_heard);
+  return heard;
 }
 
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem) {

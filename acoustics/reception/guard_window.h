@@ -26,6 +26,10 @@ struct GuardWindow {
 // Mean powers of paths, uPa^2, within 1e-9.
 std::vector<double> mean_powers(const std::vector<SoundPath>& paths);
 
+// Those of no effect left out, more than 60 dB below the strongest: `paths`, not empty, or what is `heard` of them.
+const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
+                                            std::vector<SoundPath>& heard);
+
 // `paths` by delay, not empty.
 GuardWindow best_window(const std::vector<SoundPath>& paths, const Modem& modem);
 

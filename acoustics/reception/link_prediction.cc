@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <numbers>
 #include <span>
 
@@ -307,18 +306,6 @@ LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPat
     add_patterns(packet, sound, mean);
   }
   return {sinr_of(sound, noise), mean.acquisition_probability(), mean.delivery_probability()};
-}
-
-const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
-                                            std::vector<SoundPath>& heard) {
-  constexpr Decibels kFaint{60};
-  Decibels strongest = paths.front().level;
-  for (const SoundPath& path : paths) strongest = std::max(strongest, path.level);
-  const auto is_heard = [&](const SoundPath& path) { return !(path.level < strongest - kFaint); };
-  if (std::all_of(paths.begin(), paths.end(), is_heard)) return paths;
-  heard.reserve(paths.size());
-  std::copy_if(paths.begin(), paths.end(), std::back_inserter(heard), is_heard);
-  return heard;
 }
 
 LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,

@@ -47,10 +47,6 @@ struct LinkPrediction {
 LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths, const Lock& lock,
                             const Band& band, double noise, const ReceptionCurves& curves);
 
-// Those of no effect left out, more than 60 dB below the strongest: `paths`, not empty, or what is `heard` of them.
-const std::vector<SoundPath>& without_faint(const std::vector<SoundPath>& paths,
-                                            std::vector<SoundPath>& heard);
-
 // The mean over the windows that the receiver may lock to; without fading, of the best.
 LinkPrediction predict_link(const FadingModel& model, const std::vector<SoundPath>& paths,
                             const Modem& receiver, const std::vector<LikelyWindow>& windows, const Band& band,
