@@ -7,7 +7,6 @@
 #include <span>
 
 #include "acoustics/math/fast_functions.h"
-#include "core/elementary.h"
 #include "core/units.h"
 #include "core/vector_clones.h"
 
@@ -22,7 +21,7 @@ constexpr double kShared =
 // 1 before 0, 0 after 1, half a cosine between.
 double raised_cosine(double x) {
   if (x <= 0) return 1;
-  return x >= 1 ? 0 : (1 + elementary::cos(std::numbers::pi * x)) / 2;
+  return x >= 1 ? 0 : (1 + fast_turn(std::numbers::pi * x).cosine) / 2;
 }
 
 // The weights of a modem's window.

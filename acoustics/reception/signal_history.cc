@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/math/functions.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -223,7 +224,7 @@ double coherence_time_s(const std::vector<SoundPath>& paths, const GuardWindow& 
   double weight = 0, squares = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (!(window.weights[i] > 0)) continue;
-    const double power = squared(window.weights[i]) * to_power_ratio(paths[i].level).value;
+    const double power = squared(window.weights[i]) * fast_power(paths[i].level.value);
     weight += power;
     squares += power * squared(paths[i].fading.doppler_spread_hz);
   }
