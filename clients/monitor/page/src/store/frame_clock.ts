@@ -21,11 +21,11 @@ export class FrameClock {
   private arrived_ms = 0;
   private period_ms = 100;
 
-  /** True when this frame is a jump: after a seek, a new log, a restart. */
-  push(frame: VehicleFrame, now_ms: number): boolean {
+  /** True when this frame is a jump: the first after a seek (`sought`), a new log, a restart. */
+  push(frame: VehicleFrame, now_ms: number, sought = false): boolean {
     const last = this.after;
     const step = last ? frame.time_s - last.time_s : 0;
-    const jump = !last || step < 0 || step > LONGEST_STEP_S;
+    const jump = sought || !last || step < 0 || step > LONGEST_STEP_S;
     const pause = Math.min(LONGEST_PERIOD_MS, Math.max(SHORTEST_PERIOD_MS, now_ms - this.arrived_ms));
     this.period_ms += 0.2 * (pause - this.period_ms);
     this.before = jump ? frame : last;

@@ -88,6 +88,9 @@ export class Monitor {
   private ticked: VehicleFrame | null = null;
   private wanted = readAddress(location.hash);
   private place_pending = true;
+  /** Seeks without an answer; whether the first frame after the last of them is still to come. Until then frames are of before. */
+  private seeking = 0;
+  private landing = false;
   private written = "";
   private prefersDark = matchMedia("(prefers-color-scheme: dark)");
 
@@ -145,11 +148,13 @@ export class Monitor {
     return this.connection.ask(name, more);
   }
   /** A request of which only the refusal matters. */
-  private order<Name extends keyof Asks>(name: Name, more: Asks[Name][0]) {
+  private async order<Name extends keyof Asks>(name: Name, more: Asks[Name][0]): Promise<void> {
     this.problem = null;
-    this.ask(name, more).catch((error: Error) => {
-      this.problem = error.message;
-    });
+    try {
+      await this.ask(name, more);
+    } catch (error) {
+      this.problem = (error as Error).message;
+    }
   }
   retryNow() {
     this.connection.retryNow();
@@ -171,10 +176,14 @@ export class Monitor {
     this.setSpeed(speed);
     if (playing) this.order("play", {});
   }
-  seek(time_s: number) {
+  async seek(time_s: number) {
     const within = Math.min(this.end_s, Math.max(this.begin_s, time_s));
     this.now_s = within;
-    this.order("seek", { time_s: within });
+    ++this.seeking;
+    await this.order("seek", { time_s: within });
+    if (--this.seeking > 0) return;
+    this.landing = !this.problem;
+    if (this.problem) this.now_s = this.shown_s;
   }
   step(direction: 1 | -1, long: boolean) {
     this.seek(this.now_s + direction * (long ? LONG_STEP_S : STEP_S));
@@ -281,7 +290,8 @@ export class Monitor {
   private receiveBinary(message: ServerBinary) {
     switch (message.kind) {
       case "vehicles":
-        if (this.clock.push(message, performance.now())) ++this.jumps;
+        if (this.clock.push(message, performance.now(), this.landing)) ++this.jumps;
+        this.landing = false;
         return;
       case "terrain":
         this.terrain = message;
@@ -324,7 +334,7 @@ export class Monitor {
     const before = this.shown_s;
     const frame = this.clock.newest;
     this.advance(performance.now());
-    if (!frame || (frame === this.ticked && before === this.shown_s && this.now_s === before)) return;
+    if (!frame || this.seeking > 0 || this.landing || (frame === this.ticked && before === this.shown_s && this.now_s === before)) return;
     this.ticked = frame;
     this.now_s = this.shown_s;
     ++this.revision;
