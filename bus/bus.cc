@@ -43,7 +43,13 @@ std::string printable(std::string_view text) {
 struct Bus::Subscription {
   Bus* bus;
   RawHandler handler;
+  Wakeup wakeup;
   lcm::Subscription* lcm_subscription = nullptr;
+
+  void handle(std::string_view channel, const void* data, std::size_t size) const {
+    if (wakeup == Wakeup::kMayAdvanceDue) ++bus->wakeups_;
+    handler(channel, data, size);
+  }
 
   // Throws std::logic_error when LCM refuses the expression.
   void begin(lcm::LCM& lcm, const std::string& regular_expression) {
@@ -64,7 +70,7 @@ struct Bus::Subscription {
       bus->received_at_ = SimTime::from_utime(buffer->recv_utime);
       bus->is_repair_ = received_on.starts_with(channels::kRepair.prefix);
       if (bus->is_repair_) received_on.remove_prefix(channels::kRepair.prefix.size());
-      handler(received_on, buffer->data, buffer->data_size);
+      handle(received_on, buffer->data, buffer->data_size);
     } catch (...) {
       bus->failure_ = std::current_exception();
     }
@@ -122,7 +128,8 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
 Bus::Subscription& Bus::add_subscription(const std::string& regular_expression, RawHandler handler,
                                          Wakeup wakeup) {
   subscribed_.push_back({regular_expression, wakeup});
-  return *subscriptions_.emplace_back(std::make_unique<Subscription>(Subscription{this, std::move(handler)}));
+  return *subscriptions_.emplace_back(
+      std::make_unique<Subscription>(Subscription{this, std::move(handler), wakeup}));
 }
 
 void Bus::subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup) {
@@ -146,9 +153,9 @@ void Bus::subscribe_channel(std::string_view channel, RawHandler handler, Wakeup
                                                          std::size_t size) {
     const auto subscribers = by_channel.find(received_on);
     if (subscribers == by_channel.end()) return;
-    for (const Subscription* one : subscribers->second) one->handler(received_on, data, size);
+    for (const Subscription* one : subscribers->second) one->handle(received_on, data, size);
   };
-  group->shared = std::make_unique<Subscription>(Subscription{this, pass_on});
+  group->shared = std::make_unique<Subscription>(Subscription{this, pass_on, Wakeup::kStoreOnly});
   group->shared->begin(lcm_, escaped(prefix) + ".*");
 }
 
@@ -156,7 +163,7 @@ void Bus::replay(std::string_view channel, const std::vector<std::uint8_t>& byte
   is_repair_ = false;
   for (std::size_t i = 0; i < subscribed_.size(); ++i) {
     if (!ChannelPattern(subscribed_[i].expression).matches(channel)) continue;
-    subscriptions_[i]->handler(channel, bytes.data(), bytes.size());
+    subscriptions_[i]->handle(channel, bytes.data(), bytes.size());
   }
 }
 

@@ -68,6 +68,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
 void ChannelServerNode::open_journal(const std::string& path) {
   recovery_ = std::make_unique<ServerRecovery>(journal_, inbox_, path);
   if (!recovery_->has_history()) recovery_.reset();
+  note_due_changed();
 }
 
 bus::Due ChannelServerNode::on_due() const {

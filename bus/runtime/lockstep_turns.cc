@@ -64,6 +64,7 @@ void LockstepTurns::deliver(const std::vector<lockstep_message_t>& messages) {
   }
   while (memq_.handleTimeout(0) > 0) {
   }
+  if (!may_wake) node_.note_due_changed();  // whatever it promised
   if (!may_wake && node_.lockstep_due() < due)
     throw std::logic_error(node_.name() + " became due by a message that it promised only to store");
 }

@@ -18,8 +18,16 @@ constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
 using Published = std::tuple<std::string, std::int64_t, std::int64_t, Bytes>;
 }  // namespace
 
+const Due& Node::known_due() const {
+  if (!known_due_ || wakeups_at_due_ != bus_.wakeups()) {
+    known_due_ = on_due();
+    wakeups_at_due_ = bus_.wakeups();
+  }
+  return *known_due_;
+}
+
 Due Node::due() const {
-  Due due = on_due();
+  Due due = known_due();
   due.steady = std::min({due.steady, next_status_, bus_.next_repair()});
   return due;
 }
@@ -33,7 +41,8 @@ void Node::step(const Now& now) {
   bus_.log().set_time(now.sim);
   bus_.rethrow_if_failed();
   if (resumed_from_ && now.sim_known) check_run(now);
-  const Due due = on_due();
+  const Due due = known_due();
+  known_due_.reset();
   commit(now, [&] {
     if (now.sim_known || due.sim == SimTime::at_once() || due.steady <= now.steady) on_step(now);
     if (now.steady >= next_status_) {
@@ -57,6 +66,7 @@ void Node::load(const StateJournal::Saved& saved) {
   for (Published& p : last_published)
     bus_.restore_history(std::get<0>(p), std::get<1>(p), std::get<2>(p), std::move(std::get<3>(p)));
   on_archive(a);
+  known_due_.reset();
   a.require_end();
   resumed_from_ = saved.at;
 }
@@ -94,6 +104,7 @@ void Node::restart(const Now& now) {
   bus_.log().info("restarted", "reason=\"simulation time jumped back\"");
   bus_.forget_flows();
   on_restart(now);
+  known_due_.reset();
 }
 
 void Node::stop(const Now& now) {

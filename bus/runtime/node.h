@@ -69,6 +69,9 @@ class Node {
   Due due() const;
   // When it is due in lockstep, where steady time is simulation time.
   SimTime lockstep_due() const;
+  // due() keeps what it was until a message that may advance it, or a call of the runner; this says that something else has
+  // changed it.
+  void note_due_changed() { known_due_.reset(); }
   // Rethrows what a handler threw; computes and publishes all that is due; then STATUS when a second has
   // passed.
   void step(const Now& now);
@@ -97,8 +100,11 @@ class Node {
   void commit(const Now& now, const std::function<void()>& publish_all);
   void load(const StateJournal::Saved& saved);
   void check_run(const Now& now);
+  const Due& known_due() const;
 
   Bus bus_;
+  mutable std::optional<Due> known_due_;  // on_due(), until that may have changed
+  mutable std::int64_t wakeups_at_due_ = 0;
   SimTime next_status_;  // steady
   std::int64_t status_sequence_ = 0;
   std::unique_ptr<StateJournal> journal_;

@@ -37,6 +37,7 @@ class DeskNode : public bus::Node {
 
   void put(std::vector<BusMessage> messages) {
     for (BusMessage& message : messages) waiting_.push_back(std::move(message));
+    note_due_changed();
   }
 
  protected:
