@@ -107,7 +107,16 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
     });
   };
   std::array<StrataMean::Levels, kPowers> levels;
+  const auto in_db = [&](double power) { return fast_decibels(std::max(power + fast, 1e-30)); };
   const auto are_lost = [&](const StrataMean::Levels& of_loudest) { return mean.loses(of_loudest.back()); };
+  // No fading makes the bits better than that.
+  StrataMean::Levels most{};
+  most.back().median_db =
+      in_db(powers.back()) - fast_decibels(mean.noise(most.size() - 1)) + PacketLevels::kMostGainDb;
+  if (are_lost(most)) {
+    levels.fill(mean.spread(most, most.size() - 1, 0, most.size() - 1));
+    return levels;
+  }
   // What is more likely, first: the other is hardly needed then.
   const bool likely_lost = packet.is_likely_lost(median, mean.noise(StrataMean::kLevels / 2));
   StrataMean::Levels loud;
@@ -127,7 +136,6 @@ std::array<StrataMean::Levels, kPowers> levels_of(const PacketLevels& packet, co
   }
   const StrataMean::Levels middle = levels_at(median);
   const auto& scores = slow_states().powers;
-  const auto in_db = [&](double power) { return fast_decibels(std::max(power + fast, 1e-30)); };
   const double quiet_db = in_db(powers.front()), middle_db = in_db(median), loud_db = in_db(powers.back());
   for (std::size_t i = 1; i < kPowers; ++i) {
     const double here_db = in_db(powers[i]);

@@ -196,7 +196,7 @@ Level PacketLevels::bits(const FadingSignal& signal, double disturbance, double&
     all = sound_.late_share * all + before * loss(signal, alone, parts);
   }
   const double ratio_db = curves_.ratio_db_of(-all / bits_);
-  return {std::min(ratio_db, decibels(signal.mean() / disturbance) + 3)};
+  return {std::min(ratio_db, decibels(signal.mean() / disturbance) + kMostGainDb)};
 }
 
 bool PacketLevels::is_likely_lost(double slow_power, double disturbance) const {

@@ -91,6 +91,8 @@ class PacketLevels {
     const SlowSound* slow;
     double noise;
   };
+  // Over the ratio to the mean signal, at most.
+  static constexpr double kMostGainDb = 3;
   // Of ExponentialMeans::kMax at most.
   void bits(std::span<const StateAndNoise> states, std::span<Level> levels) const;
   Level bits(const SlowSound& slow, double noise) const;

@@ -57,11 +57,12 @@ class ReceptionCurves {
   static constexpr double kLeastDb = -40, kStepDb = 0.1;
   static constexpr std::size_t kRows = 1001;
   static double interpolated(const std::vector<double>& table, double sinr_db) {
-    const double place = (sinr_db - kLeastDb) / kStepDb;
-    if (!(place > 0)) return table.front();
-    if (place >= static_cast<double>(kRows - 1)) return table.back();
-    const auto row = static_cast<std::size_t>(place);
-    return table[row] + (place - static_cast<double>(row)) * (table[row + 1] - table[row]);
+    constexpr double kMost = kRows - 1.000001;
+    const double place = (sinr_db - kLeastDb) * (1 / kStepDb), low = place > 0 ? place : 0,
+                 held = low < kMost ? low : kMost;
+    const auto row = static_cast<std::int32_t>(held);
+    const double* here = table.data() + row;
+    return here[0] + (held - row) * (here[1] - here[0]);
   }
 
   Modem modem_;

@@ -1,7 +1,6 @@
 #include "channel_server/links/multipath_cache.h"
 
 #include <algorithm>
-#include <set>
 
 namespace halocline::channel_server {
 
@@ -52,8 +51,11 @@ std::vector<VehiclePair> MultipathCache::begin_tick(const std::vector<PlacedVehi
   std::erase_if(entries_, [&](const auto& entry) {
     return !places_.contains(entry.first.first) || !places_.contains(entry.first.second);
   });
-  std::set<VehiclePair> pairs_with_rows;
-  for (const EndPair& link : rows.links) pairs_with_rows.insert(pair_of(link.from.id, link.to.id));
+  std::vector<VehiclePair> pairs_with_rows;
+  pairs_with_rows.reserve(rows.links.size());
+  for (const EndPair& link : rows.links) pairs_with_rows.push_back(pair_of(link.from.id, link.to.id));
+  std::sort(pairs_with_rows.begin(), pairs_with_rows.end());
+  pairs_with_rows.erase(std::unique(pairs_with_rows.begin(), pairs_with_rows.end()), pairs_with_rows.end());
   std::vector<std::pair<std::int64_t, VehiclePair>> wanted;
   for (const VehiclePair& pair : pairs_with_rows) {
     const Entry& entry = entries_[pair];

@@ -6,8 +6,10 @@
 // unknown. One survey serves both directions.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
+#include <functional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -71,8 +73,14 @@ class MultipathCache {
 
   double reuse_distance_m_;
   std::int64_t tick_ = 0;
-  std::map<VehicleId, Vec3> places_;
-  std::map<VehiclePair, Entry> entries_;
+  struct PairHash {
+    std::size_t operator()(const VehiclePair& pair) const {
+      return std::hash<std::uint64_t>()(static_cast<std::uint64_t>(pair.first) << 32 |
+                                        static_cast<std::uint32_t>(pair.second));
+    }
+  };
+  std::unordered_map<VehicleId, Vec3> places_;
+  std::unordered_map<VehiclePair, Entry, PairHash> entries_;
 };
 
 }  // namespace halocline::channel_server
