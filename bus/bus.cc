@@ -47,7 +47,7 @@ struct Bus::Subscription {
   lcm::Subscription* lcm_subscription = nullptr;
 
   void handle(std::string_view channel, const void* data, std::size_t size) const {
-    if (wakeup == Wakeup::kMayAdvanceDue) ++bus->wakeups_;
+    if (wakeup == Wakeup::kMayAdvanceDue) ++bus->counters_.wakeups;
     handler(channel, data, size);
   }
 

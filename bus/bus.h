@@ -91,9 +91,6 @@ class Bus {
     return repair_ ? repair_->history().last_messages() : std::vector<FlowHistory::LastMessage>();
   }
 
-  // How many messages were handled that may have advanced when the node is due (Wakeup::kMayAdvanceDue).
-  std::int64_t wakeups() const { return wakeups_; }
-
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
 
@@ -134,7 +131,6 @@ class Bus {
   FlowWatch flows_;
   std::unique_ptr<FlowRepair> repair_;
   SimTime steady_, received_at_;
-  std::int64_t wakeups_ = 0;
   bool is_repair_ = false;                // the message being handled came on REPAIR.<channel>
   std::vector<ChannelPattern> patterns_;  // of the subscriptions to messages, not to bytes
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports

@@ -27,6 +27,7 @@ struct BusCounters {
   std::int64_t lost = 0;
   std::int64_t duplicates = 0;
   std::int64_t late = 0;
+  std::int64_t wakeups = 0;  // handled, and may have changed when the node is due (Wakeup::kMayAdvanceDue)
 };
 
 }  // namespace halocline::bus

@@ -19,9 +19,9 @@ using Published = std::tuple<std::string, std::int64_t, std::int64_t, Bytes>;
 }  // namespace
 
 const Due& Node::known_due() const {
-  if (!known_due_ || wakeups_at_due_ != bus_.wakeups()) {
+  if (!known_due_ || wakeups_at_due_ != bus_.counters().wakeups) {
     known_due_ = on_due();
-    wakeups_at_due_ = bus_.wakeups();
+    wakeups_at_due_ = bus_.counters().wakeups;
   }
   return *known_due_;
 }
