@@ -18,7 +18,7 @@ namespace {
 
 // Bytes of a message in a log, its channel's name included.
 constexpr double kClock = 82, kStatus = 230, kState = 180, kSensors = 209, kCommand = 130, kEstimate = 249,
-                 kDvl = 170, kGps = 130, kSonar = 90, kSonarRay = 8, kUsbl = 124, kSend = 80, kReceipt = 106,
+                 kDvl = 170, kGps = 130, kSonar = 90, kSonarRay = 8, kSend = 80, kReceipt = 106,
                  kOutcome = 262, kReceive = 155, kLinks = 80, kLink = 168, kActivity = 112, kTerrain = 47'000,
                  kScenario = 1500, kScenarioVehicle = 400;
 // A RAY_QUERY with its RAY_REPLY, and each ray in both.
