@@ -147,13 +147,15 @@ export class Monitor {
   ask<Name extends keyof Asks>(name: Name, more: Asks[Name][0]): Promise<Asks[Name][1]> {
     return this.connection.ask(name, more);
   }
-  /** A request of which only the refusal matters. */
-  private async order<Name extends keyof Asks>(name: Name, more: Asks[Name][0]): Promise<void> {
+  /** A request of which only the refusal matters; whether it was accepted. */
+  private async order<Name extends keyof Asks>(name: Name, more: Asks[Name][0]): Promise<boolean> {
     this.problem = null;
     try {
       await this.ask(name, more);
+      return true;
     } catch (error) {
       this.problem = (error as Error).message;
+      return false;
     }
   }
   retryNow() {
@@ -180,10 +182,10 @@ export class Monitor {
     const within = Math.min(this.end_s, Math.max(this.begin_s, time_s));
     this.now_s = within;
     ++this.seeking;
-    await this.order("seek", { time_s: within });
+    const accepted = await this.order("seek", { time_s: within });
     if (--this.seeking > 0) return;
-    this.landing = !this.problem;
-    if (this.problem) this.now_s = this.shown_s;
+    this.landing = accepted;
+    if (!accepted) this.now_s = this.shown_s;
   }
   step(direction: 1 | -1, long: boolean) {
     this.seek(this.now_s + direction * (long ? LONG_STEP_S : STEP_S));
