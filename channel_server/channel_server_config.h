@@ -81,8 +81,9 @@ struct PropagationConfig {
   double min_amplitude_db = -160;
   double max_bounce_loss_db = 30;  // of all bounces of a path together
   double shadow_loss_db = 120;     // our choice; 0: none stated
+  double diffuse_below_noise_db = 10;
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
-  bool coherent = false;
+  bool reuse_for_packets = false, coherent = false;
   acoustics::FadingModel fading{.enabled = true};
   ReplayConfig replay;
   acoustics::Reverberation reverberation;
@@ -140,9 +141,9 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
 // Rays as configured. Throws InvalidArgument when a part is out of range.
 RayModel make_rays(const ChannelServerConfig& config);
 
-// Adds the scenario's changes to the timeline. Throws InvalidArgument when one cannot be.
-void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                      const std::string& folder, EnvironmentTimeline& timeline);
+// Its profile of sound speed. Throws likewise.
+acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario,
+                                          const std::string& folder);
 
 ConfiguredModems make_modems(const ChannelServerConfig& config);
 

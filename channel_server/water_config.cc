@@ -195,11 +195,14 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
            {1, 200, "dB", "rays: of all bounces beyond those of the strongest path; others are dropped"});
   v.number("diffuse_below_db", p.options.diffuse_below_db,
            {0, 100, "dB", "rays: over a rough bottom weaker paths come as their power alone; 0: none"});
+  v.number("diffuse_below_noise_db", p.diffuse_below_noise_db,
+           {-100, 100, "dB", "rays: the same of paths this much below the noise"});
   v.number(
       "speed_tolerance_mps", p.speed_tolerance_mps,
       {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});
   v.number("reuse_distance_m", p.reuse_distance_m,
            {0, 1000, "m", "rays, link tables: length of cells that share a search, a tenth high; 0: none"});
+  v.boolean("reuse_for_packets", p.reuse_for_packets, "rays: packets share these searches, too");
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
   visit_fading(v, p);
@@ -247,6 +250,8 @@ acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
       .profile;
 }
 
+}  // namespace
+
 acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario,
                                           const std::string& folder) {
   using Profile = acoustics::SoundSpeedProfile;
@@ -273,8 +278,6 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
   }
   return profile_from_file(config, *model, scenario, folder);
 }
-
-}  // namespace
 
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   v.section("environment", "The water",
@@ -322,6 +325,8 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.options.min_boundary_factor = elementary::exp10(-p.max_bounce_loss_db / 20);
   rays.speed_tolerance_mps = p.speed_tolerance_mps;
   rays.reuse_distance_m = p.reuse_distance_m;
+  rays.reuse_for_packets = p.reuse_for_packets;
+  rays.diffuse_below_noise = Decibels{p.diffuse_below_noise_db};
   rays.max_searches_per_tick = config.rules.max_searches_per_tick;
   rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;
   using Solver = acoustics::RaySolver;
@@ -332,19 +337,6 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.reverberation = p.reverberation;
   rays.coherent = p.coherent;
   return rays;
-}
-
-void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
-                      const std::string& folder, EnvironmentTimeline& timeline) {
-  for (const ChangeConfig& c : config.changes) {
-    EnvironmentChange change{c.wind_mps, c.shipping, c.sea_surface_z_m, {}};
-    if (c.profile) {
-      EnvironmentConfig water = config.environment;
-      water.profile = *c.profile;
-      change.profile = make_profile(water, scenario, folder);
-    }
-    timeline.schedule(SimTime::from_seconds(c.at_s), change);
-  }
 }
 
 }  // namespace halocline::channel_server

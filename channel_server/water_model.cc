@@ -1,12 +1,31 @@
 #include "channel_server/water_model.h"
 
+#include <string>
 #include <utility>
 
 #include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/replay_config.h"
+#include "core/sim_time.h"
 
 namespace halocline::channel_server {
+namespace {
+
+// Throws InvalidArgument when one cannot be.
+void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                      const std::string& folder, EnvironmentTimeline& timeline) {
+  for (const ChangeConfig& c : config.changes) {
+    EnvironmentChange change{c.wind_mps, c.shipping, c.sea_surface_z_m, {}};
+    if (c.profile) {
+      EnvironmentConfig water = config.environment;
+      water.profile = *c.profile;
+      change.profile = make_profile(water, scenario, folder);
+    }
+    timeline.schedule(SimTime::from_seconds(c.at_s), change);
+  }
+}
+
+}  // namespace
 
 WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);

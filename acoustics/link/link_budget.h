@@ -65,6 +65,7 @@ class LinkTerms {
   const Environment& environment() const { return environment_; }
   const Modem& transmitter() const { return transmitter_; }
   const Modem& receiver() const { return receiver_; }
+  Decibels noise_level() const { return noise_level_; }  // over the transmitter's band
 
  private:
   Environment environment_;

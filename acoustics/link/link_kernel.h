@@ -55,6 +55,7 @@ class LinkKernel {
   const Environment& environment() const { return terms_.environment(); }
   const Modem& transmitter() const { return terms_.transmitter(); }
   const Modem& receiver() const { return terms_.receiver(); }
+  Decibels noise_level() const { return terms_.noise_level(); }  // over the transmitter's band
   std::size_t frequencies() const { return nodes_.weight_hz.size(); }
 
  private:

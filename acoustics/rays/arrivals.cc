@@ -193,6 +193,7 @@ void validate(const RayOptions& options) {
   if (options.diffuse_below_db != 0)
     require_in_range(options.diffuse_below_db, 10, 100, "level of diffuse sound below the strongest path",
                      "dB");
+  require_in_range(options.diffuse_below_pressure, 0, 1e6, "pressure below which sound is diffuse");
 }
 
 void finish(std::vector<Arrival>& paths, const std::vector<FoldMember>& members, const RayOptions& options) {

@@ -14,8 +14,18 @@ namespace {
 
 constexpr double kLeastSine = 0.02;  // where a ray turns p is bounded by this
 constexpr double kBesideMargin = 8;  // of power
+constexpr double kManyImages = 4;    // of the receiver, in a window
 // Of the field of a fold over that of a single ray in its shadow's edge: Ai(-1.02)^2 / Ai(0)^2.
 constexpr double kFoldPeak = 2.3;
+
+// At least: a path is no shorter than the range, and absorbs no less a metre than the least of the knots.
+double power_without_absorption(const ArcTracer& tracer, double pressure) {
+  if (pressure <= 0) return 0;
+  double least_db_per_m = std::numeric_limits<double>::infinity();
+  for (const LayerAbsorption& layer : tracer.sea().water.absorption())
+    least_db_per_m = std::min({least_db_per_m, layer.a0, layer.a0 + layer.a1 + layer.a2});
+  return pressure * pressure * elementary::exp10(least_db_per_m * tracer.range_m() / 10);
+}
 
 }  // namespace
 
@@ -23,7 +33,8 @@ DiffuseWindows::DiffuseWindows(const ArcTracer& tracer)
     : tracer_(tracer),
       receiver_speed_(tracer.sea().water.speed_at(tracer.receiver_depth_m())),
       max_loss_db_(-20 * elementary::log10(tracer.sea().options.min_boundary_factor)),
-      weak_(elementary::exp10(-tracer.sea().options.diffuse_below_db / 10)) {}
+      weak_(elementary::exp10(-tracer.sea().options.diffuse_below_db / 10)),
+      least_(power_without_absorption(tracer, tracer.sea().options.diffuse_below_pressure)) {}
 
 void DiffuseWindows::begin_cell(std::size_t cell) {
   cell_ = cell;
@@ -50,17 +61,23 @@ bool DiffuseWindows::is_weak_branch(const FanRay& a, const FanRay& b) const {
   if (!a.arrived || !b.arrived) return false;
   const double most = std::max(strength(a), strength(b));
   if (a.zeta_slope * b.zeta_slope > 0)
-    return most * (b.theta - a.theta) < weak_ * strongest_ * cubic_of(a, b).least_slope();
+    return most * (b.theta - a.theta) < weak_power() * cubic_of(a, b).least_slope();
   // Both rays of the fold and what is about it.
   const double tube = fold_between(a, b).tube_slope(0, tracer_.sea().options.frequency_hz);
-  return most * kFoldPeak < weak_ * strongest_ * tube;
+  return most * kFoldPeak < weak_power() * tube;
 }
 
 bool DiffuseWindows::is_weak_beside(const FanRay& a, const FanRay& b) const {
   const auto is_weak = [&](const FanRay& ray) {
-    return !ray.arrived || kBesideMargin * strength(ray) < weak_ * strongest_ * std::abs(ray.zeta_slope);
+    return !ray.arrived || kBesideMargin * strength(ray) < weak_power() * std::abs(ray.zeta_slope);
   };
   return is_weak(a) && is_weak(b);
+}
+
+bool DiffuseWindows::is_weak_together(const FanRay& a, const FanRay& b) const {
+  const double images = std::min(std::abs(a.zeta_slope), std::abs(b.zeta_slope)) * (b.theta - a.theta) /
+                        tracer_.bottom_at_receiver_m();
+  return a.arrived && b.arrived && images > kManyImages && kMostFocused * mixed_power(a, b) < weak_power();
 }
 
 void DiffuseWindows::weigh(Cell& cell, const FanRay& ray, double power) const {

@@ -27,12 +27,14 @@ const double kNearlyVertical = to_radians(89.5);  // rays over a profile stop at
 double factor_of(double loss_db) { return elementary::exp10(-loss_db / 20); }
 double bounce_loss_db(const Arrival& path) { return path.surface_loss_db + path.bottom_loss_db; }
 
-// By received pressure, which is at most the amplitude; of paths that are not diffuse, of which there is one.
+// By received pressure, which is at most the amplitude; of paths that are not diffuse, if there is one.
 const Arrival& strongest(const std::vector<Arrival>& paths) {
+  const bool all_diffuse =
+      std::all_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; });
   const Arrival* best = &paths.front();
   double most = 0;
   for (const Arrival& path : paths) {
-    if (path.diffuse || path.amplitude <= most) continue;
+    if (path.diffuse != all_diffuse || path.amplitude <= most) continue;
     const double pressure = path.received_pressure();
     if (pressure <= most) continue;
     best = &path;

@@ -244,16 +244,24 @@ std::vector<Arrival> ProfileFolds::finished(const std::vector<ProfilePath>& path
   return arrivals;
 }
 
+// Steps grow with the angle: 0.6 degrees near the horizontal, 4 at 60.
+std::vector<double> even_angles(double limit, double coarseness) {
+  std::vector<double> angles{-limit, limit};
+  for (double theta = 0.005; theta < limit; theta += coarseness * (0.01 + 0.06 * theta)) {
+    angles.push_back(theta);
+    angles.push_back(-theta);
+  }
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {
   const double limit = std::min(steepest, tracer.sea().options.max_launch_angle_rad);
-  std::vector<double> angles;
+  std::vector<double> angles = even_angles(limit, 1);
   const auto add_both = [&angles](double theta) {
     angles.push_back(theta);
     angles.push_back(-theta);
   };
-  // Steps grow with the angle: 0.6 degrees near the horizontal, 4 at 60.
-  for (double theta = 0.005; theta < limit; theta += 0.01 + 0.06 * theta) add_both(theta);
-  add_both(limit);
   const RayWater& water = tracer.sea().water;
   for (std::size_t i = 0; i < water.speeds_mps().size(); ++i) {
     if (i > 0 && water.depths_m()[i - 1] > tracer.sea().profile.deepest_m()) break;

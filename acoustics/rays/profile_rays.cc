@@ -31,6 +31,9 @@ constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of en
 constexpr double kRough =
     28;  // of the depth, sum of how far neighbours in the fan are apart: more makes a bottom rough
 // Over a rough bottom.
+constexpr double kCoarse = 3;  // windows of links that are weak altogether over those of the fan
+constexpr double kDiverged =
+    4;  // d zeta / d theta over the range: of half of the rays if a bottom has mixed them
 constexpr double kNarrowWindow = 3e-5;    // times depth over range, rad: windows are not divided below
 constexpr double kWeakWindow = 2e-3;      // rad: nor these where the rays beside them are weak
 constexpr double kLeastStrongest = 3e-3;  // of the energy flux: that of the strongest path until one is found
@@ -42,8 +45,15 @@ class Search {
   // Rays launched between the first and the last of `angles`, finished; none within `core_edge` of the
   // horizontal, which is one of the angles, as is its opposite.
   std::vector<Arrival> run(const std::vector<double>& angles, double core_edge);
+  // After that: whether paths are weak by their own pressure rather than beside the strongest.
+  bool is_weak_by_pressure() const { return windows_.is_by_pressure(); }
 
  private:
+  // The windows of a link that is weak altogether, which are few; empty for others.
+  std::optional<std::vector<Arrival>> weak_link();
+  // Of three neighbours in the fan, whether the one in the middle is where a cubic through the others has it; one right beside
+  // another says nothing.
+  bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const;
   // Whether rays diverge so much that each search for them would find others between.
   bool is_rough(const std::vector<FanRay>& fan) const;
   // Between neighbours of the fan; `predicted`: those are that lie on a cubic through the rays on both sides.
@@ -64,16 +74,38 @@ class Search {
   double narrow_window_ = 0;  // rad; 0: the bottom is smooth
 };
 
+std::optional<std::vector<Arrival>> Search::weak_link() {
+  const RayOptions& options = tracer_.sea().options;
+  if (options.diffuse_below_db <= 0 || options.diffuse_below_pressure <= 0) return std::nullopt;
+  const std::size_t before = branch_.kept_events();
+  std::vector<FanRay> fan;
+  for (const double theta : even_angles(options.max_launch_angle_rad, kCoarse))
+    fan.push_back(branch_.traced(theta));
+  branch_.forget_since(before);
+  double flux = 0;
+  std::ptrdiff_t arrived = 0, diverged = 0;
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    if (i > 0) flux += windows_.mixed_power(fan[i - 1], fan[i]);
+    arrived += fan[i].arrived ? 1 : 0;
+    diverged += fan[i].arrived && std::abs(fan[i].zeta_slope) > kDiverged * tracer_.range_m() ? 1 : 0;
+  }
+  if (2 * diverged <= arrived || !windows_.is_below_pressure(DiffuseWindows::kMostFocused * flux))
+    return std::nullopt;
+  for (std::size_t i = 1; i < fan.size(); ++i) {
+    windows_.begin_cell(i);
+    windows_.add_mixed(fan[i - 1], fan[i]);
+  }
+  return windows_.arrivals();
+}
+
 std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_edge) {
+  if (auto windows = weak_link()) return *std::move(windows);
   std::vector<FanRay> fan;
   fan.reserve(angles.size());
   for (const double theta : angles) fan.push_back(branch_.traced(theta));
   std::vector<bool> predicted;  // by the rays on both sides
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    predicted.push_back(i > 0 && i + 1 < fan.size() &&
-                        branch_.is_predicted(branch_.error_at(fan[i - 1], fan[i], fan[i + 1]), fan[i - 1],
-                                             fan[i + 1], kShareBeforehand));
-  }
+  for (std::size_t i = 0; i < fan.size(); ++i)
+    predicted.push_back(i > 0 && i + 1 < fan.size() && is_predicted(fan[i - 1], fan[i], fan[i + 1]));
   if (tracer_.sea().options.diffuse_below_db <= 0 || !is_rough(fan)) {
     search(fan, predicted, core_edge);
     return branch_.finished();
@@ -114,6 +146,12 @@ void Search::search(const std::vector<FanRay>& fan, const std::vector<bool>& pre
 
 // Between neighbours of one history, by how much of the depth their depths and the mean of their slopes disagree: at most by
 // all of it, as those that part.
+bool Search::is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const {
+  const double nearest = std::min(middle.theta - a.theta, b.theta - middle.theta);
+  return nearest > kNextToEachOther &&
+         branch_.is_predicted(branch_.error_at(a, middle, b), a, b, kShareBeforehand);
+}
+
 bool Search::is_rough(const std::vector<FanRay>& fan) const {
   double apart = 0;
   for (std::size_t i = 1; i < fan.size(); ++i) {
@@ -176,7 +214,8 @@ void Search::look_into_window(const FanRay& a, const FanRay& b, int depth, doubl
   const bool is_branch = both && !event;
   if (is_branch && width < kNextToEachOther) return branch_.solve_monotone(a, b);
   if (is_branch && !branch_.may_pass_image(a, b, error)) return;
-  if (width < narrow_window_ || (width < kWeakWindow && windows_.is_weak_beside(a, b)))
+  if (width < narrow_window_ || (width < kWeakWindow && windows_.is_weak_beside(a, b)) ||
+      windows_.is_weak_together(a, b))
     return windows_.add_mixed(a, b);
   const FanRay middle = branch_.traced(0.5 * (a.theta + b.theta));
   const double found_error = branch_.error_at(a, middle, b);
@@ -235,9 +274,10 @@ std::vector<Arrival> profile_rays(const ProfiledSea& sea, const RayLink& link) {
   }
   angles.push_back(kSteepest);
   const double core_edge = leave_out_core(tracer, angles);
-  std::vector<Arrival> paths = Search(tracer).run(angles, core_edge);
-  // The last path is not given up for a window.
-  if (!paths.empty() &&
+  Search search(tracer);
+  std::vector<Arrival> paths = search.run(angles, core_edge);
+  // The last path is not given up for a window, unless it is weak by itself.
+  if (!paths.empty() && !search.is_weak_by_pressure() &&
       std::all_of(paths.begin(), paths.end(), [](const Arrival& path) { return path.diffuse; })) {
     ProfiledSea all = sea;
     all.options.diffuse_below_db = 0;

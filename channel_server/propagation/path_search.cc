@@ -24,6 +24,8 @@ void validate(const RayModel& model) {
   validate(model.fading);
   validate(model.reverberation);
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
+  require_in_range(model.diffuse_below_noise.value, -100, 100, "level of diffuse sound below the noise",
+                   "dB");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
   require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
 }
@@ -33,6 +35,7 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
                                                const PathQuery& query, const SeabedProfile& seabed) {
   acoustics::RayOptions options = model.options;
   options.frequency_hz = query.frequency_hz;
+  options.diffuse_below_pressure = query.diffuse_below_pressure;
   const acoustics::BottomProfile bottom = bottom_under(seabed, query.link, environment.sea_surface_z_m);
   const double depth_m = mean_depth_m(bottom, query.link.range_m);
   if (model.bounces_follow_range) options.max_bounces = bounces_for(query.link.range_m, depth_m);

@@ -36,6 +36,10 @@ struct RayModel {
   double speed_tolerance_mps = 0;  // knots of the water are thinned to that, 0..1
   double reuse_distance_m =
       0;  // of middle_of_cell(), 0..1000; 0: every link of a table is searched for itself
+  bool reuse_for_packets = false;  // packets share the searches of tables
+  // Over a rough bottom paths this much weaker than the noise over the transmitter's band, less the receiver's directivity, come
+  // as energy alone (RayOptions::diffuse_below_pressure), -100..100. Not where options.diffuse_below_db is 0.
+  Decibels diffuse_below_noise{10};
   int max_searches_per_tick = 0;         // of link tables, by search_budget.h; 0: as many as they need
   double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
 };
@@ -49,7 +53,7 @@ using ProfileEnds = std::array<double, 4>;
 // The link runs from the profile's first end.
 struct PathQuery {
   using Key = std::tuple<EnvironmentTimeline::WaterId, double, ProfileEnds, std::int64_t,
-                         const SeabedProfile*, double, double, double>;
+                         const SeabedProfile*, double, double, double, double>;
 
   EnvironmentTimeline::WaterId water_id = 0;
   double frequency_hz = 0;
@@ -57,6 +61,7 @@ struct PathQuery {
   std::int64_t seabed_version = 0;
   std::shared_ptr<const SeabedProfile> given = {};
   acoustics::RayLink link = {};
+  double diffuse_below_pressure = 0;  // of acoustics::RayOptions
 
   // Equal for queries of the same answer.
   Key key() const {
@@ -67,7 +72,8 @@ struct PathQuery {
             given.get(),
             link.source_depth_m,
             link.receiver_depth_m,
-            link.range_m};
+            link.range_m,
+            diffuse_below_pressure};
   }
 };
 

@@ -48,24 +48,22 @@ RayPropagation::RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters
   if (model.max_searches_per_tick > 0) budget_.emplace(model.max_searches_per_tick);
 }
 
-Reception RayPropagation::along_rays(SimTime at, const EndPair& ends, acoustics::Capacity capacity) {
-  Task task = task_of(at, ends.from, ends.to, ends.from.id > ends.to.id);
-  task.capacity = capacity;
-  const PathsPointer paths = found(task);
+Reception RayPropagation::along_rays(SimTime at, const Task& task, FoundCache& cache) {
+  const PathsPointer paths = found(task, cache);
   return paths ? answer(task, *paths)
-               : straight_instead(at, ends, PropagationUsed::kStraightWithoutBottom, capacity);
+               : straight_instead(at, task.ends, PropagationUsed::kStraightWithoutBottom, task.capacity);
 }
 
 Reception RayPropagation::reception_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                          const std::shared_ptr<const SeabedProfile>& seabed) {
   if (!seabed) return straight_instead(at, {from, to}, PropagationUsed::kStraightWithoutBottom);
   const Task task = task_over(at, from, to, seabed);
-  return answer(task, *found(task));
+  return answer(task, *found(task, found_));
 }
 
 acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                                   const std::shared_ptr<const SeabedProfile>& seabed) {
-  const PathsPointer found_paths = found(task_over(at, from, to, seabed));
+  const PathsPointer found_paths = found(task_over(at, from, to, seabed), found_);
   acoustics::Arrivals all = found_paths->arrivals;
   const acoustics::Transducers beams{from.modem->beam, to.modem->beam};
   std::erase_if(all.paths,
@@ -151,7 +149,8 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
 }
 
 bool RayPropagation::is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  return is_surveyed(task_of(at, from, to, from.id > to.id).query.places);
+  const bool ready = is_surveyed(task_of(at, from, to, from.id > to.id).query.places);
+  return (!model_.reuse_for_packets || is_surveyed(packet_task_of(at, from, to).query.places)) && ready;
 }
 
 // Every link is looked at, so that all that is missing is requested together.
@@ -191,11 +190,16 @@ RayPropagation::Task RayPropagation::task_of(SimTime at, const LinkEnd& from, co
       {depth_of(first, environment), depth_of(last, environment), elementary::hypot(way.x(), way.y())});
   const ProfileEnds places{first.position_ned_m.x(), first.position_ned_m.y(), last.position_ned_m.x(),
                            last.position_ned_m.y()};
+  const auto kernel = straight_.kernel_of(at, *from.modem, *to.modem);
+  const double negligible_db = (kernel->noise_level() - to.modem->directivity_index -
+                                model_.diffuse_below_noise - from.modem->source_level)
+                                   .value;
   return {{from, to},
           &environment,
           water_of(at, frequency_hz),
-          straight_.kernel_of(at, *from.modem, *to.modem),
-          {waters_->water_at(at), frequency_hz, places, seabed_->version(), nullptr, link},
+          kernel,
+          {waters_->water_at(at), frequency_hz, places, seabed_->version(), nullptr, link,
+           elementary::exp10(negligible_db / 20)},
           link,
           reversed};
 }
@@ -222,13 +226,20 @@ RayPropagation::Task RayPropagation::shared_task_of(SimTime at, const LinkEnd& f
   return task;
 }
 
-RayPropagation::PathsPointer RayPropagation::found(const Task& task) {
+RayPropagation::Task RayPropagation::packet_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  if (!model_.reuse_for_packets) return task_of(at, from, to, from.id > to.id);
+  Task task = table_task_of(at, from, to);
+  return task.waits ? shared_task_of(at, from, to) : task;
+}
+
+RayPropagation::PathsPointer RayPropagation::found(const Task& task, FoundCache& cache) {
+  if (task.granted != nullptr && task.granted->paths) return task.granted->paths;
   const PathQuery::Key key = task.query.key();
-  if (const PathsPointer* known = found_.find(key)) return *known;
+  if (const PathsPointer* known = cache.find(key)) return *known;
   const auto seabed = seabed_of(task.query);
   if (!seabed) return nullptr;
   ++searches_;
-  return found_.insert(key, search(task, *seabed));
+  return cache.insert(key, search(task, *seabed));
 }
 
 Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
@@ -286,7 +297,7 @@ std::vector<SoundPath> RayPropagation::sound_paths(const Task& task,
 
 LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Task task = task_of(at, from, to, from.id > to.id);
-  const PathsPointer found_paths = found(task);
+  const PathsPointer found_paths = found(task, found_);
   if (!found_paths) return Propagation::tracks(at, from, to);
   const acoustics::BottomProfile bottom =
       bottom_under(*seabed_of(task.query), task.link, task.environment->sea_surface_z_m);

@@ -15,8 +15,9 @@
 // Where the bottom is not known (no terrain there, or no answer of who knows it): the straight path.
 //
 // Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
-// the same paths backwards, so the two are reciprocal to the last bit. reception() searches every link for itself, over
-// the bottom between its very ends. receptions(), for tables, may let links share: with a distance of reuse, both
+// the same paths backwards, so the two are reciprocal to the last bit (but for what the receiver's noise makes diffuse:
+// RayModel::diffuse_below_noise). reception() searches every link for itself, over the bottom between its very ends.
+// receptions(), for tables, may let links share, and packets too with RayModel::reuse_for_packets: with a distance of reuse, both
 // ends go to the nearest points of a horizontal lattice for the bottom, the search is for the middle of the cell that the
 // link lies in (path_search.h), and its paths are extrapolated from there to the link
 // (acoustics/link/extrapolate_arrivals.h); not for coherent levels. With a budget of searches a tick (search_budget.h) a link
@@ -67,10 +68,12 @@ class RayPropagation : public Propagation {
                  const RayModel& model);
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    return along_rays(at, {from, to}, acoustics::Capacity::kComputed);
+    return along_rays(at, task_of(at, from, to, from.id > to.id), found_);
   }
   Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    return along_rays(at, {from, to}, acoustics::Capacity::kLeftOut);
+    Task task = packet_task_of(at, from, to);
+    task.capacity = acoustics::Capacity::kLeftOut;
+    return along_rays(at, task, model_.reuse_for_packets ? shared_found_ : found_);
   }
   bool plans_ticks() const override { return budget_.has_value(); }
   void begin_tick(SimTime at, const std::vector<EndPair>& all) override;
@@ -133,12 +136,15 @@ class RayPropagation : public Propagation {
   PathsPointer search(const Task& task, const SeabedProfile& seabed) const {
     return search_paths(model_, *task.water, *task.environment, task.query, seabed);
   }
+  // For a packet: as for a table where packets share searches; a link without a turn yet searches for itself.
+  Task packet_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  using FoundCache = LruCache<PathQuery::Key, PathsPointer>;
   // Null where the bottom is not known.
-  PathsPointer found(const Task& task);
+  PathsPointer found(const Task& task, FoundCache& cache);
   // What is known already; null otherwise.
   PathsPointer known(const Task& task);
   // Straight where the bottom is not known.
-  Reception along_rays(SimTime at, const EndPair& ends, acoustics::Capacity capacity);
+  Reception along_rays(SimTime at, const Task& task, FoundCache& cache);
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
   Reception answer(const Task& task, const FoundPaths& found) const;
@@ -158,7 +164,7 @@ class RayPropagation : public Propagation {
   StraightPropagation straight_;
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
       ray_waters_;
-  LruCache<PathQuery::Key, PathsPointer> found_, shared_found_;  // of links for themselves; of tables
+  FoundCache found_, shared_found_;  // of links for themselves; of tables, and packets that share them
   std::optional<SearchBudget> budget_;
   std::int64_t searches_ = 0;
 };
