@@ -44,6 +44,8 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               "level: links over which sound cannot matter are left out (docs/packets.md); none: none is");
   v.number("reach_below_noise_db", r.reach.below_noise.value,
            {0, 200, "dB", "reach: how far below the noise sound disturbs nobody"});
+  v.number("table_range_m", r.reach.table_range_m,
+           {0, 4e7, "m", "link tables: peers further away have no row; 0: only those who cannot be heard"});
   visit_count(v, "bottom_points", r.bottom_points,
               {1, 64, "", "points of the bottom surveyed for each link"});
   v.number("echo_reuse_distance_m", r.echo_reuse_distance_m,
@@ -56,7 +58,7 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               {0, 1e6, "",
                "rays, link tables: paths searched for at a tick, the most audible and most changed links "
                "first; 0: all"});
-  visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables"});
+  visit_count(v, "threads", r.threads, {1, 64, "", "that compute link tables and the paths of packets"});
   visit_count(v, "predicted_payload_bytes", r.predicted_payload_bytes,
               {1, acoustics::kMaxPayloadBytes, "bytes", "of the packets whose delivery link tables predict"});
   visit_count(v, "shards", r.medium.shard.count,

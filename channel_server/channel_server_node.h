@@ -17,6 +17,7 @@
 #include "bus/runtime/crash_journal.h"
 #include "bus/runtime/node.h"
 #include "bus/runtime/scenario.h"
+#include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/inbox.h"
 #include "channel_server/input_processor.h"
@@ -70,6 +71,7 @@ class ChannelServerNode : public bus::Node {
   [[nodiscard]] bool recover(const bus::Now& now);
 
   ServerRules rules_;
+  bus::ThreadPool pool_;
   WaterModel water_;
   VehicleRegistry vehicles_;
   ReachModel reach_;

@@ -1,6 +1,5 @@
 #include "channel_server/link_table_publisher.h"
 
-#include <functional>
 #include <utility>
 
 #include "bus/channels.h"
@@ -8,20 +7,13 @@
 
 namespace halocline::channel_server {
 
-LinkTablePublisher::LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models,
-                                       int threads)
-    : publisher_(publisher), log_(log), models_(models), pool_(threads) {}
-
 void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles,
                                  const TableRows& rows) {
   const auto multipath = [&](const PlacedVehicle& from, const PlacedVehicle& to) {
     return models_.echoes.at_last_tick(tick, from, to, models_.propagation);
   };
-  const auto for_each = [this](std::size_t count, const std::function<void(std::size_t)>& body) {
-    pool_.for_each(count, body);
-  };
   for (const LinkTable& table :
-       link_tables(tick, vehicles, rows, models_.propagation, models_.predictor, multipath, for_each)) {
+       link_tables(tick, vehicles, rows, models_.propagation, models_.predictor, multipath, for_each_)) {
     const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
     for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());

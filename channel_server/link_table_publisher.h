@@ -4,16 +4,17 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/event_log.h"
 #include "bus/numbered_publisher.h"
-#include "bus/runtime/thread_pool.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/for_each.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -27,7 +28,8 @@ class LinkTablePublisher {
     LinkPredictor& predictor;
     MultipathCache& echoes;
   };
-  LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, int threads);
+  LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)
+      : publisher_(publisher), log_(log), models_(models), for_each_(std::move(for_each)) {}
 
   // `vehicles`: those present at `tick`; the rows of those that this server serves.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
@@ -43,7 +45,7 @@ class LinkTablePublisher {
   bus::NumberedPublisher& publisher_;
   bus::EventLog& log_;
   Models models_;
-  bus::ThreadPool pool_;
+  ForEach for_each_;
   std::set<std::string> present_;
   std::int64_t links_published_ = 0;
 };

@@ -202,6 +202,11 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
       {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});
   v.number("reuse_distance_m", p.reuse_distance_m,
            {0, 1000, "m", "rays, link tables: length of cells that share a search, a tenth high; 0: none"});
+  v.number(
+      "least_depth_m", p.least_depth_m,
+      {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere; the more, the shorter the reach"});
+  v.number("greatest_depth_m", p.greatest_depth_m,
+           {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere"});
   v.boolean("reuse_for_packets", p.reuse_for_packets, "rays: packets share these searches, too");
   v.number("shadow_loss_db", p.shadow_loss_db,
            {0, 400, "dB", "rays: transmission loss in a shadow; 0: nothing is received"});
@@ -325,6 +330,8 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.options.min_boundary_factor = elementary::exp10(-p.max_bounce_loss_db / 20);
   rays.speed_tolerance_mps = p.speed_tolerance_mps;
   rays.reuse_distance_m = p.reuse_distance_m;
+  rays.least_depth_m = p.least_depth_m;
+  rays.greatest_depth_m = p.greatest_depth_m;
   rays.reuse_for_packets = p.reuse_for_packets;
   rays.diffuse_below_noise = Decibels{p.diffuse_below_noise_db};
   rays.max_searches_per_tick = config.rules.max_searches_per_tick;

@@ -9,9 +9,6 @@
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
-namespace {
-
-// Throws InvalidArgument when one cannot be.
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
                       const std::string& folder, EnvironmentTimeline& timeline) {
   for (const ChangeConfig& c : config.changes) {
@@ -24,8 +21,6 @@ void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& sc
     timeline.schedule(SimTime::from_seconds(c.at_s), change);
   }
 }
-
-}  // namespace
 
 WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {
   auto waters = std::make_shared<EnvironmentTimeline>(environment);

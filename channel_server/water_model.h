@@ -28,6 +28,10 @@ WaterModel straight_model(const acoustics::Environment& environment,
                           const acoustics::FadingModel& fading = {});
 WaterModel ray_model(const acoustics::Environment& environment, const RayModel& rays, const SeabedRule& rule);
 
+// Adds the scenario's changes to the timeline. Throws InvalidArgument when one cannot be.
+void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
+                      const std::string& folder, EnvironmentTimeline& timeline);
+
 // As a scenario whose file lies in `folder` describes it. Throws InvalidArgument when that is impossible.
 WaterModel make_water_model(const ChannelServerConfig& config, const bus::Scenario& scenario,
                             const std::string& folder);

@@ -10,6 +10,7 @@ find_package(fmt REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers: Boost.Math, Boost.Beast
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)  # inlined
 find_package(GDAL REQUIRED)
+find_package(TBB REQUIRED)
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 pkg_check_modules(NETCDF REQUIRED IMPORTED_TARGET netcdf)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)

@@ -16,7 +16,31 @@ constexpr double kDepthStep = 5, kDepthGrowth = 1.02;
 // Absorption between two samples and sound whose way is bent may be less by this share.
 constexpr double kSampled = 0.995;
 
+// Angles over which the bottom's reflection is summed.
+constexpr int kAngles = 180;
+
 double next_depth(double depth_m) { return std::max(depth_m + kDepthStep, depth_m * kDepthGrowth); }
+
+// Sum over all ducts of 2 theta / h: theta of the steepest ray at the duct's axis that turns above the bottom, h between where
+// that ray turns.
+double sum_of_ducts(const Environment& environment, double greatest_depth_m) {
+  std::vector<double> depths, speeds;
+  for (double depth_m = 0;; depth_m = std::min(next_depth(depth_m), greatest_depth_m)) {
+    depths.push_back(depth_m);
+    speeds.push_back(environment.profile.sound_speed_mps(depth_m));
+    if (depth_m >= greatest_depth_m) break;
+  }
+  double sum = 0;
+  for (std::size_t axis = 0; axis + 1 < depths.size(); ++axis) {
+    if ((axis > 0 && speeds[axis - 1] < speeds[axis]) || speeds[axis + 1] <= speeds[axis]) continue;
+    std::size_t lower = axis + 1;
+    while (lower + 1 < depths.size() && speeds[lower + 1] > speeds[lower]) ++lower;
+    std::size_t upper = axis;
+    while (upper > 0 && speeds[upper - 1] < speeds[lower]) --upper;
+    sum += 2 * elementary::acos(speeds[axis] / speeds[lower]) / (depths[lower] - depths[upper]);
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -35,15 +59,25 @@ LeastLoss LeastLoss::of_straight_path(const Environment& environment, double fre
 }
 
 LeastLoss LeastLoss::of_rays(const Environment& environment, double frequency_hz, double deepest_end_m,
-                             Decibels gain) {
+                             Decibels gain, const WaterColumn& column) {
   LeastLoss loss;
   loss.gain_ = kFocusingGain + gain;
   const double khz = frequency_hz / 1000;
   double least = std::numeric_limits<double>::infinity();
-  for (double depth_m = 0; depth_m < kDeepestWater; depth_m = next_depth(depth_m)) {
+  for (double depth_m = 0; depth_m < column.greatest_depth_m; depth_m = next_depth(depth_m)) {
     least = std::min(least, absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz));
     loss.depths_.push_back({kSampled * least, std::max(2 * (depth_m - deepest_end_m), 0.0)});
   }
+  loss.least_depth_m_ = column.least_depth_m;
+  if (!(loss.least_depth_m_ > 0)) return loss;
+  const double speed = environment.profile.sound_speed_mps(column.least_depth_m);
+  for (int i = 0; i < kAngles; ++i) {
+    const double width = std::numbers::pi / 2 / kAngles, angle = (i + 0.5) * width;
+    const double magnitude = bottom_magnitude_at_sine(column.bottom, elementary::sin(angle), speed);
+    loss.reflections_.push_back(
+        {elementary::tan(angle), elementary::log(std::max(magnitude, 1e-300)), width});
+  }
+  loss.ducts_ = sum_of_ducts(environment, column.greatest_depth_m);
   return loss;
 }
 
@@ -54,12 +88,20 @@ Decibels LeastLoss::at(double range_m) const {
     const double length_km = std::sqrt(r * r + depth.detour_m * depth.detour_m) / 1000;
     absorbed_db = std::min(absorbed_db, depth.absorption_db_per_km * length_km);
   }
-  // k 10 log r, or -10 log(pi / (H r) + 2 / r^2).
-  const double spreading_db =
-      power_law_exponent_ > 0
-          ? power_law_exponent_ * 10 * elementary::log10(r)
-          : -10 * elementary::log10(std::numbers::pi / (kChannelThickness * r) + 2 / (r * r));
+  const double spreading_db = power_law_exponent_ > 0 ? power_law_exponent_ * 10 * elementary::log10(r)
+                                                      : -10 * elementary::log10(greatest_intensity(r));
   return Decibels{spreading_db + absorbed_db} - gain_;
+}
+
+double LeastLoss::greatest_intensity(double r) const {
+  const double direct = 2 / (r * r), lossless = std::numbers::pi / (kChannelThickness * r) + direct;
+  if (!(least_depth_m_ > 0)) return lossless;
+  double sum = 0;
+  for (const Reflection& ray : reflections_) {
+    const double bounces = std::max(r * ray.tangent / (2 * least_depth_m_) - 1, 0.0);
+    sum += ray.width_rad * elementary::exp(2 * bounces * ray.log_magnitude);
+  }
+  return std::min(lossless, direct + 2 * sum / (least_depth_m_ * r) + ducts_ / r);
 }
 
 // Halved by the logarithm of the range, to a millionth.

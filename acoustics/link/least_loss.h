@@ -14,15 +14,22 @@
 //   for sand (kappa = 0.5) in 5 m of water is the smaller from 0.6 km on; a duct of thickness h that holds angles up to
 //   theta = sqrt(2 g h / c), g the gradient of sound speed, gives 2 theta / (h r), the smaller unless g > 0.7 h (m and s:
 //   2 m that change sound speed by 3 m/s).
+// - Where the water is known to be H0 deep or more, and what its bottom takes, each ray loses at the bottom as well: launched at
+//   theta it meets it r tan(theta) / (2 H0) - 1 times or more, so with the magnitude R of one reflection
+//     I(r) <= 2 / r^2 + 2 / (H0 r) integral over 0..pi/2 of R(theta)^(2 (r tan(theta) / (2 H0) - 1)) dtheta
+//             + sum over ducts 2 theta / (h r);
+//   deeper water spreads more, and ducts of thickness h keep rays up to theta off the bottom. The lesser of both counts.
 // - gain: what focusing adds (kFocusingGain at caustics and convergence zones), and what the caller's way of adding paths may.
-// Left out: beams, which the caller adds; hard bottoms without any loss in water of less than H.
+// Left out: beams, which the caller adds; hard bottoms without any loss in water of less than H, unless it is known.
 //
 // It rises with range. Immutable: calls may overlap between threads. Making one costs a millisecond.
 #pragma once
 
 #include <vector>
 
+#include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/units.h"
 
 namespace halocline::acoustics {
@@ -32,6 +39,12 @@ inline constexpr Decibels kFocusingGain{3};      // of all rays together, our ch
 // m, once around the Earth; what reaches further is not bounded.
 inline constexpr double kGreatestBoundedRange = 4e7;
 
+// What is known of the water wherever sound goes, m: no shallower and no deeper; its bottom, where the former is above 0.
+struct WaterColumn {
+  double least_depth_m = 0, greatest_depth_m = kDeepestWater;  // 0..kDeepestWater, rising
+  FluidBottom bottom = {};
+};
+
 class LeastLoss {
  public:
   // Of the straight path between ends no deeper than `deepest_end_m`, >= 0.
@@ -39,7 +52,7 @@ class LeastLoss {
                                     double deepest_end_m);
   // Of all rays together. `gain` beside that of focusing, >= 0.
   static LeastLoss of_rays(const Environment& environment, double frequency_hz, double deepest_end_m,
-                           Decibels gain);
+                           Decibels gain, const WaterColumn& column = {});
 
   // At `range_m` > 0; below 1 m that of 1 m. May be negative, down to minus the gain and 8 dB.
   Decibels at(double range_m) const;
@@ -51,11 +64,20 @@ class LeastLoss {
   struct Depth {
     double absorption_db_per_km, detour_m;
   };
+  // Rays and what the bottom leaves of them: the magnitude of a reflection.
+  struct Reflection {
+    double tangent, log_magnitude, width_rad;
+  };
   LeastLoss() = default;
+  // Of all rays, re 1 m, without absorption.
+  double greatest_intensity(double range_m) const;
 
   double power_law_exponent_ = 0;  // 0: rays
   Decibels gain_{0};
   std::vector<Depth> depths_;
+  double least_depth_m_ = 0;  // 0: not known
+  std::vector<Reflection> reflections_;
+  double ducts_ = 0;  // sum of 2 theta / h, 1/m
 };
 
 }  // namespace halocline::acoustics

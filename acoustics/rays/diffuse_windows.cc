@@ -14,16 +14,21 @@ namespace {
 
 constexpr double kLeastSine = 0.02;  // where a ray turns p is bounded by this
 constexpr double kBesideMargin = 8;  // of power
+constexpr double kDepthStep = 50;    // m: between depths at which absorption is looked up
 constexpr double kManyImages = 4;    // of the receiver, in a window
 // Of the field of a fold over that of a single ray in its shadow's edge: Ai(-1.02)^2 / Ai(0)^2.
 constexpr double kFoldPeak = 2.3;
 
-// At least: a path is no shorter than the range, and absorbs no less a metre than the least of the knots.
+// At least: a path is no shorter than the range, and absorbs no less a metre than the water does anywhere above the deepest bottom.
 double power_without_absorption(const ArcTracer& tracer, double pressure) {
   if (pressure <= 0) return 0;
+  const RayWater& water = tracer.sea().water;
+  const double deepest = tracer.sea().profile.deepest_m();
   double least_db_per_m = std::numeric_limits<double>::infinity();
-  for (const LayerAbsorption& layer : tracer.sea().water.absorption())
-    least_db_per_m = std::min({least_db_per_m, layer.a0, layer.a0 + layer.a1 + layer.a2});
+  for (double depth = 0;; depth = std::min(depth + kDepthStep, deepest)) {
+    least_db_per_m = std::min(least_db_per_m, water.absorption_db_per_m(depth));
+    if (depth >= deepest) break;
+  }
   return pressure * pressure * elementary::exp10(least_db_per_m * tracer.range_m() / 10);
 }
 

@@ -158,6 +158,10 @@ std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, d
 }
 
 // Counts of bounces that no path has make the identity one of its own.
+PathIdentity diffuse_identity(double theta, std::size_t window) {
+  return {theta < 0, kDiffuseBounces, kDiffuseBounces, 0, static_cast<int>(window), 0};
+}
+
 std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std::size_t window) {
   TracedRay ray;
   TracedDetails details;
@@ -166,7 +170,7 @@ std::optional<DiffuseRay> diffuse_ray(const ArcTracer& tracer, double theta, std
   Arrival path = arrival_of(tracer, ray, details, ray.zeta, 1);
   path.phase_rad = 0;
   path.diffuse = true;
-  path.identity = {ray.theta < 0, kDiffuseBounces, kDiffuseBounces, 0, static_cast<int>(window), 0};
+  path.identity = diffuse_identity(ray.theta, window);
   return DiffuseRay{path, ray.xi};
 }
 

@@ -54,6 +54,7 @@ std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, d
 
 // What stands for a window of diffuse sound: the ray of `theta`, which arrives somewhere at the receiver's range, as an
 // arrival without an amplitude. `window` distinguishes it from others of one search. Empty when the ray does not arrive.
+PathIdentity diffuse_identity(double theta, std::size_t window);
 struct DiffuseRay {
   Arrival arrival;
   double xi;  // Snell's, at the receiver's range, s/m

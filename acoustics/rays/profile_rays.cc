@@ -31,9 +31,6 @@ constexpr int kMaxTraces = 200'000;  // of one link: a guard against water of en
 constexpr double kRough =
     28;  // of the depth, sum of how far neighbours in the fan are apart: more makes a bottom rough
 // Over a rough bottom.
-constexpr double kCoarse = 3;  // windows of links that are weak altogether over those of the fan
-constexpr double kDiverged =
-    4;  // d zeta / d theta over the range: of half of the rays if a bottom has mixed them
 constexpr double kNarrowWindow = 3e-5;    // times depth over range, rad: windows are not divided below
 constexpr double kWeakWindow = 2e-3;      // rad: nor these where the rays beside them are weak
 constexpr double kLeastStrongest = 3e-3;  // of the energy flux: that of the strongest path until one is found
@@ -49,8 +46,6 @@ class Search {
   bool is_weak_by_pressure() const { return windows_.is_by_pressure(); }
 
  private:
-  // The windows of a link that is weak altogether, which are few; empty for others.
-  std::optional<std::vector<Arrival>> weak_link();
   // Of three neighbours in the fan, whether the one in the middle is where a cubic through the others has it; one right beside
   // another says nothing.
   bool is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const;
@@ -74,32 +69,7 @@ class Search {
   double narrow_window_ = 0;  // rad; 0: the bottom is smooth
 };
 
-std::optional<std::vector<Arrival>> Search::weak_link() {
-  const RayOptions& options = tracer_.sea().options;
-  if (options.diffuse_below_db <= 0 || options.diffuse_below_pressure <= 0) return std::nullopt;
-  const std::size_t before = branch_.kept_events();
-  std::vector<FanRay> fan;
-  for (const double theta : even_angles(options.max_launch_angle_rad, kCoarse))
-    fan.push_back(branch_.traced(theta));
-  branch_.forget_since(before);
-  double flux = 0;
-  std::ptrdiff_t arrived = 0, diverged = 0;
-  for (std::size_t i = 0; i < fan.size(); ++i) {
-    if (i > 0) flux += windows_.mixed_power(fan[i - 1], fan[i]);
-    arrived += fan[i].arrived ? 1 : 0;
-    diverged += fan[i].arrived && std::abs(fan[i].zeta_slope) > kDiverged * tracer_.range_m() ? 1 : 0;
-  }
-  if (2 * diverged <= arrived || !windows_.is_below_pressure(DiffuseWindows::kMostFocused * flux))
-    return std::nullopt;
-  for (std::size_t i = 1; i < fan.size(); ++i) {
-    windows_.begin_cell(i);
-    windows_.add_mixed(fan[i - 1], fan[i]);
-  }
-  return windows_.arrivals();
-}
-
 std::vector<Arrival> Search::run(const std::vector<double>& angles, double core_edge) {
-  if (auto windows = weak_link()) return *std::move(windows);
   std::vector<FanRay> fan;
   fan.reserve(angles.size());
   for (const double theta : angles) fan.push_back(branch_.traced(theta));

@@ -1,75 +1,64 @@
 #include "bus/runtime/thread_pool.h"
 
-#include <utility>
+#include <exception>
+#include <mutex>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "core/check.h"
 
 namespace halocline::bus {
+namespace {
+
+// The failure of the lowest index.
+class FirstFailure {
+ public:
+  void note(std::size_t index) {
+    const std::lock_guard lock(mutex_);
+    if (failure_ && index > index_) return;
+    failure_ = std::current_exception();
+    index_ = index;
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  std::size_t index_ = 0;
+};
+
+}  // namespace
+
+struct ThreadPool::Arena {
+  explicit Arena(int threads) : arena(threads) {}
+  tbb::task_arena arena;
+};
 
 ThreadPool::ThreadPool(int threads) {
   require_in_range(threads, 1, 1024, "threads of a pool");
-  for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  if (threads > 1) arena_ = std::make_unique<Arena>(threads);
 }
 
-ThreadPool::~ThreadPool() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  begun_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
-}
+ThreadPool::~ThreadPool() = default;
 
 void ThreadPool::for_each(std::size_t count, const std::function<void(std::size_t)>& body) {
-  {
-    const std::lock_guard lock(mutex_);
-    body_ = &body;
-    count_ = count;
-    next_ = 0;
-    busy_ = threads_.size();
-    ++round_;
-  }
-  begun_.notify_all();
-  take_turns();
-  std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return busy_ == 0; });
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-}
-
-void ThreadPool::work() {
-  std::size_t seen = 0;
-  for (;;) {
-    {
-      std::unique_lock lock(mutex_);
-      begun_.wait(lock, [&] { return stopping_ || round_ != seen; });
-      if (stopping_) return;
-      seen = round_;
-    }
-    take_turns();
-    const std::lock_guard lock(mutex_);
-    if (--busy_ == 0) done_.notify_all();
-  }
-}
-
-// A body is some hundred microseconds of work: taking turns one by one under the lock costs nothing beside it.
-void ThreadPool::take_turns() {
-  for (;;) {
-    std::size_t turn = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      if (next_ >= count_) return;
-      turn = next_++;
-    }
+  FirstFailure failure;
+  const auto guarded = [&](std::size_t i) {
     try {
-      (*body_)(turn);
+      body(i);
     } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!failure_ || turn < failed_at_) {
-        failure_ = std::current_exception();
-        failed_at_ = turn;
-      }
+      failure.note(i);
     }
+  };
+  if (arena_) {
+    arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, guarded); });
+  } else {
+    one_after_the_other(count, guarded);
   }
+  failure.rethrow();
 }
 
 }  // namespace halocline::bus

@@ -1,4 +1,4 @@
-// Thread pool with a parallel for.
+// Thread pool with a parallel for, by oneTBB: all pools of a process share its threads.
 //
 //   ThreadPool pool(2);
 //   pool.for_each(links.size(), [&](std::size_t i) { rows[i] = row_of(links[i]); });
@@ -7,13 +7,11 @@
 // the number of threads. One caller at a time.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
-#include <exception>
 #include <functional>
-#include <mutex>
-#include <thread>
-#include <vector>
+#include <memory>
+
+#include "core/for_each.h"
 
 namespace halocline::bus {
 
@@ -28,19 +26,14 @@ class ThreadPool {
   // A ForEach (core/for_each.h). When bodies throw, the rest is still done, and the exception of the lowest index is
   // thrown.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
+  // The same as a value; the pool must outlive it.
+  ForEach sharing_out() {
+    return [this](std::size_t count, const std::function<void(std::size_t)>& body) { for_each(count, body); };
+  }
 
  private:
-  void work();
-  void take_turns();
-
-  std::mutex mutex_;
-  std::condition_variable begun_, done_;
-  const std::function<void(std::size_t)>* body_ = nullptr;
-  std::size_t count_ = 0, next_ = 0, busy_ = 0, failed_at_ = 0;
-  std::exception_ptr failure_;
-  std::size_t round_ = 0;
-  bool stopping_ = false;
-  std::vector<std::thread> threads_;
+  struct Arena;
+  std::unique_ptr<Arena> arena_;  // null: the caller alone
 };
 
 }  // namespace halocline::bus

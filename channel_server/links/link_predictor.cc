@@ -49,7 +49,9 @@ bool is_impossible(const Modem& receiver, const Reception& reception, const Soun
 LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   Rates rates;
   const auto add = [&](const Modem& modem) {
-    rates.emplace_back(modem, std::min(rule_.payload_bytes, max_payload_bytes(modem)));
+    ReceptionCurves curves(modem, std::min(rule_.payload_bytes, max_payload_bytes(modem)));
+    OnePathForecast one_path(rule_.fading, curves);
+    rates.push_back({std::move(curves), std::move(one_path)});
   };
   add(transmitter);
   const auto of_family = [&](const Modem& modem) { return same_family(modem, transmitter); };
@@ -61,8 +63,8 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
     rate.centre_frequency_hz = transmitter.centre_frequency_hz;
     add(rate);
   }
-  std::sort(rates.begin() + 1, rates.end(), [](const ReceptionCurves& a, const ReceptionCurves& b) {
-    return a.modem().bit_rate_bps > b.modem().bit_rate_bps;
+  std::sort(rates.begin() + 1, rates.end(), [](const Rate& a, const Rate& b) {
+    return a.curves.modem().bit_rate_bps > b.curves.modem().bit_rate_bps;
   });
   return rates;
 }
@@ -70,7 +72,7 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
 // A packet of a constant ratio is received no less often than one whose ratio varies about that mean within it.
 double LinkPredictor::least_sinr_db(const Rates& rates) const {
   double least_db = std::numeric_limits<double>::infinity();
-  for (const ReceptionCurves& curves : rates) {
+  for (const auto& [curves, one_path] : rates) {
     const auto bits = static_cast<double>(curves.timing().information_bits);
     const auto received = [&](double sinr) {
       return curves.acquisition(sinr) * elementary::exp(bits * curves.log_bit_success(sinr));
@@ -122,18 +124,21 @@ LinkForecast LinkPredictor::forecast(const Rates& rates, const Modem& transmitte
   const double noise_power = to_power_ratio(noise).value;
   if (impossible) {
     forecast.sinr_db = level_of(predicted_sinr(rule_.fading, paths, receiver, windows, transmitter.band(),
-                                               noise_power, rates.front()))
+                                               noise_power, rates.front().curves))
                            .value;
     return forecast;
   }
   double best = 0;
-  for (const ReceptionCurves& curves : rates) {
+  for (const auto& [curves, one_path] : rates) {
     const double rate_bps = curves.modem().bit_rate_bps;
-    const bool own = &curves == &rates.front();
+    const bool own = &curves == &rates.front().curves;
     if (!own && rate_bps <= best) break;  // nor are those that follow better
     // Of the others the best window alone.
+    const auto from_table = one_path.at(paths, noise_power);
     const acoustics::LinkPrediction predicted =
-        own ? predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves)
+        from_table ? *from_table
+        : own
+            ? predict_link(rule_.fading, paths, receiver, windows, transmitter.band(), noise_power, curves)
             : predict_link(rule_.fading, paths, {&receiver, window}, transmitter.band(), noise_power, curves);
     if (own) {
       forecast.sinr_db = level_of(predicted.sinr).value;

@@ -17,6 +17,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/reception_curves.h"
+#include "channel_server/links/one_path_forecast.h"
 #include "channel_server/propagation/propagation.h"
 #include "core/units.h"
 
@@ -40,7 +41,11 @@ class LinkPredictor {
     std::vector<acoustics::Modem> profiles;  // known ones
   };
   // Of one transmitter: its own curves first, then those of the family's other rates, the greatest first.
-  using Rates = std::vector<acoustics::ReceptionCurves>;
+  struct Rate {
+    acoustics::ReceptionCurves curves;
+    OnePathForecast one_path;
+  };
+  using Rates = std::vector<Rate>;
 
   explicit LinkPredictor(Rule rule) : rule_(std::move(rule)) {}
 

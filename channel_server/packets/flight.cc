@@ -123,6 +123,15 @@ void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fl
   }
 }
 
+std::optional<LinkEnd> first_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                                 Propagation& propagation) {
+  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
+  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
+  if (!predicted) return std::nullopt;
+  return LinkEnd{flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps,
+                 &fleet.modem(flight.receiver_id, expected).modem};
+}
+
 bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                  Propagation& propagation) {
   const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
@@ -130,7 +139,7 @@ bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry
   if (!predicted) return true;
   const acoustics::Modem& modem = fleet.modem(flight.receiver_id, expected).modem;
   return serves(flight, *predicted, modem) ||
-         propagation.is_ready(
+         propagation.is_ready_for_packet(
              flight.packet->departure, flight.packet->link_end(),
              {flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps, &modem});
 }

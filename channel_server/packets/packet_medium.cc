@@ -22,8 +22,8 @@ constexpr int kMaxSolutions = 64;
 }  // namespace
 
 PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
-                           ReachModel* reach)
-    : fleet_(fleet), propagation_(propagation), rule_(rule), reach_(reach) {
+                           ReachModel* reach, ForEach for_each)
+    : fleet_(fleet), propagation_(propagation), rule_(rule), reach_(reach), for_each_(std::move(for_each)) {
   require(rule.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
   require(rule.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
 }
@@ -174,6 +174,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
                                            : acoustics::kGreatestBoundedRange;
   PacketOutcome others = outcome_out_of_reach(packet, reach_m);
   others.receivers = 0;
+  std::vector<EndPair> links;
   for (const PlacedVehicle& receiver : present) {
     if (receiver.id == source) continue;
     const double range_m = (receiver.placement.position_ned_m - packet->departure_ned_m).norm();
@@ -191,9 +192,13 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
       flight->packet = packet;
       flight->receiver_id = receiver.id;
       flight->receiver = fleet_.name_of(receiver.id);
+      if (const auto end = first_end(*flight, departure, fleet_, propagation_)) {
+        links.push_back({packet->link_end(), *end});
+      }
       schedule(departure, std::move(flight));  // solved there
     }
   }
+  propagation_.prepare_packet(departure, links, for_each_);
   if (is_served && others.receivers > 0) {
     events.push_back({departure, departure < advanced_to_, std::move(others)});
   }

@@ -55,6 +55,7 @@
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/for_each.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -71,10 +72,10 @@ class PacketMedium {
  public:
   static constexpr std::size_t kMaxQueued = 16;  // at one modem
 
-  // All must outlive the medium; the owner adds the states to the registry before advance_to. Without `reach` everybody
+  // All must outlive the medium; `for_each` shares out what the paths of one packet cost; the owner adds the states to the registry before advance_to. Without `reach` everybody
   // is within reach.
   PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
-               ReachModel* reach = nullptr);
+               ReachModel* reach = nullptr, ForEach for_each = one_after_the_other);
 
   // A request received at `now`. A receipt when it can be given without waiting for the start:
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
@@ -139,6 +140,7 @@ class PacketMedium {
   Propagation& propagation_;
   MediumRule rule_;
   ReachModel* reach_;
+  ForEach for_each_;
   SendRegister register_;
   NoiseLevelCache noise_;
   std::map<DepartureKey, Departure> departures_;

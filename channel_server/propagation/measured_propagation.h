@@ -56,12 +56,18 @@ class MeasuredPropagation : public Propagation {
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  void prepare_packet(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override {
+    model_->prepare_packet(at, links, for_each);
+  }
   bool plans_ticks() const override { return model_->plans_ticks(); }
   void begin_tick(SimTime at, const std::vector<EndPair>& all) override { model_->begin_tick(at, all); }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
     return model_->is_ready(at, from, to);
+  }
+  bool is_ready_for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return model_->is_ready_for_packet(at, from, to);
   }
   bool are_ready(SimTime at, const std::vector<EndPair>& links) override {
     return model_->are_ready(at, links);

@@ -1,22 +1,68 @@
 #include "channel_server/propagation/path_search.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "acoustics/link/mixed_link.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/sea/bottom_profile.h"
-#include "channel_server/propagation/ray_limits.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
 namespace {
 
 constexpr double kMinCellsOfALink = 20;
+constexpr double kEvenM = 0.5;  // differences of depth of a bottom that mixes no rays
 constexpr int kMaxHalvings = 6;
 constexpr double kDepthShare = 0.1;  // height of a cell over its length
 
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
 }  // namespace
+
+int bounces_for(double range_m, double depth_m) {
+  constexpr double kLeast = 60, kMost = 10'000, kSlope = 0.6;
+  const double bounces = std::ceil(kSlope * range_m / depth_m);
+  return static_cast<int>(std::clamp(bounces, kLeast, kMost));
+}
+
+double mean_depth_m(const acoustics::BottomProfile& bottom, double range_m) {
+  constexpr int kPlaces = 16;
+  double sum = 0;
+  for (int i = 0; i < kPlaces; ++i) sum += bottom.depth_at(range_m * (i + 0.5) / kPlaces);
+  return sum / kPlaces;
+}
+
+std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySolver> wanted,
+                                                  const acoustics::RaySea& sea,
+                                                  const acoustics::RayLink& link) {
+  using Solver = acoustics::RaySolver;
+  const Solver simplest = choose_solver(sea, link);
+  if (!wanted || *wanted == Solver::kArcs || simplest == Solver::kImages) return wanted;
+  return *wanted == Solver::kSnell && simplest == Solver::kSnell ? wanted : simplest;
+}
+
+Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment& environment) {
+  double gain_db = 0;
+  if (model.coherent) {
+    gain_db += 10;
+  } else if (model.fading.enabled) {
+    gain_db += 3;
+  }
+  if (model.reverberation.enabled) gain_db += 10;
+  if (environment.spreading_exponent < 1.5) gain_db += 6;
+  return Decibels{gain_db};
+}
+
+// Each count takes its low bits.
+std::uint64_t number_of(const acoustics::PathIdentity& identity) {
+  std::uint64_t number = identity.launched_up ? 1 : 0;
+  for (const int count :
+       {identity.surface_bounces, identity.bottom_bounces, identity.upper_turns, identity.lower_turns}) {
+    number = number << 14 | (static_cast<std::uint64_t>(count) & 0x3FFF);
+  }
+  return number << 7 | (static_cast<std::uint64_t>(identity.branch) & 0x7F);
+}
 
 void validate(const RayModel& model) {
   validate(model.bottom);
@@ -26,6 +72,8 @@ void validate(const RayModel& model) {
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.diffuse_below_noise.value, -100, 100, "level of diffuse sound below the noise",
                    "dB");
+  require_in_range(model.greatest_depth_m, 0, acoustics::kDeepestWater, "greatest depth of the water", "m");
+  require_in_range(model.least_depth_m, 0, model.greatest_depth_m, "least depth of the water", "m");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
   require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
 }
@@ -46,6 +94,30 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
   found->mean_depth_m = depth_m;
   found->arrivals = arrivals(sea, query.link, usable_solver(model.solver, sea, query.link));
   found->blocked = cuts_straight_line(sea.bottom_profile, query.link);
+  return found;
+}
+
+std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
+                                             const acoustics::Environment& environment,
+                                             const PathQuery& query, std::span<const double> seabed_z_m) {
+  const auto [least, most] = std::minmax_element(seabed_z_m.begin(), seabed_z_m.end());
+  if (*most - *least < kEvenM) return nullptr;
+  double mean_z_m = 0;
+  for (const double z_m : seabed_z_m) mean_z_m += z_m / static_cast<double>(seabed_z_m.size());
+  const double deepest_end_m = std::max(query.link.source_depth_m, query.link.receiver_depth_m);
+  const double depth_m =
+      std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
+  acoustics::RayOptions options = model.options;
+  options.frequency_hz = query.frequency_hz;
+  options.diffuse_below_pressure = query.diffuse_below_pressure;
+  auto windows =
+      acoustics::weak_arrivals({water, depth_m, model.bottom,
+                                acoustics::RaySurface{model.surface, environment.noise.wind_mps}, options},
+                               query.link);
+  if (!windows) return nullptr;
+  auto found = std::make_shared<FoundPaths>();
+  found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};
+  found->mean_depth_m = depth_m;
   return found;
 }
 

@@ -7,14 +7,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "core/units.h"
@@ -39,7 +43,9 @@ struct RayModel {
   bool reuse_for_packets = false;  // packets share the searches of tables
   // Over a rough bottom paths this much weaker than the noise over the transmitter's band, less the receiver's directivity, come
   // as energy alone (RayOptions::diffuse_below_pressure), -100..100. Not where options.diffuse_below_db is 0.
-  Decibels diffuse_below_noise{10};
+  Decibels diffuse_below_noise{5};
+  // Of the water wherever sound goes, as far as it is known, m: for the range that sound reaches. 0..kDeepestWater, rising.
+  double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;         // of link tables, by search_budget.h; 0: as many as they need
   double profile_reuse_distance_m = 25;  // with it: between points of the lattice of ends, 0.1..1000
 };
@@ -88,6 +94,33 @@ struct FoundPaths {
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed);
+
+// The same of a link so weak and over so uneven a bottom that its energy is enough (acoustics/link/mixed_link.h); null for others.
+// `seabed_z_m` at even places between the ends.
+std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
+                                             const acoustics::Environment& environment,
+                                             const PathQuery& query, std::span<const double> seabed_z_m);
+
+// Bounces that a link's paths may have: 0.6 of range over mean depth (above 0), 60 at least and 10 000 at most. A path that
+// drops by the depth D from one bounce to the next meets the boundaries r tan(angle) / D times over the range r, so these are
+// all up to 31 degrees, the critical angle of medium sand; steeper ones lose several dB at each bounce.
+int bounces_for(double range_m, double depth_m);
+
+// Of the bottom between the ends of a link, m.
+double mean_depth_m(const acoustics::BottomProfile& bottom, double range_m);
+
+// What the level of a link may have beside the sum of its paths' powers in even water (acoustics/link/least_loss.h), our
+// choices: 10 dB where phasors are added, 3 dB where only those whose fading keeps together are; 10 dB for the tail of
+// reverberation; 6 dB where the straight path, which serves without a bottom, spreads less than by 1.5 * 10 log r.
+Decibels gain_beyond_powers(const RayModel& model, const acoustics::Environment& environment);
+
+// The solver that is wanted where it can do the link, else the simplest that can; empty: the simplest.
+std::optional<acoustics::RaySolver> usable_solver(std::optional<acoustics::RaySolver> wanted,
+                                                  const acoustics::RaySea& sea,
+                                                  const acoustics::RayLink& link);
+
+// Of a path as it was found, from the link's lower end: the same for both directions.
+std::uint64_t number_of(const acoustics::PathIdentity& identity);
 
 // Between which points the paths of a link of a table are searched, so that one search serves links that differ little; empty:
 // this very one, as it is too short for cells of `distance_m` (above 0).

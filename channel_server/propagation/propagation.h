@@ -127,6 +127,10 @@ class Propagation {
   virtual Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return reception(at, from, to);
   }
+  // The links of one packet, of which reception_without_capacity() will be asked: what that costs may be shared out now. It
+  // changes no result.
+  virtual void prepare_packet(SimTime /*at*/, const std::vector<EndPair>& /*links*/,
+                              const ForEach& /*for_each*/) {}
   // Whether begin_tick() is to be called before receptions(), once for each tick, with all links between all vehicles whoever
   // asks for them: an implementation that has time for some searches only plans which.
   virtual bool plans_ticks() const { return false; }
@@ -138,6 +142,10 @@ class Propagation {
   // Whether all is known that reception() needs, or receptions(). What is not is requested here, and becomes known or
   // turns out to be unavailable: to be called again then.
   virtual bool is_ready(SimTime /*at*/, const LinkEnd& /*from*/, const LinkEnd& /*to*/) { return true; }
+  // The same of reception_without_capacity().
+  virtual bool is_ready_for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+    return is_ready(at, from, to);
+  }
   virtual bool are_ready(SimTime /*at*/, const std::vector<EndPair>& /*links*/) { return true; }
   // Whether answers depend on the bottom along the link: then reception() uses what is known of it, and
   // reception_over() the one that is given, from the one end to the other (null: unknown). The latter is not to be

@@ -14,22 +14,17 @@
 // and where rays are too weak, that of the stated floor, the delay that of the straight line, and nothing is receivable.
 // Where the bottom is not known (no terrain there, or no answer of who knows it): the straight path.
 //
-// Paths are searched from the end where the bottom profile starts (the lower id) to the other; the other direction is
-// the same paths backwards, so the two are reciprocal to the last bit (but for what the receiver's noise makes diffuse:
-// RayModel::diffuse_below_noise). reception() searches every link for itself, over the bottom between its very ends.
-// receptions(), for tables, may let links share, and packets too with RayModel::reuse_for_packets: with a distance of reuse, both
-// ends go to the nearest points of a horizontal lattice for the bottom, the search is for the middle of the cell that the
-// link lies in (path_search.h), and its paths are extrapolated from there to the link
-// (acoustics/link/extrapolate_arrivals.h); not for coherent levels. With a budget of searches a tick (search_budget.h) a link
-// may keep the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Otherwise results are functions of
-// environment, terrain and ends alone: a search is kept for the very same query, and done again when it was forgotten. Ends
-// above the surface are taken at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
+// Paths are searched from the lower id to the higher; the other direction is the same paths backwards, so the two are reciprocal
+// to the last bit but for what the receiver's noise makes diffuse (RayModel::diffuse_below_noise). reception() searches every
+// link for itself. receptions(), for tables, may let links share searches, whose paths are extrapolated to each
+// (link_searches.h, acoustics/link/extrapolate_arrivals.h); so may packets. With a budget of searches a tick a link
+// may keep the paths of an earlier tick, extrapolated likewise: Reception::paths_age. Ends above the surface are taken
+// at it. Left out: motion of the bottom's slope across the link (acoustics/rays/eigenray.h).
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
@@ -43,19 +38,17 @@
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
-#include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/link_searches.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/received_path.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
-#include "channel_server/propagation/search_budget.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "core/for_each.h"
 #include "core/frames.h"
-#include "core/lru_cache.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -66,20 +59,26 @@ class RayPropagation : public Propagation {
   // Throws InvalidArgument when the model is out of range.
   RayPropagation(std::shared_ptr<const EnvironmentTimeline> waters, std::shared_ptr<SeabedMap> seabed,
                  const RayModel& model);
+  RayPropagation(const RayPropagation&) = delete;
+  RayPropagation& operator=(const RayPropagation&) = delete;
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    return along_rays(at, task_of(at, from, to, from.id > to.id), found_);
+    return along_rays(at, searches_.for_itself(at, from, to), acoustics::Capacity::kComputed);
   }
   Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
-    Task task = packet_task_of(at, from, to);
-    task.capacity = acoustics::Capacity::kLeftOut;
-    return along_rays(at, task, model_.reuse_for_packets ? shared_found_ : found_);
+    return along_rays(at, searches_.for_packet(at, from, to), acoustics::Capacity::kLeftOut);
   }
-  bool plans_ticks() const override { return budget_.has_value(); }
-  void begin_tick(SimTime at, const std::vector<EndPair>& all) override;
+  void prepare_packet(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override;
+  bool plans_ticks() const override { return searches_.has_budget(); }
+  void begin_tick(SimTime at, const std::vector<EndPair>& all) override { searches_.begin_tick(at, all); }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
-  bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
+  bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return searches_.is_ready(searches_.for_itself(at, from, to));
+  }
+  bool is_ready_for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
+    return searches_.is_ready(searches_.for_packet(at, from, to));
+  }
   bool are_ready(SimTime at, const std::vector<EndPair>& links) override;
   bool uses_bottom() const override { return true; }
   double depth_inside_seabed_m(const Vec3& place_ned_m) const override {
@@ -101,72 +100,32 @@ class RayPropagation : public Propagation {
                                                  double deepest_end_m) const override;
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
-  std::int64_t searches() const { return searches_; }  // of paths, since the start
+  std::int64_t searches() const { return searches_.searches(); }  // of paths, since the start
 
  private:
-  using PathsPointer = std::shared_ptr<const FoundPaths>;
-  // A link, ready to be computed without touching the caches once its bottom is there.
-  struct Task {
-    EndPair ends;
-    const acoustics::Environment* environment;
-    std::shared_ptr<const acoustics::RayWater> water;
-    std::shared_ptr<const acoustics::LinkKernel> kernel;
-    PathQuery query;
-    acoustics::RayLink link;  // where the ends are; the query's own unless its paths are extrapolated
-    bool reversed = false;    // the transmitter is the profile's last end
-    acoustics::Capacity capacity = acoustics::Capacity::kComputed;
-    SearchBudget::Granted* granted =
-        nullptr;           // the query's; null without a budget, and before the link's first turn
-    bool waits = false;    // for that turn
-    SimDuration age = {};  // since the query was the link's own
-  };
+  using Task = LinkSearches::Task;
 
-  std::shared_ptr<const SeabedProfile> seabed_of(const PathQuery& query) const;
-  std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
-  Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed);
-  Task task_over(SimTime at, const LinkEnd& from, const LinkEnd& to,
-                 const std::shared_ptr<const SeabedProfile>& seabed);
-  bool is_surveyed(const ProfileEnds& places) {
-    return seabed_->is_surveyed({places[0], places[1], 0}, {places[2], places[3], 0});
-  }
-  // For a table: the query may be that of a cell, shared by links near it.
-  Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  // The same; where the budget does not allow for that, the query that the link was last granted.
-  Task table_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  PathsPointer search(const Task& task, const SeabedProfile& seabed) const {
-    return search_paths(model_, *task.water, *task.environment, task.query, seabed);
-  }
-  // For a packet: as for a table where packets share searches; a link without a turn yet searches for itself.
-  Task packet_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
-  using FoundCache = LruCache<PathQuery::Key, PathsPointer>;
-  // Null where the bottom is not known.
-  PathsPointer found(const Task& task, FoundCache& cache);
-  // What is known already; null otherwise.
-  PathsPointer known(const Task& task);
   // Straight where the bottom is not known.
-  Reception along_rays(SimTime at, const Task& task, FoundCache& cache);
+  Reception along_rays(SimTime at, const Task& task, acoustics::Capacity capacity);
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
                              acoustics::Capacity capacity = acoustics::Capacity::kComputed);
-  Reception answer(const Task& task, const FoundPaths& found) const;
+  Reception answer(const Task& task, const FoundPaths& found, acoustics::Capacity capacity) const;
   static PathState state_without_path(const FoundPaths& found);
   // What was found, at the ends of the task.
   acoustics::Arrivals arrivals_at(const Task& task, const FoundPaths& found) const;
   std::vector<SoundPath> sound_paths(const Task& task, const acoustics::Arrivals& arrivals) const;
   Decibels received_level(const Task& task, const acoustics::Arrivals& arrivals,
                           const std::vector<SoundPath>& paths) const;
-  void set_open(const Task& task, const acoustics::Arrivals& arrivals, Reception& reception) const;
-  void set_silent(const Task& task, Reception& reception) const;
+  void set_open(const Task& task, const acoustics::Arrivals& arrivals, acoustics::Capacity capacity,
+                Reception& reception) const;
+  void set_silent(const Task& task, acoustics::Capacity capacity, Reception& reception) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   std::shared_ptr<SeabedMap> seabed_;
   RayModel model_;
   RoughBoundaries boundaries_;
   StraightPropagation straight_;
-  LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
-      ray_waters_;
-  FoundCache found_, shared_found_;  // of links for themselves; of tables, and packets that share them
-  std::optional<SearchBudget> budget_;
-  std::int64_t searches_ = 0;
+  LinkSearches searches_;
 };
 
 }  // namespace halocline::channel_server

@@ -93,6 +93,7 @@ ReachModel::ReachModel(std::shared_ptr<const EnvironmentTimeline> waters, const 
                        const ReachRule& rule)
     : waters_(std::move(waters)), propagation_(propagation), rule_(rule), ranges_(kMaxRanges) {
   require_in_range(rule.below_noise.value, 0, 200, "level below the noise that disturbs nobody", "dB");
+  require_in_range(rule.table_range_m, 0, acoustics::kGreatestBoundedRange, "range of link tables", "m");
 }
 
 double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
@@ -104,14 +105,16 @@ double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const Veh
 std::vector<double> ReachModel::reception_ranges_m(SimTime at, const VehicleRegistry& registry,
                                                    const std::vector<PlacedVehicle>& vehicles,
                                                    const LeastRatio& least_sinr_db) {
-  if (!rule_.by_level) return std::vector<double>(vehicles.size(), acoustics::kGreatestBoundedRange);
+  const double most_m = rule_.table_range_m > 0 ? rule_.table_range_m : acoustics::kGreatestBoundedRange;
+  if (!rule_.by_level) return std::vector<double>(vehicles.size(), most_m);
   const Crowd crowd = crowd_of(at, registry, vehicles);
   std::vector<double> ranges;
   const acoustics::Modem* last = nullptr;
   for (const PlacedVehicle& vehicle : vehicles) {
     const acoustics::Modem& modem = vehicle.modem->modem;
     const bool is_same = last != nullptr && (last == &modem || *last == modem);
-    ranges.push_back(is_same ? ranges.back() : reception_range_m(at, modem, crowd, least_sinr_db(modem)));
+    ranges.push_back(is_same ? ranges.back()
+                             : std::min(reception_range_m(at, modem, crowd, least_sinr_db(modem)), most_m));
     last = &modem;
   }
   return ranges;

@@ -5,7 +5,7 @@
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/link/received_field.h"
-#include "channel_server/propagation/ray_limits.h"
+#include "channel_server/propagation/path_search.h"
 #include "core/elementary.h"
 
 namespace halocline::channel_server {

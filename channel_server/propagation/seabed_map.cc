@@ -170,6 +170,18 @@ std::shared_ptr<const SeabedProfile> SeabedMap::between(const Vec3& from, const 
   return std::make_shared<const SeabedProfile>(std::move(profile));
 }
 
+std::optional<std::array<double, SeabedMap::kPlaces>> SeabedMap::places_between(const Vec3& from,
+                                                                                const Vec3& to) const {
+  std::array<double, kPlaces> z_m{};
+  Line line{from.x(), from.y(), to.x() - from.x(), to.y() - from.y(), 0.5 / kPlaces, 0};
+  Reader reader(*this);
+  for (int i = 0; i < kPlaces; ++i) {
+    z_m[static_cast<std::size_t>(i)] = reader.seabed(line, 2 * i + 1);
+    if (std::isnan(z_m[static_cast<std::size_t>(i)])) return std::nullopt;
+  }
+  return z_m;
+}
+
 std::optional<double> SeabedMap::seabed_z_m(const Vec3& place) const {
   const double z_m = Reader(*this).seabed(line_between(place, place), 0);
   return std::isnan(z_m) ? std::nullopt : std::optional(z_m);
@@ -190,22 +202,24 @@ bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
     surveyed = false;
     if (!queried_.contains(index)) requested_.insert(index);
   };
+  // Every fourth sample, with as many points more to each side as lie between them.
+  constexpr int kStride = 4;
+  const auto beside = static_cast<std::int64_t>(std::ceil(kStride / 2 * line.spacing_m / rule_.spacing_m));
   constexpr TileIndex kNone{std::numeric_limits<std::int64_t>::min(), 0};
   TileIndex last_near = kNone, last_far = kNone;
-  for (int sample = -kBeyond; sample <= line.last + kBeyond; ++sample) {
+  for (int sample = -kBeyond; sample < line.last + kBeyond + kStride; sample += kStride) {
     const double way = sample * line.spacing_m;
     const std::int64_t north = tile_coordinate(line.north_m + way * line.along_north),
                        east = tile_coordinate(line.east_m + way * line.along_east);
-    const TileIndex near{tile_of(north - kReachBefore), tile_of(east - kReachBefore)},
-        far{tile_of(north - kReachBefore + kReach - 1), tile_of(east - kReachBefore + kReach - 1)};
+    const std::int64_t before = kReachBefore + beside, after = kReach - 1 - kReachBefore + beside;
+    const TileIndex near{tile_of(north - before), tile_of(east - before)},
+        far{tile_of(north + after), tile_of(east + after)};
     if (near == last_near && far == last_far) continue;
     last_near = near;
     last_far = far;
-    visit(near);
-    if (near == far) continue;
-    visit({far.north, near.east});
-    visit({near.north, far.east});
-    visit(far);
+    for (std::int64_t n = near.north; n <= far.north; ++n) {
+      for (std::int64_t e = near.east; e <= far.east; ++e) visit({n, e});
+    }
   }
   return surveyed;
 }

@@ -28,6 +28,7 @@ water_rows = [[0.0, 22.0, 38.0], [15.0, 22.0, 38.0], [30.0, 15.0, 38.0], [50.0, 
 
 [propagation]
 model = "{model}"
+{rays}
 
 [modem] # carries 2 km: 9 of 10 packets are received there
 profile = "micromodem-fsk"
@@ -35,6 +36,7 @@ source_level_db = {source_level_db}
 
 [channel_server]
 link_rate_hz = 1.0
+{server}
 """
 
 VEHICLE = """
@@ -57,6 +59,17 @@ payload_bytes = 32
 
 # Along rays the bottom and the surface scatter.
 SOURCE_LEVEL_DB = {"straight": 132.0, "rays": 145.0}
+# Of the water anywhere, which says how far sound gets; packets and tables share searches, of which there are as many a second as a
+# vehicle changes its neighbourhood.
+RAYS = """least_depth_m = 75.0
+greatest_depth_m = 250.0
+diffuse_below_noise_db = 0.0
+reuse_for_packets = true"""
+SERVER = """reach_below_noise_db = 20.0
+table_range_m = {table_range_m}
+max_searches_per_tick = {searches}"""
+TABLE_RANGE_M = 4000.0
+SEARCHES_PER_VEHICLE = 0.5
 DENSE_SIDE_M = 2000
 LINE_M = 300.0
 
@@ -81,6 +94,9 @@ def fleet(count, laying, model, duration_s):
     """The scenario as TOML. `laying`: "dense" (a square of 2 km) or "spread" (a vehicle a square kilometre)."""
     side = side_m(laying, count)
     size = 20 * math.ceil((side + 4 * LINE_M) / 20)
-    head = SEA.format(count=count, laying=laying, model=model, duration_s=duration_s, size_m=size, source_level_db=SOURCE_LEVEL_DB[model],
+    head = SEA.format(count=count, laying=laying, model=model, duration_s=duration_s,
+                      rays=RAYS if model == "rays" else "",
+                      server=SERVER.format(table_range_m=TABLE_RANGE_M, searches=round(SEARCHES_PER_VEHICLE * count)) if model == "rays" else "",
+                      size_m=size, source_level_db=SOURCE_LEVEL_DB[model],
                       slope=f"{min(0.02, 60 / size):.5f}")
     return head + "".join(vehicle(number, count, side) for number in range(1, count + 1))

@@ -9,6 +9,7 @@
 #include "acoustics/sea/absorption.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "channel_server/modems/modem_config.h"
+#include "channel_server/water_model.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/read_config.h"

@@ -82,7 +82,7 @@ const std::vector<Room>& rooms() {
       {"bus/logs", {"core", "bus"}, {"lcm/"}, "logs hold messages, and know no node"},
       {"bus/runtime",
        {"core", "bus", "bus/config", "bus/lockstep"},
-       {"lcm/", "CLI/"},
+       {"lcm/", "CLI/", "tbb/"},
        "nodes of any process run on it, so it knows none of them"},
       {"conductor",
        {"core", "bus", "bus/config", "bus/lockstep", "bus/logs", "bus/runtime"},

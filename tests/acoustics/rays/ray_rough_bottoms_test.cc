@@ -119,6 +119,32 @@ TEST(RoughBottoms, DiffusePowerIsThatOfThePathsItStandsFor) {
   EXPECT_NEAR(10 * std::log10(diffuse / left_out), 0, tolerance(1));
 }
 
+// Paths that are weak by themselves are diffuse as those are that are weak beside the strongest.
+TEST(RoughBottoms, PathsAboveThePressureAreKeptAndTheLevelStays) {
+  double power = 0, of_every = 0;
+  std::size_t strong = 0, lost = 0, few = 0, all = 0;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const RayLink link = random_link(i, 2000);
+    RaySea sea = rough_sea(i, link.range_m);
+    const Arrivals every = arrivals(every_ray(sea), link);
+    sea.options.diffuse_below_pressure = 1e-4;
+    const Arrivals found = arrivals(sea, link);
+    for (const Arrival& path : every.paths) {
+      if (path.received_pressure() < 2 * sea.options.diffuse_below_pressure) continue;
+      ++strong;
+      if (!has(found.paths, path)) ++lost;
+    }
+    power += power_of(found.paths);
+    of_every += power_of(every.paths);
+    few += found.paths.size();
+    all += every.paths.size();
+  }
+  EXPECT_GT(strong, 200u);
+  EXPECT_LE(static_cast<double>(lost), tolerance(0.01) * static_cast<double>(strong));
+  EXPECT_LT(4 * few, all);
+  EXPECT_NEAR(10 * std::log10(power / of_every), 0, tolerance(0.3));
+}
+
 TEST(RoughBottoms, SmoothOnesAreSearchedForEveryRay) {
   for (const BottomProfile& bottom : {cosine_hill(), BottomProfile({{0, 200}, {5000, 140}}),
                                       BottomProfile({{0, 200}, {1500, 200}, {2500, 80}, {3500, 200}})}) {

@@ -101,6 +101,41 @@ TEST_F(RayReuseTest, OutsideOfTablesEveryLinkIsSearchedForItself) {
   EXPECT_EQ(propagation.searches(), 6);
 }
 
+// Unless packets are to share the searches of tables: then each is the link of a table.
+TEST_F(RayReuseTest, PacketsShareTheSearchesOfTablesWhereTheyMay) {
+  RayModel model;
+  model.reuse_distance_m = kCellM;
+  model.reuse_for_packets = true;
+  RayPropagation propagation(std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), bottoms_,
+                             model);
+  for (int step = 0; step < 6; ++step) {
+    const LinkEnd a = end(1, first_), b = end(2, second_ + Vec3(2.0 * step, 0, 0.05 * step));
+    ASSERT_TRUE(propagation.is_ready_for_packet(at_s(1), a, b));
+    const Reception row = in_table(propagation, a, b);
+    const Reception packet = propagation.reception_without_capacity(at_s(1), a, b);
+    EXPECT_EQ(packet.budget.received_level.value, row.budget.received_level.value);
+    ASSERT_EQ(packet.paths.size(), row.paths.size());
+    EXPECT_EQ(packet.paths.front().delay_s, row.paths.front().delay_s);
+  }
+  EXPECT_EQ(propagation.searches(), 1);
+}
+
+// What a packet's paths cost may be shared out beforehand.
+TEST_F(RayReuseTest, WhatIsPreparedForAPacketIsNotSearchedAgain) {
+  auto prepared = rays(bottoms_, kCellM), own = rays(bottoms_, kCellM);
+  std::vector<EndPair> links;
+  for (int step = 0; step < 6; ++step)
+    links.push_back(
+        {end(1, first_), end(static_cast<VehicleId>(2 + step), second_ + Vec3(5.0 * step, 0, 0))});
+  prepared.prepare_packet(at_s(1), links, one_after_the_other);
+  EXPECT_EQ(prepared.searches(), 6);
+  for (const auto& [from, to] : links) {
+    EXPECT_EQ(prepared.reception_without_capacity(at_s(1), from, to).budget.received_level.value,
+              own.reception_without_capacity(at_s(1), from, to).budget.received_level.value);
+  }
+  EXPECT_EQ(prepared.searches(), 6);
+}
+
 // Whatever was computed before, in whatever order, in however many propagations.
 TEST_F(RayReuseTest, ResultsDependOnTheQueryAlone) {
   auto forwards = rays(bottoms_, kCellM), backwards = rays(bottoms_, kCellM);

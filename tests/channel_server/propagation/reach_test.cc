@@ -11,6 +11,8 @@
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
 #include "channel_server/links/link_predictor.h"
@@ -21,6 +23,7 @@
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/random.h"
 #include "core/units.h"
+#include "tests/acoustics/rays/layered_waters.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/support/tolerance.h"
 
@@ -93,6 +96,34 @@ TEST(LeastLoss, OfRaysIsThatOfAChannelWithoutLosses) {
   const LeastLoss least = LeastLoss::of_rays(windy_water(0), 10, 100, Decibels{0});
   const double images = std::acos(-1) / (acoustics::kChannelThickness * 3000) + 2 / 9e6;
   EXPECT_NEAR(least.at(3000).value, -10 * std::log10(images) - acoustics::kFocusingGain.value, 0.01);
+}
+
+// Where the water is known to be no shallower, the bottom takes its share: the further, the more; in deeper water the less.
+TEST(LeastLoss, OfRaysGrowsByWhatTheBottomTakes) {
+  const auto at = [](double range_m, double least_depth_m) {
+    const acoustics::WaterColumn column{least_depth_m, 1000, *acoustics::sediment("MediumSand")};
+    return LeastLoss::of_rays(windy_water(0), 10, 100, Decibels{0}, column).at(range_m).value;
+  };
+  EXPECT_EQ(at(3000, 0), LeastLoss::of_rays(windy_water(0), 10, 100, Decibels{0}).at(3000).value);
+  EXPECT_GT(at(3000, 75), at(3000, 0) + 5);
+  EXPECT_GT(at(10'000, 75) - at(10'000, 0), at(3000, 75) - at(3000, 0));
+  EXPECT_GT(at(3000, 150), at(3000, 75));
+}
+
+// No ray over a rough bottom is louder.
+TEST(LeastLoss, OfRaysBoundsTheLevelsOfARoughChannel) {
+  const acoustics::FluidBottom sand = *acoustics::sediment("MediumSand");
+  const acoustics::Environment water = windy_water(0);
+  const acoustics::LeastLoss least = LeastLoss::of_rays(water, 25'000, 100, Decibels{0}, {130, 170, sand});
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    const double range_m = 500 + 100 * i;
+    acoustics::RaySea sea{
+        acoustics::ray_water(water, 25'000), acoustics::rough_bottom(i, range_m), sand, {}, {}};
+    double power = 0;
+    for (const auto& path : arrivals(sea, {20.0 + 3 * i, 110.0 - 3 * i, range_m}).paths)
+      power += path.received_pressure() * path.received_pressure();
+    EXPECT_GT(-10 * std::log10(power), least.at(range_m).value) << range_m;
+  }
 }
 
 TEST_F(Reach, AtItsEndTheLevelIsTheLeastThatMatters) {
@@ -193,6 +224,14 @@ TEST_F(ReceptionRange, BeyondItAPacketInAThousandIsReceivedAtMost) {
     EXPECT_GT(delivery_at(0.75 * range_m, rule.fading), 1e-3);
     EXPECT_LT(range_m, 0.7 * reach_m(modem_, rule));
   }
+}
+
+TEST_F(ReceptionRange, IsNoMoreThanATablesRange) {
+  ReachRule near;
+  near.table_range_m = 1234;
+  EXPECT_EQ(ranges_m(near), std::vector<double>(2, 1234));
+  near.by_level = false;
+  EXPECT_EQ(ranges_m(near), std::vector<double>(2, 1234));
 }
 
 TEST_F(ReceptionRange, IsThatOfEachModemOfAFleet) {

@@ -16,7 +16,7 @@
 #include "channel_server/channel_server_config.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/propagation/environment_timeline.h"
-#include "channel_server/propagation/ray_limits.h"
+#include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"

@@ -1,0 +1,139 @@
+#include "acoustics/link/mixed_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "acoustics/rays/profile_path.h"
+#include "core/elementary.h"
+
+namespace halocline::acoustics {
+namespace {
+
+constexpr double kCoarseness = 3;    // windows over those of a search's fan
+constexpr double kLeastSine = 0.02;  // where a ray turns its density is bounded by this
+constexpr double kKeptShare = 0.99;  // of the power
+constexpr double kFarAway = 10;      // depths
+constexpr double kWeak = 0.25;       // of the power of what is diffuse
+
+double sine_at(double xi, double speed) { return std::sqrt(std::max(1 - xi * xi * speed * speed, 0.0)); }
+
+// Half a cycle of a ray in water of one depth: between where it turns or meets a boundary.
+struct HalfCycle {
+  double range_m = 0, delay_s = 0, length_m = 0, absorption_db = 0;
+  double upper_m = 0, lower_m = 0;  // from where to where it goes
+};
+
+// From `depth_m` to where the ray of `xi` turns, or to `limit_m`; layers upwards or downwards.
+double add_leg(const RayWater& water, double xi, double depth_m, double limit_m, HalfCycle& half) {
+  const bool down = limit_m > depth_m;
+  std::size_t layer = water.layer_at(depth_m);
+  if (!down && depth_m == water.depths_m()[layer] && layer > 0) --layer;
+  double z = depth_m, c = water.speed_at(z), s = sine_at(xi, c);
+  while (z != limit_m && s > 0) {
+    const double edge =
+        down ? std::min(water.depths_m()[layer + 1], limit_m) : std::max(water.depths_m()[layer], limit_m);
+    const double g = water.gradients_per_s()[layer], c2 = c + g * (edge - z), s2 = sine_at(xi, c2);
+    // dr = h xi (c1 + c2) / (s1 + s2); to where it turns s / (xi |g|).
+    const double dr = s2 > 0 ? std::abs(edge - z) * xi * (c + c2) / (s + s2) : s / (xi * std::abs(g));
+    const double end = s2 > 0 ? edge : z + (1 / xi - c) / g;
+    const double length = dr / (xi * (s2 > 0 ? 0.5 * (c + c2) : 0.5 * (c + 1 / xi)));
+    half.range_m += dr;
+    half.length_m += length;
+    half.delay_s += length / (s2 > 0 ? 0.5 * (c + c2) : 0.5 * (c + 1 / xi));
+    half.absorption_db += length * water.absorption_db_per_m(0.5 * (z + end));
+    z = end;
+    c = c2;
+    s = s2;
+    if (down ? layer + 1 < water.layers() : layer > 0) layer += down ? 1 : -1;
+  }
+  return z;
+}
+
+double power_of(const Arrival& path) { return path.received_pressure() * path.received_pressure(); }
+
+// What the boundaries take on the way.
+void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double range_m, Arrival& window) {
+  const double times = range_m / half.range_m / 2;
+  if (half.upper_m == 0) {
+    const double sine = sine_at(xi, sea.water.speeds_mps().front());
+    window.surface_bounces = static_cast<int>(times);
+    window.surface_sine_squares = times * sine * sine;
+    window.surface_loss_db =
+        times * surface_loss_db(sea.surface, elementary::asin(sine), sea.options.frequency_hz);
+  }
+  if (half.lower_m == sea.depth_m) {
+    const double speed = sea.water.speed_at(sea.depth_m), sine = sine_at(xi, speed);
+    window.bottom_bounces = static_cast<int>(times);
+    window.bottom_sine_squares = times * sine * sine;
+    window.bottom_loss_db =
+        -20 * times * elementary::log10(bottom_magnitude_at_sine(sea.bottom, sine, speed));
+  }
+}
+
+// Rays launched between `low` and `high`.
+std::optional<Arrival> window_of(const MixedSea& sea, const RayLink& link, double low, double high) {
+  const double theta = 0.5 * (low + high), speed = sea.water.speed_at(link.receiver_depth_m);
+  const double xi = elementary::cos(theta) / sea.water.speed_at(link.source_depth_m);
+  HalfCycle half;
+  half.upper_m = add_leg(sea.water, xi, link.source_depth_m, 0, half);
+  half.lower_m = add_leg(sea.water, xi, link.source_depth_m, sea.depth_m, half);
+  if (!(half.range_m > 0) || link.receiver_depth_m < half.upper_m || link.receiver_depth_m > half.lower_m)
+    return std::nullopt;
+  Arrival window;
+  set_bounces(sea, xi, half, link.range_m, window);
+  const double density = xi * speed / std::max(sine_at(xi, speed), kLeastSine) / half.range_m;
+  window.amplitude = std::sqrt((high - low) * density / link.range_m) *
+                     elementary::exp10(-(window.surface_loss_db + window.bottom_loss_db) / 20);
+  const double halves = link.range_m / half.range_m;
+  window.delay_s = half.delay_s * halves;
+  window.path_length_m = half.length_m * halves;
+  window.absorption_db = half.absorption_db * halves;
+  window.launch_angle_rad = theta;
+  window.arrival_angle_rad = std::copysign(elementary::acos(std::min(xi * speed, 1.0)), theta);
+  window.launch_slowness_spm = window.range_slowness_spm = xi;
+  window.diffuse = true;
+  return window;
+}
+
+// The strongest that together have enough of the power, by delay.
+void keep_most(std::vector<Arrival>& windows) {
+  double power = 0, kept = 0;
+  for (const Arrival& window : windows) power += power_of(window);
+  std::stable_sort(windows.begin(), windows.end(),
+                   [](const Arrival& a, const Arrival& b) { return power_of(a) > power_of(b); });
+  std::size_t count = 0;
+  while (count < windows.size() && kept < kKeptShare * power) kept += power_of(windows[count++]);
+  windows.resize(count);
+  std::stable_sort(windows.begin(), windows.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
+}
+
+}  // namespace
+
+std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link) {
+  const std::vector<double> edges = even_angles(sea.options.max_launch_angle_rad, kCoarseness);
+  std::vector<Arrival> windows;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    auto window = window_of(sea, link, edges[i - 1], edges[i]);
+    if (!window) continue;
+    window->identity = diffuse_identity(window->launch_angle_rad, i);
+    windows.push_back(*window);
+  }
+  keep_most(windows);
+  return windows;
+}
+
+std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link) {
+  const double pressure = sea.options.diffuse_below_pressure, r = link.range_m;
+  if (sea.options.diffuse_below_db <= 0 || r < kFarAway * sea.depth_m) return std::nullopt;
+  const double absorption_db = r * sea.water.absorption_db_per_m(link.source_depth_m);
+  const double direct = elementary::exp10(-absorption_db / 10) / (r * r), weak = kWeak * pressure * pressure;
+  if (direct > weak) return std::nullopt;
+  std::vector<Arrival> windows = mixed_arrivals(sea, link);
+  double power = 0;
+  for (const Arrival& window : windows) power += power_of(window);
+  return windows.empty() || power > weak ? std::nullopt : std::optional(std::move(windows));
+}
+
+}  // namespace halocline::acoustics

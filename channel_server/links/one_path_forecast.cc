@@ -1,0 +1,59 @@
+#include "channel_server/links/one_path_forecast.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include "acoustics/reception/guard_window.h"
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+namespace {
+
+// A path that has not bounced fades by the medium alone, whatever wind and frequency.
+acoustics::PathFading fading_without_bounce(const acoustics::FadingModel& fading) {
+  return path_fading(fading, /*wind_mps=*/0, /*frequency_hz=*/1000, 0, 0);
+}
+
+bool is_same(const acoustics::PathFading& a, const acoustics::PathFading& b) {
+  return a.coherent == b.coherent && a.medium == b.medium && a.scattered == b.scattered &&
+         a.doppler_spread_hz == b.doppler_spread_hz;
+}
+
+}  // namespace
+
+OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
+                                 const acoustics::ReceptionCurves& curves)
+    : of_path_(fading_without_bounce(fading)) {
+  if (!fading.enabled) return;
+  acoustics::SoundPath path;
+  path.level = Decibels{0};
+  path.fading = of_path_;
+  const std::vector<acoustics::SoundPath> paths{path};
+  const acoustics::Modem& modem = curves.modem();
+  const acoustics::GuardWindow window = best_window(paths, modem);
+  const int steps = static_cast<int>(std::lround((kMostDb - kLeastDb) / kStepDb));
+  for (int i = 0; i <= steps; ++i) {
+    const double noise = elementary::exp10(-(kLeastDb + i * kStepDb) / 10);
+    const acoustics::LinkPrediction one =
+        predict_link(fading, paths, {&modem, window}, modem.band(), noise, curves);
+    rows_.push_back({one.acquisition_probability, one.delivery_probability});
+    own_share_ = 1 / one.sinr - noise;  // of the last, where the noise is least
+  }
+}
+
+std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<acoustics::SoundPath>& paths,
+                                                             double noise) const {
+  if (rows_.empty() || paths.size() != 1 || !is_same(paths.front().fading, of_path_)) return std::nullopt;
+  const double ratio = to_power_ratio(paths.front().level).value / noise;
+  const double place = (10 * elementary::log10(ratio) - kLeastDb) / kStepDb;
+  if (!(place >= 0 && place < static_cast<double>(rows_.size() - 1))) return std::nullopt;
+  const auto i = static_cast<std::size_t>(place);
+  const double part = place - static_cast<double>(i);
+  const Chances &low = rows_[i], &high = rows_[i + 1];
+  return acoustics::LinkPrediction{1 / (1 / ratio + own_share_),
+                                   low.acquisition + part * (high.acquisition - low.acquisition),
+                                   low.delivery + part * (high.delivery - low.delivery)};
+}
+
+}  // namespace halocline::channel_server

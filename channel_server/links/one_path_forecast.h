@@ -1,0 +1,40 @@
+// Predictions of links that have one path without a bounce, by a table: there is one for each packet and each ratio of signal to
+// noise, as nothing else of the link counts.
+//
+// Between ratios of kStepDb it is interpolated linearly: within 1e-4 of acoustics/reception/link_prediction.h, at a tenth of its
+// cost. Immutable: calls may overlap between threads. Making one takes about ten milliseconds.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "acoustics/fading/path_fading.h"
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/reception/link_prediction.h"
+#include "acoustics/reception/reception_curves.h"
+
+namespace halocline::channel_server {
+
+class OnePathForecast {
+ public:
+  static constexpr double kLeastDb = -45, kMostDb = 60, kStepDb = 0.05;
+
+  // Of packets with these curves, over the band of their modem. Empty, without a table, where nothing fades.
+  OnePathForecast(const acoustics::FadingModel& fading, const acoustics::ReceptionCurves& curves);
+
+  // `noise` in uPa^2 over the band, less the receiver's directivity. Empty where the table does not hold: other paths, other
+  // ratios.
+  std::optional<acoustics::LinkPrediction> at(const std::vector<acoustics::SoundPath>& paths,
+                                              double noise) const;
+
+ private:
+  struct Chances {
+    double acquisition, delivery;
+  };
+
+  acoustics::PathFading of_path_;  // that has not bounced
+  double own_share_ = 0;           // of the signal that interferes with itself
+  std::vector<Chances> rows_;
+};
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,203 @@
+#include "channel_server/propagation/link_searches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+#include "acoustics/rays/eigenray.h"
+#include "core/elementary.h"
+#include "core/frames.h"
+
+namespace halocline::channel_server {
+namespace {
+
+constexpr std::size_t kMaxFound = 4096, kMaxSharedFound = 32'768;  // searches, 7 kB each
+constexpr std::size_t kMaxRayWaters = 256;                         // 20 kB each
+constexpr double kDeepestEndM = acoustics::kDeepestWater - 1;      // there has to be bottom below it
+
+double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
+  return std::clamp(depth_below_surface_m(end.position_ned_m, environment.sea_surface_z_m), 0.0,
+                    kDeepestEndM);
+}
+
+}  // namespace
+
+LinkSearches::LinkSearches(std::shared_ptr<const EnvironmentTimeline> waters,
+                           std::shared_ptr<SeabedMap> seabed, const RayModel& model,
+                           StraightPropagation& straight)
+    : waters_(std::move(waters)),
+      seabed_(std::move(seabed)),
+      model_(model),
+      straight_(straight),
+      ray_waters_(kMaxRayWaters),
+      own_(kMaxFound),
+      shared_(kMaxSharedFound) {
+  validate(model);
+  if (model.max_searches_per_tick > 0) budget_.emplace(model.max_searches_per_tick);
+}
+
+std::shared_ptr<const acoustics::RayWater> LinkSearches::water_of(SimTime at, double frequency_hz) {
+  return ray_waters_.find_or_make({waters_->water_at(at), frequency_hz}, [&] {
+    return std::make_shared<const acoustics::RayWater>(
+        ray_water(waters_->at(at), frequency_hz, model_.speed_tolerance_mps));
+  });
+}
+
+LinkSearches::Task LinkSearches::task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed) {
+  const acoustics::Environment& environment = waters_->at(at);
+  const LinkEnd &first = reversed ? to : from, &last = reversed ? from : to;
+  const Vec3 way = last.position_ned_m - first.position_ned_m;
+  const double frequency_hz = from.modem->centre_frequency_hz;
+  const acoustics::RayLink link = acoustics::held_apart(
+      {depth_of(first, environment), depth_of(last, environment), elementary::hypot(way.x(), way.y())});
+  const ProfileEnds places{first.position_ned_m.x(), first.position_ned_m.y(), last.position_ned_m.x(),
+                           last.position_ned_m.y()};
+  const auto kernel = straight_.kernel_of(at, *from.modem, *to.modem);
+  const double negligible_db = (kernel->noise_level() - to.modem->directivity_index -
+                                model_.diffuse_below_noise - from.modem->source_level)
+                                   .value;
+  return {{from, to},
+          &environment,
+          water_of(at, frequency_hz),
+          kernel,
+          {waters_->water_at(at), frequency_hz, places, seabed_->version(), nullptr, link,
+           elementary::exp10(negligible_db / 20)},
+          link,
+          reversed};
+}
+
+LinkSearches::Task LinkSearches::over(SimTime at, const LinkEnd& from, const LinkEnd& to,
+                                      const std::shared_ptr<const SeabedProfile>& seabed) {
+  Task task = task_of(at, from, to, /*reversed=*/false);
+  task.query.places = {};
+  task.query.given = seabed;
+  return task;
+}
+
+LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Task task = task_of(at, from, to, from.id > to.id);
+  // The phase of a path turns within centimetres.
+  if (model_.reuse_distance_m <= 0 || model_.coherent) return task;
+  task.shared = true;
+  if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
+    shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
+    shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
+    task.query.link = *shared;
+    const double apart_m = model_.profile_reuse_distance_m;
+    for (double& place_m : task.query.places) place_m = std::round(place_m / apart_m) * apart_m;
+  }
+  return task;
+}
+
+LinkSearches::Task LinkSearches::for_table(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  Task task = shared_task_of(at, from, to);
+  if (!budget_) return task;
+  task.granted = budget_->find(SearchBudget::id_of(task.ends));
+  task.waits = task.granted == nullptr;
+  if (task.waits) return task;
+  task.query = task.granted->query;
+  task.age = at - task.granted->current_at;
+  return task;
+}
+
+LinkSearches::Task LinkSearches::for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  if (!model_.reuse_for_packets) return for_itself(at, from, to);
+  Task task = for_table(at, from, to);
+  task.waits = false;
+  return task;
+}
+
+// Both directions want the same.
+void LinkSearches::begin_tick(SimTime at, const std::vector<EndPair>& all) {
+  if (!budget_) return;
+  std::vector<SearchBudget::Wanted> wanted;
+  for (const auto& [from, to] : all) {
+    const Task task = shared_task_of(at, from, to);
+    const double range_m =
+        std::max((to.position_ned_m - from.position_ned_m).norm(), acoustics::kMinDistance);
+    const Decibels level = from.modem->source_level - Decibels{20 * elementary::log10(range_m)};
+    wanted.push_back(
+        {SearchBudget::id_of(task.ends), task.query, (level - to.modem->min_receivable_level).value});
+  }
+  budget_->begin_tick(at, wanted);
+}
+
+bool LinkSearches::is_ready(const Task& task) {
+  const auto [north, east, last_north, last_east] = task.query.places;
+  return known(task) || seabed_->is_surveyed({north, east, 0}, {last_north, last_east, 0});
+}
+
+bool LinkSearches::is_ready_for_table(SimTime at, const LinkEnd& from, const LinkEnd& to) {
+  return is_ready(shared_task_of(at, from, to));
+}
+
+// What a budget has granted is kept for as long as it is used; the cache forgets.
+LinkSearches::Paths LinkSearches::known(const Task& task) {
+  if (task.granted != nullptr && task.granted->paths) return task.granted->paths;
+  const Paths* paths = cache_of(task).find(task.query.key());
+  return paths == nullptr ? nullptr : *paths;
+}
+
+void LinkSearches::keep(const Task& task, const Paths& paths) {
+  if (!paths) return;
+  ++searches_;
+  cache_of(task).insert(task.query.key(), paths);
+}
+
+LinkSearches::Paths LinkSearches::find(const Task& task) {
+  if (Paths paths = known(task)) return paths;
+  Paths paths = search(task);
+  keep(task, paths);
+  return paths;
+}
+
+// What is kept is read and written in turn; searches are shared out.
+std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>& tasks,
+                                                        const ForEach& for_each) {
+  std::vector<Paths> of_queries;                   // null where the bottom is not known
+  std::map<PathQuery::Key, std::size_t> place_of;  // of each query, among these
+  struct Search {
+    const Task* task;
+    std::size_t place;
+  };
+  std::vector<Search> searches;
+  std::vector<std::size_t> places;  // of each task
+  for (const Task& task : tasks) {
+    places.push_back(of_queries.size());
+    if (task.waits) continue;
+    const auto [query, is_new] = place_of.emplace(task.query.key(), of_queries.size());
+    places.back() = query->second;
+    if (!is_new) continue;
+    of_queries.push_back(known(task));
+    if (!of_queries.back()) searches.push_back({&task, query->second});
+  }
+  for_each(searches.size(),
+           [&](std::size_t i) { of_queries[searches[i].place] = search(*searches[i].task); });
+  for (const Search& done : searches) keep(*done.task, of_queries[done.place]);
+  std::vector<Paths> found;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    found.push_back(tasks[i].waits ? nullptr : of_queries[places[i]]);
+    if (tasks[i].granted != nullptr) tasks[i].granted->paths = found.back();
+  }
+  return found;
+}
+
+LinkSearches::Paths LinkSearches::search(const Task& task) const {
+  const PathQuery& query = task.query;
+  if (!query.given) {
+    const auto [north, east, last_north, last_east] = query.places;
+    const auto z_m = seabed_->places_between({north, east, 0}, {last_north, last_east, 0});
+    if (!z_m) return nullptr;
+    if (auto weak = weak_paths(model_, *task.water, *task.environment, query, *z_m)) return weak;
+  }
+  const auto seabed = seabed_of(query);
+  return seabed ? search_paths(model_, *task.water, *task.environment, query, *seabed) : nullptr;
+}
+
+std::shared_ptr<const SeabedProfile> LinkSearches::seabed_of(const PathQuery& q) const {
+  if (q.given) return q.given;
+  return seabed_->between({q.places[0], q.places[1], 0}, {q.places[2], q.places[3], 0});
+}
+
+}  // namespace halocline::channel_server

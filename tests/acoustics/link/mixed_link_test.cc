@@ -1,0 +1,110 @@
+// The energy of links whose rays are mixed, against the integral over a channel of one speed and against every ray over rough
+// bottoms.
+#include "acoustics/link/mixed_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "core/random.h"
+#include "tests/acoustics/rays/layered_waters.h"
+#include "tests/acoustics/rays/ray_reference.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using testing::tolerance;
+
+double power_of(const std::vector<Arrival>& paths) {
+  double power = 0;
+  for (const Arrival& path : paths) power += path.received_pressure() * path.received_pressure();
+  return power;
+}
+
+double decibels(double power) { return 10 * std::log10(power); }
+
+// In even water half a cycle is H cot(angle) long: the power is 2 / (r H) times the integral of R^(r tan(angle) / H).
+TEST(MixedLink, OfOneSpeedIsTheIntegralOverTheChannel) {
+  const RaySea sea = sea_of({{0, 1500}}, BottomProfile::flat(100), [](double) { return 0.0; });
+  for (const double range : {2000.0, 5000.0, 10'000.0}) {
+    constexpr int kAngles = 20'000;
+    const double limit = sea.options.max_launch_angle_rad, width = limit / kAngles;
+    double integral = 0;
+    for (int i = 0; i < kAngles; ++i) {
+      const double angle = (i + 0.5) * width;
+      integral += width * std::pow(bottom_magnitude_at_sine(sea.bottom, std::sin(angle), 1500),
+                                   range * std::tan(angle) / 100);
+    }
+    const auto windows =
+        mixed_arrivals({sea.water, 100, sea.bottom, sea.surface, sea.options}, {40, 70, range});
+    EXPECT_NEAR(decibels(power_of(windows)), decibels(2 * integral / (range * 100)), tolerance(0.3)) << range;
+    for (const Arrival& window : windows) {
+      EXPECT_NEAR(window.delay_s, range / 1500 / std::cos(window.launch_angle_rad), 1e-9);
+      EXPECT_TRUE(window.diffuse);
+    }
+  }
+}
+
+// Over places, what every ray brings.
+TEST(MixedLink, IsOnTheMeanWhatEveryRayBringsOverRoughBottoms) {
+  constexpr std::uint32_t kLinks = 24;
+  for (const double range : {2000.0, 3000.0, 4000.0}) {
+    double mean_db = 0, squares = 0;
+    for (std::uint32_t i = 0; i < kLinks; ++i) {
+      const auto draw = [&](std::uint64_t which) {
+        return uniform_at({.seed = 3, .purpose = purpose_of("mixed"), .who = i, .which = which});
+      };
+      RaySea sea = sea_of(kRoughWater, rough_bottom(i, range));
+      sea.options = RayOptions{};
+      const RayLink link{20 + 100 * draw(0), 20 + 100 * draw(1), range};
+      double depth = 0;
+      for (int place = 0; place < 16; ++place)
+        depth += sea.bottom_profile.depth_at(range * (place + 0.5) / 16) / 16;
+      const double error_db =
+          decibels(power_of(mixed_arrivals({sea.water, depth, sea.bottom, sea.surface, sea.options}, link)) /
+                   power_of(arrivals(sea, link).paths));
+      mean_db += error_db / kLinks;
+      squares += error_db * error_db / kLinks;
+    }
+    EXPECT_NEAR(mean_db, 0, tolerance(1)) << range;
+    EXPECT_LT(std::sqrt(squares), tolerance(3)) << range;
+  }
+}
+
+// A ray that turns above the receiver does not come to it.
+TEST(MixedLink, NothingComesToWhereNoRayDoes) {
+  RaySea sea = sea_of({{0, 1500}, {50, 1480}, {100, 1500}, {1000, 1600}}, BottomProfile::flat(1000));
+  sea.options.max_launch_angle_rad = 0.05;  // its rays turn within 4 m of the axis
+  const MixedSea mixed{sea.water, 1000, sea.bottom, sea.surface, sea.options};
+  EXPECT_FALSE(mixed_arrivals(mixed, {50, 52, 20'000}).empty());
+  EXPECT_TRUE(mixed_arrivals(mixed, {50, 120, 20'000}).empty());
+}
+
+TEST(WeakLink, IsLongAndSixDecibelsBelowThePressure) {
+  RaySea sea = sea_of(kRoughWater, rough_bottom(1, 4000));
+  sea.options = RayOptions{};
+  const RayLink link{40, 70, 4000};
+  const auto weak = [&](double pressure, const RayLink& at) {
+    sea.options.diffuse_below_pressure = pressure;
+    return weak_arrivals({sea.water, 150, sea.bottom, sea.surface, sea.options}, at);
+  };
+  EXPECT_FALSE(weak(0, link));
+  const double level =
+      std::sqrt(power_of(mixed_arrivals({sea.water, 150, sea.bottom, sea.surface, sea.options}, link)));
+  EXPECT_FALSE(weak(1.99 * level, link));
+  const auto windows = weak(2.01 * level, link);
+  ASSERT_TRUE(windows);
+  EXPECT_NEAR(std::sqrt(power_of(*windows)), level, 1e-12 * level);
+  EXPECT_FALSE(weak(1, {40, 70, 1499}));
+  EXPECT_TRUE(weak(1, {40, 70, 1501}));
+  sea.options.diffuse_below_db = 0;  // every path is wanted
+  EXPECT_FALSE(weak(1, link));
+}
+
+}  // namespace
+}  // namespace halocline::acoustics
