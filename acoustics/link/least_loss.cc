@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/elementary.h"
@@ -21,25 +22,40 @@ constexpr int kAngles = 180;
 
 double next_depth(double depth_m) { return std::max(depth_m + kDepthStep, depth_m * kDepthGrowth); }
 
-// Sum over all ducts of 2 theta / h: theta of the steepest ray at the duct's axis that turns above the bottom, h between where
-// that ray turns.
-double sum_of_ducts(const Environment& environment, double greatest_depth_m) {
+// Sum over all ducts of the integral of 2 dtheta / h: theta of a ray at the duct's axis, h between where it turns or meets the
+// surface. Over the bottom likewise, wherever between the least and the greatest depth that holds most.
+double sum_of_ducts(const Environment& environment, double least_depth_m, double greatest_depth_m) {
   std::vector<double> depths, speeds;
   for (double depth_m = 0;; depth_m = std::min(next_depth(depth_m), greatest_depth_m)) {
     depths.push_back(depth_m);
     speeds.push_back(environment.profile.sound_speed_mps(depth_m));
     if (depth_m >= greatest_depth_m) break;
   }
-  double sum = 0;
+  // At the axis, of the ray that turns at the depth `fast`.
+  const auto angle = [&](std::size_t axis, std::size_t fast) {
+    return elementary::acos(speeds[axis] / speeds[fast]);
+  };
+  double sum = 0, over_bottom = 0;
   for (std::size_t axis = 0; axis + 1 < depths.size(); ++axis) {
-    if ((axis > 0 && speeds[axis - 1] < speeds[axis]) || speeds[axis + 1] <= speeds[axis]) continue;
-    std::size_t lower = axis + 1;
-    while (lower + 1 < depths.size() && speeds[lower + 1] > speeds[lower]) ++lower;
+    if (axis > 0 && speeds[axis - 1] < speeds[axis]) continue;
+    double last = 0;
     std::size_t upper = axis;
-    while (upper > 0 && speeds[upper - 1] < speeds[lower]) --upper;
-    sum += 2 * elementary::acos(speeds[axis] / speeds[lower]) / (depths[lower] - depths[upper]);
+    for (std::size_t lower = axis + 1; lower < depths.size() && speeds[lower] > speeds[lower - 1]; ++lower) {
+      while (upper > 0 && speeds[upper - 1] < speeds[lower]) --upper;
+      const double theta = angle(axis, lower);
+      sum += 2 * (theta - std::exchange(last, theta)) / (depths[lower] - depths[upper]);
+    }
   }
-  return sum;
+  for (std::size_t bottom = 1; bottom < depths.size(); ++bottom) {
+    if (depths[bottom] < least_depth_m) continue;
+    double held = 0, last = 0;
+    for (std::size_t upper = bottom; upper > 0 && speeds[upper - 1] > speeds[upper]; --upper) {
+      const double theta = angle(bottom, upper - 1);
+      held += 2 * (theta - std::exchange(last, theta)) / (depths[bottom] - depths[upper - 1]);
+    }
+    over_bottom = std::max(over_bottom, held);
+  }
+  return sum + over_bottom;
 }
 
 }  // namespace
@@ -77,7 +93,7 @@ LeastLoss LeastLoss::of_rays(const Environment& environment, double frequency_hz
     loss.reflections_.push_back(
         {elementary::tan(angle), elementary::log(std::max(magnitude, 1e-300)), width});
   }
-  loss.ducts_ = sum_of_ducts(environment, column.greatest_depth_m);
+  loss.ducts_ = sum_of_ducts(environment, column.least_depth_m, column.greatest_depth_m);
   return loss;
 }
 

@@ -17,8 +17,9 @@
 // - Where the water is known to be H0 deep or more, and what its bottom takes, each ray loses at the bottom as well: launched at
 //   theta it meets it r tan(theta) / (2 H0) - 1 times or more, so with the magnitude R of one reflection
 //     I(r) <= 2 / r^2 + 2 / (H0 r) integral over 0..pi/2 of R(theta)^(2 (r tan(theta) / (2 H0) - 1)) dtheta
-//             + sum over ducts 2 theta / (h r);
-//   deeper water spreads more, and ducts of thickness h keep rays up to theta off the bottom. The lesser of both counts.
+//             + sum over ducts of the integral of 2 dtheta / (h r);
+//   deeper water spreads more. In a duct the ray of theta at its axis stays within a thickness h: off the bottom, or above it where
+//   sound is slowest there, where it meets it at too low an angle to lose much. The lesser of both counts.
 // - gain: what focusing adds (kFocusingGain at caustics and convergence zones), and what the caller's way of adding paths may.
 // Left out: beams, which the caller adds; hard bottoms without any loss in water of less than H, unless it is known.
 //

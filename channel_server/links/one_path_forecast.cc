@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "acoustics/math/fast_functions.h"
 #include "acoustics/reception/guard_window.h"
 #include "core/elementary.h"
 #include "core/units.h"
@@ -37,23 +38,22 @@ OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
     const double noise = elementary::exp10(-(kLeastDb + i * kStepDb) / 10);
     const acoustics::LinkPrediction one =
         predict_link(fading, paths, {&modem, window}, modem.band(), noise, curves);
-    rows_.push_back({one.acquisition_probability, one.delivery_probability});
-    own_share_ = 1 / one.sinr - noise;  // of the last, where the noise is least
+    rows_.push_back({one.acquisition_probability, one.delivery_probability, 1 / one.sinr - noise});
   }
 }
 
 std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<acoustics::SoundPath>& paths,
                                                              double noise) const {
   if (rows_.empty() || paths.size() != 1 || !is_same(paths.front().fading, of_path_)) return std::nullopt;
-  const double ratio = to_power_ratio(paths.front().level).value / noise;
+  const double ratio = acoustics::fast_power(paths.front().level.value) / noise;
   const double place = (10 * elementary::log10(ratio) - kLeastDb) / kStepDb;
   if (!(place >= 0 && place < static_cast<double>(rows_.size() - 1))) return std::nullopt;
   const auto i = static_cast<std::size_t>(place);
   const double part = place - static_cast<double>(i);
   const Chances &low = rows_[i], &high = rows_[i + 1];
-  return acoustics::LinkPrediction{1 / (1 / ratio + own_share_),
-                                   low.acquisition + part * (high.acquisition - low.acquisition),
-                                   low.delivery + part * (high.delivery - low.delivery)};
+  const auto between = [&](double Chances::*one) { return low.*one + part * (high.*one - low.*one); };
+  return acoustics::LinkPrediction{1 / (1 / ratio + between(&Chances::own_share)),
+                                   between(&Chances::acquisition), between(&Chances::delivery)};
 }
 
 }  // namespace halocline::channel_server

@@ -1,8 +1,8 @@
 // Predictions of links that have one path without a bounce, by a table: there is one for each packet and each ratio of signal to
 // noise, as nothing else of the link counts.
 //
-// Between ratios of kStepDb it is interpolated linearly: within 1e-4 of acoustics/reception/link_prediction.h, at a tenth of its
-// cost. Immutable: calls may overlap between threads. Making one takes about ten milliseconds.
+// Between ratios of kStepDb it is interpolated linearly: within 2e-4 of acoustics/reception/link_prediction.h, at a tenth of its
+// cost; where that jumps, by some hundredths for phase-shift keying of many bits, between its values beside the jump. Immutable: calls may overlap between threads. Making one takes about ten milliseconds.
 #pragma once
 
 #include <optional>
@@ -30,10 +30,10 @@ class OnePathForecast {
  private:
   struct Chances {
     double acquisition, delivery;
+    double own_share;  // of the signal that interferes with itself
   };
 
   acoustics::PathFading of_path_;  // that has not bounced
-  double own_share_ = 0;           // of the signal that interferes with itself
   std::vector<Chances> rows_;
 };
 
