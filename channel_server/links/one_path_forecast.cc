@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "acoustics/math/fast_functions.h"
+#include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
 #include "core/elementary.h"
 #include "core/units.h"

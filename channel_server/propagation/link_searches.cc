@@ -8,6 +8,7 @@
 #include "acoustics/rays/eigenray.h"
 #include "core/elementary.h"
 #include "core/frames.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -8,11 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/link_prediction.h"
 #include "channel_server/modems/modem_config.h"
 #include "core/elementary.h"
 #include "core/random.h"
+#include "core/units.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::channel_server {
