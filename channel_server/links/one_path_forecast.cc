@@ -1,8 +1,8 @@
 #include "channel_server/links/one_path_forecast.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "acoustics/math/fast_functions.h"
 #include "acoustics/modem/modem.h"
@@ -25,38 +25,41 @@ bool is_same(const acoustics::PathFading& a, const acoustics::PathFading& b) {
 
 }  // namespace
 
-OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading, acoustics::ReceptionCurves curves)
-    : fading_(fading), curves_(std::move(curves)), of_path_(fading_without_bounce(fading)) {}
-
-void OnePathForecast::make_table() const {
+OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
+                                 const acoustics::ReceptionCurves& curves)
+    : of_path_(fading_without_bounce(fading)) {
+  if (!fading.enabled) return;
   acoustics::SoundPath path;
   path.level = Decibels{0};
   path.fading = of_path_;
   const std::vector<acoustics::SoundPath> paths{path};
-  const acoustics::Modem& modem = curves_.modem();
+  const acoustics::Modem& modem = curves.modem();
   const acoustics::GuardWindow window = best_window(paths, modem);
   const int steps = static_cast<int>(std::lround((kMostDb - kLeastDb) / kStepDb));
-  for (int i = 0; i <= steps; ++i) {
+  for (int i = -1; i <= steps + 1; ++i) {
     const double noise = elementary::exp10(-(kLeastDb + i * kStepDb) / 10);
     const acoustics::LinkPrediction one =
-        predict_link(fading_, paths, {&modem, window}, modem.band(), noise, curves_);
-    table_->rows.push_back({one.acquisition_probability, one.delivery_probability, 1 / one.sinr - noise});
+        predict_link(fading, paths, {&modem, window}, modem.band(), noise, curves);
+    rows_.push_back({one.acquisition_probability, one.delivery_probability, 1 / one.sinr - noise});
   }
 }
 
 std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<acoustics::SoundPath>& paths,
                                                              double noise) const {
-  if (!fading_.enabled || paths.size() != 1 || !is_same(paths.front().fading, of_path_)) return std::nullopt;
+  if (rows_.empty() || paths.size() != 1 || !is_same(paths.front().fading, of_path_)) return std::nullopt;
   const double ratio = acoustics::fast_power(paths.front().level.value) / noise;
   const double place = (10 * elementary::log10(ratio) - kLeastDb) / kStepDb;
-  if (!(place >= 0 && kLeastDb + place * kStepDb < kMostDb)) return std::nullopt;
-  std::call_once(table_->is_made, [this] { make_table(); });
-  const auto i = static_cast<std::size_t>(place);
-  const double part = place - static_cast<double>(i);
-  const Chances &low = table_->rows[i], &high = table_->rows[i + 1];
-  const auto between = [&](double Chances::*one) { return low.*one + part * (high.*one - low.*one); };
+  if (!(place >= 0 && place < static_cast<double>(rows_.size() - 3))) return std::nullopt;
+  const auto i = static_cast<std::size_t>(place);  // between the rows i + 1 and i + 2
+  const double t = place - static_cast<double>(i);
+  // Slopes at both are those between their neighbours (Catmull and Rom 1974).
+  const auto between = [&](double Chances::*one) {
+    const double a = rows_[i].*one, b = rows_[i + 1].*one, c = rows_[i + 2].*one, d = rows_[i + 3].*one;
+    return b + t / 2 * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+  };
   return acoustics::LinkPrediction{1 / (1 / ratio + between(&Chances::own_share)),
-                                   between(&Chances::acquisition), between(&Chances::delivery)};
+                                   std::clamp(between(&Chances::acquisition), 0.0, 1.0),
+                                   std::clamp(between(&Chances::delivery), 0.0, 1.0)};
 }
 
 }  // namespace halocline::channel_server
