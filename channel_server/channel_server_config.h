@@ -139,12 +139,12 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario,
                                         const std::string& folder);
 
-// Rays as configured. Throws InvalidArgument when a part is out of range.
-RayModel make_rays(const ChannelServerConfig& config);
-
 // Its profile of sound speed. Throws likewise.
 acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario,
                                           const std::string& folder);
+
+// Rays as configured. Throws InvalidArgument when a part is out of range.
+RayModel make_rays(const ChannelServerConfig& config);
 
 ConfiguredModems make_modems(const ChannelServerConfig& config);
 

@@ -9,6 +9,7 @@
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
+
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
                       const std::string& folder, EnvironmentTimeline& timeline) {
   for (const ChangeConfig& c : config.changes) {

@@ -36,6 +36,7 @@ void validate(const FadingModel& model);
 struct PathFading {
   double coherent = 1, medium = 0, scattered = 0;  // their sum is 1
   double doppler_spread_hz = 0;                    // rms, of the scattered part
+  bool operator==(const PathFading&) const = default;
 };
 
 // Spread of a process whose autocorrelation falls to 1/e within `coherence_s`, Hz rms: 1 / (sqrt(2) pi T).

@@ -19,6 +19,7 @@ constexpr double kSampled = 0.995;
 
 // Angles over which the bottom's reflection is summed.
 constexpr int kAngles = 180;
+constexpr double kAngleStep = std::numbers::pi / 2 / kAngles;
 
 double next_depth(double depth_m) { return std::max(depth_m + kDepthStep, depth_m * kDepthGrowth); }
 
@@ -88,10 +89,9 @@ LeastLoss LeastLoss::of_rays(const Environment& environment, double frequency_hz
   if (!(loss.least_depth_m_ > 0)) return loss;
   const double speed = environment.profile.sound_speed_mps(column.least_depth_m);
   for (int i = 0; i < kAngles; ++i) {
-    const double width = std::numbers::pi / 2 / kAngles, angle = (i + 0.5) * width;
+    const double angle = (i + 0.5) * kAngleStep;
     const double magnitude = bottom_magnitude_at_sine(column.bottom, elementary::sin(angle), speed);
-    loss.reflections_.push_back(
-        {elementary::tan(angle), elementary::log(std::max(magnitude, 1e-300)), width});
+    loss.reflections_.push_back({elementary::tan(angle), elementary::log(std::max(magnitude, 1e-300))});
   }
   loss.ducts_ = sum_of_ducts(environment, column.least_depth_m, column.greatest_depth_m);
   return loss;
@@ -109,13 +109,14 @@ Decibels LeastLoss::at(double range_m) const {
   return Decibels{spreading_db + absorbed_db} - gain_;
 }
 
+// pi / (H r) + 2 / r^2, or what the bottom leaves of it where the depth is known.
 double LeastLoss::greatest_intensity(double r) const {
   const double direct = 2 / (r * r), lossless = std::numbers::pi / (kChannelThickness * r) + direct;
   if (!(least_depth_m_ > 0)) return lossless;
   double sum = 0;
   for (const Reflection& ray : reflections_) {
     const double bounces = std::max(r * ray.tangent / (2 * least_depth_m_) - 1, 0.0);
-    sum += ray.width_rad * elementary::exp(2 * bounces * ray.log_magnitude);
+    sum += kAngleStep * elementary::exp(2 * bounces * ray.log_magnitude);
   }
   return std::min(lossless, direct + 2 * sum / (least_depth_m_ * r) + ducts_ / r);
 }

@@ -65,9 +65,9 @@ class LeastLoss {
   struct Depth {
     double absorption_db_per_km, detour_m;
   };
-  // Rays and what the bottom leaves of them: the magnitude of a reflection.
+  // Of rays at even angles: how steep they are, and the logarithm of what a reflection leaves of the pressure.
   struct Reflection {
-    double tangent, log_magnitude, width_rad;
+    double tangent, log_magnitude;
   };
   LeastLoss() = default;
   // Of all rays, re 1 m, without absorption.
@@ -78,7 +78,7 @@ class LeastLoss {
   std::vector<Depth> depths_;
   double least_depth_m_ = 0;  // 0: not known
   std::vector<Reflection> reflections_;
-  double ducts_ = 0;  // sum of 2 theta / h, 1/m
+  double ducts_ = 0;  // sum over ducts of the integral of 2 dtheta / h, 1/m
 };
 
 }  // namespace halocline::acoustics

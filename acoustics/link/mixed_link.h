@@ -6,8 +6,8 @@
 //   f^2 cot(angle at the receiver) / D dtheta / r
 // with the delay, length and absorption of r / D half cycles. Each window is one Arrival, diffuse.
 //
-// Accuracy: over bottoms with 5 m of relief, 2 to 6 km apart, 1 dB in the mean over places of what every ray brings, each place
-// about 2 dB; some thirty microseconds. Left out: what stands in the way, and slopes.
+// Accuracy: over bottoms with 5 m of relief, 2 to 6 km apart, 1 dB in the mean over places of what every ray brings, 3 dB rms
+// from place to place; some thirty microseconds. Left out: what stands in the way, and slopes.
 #pragma once
 
 #include <optional>

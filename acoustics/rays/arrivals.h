@@ -97,8 +97,7 @@ struct RayOptions {
   // Over a rough bottom, where rays are many, paths more than this below the strongest are not sought one by one: their energy
   // comes in windows, Arrival::diffuse. 10..100, dB; 0: every ray is sought everywhere.
   double diffuse_below_db = 22;
-  // Nor those whose received pressure, relative to that at 1 m, is less than this; >= 0. A link whose energy over a rough bottom
-  // is so weak altogether has windows alone.
+  // Nor those whose received pressure, relative to that at 1 m, is less than this; >= 0.
   double diffuse_below_pressure = 0;
   // Near caustics the field of waves, and one path on their dark side; else rays as they are, without bound there.
   bool airy_folds = true;

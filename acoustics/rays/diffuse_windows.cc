@@ -16,6 +16,7 @@ constexpr double kLeastSine = 0.02;  // where a ray turns p is bounded by this
 constexpr double kBesideMargin = 8;  // of power
 constexpr double kDepthStep = 50;    // m: between depths at which absorption is looked up
 constexpr double kManyImages = 4;    // of the receiver, in a window
+constexpr double kMostFocused = 4;   // power of all paths of mixed rays over their mean
 // Of the field of a fold over that of a single ray in its shadow's edge: Ai(-1.02)^2 / Ai(0)^2.
 constexpr double kFoldPeak = 2.3;
 

@@ -29,17 +29,13 @@ class DiffuseWindows {
   // Refers to the tracer, which has to outlive this.
   explicit DiffuseWindows(const ArcTracer& tracer);
 
-  static constexpr double kMostFocused = 4;  // power of all paths of mixed rays over their mean
-
   // What is added from now on lies in the cell of the fan of this number, from 0 on.
   void begin_cell(std::size_t cell);
   // A path as strong as this, re 1 m without absorption, is not weak.
   void set_reference(double power) { strongest_ = power; }
   // A path that was found: others are weak relative to the strongest.
   void note(const Arrival& path);
-  // Whether a path of this power, re 1 m without absorption, is below RayOptions::diffuse_below_pressure.
-  bool is_below_pressure(double power) const { return power < least_; }
-  // Whether that pressure, not the strongest path, says what is weak.
+  // Whether RayOptions::diffuse_below_pressure, not the strongest path, says what is weak.
   bool is_by_pressure() const { return least_ > weak_ * strongest_; }
 
   // Whether all paths between two rays of one history are weak: more than RayOptions::diffuse_below_db below the strongest, or
@@ -71,10 +67,10 @@ class DiffuseWindows {
   double density(double xi) const;
   void weigh(Cell& cell, const FanRay& ray, double power) const;
 
-  const ArcTracer& tracer_;
-  // Of paths that are weak, as a power without absorption.
+  // Paths of less, re 1 m without absorption, are weak.
   double weak_power() const { return std::max(weak_ * strongest_, least_); }
 
+  const ArcTracer& tracer_;
   double receiver_speed_, max_loss_db_, weak_, least_;
   double strongest_ = 0;
   std::size_t cell_ = 0;

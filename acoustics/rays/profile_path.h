@@ -52,9 +52,10 @@ struct ProfilePath {
 // empty when the options exclude it.
 std::optional<ProfilePath> profile_path(const ArcTracer& tracer, double theta, double target);
 
-// What stands for a window of diffuse sound: the ray of `theta`, which arrives somewhere at the receiver's range, as an
-// arrival without an amplitude. `window` distinguishes it from others of one search. Empty when the ray does not arrive.
+// Of a window of diffuse sound launched at `theta`, the one of this number in its link: none that a path has.
 PathIdentity diffuse_identity(double theta, std::size_t window);
+// What stands for such a window: the ray of `theta`, which arrives somewhere at the receiver's range, as an arrival without an
+// amplitude. Empty when the ray does not arrive.
 struct DiffuseRay {
   Arrival arrival;
   double xi;  // Snell's, at the receiver's range, s/m

@@ -114,14 +114,14 @@ void Search::search(const std::vector<FanRay>& fan, const std::vector<bool>& pre
   }
 }
 
-// Between neighbours of one history, by how much of the depth their depths and the mean of their slopes disagree: at most by
-// all of it, as those that part.
 bool Search::is_predicted(const FanRay& a, const FanRay& middle, const FanRay& b) const {
   const double nearest = std::min(middle.theta - a.theta, b.theta - middle.theta);
   return nearest > kNextToEachOther &&
          branch_.is_predicted(branch_.error_at(a, middle, b), a, b, kShareBeforehand);
 }
 
+// Between neighbours of one history, by how much of the depth their depths and the mean of their slopes disagree: at most by
+// all of it, as those that part.
 bool Search::is_rough(const std::vector<FanRay>& fan) const {
   double apart = 0;
   for (std::size_t i = 1; i < fan.size(); ++i) {

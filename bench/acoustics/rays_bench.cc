@@ -11,6 +11,7 @@
 #include <benchmark/benchmark.h>
 
 #include "acoustics/link/extrapolate_arrivals.h"
+#include "acoustics/link/mixed_link.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
@@ -76,14 +77,21 @@ void cold(benchmark::State& state) {
 }
 BENCHMARK(cold)->DenseRange(0, 7)->Unit(benchmark::kMicrosecond);
 
-// Over four bottoms of 5 m of relief, the range in metres; every ray one by one, or what is weak as power.
-void rough_bottoms(benchmark::State& state) {
+// Four bottoms of 5 m of relief.
+std::vector<Situation> over_rough_bottoms(double range_m) {
   std::vector<Situation> all;
-  const auto range = static_cast<double>(state.range(0));
   for (std::uint32_t seed = 0; seed < 4; ++seed)
-    all.push_back({sea_of(kRoughWater, rough_bottom(seed, range)), {40, 70, range}});
-  if (state.range(1) != 0) {
-    for (Situation& at : all) at.sea.options.diffuse_below_db = 0;
+    all.push_back({sea_of(kRoughWater, rough_bottom(seed, range_m)), {40, 70, range_m}});
+  return all;
+}
+
+// Over these, the range in metres; what is weak as power (0), every ray one by one (1), as power also what is weaker than 1e-4 of
+// the pressure at 1 m, 80 dB (2).
+void rough_bottoms(benchmark::State& state) {
+  std::vector<Situation> all = over_rough_bottoms(static_cast<double>(state.range(0)));
+  for (Situation& at : all) {
+    if (state.range(1) == 1) at.sea.options.diffuse_below_db = 0;
+    if (state.range(1) == 2) at.sea.options.diffuse_below_pressure = 1e-4;
   }
   std::size_t paths = 0;
   for (auto _ : state) {
@@ -98,9 +106,23 @@ void rough_bottoms(benchmark::State& state) {
   state.counters["paths"] = static_cast<double>(paths) / static_cast<double>(all.size());
 }
 BENCHMARK(rough_bottoms)
-    ->ArgNames({"range_m", "every_ray"})
-    ->ArgsProduct({{500, 1000, 2000, 3000, 5000}, {0, 1}})
+    ->ArgNames({"range_m", "paths"})
+    ->ArgsProduct({{500, 1000, 2000, 3000, 5000}, {0, 1, 2}})
     ->Unit(benchmark::kMillisecond);
+
+// What a link over these costs that is so weak that its rays are not traced.
+void weak_link(benchmark::State& state) {
+  std::vector<Situation> all = over_rough_bottoms(static_cast<double>(state.range(0)));
+  for (auto _ : state) {
+    for (Situation& at : all) {
+      at.link.range_m += 1e-6;
+      benchmark::DoNotOptimize(
+          mixed_arrivals({at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options}, at.link));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
+}
+BENCHMARK(weak_link)->ArgName("range_m")->Arg(3000)->Arg(6000)->Unit(benchmark::kMicrosecond);
 
 // To first order, as the channel server does within a cell. Items are paths.
 void extrapolate(benchmark::State& state) {

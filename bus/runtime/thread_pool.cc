@@ -32,9 +32,8 @@ class FirstFailure {
 
 }  // namespace
 
-struct ThreadPool::Arena {
-  explicit Arena(int threads) : arena(threads) {}
-  tbb::task_arena arena;
+struct ThreadPool::Arena : tbb::task_arena {
+  using task_arena::task_arena;
 };
 
 ThreadPool::ThreadPool(int threads) {
@@ -54,7 +53,7 @@ void ThreadPool::for_each(std::size_t count, const std::function<void(std::size_
     }
   };
   if (arena_) {
-    arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, guarded); });
+    arena_->execute([&] { tbb::parallel_for(std::size_t{0}, count, guarded); });
   } else {
     one_after_the_other(count, guarded);
   }

@@ -18,11 +18,6 @@ acoustics::PathFading fading_without_bounce(const acoustics::FadingModel& fading
   return path_fading(fading, /*wind_mps=*/0, /*frequency_hz=*/1000, 0, 0);
 }
 
-bool is_same(const acoustics::PathFading& a, const acoustics::PathFading& b) {
-  return a.coherent == b.coherent && a.medium == b.medium && a.scattered == b.scattered &&
-         a.doppler_spread_hz == b.doppler_spread_hz;
-}
-
 }  // namespace
 
 OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
@@ -46,7 +41,7 @@ OnePathForecast::OnePathForecast(const acoustics::FadingModel& fading,
 
 std::optional<acoustics::LinkPrediction> OnePathForecast::at(const std::vector<acoustics::SoundPath>& paths,
                                                              double noise) const {
-  if (rows_.empty() || paths.size() != 1 || !is_same(paths.front().fading, of_path_)) return std::nullopt;
+  if (rows_.empty() || paths.size() != 1 || !(paths.front().fading == of_path_)) return std::nullopt;
   const double ratio = acoustics::fast_power(paths.front().level.value) / noise;
   const double place = (10 * elementary::log10(ratio) - kLeastDb) / kStepDb;
   if (!(place >= 0 && place < static_cast<double>(rows_.size() - 3))) return std::nullopt;

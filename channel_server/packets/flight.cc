@@ -30,10 +30,10 @@ SimDuration shrunk(SimDuration duration, double doppler_factor) {
   return SimDuration::from_seconds(duration.seconds() / doppler_factor);
 }
 
-bool serves(const Flight& flight, const Placement& place, const acoustics::Modem& modem) {
-  if (flight.propagation_calls == 0 || !(flight.modem == modem)) return false;
-  const bool same = (place.position_ned_m - flight.place.position_ned_m).norm() <= kSamePlaceM &&
-                    (place.velocity_ned_mps - flight.place.velocity_ned_mps).norm() <= kSameVelocityMps;
+bool serves(const Flight& flight, const LinkEnd& end) {
+  if (flight.propagation_calls == 0 || !(flight.modem == *end.modem)) return false;
+  const bool same = (end.position_ned_m - flight.place.position_ned_m).norm() <= kSamePlaceM &&
+                    (end.velocity_ned_mps - flight.place.velocity_ned_mps).norm() <= kSameVelocityMps;
   return same || flight.propagation_calls >= kMaxPropagationCalls;
 }
 
@@ -48,14 +48,12 @@ Vec3 slowness_at(const Flight& flight, Propagation& propagation) {
   return acoustics::ray_direction(from, to, angle) / speed_mps;
 }
 
-void evaluate(Flight& flight, const Placement& place, const acoustics::Modem& modem,
-              Propagation& propagation) {
+void evaluate(Flight& flight, const LinkEnd& end, Propagation& propagation) {
   ++flight.propagation_calls;
-  flight.modem = modem;
-  flight.place = place;
-  flight.reception = propagation.reception_without_capacity(
-      flight.packet->departure, flight.packet->link_end(),
-      {flight.receiver_id, place.position_ned_m, place.velocity_ned_mps, &flight.modem});
+  flight.modem = *end.modem;
+  flight.place = {end.position_ned_m, end.velocity_ned_mps, {}};
+  flight.reception =
+      propagation.reception_without_capacity(flight.packet->departure, flight.packet->link_end(), end);
   const auto& paths = flight.reception.paths;
   flight.window = paths.empty() ? acoustics::GuardWindow() : best_window(paths, flight.modem);
   flight.solved_delay_s =
@@ -105,14 +103,21 @@ double Flight::doppler_factor() const {
   return reception.paths.empty() ? 1 : reception.paths[window.strongest].doppler_factor;
 }
 
+std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                                Propagation& propagation) {
+  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
+  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
+  if (!predicted) return std::nullopt;
+  return LinkEnd{flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps,
+                 &fleet.modem(flight.receiver_id, expected).modem};
+}
+
 void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                    Propagation& propagation) {
   ++flight.solutions;
-  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
-  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
-  if (!predicted) return;
-  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, expected).modem;
-  if (!serves(flight, *predicted, modem)) evaluate(flight, *predicted, modem, propagation);
+  const auto end = next_end(flight, decided_at, fleet, propagation);
+  if (!end) return;
+  if (!serves(flight, *end)) evaluate(flight, *end, propagation);
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto receiver = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
     const Vec3 moved = receiver->position_ned_m - flight.place.position_ned_m;
@@ -123,25 +128,11 @@ void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fl
   }
 }
 
-std::optional<LinkEnd> first_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                                 Propagation& propagation) {
-  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
-  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
-  if (!predicted) return std::nullopt;
-  return LinkEnd{flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps,
-                 &fleet.modem(flight.receiver_id, expected).modem};
-}
-
 bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                  Propagation& propagation) {
-  const SimTime expected = expected_arrival(flight, decided_at, fleet, propagation);
-  const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
-  if (!predicted) return true;
-  const acoustics::Modem& modem = fleet.modem(flight.receiver_id, expected).modem;
-  return serves(flight, *predicted, modem) ||
-         propagation.is_ready_for_packet(
-             flight.packet->departure, flight.packet->link_end(),
-             {flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps, &modem});
+  const auto end = next_end(flight, decided_at, fleet, propagation);
+  return !end || serves(flight, *end) ||
+         propagation.is_ready_for_packet(flight.packet->departure, flight.packet->link_end(), *end);
 }
 
 AudiblePacket audible_packet(const Flight& flight) {

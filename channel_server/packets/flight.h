@@ -75,9 +75,9 @@ struct Flight {
 void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                    Propagation& propagation);
 
-// Where the propagation is evaluated first, with what is known at `decided_at`; empty: the receiver is nowhere.
-std::optional<LinkEnd> first_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                                 Propagation& propagation);
+// Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`; empty: nowhere.
+std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
+                                Propagation& propagation);
 
 // Whether the propagation knows all that solve_arrival() needs of it (Propagation::is_ready).
 bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,

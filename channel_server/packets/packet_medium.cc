@@ -174,6 +174,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
                                            : acoustics::kGreatestBoundedRange;
   PacketOutcome others = outcome_out_of_reach(packet, reach_m);
   others.receivers = 0;
+  const bool is_costly = propagation_.uses_bottom();
   std::vector<EndPair> links;
   for (const PlacedVehicle& receiver : present) {
     if (receiver.id == source) continue;
@@ -192,13 +193,13 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
       flight->packet = packet;
       flight->receiver_id = receiver.id;
       flight->receiver = fleet_.name_of(receiver.id);
-      if (const auto end = first_end(*flight, departure, fleet_, propagation_)) {
+      if (const auto end = is_costly ? next_end(*flight, departure, fleet_, propagation_) : std::nullopt) {
         links.push_back({packet->link_end(), *end});
       }
       schedule(departure, std::move(flight));  // solved there
     }
   }
-  propagation_.prepare_packet(departure, links, for_each_);
+  if (is_costly) propagation_.prepare_packet(departure, links, for_each_);
   if (is_served && others.receivers > 0) {
     events.push_back({departure, departure < advanced_to_, std::move(others)});
   }

@@ -104,9 +104,12 @@ LinkSearches::Task LinkSearches::for_table(SimTime at, const LinkEnd& from, cons
 
 LinkSearches::Task LinkSearches::for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   if (!model_.reuse_for_packets) return for_itself(at, from, to);
-  Task task = for_table(at, from, to);
-  task.waits = false;
-  return task;
+  Task now = shared_task_of(at, from, to);
+  if (!budget_) return now;
+  Task granted = for_table(at, from, to);
+  const bool holds = !granted.waits && granted.query.water_id == now.query.water_id &&
+                     granted.query.seabed_version == now.query.seabed_version;
+  return holds ? granted : now;
 }
 
 // Both directions want the same.

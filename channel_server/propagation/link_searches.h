@@ -4,7 +4,8 @@
 // its very ends. For a table, with a distance of reuse, both ends go to the nearest points of a horizontal lattice for the bottom,
 // and the query is that of the middle of the cell that the link lies in (middle_of_cell); not for coherent levels. With a budget
 // of searches a tick (search_budget.h) it is the query that the link was last granted. For a packet it is as for a table with
-// RayModel::reuse_for_packets, but a link that waits for its first turn is searched at once; else as for itself.
+// RayModel::reuse_for_packets, but a link that waits for its first turn, or was granted its query in other water or over another
+// seabed, is searched at once; else as for itself.
 //
 // What is found is kept, and searched again when it was forgotten: answers are functions of environment, terrain and query
 // alone, and of the ticks so far where there is a budget. Not thread-safe.

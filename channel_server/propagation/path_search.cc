@@ -16,6 +16,17 @@ constexpr double kEvenM = 0.5;  // differences of depth of a bottom that mixes n
 constexpr int kMaxHalvings = 6;
 constexpr double kDepthShare = 0.1;  // height of a cell over its length
 
+acoustics::RayOptions options_of(const RayModel& model, const PathQuery& query) {
+  acoustics::RayOptions options = model.options;
+  options.frequency_hz = query.frequency_hz;
+  options.diffuse_below_pressure = query.diffuse_below_pressure;
+  return options;
+}
+
+acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environment& environment) {
+  return {model.surface, environment.noise.wind_mps};
+}
+
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
 }  // namespace
@@ -81,14 +92,11 @@ void validate(const RayModel& model) {
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed) {
-  acoustics::RayOptions options = model.options;
-  options.frequency_hz = query.frequency_hz;
-  options.diffuse_below_pressure = query.diffuse_below_pressure;
+  acoustics::RayOptions options = options_of(model, query);
   const acoustics::BottomProfile bottom = bottom_under(seabed, query.link, environment.sea_surface_z_m);
   const double depth_m = mean_depth_m(bottom, query.link.range_m);
   if (model.bounces_follow_range) options.max_bounces = bounces_for(query.link.range_m, depth_m);
-  const acoustics::RaySea sea{water, bottom, model.bottom,
-                              acoustics::RaySurface{model.surface, environment.noise.wind_mps}, options};
+  const acoustics::RaySea sea{water, bottom, model.bottom, surface_of(model, environment), options};
   auto found = std::make_shared<FoundPaths>();
   found->given = query.given;
   found->mean_depth_m = depth_m;
@@ -107,13 +115,8 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
   const double deepest_end_m = std::max(query.link.source_depth_m, query.link.receiver_depth_m);
   const double depth_m =
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
-  acoustics::RayOptions options = model.options;
-  options.frequency_hz = query.frequency_hz;
-  options.diffuse_below_pressure = query.diffuse_below_pressure;
-  auto windows =
-      acoustics::weak_arrivals({water, depth_m, model.bottom,
-                                acoustics::RaySurface{model.surface, environment.noise.wind_mps}, options},
-                               query.link);
+  auto windows = acoustics::weak_arrivals(
+      {water, depth_m, model.bottom, surface_of(model, environment), options_of(model, query)}, query.link);
   if (!windows) return nullptr;
   auto found = std::make_shared<FoundPaths>();
   found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};

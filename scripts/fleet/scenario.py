@@ -59,8 +59,8 @@ payload_bytes = 32
 
 # Along rays the bottom and the surface scatter.
 SOURCE_LEVEL_DB = {"straight": 132.0, "rays": 145.0}
-# Of the water anywhere, which says how far sound gets; packets and tables share searches, of which there are as many a second as a
-# vehicle changes its neighbourhood.
+# Along rays: how deep the water is, which bounds how far sound gets; energy for what lies below the noise; packets and tables share
+# searches, one a second for two vehicles.
 RAYS = """least_depth_m = 75.0
 greatest_depth_m = 250.0
 diffuse_below_noise_db = 0.0
@@ -94,9 +94,10 @@ def fleet(count, laying, model, duration_s):
     """The scenario as TOML. `laying`: "dense" (a square of 2 km) or "spread" (a vehicle a square kilometre)."""
     side = side_m(laying, count)
     size = 20 * math.ceil((side + 4 * LINE_M) / 20)
+    server = SERVER.format(table_range_m=TABLE_RANGE_M, searches=round(SEARCHES_PER_VEHICLE * count))
     head = SEA.format(count=count, laying=laying, model=model, duration_s=duration_s,
                       rays=RAYS if model == "rays" else "",
-                      server=SERVER.format(table_range_m=TABLE_RANGE_M, searches=round(SEARCHES_PER_VEHICLE * count)) if model == "rays" else "",
+                      server=server if model == "rays" else "",
                       size_m=size, source_level_db=SOURCE_LEVEL_DB[model],
                       slope=f"{min(0.02, 60 / size):.5f}")
     return head + "".join(vehicle(number, count, side) for number in range(1, count + 1))

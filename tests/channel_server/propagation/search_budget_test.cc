@@ -89,8 +89,9 @@ class BudgetedRaysTest : public ::testing::Test {
   RayPropagation rays(int searches) const {
     RayModel model;
     model.reuse_distance_m = 25;
+    model.reuse_for_packets = true;
     model.max_searches_per_tick = searches;
-    return {std::make_shared<EnvironmentTimeline>(acoustics::Environment{}), bottoms_, model};
+    return {waters_, bottoms_, model};
   }
   std::vector<EndPair> links_at(double time_s) const {
     const std::vector<LinkEnd> ends{{1, Vec3(0, 0, 30), Vec3::Zero(), &modem_},
@@ -120,6 +121,8 @@ class BudgetedRaysTest : public ::testing::Test {
   }
 
   acoustics::Modem modem_;
+  std::shared_ptr<EnvironmentTimeline> waters_ =
+      std::make_shared<EnvironmentTimeline>(acoustics::Environment{});
   std::shared_ptr<SeabedMap> bottoms_ = std::make_shared<SeabedMap>(SeabedRule{});
 };
 
@@ -189,6 +192,27 @@ TEST_F(BudgetedRaysTest, ABudgetForAllChangesNothing) {
       EXPECT_EQ(a[k].budget.received_level.value, b[k].budget.received_level.value);
       EXPECT_EQ(a[k].paths_age.seconds(), 0);
     }
+  }
+}
+
+// A server that was granted the link before the change and one that never was.
+TEST_F(BudgetedRaysTest, APacketIsSearchedInTheWaterThatItIsSentInto) {
+  const auto links = links_at(6);
+  RayPropagation granted = rays(100), fresh = rays(100);
+  tick(granted, 6, links, links);
+  const std::int64_t before = granted.searches();
+  granted.reception_without_capacity(at_s(6.1), links[0].from, links[0].to);
+  EXPECT_EQ(granted.searches(), before);
+
+  EnvironmentChange warmer;
+  warmer.profile = acoustics::SoundSpeedProfile::isovelocity(1540, {});
+  ASSERT_EQ(waters_->announce(at_s(6.2), at_s(6.2), {1, 1}, warmer), "");
+  for (const auto& [from, to] : links) {
+    const Reception a = granted.reception_without_capacity(at_s(6.3), from, to),
+                    b = fresh.reception_without_capacity(at_s(6.3), from, to);
+    EXPECT_EQ(a.used, PropagationUsed::kRays);
+    EXPECT_EQ(a.budget.delay_s, b.budget.delay_s);
+    EXPECT_EQ(a.budget.received_level.value, b.budget.received_level.value);
   }
 }
 
