@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/check.h"
+#include "core/csv_table.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_config.h"
@@ -71,9 +72,43 @@ void visit_waves(ConfigVisitor& v, WaveSettings& w) {
   bus::integer_as(v, "components", w.components, {1, 1000, "", "sines that a sea is made of"});
 }
 
-void visit_section(ConfigVisitor& v, VehicleSimConfig& c) {
+// The longest time between two states by which all receivers know every vehicle. The keys belong to the receivers; here
+// they are only looked at. The age of the latest state grows to that time and a message's way.
+SimDuration longest_gap(ConfigVisitor& v) {
+  SimDuration lag = SimDuration::from_milliseconds(50);
+  SimDuration channel = SimDuration::from_milliseconds(5000), pilot = SimDuration::from_milliseconds(1000);
+  v.section("channel_server", "", [&](ConfigVisitor& section) {
+    section.shared_with_others();
+    bus::seconds(section, "state_lag_s", lag, {0, 10, "s", ""});
+    bus::seconds(section, "state_timeout_s", channel, {0.01, 3600, "s", ""});
+  });
+  v.section("autopilot", "", [&](ConfigVisitor& section) {
+    section.shared_with_others();
+    bus::seconds(section, "state_timeout_s", pilot, {0.01, 3600, "s", ""});
+  });
+  return std::min(channel, pilot) - lag;
+}
+
+void visit_state_rule(ConfigVisitor& v, StateRule& rule, SimDuration allowed) {
+  v.number(
+      "state_deviation_m", rule.deviation_m,
+      {0, 1000, "m", "a tick has a STATE only where the last one, carried on, is off by more; 0: each has"});
+  bus::degrees(v, "state_deviation_deg", rule.deviation_rad,
+               {0.01, 180, "deg", "the same of the attitude, with state_deviation_m above 0"});
+  bus::seconds(v, "state_longest_silence_s", rule.longest_silence,
+               {0.01, 2, "s", "at most between two STATEs, with state_deviation_m above 0"});
+  if (v.writing() || rule.deviation_m == 0 || rule.longest_silence <= allowed) return;
+  v.problem("state_longest_silence_s",
+            "allowed is at most " + format_number(allowed.seconds()) +
+                " s, or receivers lose the vehicle: the less of channel_server.state_timeout_s and "
+                "autopilot.state_timeout_s, less channel_server.state_lag_s");
+}
+
+void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_silence) {
   bus::seconds(v, "step_s", c.step, {0.001, VehicleWorld::kLongestStep_s, "s", "step of the physics"});
-  visit_rate(v, "state_rate_hz", c.state_period, {0.1, 100, "Hz", "STATE messages of each vehicle a second"});
+  visit_rate(v, "state_rate_hz", c.state_period,
+             {0.1, 100, "Hz", "STATE messages of each vehicle a second: its ticks"});
+  visit_state_rule(v, c.states, allowed_silence);
   visit_rate(v, "sensor_rate_hz", c.sensor_period,
              {0.1, 50, "Hz", "SENSORS messages of each vehicle a second"});
   bus::seconds(v, "command_timeout_s", c.command_timeout,
@@ -213,8 +248,9 @@ std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSim
 
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
   if (!v.writing()) config.model_folder = v.folder();
+  const SimDuration allowed_silence = v.writing() ? SimDuration() : longest_gap(v);
   v.section("vehicle_sim", "The vehicle simulator",
-            [&](ConfigVisitor& section) { visit_section(section, config); });
+            [&](ConfigVisitor& section) { visit_section(section, config, allowed_silence); });
   visit_sensors(v, config);
   visit_tethers(v, config.tethers);
   visit_faults(v, config.faults);

@@ -25,6 +25,7 @@
 #include "vehicle_sim/sensor_config.h"
 #include "vehicle_sim/sensor_station.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
+#include "vehicle_sim/state_selection.h"
 
 namespace halocline::vehicle_sim {
 
@@ -49,7 +50,8 @@ struct VehicleSensors {
 
 struct VehicleSimConfig {
   SimDuration step = SimDuration::from_milliseconds(10);               // of the physics
-  SimDuration state_period = SimDuration::from_milliseconds(100);      // between STATEs
+  SimDuration state_period = SimDuration::from_milliseconds(100);      // between STATEs, or their ticks
+  StateRule states;                                                    // which ticks have one
   SimDuration sensor_period = SimDuration::from_milliseconds(200);     // between SENSORS
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // age at which a command is void
   double altimeter_range_m = 100;

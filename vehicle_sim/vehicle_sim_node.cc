@@ -7,6 +7,7 @@
 
 #include "bus/subscription.h"
 #include "core/check.h"
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
@@ -110,6 +111,7 @@ void VehicleSimNode::begin(SimTime now) {
     require(fleet_->apply_fault(vehicle, fault), "a scenario has at most 100000 faults");
   faults_published_ = 0;
   next_state_ = first_on_grid(start, config_.state_period);
+  published_.assign(members_.size(), {});
   station_.begin(start);
   std::fill(reported_diverged_.begin(), reported_diverged_.end(), false);
 }
@@ -123,7 +125,7 @@ void VehicleSimNode::on_archive(Archive& a) {
     make_fleet(SimTime());
     last_step_ = SimTime() - kLongestHalt * 2;  // the step to come is the first after a halt
   }
-  a(*fleet_, station_, next_state_, faults_published_);
+  a(*fleet_, station_, next_state_, published_, faults_published_);
   for (auto& [vehicle, array] : arrays_) a(array);
 }
 
@@ -160,8 +162,9 @@ void VehicleSimNode::on_step(const bus::Now& now) {
 void VehicleSimNode::publish_states(SimTime when) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (fleet_->has_diverged(i)) continue;  // its state is not known
-    publish(bus::channels::kState, i,
-            to_state_message(when, ids_[i], to_kinematic_state(fleet_->state_at(i, when))));
+    const KinematicState state = to_kinematic_state(fleet_->state_at(i, when));
+    if (!published_[i].take(config_.states, config_.state_period, when, state)) continue;
+    publish(bus::channels::kState, i, to_state_message(when, ids_[i], state));
   }
 }
 

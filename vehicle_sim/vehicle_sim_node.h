@@ -2,7 +2,8 @@
 //
 // Receives COMMAND.<vehicle>, FAULT.<vehicle>, SET_CURRENT, RAY_REPLY.<its own client name>, and for vehicles with a USBL
 // array OUTCOME and RECEIVE.<vehicle>. Publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS, SONAR.<vehicle> at
-// multiples of their periods since time 0, stamped with that instant; USBL.<vehicle> when a packet was received;
+// multiples of their periods since time 0, stamped with that instant, STATE only at those that need one
+// (state_selection.h); USBL.<vehicle> when a packet was received;
 // FAULT.<vehicle> when a fault of the scenario begins or ends; and RAY_QUERY for the seabed below. A measurement waits for its
 // echoes until the service answers or the time-out (echo_timeout, steady time) ends; then they are unavailable.
 //
@@ -30,6 +31,7 @@
 #include "vehicle_sim/pending_echoes.h"
 #include "vehicle_sim/sensor_station.h"
 #include "vehicle_sim/sensors/usbl_fix_assembler.h"
+#include "vehicle_sim/state_selection.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 #include "vehicle_sim/world/seabed.h"
 
@@ -85,6 +87,7 @@ class VehicleSimNode : public bus::Node {
   SensorStation station_;
   std::map<std::size_t, UsblFixAssembler> arrays_;  // of the vehicles that have one
   SimTime next_state_;
+  std::vector<StateSelection> published_;
   SimTime last_step_;  // steady
   PendingEchoes echoes_;
   std::int64_t ray_request_ = 0;

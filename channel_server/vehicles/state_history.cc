@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/dead_reckoning.h"
+
 namespace halocline::channel_server {
 namespace {
 
@@ -16,8 +18,8 @@ Placement between(const StampedState& before, const StampedState& after, SimTime
 }
 
 Placement carried_on(const StampedState& state, SimTime instant) {
-  return {state.position_ned_m + (instant - state.time).seconds() * state.velocity_ned_mps,
-          state.velocity_ned_mps, instant - state.time};
+  const SimDuration age = instant - state.time;
+  return {reckoned_position(state.position_ned_m, state.velocity_ned_mps, age), state.velocity_ned_mps, age};
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/dead_reckoning.h"
 #include "core/elementary.h"
-#include "core/sim_time.h"
 
 namespace halocline::clients {
 namespace {
@@ -42,18 +42,21 @@ plan_behaviour_t to_message(const Behaviour& behaviour, double speed_mps) {
 
 }  // namespace
 
-Situation to_situation(const vehicle_state_t& state) {
+Situation to_situation(const vehicle_state_t& state, SimTime at) {
   const double* q = state.orientation_wxyz;
-  const Quaternion orientation = Quaternion(q[0], q[1], q[2], q[3]).normalized();
+  const KinematicState now =
+      reckoned({{Vec3(state.position_ned_m), Quaternion(q[0], q[1], q[2], q[3]).normalized()},
+                Vec3(state.velocity_ned_mps),
+                Vec3(state.angular_velocity_body_radps)},
+               at - SimTime::from_utime(state.utime));
   Situation situation;
-  situation.time_s = SimTime::from_utime(state.utime).seconds();
-  situation.position_ned_m = {state.position_ned_m[0], state.position_ned_m[1], state.position_ned_m[2]};
-  situation.velocity_ned_mps = {state.velocity_ned_mps[0], state.velocity_ned_mps[1],
-                                state.velocity_ned_mps[2]};
-  situation.attitude = to_euler(orientation);
-  situation.pitch_rate_radps = state.angular_velocity_body_radps[1];
-  situation.yaw_rate_radps = state.angular_velocity_body_radps[2];
-  situation.water_speed_mps = (orientation.conjugate() * situation.velocity_ned_mps).x();
+  situation.time_s = at.seconds();
+  situation.position_ned_m = now.pose.position_ned_m;
+  situation.velocity_ned_mps = now.velocity_ned_mps;
+  situation.attitude = to_euler(now.pose.orientation);
+  situation.pitch_rate_radps = now.angular_velocity_body_radps.y();
+  situation.yaw_rate_radps = now.angular_velocity_body_radps.z();
+  situation.water_speed_mps = (now.pose.orientation.conjugate() * now.velocity_ned_mps).x();
   return situation;
 }
 

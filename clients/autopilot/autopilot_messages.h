@@ -19,11 +19,13 @@
 #include "clients/autopilot/seabed_ahead.h"
 #include "clients/autopilot/vehicle_pilot.h"
 #include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::clients {
 
-// From the state. The speed is the forward component over ground; SENSORS holds the speed through the water.
-Situation to_situation(const vehicle_state_t& state);
+// From the state, reckoned on to `at` (core/dead_reckoning.h). The speed is the forward component over ground; SENSORS
+// holds the speed through the water.
+Situation to_situation(const vehicle_state_t& state, SimTime at);
 
 // From the vehicle's own sensors alone; place and attitude by reckoning, at `time_s`.
 Situation to_situation(const vehicle_sensors_t& sensors, const Navigator& navigator, double time_s);

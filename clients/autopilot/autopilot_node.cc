@@ -151,13 +151,12 @@ std::optional<Situation> AutopilotNode::situation_of(Pilot& pilot, SimTime insta
   const bool has_state = pilot.state && is_fresh(pilot.state->utime, instant);
   if (!(pilot.navigator ? has_sensors : has_state)) return std::nullopt;
   const double time_s = instant.seconds();
-  Situation situation =
-      pilot.navigator ? to_situation(*pilot.sensors, *pilot.navigator, time_s) : to_situation(*pilot.state);
+  Situation situation = pilot.navigator ? to_situation(*pilot.sensors, *pilot.navigator, time_s)
+                                        : to_situation(*pilot.state, instant);
   if (has_sensors) {
     situation.water_speed_mps = pilot.sensors->water_speed_mps;
     look_at_ground(pilot, situation);
   }
-  situation.time_s = time_s;
   return situation;
 }
 

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "core/dead_reckoning.h"
+
 namespace halocline::clients {
 
 OwnMotion to_motion(const vehicle_sensors_t& sensors) {
@@ -22,8 +24,8 @@ acoustics::SoundSpeedProfile to_profile(const environment_t& environment) {
 }
 
 Vec3 true_position(const vehicle_state_t& state, SimTime at) {
-  const double seconds = (at - SimTime::from_utime(state.utime)).seconds();
-  return Vec3(state.position_ned_m) + seconds * Vec3(state.velocity_ned_mps);
+  return reckoned_position(Vec3(state.position_ned_m), Vec3(state.velocity_ned_mps),
+                           at - SimTime::from_utime(state.utime));
 }
 
 void set_estimate(position_estimate_t& message, const PositionEstimate& estimate, double z_ned_m,

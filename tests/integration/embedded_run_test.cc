@@ -213,6 +213,37 @@ TEST_F(EmbeddedRunTest, ShardsTogetherPublishWhatOneServerPublishes) {
   }
 }
 
+// Piloted by their sensors the vehicles move alike whichever states are published.
+TEST_F(EmbeddedRunTest, StatesByDeadReckoningMoveTheLinksByNoMoreThanTheBound) {
+  std::vector<std::string> settings{"scenario.duration_s=120", "propagation.model=\"straight\""};
+  for (const char* piloted : {"1", "2", "4"})
+    settings.push_back("vehicle." + std::string(piloted) + ".mission.navigate_by=\"sensors\"");
+  const std::string all = run(load("harbour", settings), "all");
+  const double bound_m = 0.3;
+  settings.insert(settings.end(), {"vehicle_sim.state_deviation_m=0.3", "vehicle_sim.state_deviation_deg=180",
+                                   "vehicle_sim.state_longest_silence_s=2", "autopilot.state_timeout_s=3"});
+  const std::string some = run(load("harbour", settings), "some");
+  EXPECT_LT(4 * messages_in<vehicle_state_t>(some).size(), messages_in<vehicle_state_t>(all).size());
+
+  const auto exact = messages_in<link_table_t>(all), reckoned = messages_in<link_table_t>(some);
+  ASSERT_EQ(reckoned.size(), exact.size());
+  // Either end by the bound, and by 0.15 s at 0.3 m/s, more than their velocities change in a silence.
+  const double allowed_m = 2 * (bound_m + 0.15 * 0.3), slowest_mps = 1480;
+  double furthest_m = 0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    ASSERT_EQ(reckoned[k].first, exact[k].first);
+    ASSERT_EQ(reckoned[k].second.peers.size(), exact[k].second.peers.size());
+    for (std::size_t i = 0; i < exact[k].second.peers.size(); ++i) {
+      const auto &a = exact[k].second.peers[i], &b = reckoned[k].second.peers[i];
+      furthest_m = std::max(furthest_m, std::abs(a.range_m - b.range_m));
+      EXPECT_LE(std::abs(a.delay_s - b.delay_s), allowed_m / slowest_mps);
+      EXPECT_LE(b.transmitter_age_s, 2 + 0.05);
+    }
+  }
+  EXPECT_LE(furthest_m, allowed_m);
+  EXPECT_GT(furthest_m, 0.05) << "nobody strayed: the test is too easy";
+}
+
 TEST_F(EmbeddedRunTest, AScheduledChangeOfWaterIsReplayedToo) {
   ScenarioConfig config = harbour();
   config.channel_server.changes = {{10.4, 14, {}, -1.5, {}}};

@@ -34,6 +34,29 @@ TEST_F(AutopilotNodeTest, SteersTowardsTheWaypoint) {
   EXPECT_GT(commands_[0].propeller_rpm, 500);
 }
 
+// It passes the waypoint's latitude northwards: what steers is where it is now, not where it was last seen.
+TEST_F(AutopilotNodeTest, AStateIsCarriedOnToTheInstantOfTheCommand) {
+  publish_state(0, 400);
+  step(800);
+  vehicle_state_t there{};
+  there.utime = 800'000;
+  there.vehicle_id = 1;
+  there.orientation_wxyz[0] = 1;
+  there.position_ned_m[0] = 0.8 * 1.5;
+  there.position_ned_m[1] = 400;
+  there.velocity_ned_mps[0] = 1.5;
+  const auto by_old_state = commands_;
+  AutopilotNode other(lcm_, {"autopilot", 11}, one_mission());
+  peer_.publish(bus::channels::kState.of("auv-1"), there);
+  drain();
+  commands_.clear();
+  other.step({at_ms(800), at_ms(800)});
+  drain();
+  ASSERT_EQ(by_old_state.size(), 1u);
+  ASSERT_EQ(commands_.size(), 1u);
+  EXPECT_EQ(bus::encoded(commands_[0]), bus::encoded(by_old_state[0]));
+}
+
 TEST_F(AutopilotNodeTest, WithoutAStateThereIsNoCommand) {
   step(0);
   EXPECT_TRUE(commands_.empty());
