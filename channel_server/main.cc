@@ -1,35 +1,17 @@
 #include <string>
-#include <vector>
 
 #include "bus/config/config.h"
+#include "bus/runtime/node_command_line.h"
 #include "bus/runtime/node_process.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
 #include "core/check.h"
 
-using halocline::InvalidArgument;
 using halocline::require;
 using halocline::bus::NodeProgram;
+using halocline::bus::part_settings;
 using halocline::channel_server::ChannelServerConfig;
 using halocline::channel_server::make_channel_server;
-
-namespace {
-
-// "i/n" as keys of the scenario.
-std::vector<std::string> shard_settings(const std::string& value) {
-  const auto slash = value.find('/');
-  const auto is_number = [](const std::string& text) {
-    return !text.empty() && text.size() < 4 && text.find_first_not_of("0123456789") == std::string::npos;
-  };
-  const std::string index = value.substr(0, slash);
-  const std::string count = slash == std::string::npos ? "" : value.substr(slash + 1);
-  if (!is_number(index) || !is_number(count) || std::stoi(index) >= std::stoi(count)) {
-    throw InvalidArgument("--shard " + value + "; allowed is i/n with i from 0 to n - 1, as 0/2 and 1/2");
-  }
-  return {"channel_server.shard=" + index, "channel_server.shards=" + count};
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   ChannelServerConfig config;
@@ -48,7 +30,9 @@ int main(int argc, char** argv) {
   std::string share, journal;
   program.options = {
       {"--shard", "I/N: serve the vehicles whose id mod N is I, beside N - 1 other servers", &share, nullptr,
-       shard_settings},
+       [](const std::string& value) {
+         return part_settings("--shard", value, "channel_server.shard", "channel_server.shards");
+       }},
       {"--journal", "file from which a server that was killed goes on where it was (not in lockstep)",
        &journal}};
   program.default_name = [&] {

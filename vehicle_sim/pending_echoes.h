@@ -1,6 +1,6 @@
 // Queue of measurements that wait for their echoes, in order of time, until answered or timed out.
 //
-// One entry a sensor tick, all vehicles in it. An entry is complete when its echoes are known (at once when
+// One entry a sensor tick. An entry is complete when its echoes are known (at once when
 // it has no beams) or its deadline has passed; entries leave in the order in which they came, so
 // messages go out in order of time.
 #pragma once

@@ -1,6 +1,7 @@
 #include "vehicle_sim/sensor_station.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/check.h"
@@ -62,15 +63,23 @@ void SensorStation::find_next() {
 std::vector<SensorTick> SensorStation::take(const Fleet& fleet, std::size_t max_beams) {
   const SimTime when = next_;
   const bool all_due = is_due(next_all_, when, period_);
-  std::vector<Job> jobs;
+  std::vector<Job> without_echoes, jobs;
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
-    if (all_due || std::min({times_[i].dvl, times_[i].gps, times_[i].sonar}) <= when)
-      measure(fleet, i, all_due, jobs);
+    if (!all_due && std::min({times_[i].dvl, times_[i].gps, times_[i].sonar}) > when) continue;
+    std::vector<Job> own;
+    measure(fleet, i, all_due, own);
+    const bool waits =
+        std::any_of(own.begin(), own.end(), [](const Job& job) { return !job.second.empty(); });
+    std::vector<Job>& all = waits ? jobs : without_echoes;
+    std::move(own.begin(), own.end(), std::back_inserter(all));
   }
   find_next();
   std::vector<SensorTick> ticks;
+  if (!without_echoes.empty()) ticks.push_back({when, {}, {}, {}});
+  for (auto& [job, beams] : without_echoes) ticks.back().jobs.push_back(std::move(job));
+  const std::size_t first = ticks.size();
   for (auto& [job, beams] : jobs) {
-    if (ticks.empty() || ticks.back().beams.size() + beams.size() > max_beams)
+    if (ticks.size() == first || ticks.back().beams.size() + beams.size() > max_beams)
       ticks.push_back({when, {}, {}, {}});
     SensorTick& tick = ticks.back();
     job.first_beam = tick.beams.size();

@@ -104,6 +104,17 @@ void visit_state_rule(ConfigVisitor& v, StateRule& rule, SimDuration allowed) {
                 "autopilot.state_timeout_s, less channel_server.state_lag_s");
 }
 
+void visit_block(ConfigVisitor& v, VehicleBlock& block) {
+  bus::integer_as(
+      v, "blocks", block.count,
+      {1, kMaxBlocks, "",
+       "vehicle simulators that share the vehicles, in the order of the scenario; hulls of different "
+       "blocks pass through each other"});
+  bus::integer_as(v, "block", block.index,
+                  {0, kMaxBlocks - 1.0, "", "which of them this one is; in one process all run"});
+  if (!v.writing() && block.index >= block.count) v.problem("block", "allowed is 0 to blocks - 1");
+}
+
 void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_silence) {
   bus::seconds(v, "step_s", c.step, {0.001, VehicleWorld::kLongestStep_s, "s", "step of the physics"});
   visit_rate(v, "state_rate_hz", c.state_period,
@@ -123,6 +134,7 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_si
   v.number("buoyancy_over_weight", c.buoyancy_over_weight,
            {0.5, 2, "", "of every vehicle; above 1 they rise"});
   bus::integer_as(v, "threads", c.threads, {1, 64, "", "that move vehicles; results are the same"});
+  visit_block(v, c.block);
   v.number("seabed_friction", c.seabed_friction, {0, 10, "", "Coulomb's coefficient of hull on seabed"});
   v.section("current", "Parts of the current that are added to current_ned_mps",
             [&](ConfigVisitor& section) { visit_current(section, c.current); });
@@ -196,7 +208,8 @@ std::size_t member_named(const std::vector<FleetMember>& members, const std::str
   return static_cast<std::size_t>(found - members.begin());
 }
 
-FleetTether tether_of(const TetherEntry& entry, const std::vector<FleetMember>& members) {
+FleetTether tether_of(const TetherEntry& entry, const std::vector<FleetMember>& members,
+                      const VehicleBlock& block) {
   FleetTether t{.member = member_named(members, entry.vehicle),
                 .attached_at_m = entry.attached_at_m,
                 .to_member = {},
@@ -205,6 +218,11 @@ FleetTether tether_of(const TetherEntry& entry, const std::vector<FleetMember>& 
   if (!entry.to_vehicle.empty()) t.to_member = member_named(members, entry.to_vehicle);
   require(t.to_member != t.member, "tether: it must not lead from a vehicle to itself");
   require(members[t.member].model != nullptr, "tether: its vehicle must be one that moves");
+  const auto block_of = [&](std::size_t member) { return block.of(member, members.size()); };
+  require(!t.to_member || block_of(t.member) == block_of(*t.to_member),
+          "tether: " + entry.vehicle + " and " + entry.to_vehicle + " are in different blocks of " +
+              std::to_string(block.count) +
+              "; allowed is one block: fewer vehicle_sim.blocks, or another order");
   return t;
 }
 
@@ -285,7 +303,8 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   settings.seabed_friction = config.seabed_friction;
   if (!config.tethers.empty()) {
     const std::vector<FleetMember> members = members_of(scenario, config);
-    for (const TetherEntry& entry : config.tethers) settings.tethers.push_back(tether_of(entry, members));
+    for (const TetherEntry& entry : config.tethers)
+      settings.tethers.push_back(tether_of(entry, members, config.block));
   }
   return settings;
 }

@@ -10,6 +10,7 @@
 //   length_m = 20
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,21 @@ struct VehicleSensors {
   SensorSettings sensors;
 };
 
+// Which vehicles one of several simulators moves. Those that are not "external" are cut into `count` blocks in the order of
+// the scenario, of equal size but for one vehicle. Each moves and measures as beside all others, to the last bit, except
+// that hulls of different blocks pass through each other. A tether joins vehicles of one block.
+struct VehicleBlock {
+  int index = 0;  // 0 to count - 1
+  int count = 1;  // 1 to kMaxBlocks
+
+  bool is_alone() const { return count == 1; }
+  // The block of the `member`-th of so many vehicles, from 0.
+  std::size_t of(std::size_t member, std::size_t members) const {
+    return member * static_cast<std::size_t>(count) / members;
+  }
+};
+inline constexpr int kMaxBlocks = 64;
+
 struct VehicleSimConfig {
   SimDuration step = SimDuration::from_milliseconds(10);               // of the physics
   SimDuration state_period = SimDuration::from_milliseconds(100);      // between STATEs, or their ticks
@@ -62,6 +78,7 @@ struct VehicleSimConfig {
   double buoyancy_over_weight = 1;
   double seabed_friction = VehicleWorld::kDefaultFriction;
   int threads = 1;  // that move vehicles; the motion is the same for any number
+  VehicleBlock block;
   std::vector<TetherEntry> tethers;
   SensorSettings sensors;                // of every vehicle without its own
   std::vector<VehicleSensors> vehicles;  // of the scenario
@@ -78,7 +95,7 @@ void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
 // bus::ConfigErrors where its file is wrong.
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
-// Throws InvalidArgument where a tether names no vehicle of ours.
+// Throws InvalidArgument where a tether names no vehicle of ours, or leads from block to block.
 FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig& config);
 
 // Their sensors, in the order of `members`.

@@ -101,6 +101,19 @@ std::uint64_t entropy_of_this_incarnation() {
 
 }  // namespace
 
+std::vector<std::string> part_settings(const std::string& option, const std::string& value,
+                                       const std::string& index_key, const std::string& count_key) {
+  const auto slash = value.find('/');
+  const auto is_number = [](const std::string& text) {
+    return !text.empty() && text.size() < 4 && text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const std::string index = value.substr(0, slash);
+  const std::string count = slash == std::string::npos ? "" : value.substr(slash + 1);
+  require(is_number(index) && is_number(count) && std::stoi(index) < std::stoi(count),
+          option + " " + value + "; allowed is i/n with i from 0 to n - 1, as 0/2 and 1/2");
+  return {index_key + "=" + index, count_key + "=" + count};
+}
+
 std::optional<NodeRun> parse_node_command_line(int argc, char** argv, const NodeProgram& program) {
   Arguments arguments;
   CLI::App app(program.purpose, program.program);

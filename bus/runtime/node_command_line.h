@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bus/config/config.h"
 #include "bus/event_log.h"
@@ -33,5 +34,9 @@ struct NodeRun {
 // was printed. Throws InvalidArgument for a wrong command line and ConfigErrors for a wrong file.
 [[nodiscard]] std::optional<NodeRun> parse_node_command_line(int argc, char** argv,
                                                              const NodeProgram& program);
+
+// "i/n" of an option, part i of n, as settings of two keys of the scenario. Throws InvalidArgument that names what is allowed.
+std::vector<std::string> part_settings(const std::string& option, const std::string& value,
+                                       const std::string& index_key, const std::string& count_key);
 
 }  // namespace halocline::bus

@@ -70,8 +70,8 @@ void visit(ConfigVisitor& v, Scenario& s) {
 }
 
 std::string configuration_of(const ConfigFile& file) {
-  return file.to_toml(
-      {"channel_server.shard", "channel_server.shards", "channel_server.threads", "vehicle_sim.threads"});
+  return file.to_toml({"channel_server.shard", "channel_server.shards", "channel_server.threads",
+                       "vehicle_sim.block", "vehicle_sim.blocks", "vehicle_sim.threads"});
 }
 
 std::int64_t session_of(std::uint64_t entropy, std::string_view node_name) {

@@ -52,7 +52,7 @@ struct Scenario {
 void visit(ConfigVisitor& v, Scenario& scenario);
 
 // The whole file with its overrides as TOML, as every program of the run reads it; without the keys that share out the
-// work (shards, threads), which are the programs' own and change no result.
+// work (shards, blocks, threads), which are the programs' own.
 std::string configuration_of(const ConfigFile& file);
 
 // The session of a node's incarnation. In lockstep it must be the same in each run: made of the seed and the name. In a

@@ -1,6 +1,7 @@
 #include "tests/integration/lockstep_fleet.h"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -37,17 +38,22 @@ bool eventually(const std::function<bool()>& condition) {
 }  // namespace
 
 LockstepFleet::LockstepFleet(std::string scenario, std::vector<std::string> settings, NetworkFaults faults,
-                             int shards)
+                             int shards, int blocks)
     : shards_(shards),
-      participants_({"bathymetry", "vehicle-sim", "autopilot", "traffic", "localiser"}),
+      blocks_(blocks),
+      participants_({"bathymetry", "autopilot", "traffic", "localiser"}),
       scenario_(HALOCLINE_TEST_DATA "/scenarios/" + std::move(scenario) + ".toml"),
       settings_(std::move(settings)),
       faults_(faults),
       folder_(::testing::TempDir() + "halocline-lockstep-" + std::to_string(getpid())) {
-  for (int i = 0; i < shards; ++i) {
-    participants_.push_back(shards == 1 ? "channel-server" : "channel-server-" + std::to_string(i));
-  }
+  add_parts("vehicle-sim", blocks);
+  add_parts("channel-server", shards);
   std::filesystem::create_directories(folder_);
+}
+
+void LockstepFleet::add_parts(const std::string& program, int count) {
+  for (int i = 0; i < count; ++i)
+    participants_.push_back(count == 1 ? program : program + "-" + std::to_string(i));
 }
 
 LockstepFleet::~LockstepFleet() {
@@ -89,13 +95,15 @@ void LockstepFleet::start_conductor(const std::vector<std::string>& options) {
 }
 
 void LockstepFleet::start(const std::string& participant) {
-  const std::string server = "channel-server";
-  const bool is_shard = participant.size() > server.size() && participant.starts_with(server);
-  auto words = command("halocline-" + (is_shard ? server : participant), true);
+  const bool is_part = std::isdigit(static_cast<unsigned char>(participant.back())) != 0;
+  const std::size_t dash = participant.rfind('-');
+  auto words = command("halocline-" + (is_part ? participant.substr(0, dash) : participant), true);
   words.insert(words.end(), {scenario_, "--time-source", "lockstep"});
-  if (is_shard) {
-    const std::string index = participant.substr(server.size() + 1);
-    words.insert(words.end(), {"--shard", index + "/" + std::to_string(shards_)});
+  if (is_part) {
+    const bool is_shard = participant.starts_with("channel-server");
+    words.insert(words.end(),
+                 {is_shard ? "--shard" : "--block",
+                  participant.substr(dash + 1) + "/" + std::to_string(is_shard ? shards_ : blocks_)});
   }
   for (const std::string& option : settings_as_options()) words.push_back(option);
   processes_[participant] = std::make_unique<Process>(words);

@@ -23,9 +23,10 @@ inline std::ostream& operator<<(std::ostream& out, const NetworkFaults& faults) 
 
 class LockstepFleet {
  public:
-  // Runs the scenario of tests/data with these settings ("section.key=value"), with so many channel servers.
+  // Runs the scenario of tests/data with these settings ("section.key=value"), with so many channel servers and vehicle
+  // simulators.
   LockstepFleet(std::string scenario, std::vector<std::string> settings, NetworkFaults faults = {},
-                int shards = 1);
+                int shards = 1, int blocks = 1);
   ~LockstepFleet();
 
   const std::vector<std::string>& participants() const { return participants_; }
@@ -59,10 +60,11 @@ class LockstepFleet {
  private:
   std::vector<std::string> command(const std::string& program, bool with_faults) const;
   std::vector<std::string> settings_as_options() const;
+  void add_parts(const std::string& program, int count);
 
   std::string output_of(const std::filesystem::path& log) const;
 
-  int shards_;
+  int shards_, blocks_;
   std::vector<std::string> participants_;
   std::string scenario_;
   std::vector<std::string> settings_;

@@ -103,6 +103,24 @@ TEST(LockstepProcesses, AKilledShardReturns) {
   EXPECT_TRUE(fleet.output_bytes() == one);
 }
 
+// States by dead reckoning, vehicles in two blocks: one of the simulators is killed, and so is the other.
+TEST(LockstepProcesses, AKilledBlockOfVehiclesReturns) {
+  LockstepFleet fleet("ten_vehicles", {"scenario.duration_s=60", "vehicle_sim.state_deviation_m=0.2"}, {}, 1,
+                      2);
+  const std::string one = fleet.output_of_one_process();
+  const std::string whole = fleet.log_of_one_process({"vehicle_sim.blocks=2"});
+  fleet.start_all();
+  std::size_t kills = 0;
+  for (const char* block : {"vehicle-sim-0", "vehicle-sim-1", "vehicle-sim-0"}) {
+    ASSERT_TRUE(fleet.wait_for_log(whole.size() * ++kills / 5)) << fleet.conductor_output();
+    fleet.kill_and_restart(block);
+  }
+  ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
+  EXPECT_THAT(fleet.conductor_output(), HasSubstr("returned participant=vehicle-sim-"));
+  EXPECT_TRUE(fleet.output_bytes() == one);
+  EXPECT_TRUE(fleet.log_bytes() == whole);
+}
+
 class WithFaults : public ::testing::TestWithParam<NetworkFaults> {};
 
 TEST_P(WithFaults, WriteTheLogOfOneProcess) {

@@ -146,6 +146,21 @@ TEST(SensorStation, BeamsAreSharedAmongMessagesAndEachJobKeepsItsOwn) {
   EXPECT_EQ(jobs, 9u * 3u);
 }
 
+// So its SENSORS come at the same place of an instant, whoever else there is.
+TEST(SensorStation, AVehicleWithoutBeamsDoesNotWaitForTheEchoesOfOthers) {
+  Fleet fleet = fleet_of(3);
+  for (const SensorKind kind : {SensorKind::kDvl, SensorKind::kSonar, SensorKind::kAltimeter})
+    EXPECT_TRUE(fleet.apply_fault(1, {.from = SimTime(), .kind = FaultKind::kDeadSensor, .sensor = kind}));
+  SensorStation station = station_of(3);
+  const auto ticks = station.take(fleet, 4096);
+  ASSERT_EQ(ticks.size(), 2u);
+  EXPECT_TRUE(ticks[0].beams.empty());
+  ASSERT_EQ(ticks[0].jobs.size(), 1u);
+  EXPECT_EQ(ticks[0].jobs[0].vehicle, 1u);
+  EXPECT_EQ(ticks[1].jobs.size(), 2u * 3u);
+  for (const SensorJob& job : ticks[1].jobs) EXPECT_NE(job.vehicle, 1u);
+}
+
 TEST(SensorStation, UnansweredBeamsLeaveAPingWithoutVelocity) {
   Fleet fleet = fleet_of(1);
   SensorStation station = station_of(1);

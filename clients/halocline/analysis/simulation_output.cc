@@ -34,6 +34,18 @@ bool is_of_channel_server(std::string_view channel) {
                    {"SCENARIO", "ENVIRONMENT", "LINKS", "RECEIPT", "RECEIVE", "OUTCOME", "LINK_REPLY"});
 }
 
+bool is_of_vehicle_sim(std::string_view channel) {
+  return is_one_of(family_of(channel), {"STATE", "SENSORS", "DVL", "GPS", "SONAR", "USBL", "FAULT"});
+}
+
+template <class Message>
+Bytes without_session(const Bytes& bytes) {
+  Message message;
+  if (!decode_checked(bytes, message)) return {};
+  if constexpr (requires { message.session; }) message.session = 0;
+  return bus::encoded(message);
+}
+
 template <class Message>
 Bytes without_number(const Bytes& bytes) {
   Message message;
@@ -49,6 +61,7 @@ std::optional<Output> output_of(const LogReader& log, const LoggedEvent& event) 
   Bytes bytes = event.data;
   const bool is_ours = with_type_of(event.channel, [&]<class Message>() {
     if (is_of_channel_server(event.channel)) bytes = without_number<Message>(event.data);
+    if (is_of_vehicle_sim(event.channel)) bytes = without_session<Message>(event.data);
   });
   if (!is_ours) return std::nullopt;
   require(!bytes.empty(), place_of(log, event) + ": an event on " + event.channel + " does not decode");

@@ -14,6 +14,7 @@
 #include "clients/traffic/traffic_node.h"
 #include "conductor/conductor_node.h"
 #include "core/check.h"
+#include "vehicle_sim/vehicle_block.h"
 #include "vehicle_sim/vehicle_sim_node.h"
 #include "vehicle_sim/world/terrain_seabed.h"
 
@@ -147,14 +148,21 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
   if (kind == kReplay) {
     order_.push_back(recorded);
   } else {
-    add<vehicle_sim::VehicleSimNode>(bus::Stage::kVehicles, "vehicle-sim", config.scenario,
-                                     config.vehicle_sim,
-                                     std::make_shared<vehicle_sim::TerrainSeabed>(terrain_.terrain));
+    add_vehicle_sims(config);
     add<AutopilotNode>(bus::Stage::kPilots, "autopilot", config.autopilot);
     add<TrafficNode>(bus::Stage::kTraffic, "traffic", config.traffic);
     add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
   }
   add_channel_servers(config);
+}
+
+void Composition::add_vehicle_sims(const ScenarioConfig& config) {
+  const auto seabed = std::make_shared<vehicle_sim::TerrainSeabed>(terrain_.terrain);
+  vehicle_sim::VehicleSimConfig all = config.vehicle_sim;
+  for (all.block.index = 0; all.block.index < all.block.count; ++all.block.index) {
+    const auto [scenario, own] = part_of_block(config.scenario, all);
+    add<vehicle_sim::VehicleSimNode>(bus::Stage::kVehicles, node_name_of(all.block), scenario, own, seabed);
+  }
 }
 
 void Composition::add_channel_servers(const ScenarioConfig& config) {

@@ -83,6 +83,7 @@ class Composition {
  private:
   template <class NodeType, class... Arguments>
   void add(bus::Stage stage, const std::string& name, Arguments&&... arguments);
+  void add_vehicle_sims(const ScenarioConfig& config);
   void add_channel_servers(const ScenarioConfig& config);
 
   lcm::LCM& lcm_;

@@ -73,7 +73,9 @@ TEST(ScenarioConfig, TheConfigurationThatTheLogHoldsHasOverridesAndNotHowTheWork
     return load_scenario(kScenarios + "/seamount.toml", overrides).scenario.configuration;
   };
   const std::string plain = configuration_with({});
-  EXPECT_EQ(configuration_with({"channel_server.shards=3", "channel_server.threads=2"}), plain);
+  EXPECT_EQ(
+      configuration_with({"channel_server.shards=3", "channel_server.threads=2", "vehicle_sim.blocks=2"}),
+      plain);
   EXPECT_EQ(configuration_with({"vehicle_sim.threads=2"}), plain);
   EXPECT_NE(configuration_with({"channel_server.link_rate_hz=2"}), plain);
   EXPECT_NE(configuration_with({"scenario.seed=99"}).find("seed = 99"), std::string::npos);
