@@ -1,35 +1,32 @@
-// Writes everything that passes on an lcm::LCM into an LCM log, stamped with simulation time: the canonical
+// Writes everything that passes on an lcm::LCM into an LCM log (log_parts.h), stamped with simulation time: the canonical
 // log of a run. The same run writes the same bytes.
 //
-// Rotated, a log is a series of files (log_series.h), each a whole LCM log (LCM numbers
-// the events of each file from 0). Parts change before an event that would make one longer than `part_bytes`,
-// and at multiples of `part_time`: the same run is cut at the same events.
+// A thread of its own writes them: batches of kBatchBytes, and at every whole second of the run. While it has kMostBatches to
+// write, the run waits.
 #pragma once
 
+#include <condition_variable>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
-#include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include <lcm/lcm-cpp.hpp>
 
+#include "bus/logs/log_parts.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
 
-// When the next part of a log begins, and how many are kept. 0 everywhere: one file, however long.
-struct LogRotation {
-  std::int64_t part_bytes = 0;  // 0: any size
-  SimDuration part_time;        // 0: any time
-  int parts_kept = 0;           // the newest, above 0; 0: all
-
-  bool rotates() const { return part_bytes > 0 || part_time > SimDuration(); }
-};
-
 class LogRecorder {
  public:
-  // Replaces the file at `path`, and the parts of an earlier series of that name; throws InvalidArgument when it
-  // cannot be written. `now` gives the stamp of each message as it is dispatched. `lcm` must outlive the recorder.
+  static constexpr std::size_t kBatchBytes = 256 << 10, kMostBatches = 64;
+
+  // Of the file, see LogParts. `now` gives the stamp of each message as it is dispatched. `lcm` must outlive the recorder.
   LogRecorder(lcm::LCM& lcm, const std::string& path, std::function<SimTime()> now,
               const LogRotation& rotation = {});
   ~LogRecorder();
@@ -37,27 +34,43 @@ class LogRecorder {
   LogRecorder& operator=(const LogRecorder&) = delete;
 
   std::int64_t events() const { return events_; }
-  int parts() const { return part_ + 1; }  // begun so far
-  // Writes out what is buffered; throws std::runtime_error when the disk refused any of it.
+  // Begun when close() has returned.
+  int parts() const { return parts_.parts(); }
+  // Writes out what is buffered; nothing more is recorded. Throws std::runtime_error when the disk refused any of it.
   void close();
 
  private:
+  // Messages one after the other.
+  struct Batch {
+    struct Message {
+      SimTime stamp;
+      std::string channel;
+      std::size_t end;  // of its bytes; they begin where those of the message before end
+    };
+    std::vector<Message> messages;
+    std::vector<std::uint8_t> bytes;
+  };
+
   void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel);
-  void rotate_before(SimTime stamp, std::int64_t bytes);
-  [[nodiscard]] bool open_part(int part);
-  void end_part();
+  void hand_over();
+  void write_batches();
+  void write(Batch& batch);
 
   lcm::LCM& lcm_;
   std::string path_;
   std::function<SimTime()> now_;
-  std::unique_ptr<lcm::LogFile> file_;
   lcm::Subscription* subscription_ = nullptr;
-  LogRotation rotation_;
-  int part_ = 0;
-  std::int64_t part_bytes_ = 0;  // written to this part
-  SimTime part_ends_ = SimTime::never();
   std::int64_t events_ = 0;
-  bool failed_ = false;
+  Batch filling_;
+  SimTime whole_second_;  // from which the batch is handed over
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::deque<Batch> waiting_;
+  bool ends_ = false;
+
+  LogParts parts_;  // of the thread, until it has ended
+  std::thread writer_;
 };
 
 }  // namespace halocline::bus

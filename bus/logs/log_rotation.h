@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/logs/log_recorder.h"
+#include "bus/logs/log_parts.h"
 
 namespace halocline::clients {
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "bus/logs/log_recorder.h"
 #include "bus/runtime/lockstep_runner.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/logs/log_recorder.h"
+#include "bus/logs/log_parts.h"
 #include "bus/runtime/node.h"
 #include "core/sim_time.h"
 
