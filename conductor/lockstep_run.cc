@@ -24,7 +24,7 @@ namespace halocline::conductor {
 namespace {
 
 // For the last turns after a stop was requested.
-constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(4000);
+constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(800);
 // After the end, for JOINs of participants that lost the notice.
 constexpr SimDuration kLinger = SimDuration::from_milliseconds(600);
 
@@ -71,7 +71,8 @@ class Run {
                              " rounds=" + std::to_string(sequencer.rounds()) +
                              " turns=" + std::to_string(sequencer.turns()) +
                              " retransmissions=" + std::to_string(conductor_->retransmissions()));
-    for (const SimTime end = bus::steady_now() + kLinger; bus::steady_now() < end;) dispatch_until(end);
+    const SimTime end = std::min(bus::steady_now() + kLinger, give_up_at);
+    while (bus::steady_now() < end) dispatch_until(end);
   }
 
  private:

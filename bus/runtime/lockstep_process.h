@@ -21,7 +21,7 @@ std::int64_t draw_incarnation();
 
 // Runs until the conductor's notice that the run is over. `memq` carries the node alone; `sync_url`: grants are received
 // there, answers go to the next port. Once `should_stop` returns true, the node requests its last turn and waits for it
-// a few seconds. Throws what the node throws, and std::runtime_error when the conductor expels it: then it should be
+// 0.8 s. Throws what the node throws, and std::runtime_error when the conductor expels it: then it should be
 // restarted.
 void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& sync_url,
                               const std::string& scenario_digest, const std::function<bool()>& should_stop);

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <exception>
+#include <string_view>
 
 #include <poll.h>
 #include <sys/prctl.h>
@@ -24,9 +26,33 @@ namespace {
 // Set in a signal handler, read by any thread.
 std::atomic<bool> stop_signal_seen = false, interrupt_seen = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
+// Ends the process when it has not ended by itself kStopDeadline after the first signal.
+constexpr long kStopDeadlineNs = 900'000'000;
+std::atomic<bool> has_deadline = false;
+timer_t deadline_timer;
+
 void on_stop_signal(int number) {
   if (number == SIGINT) interrupt_seen = true;
-  stop_signal_seen = true;
+  if (stop_signal_seen.exchange(true) || !has_deadline) return;
+  const itimerspec once{{0, 0}, {0, kStopDeadlineNs}};
+  timer_settime(deadline_timer, 0, &once, nullptr);
+}
+
+// Calls only what a signal handler may.
+void on_deadline(int) {
+  constexpr std::string_view kWords = "stopped in the middle of a step\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, kWords.data(), kWords.size());
+  _exit(0);
+}
+
+void stop_by_deadline() {
+  struct sigaction action {};
+  action.sa_handler = on_deadline;
+  sigaction(SIGALRM, &action, nullptr);
+  sigevent event{};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = SIGALRM;
+  has_deadline = timer_create(CLOCK_MONOTONIC, &event, &deadline_timer) == 0;
 }
 
 // Longest sleep: a stop requested by other means than a signal is seen within this.
@@ -101,6 +127,7 @@ int run_checked(int argc, char** argv, const NodeProgram& program) {
   const auto run = parse_node_command_line(argc, argv, program);
   if (!run) return 0;
   set_log_level(run->log_level);
+  stop_by_deadline();
   catch_stop_signals();
   EventLog log(run->identity.name);
   if (run->time_source == TimeSourceKind::kLockstep) {

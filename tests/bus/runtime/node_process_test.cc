@@ -80,6 +80,23 @@ TEST_F(NodeProcessTest, StoppedByASignalItHandlesWhatTheBusHasDeliveredAndPublis
   }
 }
 
+// It obeys within a second; a busy machine may add to that.
+TEST_F(NodeProcessTest, ASignalEndsAStepThatTakesLong) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    answers_.clear();
+    statuses_.clear();
+    Process echo({HALOCLINE_ECHO_PROGRAM, "--set", "echo.work_s=60"});
+    ASSERT_TRUE(receives_status_of("echo")) << echo.output();
+    request(1);
+    ASSERT_TRUE(listen_until([&] { return answers_.size() == 1; }));
+    const auto begin = std::chrono::steady_clock::now();
+    echo.signal(signal);
+    EXPECT_EQ(echo.wait(), 0) << echo.output();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
+    EXPECT_THAT(echo.output(), HasSubstr("stopped in the middle of a step"));
+  }
+}
+
 TEST_F(NodeProcessTest, RandomBytesOnItsChannelsDoNotEndIt) {
   Process echo({HALOCLINE_ECHO_PROGRAM, "--log-level", "silent"});
   ASSERT_TRUE(receives_status_of("echo")) << echo.output();
