@@ -1,6 +1,7 @@
 #include "channel_server/packets/receiver_state.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace halocline::channel_server {
 namespace {
@@ -67,6 +68,9 @@ Interferers ReceiverState::interferers_of(const Packet& packet, SimTime begin, S
     }
     found.packets.push_back(sound->packet);
   }
+  std::sort(found.paths.begin(), found.paths.end(), [](const Interference& a, const Interference& b) {
+    return std::tie(a.begin, a.end, a.power) < std::tie(b.begin, b.end, b.power);
+  });
   return found;
 }
 

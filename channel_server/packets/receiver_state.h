@@ -43,7 +43,7 @@ struct Interference {
 
 struct Interferers {
   std::vector<PacketPointer> packets;
-  std::vector<Interference> paths;
+  std::vector<Interference> paths;  // in an order that does not depend on the order of arrival
 };
 
 class ReceiverState {

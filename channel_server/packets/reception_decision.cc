@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -13,42 +14,51 @@
 namespace halocline::channel_server {
 namespace {
 
-// The sum of powers rises or falls by `power` at `at`.
-struct Change {
-  SimTime at;
-  double power;
-};
-
-// By instant; among equals in an order of their own, so that sums do not depend on the order of arrival.
-std::vector<Change> changes_within(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
-  std::vector<Change> changes;
-  for (const Interference& path : paths) {
-    if (path.end <= begin || path.begin >= end) continue;
-    changes.push_back({std::max(path.begin, begin), path.power});
-    changes.push_back({std::min(path.end, end), -path.power});
+// The sum of the powers of many paths over [begin, end): constant from one step to the next.
+class PowerSteps {
+ public:
+  PowerSteps(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
+    struct Change {
+      SimTime at;
+      double power;
+    };
+    std::vector<Change> changes{{begin, 0}};
+    for (const Interference& path : paths) {
+      if (path.end <= begin || path.begin >= end) continue;
+      changes.push_back({std::max(path.begin, begin), path.power});
+      if (path.end < end) changes.push_back({path.end, -path.power});
+    }
+    std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
+      return std::tie(a.at, a.power) < std::tie(b.at, b.power);
+    });
+    double power = 0;
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      power += changes[i].power;
+      // What rounding leaves after the last path has ended may lie below 0.
+      if (i + 1 == changes.size() || changes[i + 1].at > changes[i].at)
+        steps_.push_back({changes[i].at, std::max(power, 0.0)});
+    }
   }
-  std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
-    return std::tie(a.at, a.power) < std::tie(b.at, b.power);
-  });
-  return changes;
-}
+  // Calls visit(seconds, power) for each stretch of constant power within [from, to), a part of the whole.
+  template <class Visitor>
+  void for_each_stretch(SimTime from, SimTime to, Visitor&& visit) const {
+    auto step = std::upper_bound(steps_.begin(), steps_.end(), from,
+                                 [](SimTime time, const Step& one) { return time < one.from; });
+    while (from < to) {
+      const SimTime until = step == steps_.end() ? to : std::min(step->from, to);
+      visit((until - from).seconds(), std::prev(step)->power);
+      from = until;
+      ++step;
+    }
+  }
 
-// Calls visit(seconds, power) for each stretch of constant power that has a duration.
-template <class Visitor>
-void for_each_stretch(const std::vector<Interference>& paths, SimTime begin, SimTime end, Visitor&& visit) {
-  SimTime from = begin;
-  double power = 0;
-  const auto stretch_to = [&](SimTime to) {
-    // What rounding leaves after the last path has ended may lie below 0.
-    if (to > from) visit((to - from).seconds(), std::max(power, 0.0));
-    from = to;
+ private:
+  struct Step {
+    SimTime from;
+    double power;
   };
-  for (const Change& change : changes_within(paths, begin, end)) {
-    stretch_to(change.at);
-    power += change.power;
-  }
-  stretch_to(end);
-}
+  std::vector<Step> steps_;  // by time, the first where the whole begins
+};
 
 // Means of signal and own echoes over a part of the packet; of no duration, those of its first instant.
 struct SignalMeans {
@@ -79,15 +89,15 @@ PowerRatio mean_sinr(const ReceivedSignal& signal, const std::vector<Interferenc
 }
 
 // Adds what falls into [begin, end), `whole_s` long, to the block's decoder.
-void add_cells(const ReceivedSignal& signal, const std::vector<Interference>& others, SimTime begin,
-               SimTime end, acoustics::BlockDecoder& block) {
+void add_cells(const ReceivedSignal& signal, const PowerSteps& others, SimTime begin, SimTime end,
+               acoustics::BlockDecoder& block) {
   const acoustics::SignalHistory& history = signal.history;
   const double whole_s = (end - begin).seconds();
   for (std::size_t i = 0; i < history.stretches(); ++i) {
     const SimTime from = std::max(begin, signal.begin + SimDuration::from_seconds(history.edges_s[i]));
     const SimTime to = std::min(end, signal.begin + SimDuration::from_seconds(history.edges_s[i + 1]));
     if (to <= from) continue;
-    for_each_stretch(others, from, to, [&](double seconds, double interference) {
+    others.for_each_stretch(from, to, [&](double seconds, double interference) {
       const double disturbance = signal.noise + history.echoes[i] + interference;
       const double share = seconds / whole_s / static_cast<double>(history.frequencies);
       for (std::size_t m = 0; m < history.frequencies; ++m) {
@@ -123,7 +133,10 @@ PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receive
 double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
   double energy = 0;
   if (end > begin) {
-    for_each_stretch(paths, begin, end, [&](double seconds, double power) { energy += seconds * power; });
+    for (const Interference& path : paths) {
+      const SimTime from = std::max(path.begin, begin), to = std::min(path.end, end);
+      if (to > from) energy += (to - from).seconds() * path.power;
+    }
     return energy / (end - begin).seconds();
   }
   for (const Interference& path : paths) {
@@ -141,6 +154,7 @@ double success_probability(const ReceivedSignal& signal, const std::vector<Inter
   const acoustics::Modem& modem = signal.packet->modem;
   const std::int64_t all_bits = signal.packet->timing.information_bits;
   const double bits_s = (signal.end - signal.preamble_end).seconds();
+  const PowerSteps steps(others, signal.preamble_end, signal.end);
   double success = 1;
   std::int64_t before = 0;
   for (const std::int64_t bits : acoustics::coded_blocks(modem, all_bits)) {
@@ -149,7 +163,7 @@ double success_probability(const ReceivedSignal& signal, const std::vector<Inter
              SimDuration::from_seconds(bits_s * static_cast<double>(bit) / static_cast<double>(all_bits));
     };
     acoustics::BlockDecoder block(modem, signal.fades);
-    add_cells(signal, others, time_of(before), time_of(before + bits), block);
+    add_cells(signal, steps, time_of(before), time_of(before + bits), block);
     success *= block.success(bits);
     before += bits;
   }

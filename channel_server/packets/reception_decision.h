@@ -59,7 +59,7 @@ PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receive
 // Mean over [begin, end) of the sum of powers; of no duration, the sum at that instant.
 double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime end);
 
-// `others` in any order.
+// Sums over `others` are taken in their order.
 double acquisition_probability(const ReceivedSignal& signal, const std::vector<Interference>& others);
 // Of all information bits being right.
 double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& others);
