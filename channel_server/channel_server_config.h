@@ -111,6 +111,7 @@ struct ServerRules {
       5;  // how far the ends of a link may move before its echoes are surveyed again
   SeabedRule seabed;
   double profile_reuse_distance_m = 25;  // between the places where bottom profiles of link tables end
+  double row_reuse_distance_m = 0;       // over which rows of link tables are carried on (links/kept_rows.h)
   int max_searches_per_tick = 0;         // of paths, for link tables; 0: as many as they need
   int threads = 1;                       // that compute link tables
   int predicted_payload_bytes = 32;      // of the packets whose delivery link tables predict

@@ -47,6 +47,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       reach_(water_.waters, *water_.propagation, rules.reach),
       medium_(vehicles_, *water_.propagation, rules.medium, &reach_, pool_.sharing_out()),
       predictor_(make_predictor(rules)),
+      kept_rows_(rules.row_reuse_distance_m),
       echoes_(rules.echo_reuse_distance_m),
       rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, predictor_, echoes_, rays_,
@@ -56,7 +57,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       inbox_(bus(), rules.medium.shard),
       seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points),
       packets_(bus(), journal_),
-      tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_},
+      tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_, kept_rows_},
               pool_.sharing_out()),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
       scenario_(std::move(scenario)),
@@ -128,9 +129,11 @@ bool ChannelServerNode::run_tick(SimTime tick) {
   const auto ranges_m = reach_.reception_ranges_m(
       tick, vehicles_, present,
       [this](const acoustics::Modem& modem) { return predictor_.least_sinr_db(modem); });
-  const TableRows rows = table_rows(present, ranges_m, rules_.medium.shard);
+  TableRows rows = table_rows(present, ranges_m, rules_.medium.shard);
   Propagation& propagation = *water_.propagation;
-  if (!propagation.are_ready(tick, rows.links)) return false;
+  kept_rows_.carry_on(tick, {water_.waters->water_at(tick), water_.seabed->version()},
+                      propagation.environment(tick), present, rows);
+  if (!propagation.are_ready(tick, rows.to_compute())) return false;
   if (propagation.plans_ticks()) propagation.begin_tick(tick, table_rows(present, ranges_m).links);
   tables_.publish(tick, present, rows);
   seabed_.begin_tick(present, rows);
@@ -220,6 +223,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   seabed_.clear();
   queries_.clear();
   tables_.clear();
+  kept_rows_.clear();
   journal_.clear();
   recovery_.reset();
   inbox_.forget_after(now.sim + InputProcessor::kMaxAhead);

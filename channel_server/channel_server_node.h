@@ -22,6 +22,7 @@
 #include "channel_server/inbox.h"
 #include "channel_server/input_processor.h"
 #include "channel_server/link_table_publisher.h"
+#include "channel_server/links/kept_rows.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/multipath_cache.h"
@@ -77,6 +78,7 @@ class ChannelServerNode : public bus::Node {
   ReachModel reach_;
   PacketMedium medium_;
   LinkPredictor predictor_;
+  KeptRows kept_rows_;
   MultipathCache echoes_;
   RayQueryClient rays_;
   LinkQueryService queries_;

@@ -12,8 +12,8 @@ void LinkTablePublisher::publish(SimTime tick, const std::vector<PlacedVehicle>&
   const auto multipath = [&](const PlacedVehicle& from, const PlacedVehicle& to) {
     return models_.echoes.at_last_tick(tick, from, to, models_.propagation);
   };
-  for (const LinkTable& table :
-       link_tables(tick, vehicles, rows, models_.propagation, models_.predictor, multipath, for_each_)) {
+  for (const LinkTable& table : link_tables(tick, vehicles, rows, models_.propagation, models_.predictor,
+                                            multipath, for_each_, &models_.kept)) {
     const std::string channel = bus::channels::kLinks.of(models_.vehicles.name_of(table.vehicle_id));
     for (const link_table_t& message : to_messages(table, tick)) publisher_.publish(channel, message);
     links_published_ += static_cast<std::int64_t>(table.rows.size());

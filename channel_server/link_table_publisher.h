@@ -9,6 +9,7 @@
 
 #include "bus/event_log.h"
 #include "bus/numbered_publisher.h"
+#include "channel_server/links/kept_rows.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
@@ -27,11 +28,12 @@ class LinkTablePublisher {
     Propagation& propagation;
     LinkPredictor& predictor;
     MultipathCache& echoes;
+    KeptRows& kept;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)
       : publisher_(publisher), log_(log), models_(models), for_each_(std::move(for_each)) {}
 
-  // `vehicles`: those present at `tick`; the rows of those that this server serves.
+  // `vehicles`: those present at `tick`; the rows of those that this server serves, carried on or ready to be computed.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 
   // Another run has begun.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "acoustics/link/least_loss.h"
@@ -18,6 +19,8 @@
 #include "core/units.h"
 
 namespace halocline::channel_server {
+
+class KeptRows;
 
 // What is known of bottom echoes on a link.
 enum class Multipath {
@@ -39,7 +42,7 @@ struct LinkRow {
   PropagationUsed used = PropagationUsed::kStraight;
   std::int32_t path_count = 0;        // but those that are diffuse
   Decibels diffuse_level = kSilence;  // of Reception
-  SimDuration paths_age;              // of Reception
+  SimDuration paths_age;              // of Reception, and since the row was computed
   double delay_spread_s = 0;
   double doppler_factor = 1;  // of the first significant path; 1 without one
 
@@ -68,7 +71,12 @@ struct TableRows {
     std::vector<std::size_t> receivers;  // theirs
   };
   std::vector<Transmitter> transmitters;
-  std::vector<EndPair> links;  // of all of them
+  std::vector<EndPair> links;                   // of all of them
+  std::vector<std::optional<LinkRow>> carried;  // of links whose rows hold on (kept_rows.h); empty: of none
+
+  bool is_carried(std::size_t link) const { return !carried.empty() && carried[link]; }
+  // Those that are not carried on.
+  std::vector<EndPair> to_compute() const;
 };
 
 // `ranges_m`: of each vehicle, m (ReachModel::reception_ranges_m). Empty: everybody has rows to everybody.
@@ -79,11 +87,11 @@ using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
 // One table a transmitter, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The propagation is ready
-// for the links of `rows`, which are of `vehicles`. `multipath` is called where paths are straight by choice: rays hold the
-// echoes of the bottom.
+// for the links of `rows` to compute; all are of `vehicles`. `multipath` is called where paths are straight by choice: rays hold the
+// echoes of the bottom. `kept`, unless null, takes what is computed.
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,
-                                   const ForEach& for_each = one_after_the_other);
+                                   const ForEach& for_each = one_after_the_other, KeptRows* kept = nullptr);
 
 }  // namespace halocline::channel_server

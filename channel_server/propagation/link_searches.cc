@@ -94,11 +94,13 @@ LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from,
 LinkSearches::Task LinkSearches::for_table(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   Task task = shared_task_of(at, from, to);
   if (!budget_) return task;
-  task.granted = budget_->find(SearchBudget::id_of(task.ends));
-  task.waits = task.granted == nullptr;
-  if (task.waits) return task;
-  task.query = task.granted->query;
-  task.age = at - task.granted->current_at;
+  SearchBudget::Granted* granted = budget_->find(SearchBudget::id_of(task.ends));
+  task.waits = granted == nullptr;
+  // What was granted and not searched for cannot be once its sea has passed.
+  if (task.waits || (!granted->paths && !is_of_one_sea(granted->query, task.query))) return task;
+  task.granted = granted;
+  task.query = granted->query;
+  task.age = at - granted->current_at;
   return task;
 }
 
@@ -107,9 +109,7 @@ LinkSearches::Task LinkSearches::for_packet(SimTime at, const LinkEnd& from, con
   Task now = shared_task_of(at, from, to);
   if (!budget_) return now;
   Task granted = for_table(at, from, to);
-  const bool holds = !granted.waits && granted.query.water_id == now.query.water_id &&
-                     granted.query.seabed_version == now.query.seabed_version;
-  return holds ? granted : now;
+  return granted.waits || !is_of_one_sea(granted.query, now.query) ? now : granted;
 }
 
 // Both directions want the same.

@@ -83,6 +83,10 @@ struct PathQuery {
   }
 };
 
+inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {
+  return a.water_id == b.water_id && a.seabed_version == b.seabed_version;
+}
+
 struct FoundPaths {
   std::shared_ptr<const SeabedProfile> given;  // whose address is in the key
   acoustics::Arrivals arrivals;

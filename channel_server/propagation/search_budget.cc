@@ -24,9 +24,7 @@ double change_m(const PathQuery& a, const PathQuery& b) {
 
 double urgency(const SearchBudget::Wanted& wanted, const SearchBudget::Granted* last) {
   if (last == nullptr) return wanted.excess_db + kNeverSearched;
-  if (last->query.water_id != wanted.query.water_id ||
-      last->query.seabed_version != wanted.query.seabed_version)
-    return wanted.excess_db + kOtherSea;
+  if (!is_of_one_sea(last->query, wanted.query)) return wanted.excess_db + kOtherSea;
   const double change = std::max(change_m(last->query, wanted.query), kLeastChange);
   return wanted.excess_db + 20 * elementary::log10(change / kUsualChange);
 }
