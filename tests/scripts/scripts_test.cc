@@ -65,7 +65,7 @@ class Stubs {
          {"cmake",      "ninja",   "ctest",   "g++",     "make",    "apt-get",         "apt",
           "dpkg-query", "sudo",    "npm",     "node",    "java",    "javac",           "lcm-gen",
           "lcm-logger", "doxygen", "gnuplot", "unshare", "nsenter", "clang-format-14", "run-clang-tidy-14",
-          "slurmctld",  "tc",      "nft"}) {
+          "slurmctld",  "sbatch",  "srun",    "tc",      "nft"}) {
       std::ofstream(folder_ + "/" + program)
           << "#!/bin/sh\necho " << program << " >>'" << folder_ << "/called'\nexit 99\n";
       std::filesystem::permissions(folder_ + "/" + program, std::filesystem::perms::owner_all);
@@ -118,7 +118,8 @@ TEST(Scripts, HelpIsTheFirstCommentOfEachAndStartsNothing) {
   for (const std::vector<std::string>& command :
        std::vector<std::vector<std::string>>{{"run", "scenarios/harbour.toml", "--help"},
                                              {"run", "--distributed", "--help"},
-                                             {"run", "--help", "--distributed"}}) {
+                                             {"run", "--help", "--distributed"},
+                                             {"run", "scenarios/harbour.toml", "--slurm", "--help"}}) {
     std::vector<std::string> words = command;
     words[0] = script("run");
     Process help(stubs.before(words));
@@ -157,6 +158,17 @@ TEST(Scripts, AWrongWordIsAnErrorThatPrintsTheUse) {
   Process distributed({script("run_distributed"), "scenarios/seamount.toml", "--nonsense"});
   EXPECT_EQ(distributed.wait(), 2);
   EXPECT_THAT(distributed.output(), HasSubstr("allowed are --duration S"));
+}
+
+TEST(Scripts, WithoutSlurmAJobIsRefusedWithWhatIsMissing) {
+  const std::string folder = ::testing::TempDir() + "halocline-no-slurm-" + std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  for (const char* program : {"bash", "dirname", "sed"})
+    std::filesystem::create_symlink(std::string("/usr/bin/") + program, folder + "/" + program);
+  Process run({"/usr/bin/env", "PATH=" + folder, script("run"), "--slurm", "scenarios/seamount.toml"});
+  EXPECT_EQ(run.wait(), 69);
+  EXPECT_THAT(run.output(), HasSubstr("sbatch is not installed: SLURM (Debian: slurm-wlm) is needed"));
+  std::filesystem::remove_all(folder);
 }
 
 // A run leaves its files, and scripts/join finds them, in `folder`.
