@@ -177,6 +177,25 @@ TEST_F(RunSlurm, SigtermCancelsTheJobAndLeavesNoProcess) {
   EXPECT_THAT(run->output(), HasSubstr("\nreport      " + here_ + "/run.html\n"));
 }
 
+TEST_F(RunSlurm, CtrlCCancelsTheJobWithExitCode130) {
+  const auto run = this->run({"--duration", "100", "--lockstep", "--rate", "1", "--log", log("run.lcm")});
+  const auto programs = programs_of(*run, 7);
+  std::this_thread::sleep_for(2s);
+  run->signal(SIGINT);
+  EXPECT_EQ(run->wait(20s), 130) << run->output();
+  for (const auto& [name, program] : programs) EXPECT_FALSE(is_running(program.pid)) << name;
+}
+
+TEST_F(RunSlurm, AJobThatIsNotWaitedForWritesItsLogOnALossyNetworkToo) {
+  for (const char* host : {"--nodelist=host-1", "--nodelist=host-2"})
+    output_of({"/usr/bin/srun", host, "--nodes=1", script("lose"), "5", "eth0"});
+  const auto run = this->run({"--no-wait", "--lockstep", "--log", log("run.lcm")});
+  EXPECT_EQ(run->wait(), 0) << run->output();
+  EXPECT_EQ(run->output(), "job 3; its output: " + here_ + "/run.txt; scancel 3 ends it\n");
+  EXPECT_TRUE(comes_true([&] { return output_of({"/usr/bin/squeue", "--noheader"}).empty(); }, 60s));
+  EXPECT_TRUE(text_of("run.lcm") == log_of_one_process(1)) << text_of("run.txt");
+}
+
 TEST_F(RunSlurm, AJobCancelledBySlurmEndsWithAReadableLogAndExitCode1) {
   const auto run = this->run({"--duration", "100", "--lockstep", "--rate", "1", "--log", log("run.lcm")});
   const auto programs = programs_of(*run, 7);
