@@ -58,7 +58,8 @@ class RunSlurm : public ::testing::Test {
   }
 
   [[nodiscard]] std::unique_ptr<Process> started(const std::vector<std::string>& command) const {
-    std::vector<std::string> all{"/usr/bin/env", "SLURM_CONF=" + conf_, "HALOCLINE_BIN=" HALOCLINE_BIN_DIR};
+    std::vector<std::string> all{"/usr/bin/env", "TMPDIR=" + here_, "SLURM_CONF=" + conf_,
+                                 "HALOCLINE_BIN=" HALOCLINE_BIN_DIR};
     all.insert(all.end(), command.begin(), command.end());
     return std::make_unique<Process>(all);
   }
