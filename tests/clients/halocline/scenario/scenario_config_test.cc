@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/config/config.h"
+#include "channel_server/vehicles/state_history.h"
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/scenario/composition.h"
 #include "core/sim_time.h"
@@ -59,6 +60,21 @@ TEST_P(ShippedScenario, MakesSenseOnItsTerrain) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScenario, ::testing::ValuesIn(shipped()),
                          [](const auto& test) { return test.param; });
+
+// The vehicle simulator knows the receivers' keys, and their defaults, without knowing the receivers.
+TEST(ScenarioConfig, StatesMayBeSilentByTheDefaultsOfTheirReceivers) {
+  const ScenarioConfig defaults;
+  const channel_server::PositionRule& channel = defaults.channel_server.rules.position;
+  const SimDuration longest =
+      std::min(channel.state_timeout, defaults.autopilot.state_timeout) - channel.state_lag;
+  const auto load_with = [](SimDuration silence) {
+    return load_scenario(kScenarios + "/seamount.toml",
+                         {"vehicle_sim.state_deviation_m=1",
+                          "vehicle_sim.state_longest_silence_s=" + std::to_string(silence.seconds())});
+  };
+  EXPECT_EQ(load_with(longest).vehicle_sim.states.longest_silence, longest);
+  EXPECT_THROW(load_with(longest + SimDuration::from_milliseconds(1)), bus::ConfigErrors);
+}
 
 TEST(ScenarioConfig, EffectiveConfigurationListsEachVehicleOnce) {
   const std::string text = effective_toml(load_scenario(kScenarios + "/seamount.toml", {}));
