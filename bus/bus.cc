@@ -119,8 +119,10 @@ void Bus::refuse(std::string_view channel, std::string_view reason) {
 void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t size) {
   if (outbox_) {
     outbox_(channel, data, size);
-  } else if (lcm_.publish(std::string(channel), data, static_cast<unsigned int>(size)) != 0) {
-    throw std::runtime_error("LCM could not publish on " + std::string(channel));
+  } else {
+    if (pace_) pace_->wait(size);
+    if (lcm_.publish(std::string(channel), data, static_cast<unsigned int>(size)) != 0)
+      throw std::runtime_error("LCM could not publish on " + std::string(channel));
   }
   ++counters_.sent;
 }
@@ -181,20 +183,16 @@ bool Bus::is_repetition(std::string_view channel, std::int64_t session, std::int
   return true;
 }
 
-bool Bus::is_subscribed_to(std::string_view channel) const {
-  return std::any_of(patterns_.begin(), patterns_.end(),
-                     [&](const ChannelPattern& pattern) { return pattern.matches(channel); });
-}
-
 void Bus::enable_repair() {
   if (repair_) return;
   repair_ = std::make_unique<FlowRepair>(identity_.name, identity_.session, flows_);
+  pace_ = std::make_unique<PublicationPace>();
   subscribe<repair_request_t>(channels::kRepairRequest,
                               [this](const repair_request_t& request) { resend(request); });
   subscribe<flow_heartbeat_t>(
       channels::kHeartbeat, [this](std::string_view, const flow_heartbeat_t& heartbeat) {
         counters_.gaps += repair_->on_heartbeat(
-            steady_, heartbeat, [this](std::string_view channel) { return is_subscribed_to(channel); });
+            steady_, heartbeat, [this](std::string_view channel) { return patterns_.match(channel); });
       });
 }
 

@@ -32,6 +32,7 @@
 #include "bus/flow_watch.h"
 #include "bus/message_codec.h"
 #include "bus/node_identity.h"
+#include "bus/publication_pace.h"
 #include "bus/sequence_number.h"
 #include "bus/subscription.h"
 #include "core/names.h"
@@ -94,14 +95,13 @@ class Bus {
   // Throws, once, the exception that a handler threw while LCM was dispatching.
   void rethrow_if_failed();
 
-  // For a bus that loses datagrams: from now on this Bus keeps what it publishes, requests what it misses, and drops duplicates
-  // (flow_repair.h). Its runner calls set_steady() before LCM dispatches, and repair() at next_repair() or earlier.
+  // For a bus that loses datagrams: this Bus keeps what it publishes, requests what it misses, drops duplicates (flow_repair.h) and
+  // paces bursts (publication_pace.h). Its runner calls set_steady() before LCM dispatches, and repair() by next_repair().
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady);
   SimTime next_repair() const { return repair_ ? repair_->next_due() : SimTime::never(); }
-  // Another run has begun: publishers of the old one may start their sequences anew.
-  void forget_flows() { flows_.forget(); }
+  void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
 
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
@@ -121,7 +121,6 @@ class Bus {
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
-  bool is_subscribed_to(std::string_view channel) const;
   void resend(const repair_request_t& request);
 
   lcm::LCM& lcm_;
@@ -130,9 +129,10 @@ class Bus {
   EventLog log_;
   FlowWatch flows_;
   std::unique_ptr<FlowRepair> repair_;
+  std::unique_ptr<PublicationPace> pace_;
   SimTime steady_, received_at_;
-  bool is_repair_ = false;                // the message being handled came on REPAIR.<channel>
-  std::vector<ChannelPattern> patterns_;  // of the subscriptions to messages, not to bytes
+  bool is_repair_ = false;    // the message being handled came on REPAIR.<channel>
+  ChannelPatterns patterns_;  // of the subscriptions to messages, not to bytes
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
@@ -158,7 +158,7 @@ void Bus::publish(std::string_view channel, const Message& message) {
 
 template <class Message>
 void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup wakeup) {
-  patterns_.emplace_back(escaped(channel));
+  patterns_.add(escaped(channel));
   const auto decode_and_handle = [this, handler = std::move(handler)](std::string_view received_on,
                                                                       const void* data, std::size_t size) {
     Message message;
@@ -170,7 +170,7 @@ void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup w
 template <class Message>
 void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Wakeup wakeup) {
   const std::string_view prefix = family.prefix;
-  patterns_.emplace_back(escaped(prefix) + ".*");
+  patterns_.add(escaped(prefix) + ".*");
   const auto decode_and_handle = [this, prefix, handler = std::move(handler)](
                                      std::string_view received_on, const void* data, std::size_t size) {
     const std::string_view name = received_on.substr(prefix.size());

@@ -1,5 +1,6 @@
 #include "bus/channel_pattern.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/check.h"
@@ -41,6 +42,21 @@ ChannelPattern::ChannelPattern(const std::string& expression) {
 bool ChannelPattern::matches(std::string_view channel) const {
   if (regex_) return std::regex_match(channel.begin(), channel.end(), *regex_);
   return prefix_ ? channel.starts_with(text_) : channel == text_;
+}
+
+void ChannelPatterns::add(const std::string& expression) {
+  patterns_.emplace_back(expression);
+  known_.clear();
+}
+
+bool ChannelPatterns::match(std::string_view channel) {
+  if (known_.size() >= kMostKept) known_.clear();
+  const auto [known, is_new] = known_.try_emplace(std::string(channel));
+  if (is_new) {
+    known->second = std::any_of(patterns_.begin(), patterns_.end(),
+                                [&](const ChannelPattern& pattern) { return pattern.matches(channel); });
+  }
+  return known->second;
 }
 
 }  // namespace halocline::bus

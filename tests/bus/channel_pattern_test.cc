@@ -31,5 +31,17 @@ TEST(ChannelPattern, AnyOtherExpressionMatchesTheWholeChannel) {
 
 TEST(ChannelPattern, WhatIsNoExpressionIsRefused) { EXPECT_THROW(ChannelPattern("(STATE"), InvalidArgument); }
 
+TEST(ChannelPatterns, MatchWhatOneOfThemDoesAlsoOnceAsked) {
+  ChannelPatterns patterns;
+  patterns.add("STATE\\..*");
+  EXPECT_TRUE(patterns.match("STATE.a"));
+  EXPECT_FALSE(patterns.match("SEND.a"));
+  EXPECT_FALSE(patterns.match("SEND.a"));
+  patterns.add("SEND\\.a");
+  EXPECT_TRUE(patterns.match("SEND.a"));
+  EXPECT_TRUE(patterns.match("STATE.a"));
+  EXPECT_FALSE(patterns.match("SEND.b"));
+}
+
 }  // namespace
 }  // namespace halocline::bus
