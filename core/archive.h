@@ -38,6 +38,8 @@ class Archive {
   }
 
   bool is_loading() const { return is_loading_; }
+  // Forgets what was saved, and keeps the memory for what comes.
+  void clear() { saved_.clear(); }
   // What was saved so far.
   const std::vector<std::uint8_t>& bytes() const { return saved_; }
   // Throws InvalidArgument when bytes are left to be loaded.

@@ -91,10 +91,10 @@ void Node::commit(const Now& now, const std::function<void()>& publish_all) {
   std::vector<Published> last_published;
   for (const auto& [flow, message] : bus_.last_published())
     last_published.emplace_back(flow.channel, flow.session, flow.last, *message);
-  Archive a;
-  a(status_sequence_, last_published);
-  on_archive(a);
-  journal_->write({bus_.identity().session, now.sim, a.bytes()});
+  saved_.clear();
+  saved_(status_sequence_, last_published);
+  on_archive(saved_);
+  journal_->write(bus_.identity().session, now.sim, saved_.bytes());
   bus_.counters().sent -= static_cast<std::int64_t>(outputs.size());  // counted when they were collected
   for (const auto& [channel, bytes] : outputs) bus_.publish_bytes(channel, bytes.data(), bytes.size());
 }

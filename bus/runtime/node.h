@@ -108,6 +108,7 @@ class Node {
   SimTime next_status_;  // steady
   std::int64_t status_sequence_ = 0;
   std::unique_ptr<StateJournal> journal_;
+  Archive saved_;                        // what went to the journal last
   std::optional<SimTime> resumed_from_;  // until the first step
 };
 

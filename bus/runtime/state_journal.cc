@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include "core/archive.h"
@@ -65,13 +66,13 @@ StateJournal::~StateJournal() {
   for (const int file : files_) close(file);
 }
 
-void StateJournal::write(const Saved& saved) {
-  Head head{0, digest_, number_, saved.session, saved.at, saved.state.size()};
-  head.check_sum = check_sum(head, saved.state);
-  std::vector<std::uint8_t> bytes(sizeof head);
-  std::memcpy(bytes.data(), &head, sizeof head);
-  bytes.insert(bytes.end(), saved.state.begin(), saved.state.end());
-  if (pwrite(files_[number_ % 2], bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+void StateJournal::write(std::int64_t session, SimTime at, std::span<const std::uint8_t> state) {
+  Head head{0, digest_, number_, session, at, state.size()};
+  head.check_sum = check_sum(head, state);
+  const std::array<iovec, 2> parts{
+      {{&head, sizeof head}, {const_cast<std::uint8_t*>(state.data()), state.size()}}};
+  if (pwritev(files_[number_ % 2], parts.data(), parts.size(), 0) !=
+      static_cast<ssize_t>(sizeof head + state.size()))
     throw std::runtime_error("the journal " + path_ + " could not be written whole (disk full?)");
   ++number_;
 }

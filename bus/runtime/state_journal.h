@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ class StateJournal {
   // What an earlier incarnation wrote last.
   const std::optional<Saved>& inherited() const { return inherited_; }
 
-  void write(const Saved& saved);
+  void write(std::int64_t session, SimTime at, std::span<const std::uint8_t> state);
 
  private:
   std::string path_;

@@ -18,9 +18,9 @@ class StateJournalTest : public ::testing::Test {
   StateJournalTest() {
     const auto journal = files_.open();
     EXPECT_FALSE(journal->inherited().has_value());
-    journal->write({7, SimTime::from_seconds(1), State(1000, 1)});
-    journal->write({7, SimTime::from_seconds(2), State(10, 2)});
-    journal->write({7, SimTime::from_seconds(3), State(20, 3)});  // into the first file again
+    journal->write(7, SimTime::from_seconds(1), State(1000, 1));
+    journal->write(7, SimTime::from_seconds(2), State(10, 2));
+    journal->write(7, SimTime::from_seconds(3), State(20, 3));  // into the first file again
   }
   testing::JournalFiles files_;
 };
@@ -34,8 +34,8 @@ TEST_F(StateJournalTest, TheLatestStateIsInherited) {
 }
 
 TEST_F(StateJournalTest, TheNextIncarnationWritesOn) {
-  files_.open()->write({7, SimTime::from_seconds(4), State(30, 4)});
-  files_.open()->write({7, SimTime::from_seconds(5), State(40, 5)});
+  files_.open()->write(7, SimTime::from_seconds(4), State(30, 4));
+  files_.open()->write(7, SimTime::from_seconds(5), State(40, 5));
   EXPECT_EQ(files_.open()->inherited()->state, State(40, 5));
 }
 
