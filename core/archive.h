@@ -47,7 +47,7 @@ class Archive {
 
  private:
   template <class T>
-  static constexpr bool is_plain = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
+  static constexpr bool kIsPlain = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
   template <class T>
   void pass(T& value) {
@@ -63,7 +63,7 @@ class Archive {
     } else if constexpr (requires { T::SizeAtCompileTime; }) {
       static_assert(T::SizeAtCompileTime > 0, "a matrix of fixed size");
       pass_bytes(value.data(), T::SizeAtCompileTime * sizeof(typename T::Scalar));
-    } else if constexpr (is_plain<T>) {
+    } else if constexpr (kIsPlain<T>) {
       pass_bytes(&value, sizeof value);
     } else if constexpr (requires { value.has_value(); }) {
       pass_optional(value);
@@ -148,7 +148,7 @@ class Archive {
     using Element = typename Container::value_type;
     const std::size_t size = pass_size(container.size());
     container.resize(size);
-    if constexpr (is_plain<Element> && requires { container.data(); }) {
+    if constexpr (kIsPlain<Element> && requires { container.data(); }) {
       pass_bytes(container.data(), size * sizeof(Element));
     } else {
       for (Element& element : container) pass(element);
