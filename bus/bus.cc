@@ -130,6 +130,8 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
 Bus::Subscription& Bus::add_subscription(const std::string& regular_expression, RawHandler handler,
                                          Wakeup wakeup) {
   subscribed_.push_back({regular_expression, wakeup});
+  patterns_.add(regular_expression);
+  subscriptions_to_.clear();
   return *subscriptions_.emplace_back(
       std::make_unique<Subscription>(Subscription{this, std::move(handler), wakeup}));
 }
@@ -161,12 +163,18 @@ void Bus::subscribe_channel(std::string_view channel, RawHandler handler, Wakeup
   group->shared->begin(lcm_, escaped(prefix) + ".*");
 }
 
-void Bus::replay(std::string_view channel, const std::vector<std::uint8_t>& bytes) {
+void Bus::deliver(std::string_view channel, std::span<const std::uint8_t> message) {
   is_repair_ = false;
-  for (std::size_t i = 0; i < subscribed_.size(); ++i) {
-    if (!ChannelPattern(subscribed_[i].expression).matches(channel)) continue;
-    subscriptions_[i]->handle(channel, bytes.data(), bytes.size());
-  }
+  for (const Subscription* subscription : subscriptions_to(channel))
+    subscription->handle(channel, message.data(), message.size());
+}
+
+const std::vector<const Bus::Subscription*>& Bus::subscriptions_to(std::string_view channel) {
+  const auto known = subscriptions_to_.find(channel);
+  if (known != subscriptions_to_.end()) return known->second;
+  std::vector<const Subscription*>& matching = subscriptions_to_[std::string(channel)];
+  for (const std::size_t i : subscribed_to(channel)) matching.push_back(subscriptions_[i].get());
+  return matching;
 }
 
 void Bus::restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
@@ -191,8 +199,12 @@ void Bus::enable_repair() {
                               [this](const repair_request_t& request) { resend(request); });
   subscribe<flow_heartbeat_t>(
       channels::kHeartbeat, [this](std::string_view, const flow_heartbeat_t& heartbeat) {
-        counters_.gaps += repair_->on_heartbeat(
-            steady_, heartbeat, [this](std::string_view channel) { return patterns_.match(channel); });
+        const auto decodes = [this](std::string_view channel) {
+          const auto matching = subscribed_to(channel);
+          return std::any_of(matching.begin(), matching.end(),
+                             [this](std::size_t i) { return subscribed_[i].expression != kAllChannels; });
+        };
+        counters_.gaps += repair_->on_heartbeat(steady_, heartbeat, decodes);
       });
 }
 

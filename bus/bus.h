@@ -63,28 +63,30 @@ class Bus {
   void subscribe(const Family& family, FamilyHandler<Message> handler,
                  Wakeup wakeup = Wakeup::kMayAdvanceDue);
 
-  // Redirects what is published to `outbox`, and nowhere else: the runner of the node delivers it.
+  // Redirects what is published to `outbox`, and nowhere else: the runner of the node delivers it. Returns the one before.
   using Outbox = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
-  void set_outbox(Outbox outbox) { outbox_ = std::move(outbox); }
-  // All subscriptions, in the order they were made.
+  Outbox set_outbox(Outbox outbox) { return std::exchange(outbox_, std::move(outbox)); }
+  // All subscriptions, in the order they were made, and the places of those that match a channel.
   const std::vector<Subscribed>& subscribed() const { return subscribed_; }
+  std::vector<std::size_t> subscribed_to(std::string_view channel) const {
+    return patterns_.matching(channel);
+  }
 
   // Messages as bytes, for bridges and recorders: nothing is decoded, nothing counted as received.
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
   void subscribe_to_all(RawHandler handler) {
-    subscribe_raw(".*", std::move(handler), Wakeup::kMayAdvanceDue);
+    subscribe_raw(std::string(kAllChannels), std::move(handler), Wakeup::kMayAdvanceDue);
   }
 
-  // The wall time (Unix) at which LCM received the message that is being handled; the kernel's stamp over udpm.
+  // When LCM received the message that is being handled, wall time (Unix); the kernel's stamp over udpm.
   SimTime received_at() const { return received_at_; }
   // `tap` is called with each message that is accepted, before its handler.
   void set_tap(RawHandler tap) { tap_ = std::move(tap); }
-  // Handles a message as if LCM had dispatched it, before anything else is received: an input of an earlier incarnation of this
-  // node (message_journal.h). What follows it in its flow is then known to be missing, and is repaired.
-  void replay(std::string_view channel, const std::vector<std::uint8_t>& bytes);
-  // Takes a message that an earlier incarnation of this node published into the history from which repair
-  // requests are answered. After enable_repair().
+  // Handles a message as if LCM had dispatched it: a runner in LCM's place, or an input of an earlier incarnation of this
+  // node (message_journal.h), whose gaps are then known, and repaired. Throws what a handler throws.
+  void deliver(std::string_view channel, std::span<const std::uint8_t> message);
+  // Takes what an earlier incarnation published into the history that answers repair requests. After enable_repair().
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
                        std::vector<std::uint8_t> bytes);
   // The last message of each flow that is repaired.
@@ -92,32 +94,32 @@ class Bus {
     return repair_ ? repair_->history().last_messages() : std::vector<FlowHistory::LastMessage>();
   }
 
-  // Throws, once, the exception that a handler threw while LCM was dispatching.
-  void rethrow_if_failed();
+  void rethrow_if_failed();  // once, what a handler threw while LCM was dispatching
 
-  // For a bus that loses datagrams: this Bus keeps what it publishes, requests what it misses, drops duplicates (flow_repair.h) and
-  // paces bursts (publication_pace.h). Its runner calls set_steady() before LCM dispatches, and repair() by next_repair().
+  // For a bus that loses datagrams: keeps what it publishes, requests what it misses, drops duplicates (flow_repair.h) and paces
+  // bursts (publication_pace.h). Its runner calls set_steady() before LCM dispatches, and repair() by next_repair().
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady);
   SimTime next_repair() const { return repair_ ? repair_->next_due() : SimTime::never(); }
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
-
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
   const BusCounters& counters() const { return counters_; }
   EventLog& log() { return log_; }
 
-  // A message that a node itself finds impossible: counted and reported like one that did not decode.
+  // What a node itself finds impossible: counted and reported like what did not decode.
   void refuse(std::string_view channel, std::string_view reason);
 
  private:
+  static constexpr std::string_view kAllChannels = ".*";
   struct Subscription;
   struct ChannelGroup;
   // `regular_expression` matches channels; a repair on REPAIR.<channel> is handled as if received there.
   void subscribe_raw(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
   void subscribe_channel(std::string_view channel, RawHandler handler, Wakeup wakeup);
   Subscription& add_subscription(const std::string& regular_expression, RawHandler handler, Wakeup wakeup);
+  const std::vector<const Subscription*>& subscriptions_to(std::string_view channel);
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
@@ -131,19 +133,19 @@ class Bus {
   std::unique_ptr<FlowRepair> repair_;
   std::unique_ptr<PublicationPace> pace_;
   SimTime steady_, received_at_;
-  bool is_repair_ = false;    // the message being handled came on REPAIR.<channel>
-  ChannelPatterns patterns_;  // of the subscriptions to messages, not to bytes
+  bool is_repair_ = false;  // the message being handled came on REPAIR.<channel>
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
   std::exception_ptr failure_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::map<std::string, std::unique_ptr<ChannelGroup>, std::less<>> groups_;  // by prefix
   std::vector<Subscribed> subscribed_;
+  ChannelPatterns patterns_;                                                               // of these
+  std::map<std::string, std::vector<const Subscription*>, std::less<>> subscriptions_to_;  // by channel
   Outbox outbox_;
   RawHandler tap_;
 };
 
-// An LCM regular expression that matches `channel` and nothing else.
-std::string escaped(std::string_view channel);
+std::string escaped(std::string_view channel);  // as a regular expression of LCM
 
 // ---- implementation of the templates
 
@@ -158,7 +160,6 @@ void Bus::publish(std::string_view channel, const Message& message) {
 
 template <class Message>
 void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup wakeup) {
-  patterns_.add(escaped(channel));
   const auto decode_and_handle = [this, handler = std::move(handler)](std::string_view received_on,
                                                                       const void* data, std::size_t size) {
     Message message;
@@ -170,7 +171,6 @@ void Bus::subscribe(std::string_view channel, Handler<Message> handler, Wakeup w
 template <class Message>
 void Bus::subscribe(const Family& family, FamilyHandler<Message> handler, Wakeup wakeup) {
   const std::string_view prefix = family.prefix;
-  patterns_.add(escaped(prefix) + ".*");
   const auto decode_and_handle = [this, prefix, handler = std::move(handler)](
                                      std::string_view received_on, const void* data, std::size_t size) {
     const std::string_view name = received_on.substr(prefix.size());

@@ -26,8 +26,6 @@ class LockstepLog {
 
  private:
   std::string path_;
-  lcm::LCM lcm_{"memq://"};  // carries the messages to record, and nothing else
-  SimTime stamp_;
   std::optional<bus::LogRecorder> recorder_;
 };
 

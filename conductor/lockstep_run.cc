@@ -41,7 +41,7 @@ class Run {
         bus_lcm_(bus_lcm),
         node_(memq_, {identity.name, bus::session_of(scenario.seed, identity.name), bus::Stage::kTime},
               scenario.clock_period, 0.0),
-        turns_(memq_, node_),
+        turns_(node_),
         log_(run.log_path),
         pace_(run.rate) {
     std::function<void(lockstep_message_t)> on_bridged;

@@ -41,8 +41,8 @@ void Sequencer::admit(const lockstep_join_t& join) {
   Member& member = known != nullptr ? *known : add(join);
   if (member.taken.empty()) {
     member.join = join;
-    member.patterns.clear();
-    for (const std::string& expression : join.subscriptions) member.patterns.emplace_back(expression);
+    member.patterns = {};
+    for (const std::string& expression : join.subscriptions) member.patterns.add(expression);
     member.schedule = {join.step_stage, SimTime::from_nanoseconds(join.next_due_ns)};
   }
   member.present = true;
@@ -123,7 +123,7 @@ std::vector<std::string> Sequencer::stopping_channels(const Member& alone) const
   std::set<std::string> expressions;
   for (const auto& member : members_) {
     if (member.get() == &alone || !member->present) continue;
-    for (std::size_t i = 0; i < member->patterns.size(); ++i) {
+    for (std::size_t i = 0; i < member->join.subscriptions.size(); ++i) {
       if (member->join.only_stores[i] == 0) expressions.insert(member->join.subscriptions[i]);
     }
   }
@@ -183,13 +183,10 @@ const std::vector<Sequencer::Receiver>& Sequencer::receivers_of(const std::strin
   if (known != receivers_.end()) return known->second;
   std::vector<Receiver> receivers;
   for (const auto& member : members_) {
-    bool receives = false, may_wake = false;
-    for (std::size_t i = 0; i < member->patterns.size(); ++i) {
-      if (!member->patterns[i].matches(channel)) continue;
-      receives = true;
-      may_wake = may_wake || member->join.only_stores[i] == 0;
-    }
-    if (receives) receivers.push_back({member.get(), may_wake});
+    const auto matching = member->patterns.matching(channel);
+    const bool may_wake = std::any_of(matching.begin(), matching.end(),
+                                      [&](std::size_t i) { return member->join.only_stores[i] == 0; });
+    if (!matching.empty()) receivers.push_back({member.get(), may_wake});
   }
   return receivers_[channel] = std::move(receivers);
 }

@@ -89,7 +89,7 @@ class Sequencer {
   };
   struct Member {
     lockstep_join_t join;
-    std::vector<bus::ChannelPattern> patterns;
+    bus::ChannelPatterns patterns;
     bus::ScheduleEntry schedule;
     bool present = true;
     std::vector<std::size_t> inbox;  // indices of all messages that it receives

@@ -5,12 +5,8 @@
 
 namespace halocline::bus {
 
-LogRecorder::LogRecorder(lcm::LCM& lcm, const std::string& path, std::function<SimTime()> now,
-                         const LogRotation& rotation)
-    : lcm_(lcm), path_(path), now_(std::move(now)), parts_(path, rotation) {
-  subscription_ = lcm_.subscribe(".*", &LogRecorder::on_message, this);
-  writer_ = std::thread([this] { write_batches(); });
-}
+LogRecorder::LogRecorder(const std::string& path, const LogRotation& rotation)
+    : path_(path), parts_(path, rotation), writer_([this] { write_batches(); }) {}
 
 LogRecorder::~LogRecorder() {
   try {
@@ -19,26 +15,29 @@ LogRecorder::~LogRecorder() {
   }
 }
 
-// Throws nothing: it is called through LCM's C frames.
-void LogRecorder::on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-  const SimTime stamp = now_();
+void LogRecorder::record(SimTime stamp, std::string_view channel, std::span<const std::uint8_t> message) {
+  if (is_closed_) return;
   if (stamp >= whole_second_) {
     hand_over();
     whole_second_ = next_on_grid(stamp, SimDuration::from_milliseconds(1000));
   }
-  const auto* data = static_cast<const std::uint8_t*>(buffer->data);
-  filling_.bytes.insert(filling_.bytes.end(), data, data + buffer->data_size);
-  filling_.messages.push_back({stamp, channel, filling_.bytes.size()});
+  filling_.add(stamp, channel, message);
   ++events_;
-  if (filling_.bytes.size() >= kBatchBytes) hand_over();
+  if (filling_.size_bytes() >= kBatchBytes) hand_over();
 }
 
 void LogRecorder::hand_over() {
-  if (filling_.messages.empty()) return;
+  if (filling_.empty()) return;
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < kMostBatches; });
   waiting_.push_back(std::exchange(filling_, {}));
   changed_.notify_all();
+}
+
+void LogRecorder::flush() {
+  hand_over();
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.empty() && !writes_; });
 }
 
 void LogRecorder::write_batches() {
@@ -46,31 +45,31 @@ void LogRecorder::write_batches() {
   while (true) {
     changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
-    Batch batch = std::move(waiting_.front());
+    const MessageBatch batch = std::move(waiting_.front());
     waiting_.pop_front();
+    writes_ = true;
     lock.unlock();
     changed_.notify_all();
     write(batch);
     lock.lock();
+    writes_ = false;
+    changed_.notify_all();
   }
 }
 
-void LogRecorder::write(Batch& batch) {
-  std::size_t begin = 0;
-  for (Batch::Message& message : batch.messages) {
-    lcm::LogEvent event;
-    event.timestamp = message.stamp.to_utime();
-    event.channel = std::move(message.channel);
-    event.datalen = static_cast<std::int32_t>(message.end - begin);
-    event.data = batch.bytes.data() + begin;
+void LogRecorder::write(const MessageBatch& batch) {
+  batch.for_each([&](SimTime stamp, const std::string& channel, std::span<const std::uint8_t> message) {
+    lcm::LogEvent event{};
+    event.timestamp = stamp.to_utime();
+    event.channel = channel;
+    event.datalen = static_cast<std::int32_t>(message.size());
+    event.data = const_cast<std::uint8_t*>(message.data());  // LCM only reads it
     parts_.write(std::move(event));
-    begin = message.end;
-  }
+  });
 }
 
 void LogRecorder::close() {
-  if (subscription_ == nullptr) return;
-  lcm_.unsubscribe(std::exchange(subscription_, nullptr));
+  if (std::exchange(is_closed_, true)) return;
   hand_over();
   {
     const std::lock_guard lock(mutex_);

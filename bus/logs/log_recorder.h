@@ -1,5 +1,5 @@
-// Writes everything that passes on an lcm::LCM into an LCM log (log_parts.h), stamped with simulation time: the canonical
-// log of a run. The same run writes the same bytes.
+// Writes messages into an LCM log (log_parts.h), stamped with simulation time: the canonical log of a run. The same run
+// writes the same bytes.
 //
 // A thread of its own writes them: batches of kBatchBytes, and at every whole second of the run. While it has kMostBatches to
 // write, the run waits.
@@ -9,15 +9,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <mutex>
+#include <span>
 #include <string>
+#include <string_view>
 #include <thread>
-#include <vector>
-
-#include <lcm/lcm-cpp.hpp>
 
 #include "bus/logs/log_parts.h"
+#include "bus/message_batch.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
@@ -26,12 +25,17 @@ class LogRecorder {
  public:
   static constexpr std::size_t kBatchBytes = 256 << 10, kMostBatches = 64;
 
-  // Of the file, see LogParts. `now` gives the stamp of each message as it is dispatched. `lcm` must outlive the recorder.
-  LogRecorder(lcm::LCM& lcm, const std::string& path, std::function<SimTime()> now,
-              const LogRotation& rotation = {});
+  // Of the file, see LogParts.
+  explicit LogRecorder(const std::string& path, const LogRotation& rotation = {});
   ~LogRecorder();
   LogRecorder(const LogRecorder&) = delete;
   LogRecorder& operator=(const LogRecorder&) = delete;
+
+  // Nothing after close(). `stamp` is not before that of the message before.
+  void record(SimTime stamp, std::string_view channel, std::span<const std::uint8_t> message);
+
+  // Returns when all that was recorded has been handed to the file.
+  void flush();
 
   std::int64_t events() const { return events_; }
   // Begun when close() has returned.
@@ -40,34 +44,20 @@ class LogRecorder {
   void close();
 
  private:
-  // Messages one after the other.
-  struct Batch {
-    struct Message {
-      SimTime stamp;
-      std::string channel;
-      std::size_t end;  // of its bytes; they begin where those of the message before end
-    };
-    std::vector<Message> messages;
-    std::vector<std::uint8_t> bytes;
-  };
-
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel);
   void hand_over();
   void write_batches();
-  void write(Batch& batch);
+  void write(const MessageBatch& batch);
 
-  lcm::LCM& lcm_;
   std::string path_;
-  std::function<SimTime()> now_;
-  lcm::Subscription* subscription_ = nullptr;
+  bool is_closed_ = false;
   std::int64_t events_ = 0;
-  Batch filling_;
+  MessageBatch filling_;
   SimTime whole_second_;  // from which the batch is handed over
 
   std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
-  std::deque<Batch> waiting_;
-  bool ends_ = false;
+  std::deque<MessageBatch> waiting_;
+  bool writes_ = false, ends_ = false;
 
   LogParts parts_;  // of the thread, until it has ended
   std::thread writer_;

@@ -60,7 +60,7 @@ void CrashJournal::replay_inputs(const std::function<void(SimTime at)>& end_step
   const auto history = std::exchange(history_, {});
   for (std::size_t i = 0; i < history.size(); ++i) {
     const JournalledMessage& entry = history[i];
-    if (entry.kind == Kind::kInput) bus_.replay(entry.channel, entry.bytes);
+    if (entry.kind == Kind::kInput) bus_.deliver(entry.channel, entry.bytes);
     if (i + 1 < history.size() && history[i + 1].at == entry.at) continue;
     end_step(entry.at);
   }

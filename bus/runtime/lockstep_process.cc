@@ -69,10 +69,10 @@ std::int64_t draw_incarnation() {
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count() * 1000 + getpid() % 1000;
 }
 
-void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& sync_url,
-                              const std::string& scenario_digest, const std::function<bool()>& should_stop) {
+void run_lockstep_participant(Node& node, const std::string& sync_url, const std::string& scenario_digest,
+                              const std::function<bool()>& should_stop) {
   EventLog log(node.name());
-  LockstepTurns turns(memq, node);
+  LockstepTurns turns(node);
   lockstep_join_t join = turns.introduction();
   join.incarnation = draw_incarnation();
   join.scenario_digest = scenario_digest;

@@ -5,8 +5,6 @@
 #include <functional>
 #include <string>
 
-#include <lcm/lcm-cpp.hpp>
-
 #include "bus/runtime/node.h"
 #include "bus/runtime/scenario.h"
 
@@ -19,11 +17,10 @@ std::string digest_of(const Scenario& scenario);
 // in all likelihood unique.
 std::int64_t draw_incarnation();
 
-// Runs until the conductor's notice that the run is over. `memq` carries the node alone; `sync_url`: grants are received
-// there, answers go to the next port. Once `should_stop` returns true, the node requests its last turn and waits for it
-// 0.8 s. Throws what the node throws, and std::runtime_error when the conductor expels it: then it should be
-// restarted.
-void run_lockstep_participant(lcm::LCM& memq, Node& node, const std::string& sync_url,
-                              const std::string& scenario_digest, const std::function<bool()>& should_stop);
+// Runs until the conductor's notice that the run is over. `sync_url`: grants are received there, answers go to the next port.
+// Once `should_stop` returns true, the node requests its last turn and waits for it 0.8 s. Throws what the node throws, and
+// std::runtime_error when the conductor expels it: then it should be restarted.
+void run_lockstep_participant(Node& node, const std::string& sync_url, const std::string& scenario_digest,
+                              const std::function<bool()>& should_stop);
 
 }  // namespace halocline::bus

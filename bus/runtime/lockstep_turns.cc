@@ -16,7 +16,7 @@ constexpr std::size_t kMaxMessagesPerTurn = 200;
 
 }  // namespace
 
-LockstepTurns::LockstepTurns(lcm::LCM& memq, Node& node) : memq_(memq), node_(node) {
+LockstepTurns::LockstepTurns(Node& node) : node_(node) {
   node_.set_outbox([this](std::string_view channel, const void* data, std::size_t size) {
     const auto* bytes = static_cast<const std::uint8_t*>(data);
     lockstep_message_t message;
@@ -45,10 +45,9 @@ LockstepTurns::Interest LockstepTurns::interest_in(const std::string& channel) {
   const auto known = interests_.find(channel);
   if (known != interests_.end()) return known->second;
   Interest interest;
-  for (const Subscribed& subscribed : node_.subscribed()) {
-    if (!ChannelPattern(subscribed.expression).matches(channel)) continue;
+  for (const std::size_t i : node_.subscribed_to(channel)) {
     interest.receives = true;
-    interest.may_wake = interest.may_wake || subscribed.wakeup == Wakeup::kMayAdvanceDue;
+    interest.may_wake = interest.may_wake || node_.subscribed()[i].wakeup == Wakeup::kMayAdvanceDue;
   }
   return interests_[channel] = interest;
 }
@@ -58,11 +57,8 @@ void LockstepTurns::deliver(const std::vector<lockstep_message_t>& messages) {
   const SimTime due = node_.lockstep_due();
   bool may_wake = false;
   for (const lockstep_message_t& message : messages) {
-    memq_.publish(message.channel_name, message.message_bytes.data(),
-                  static_cast<unsigned int>(message.message_bytes.size()));
+    node_.receive(message.channel_name, message.message_bytes);
     may_wake = may_wake || interest_in(message.channel_name).may_wake;
-  }
-  while (memq_.handleTimeout(0) > 0) {
   }
   if (!may_wake) node_.note_due_changed();  // whatever it promised
   if (!may_wake && node_.lockstep_due() < due)

@@ -1,8 +1,7 @@
 // Executes the turns of a lockstep run for one node: delivers the turn's messages, steps the node if it is due, and
 // returns what it published and when it is next due.
 //
-// The node is on a memq LCM of its own, so it runs unchanged: its inputs are published there, and its outputs go to the
-// result alone. With lookahead (a turn whose horizon lies beyond its instant) it steps at its own instants until the
+// Its inputs are delivered as LCM would, and its outputs go to the result alone. With lookahead (a turn whose horizon lies beyond its instant) it steps at its own instants until the
 // horizon, or until it publishes a message that may advance the due instant of a participant.
 #pragma once
 
@@ -11,8 +10,6 @@
 #include <map>
 #include <string>
 #include <vector>
-
-#include <lcm/lcm-cpp.hpp>
 
 #include "bus/channel_pattern.h"
 #include "bus/messages.h"
@@ -23,8 +20,8 @@ namespace halocline::bus {
 
 class LockstepTurns {
  public:
-  // `memq` carries this node alone; both must outlive this.
-  LockstepTurns(lcm::LCM& memq, Node& node);
+  // The node must outlive this, and is nobody else's meanwhile.
+  explicit LockstepTurns(Node& node);
 
   // The node as a participant, for LOCKSTEP_JOIN: its name, stage, subscriptions and first due instant.
   lockstep_join_t introduction() const;
@@ -41,7 +38,6 @@ class LockstepTurns {
   void deliver(const std::vector<lockstep_message_t>& messages);
   bool must_pause(const lockstep_turn_t& turn, std::size_t published_before);
 
-  lcm::LCM& memq_;
   Node& node_;
   std::map<std::string, Interest, std::less<>> interests_;
   std::map<std::string, ChannelPattern, std::less<>> stopping_;

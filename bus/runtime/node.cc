@@ -81,12 +81,12 @@ void Node::check_run(const Now& now) {
 void Node::commit(const Now& now, const std::function<void()>& publish_all) {
   if (!journal_ || !now.sim_known) return publish_all();
   std::vector<std::pair<std::string, Bytes>> outputs;
-  bus_.set_outbox([&outputs](std::string_view channel, const void* data, std::size_t size) {
+  auto outbox = bus_.set_outbox([&outputs](std::string_view channel, const void* data, std::size_t size) {
     const auto* bytes = static_cast<const std::uint8_t*>(data);
     outputs.emplace_back(channel, Bytes(bytes, bytes + size));
   });
   publish_all();
-  bus_.set_outbox(nullptr);
+  bus_.set_outbox(std::move(outbox));
   if (outputs.empty()) return;
   std::vector<Published> last_published;
   for (const auto& [flow, message] : bus_.last_published())

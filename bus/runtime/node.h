@@ -5,11 +5,14 @@
 // of requests, STATUS. Under lockstep the two are the same.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -62,8 +65,15 @@ class Node {
   // Messages handled from now on were received at this steady time.
   void set_steady(SimTime steady) { bus_.set_steady(steady); }
   Stage stage() const { return bus_.identity().stage; }
-  // Its subscriptions, and the destination of its messages, for a runner that delivers in LCM's place (bus.h).
+  // Its subscriptions, what it receives by them, and the destination of its messages, for a runner that delivers in LCM's
+  // place (bus.h).
   const std::vector<Subscribed>& subscribed() const { return bus_.subscribed(); }
+  std::vector<std::size_t> subscribed_to(std::string_view channel) const {
+    return bus_.subscribed_to(channel);
+  }
+  void receive(std::string_view channel, std::span<const std::uint8_t> message) {
+    bus_.deliver(channel, message);
+  }
   void set_outbox(Bus::Outbox outbox) { bus_.set_outbox(std::move(outbox)); }
 
   Due due() const;

@@ -96,7 +96,7 @@ void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
                               program.stage};
   const auto node =
       program.make_node({memq, identity, run.scenario, run.folder, run.sync_url, true, run.file.get()});
-  run_lockstep_participant(memq, *node, run.sync_url, digest_of(run.scenario), stop_requested);
+  run_lockstep_participant(*node, run.sync_url, digest_of(run.scenario), stop_requested);
 }
 
 void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& log) {

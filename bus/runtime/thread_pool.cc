@@ -3,6 +3,7 @@
 #include <exception>
 #include <mutex>
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,6 +11,8 @@
 
 namespace halocline::bus {
 namespace {
+
+constexpr int kMostThreads = 1024;
 
 // The failure of the lowest index.
 class FirstFailure {
@@ -33,11 +36,14 @@ class FirstFailure {
 }  // namespace
 
 struct ThreadPool::Arena : tbb::task_arena {
-  using task_arena::task_arena;
+  explicit Arena(int threads) : task_arena(threads) {
+    // Else oneTBB warns of, and starts, no more threads than there are cores.
+    static const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, kMostThreads);
+  }
 };
 
 ThreadPool::ThreadPool(int threads) {
-  require_in_range(threads, 1, 1024, "threads of a pool");
+  require_in_range(threads, 1, kMostThreads, "threads of a pool");
   if (threads > 1) arena_ = std::make_unique<Arena>(threads);
 }
 

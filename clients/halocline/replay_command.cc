@@ -106,7 +106,8 @@ RunOutcome run_replay(const ReplayOptions& options, const ScenarioConfig& config
   ReplayNode recorded(lcm, {"replay", bus::session_of(config.scenario.seed, "replay")}, std::move(recording));
   Composition nodes(lcm, config, Composition::kReplay, &recorded);
   bus::catch_stop_signals();
-  return run_embedded(lcm, nodes.nodes(), run);
+  run.threads = nodes.threads();
+  return run_embedded(nodes.nodes(), run);
 }
 
 int replay(const ReplayOptions& options) {

@@ -106,10 +106,11 @@ int run(const RunOptions& options) {
   run.log_path = files.log;
   run.rotation = rotation_of(options.rotate, options.keep_parts);
   run.rate = options.rate;
+  run.threads = all.threads();
   run.mirror_url = options.mirror;
   run.quiet = options.quiet;
   run.should_stop = bus::stop_requested;
-  const RunOutcome outcome = run_embedded(lcm, all.nodes(), run);
+  const RunOutcome outcome = run_embedded(all.nodes(), run);
   if (!options.no_csv) {
     LogReader log(files.log);
     export_csv(log, files.csv);

@@ -24,7 +24,10 @@ class ConductorNodeTest : public ::testing::Test {
 
 TEST_F(ConductorNodeTest, PublishesTheClockOnItsGridInLockstep) {
   ConductorNode node(lcm_, {"conductor", 77}, SimDuration::from_milliseconds(250), 0);
-  bus::LockstepRunner runner(lcm_, {&node});
+  bus::LockstepRunner runner({&node});
+  runner.set_listener([&](SimTime, std::string_view channel, std::span<const std::uint8_t> message) {
+    listener_.deliver(channel, message);
+  });
   runner.run_until(SimTime::from_seconds(1));
   ASSERT_EQ(clocks_.size(), 5u);
   for (std::int64_t i = 0; i < 5; ++i) {

@@ -52,8 +52,9 @@ class EmbeddedTest : public ::testing::Test {
     if (guest) nodes.push_back(guest.get());
     EmbeddedRun settings{.end = SimTime() + config.scenario.duration, .log_path = log_path(name)};
     settings.quiet = true;
+    settings.threads = all.threads();
     settings.should_stop = should_stop;
-    run_embedded(lcm, nodes, settings);
+    run_embedded(nodes, settings);
     return settings.log_path;
   }
   std::string replay(const ScenarioConfig& config, const std::string& original, const std::string& name) {
@@ -64,7 +65,7 @@ class EmbeddedTest : public ::testing::Test {
     lcm::LCM lcm("memq://");
     ReplayNode recorded(lcm, {"replay", 1}, std::move(recording));
     Composition nodes(lcm, config, Composition::kReplay, &recorded);
-    run_embedded(lcm, nodes.nodes(), settings);
+    run_embedded(nodes.nodes(), settings);
     return settings.log_path;
   }
 

@@ -201,6 +201,16 @@ TEST_F(EmbeddedRunTest, TwoThreadsWriteTheSameBytesAsOne) {
   EXPECT_TRUE(one == bytes_of(run(config, "two")));
 }
 
+TEST_F(EmbeddedRunTest, ShardsAndBlocksOnThreadsWriteTheSameBytesAsInTurn) {
+  for (const char* scenario : {"harbour", "ranging"}) {
+    ScenarioConfig config =
+        load(scenario, {"scenario.duration_s=25", "channel_server.shards=3", "vehicle_sim.blocks=3"});
+    const std::string in_turn = bytes_of(run(config, "in-turn"));
+    config.channel_server.rules.threads = 3;
+    EXPECT_TRUE(in_turn == bytes_of(run(config, "on-threads"))) << scenario;
+  }
+}
+
 TEST_F(EmbeddedRunTest, ShardsTogetherPublishWhatOneServerPublishes) {
   for (const char* scenario : {"harbour", "ranging"}) {  // the second pings
     const auto one = published(run(load(scenario, {"scenario.duration_s=25"}), "one"));

@@ -24,10 +24,11 @@ class SoakTest : public testing::EmbeddedTest {
     return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
   }
   // The most in use at any of the instants looked at, every 60 s, from one to the other.
-  double max_in_use(bus::LockstepRunner& runner, double from_s, double to_s) {
+  double max_in_use(bus::LockstepRunner& runner, bus::LogRecorder& log, double from_s, double to_s) {
     double most = 0;
     for (double t = from_s; t <= to_s; t += 60) {
       runner.run_until(SimTime::from_seconds(t));
+      log.flush();
       most = std::max(most, heap_bytes());
     }
     return most;
@@ -39,13 +40,15 @@ class SoakTest : public testing::EmbeddedTest {
   Use bytes_in_use(const ScenarioConfig& config, double settled_s, double half_s) {
     lcm::LCM lcm("memq://");
     Composition all(lcm, config, Composition::kRun);
-    bus::LockstepRunner runner(lcm, all.nodes());
-    bus::LogRecorder recorder(lcm, log_path("soak"), [&] { return runner.now(); },
-                              {2'000'000, SimDuration(), 2});
-    max_in_use(runner, 60, settled_s);
+    bus::LockstepRunner runner(all.nodes());
+    bus::LogRecorder recorder(log_path("soak"), {2'000'000, SimDuration(), 2});
+    runner.set_listener([&](SimTime at, std::string_view channel, std::span<const std::uint8_t> message) {
+      recorder.record(at, channel, message);
+    });
+    max_in_use(runner, recorder, 60, settled_s);
     Use use;
-    use.first_half = max_in_use(runner, settled_s + 60, settled_s + half_s);
-    use.second_half = max_in_use(runner, settled_s + half_s + 60, settled_s + 2 * half_s);
+    use.first_half = max_in_use(runner, recorder, settled_s + 60, settled_s + half_s);
+    use.second_half = max_in_use(runner, recorder, settled_s + half_s + 60, settled_s + 2 * half_s);
     EXPECT_GT(recorder.parts(), 10);
     EXPECT_EQ(bus::parts_of_log(log_path("soak")).size(), 2u);
     return use;

@@ -282,7 +282,10 @@ TEST_F(VehicleSimNodeTest, TwoRunsInLockstepPublishTheSame) {
   const auto run = [&] {
     states_.clear();
     make_node(testing::ridge(25, 0.5));
-    bus::LockstepRunner runner(lcm_, {node_.get()});
+    bus::LockstepRunner runner({node_.get()});
+    runner.set_listener([&](SimTime, std::string_view channel, std::span<const std::uint8_t> message) {
+      ear_.deliver(channel, message);
+    });
     runner.run_until(at_ms(500));
     command(at_ms(600), {0.1, 0.2, 25});
     runner.run_until(at_ms(5000));

@@ -68,7 +68,7 @@ class LossyLink {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   lcm::LCM memq("memq://");
   Mover mover(memq, name);
-  bus::LockstepTurns turns(memq, mover);
+  bus::LockstepTurns turns(mover);
   lockstep_join_t join = turns.introduction();
   join.incarnation = bus::draw_incarnation() * 1000 + seed;
   const std::string url(bus::kDefaultSyncUrl);

@@ -28,7 +28,7 @@ inline std::string recorded(const ScenarioConfig& config) {
   Composition all(lcm, config, Composition::kRun);
   EmbeddedRun run{.end = SimTime() + config.scenario.duration, .log_path = path};
   run.quiet = true;
-  run_embedded(lcm, all.nodes(), run);
+  run_embedded(all.nodes(), run);
   return path;
 }
 

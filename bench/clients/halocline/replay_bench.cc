@@ -38,7 +38,7 @@ void replay(benchmark::State& state, const char* name) {
     EmbeddedRun run{.end = SimTime() + config.scenario.duration, .log_path = temporary("-again.lcm")};
     run.quiet = true;
     state.ResumeTiming();
-    run_embedded(lcm, nodes.nodes(), run);
+    run_embedded(nodes.nodes(), run);
   }
   state.SetItemsProcessed(state.iterations() * 120);
   std::filesystem::remove(temporary("-again.lcm"));
@@ -100,9 +100,10 @@ void packets_through_a_channel_server(benchmark::State& state) {
     lcm::LCM lcm("memq://");
     ReplayNode node(lcm, {"replay", 1}, recording);
     const auto server = channel_server::make_channel_server(lcm, {"channel-server", 1}, config, {}, ".");
-    bus::Bus peer(lcm, {"peer", 1});
-    peer.subscribe<packet_outcome_t>(bus::channels::kOutcome, [&](const packet_outcome_t&) { ++outcomes; });
-    bus::LockstepRunner runner(lcm, {&node, server.get()});
+    bus::LockstepRunner runner({&node, server.get()});
+    runner.set_listener([&](SimTime, std::string_view channel, std::span<const std::uint8_t>) {
+      outcomes += channel == bus::channels::kOutcome ? 1 : 0;
+    });
     runner.run_until(recording.end);
   }
   state.SetItemsProcessed(state.iterations() * vehicles * 60);

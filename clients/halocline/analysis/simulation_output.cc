@@ -10,7 +10,6 @@
 #include "bus/logs/channel_types.h"
 #include "bus/logs/log_recorder.h"
 #include "bus/message_codec.h"
-#include "bus/transport.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 
@@ -71,16 +70,13 @@ std::optional<Output> output_of(const LogReader& log, const LoggedEvent& event) 
 }  // namespace
 
 std::int64_t write_simulation_output(LogReader& log, const std::string& path) {
-  const auto memq = bus::open_transport("memq://");
   std::int64_t stamp_us = 0;
-  bus::LogRecorder recorder(*memq, path, [&] { return SimTime::from_utime(stamp_us); });
+  bus::LogRecorder recorder(path);
   std::vector<Output> at_stamp;
   const auto write = [&] {
     std::sort(at_stamp.begin(), at_stamp.end());
-    for (const auto& [channel, bytes] : at_stamp) {
-      memq->publish(channel, bytes.data(), static_cast<unsigned int>(bytes.size()));
-      memq->handleTimeout(0);
-    }
+    for (const auto& [channel, bytes] : at_stamp)
+      recorder.record(SimTime::from_utime(stamp_us), channel, bytes);
     at_stamp.clear();
   };
   for (LoggedEvent event; log.next(event);) {

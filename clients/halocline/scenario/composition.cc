@@ -1,5 +1,6 @@
 #include "clients/halocline/scenario/composition.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -141,7 +142,10 @@ void Composition::add(bus::Stage stage, const std::string& name, Arguments&&... 
 
 Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind, bus::Node* recorded,
                          std::optional<bathymetry::PreparedTerrain> terrain)
-    : lcm_(lcm), seed_(config.scenario.seed), terrain_(terrain ? std::move(*terrain) : make_terrain(config)) {
+    : lcm_(lcm),
+      seed_(config.scenario.seed),
+      threads_(std::max(config.vehicle_sim.threads, config.channel_server.rules.threads)),
+      terrain_(terrain ? std::move(*terrain) : make_terrain(config)) {
   // Nothing paces lockstep: the clock announces rate 0.
   add<conductor::ConductorNode>(bus::Stage::kTime, "conductor", config.scenario.clock_period, 0.0);
   add<bathymetry::BathymetryNode>(bus::Stage::kTerrain, "bathymetry", terrain_.terrain, terrain_.summary);

@@ -3,7 +3,7 @@
 //   const ScenarioConfig config = load_scenario("scenarios/seamount.toml", {"modem.source_level_db=170"});
 //   lcm::LCM lcm("memq://");
 //   Composition all(lcm, config, Composition::kRun);
-//   bus::LockstepRunner runner(lcm, all.nodes());
+//   bus::LockstepRunner runner(all.nodes());
 #pragma once
 
 #include <cstdint>
@@ -78,6 +78,8 @@ class Composition {
 
   // In the order in which they step: who moves vehicles before who pilots them, the channel server last.
   std::vector<bus::Node*> nodes() const { return order_; }
+  // For nodes of one stage, blocks of vehicles or shards: as many as one of them may use by itself.
+  int threads() const { return threads_; }
   const bathymetry::PreparedTerrain& terrain() const { return terrain_; }
 
  private:
@@ -88,6 +90,7 @@ class Composition {
 
   lcm::LCM& lcm_;
   std::uint64_t seed_;
+  int threads_;
   bathymetry::PreparedTerrain terrain_;
   std::vector<std::unique_ptr<bus::Node>> owned_;
   std::vector<bus::Node*> order_;

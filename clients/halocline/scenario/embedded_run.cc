@@ -2,37 +2,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <string_view>
 #include <thread>
 
 #include "bus/logs/log_recorder.h"
 #include "bus/runtime/lockstep_runner.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/thread_pool.h"
 #include "bus/transport.h"
 #include "clients/halocline/scenario/progress_line.h"
 
 namespace halocline::clients {
 namespace {
-
-// Shows everything of one LCM on another, for lcm-spy and the like. Nothing comes back.
-class Mirror {
- public:
-  Mirror(lcm::LCM& from, const std::string& url)
-      : to_(bus::open_transport(bus::effective_url(url))), from_(from) {
-    subscription_ = from_.subscribe(".*", &Mirror::pass_on, this);
-  }
-  ~Mirror() { from_.unsubscribe(subscription_); }
-  Mirror(const Mirror&) = delete;
-  Mirror& operator=(const Mirror&) = delete;
-
- private:
-  void pass_on(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    to_->publish(channel, buffer->data, buffer->data_size);
-  }
-  std::unique_ptr<lcm::LCM> to_;
-  lcm::LCM& from_;
-  lcm::Subscription* subscription_ = nullptr;
-};
 
 void sleep_for(SimDuration duration) {
   std::this_thread::sleep_for(std::chrono::nanoseconds(duration.nanoseconds()));
@@ -51,11 +35,16 @@ bool keep_pace(SimTime sim, SimTime started, double rate, const std::function<bo
 
 }  // namespace
 
-RunOutcome run_embedded(lcm::LCM& lcm, const std::vector<bus::Node*>& nodes, const EmbeddedRun& run) {
-  bus::LockstepRunner runner(lcm, nodes);
-  bus::LogRecorder recorder(
-      lcm, run.log_path, [&] { return runner.now(); }, run.rotation);
-  const auto mirror = run.mirror_url.empty() ? nullptr : std::make_unique<Mirror>(lcm, run.mirror_url);
+RunOutcome run_embedded(const std::vector<bus::Node*>& nodes, const EmbeddedRun& run) {
+  bus::ThreadPool pool(run.threads);
+  bus::LockstepRunner runner(nodes, pool.sharing_out());
+  bus::LogRecorder recorder(run.log_path, run.rotation);
+  const auto mirror =
+      run.mirror_url.empty() ? nullptr : bus::open_transport(bus::effective_url(run.mirror_url));
+  runner.set_listener([&](SimTime at, std::string_view channel, std::span<const std::uint8_t> message) {
+    recorder.record(at, channel, message);
+    if (mirror) mirror->publish(std::string(channel), message.data(), static_cast<unsigned>(message.size()));
+  });
   ProgressLine progress(stderr, run.end, run.quiet);
   const SimTime started = bus::steady_now();
   RunOutcome outcome;

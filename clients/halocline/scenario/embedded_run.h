@@ -16,6 +16,7 @@ struct EmbeddedRun {
   std::string log_path;  // replaced
   bus::LogRotation rotation = {};
   double rate = 0;              // simulated seconds per wall second; 0: as fast as it computes
+  int threads = 1;              // that step nodes of one stage, 1..1024; the log is the same
   std::string mirror_url = {};  // where everything is shown as well (a udpm URL); empty: nowhere
   bool quiet = false;           // no progress line
   // Called before each instant; true ends the run there.
@@ -28,8 +29,7 @@ struct RunOutcome {
   bool interrupted = false;
 };
 
-// `lcm` is the memq on which the nodes are. The log holds simulation time as its stamps; it is sound and closed
-// when this returns or throws.
-RunOutcome run_embedded(lcm::LCM& lcm, const std::vector<bus::Node*>& nodes, const EmbeddedRun& run);
+// The log holds simulation time as its stamps; it is sound and closed when this returns or throws.
+RunOutcome run_embedded(const std::vector<bus::Node*>& nodes, const EmbeddedRun& run);
 
 }  // namespace halocline::clients

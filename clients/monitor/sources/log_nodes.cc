@@ -123,7 +123,7 @@ void LogNodes::serve() {
               bus::encoded(channel_server::to_message(modem, SimTime())));
   }
   clients::Composition nodes(lcm, config, clients::Composition::kReplay, &desk);
-  bus::LockstepRunner runner(lcm, nodes.nodes());
+  bus::LockstepRunner runner(nodes.nodes());
   runner.run_until(SimTime() + kTurn);
   is_ready_ = true;
   for (;;) {

@@ -213,7 +213,7 @@ TEST(LockstepConductor, ALateParticipantJoinsAtTheInstantReported) {
   lcm::LCM memq("memq://");
   testing::ChattyNode late(memq, "late", bus::Stage::kClients, SimDuration::from_milliseconds(40), {"pilot"},
                            "pilot");
-  bus::LockstepTurns turns(memq, late);
+  bus::LockstepTurns turns(late);
   bool joined = false;
   run.between_events = [&](SimulatedLockstep& now) {
     if (joined || now.conductor().sequencer().turns_taken("pilot") < 10) return;

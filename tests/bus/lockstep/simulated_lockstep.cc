@@ -22,19 +22,6 @@ namespace {
 constexpr std::int64_t kRunId = 77;
 constexpr SimDuration kTick = SimDuration::from_milliseconds(1);
 
-struct Recorder {
-  const bus::LockstepRunner* runner = nullptr;
-  Messages messages;
-  void on_message(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
-    lockstep_message_t message{};
-    message.instant_ns = runner->now().nanoseconds();
-    message.channel_name = channel;
-    const auto* bytes = static_cast<const std::uint8_t*>(buffer->data);
-    message.message_bytes.assign(bytes, bytes + buffer->data_size);
-    messages.push_back(text_of(message));
-  }
-};
-
 }  // namespace
 
 std::string text_of(const lockstep_message_t& message) {
@@ -69,12 +56,18 @@ Messages messages_of_one_process(const std::vector<NodeRule>& nodes, SimTime end
     made.push_back(make_node(lcm, nodes, i));
     all.push_back(made.back().get());
   }
-  bus::LockstepRunner runner(lcm, all);
-  Recorder recorder{&runner, {}};
-  lcm.subscribe(".*", &Recorder::on_message, &recorder);
+  bus::LockstepRunner runner(all);
+  Messages messages;
+  runner.set_listener([&](SimTime at, std::string_view channel, std::span<const std::uint8_t> bytes) {
+    lockstep_message_t message{};
+    message.instant_ns = at.nanoseconds();
+    message.channel_name = channel;
+    message.message_bytes.assign(bytes.begin(), bytes.end());
+    messages.push_back(text_of(message));
+  });
   runner.run_until(end);
   runner.stop();
-  return recorder.messages;
+  return messages;
 }
 
 SimulatedLockstep::SimulatedLockstep(std::vector<NodeRule> nodes, SimTime end, const NetworkRules& rules,
@@ -150,7 +143,7 @@ void SimulatedLockstep::start_conductor() {
     local_.push_back(std::make_unique<Process>());
     Process& process = *local_.back();
     process.node = make_node(process.memq, nodes_, i);
-    process.turns = std::make_unique<bus::LockstepTurns>(process.memq, *process.node);
+    process.turns = std::make_unique<bus::LockstepTurns>(*process.node);
     conductor_->add_local(process.turns->introduction(),
                           [&process](const lockstep_turn_t& turn) { return process.turns->take(turn); });
   }
@@ -167,7 +160,7 @@ void SimulatedLockstep::crash_conductor() {
 void SimulatedLockstep::start_participant(std::size_t index) {
   auto process = std::make_unique<Process>();
   process->node = make_node(process->memq, nodes_, index);
-  process->turns = std::make_unique<bus::LockstepTurns>(process->memq, *process->node);
+  process->turns = std::make_unique<bus::LockstepTurns>(*process->node);
   lockstep_join_t join = process->turns->introduction();
   join.incarnation = next_incarnation_++;
   bus::LockstepTurns* turns = process->turns.get();

@@ -36,7 +36,7 @@ struct NodeRule {
 std::vector<NodeRule> five_nodes();
 std::unique_ptr<ChattyNode> make_node(lcm::LCM& lcm, const std::vector<NodeRule>& nodes, std::size_t index);
 
-// The messages of all nodes in one process on memq, by bus::LockstepRunner.
+// The messages of all nodes in one process, by bus::LockstepRunner.
 Messages messages_of_one_process(const std::vector<NodeRule>& nodes, SimTime end);
 
 struct NetworkRules {

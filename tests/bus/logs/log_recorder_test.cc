@@ -48,14 +48,19 @@ class LogRecorderTest : public ::testing::Test {
     return events;
   }
   static LogRotation by_size(std::int64_t bytes, int kept = 0) { return {bytes, SimDuration(), kept}; }
+  static void record_all(LockstepRunner& runner, LogRecorder& recorder) {
+    runner.set_listener([&](SimTime at, std::string_view channel, std::span<const std::uint8_t> message) {
+      recorder.record(at, channel, message);
+    });
+  }
   void record_run(const std::string& path, const LogRotation& rotation = {}) {
     lcm::LCM lcm("memq://");
     std::vector<std::string> journal;
     TickingNode a(lcm, "a", SimDuration::from_milliseconds(30), journal);
     TickingNode b(lcm, "b", SimDuration::from_milliseconds(70), journal);
-    LockstepRunner runner(lcm, {&a, &b});
-    LogRecorder recorder(
-        lcm, path, [&] { return runner.now(); }, rotation);
+    LockstepRunner runner({&a, &b});
+    LogRecorder recorder(path, rotation);
+    record_all(runner, recorder);
     runner.run_until(SimTime::from_seconds(5));
     runner.stop();
     recorder.close();
@@ -91,9 +96,8 @@ TEST_F(LogRecorderTest, LcmReadsWhatWasWrittenWithSimulationTimes) {
 }
 
 TEST_F(LogRecorderTest, AFileThatCannotBeWrittenIsAnErrorThatNamesIt) {
-  lcm::LCM lcm("memq://");
   try {
-    LogRecorder recorder(lcm, "/nowhere/at/all.lcmlog", [] { return SimTime(); });
+    LogRecorder recorder("/nowhere/at/all.lcmlog");
     FAIL();
   } catch (const InvalidArgument& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("/nowhere/at/all.lcmlog"));
@@ -105,8 +109,9 @@ TEST_F(LogRecorderTest, AFullDiskIsAnError) {
   lcm::LCM lcm("memq://");
   std::vector<std::string> journal;
   TickingNode a(lcm, "a", SimDuration::from_milliseconds(1), journal);
-  LockstepRunner runner(lcm, {&a});
-  LogRecorder recorder(lcm, "/dev/full", [&] { return runner.now(); });
+  LockstepRunner runner({&a});
+  LogRecorder recorder("/dev/full");
+  record_all(runner, recorder);
   runner.run_until(SimTime::from_seconds(3));
   EXPECT_THROW(recorder.close(), std::runtime_error);
 }
@@ -150,11 +155,9 @@ TEST_F(LogRecorderTest, NamesThatOnlyLookLikePartsAreNone) {
 }
 
 TEST_F(LogRecorderTest, NothingIsWrittenAfterTheClose) {
-  lcm::LCM lcm("memq://");
-  LogRecorder recorder(lcm, path("log"), [] { return SimTime(); });
+  LogRecorder recorder(path("log"));
   recorder.close();
-  lcm.publish("X", "abc", 3);
-  lcm.handleTimeout(0);
+  recorder.record(SimTime(), "X", std::vector<std::uint8_t>{1, 2, 3});
   EXPECT_EQ(recorder.events(), 0);
   EXPECT_NO_THROW(recorder.close());
 }

@@ -1,12 +1,18 @@
 #include "bus/runtime/lockstep_runner.h"
 
+#include <chrono>
 #include <cstdint>
+#include <semaphore>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bus/runtime/thread_pool.h"
 #include "tests/bus/runtime/test_nodes.h"
 
 namespace halocline::bus {
@@ -27,7 +33,7 @@ class LockstepTest : public ::testing::Test {
 
 TEST_F(LockstepTest, StepsEachNodeAtItsInstantsInTheOrderOfTheirNames) {
   TickingNode b(lcm_, "b", ms(200), journal_), a(lcm_, "a", ms(300), journal_);
-  LockstepRunner runner(lcm_, {&b, &a});
+  LockstepRunner runner({&b, &a});
   runner.run_until(at_ms(600));
   EXPECT_THAT(journal_,
               ElementsAre("a@0", "b@0", "b@200000", "a@300000", "b@400000", "a@600000", "b@600000"));
@@ -37,7 +43,7 @@ TEST_F(LockstepTest, StepsEachNodeAtItsInstantsInTheOrderOfTheirNames) {
 TEST_F(LockstepTest, ARunInPiecesIsTheRunInOne) {
   std::vector<std::string> whole;
   TickingNode one(lcm_, "a", ms(70), journal_), other(lcm_, "a", ms(70), whole);
-  LockstepRunner pieces(lcm_, {&one}), at_once(lcm_, {&other});
+  LockstepRunner pieces({&one}), at_once({&other});
   for (const int end : {0, 10, 70, 300, 1000}) pieces.run_until(at_ms(end));
   at_once.run_until(at_ms(1000));
   EXPECT_EQ(journal_, whole);
@@ -49,7 +55,10 @@ TEST_F(LockstepTest, AnswersToAnswersShareTheInstant) {
   Bus listener(lcm_, {"listener", 1});
   std::vector<std::int64_t> received;
   listener.subscribe<sim_clock_t>("SECOND", [&](const sim_clock_t& m) { received.push_back(m.utime); });
-  LockstepRunner runner(lcm_, {&second, &first, &ticker});  // the order that needs most rounds
+  LockstepRunner runner({&second, &first, &ticker});  // the order that needs most rounds
+  runner.set_listener([&](SimTime, std::string_view channel, std::span<const std::uint8_t> message) {
+    listener.deliver(channel, message);
+  });
   runner.set_before_instant([&](SimTime instant) {
     // Messages published before this instant were received: the bus was empty when time advanced.
     EXPECT_EQ(received.size(), static_cast<std::size_t>(instant.to_utime() / 100'000));
@@ -59,17 +68,50 @@ TEST_F(LockstepTest, AnswersToAnswersShareTheInstant) {
   EXPECT_THAT(received, ElementsAre(0, 100'000, 200'000, 300'000, 400'000, 500'000));
 }
 
+TEST_F(LockstepTest, NodesOfOneStageStepOnThreadsAndAreHeardInTheOrderOfTheirNames) {
+  std::vector<std::string> of_b, heard;
+  TickingNode a(lcm_, "a", ms(100), journal_), b(lcm_, "b", ms(100), of_b);
+  std::counting_semaphore begun(0), done(0);
+  a.at_step = [&] {  // not without b, which goes first
+    begun.release();
+    EXPECT_TRUE(done.try_acquire_for(std::chrono::seconds(30)));
+  };
+  b.at_step = [&] {
+    EXPECT_TRUE(begun.try_acquire_for(std::chrono::seconds(30)));
+    done.release();
+  };
+  ThreadPool pool(2);
+  LockstepRunner runner({&b, &a}, pool.sharing_out());
+  runner.set_listener([&](SimTime at, std::string_view channel, std::span<const std::uint8_t>) {
+    if (channel.starts_with("TICK"))
+      heard.push_back(std::string(channel) + "@" + std::to_string(at.to_utime()));
+  });
+  runner.run_until(at_ms(100));
+  EXPECT_THAT(heard, ElementsAre("TICK.a@0", "TICK.b@0", "TICK.a@100000", "TICK.b@100000"));
+}
+
+TEST_F(LockstepTest, WhatAHandlerPublishesIsDeliveredAtTheSameInstant) {
+  class Answering : public EchoNode {
+   public:
+    explicit Answering(lcm::LCM& lcm) : EchoNode(lcm, "answering", "NONE", "NONE") {
+      bus().subscribe<sim_clock_t>("TICK.a", [this](const sim_clock_t& m) { bus().publish("ANSWER", m); });
+    }
+  } answering(lcm_);
+  TickingNode ticker(lcm_, "a", ms(100), journal_);
+  LockstepRunner runner({&ticker, &answering});
+  std::vector<SimTime> heard;
+  runner.set_listener([&](SimTime at, std::string_view channel, std::span<const std::uint8_t>) {
+    if (channel == "ANSWER") heard.push_back(at);
+  });
+  runner.run_until(at_ms(200));
+  EXPECT_THAT(heard, ElementsAre(at_ms(0), at_ms(100), at_ms(200)));
+}
+
 TEST_F(LockstepTest, NodesThatKeepEachOtherBusyAreAnErrorThatNamesTheTime) {
   EchoNode left(lcm_, "left", "A", "B"), right(lcm_, "right", "B", "A");
   TickingNode ticker(lcm_, "t", ms(100), journal_);
-  Bus publisher(lcm_, {"publisher", 1});
-  sim_clock_t message;
-  message.utime = message.session = message.sequence = 0;
-  message.clock_rate = 1;
-  message.clock_step_us = 1;
-  message.lockstep = 0;
-  ticker.at_step = [&] { publisher.publish("A", message); };
-  LockstepRunner runner(lcm_, {&left, &right, &ticker});
+  EchoNode starter(lcm_, "starter", "TICK.t", "A");
+  LockstepRunner runner({&left, &right, &starter, &ticker});
   EXPECT_THROW(runner.run_until(at_ms(100)), std::runtime_error);
 }
 
@@ -81,14 +123,14 @@ TEST_F(LockstepTest, AnExceptionOfAHandlerEndsTheRun) {
     }
   } faulty(lcm_);
   TickingNode ticker(lcm_, "a", ms(100), journal_);
-  LockstepRunner runner(lcm_, {&ticker, &faulty});
+  LockstepRunner runner({&ticker, &faulty});
   EXPECT_THROW(runner.run_until(at_ms(1000)), std::runtime_error);
   EXPECT_EQ(runner.now(), at_ms(0));
 }
 
 TEST_F(LockstepTest, MayBeStoppedBeforeAnInstant) {
   TickingNode ticker(lcm_, "a", ms(100), journal_);
-  LockstepRunner runner(lcm_, {&ticker});
+  LockstepRunner runner({&ticker});
   runner.set_before_instant([](SimTime instant) { return instant < at_ms(250); });
   runner.run_until(at_ms(1000));
   EXPECT_THAT(journal_, ElementsAre("a@0", "a@100000", "a@200000"));

@@ -52,7 +52,7 @@ class LockstepTurnsTest : public ::testing::Test {
   lcm::LCM memq_{"memq://"};
   std::vector<std::string> journal_;
   TickingNode ticker_{memq_, "a", SimDuration::from_milliseconds(100), journal_};
-  LockstepTurns turns_{memq_, ticker_};
+  LockstepTurns turns_{ticker_};
 };
 
 TEST_F(LockstepTurnsTest, AStepIsTakenAtItsInstantAndItsMessagesAreReturned) {
@@ -102,7 +102,7 @@ TEST_F(LockstepTurnsTest, TwoIncarnationsWithEqualInputsHaveEqualDigests) {
   lcm::LCM other_memq("memq://");
   std::vector<std::string> other_journal;
   TickingNode other(other_memq, "a", SimDuration::from_milliseconds(100), other_journal);
-  LockstepTurns again(other_memq, other);
+  LockstepTurns again(other);
   std::int64_t with_lookahead = again.take(turn_at(at_ms(0), at_ms(500))).outputs_digest;
   std::int64_t stepwise = 0;
   for (int ms = 0; ms < 500; ms += 100) stepwise = turns_.take(turn_at(at_ms(ms))).outputs_digest;
@@ -112,7 +112,7 @@ TEST_F(LockstepTurnsTest, TwoIncarnationsWithEqualInputsHaveEqualDigests) {
 TEST(LockstepTurnsOfAService, ARequestIsAnsweredInTheSameTurn) {
   lcm::LCM memq("memq://");
   EchoNode echo(memq, "echo", "REQUEST", "ANSWER");
-  LockstepTurns turns(memq, echo);
+  LockstepTurns turns(echo);
   turns.take(turn_at(at_ms(0)));
   lockstep_turn_t turn = turn_at(at_ms(20));
   add_message(turn, "REQUEST");
@@ -123,7 +123,7 @@ TEST(LockstepTurnsOfAService, ARequestIsAnsweredInTheSameTurn) {
 TEST(LockstepTurnsOfAService, TheIntroductionListsItsSubscriptions) {
   lcm::LCM memq("memq://");
   EchoNode echo(memq, "echo", "ASK.x", "ANSWER");
-  const lockstep_join_t join = LockstepTurns(memq, echo).introduction();
+  const lockstep_join_t join = LockstepTurns(echo).introduction();
   EXPECT_EQ(join.participant_name, "echo");
   EXPECT_THAT(join.subscriptions, ElementsAre("ASK\\.x"));
   EXPECT_THAT(join.only_stores, ElementsAre(0));
@@ -143,7 +143,7 @@ TEST(LockstepTurnsOfAService, ABrokenPromiseOnlyToStoreIsAnError) {
   };
   lcm::LCM memq("memq://");
   Liar liar(memq);
-  LockstepTurns turns(memq, liar);
+  LockstepTurns turns(liar);
   lockstep_turn_t turn = turn_at(at_ms(0));
   add_message(turn, "REQUEST");
   EXPECT_THROW(turns.take(turn), std::logic_error);

@@ -43,7 +43,7 @@ TEST(HeaderExamples, Composition) {
   const ScenarioConfig config = load_scenario("scenarios/seamount.toml", {"modem.source_level_db=170"});
   lcm::LCM lcm("memq://");
   Composition all(lcm, config, Composition::kRun);
-  bus::LockstepRunner runner(lcm, all.nodes());
+  bus::LockstepRunner runner(all.nodes());
   runner.run_until(SimTime::from_seconds(1.0));
   EXPECT_EQ(runner.now(), SimTime::from_seconds(1.0));
 }

@@ -121,7 +121,7 @@ class LocaliserNodeTest : public ::testing::Test {
 
   void run(const LocaliserConfig& config, double seconds) {
     LocaliserNode node(lcm_, {"localiser", 5}, config);
-    bus::LockstepRunner runner(lcm_, {&sea_, &node});
+    bus::LockstepRunner runner({&sea_, &node});
     runner.run_until(SimTime::from_seconds(seconds));
   }
 
@@ -192,8 +192,7 @@ TEST_F(LocaliserNodeTest, KilledItGoesOnWithItsEstimateAndItsNumbers) {
   const bus::testing::JournalFiles files;
   LocaliserNode whole(lcm_, {"localiser", 5}, two_beacons());
   whole.keep_state_in(files.open());
-  bus::LockstepRunner runner(lcm_, {&sea_, &whole});
-  runner.run_until(SimTime::from_seconds(30));
+  bus::LockstepRunner({&sea_, &whole}).run_until(SimTime::from_seconds(30));
   LocaliserNode resumed(lcm_, {"localiser", 5}, two_beacons());
   resumed.keep_state_in(files.open());
   sea_.estimates.clear();

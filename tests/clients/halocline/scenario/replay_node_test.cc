@@ -28,11 +28,14 @@ TEST(ReplayNode, PublishesEachMessageAtItsTime) {
     file.add(utime, "STATE.auv-1", state_at(utime));
   lcm::LCM lcm("memq://");
   ReplayNode node(lcm, {"replay", 1}, recording_of(file));
-  bus::LockstepRunner runner(lcm, {&node});
+  bus::LockstepRunner runner({&node});
   bus::Bus peer(lcm, {"peer", 1});
   std::vector<SimTime> received;
   peer.subscribe<vehicle_state_t>(bus::channels::kState, [&](std::string_view, const vehicle_state_t&) {
     received.push_back(runner.now());
+  });
+  runner.set_listener([&](SimTime, std::string_view channel, std::span<const std::uint8_t> message) {
+    peer.deliver(channel, message);
   });
   runner.run_until(SimTime::from_seconds(1));
   EXPECT_EQ(received, (std::vector<SimTime>{SimTime::from_utime(100'000), SimTime::from_utime(100'000),
