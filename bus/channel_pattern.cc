@@ -27,8 +27,8 @@ std::optional<std::string> literal(std::string_view expression) {
 
 ChannelPattern::ChannelPattern(const std::string& expression) {
   const std::string_view view = expression;
-  prefix_ = view.ends_with(".*") && literal(view.substr(0, view.size() - 2)).has_value();
-  if (auto text = literal(prefix_ ? view.substr(0, view.size() - 2) : view)) {
+  is_prefix_ = view.ends_with(".*") && literal(view.substr(0, view.size() - 2)).has_value();
+  if (auto text = literal(is_prefix_ ? view.substr(0, view.size() - 2) : view)) {
     text_ = std::move(*text);
     return;
   }
@@ -41,22 +41,27 @@ ChannelPattern::ChannelPattern(const std::string& expression) {
 
 bool ChannelPattern::matches(std::string_view channel) const {
   if (regex_) return std::regex_match(channel.begin(), channel.end(), *regex_);
-  return prefix_ ? channel.starts_with(text_) : channel == text_;
+  return is_prefix_ ? channel.starts_with(text_) : channel == text_;
 }
 
 void ChannelPatterns::add(const std::string& expression) {
-  patterns_.emplace_back(expression);
-  known_.clear();
+  ChannelPattern pattern(expression);
+  if (!pattern.only_channel().empty())
+    of_one_channel_[std::string(pattern.only_channel())].push_back(size_);
+  else
+    others_.push_back({std::move(pattern), size_});
+  ++size_;
 }
 
-bool ChannelPatterns::match(std::string_view channel) {
-  if (known_.size() >= kMostKept) known_.clear();
-  const auto [known, is_new] = known_.try_emplace(std::string(channel));
-  if (is_new) {
-    known->second = std::any_of(patterns_.begin(), patterns_.end(),
-                                [&](const ChannelPattern& pattern) { return pattern.matches(channel); });
+std::vector<std::size_t> ChannelPatterns::matching(std::string_view channel) const {
+  std::vector<std::size_t> places;
+  const auto own = of_one_channel_.find(channel);
+  if (own != of_one_channel_.end()) places = own->second;
+  for (const Numbered& other : others_) {
+    if (other.pattern.matches(channel)) places.push_back(other.place);
   }
-  return known->second;
+  std::sort(places.begin(), places.end());
+  return places;
 }
 
 }  // namespace halocline::bus

@@ -5,11 +5,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
 #include <regex>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace halocline::bus {
@@ -19,26 +20,31 @@ class ChannelPattern {
   // Throws InvalidArgument for what is no regular expression.
   explicit ChannelPattern(const std::string& expression);
   bool matches(std::string_view channel) const;
+  // The one channel that it matches; empty where there are more.
+  std::string_view only_channel() const { return is_prefix_ || regex_ ? "" : std::string_view(text_); }
 
  private:
-  std::string text_;     // the channel, or what it begins with
-  bool prefix_ = false;  // text_ is what it begins with
+  std::string text_;        // the channel, or what it begins with
+  bool is_prefix_ = false;  // text_ is what it begins with
   std::optional<std::regex> regex_;
 };
 
-// The expressions of all subscriptions.
+// The expressions of many subscriptions, most of them to one channel.
 class ChannelPatterns {
  public:
   // Throws as ChannelPattern.
   void add(const std::string& expression);
-  // Whether one of them matches. Answers are kept: a heartbeat asks for each flow of its node.
-  bool match(std::string_view channel);
+  // The places, as they were added, of those that match: rising.
+  std::vector<std::size_t> matching(std::string_view channel) const;
 
  private:
-  static constexpr std::size_t kMostKept = 100'000;
-
-  std::vector<ChannelPattern> patterns_;
-  std::unordered_map<std::string, bool> known_;
+  struct Numbered {
+    ChannelPattern pattern;
+    std::size_t place;
+  };
+  std::size_t size_ = 0;
+  std::map<std::string, std::vector<std::size_t>, std::less<>> of_one_channel_;
+  std::vector<Numbered> others_;
 };
 
 }  // namespace halocline::bus

@@ -22,6 +22,17 @@ double depth_of(const LinkEnd& end, const acoustics::Environment& environment) {
                     kDeepestEndM);
 }
 
+// Both ways between two ends want the same at one frequency: the first of them, by id.
+std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> one_way_of_each(
+    const std::vector<EndPair>& links) {
+  std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> ways;
+  for (const EndPair& link : links) ways.emplace_back(SearchBudget::id_of(link), &link);
+  std::sort(ways.begin(), ways.end());  // of one id by place
+  const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+  ways.erase(std::unique(ways.begin(), ways.end(), same), ways.end());
+  return ways;
+}
+
 }  // namespace
 
 LinkSearches::LinkSearches(std::shared_ptr<const EnvironmentTimeline> waters,
@@ -92,7 +103,10 @@ LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from,
 }
 
 LinkSearches::Task LinkSearches::for_table(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  Task task = shared_task_of(at, from, to);
+  return granted_task(at, shared_task_of(at, from, to));
+}
+
+LinkSearches::Task LinkSearches::granted_task(SimTime at, Task task) {
   if (!budget_) return task;
   SearchBudget::Granted* granted = budget_->find(SearchBudget::id_of(task.ends));
   task.waits = granted == nullptr;
@@ -108,23 +122,22 @@ LinkSearches::Task LinkSearches::for_packet(SimTime at, const LinkEnd& from, con
   if (!model_.reuse_for_packets) return for_itself(at, from, to);
   Task now = shared_task_of(at, from, to);
   if (!budget_) return now;
-  Task granted = for_table(at, from, to);
+  Task granted = granted_task(at, now);
   return granted.waits || !is_of_one_sea(granted.query, now.query) ? now : granted;
 }
 
-// Both directions want the same.
 void LinkSearches::begin_tick(SimTime at, const std::vector<EndPair>& all) {
   if (!budget_) return;
   std::vector<SearchBudget::Wanted> wanted;
-  for (const auto& [from, to] : all) {
-    const Task task = shared_task_of(at, from, to);
+  for (const auto& [id, link] : one_way_of_each(all)) {
+    const auto& [from, to] = *link;
+    Task task = shared_task_of(at, from, to);
     const double range_m =
         std::max((to.position_ned_m - from.position_ned_m).norm(), acoustics::kMinDistance);
     const Decibels level = from.modem->source_level - Decibels{20 * elementary::log10(range_m)};
-    wanted.push_back(
-        {SearchBudget::id_of(task.ends), task.query, (level - to.modem->min_receivable_level).value});
+    wanted.push_back({id, std::move(task.query), (level - to.modem->min_receivable_level).value});
   }
-  budget_->begin_tick(at, wanted);
+  budget_->begin_tick(at, std::move(wanted));
 }
 
 bool LinkSearches::is_ready(const Task& task) {
@@ -132,8 +145,12 @@ bool LinkSearches::is_ready(const Task& task) {
   return known(task) || seabed_->is_surveyed({north, east, 0}, {last_north, last_east, 0});
 }
 
-bool LinkSearches::is_ready_for_table(SimTime at, const LinkEnd& from, const LinkEnd& to) {
-  return is_ready(shared_task_of(at, from, to));
+// Every link is looked at, so that all that is missing is requested together.
+bool LinkSearches::are_ready_for_table(SimTime at, const std::vector<EndPair>& links) {
+  bool ready = true;
+  for (const auto& [id, link] : one_way_of_each(links))
+    ready = is_ready(shared_task_of(at, link->from, link->to)) && ready;
+  return ready;
 }
 
 // What a budget has granted is kept for as long as it is used; the cache forgets.

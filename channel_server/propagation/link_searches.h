@@ -71,8 +71,8 @@ class LinkSearches {
 
   // Whether find() has what it needs. What it has not is requested.
   bool is_ready(const Task& task);
-  // The same of the query that a link of a table may be granted at the next tick.
-  bool is_ready_for_table(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  // The same of the queries that links of a table may be granted at the next tick.
+  bool are_ready_for_table(SimTime at, const std::vector<EndPair>& links);
 
   // Null where the bottom is not known.
   Paths find(const Task& task);
@@ -88,6 +88,8 @@ class LinkSearches {
   std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
   Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed);
   Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
+  // The task of a table where its own query is `now`.
+  Task granted_task(SimTime at, Task now);
   Cache& cache_of(const Task& task) { return task.shared ? shared_ : own_; }
   // Null where nothing is known yet.
   Paths known(const Task& task);

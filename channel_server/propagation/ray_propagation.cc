@@ -81,11 +81,8 @@ std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<
   return receptions;
 }
 
-// Every link is looked at, so that all that is missing is requested together.
 bool RayPropagation::are_ready(SimTime at, const std::vector<EndPair>& links) {
-  bool ready = true;
-  for (const auto& [from, to] : links) ready = searches_.is_ready_for_table(at, from, to) && ready;
-  return ready;
+  return searches_.are_ready_for_table(at, links);
 }
 
 std::optional<acoustics::LeastLoss> RayPropagation::least_loss(SimTime at, double frequency_hz,

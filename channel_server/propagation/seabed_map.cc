@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kSide = TileSurvey::kPoints;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Floor of the quotient.
+// Floor of the quotient: tiles of points, and blocks of tiles.
 std::int64_t tile_of(std::int64_t point) { return point >= 0 ? point / kSide : (point - kSide + 1) / kSide; }
 
 // The lattice points that weigh at a place between points 0 and 1: -2 to 3.
@@ -193,12 +193,13 @@ bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
     return static_cast<std::int64_t>(std::floor(at_m / rule_.spacing_m));
   };
   bool surveyed = true;
+  TileIndex last_block;
+  Block* block = nullptr;
   const auto visit = [&](const TileIndex& index) {
-    const auto tile = tiles_.find(index);
-    if (tile != tiles_.end()) {
-      tile->second.used_at = epoch_;
-      return;
-    }
+    const Place place = place_of(index);
+    if (block == nullptr || place.block != last_block) block = &blocks_[last_block = place.block];
+    block->used |= place.bit;
+    if ((block->kept & place.bit) != 0) return;
     surveyed = false;
     if (!queried_.contains(index)) requested_.insert(index);
   };
@@ -231,31 +232,63 @@ std::vector<TileSurvey> SeabedMap::take_requests() {
   return surveys;
 }
 
+SeabedMap::Place SeabedMap::place_of(const TileIndex& tile) {
+  const TileIndex block{tile_of(tile.north), tile_of(tile.east)};
+  const std::int64_t number = (tile.north - kSide * block.north) * kSide + tile.east - kSide * block.east;
+  return {block, std::uint64_t{1} << number};
+}
+
+SeabedMap::Tile& SeabedMap::keep(const TileIndex& tile) {
+  const Place place = place_of(tile);
+  Block& block = blocks_[place.block];
+  block.kept |= place.bit;
+  block.used |= place.bit;
+  return tiles_[tile];
+}
+
+template <class Predicate>
+void SeabedMap::forget_if(const Predicate& is_forgotten) {
+  std::erase_if(tiles_, [&](const auto& one) {
+    const auto& [index, tile] = one;
+    const Place place = place_of(index);
+    Block& block = blocks_[place.block];
+    if (!is_forgotten(tile, block, place.bit)) return false;
+    block.kept &= ~place.bit;
+    return true;
+  });
+}
+
 void SeabedMap::store(const TileSurvey& answered) {
   queried_.erase(answered.tile());
-  Tile& tile = tiles_[answered.tile()];
+  Tile& tile = keep(answered.tile());
   tile.answered = true;
-  tile.used_at = epoch_;
   std::copy(answered.z_m().begin(), answered.z_m().end(), tile.z_m.begin());
 }
 
 void SeabedMap::note_failed(const TileSurvey& survey) {
   queried_.erase(survey.tile());
-  tiles_.try_emplace(survey.tile()).first->second.used_at = epoch_;
+  keep(survey.tile());
 }
 
 void SeabedMap::forget_failures() {
-  std::erase_if(tiles_, [](const auto& one) { return !one.second.answered; });
+  forget_if([](const Tile& tile, const Block&, std::uint64_t) { return !tile.answered; });
 }
 
 void SeabedMap::forget_unused() {
-  ++epoch_;
-  if (tiles_.size() <= kMaxTiles) return;
-  std::erase_if(tiles_, [&](const auto& one) { return one.second.used_at < epoch_ - 2; });
+  if (tiles_.size() > kMaxTiles) {
+    forget_if([](const Tile&, const Block& block, std::uint64_t bit) {
+      return ((block.used | block.used_a_tick_ago) & bit) == 0;
+    });
+  }
+  std::erase_if(blocks_, [](const auto& one) {
+    return (one.second.kept | one.second.used | one.second.used_a_tick_ago) == 0;
+  });
+  for (auto& [index, block] : blocks_) block.used_a_tick_ago = std::exchange(block.used, 0);
 }
 
 void SeabedMap::clear() {
   tiles_.clear();
+  blocks_.clear();
   requested_.clear();
   queried_.clear();
   ++version_;

@@ -110,7 +110,15 @@ class SeabedMap {
   struct Tile {
     bool answered = false;  // else it failed
     std::array<double, kTilePoints> z_m;
-    std::int64_t used_at = 0;
+  };
+  // 8 x 8 tiles; a bit each, eastwards row by row.
+  struct Block {
+    std::uint64_t kept = 0;                       // in tiles_
+    std::uint64_t used = 0, used_a_tick_ago = 0;  // by links since the last tick, between the last two
+  };
+  struct Place {
+    TileIndex block;
+    std::uint64_t bit;
   };
   struct TileHash {
     std::size_t operator()(const TileIndex& tile) const {
@@ -125,12 +133,17 @@ class SeabedMap {
     int last = 0;  // the first sample at the other end or beyond
   };
   Line line_between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
+  static Place place_of(const TileIndex& tile);
+  Tile& keep(const TileIndex& tile);
+  template <class Predicate>
+  void forget_if(const Predicate& is_forgotten);  // of a tile, its block and its bit there
   class Reader;
 
   SeabedRule rule_;
-  std::unordered_map<TileIndex, Tile, TileHash> tiles_;  // looked up, never walked where it matters
+  std::unordered_map<TileIndex, Tile, TileHash> tiles_;    // looked up, never walked where it matters
+  std::unordered_map<TileIndex, Block, TileHash> blocks_;  // likewise
   std::set<TileIndex> requested_, queried_;
-  std::int64_t version_ = 0, epoch_ = 0;
+  std::int64_t version_ = 0;
 };
 
 }  // namespace halocline::channel_server

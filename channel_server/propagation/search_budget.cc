@@ -36,39 +36,52 @@ SearchBudget::LinkId SearchBudget::id_of(const EndPair& ends) {
   return {low, high, ends.from.modem->centre_frequency_hz};
 }
 
-void SearchBudget::begin_tick(SimTime tick, const std::vector<Wanted>& links) {
-  if (tick < tick_) granted_.clear();
+void SearchBudget::begin_tick(SimTime tick, std::vector<Wanted> links) {
+  if (tick < tick_) ids_.clear();
   tick_ = tick;
+  const auto before = [](const Wanted& a, const Wanted& b) { return a.id < b.id; };
+  if (!std::is_sorted(links.begin(), links.end(), before))
+    std::stable_sort(links.begin(), links.end(), before);
+  const auto same = [](const Wanted& a, const Wanted& b) { return a.id == b.id; };
+  links.erase(std::unique(links.begin(), links.end(), same), links.end());
+
   struct Need {
     double urgency;
-    const Wanted* wanted;
+    std::size_t link;
   };
-  std::map<LinkId, Granted> kept;
-  std::map<LinkId, const Wanted*> seen;
   std::vector<Need> needs;
-  for (const Wanted& wanted : links) {
-    if (!seen.emplace(wanted.id, &wanted).second) continue;
-    const auto last = granted_.find(wanted.id);
-    const bool known = last != granted_.end();
-    if (known && last->second.query.key() == wanted.query.key()) {
-      last->second.current_at = tick;
-    } else {
-      needs.push_back({urgency(wanted, known ? &last->second : nullptr), &wanted});
-    }
-    if (known) kept.emplace(wanted.id, std::move(last->second));
+  std::vector<Granted*> kept;  // of each link; null: none yet
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    kept.push_back(find(links[i].id));
+    if (kept[i] != nullptr && kept[i]->query.key() == links[i].query.key())
+      kept[i]->current_at = tick;
+    else
+      needs.push_back({urgency(links[i], kept[i]), i});
   }
-  std::sort(needs.begin(), needs.end(), [](const Need& a, const Need& b) {
-    return a.urgency != b.urgency ? a.urgency > b.urgency : a.wanted->id < b.wanted->id;
-  });
-  if (needs.size() > searches_) needs.resize(searches_);
-  for (const Need& need : needs)
-    kept.insert_or_assign(need.wanted->id, Granted{need.wanted->query, tick, nullptr});
-  granted_ = std::move(kept);
+  const auto more_urgent = [](const Need& a, const Need& b) {
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.link < b.link;
+  };
+  const auto last = needs.begin() + static_cast<std::ptrdiff_t>(std::min(needs.size(), searches_));
+  std::partial_sort(needs.begin(), last, needs.end(), more_urgent);
+  std::vector<bool> is_granted(links.size());
+  std::for_each(needs.begin(), last, [&](const Need& need) { is_granted[need.link] = true; });
+
+  std::vector<LinkId> ids;
+  std::vector<Granted> granted;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!is_granted[i] && kept[i] == nullptr) continue;
+    ids.push_back(links[i].id);
+    granted.push_back(is_granted[i] ? Granted{std::move(links[i].query), tick, nullptr}
+                                    : std::move(*kept[i]));
+  }
+  ids_ = std::move(ids);
+  granted_ = std::move(granted);
 }
 
 SearchBudget::Granted* SearchBudget::find(const LinkId& id) {
-  const auto found = granted_.find(id);
-  return found == granted_.end() ? nullptr : &found->second;
+  const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+  if (found == ids_.end() || *found != id) return nullptr;
+  return &granted_[static_cast<std::size_t>(found - ids_.begin())];
 }
 
 }  // namespace halocline::channel_server

@@ -13,7 +13,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <tuple>
 #include <vector>
@@ -47,14 +46,15 @@ class SearchBudget {
 
   // All links of all vehicles at a tick; of two of one id the first. Others are forgotten. A tick before the last one begins
   // another run.
-  void begin_tick(SimTime tick, const std::vector<Wanted>& links);
+  void begin_tick(SimTime tick, std::vector<Wanted> links);
   // Null for a link that has not had its turn. Valid until the next begin_tick.
   Granted* find(const LinkId& id);
 
  private:
   std::size_t searches_;
   SimTime tick_;
-  std::map<LinkId, Granted> granted_;
+  std::vector<LinkId> ids_;       // rising
+  std::vector<Granted> granted_;  // to each
 };
 
 }  // namespace halocline::channel_server

@@ -1,5 +1,6 @@
 #include "bus/channel_pattern.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bus/bus.h"
@@ -7,6 +8,8 @@
 
 namespace halocline::bus {
 namespace {
+
+using ::testing::ElementsAre;
 
 TEST(ChannelPattern, AnEscapedChannelMatchesItselfAlone) {
   const ChannelPattern pattern(escaped("STATE.auv-1"));
@@ -31,16 +34,15 @@ TEST(ChannelPattern, AnyOtherExpressionMatchesTheWholeChannel) {
 
 TEST(ChannelPattern, WhatIsNoExpressionIsRefused) { EXPECT_THROW(ChannelPattern("(STATE"), InvalidArgument); }
 
-TEST(ChannelPatterns, MatchWhatOneOfThemDoesAlsoOnceAsked) {
+TEST(ChannelPatterns, AChannelHasThePlacesOfThoseThatMatchIt) {
   ChannelPatterns patterns;
-  patterns.add("STATE\\..*");
-  EXPECT_TRUE(patterns.match("STATE.a"));
-  EXPECT_FALSE(patterns.match("SEND.a"));
-  EXPECT_FALSE(patterns.match("SEND.a"));
-  patterns.add("SEND\\.a");
-  EXPECT_TRUE(patterns.match("SEND.a"));
-  EXPECT_TRUE(patterns.match("STATE.a"));
-  EXPECT_FALSE(patterns.match("SEND.b"));
+  for (const char* expression : {"SEND\\.a", "STATE\\..*", "SEND\\.b", "(SEND|STATE)\\.a", "SEND\\.a", ".*"})
+    patterns.add(expression);
+  EXPECT_THAT(patterns.matching("SEND.a"), ElementsAre(0, 3, 4, 5));
+  EXPECT_THAT(patterns.matching("SEND.b"), ElementsAre(2, 5));
+  EXPECT_THAT(patterns.matching("STATE.a"), ElementsAre(1, 3, 5));
+  EXPECT_THAT(patterns.matching("SEND.ab"), ElementsAre(5));
+  EXPECT_THAT(ChannelPatterns().matching("SEND.a"), ElementsAre());
 }
 
 }  // namespace
