@@ -1,6 +1,7 @@
 #include "bus/runtime/lockstep_runner.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 namespace halocline::bus {

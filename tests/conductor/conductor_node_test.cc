@@ -1,5 +1,7 @@
 #include "conductor/conductor_node.h"
 
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>

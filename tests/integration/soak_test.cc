@@ -1,7 +1,10 @@
 // Long missions need no more memory than short ones: hours of simulated time, as fast as they compute, with
 // the bytes in use compared between the first half and the second. Not a test of time.
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>

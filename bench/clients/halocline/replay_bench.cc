@@ -1,7 +1,9 @@
 // How fast logs are read and replayed, and how many packets go through one channel server on a bus.
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "bench/clients/halocline/recorded_run.h"
 #include <benchmark/benchmark.h>

@@ -1,6 +1,7 @@
 #include "clients/halocline/scenario/replay_node.h"
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
