@@ -89,10 +89,8 @@ class Bus {
   // Takes what an earlier incarnation published into the history that answers repair requests. After enable_repair().
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
                        std::vector<std::uint8_t> bytes);
-  // The last message of each flow that is repaired.
-  std::vector<FlowHistory::LastMessage> last_published() const {
-    return repair_ ? repair_->history().last_messages() : std::vector<FlowHistory::LastMessage>();
-  }
+  // What can be repaired of what was published; null before enable_repair().
+  const FlowHistory* history() const { return repair_ ? &repair_->history() : nullptr; }
 
   void rethrow_if_failed();  // once, what a handler threw while LCM was dispatching
 

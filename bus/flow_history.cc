@@ -1,60 +1,92 @@
 #include "bus/flow_history.h"
 
 #include <algorithm>
+#include <iterator>
+#include <tuple>
 
 namespace halocline::bus {
 
+FlowHistory::Kept& FlowHistory::latest(std::string_view channel, std::int64_t session,
+                                       std::int64_t sequence) {
+  const auto found = by_name_.find(FlowName(channel, session));
+  if (found != by_name_.end()) {
+    flows_.splice(flows_.end(), flows_, found->second);
+  } else {
+    flows_.push_back({{std::string(channel), session, sequence}, 0, 0, {}});
+    by_name_.emplace(FlowName(flows_.back().flow.channel, session), std::prev(flows_.end()));
+    if (flows_.size() > kMaxFlows) forget_oldest_flow();
+  }
+  return flows_.back();
+}
+
 void FlowHistory::keep(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
-  const FlowName name(channel, session);
-  const auto [flow, is_new] = flows_.try_emplace(name, Kept{sequence, 0, {}});
-  flow->second.last = std::max(flow->second.last, sequence);
-  flow->second.age = ++age_;
-  const std::size_t size = message.size();
-  if (!flow->second.messages.emplace(sequence, std::move(message)).second) return;
-  bytes_ += size;
-  in_order_.emplace_back(name, sequence);
-  while (bytes_ > max_bytes_ && in_order_.size() > 1) forget_oldest_message();
-  if (is_new && flows_.size() > kMaxFlows) forget_oldest_flow();
+  Kept& kept = latest(channel, session, sequence);
+  kept.flow.last = std::max(kept.flow.last, sequence);
+  kept.published = ++published_;
+  kept.listed = 0;
+  if (!kept.places.emplace(sequence, first_place_ + messages_.size()).second) return;
+  bytes_ += message.size();
+  messages_.push_back({std::prev(flows_.end()), sequence, std::move(message)});
+  while (bytes_ > max_bytes_ && messages_.size() > 1) forget_oldest_message();
 }
 
 void FlowHistory::forget_oldest_message() {
-  const auto [name, sequence] = std::move(in_order_.front());
-  in_order_.pop_front();
-  const auto flow = flows_.find(name);
-  if (flow == flows_.end()) return;  // the whole flow was forgotten before
-  const auto message = flow->second.messages.find(sequence);
-  if (message == flow->second.messages.end()) return;
-  bytes_ -= message->second.size();
-  flow->second.messages.erase(message);
+  const Message& oldest = messages_.front();
+  bytes_ -= oldest.bytes.size();
+  if (oldest.flow != flows_.end()) oldest.flow->places.erase(oldest.sequence);
+  messages_.pop_front();
+  ++first_place_;
 }
 
 void FlowHistory::forget_oldest_flow() {
-  const auto oldest = std::min_element(
-      flows_.begin(), flows_.end(), [](const auto& a, const auto& b) { return a.second.age < b.second.age; });
-  for (const auto& [sequence, message] : oldest->second.messages) bytes_ -= message.size();
-  flows_.erase(oldest);
+  const Kept& oldest = flows_.front();
+  for (const auto& [sequence, place] : oldest.places) {
+    Message& message = messages_[place - first_place_];
+    bytes_ -= message.bytes.size();
+    message = {flows_.end(), 0, {}};
+  }
+  by_name_.erase(FlowName(oldest.flow.channel, oldest.flow.session));
+  flows_.pop_front();
 }
 
 const Bytes* FlowHistory::find(std::string_view channel, std::int64_t session, std::int64_t sequence) const {
-  const auto flow = flows_.find(FlowName(channel, session));
-  if (flow == flows_.end()) return nullptr;
-  const auto message = flow->second.messages.find(sequence);
-  return message == flow->second.messages.end() ? nullptr : &message->second;
+  const auto flow = by_name_.find(FlowName(channel, session));
+  return flow == by_name_.end() ? nullptr : find(*flow->second, sequence);
 }
 
-std::vector<FlowHistory::Flow> FlowHistory::flows() const {
-  std::vector<Flow> all;
-  all.reserve(flows_.size());
-  for (const auto& [name, kept] : flows_) all.push_back({name.first, name.second, kept.last});
-  return all;
+const Bytes* FlowHistory::find(const Kept& kept, std::int64_t sequence) const {
+  const auto place = kept.places.find(sequence);
+  return place == kept.places.end() ? nullptr : &messages_[place->second - first_place_].bytes;
 }
 
-std::vector<FlowHistory::LastMessage> FlowHistory::last_messages() const {
-  std::vector<LastMessage> all;
-  for (const auto& [name, kept] : flows_) {
-    const auto last = kept.messages.find(kept.last);
-    if (last != kept.messages.end()) all.push_back({{name.first, name.second, kept.last}, &last->second});
+std::vector<FlowHistory::Flow> FlowHistory::take_listing() {
+  const bool lists_all = flows_.size() <= kMaxListed;
+  std::vector<Kept*> listed;
+  for (Kept& kept : flows_) {
+    if (lists_all || kept.published <= published_when_listed_) listed.push_back(&kept);
   }
+  published_when_listed_ = published_;
+  if (!lists_all && listed.size() > kMaxListed) {
+    const auto rank = [](const Kept* kept) { return std::tuple(kept->listed, kept->published); };
+    std::nth_element(listed.begin(), listed.begin() + kMaxListed, listed.end(),
+                     [&](const Kept* a, const Kept* b) { return rank(a) < rank(b); });
+    listed.resize(kMaxListed);
+  }
+  std::vector<Flow> flows;
+  for (Kept* kept : listed) {
+    ++kept->listed;
+    flows.push_back(kept->flow);
+  }
+  return flows;
+}
+
+std::vector<FlowHistory::LastMessage> FlowHistory::last_messages(std::uint64_t published) const {
+  std::vector<LastMessage> all;
+  for (auto kept = flows_.rbegin(); kept != flows_.rend() && kept->published > published; ++kept) {
+    const Bytes* message = find(*kept, kept->flow.last);
+    if (message != nullptr) all.push_back({&kept->flow, message});
+  }
+  std::reverse(all.begin(), all.end());
   return all;
 }
 

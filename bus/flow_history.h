@@ -1,13 +1,16 @@
 // Retransmission buffer of one publisher: its latest messages by flow and sequence number, from which repair
-// requests are answered. Bounded: the oldest messages of all flows make room.
+// requests are answered. Bounded: the oldest messages of all flows make room, then the flow published on longest ago.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <list>
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -17,43 +20,68 @@ namespace halocline::bus {
 
 class FlowHistory {
  public:
-  static constexpr std::size_t kMaxFlows = 500;
+  static constexpr std::size_t kMaxFlows = 16'384;
+  // Flows in one listing.
+  static constexpr std::size_t kMaxListed = 500;
   // `max_bytes` of messages are kept, and the last message whatever its size.
   explicit FlowHistory(std::size_t max_bytes) : max_bytes_(max_bytes) {}
+  FlowHistory(const FlowHistory&) = delete;
+  FlowHistory& operator=(const FlowHistory&) = delete;
 
   // A message of the flow (channel, session) was published. One with a number that is kept already changes nothing.
   void keep(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message);
   // The message, or null when it is not kept (any more).
   const Bytes* find(std::string_view channel, std::int64_t session, std::int64_t sequence) const;
 
-  // The kMaxFlows flows published on most recently, each with the greatest number so far.
   struct Flow {
     std::string channel;
-    std::int64_t session = 0, last = 0;
+    std::int64_t session = 0, last = 0;  // the greatest number so far
   };
-  std::vector<Flow> flows() const;
-  // The same, each with its last message; without those that are not kept any more.
+  // All flows where they are kMaxListed at most. Otherwise those that have been silent since the listing before, because the next
+  // message of a flow says more than a listing: first those listed the fewest times since their last message, then those silent longest.
+  std::vector<Flow> take_listing();
+  std::size_t num_flows() const { return flows_.size(); }
+
+  // How many messages were published so far.
+  std::uint64_t published() const { return published_; }
+  // The flows with a message after the first `published` ones, each with its last message, in the order of these; without those that are not
+  // kept any more.
   struct LastMessage {
-    Flow flow;
+    const Flow* flow = nullptr;
     const Bytes* message = nullptr;
   };
-  std::vector<LastMessage> last_messages() const;
+  std::vector<LastMessage> last_messages(std::uint64_t published = 0) const;
 
  private:
-  using FlowName = std::pair<std::string, std::int64_t>;  // channel, session
   struct Kept {
-    std::int64_t last = 0;
-    std::uint64_t age = 0;  // counts all messages: greater for the flow published on later
-    std::map<std::int64_t, Bytes> messages;
+    Flow flow;
+    std::uint64_t published = 0;  // with its latest message
+    int listed = 0;               // times since then
+    std::map<std::int64_t, std::uint64_t>
+        places;  // of the messages that are kept, by sequence; they count from the first of all flows
   };
-  using Flows = std::map<FlowName, Kept, std::less<>>;
+  using Flows = std::list<Kept>;  // the one published on last is at the end
+  struct Message {
+    Flows::iterator flow;  // end() of one that is forgotten
+    std::int64_t sequence = 0;
+    Bytes bytes;
+  };
+  using FlowName = std::pair<std::string_view, std::int64_t>;  // channel (of Kept), session
+  struct HashOfName {
+    std::size_t operator()(const FlowName& name) const {
+      return std::hash<std::string_view>()(name.first) ^ std::hash<std::int64_t>()(name.second);
+    }
+  };
+  Kept& latest(std::string_view channel, std::int64_t session, std::int64_t sequence);
+  const Bytes* find(const Kept& kept, std::int64_t sequence) const;
   void forget_oldest_message();
   void forget_oldest_flow();
 
   std::size_t max_bytes_, bytes_ = 0;
-  std::uint64_t age_ = 0;
+  std::uint64_t published_ = 0, published_when_listed_ = 0, first_place_ = 0;
   Flows flows_;
-  std::deque<std::pair<FlowName, std::int64_t>> in_order_;
+  std::unordered_map<FlowName, Flows::iterator, HashOfName> by_name_;
+  std::deque<Message> messages_;
 };
 
 }  // namespace halocline::bus

@@ -29,8 +29,9 @@ flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
   heartbeat.session = session_;
   heartbeat.sequence = heartbeats_++;
   heartbeat.age_us = (resumes_ ? kOlderThanAll : steady - began_).nanoseconds() / 1000;
-  for (const FlowHistory::Flow& flow : history_.flows()) {
-    heartbeat.flow_channel.push_back(flow.channel);
+  heartbeat.num_flows_kept = static_cast<std::int32_t>(history_.num_flows());
+  for (FlowHistory::Flow& flow : history_.take_listing()) {
+    heartbeat.flow_channel.push_back(std::move(flow.channel));
     heartbeat.flow_session.push_back(flow.session);
     heartbeat.flow_last_sequence.push_back(flow.last);
   }
@@ -47,7 +48,7 @@ std::int64_t FlowRepair::on_heartbeat(SimTime steady, const flow_heartbeat_t& he
     missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
                               heartbeat.flow_last_sequence[i], is_younger);
   }
-  watch_.on_all_listed(heartbeat.session);
+  if (heartbeat.num_flows == heartbeat.num_flows_kept) watch_.on_all_listed(heartbeat.session);
   return missing;
 }
 

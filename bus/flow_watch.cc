@@ -134,6 +134,8 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
       if (!request.sequences.empty()) requests.push_back(std::move(request));
     }
   }
+  std::stable_sort(requests.begin(), requests.end(),
+                   [](const Request& a, const Request& b) { return a.channel < b.channel; });
   return requests;
 }
 

@@ -15,8 +15,10 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
+#include "core/hash.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
@@ -59,7 +61,7 @@ class FlowWatch {
     std::int64_t session = 0;
     std::vector<std::int64_t> sequences;  // ascending, 1 to kMaxPerRequest
   };
-  // The requests that are due; gives up what has been missing for longer than kGivenUpAfter.
+  // The requests that are due, by channel; gives up what has been missing for longer than kGivenUpAfter.
   std::vector<Request> take_due(SimTime steady);
   // When take_due has something to do; never() while nothing is missing.
   SimTime next_due() const { return next_due_; }
@@ -91,7 +93,7 @@ class FlowWatch {
   Publisher& add(std::string_view channel, std::int64_t session, std::int64_t first);
   std::int64_t note_missing(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end);
 
-  std::map<std::string, Publishers, std::less<>> received_;
+  std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // by channel
   std::deque<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed, the latest last
   SimTime next_due_ = SimTime::never();
   std::int64_t lost_ = 0;

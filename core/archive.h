@@ -8,6 +8,9 @@
 //   saved(navigator);
 //   Archive(saved.bytes())(another);  // loads
 //
+// What of a large state changes seldom can be saved apart from the rest, and only once it has changed: archive() passes it by
+// part(), with a number that changes with it.
+//
 // Known besides: trivially copyable types (as they lie in memory; no pointers among them), strings, vectors, deques,
 // maps, sets, optional, pairs and tuples, Eigen's matrices and quaternions of fixed size, messages of lcm-gen. No
 // format for exchange: the bytes are understood by the same build of the same program.
@@ -31,19 +34,40 @@ class Archive {
   Archive() = default;
   // Loads from `bytes`, which must outlive it. Throws InvalidArgument, then or when called, where they end too early.
   explicit Archive(std::span<const std::uint8_t> bytes) : source_(bytes), is_loading_(true) {}
+  // The same of what was saved with its parts apart.
+  Archive(std::span<const std::uint8_t> bytes, std::span<const std::vector<std::uint8_t>> parts)
+      : source_(bytes), source_parts_(parts), is_loading_(true), has_parts_apart_(true) {}
 
   template <class... T>
   void operator()(T&... values) {
     (pass(values), ...);
   }
 
+  // A part of the state. `changes` differs from that of every earlier call for this part after which the value has changed. A state
+  // always has the same parts, in the same order, none within another.
+  template <class T>
+  void part(std::uint64_t changes, T& value) {
+    if (has_parts_apart_ && !begin_part(changes)) return;
+    pass(value);
+    if (has_parts_apart_) end_part();
+  }
+
   bool is_loading() const { return is_loading_; }
-  // Forgets what was saved, and keeps the memory for what comes.
-  void clear() { saved_.clear(); }
-  // What was saved so far.
+  // All of `bytes` was loaded.
+  bool is_at_end() const { return source_.empty(); }
+  // Saves anew from here on, with parts apart: all of them, or those that have changed since the last time. Keeps the
+  // memory of what was saved before.
+  void begin_with_parts(bool all_parts);
+  // What was saved so far, without what was saved apart.
   const std::vector<std::uint8_t>& bytes() const { return saved_; }
-  // Throws InvalidArgument when bytes are left to be loaded.
-  void require_end() const { require(source_.empty(), "the saved state is longer than what was loaded"); }
+  // The parts that were saved apart, one after the other.
+  struct Part {
+    std::uint64_t index = 0, size = 0;
+  };
+  const std::vector<Part>& parts() const { return changed_; }
+  const std::vector<std::uint8_t>& bytes_of_parts() const { return saved_parts_; }
+  // Throws InvalidArgument when something is left to be loaded.
+  void require_end() const;
 
  private:
   template <class T>
@@ -75,6 +99,10 @@ class Archive {
       pass_sequence(value);
     }
   }
+
+  bool begin_part(std::uint64_t changes);  // false where it is left out
+  void end_part();
+  void require_end_of_bytes() const;
 
   void pass_bytes(void* value, std::size_t size) {
     if (!is_loading_) {
@@ -155,9 +183,13 @@ class Archive {
     }
   }
 
-  std::vector<std::uint8_t> saved_;
-  std::span<const std::uint8_t> source_;
-  bool is_loading_ = false;
+  std::vector<std::uint8_t> saved_, saved_parts_;
+  std::vector<Part> changed_;
+  std::vector<std::uint64_t> changes_;  // of each part when it was saved last
+  std::size_t next_part_ = 0;
+  std::span<const std::uint8_t> source_, rest_of_source_;
+  std::span<const std::vector<std::uint8_t>> source_parts_;
+  bool is_loading_ = false, has_parts_apart_ = false;
 };
 
 }  // namespace halocline

@@ -5,6 +5,12 @@
 
 namespace halocline {
 
-std::uint64_t xxh3(std::string_view text) { return XXH3_64bits(text.data(), text.size()); }
+std::uint64_t xxh3(std::string_view text, std::uint64_t seed) {
+  return XXH3_64bits_withSeed(text.data(), text.size(), seed);
+}
+
+std::uint64_t xxh3(std::span<const std::uint8_t> bytes, std::uint64_t seed) {
+  return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
+}
 
 }  // namespace halocline

@@ -1,10 +1,12 @@
 // Non-cryptographic hashes: collisions are rare by chance, and easy to construct.
 //
 // FNV-1a of 64 bits (Fowler, Noll, Vo; http://www.isthe.com/chongo/tech/comp/fnv) for what is computed in pieces; XXH3 of
-// 64 bits (Collet; https://xxhash.com) for the identity of stored results.
+// 64 bits (Collet; https://xxhash.com) for the identity of stored results and for check sums.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -24,7 +26,14 @@ constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t sum = kFnvSta
   return sum;
 }
 
-// XXH3, 64 bits, seed 0; the same on every platform.
-std::uint64_t xxh3(std::string_view text);
+// XXH3, 64 bits; the same on every platform. With the hash of what comes before as the seed it covers that, too.
+std::uint64_t xxh3(std::string_view text, std::uint64_t seed = 0);
+std::uint64_t xxh3(std::span<const std::uint8_t> bytes, std::uint64_t seed = 0);
+
+// For unordered containers of strings that are searched by std::string_view.
+struct TextHash {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>()(text); }
+};
 
 }  // namespace halocline

@@ -14,7 +14,7 @@ constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
 // A time further before the journal's than this belongs to another run.
 constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
 
-// A message that was published, and its place in its flow.
+// A message that was published: channel, session and sequence of its flow, bytes.
 using Published = std::tuple<std::string, std::int64_t, std::int64_t, Bytes>;
 }  // namespace
 
@@ -58,13 +58,20 @@ void Node::keep_state_in(std::unique_ptr<StateJournal> journal) {
   if (journal_->inherited()) load(*journal_->inherited());
 }
 
+void Node::restore_published(std::span<const std::uint8_t> messages) {
+  for (Archive a(messages); !a.is_at_end();) {
+    Published message;
+    a(message);
+    auto& [channel, session, sequence, bytes] = message;
+    bus_.restore_history(channel, session, sequence, std::move(bytes));
+  }
+}
+
 void Node::load(const StateJournal::Saved& saved) {
   require(saved.session == bus_.identity().session, "the journal is of another session");
-  Archive a(saved.state);
-  std::vector<Published> last_published;
-  a(status_sequence_, last_published);
-  for (Published& p : last_published)
-    bus_.restore_history(std::get<0>(p), std::get<1>(p), std::get<2>(p), std::move(std::get<3>(p)));
+  restore_published(saved.additions);
+  Archive a(saved.state, saved.parts);
+  a(status_sequence_);
   on_archive(a);
   known_due_.reset();
   a.require_end();
@@ -88,15 +95,26 @@ void Node::commit(const Now& now, const std::function<void()>& publish_all) {
   publish_all();
   bus_.set_outbox(std::move(outbox));
   if (outputs.empty()) return;
-  std::vector<Published> last_published;
-  for (const auto& [flow, message] : bus_.last_published())
-    last_published.emplace_back(flow.channel, flow.session, flow.last, *message);
-  saved_.clear();
-  saved_(status_sequence_, last_published);
-  on_archive(saved_);
-  journal_->write(bus_.identity().session, now.sim, saved_.bytes());
+  write_journal(now.sim);
   bus_.counters().sent -= static_cast<std::int64_t>(outputs.size());  // counted when they were collected
   for (const auto& [channel, bytes] : outputs) bus_.publish_bytes(channel, bytes.data(), bytes.size());
+}
+
+// The last message of each flow stays available for repair: the journal keeps those of all flows that it was told of.
+void Node::write_journal(SimTime now) {
+  const bool is_whole = journal_->wants_whole();
+  Archive published;
+  if (const FlowHistory* history = bus_.history()) {
+    for (const auto& [flow, message] : history->last_messages(is_whole ? 0 : published_saved_)) {
+      Published one(flow->channel, flow->session, flow->last, *message);
+      published(one);
+    }
+    published_saved_ = history->published();
+  }
+  saved_.begin_with_parts(is_whole);
+  saved_(status_sequence_);
+  on_archive(saved_);
+  journal_->write(bus_.identity().session, now, saved_, published.bytes());
 }
 
 void Node::restart(const Now& now) {

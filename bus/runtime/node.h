@@ -108,6 +108,8 @@ class Node {
  private:
   void publish_status(const Now& now, const std::string& text);
   void commit(const Now& now, const std::function<void()>& publish_all);
+  void write_journal(SimTime now);
+  void restore_published(std::span<const std::uint8_t> messages);
   void load(const StateJournal::Saved& saved);
   void check_run(const Now& now);
   const Due& known_due() const;
@@ -119,6 +121,7 @@ class Node {
   std::int64_t status_sequence_ = 0;
   std::unique_ptr<StateJournal> journal_;
   Archive saved_;                        // what went to the journal last
+  std::uint64_t published_saved_ = 0;    // messages whose flows are in the journal (FlowHistory::published)
   std::optional<SimTime> resumed_from_;  // until the first step
 };
 

@@ -1,51 +1,122 @@
 #include "bus/runtime/state_journal.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <span>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include <fcntl.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
-#include "core/archive.h"
 #include "core/check.h"
 #include "core/hash.h"
 
 namespace halocline::bus {
 namespace {
 
-// A file holds a head, then the state.
+using Bytes = StateJournal::Bytes;
+using View = std::span<const std::uint8_t>;
+
+constexpr std::uint64_t kGrowth = 4, kLeastFileBytes = 64 << 10;
+constexpr std::uint64_t kMaxParts = 1 << 20;
+
+// A record holds a head, the state without its parts, the list of parts, their bytes, and the additions.
 struct Head {
-  std::uint64_t check_sum = 0;  // FNV-1a of all that follows
+  std::uint64_t check_sum = 0;  // of all that follows
   std::uint64_t digest = 0, number = 0;
   std::int64_t session = 0;
   SimTime at;
-  std::uint64_t size = 0;  // of the state
-};
+  std::uint64_t is_whole = 0;
+  std::array<std::uint64_t, 4> sizes = {};  // of what follows the head, bytes
 
-std::uint64_t check_sum(Head head, std::span<const std::uint8_t> state) {
-  Archive covered;
-  covered(head.digest, head.number, head.session, head.at, head.size);
-  return fnv1a(state, fnv1a(covered.bytes()));
+  std::uint64_t size_of_body() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t size : sizes) sum += size;
+    return sum;
+  }
+};
+static_assert(std::has_unique_object_representations_v<Head>);
+
+template <class T>
+View bytes_of(std::span<const T> values) {
+  return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size_bytes()};
 }
 
-// The number and the state; empty where a file holds no whole one.
-std::optional<std::pair<std::uint64_t, StateJournal::Saved>> read(const std::string& path,
-                                                                  std::uint64_t digest) {
-  std::ifstream in(path, std::ios::binary);
-  const std::vector<std::uint8_t> file{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (file.size() < sizeof(Head)) return std::nullopt;
+// XXH3, each piece with the hash of those before as its seed.
+std::uint64_t check_sum(const Head& head, std::span<const View> body) {
+  std::uint64_t sum = xxh3(bytes_of(std::span(&head, 1)).subspan(sizeof head.check_sum));
+  for (const View piece : body) sum = xxh3(piece, sum);
+  return sum;
+}
+
+struct Record {
   Head head;
-  std::memcpy(&head, file.data(), sizeof head);
-  if (head.digest != digest || head.size > file.size() - sizeof head) return std::nullopt;
-  const auto state = std::span(file).subspan(sizeof head, head.size);
-  if (check_sum(head, state) != head.check_sum) return std::nullopt;
-  return std::pair(head.number, StateJournal::Saved{head.session, head.at, {state.begin(), state.end()}});
+  std::array<View, 4> body;
+};
+
+// The record at the beginning of `file`; empty where no whole one is.
+std::optional<Record> read_record(View file) {
+  Record record;
+  if (file.size() < sizeof record.head) return std::nullopt;
+  std::memcpy(&record.head, file.data(), sizeof record.head);
+  file = file.subspan(sizeof record.head);
+  for (std::size_t i = 0; i < record.body.size(); ++i) {
+    if (record.head.sizes[i] > file.size()) return std::nullopt;
+    record.body[i] = file.first(record.head.sizes[i]);
+    file = file.subspan(record.head.sizes[i]);
+  }
+  if (check_sum(record.head, record.body) != record.head.check_sum) return std::nullopt;
+  return record;
+}
+
+void take(const Record& record, StateJournal::Saved& saved) {
+  const auto [state, list, parts, additions] = record.body;
+  saved.session = record.head.session;
+  saved.at = record.head.at;
+  saved.state.assign(state.begin(), state.end());
+  if (record.head.is_whole != 0) {
+    saved.parts.clear();
+    saved.additions.clear();
+  }
+  saved.additions.insert(saved.additions.end(), additions.begin(), additions.end());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i + sizeof(Archive::Part) <= list.size(); i += sizeof(Archive::Part)) {
+    Archive::Part part;
+    std::memcpy(&part, list.data() + i, sizeof part);
+    if (part.index >= kMaxParts || part.size > parts.size() - at) return;
+    if (part.index >= saved.parts.size()) saved.parts.resize(part.index + 1);
+    const View bytes = parts.subspan(at, part.size);
+    saved.parts[part.index].assign(bytes.begin(), bytes.end());
+    at += part.size;
+  }
+}
+
+struct Found {
+  std::uint64_t number = 0;  // of the last record
+  StateJournal::Saved saved;
+};
+
+// What the records of a file come to. Behind them may be older ones, of what the file held before.
+std::optional<Found> read(const std::string& path, std::uint64_t digest) {
+  std::ifstream in(path, std::ios::binary);
+  const Bytes bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  View file = bytes;
+  std::optional<Found> found;
+  while (const auto record = read_record(file)) {
+    const Head& head = record->head;
+    const bool follows = found ? head.is_whole == 0 && head.number == found->number + 1 : head.is_whole != 0;
+    if (head.digest != digest || !follows) break;
+    if (!found) found.emplace();
+    found->number = head.number;
+    take(*record, found->saved);
+    file = file.subspan(sizeof head + head.size_of_body());
+  }
+  return found;
 }
 
 }  // namespace
@@ -53,9 +124,10 @@ std::optional<std::pair<std::uint64_t, StateJournal::Saved>> read(const std::str
 StateJournal::StateJournal(const std::string& path, std::uint64_t digest) : path_(path), digest_(digest) {
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const std::string name = path + "." + std::to_string(i);
-    if (auto found = read(name, digest); found && found->first >= number_) {
-      number_ = found->first + 1;
-      inherited_ = std::move(found->second);
+    if (auto found = read(name, digest); found && found->number >= number_) {
+      number_ = found->number + 1;
+      current_ = i;
+      inherited_ = std::move(found->saved);
     }
     files_[i] = open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
     require(files_[i] >= 0, "cannot write the journal " + name + ": " + std::strerror(errno));
@@ -66,14 +138,28 @@ StateJournal::~StateJournal() {
   for (const int file : files_) close(file);
 }
 
-void StateJournal::write(std::int64_t session, SimTime at, std::span<const std::uint8_t> state) {
-  Head head{0, digest_, number_, session, at, state.size()};
-  head.check_sum = check_sum(head, state);
-  const std::array<iovec, 2> parts{
-      {{&head, sizeof head}, {const_cast<std::uint8_t*>(state.data()), state.size()}}};
-  if (pwritev(files_[number_ % 2], parts.data(), parts.size(), 0) !=
-      static_cast<ssize_t>(sizeof head + state.size()))
+void StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
+                         std::span<const std::uint8_t> additions) {
+  const bool is_whole = wants_whole();
+  if (is_whole) {
+    current_ = 1 - current_;
+    end_ = 0;
+  }
+  const std::array<View, 4> body = {state.bytes(), bytes_of(std::span(state.parts())), state.bytes_of_parts(),
+                                    additions};
+  Head head{0, digest_, number_, session, at, is_whole, {}};
+  std::array<iovec, 5> pieces{{{&head, sizeof head}}};
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    head.sizes[i] = body[i].size();
+    pieces[i + 1] = {const_cast<std::uint8_t*>(body[i].data()), body[i].size()};
+  }
+  head.check_sum = check_sum(head, body);
+  const std::uint64_t size = sizeof head + head.size_of_body();
+  if (pwritev(files_[current_], pieces.data(), pieces.size(), static_cast<off_t>(end_)) !=
+      static_cast<ssize_t>(size))
     throw std::runtime_error("the journal " + path_ + " could not be written whole (disk full?)");
+  if (is_whole) max_bytes_ = std::max(kGrowth * size, kLeastFileBytes);
+  end_ += size;
   ++number_;
 }
 

@@ -29,6 +29,7 @@ std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t desti
   require(options.kind != modem_send_t::PING || destination != kBroadcastId, "a PING goes to one vehicle");
   require(destination >= kBroadcastId, "a destination is a vehicle's id, or 0 for all");
   require(payload.size() <= kLongestPayload, "a payload holds at most 32768 bytes");
+  ++changes_;
   modem_send_t message{};
   message.utime = start.to_utime();
   message.session = address_.session;
@@ -53,6 +54,7 @@ std::optional<modem_receipt_t> ModemClient::receipt_of(std::int64_t packet_seque
 
 std::optional<modem_receive_t> ModemClient::take_received() {
   if (waiting_.empty()) return std::nullopt;
+  ++changes_;
   modem_receive_t packet = std::move(waiting_.front());
   waiting_.pop_front();
   return packet;
@@ -64,6 +66,7 @@ std::optional<double> ModemClient::take_ping_reply(std::int64_t packet_sequence)
            packet.packet_sequence == packet_sequence;
   });
   if (reply == waiting_.end()) return std::nullopt;
+  ++changes_;
   const double two_way_s = reply->two_way_travel_time_s;
   waiting_.erase(reply);
   return two_way_s;
@@ -73,12 +76,14 @@ void ModemClient::resend(SimTime steady) {
   for (auto it = pending_.begin(); it != pending_.end();) {
     Pending& pending = it->second;
     if (steady >= pending.last_try) {
+      ++changes_;
       ++counters_.unanswered;
       it = pending_.erase(it);
       continue;
     }
     if (steady >= pending.next_try) {
       pending.next_try = steady + policy_.interval;
+      ++changes_;
       ++counters_.resent;
       bus_.publish(bus::channels::kSend.of(address_.vehicle), pending.message);
     }
@@ -105,6 +110,7 @@ void ModemClient::archive(Archive& a) {
 void ModemClient::take_receipt(const modem_receipt_t& receipt) {
   // Not pending: a packet of an earlier session, or the answer to a repetition.
   if (receipt.send_session != address_.session || pending_.erase(receipt.packet_sequence) == 0) return;
+  ++changes_;
   const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
                         receipt.receipt_result == modem_receipt_t::QUEUED;
   ++(accepted ? counters_.accepted : counters_.refused);
@@ -114,6 +120,7 @@ void ModemClient::take_receipt(const modem_receipt_t& receipt) {
 }
 
 void ModemClient::take_packet(const modem_receive_t& packet) {
+  ++changes_;
   if (!is_new({packet.send_session, packet.source_id, packet.packet_kind, packet.packet_sequence})) {
     ++counters_.duplicates;
     return;

@@ -110,6 +110,8 @@ class ModemClient {
 
   // Packets whose receipt is missing are sent again at once after loading.
   void archive(Archive& a);
+  // Greater after each change of what is archived.
+  std::uint64_t changes() const { return changes_; }
 
   const ModemAddress& address() const { return address_; }
   const ModemCounters& counters() const { return counters_; }
@@ -133,6 +135,7 @@ class ModemClient {
   ReceiptHandler receipt_handler_;
   ReceiveHandler receive_handler_;
   ModemCounters counters_;
+  std::uint64_t changes_ = 0;
   std::int64_t next_sequence_ = 0;
   std::map<std::int64_t, Pending> pending_;
   std::map<std::int64_t, modem_receipt_t> receipts_;

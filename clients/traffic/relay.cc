@@ -38,6 +38,7 @@ void Relay::originate(std::int32_t destination, std::vector<std::uint8_t> payloa
                      destination,
                      next_number_++,
                      std::move(payload)};
+  ++changes_;
   ++counters_.originated;
   store(std::move(packet), at, 0);
 }
@@ -45,6 +46,7 @@ void Relay::originate(std::int32_t destination, std::vector<std::uint8_t> payloa
 void Relay::take(std::span<const std::uint8_t> bytes, SimTime at) {
   auto packet = decode_relay_packet(bytes);
   if (!packet) return;
+  ++changes_;
   if (packet->origin == vehicle_id_ || !is_new(packet->name())) {
     ++counters_.duplicates;
     return;
@@ -90,6 +92,7 @@ std::optional<Relay::Transmission> Relay::transmit_due(SimTime now) {
   const auto earliest = std::min_element(stored_.begin(), stored_.end(),
                                          [](const Stored& a, const Stored& b) { return a.at < b.at; });
   if (earliest == stored_.end() || earliest->at > now) return std::nullopt;
+  ++changes_;
   in_hand_ = std::move(*earliest);
   stored_.erase(earliest);
   return Transmission{in_hand_->at, encode(in_hand_->packet)};
@@ -97,6 +100,7 @@ std::optional<Relay::Transmission> Relay::transmit_due(SimTime now) {
 
 void Relay::on_sent(std::int64_t packet_sequence) {
   if (!in_hand_) return;
+  ++changes_;
   in_hand_->packet_sequence = packet_sequence;
   transmitted_.push_back(std::move(*in_hand_));
   in_hand_.reset();
@@ -107,6 +111,7 @@ void Relay::on_receipt(std::int64_t packet_sequence, Verdict verdict, SimTime at
   const auto found = std::find_if(transmitted_.begin(), transmitted_.end(),
                                   [&](const Stored& s) { return s.packet_sequence == packet_sequence; });
   if (found == transmitted_.end()) return;
+  ++changes_;
   Stored stored = std::move(*found);
   transmitted_.erase(found);
   const bool others = stored.packet.origin != vehicle_id_;
@@ -155,6 +160,7 @@ SimDuration Relay::wait_before(const RelayPacket& packet, int tries) const {
 }
 
 void Relay::clear() {
+  ++changes_;
   stored_.clear();
   in_hand_.reset();
   transmitted_.clear();

@@ -77,6 +77,8 @@ class Relay {
   const RelayCounters& counters() const { return counters_; }
   const RelayRules& rules() const { return rules_; }
   void archive(Archive& a);
+  // Greater after each change of what is archived.
+  std::uint64_t changes() const { return changes_; }
 
  private:
   struct Stored {
@@ -97,6 +99,7 @@ class Relay {
   RelayRules rules_;
   std::uint64_t seed_;
   RelayCounters counters_;
+  std::uint64_t changes_ = 0;
   std::uint16_t next_number_ = 0;
   std::vector<Stored> stored_;
   std::optional<Stored> in_hand_;    // given out by transmit_due

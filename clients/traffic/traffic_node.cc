@@ -99,7 +99,7 @@ void TrafficNode::send_due(Sender& sender, const bus::Now& now) {
   const VehicleTraffic& traffic = sender.traffic;
   // Started into a running simulation: packets of the past stay unsent.
   const SimTime latest = next_packet_at(traffic, now.sim + SimDuration::from_nanoseconds(1)) - traffic.period;
-  sender.next_packet = latest + traffic.period;
+  sender.set_next_packet(latest + traffic.period);
   if (traffic.is_relayed()) {
     const auto number = sender.relay.counters().originated;
     return sender.relay.originate(sender.destination, traffic_payload(number, traffic.payload_bytes), latest);
@@ -117,13 +117,13 @@ void TrafficNode::transmit_due(Sender& sender, const bus::Now& now) {
 
 void TrafficNode::on_restart(const bus::Now& now) {
   for (const auto& sender : senders_) {
-    sender->next_packet = next_packet_at(sender->traffic, now.sim);
+    sender->set_next_packet(next_packet_at(sender->traffic, now.sim));
     sender->relay.clear();
   }
 }
 
 void TrafficNode::on_archive(Archive& a) {
-  for (const auto& sender : senders_) a(sender->modem, sender->relay, sender->next_packet);
+  for (const auto& sender : senders_) a.part(sender->changes(), *sender);
 }
 
 std::string TrafficNode::status_text() const {

@@ -48,6 +48,14 @@ class TrafficNode : public bus::Node {
     ModemClient modem;
     Relay relay;
     SimTime next_packet;
+    std::uint64_t moves = 0;  // of next_packet
+
+    void set_next_packet(SimTime to) {
+      next_packet = to;
+      ++moves;
+    }
+    std::uint64_t changes() const { return modem.changes() + relay.changes() + moves; }
+    void archive(Archive& a) { a(modem, relay, next_packet); }
   };
 
   void add_sender(const TrafficConfig& config, const VehicleTraffic& traffic);

@@ -1,5 +1,10 @@
 #include "bus/flow_history.h"
 
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace halocline::bus {
@@ -38,7 +43,7 @@ TEST(FlowHistory, ListsTheLastNumberOfEachFlowEvenWhenItsMessagesAreGone) {
   history.keep("A", 1, 3, message_of(10));
   history.keep("B", 1, 9, message_of(10));
   history.keep("B", 1, 8, message_of(10));  // published again, out of its turn
-  const auto flows = history.flows();
+  const auto flows = history.take_listing();
   ASSERT_EQ(flows.size(), 2u);
   EXPECT_EQ(flows[0].channel, "A");
   EXPECT_EQ(flows[0].last, 3);
@@ -47,14 +52,57 @@ TEST(FlowHistory, ListsTheLastNumberOfEachFlowEvenWhenItsMessagesAreGone) {
 
 TEST(FlowHistory, TheFlowsPublishedOnMostRecentlyAreKept) {
   FlowHistory history(1 << 20);
-  for (std::int64_t i = 0; i < 600; ++i) {
+  constexpr std::int64_t kFlows = FlowHistory::kMaxFlows + 100;
+  for (std::int64_t i = 0; i < kFlows; ++i) {
     history.keep("FLOW." + std::to_string(i), 1, 0, message_of(1));
     history.keep("BUSY", 1, i, message_of(1));
   }
-  EXPECT_EQ(history.flows().size(), FlowHistory::kMaxFlows);
+  EXPECT_EQ(history.num_flows(), FlowHistory::kMaxFlows);
   EXPECT_NE(history.find("BUSY", 1, 0), nullptr);
   EXPECT_EQ(history.find("FLOW.5", 1, 0), nullptr);
-  EXPECT_NE(history.find("FLOW.599", 1, 0), nullptr);
+  EXPECT_NE(history.find("FLOW." + std::to_string(kFlows - 1), 1, 0), nullptr);
+}
+
+std::set<std::string> channels_of(const std::vector<FlowHistory::Flow>& flows) {
+  std::set<std::string> channels;
+  for (const FlowHistory::Flow& flow : flows) channels.insert(flow.channel);
+  return channels;
+}
+
+TEST(FlowHistory, OfManyFlowsThoseThatHaveBecomeSilentAreListedFirst) {
+  FlowHistory history(1 << 20);
+  constexpr int kFlows = 3 * FlowHistory::kMaxListed;
+  for (int i = 0; i < kFlows; ++i) history.keep("FLOW." + std::to_string(i), 1, 0, message_of(1));
+  EXPECT_TRUE(history.take_listing().empty());  // all have just been published on
+  EXPECT_TRUE(channels_of(history.take_listing()).contains("FLOW.0"));
+  history.keep("FLOW.1400", 1, 1, message_of(1));
+  const auto busy = channels_of(history.take_listing());
+  EXPECT_EQ(busy.size(), FlowHistory::kMaxListed);
+  EXPECT_FALSE(busy.contains("FLOW.1400"));
+  EXPECT_TRUE(channels_of(history.take_listing()).contains("FLOW.1400"));
+}
+
+TEST(FlowHistory, EachOfManyFlowsHasItsTurnToBeListed) {
+  FlowHistory history(1 << 20);
+  constexpr int kFlows = 3 * FlowHistory::kMaxListed;
+  for (int i = 0; i < kFlows; ++i) history.keep("FLOW." + std::to_string(i), 1, i, message_of(1));
+  EXPECT_TRUE(history.take_listing().empty());
+  std::set<std::string> listed;
+  for (int i = 0; i < 3; ++i) listed.merge(channels_of(history.take_listing()));
+  EXPECT_EQ(listed.size(), kFlows);
+}
+
+TEST(FlowHistory, LastMessagesAreThoseOfTheFlowsPublishedOnSince) {
+  FlowHistory history(1000);
+  history.keep("A", 1, 1, {1});
+  history.keep("B", 1, 1, {2});
+  const auto published = history.published();
+  history.keep("A", 1, 2, {3});
+  const auto since = history.last_messages(published);
+  ASSERT_EQ(since.size(), 1u);
+  EXPECT_EQ(since[0].flow->channel, "A");
+  EXPECT_EQ(*since[0].message, Bytes{3});
+  EXPECT_EQ(history.last_messages().size(), 2u);
 }
 
 }  // namespace

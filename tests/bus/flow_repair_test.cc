@@ -238,6 +238,29 @@ TEST_F(FlowRepairTest, ASendThatIsRepeatedOnPurposeIsReceivedEachTime) {
   EXPECT_EQ(received, 3);
 }
 
+// How many messages of a flow that a heartbeat did not list are missing when it is received for the first time, with number 1000.
+std::int64_t missing_of_unlisted_flow(int flows_kept) {
+  FlowWatch watch;
+  FlowRepair repair("receiver", 1, watch);
+  flow_heartbeat_t heartbeat{};
+  heartbeat.session = 9;
+  heartbeat.age_us = 1'000'000'000;
+  heartbeat.num_flows_kept = flows_kept;
+  heartbeat.num_flows = 1;
+  heartbeat.flow_channel = {"STATE.a"};
+  heartbeat.flow_session = {9};
+  heartbeat.flow_last_sequence = {5};
+  const auto any = [](std::string_view) { return true; };
+  EXPECT_EQ(repair.on_heartbeat(SimTime::from_seconds(1), heartbeat, any), 0);
+  return watch.on_message(SimTime::from_seconds(2), "STATE.b", 9, 1000).newly_missing;
+}
+
+TEST(FlowRepair, AFlowThatAWholeHeartbeatDidNotListBeganAfterIt) {
+  EXPECT_EQ(missing_of_unlisted_flow(1), 1000);
+}
+
+TEST(FlowRepair, AFlowThatAHeartbeatLeftOutMayHaveBegunBefore) { EXPECT_EQ(missing_of_unlisted_flow(2), 0); }
+
 TEST_F(FlowRepairTest, ARequestForAnUnknownMessageIsIgnored) {
   start(0);
   enable_repair();

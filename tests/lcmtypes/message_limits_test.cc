@@ -254,7 +254,8 @@ void expect_max(std::string_view name, std::size_t constant) {
 }
 
 TEST(MessageLimits, OfCountsAndLengthsAreConstantsOfWhatTheyCount) {
-  expect_max<flow_heartbeat_t>("num_flows", bus::FlowHistory::kMaxFlows);
+  expect_max<flow_heartbeat_t>("num_flows", bus::FlowHistory::kMaxListed);
+  expect_max<flow_heartbeat_t>("num_flows_kept", bus::FlowHistory::kMaxFlows);
   expect_max<repair_request_t>("num_missing", bus::FlowWatch::kMaxPerRequest);
   expect_max<lockstep_message_t>("channel_name", LCM_MAX_CHANNEL_NAME_LENGTH);
   expect_max<link_table_t>("num_peers", channel_server::VehicleRegistry::kMaxVehicles);

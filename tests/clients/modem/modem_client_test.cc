@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/names.h"
 #include "tests/clients/modem/fake_server.h"
+#include "tests/support/archived_changes.h"
 
 namespace halocline::clients {
 namespace {
@@ -221,6 +222,31 @@ TEST_F(ModemClientTest, ImpossibleArgumentsAreRefused) {
   EXPECT_THROW(send(0, std::vector<std::uint8_t>(32769)), InvalidArgument);
   EXPECT_THROW(ModemClient(bus_, {.vehicle = "AUV 1", .vehicle_id = 1, .session = 1}), InvalidArgument);
   EXPECT_THROW(ModemClient(bus_, {.vehicle = "auv-1", .vehicle_id = 0, .session = 1}), InvalidArgument);
+}
+
+TEST_F(ModemClientTest, CountsWhatChangesItsArchive) {
+  halocline::testing::ArchivedChanges changes(modem_);
+  const auto after = [&](const auto& act) {
+    act();
+    drain();
+    return changes.are_counted();
+  };
+  EXPECT_TRUE(after([&] { send(0); }));
+  EXPECT_TRUE(after([&] { step(300); }));
+  EXPECT_TRUE(after([&] { server_.accept(server_.sends[0]); }));
+  EXPECT_TRUE(after([&] { send(400); }));
+  EXPECT_TRUE(after([&] { step(2000); }));  // given up
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(after([&] { server_.deliver(9, 5, 0); }));
+  EXPECT_TRUE(after([&] { modem_.take_received(); }));
+  const std::int64_t ping = modem_.ping(at_ms(3000), at_ms(3000), 7);
+  drain();
+  EXPECT_TRUE(changes.are_counted());
+  EXPECT_TRUE(after([&] { server_.reply_to_ping(server_.sends.back(), 7, 1.5); }));
+  EXPECT_TRUE(after([&] { EXPECT_TRUE(modem_.take_ping_reply(ping)); }));
+  const auto before = modem_.changes();
+  modem_.take_received();
+  step(3001);
+  EXPECT_EQ(modem_.changes(), before);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "clients/traffic/relay_packet.h"
 #include "core/archive.h"
 #include "core/names.h"
+#include "tests/support/archived_changes.h"
 
 namespace halocline::clients {
 namespace {
@@ -183,6 +184,27 @@ TEST(Relay, GoesOnFromItsArchive) {
   resumed.take(first_packet(), at_s(12));
   EXPECT_EQ(resumed.counters().duplicates, 1);
   EXPECT_EQ(resumed.transmit_due(at_s(20))->bytes, relay.transmit_due(at_s(20))->bytes);
+}
+
+TEST(Relay, CountsWhatChangesItsArchive) {
+  Relay relay(2, {true, 3, true, SimDuration::from_seconds(2)}, 5);
+  testing::ArchivedChanges changes(relay);
+  const auto after = [&](const auto& act) {
+    act();
+    return changes.are_counted();
+  };
+  EXPECT_TRUE(after([&] { relay.originate(9, {1}, at_s(1)); }));
+  for (const Verdict verdict : {Verdict::kBusy, Verdict::kAccepted}) {
+    EXPECT_TRUE(after([&] { relay.transmit_due(at_s(100)); }));
+    EXPECT_TRUE(after([&] { relay.on_sent(7); }));
+    EXPECT_TRUE(after([&] { relay.on_receipt(7, verdict, at_s(2)); }));
+  }
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(after([&] { relay.take(first_packet(), at_s(3)); }));
+  EXPECT_TRUE(after([&] { relay.clear(); }));
+  const auto before = relay.changes();
+  relay.take({}, at_s(4));
+  relay.next();
+  EXPECT_EQ(relay.changes(), before);
 }
 
 }  // namespace
