@@ -79,7 +79,7 @@ std::vector<RayQueryBatch> RayQueryClient::take_batches(SimTime steady) {
 
 // Surveys are not split: all rays of one stage of one survey go in one batch.
 RayQueryBatch RayQueryClient::send_from(Queue& queue, SimTime steady) {
-  InFlight sent{{++last_request_, *next_query(queue.front().survey), {}}, {}, steady, 0};
+  InFlight sent{{++last_request_, *next_query(queue.front().survey), {}}, {}, steady};
   if (!queue.front().urgent) ++sent_this_tick_;
   while (!queue.empty()) {
     const auto rays = rays_of(queue.front().survey);
@@ -100,6 +100,9 @@ SimTime RayQueryClient::next_action(const InFlight& batch) const {
 
 void RayQueryClient::repeat_and_give_up(SimTime steady, std::vector<RayQueryBatch>& repeated) {
   for (auto batch = in_flight_.begin(); batch != in_flight_.end();) {
+    const bool was_looked_after = std::exchange(batch->second.looked_after, true);
+    if (!was_looked_after && steady >= batch->second.sent + rule_.answer_deadline)
+      batch->second.sent = steady;
     if (steady >= batch->second.sent + rule_.answer_deadline) {
       ++counters_.batches_failed;
       fail_all(std::move(batch->second.surveys));

@@ -8,7 +8,7 @@
 // do not count.
 //
 // A batch without an answer is sent again after each quarter of the deadline, and given up at the deadline: the
-// service is away then. While it is away urgent surveys fail at once, and one batch at a time keeps probing;
+// service is away then. Where the owner looks for the first time after the deadline, because it was busy itself, the deadline counts from there. While it is away urgent surveys fail at once, and one batch at a time keeps probing;
 // the first answer ends it.
 //
 // Time is steady time, given in. Nothing here sends: the owner takes batches and brings answers. A failed
@@ -90,6 +90,7 @@ class RayQueryClient {
     std::vector<Waiting> surveys;
     SimTime sent;
     int repeats = 0;
+    bool looked_after = false;  // by take_batches(), since it was sent
   };
   using Queue = std::deque<Waiting>;
   Queue& queue_of(const Waiting& waiting);

@@ -118,6 +118,7 @@ TEST(RayQueryClient, AtTheDeadlineASurveyFailsAndTheServiceIsAway) {
   RayQueryClient rays(kRule);
   rays.submit_routine(survey());
   rays.take_batches(at_s(0));
+  rays.take_batches(at_s(0.1));
   rays.take_batches(at_s(0.2));
   EXPECT_TRUE(rays.is_away());
   const auto finished = rays.take_finished();
@@ -125,10 +126,23 @@ TEST(RayQueryClient, AtTheDeadlineASurveyFailsAndTheServiceIsAway) {
   EXPECT_FALSE(finished[0].answered);
 }
 
+TEST(RayQueryClient, AnOwnerThatWasBusyWaitsForTheAnswerFromItsFirstLookOn) {
+  RayQueryClient rays(kRule);
+  rays.submit_routine(survey());
+  rays.take_batches(at_s(0));
+  EXPECT_TRUE(rays.take_batches(at_s(5)).empty());
+  EXPECT_FALSE(rays.is_away());
+  EXPECT_EQ(rays.due(), at_s(5.05));
+  EXPECT_EQ(rays.take_batches(at_s(5.05)).size(), 1u);
+  rays.take_batches(at_s(5.2));
+  EXPECT_TRUE(rays.is_away());
+}
+
 TEST(RayQueryClient, WhileAwayUrgentSurveysFailAtOnceAndTheServiceIsProbed) {
   RayQueryClient rays(kRule);
   rays.submit_urgent(survey());
   rays.take_batches(at_s(0));
+  rays.take_batches(at_s(0.1));
   rays.take_batches(at_s(0.2));
   rays.take_finished();
   const auto id = rays.submit_urgent(survey());
@@ -150,6 +164,7 @@ TEST(RayQueryClient, WhileAwayOneRoutineBatchAtATimeProbes) {
   RayQueryClient rays(kRule);
   for (int i = 0; i < 100; ++i) rays.submit_routine(survey());
   EXPECT_EQ(rays.take_batches(at_s(0)).size(), 2u);
+  rays.take_batches(at_s(0.1));
   const auto probe = rays.take_batches(at_s(0.2));
   EXPECT_TRUE(rays.is_away());
   ASSERT_EQ(probe.size(), 1u);
@@ -161,6 +176,7 @@ TEST(RayQueryClient, ALateAnswerShowsThatTheServiceIsBack) {
   RayQueryClient rays(kRule);
   rays.submit_routine(survey());
   const auto sent = rays.take_batches(at_s(0));
+  rays.take_batches(at_s(0.1));
   rays.take_batches(at_s(0.2));
   ASSERT_TRUE(rays.is_away());
   answer(rays, sent[0]);
