@@ -1,13 +1,16 @@
 #include "bus/bus.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <unordered_map>
 #include <utility>
 
 #include "bus/channel_pattern.h"
 #include "core/check.h"
+#include "core/hash.h"
 #include "core/names.h"
 
 namespace halocline::bus {
@@ -45,6 +48,7 @@ struct Bus::Subscription {
   RawHandler handler;
   Wakeup wakeup;
   lcm::Subscription* lcm_subscription = nullptr;
+  std::string expression{};  // while it is subscribed
 
   void handle(std::string_view channel, const void* data, std::size_t size) const {
     if (wakeup == Wakeup::kMayAdvanceDue) ++bus->counters_.wakeups;
@@ -57,9 +61,13 @@ struct Bus::Subscription {
                                      &Subscription::on_message, this);
     ensure(lcm_subscription != nullptr, "LCM refuses the channel " + regular_expression);
     lcm_subscription->setQueueCapacity(kQueueCapacity);
+    expression = regular_expression;
+    bus->receives_.add(expression);
   }
   void end(lcm::LCM& lcm) {
-    if (lcm_subscription != nullptr) lcm.unsubscribe(std::exchange(lcm_subscription, nullptr));
+    if (lcm_subscription == nullptr) return;
+    lcm.unsubscribe(std::exchange(lcm_subscription, nullptr));
+    bus->receives_.remove(expression);
   }
 
   // LCM takes no const handler. NOLINTNEXTLINE(readability-make-member-function-const)
@@ -80,7 +88,7 @@ struct Bus::Subscription {
 // Subscriptions to single channels of one family. LCM compares each new channel with every subscription, so many of them
 // share one of LCM's.
 struct Bus::ChannelGroup {
-  std::map<std::string, std::vector<const Subscription*>, std::less<>> by_channel;
+  std::unordered_map<std::string, std::vector<const Subscription*>, TextHash, std::equal_to<>> by_channel;
   std::vector<Subscription*> all;
   std::unique_ptr<Subscription> shared;  // to the whole family; null: each has its own
 };

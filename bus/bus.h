@@ -71,6 +71,7 @@ class Bus {
   std::vector<std::size_t> subscribed_to(std::string_view channel) const {
     return patterns_.matching(channel);
   }
+  const Subscriptions& receives() const { return receives_; }
 
   // Messages as bytes, for bridges and recorders: nothing is decoded, nothing counted as received.
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
@@ -139,6 +140,7 @@ class Bus {
   std::vector<Subscribed> subscribed_;
   ChannelPatterns patterns_;                                                               // of these
   std::map<std::string, std::vector<const Subscription*>, std::less<>> subscriptions_to_;  // by channel
+  Subscriptions receives_;
   Outbox outbox_;
   RawHandler tap_;
 };

@@ -1,6 +1,8 @@
-// What a node subscribes to, as lockstep needs to know it.
+// What a node subscribes to, as those need to know it who deliver its messages.
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <string>
 
 namespace halocline::bus {
@@ -13,6 +15,26 @@ enum class Wakeup { kMayAdvanceDue, kStoreOnly };
 struct Subscribed {
   std::string expression;
   Wakeup wakeup = Wakeup::kMayAdvanceDue;
+};
+
+// The LCM regular expressions on which a Bus receives messages now.
+class Subscriptions {
+ public:
+  void add(const std::string& expression) {
+    expressions_.insert(expression);
+    ++changes_;
+  }
+  void remove(const std::string& expression) {
+    expressions_.erase(expressions_.find(expression));
+    ++changes_;
+  }
+  const std::multiset<std::string>& expressions() const { return expressions_; }
+  // Counts additions and removals.
+  std::uint64_t changes() const { return changes_; }
+
+ private:
+  std::multiset<std::string> expressions_;
+  std::uint64_t changes_ = 0;
 };
 
 }  // namespace halocline::bus

@@ -31,15 +31,21 @@ std::string effective_url(const std::string& given) {
   return url;
 }
 
-std::string next_port(const std::string& url) {
+std::optional<std::uint16_t> port_of(const std::string& url) {
   const std::size_t colon = url.rfind(':');
   const std::size_t end = std::min(url.find('?'), url.size());
   const std::string port = colon < end ? url.substr(colon + 1, end - colon - 1) : "";
   const bool number =
       !port.empty() && port.size() < 6 && port.find_first_not_of("0123456789") == std::string::npos;
-  require(number && std::stoi(port) < 65535,
-          "LCM URL is '" + url + "'; lockstep needs udpm://GROUP:PORT?ttl=N");
-  return url.substr(0, colon + 1) + std::to_string(std::stoi(port) + 1) + url.substr(end);
+  if (!number || std::stoi(port) > 65535) return std::nullopt;
+  return static_cast<std::uint16_t>(std::stoi(port));
+}
+
+std::string next_port(const std::string& url) {
+  const auto port = port_of(url);
+  require(port && *port < 65535, "LCM URL is '" + url + "'; lockstep needs udpm://GROUP:PORT?ttl=N");
+  return url.substr(0, url.rfind(':') + 1) + std::to_string(*port + 1) +
+         url.substr(std::min(url.find('?'), url.size()));
 }
 
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url) {

@@ -1,6 +1,7 @@
 // Opens an lcm::LCM with the settings that Halocline needs; errors name what is wrong with a URL.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,8 @@ inline constexpr std::string_view kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0
 // Of the lockstep protocol: grants on this port, answers on the next.
 inline constexpr std::string_view kDefaultSyncUrl = "udpm://239.255.76.67:7677?ttl=0&recv_buf_size=4194304";
 
+// Empty for a URL without a port.
+std::optional<std::uint16_t> port_of(const std::string& url);
 // The same URL with the next port; throws InvalidArgument for a URL without a port.
 std::string next_port(const std::string& url);
 

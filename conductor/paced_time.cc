@@ -10,12 +10,13 @@ namespace {
 SimDuration scaled(SimTime steady, double rate) { return SimDuration::from_seconds(steady.seconds() * rate); }
 }  // namespace
 
-PacedTime::PacedTime(lcm::LCM& lcm, double rate) : bus_(lcm, {"paced-time", 0}), rate_(rate) {
+PacedTime::PacedTime(lcm::LCM& lcm, double rate) : rate_(rate) {
   require_in_range(rate, 1e-3, 1e4, "rate");
-  bus_.subscribe<vehicle_state_t>(bus::channels::kState,
-                                  [this](std::string_view, const vehicle_state_t& s) { on_utime(s.utime); });
-  bus_.subscribe<node_status_t>(bus::channels::kStatus,
-                                [this](std::string_view, const node_status_t& s) { on_utime(s.utime); });
+  bus_.emplace(lcm, bus::NodeIdentity{"paced-time", 0});
+  bus_->subscribe<vehicle_state_t>(bus::channels::kState,
+                                   [this](std::string_view, const vehicle_state_t& s) { on_utime(s.utime); });
+  bus_->subscribe<node_status_t>(bus::channels::kStatus,
+                                 [this](std::string_view, const node_status_t& s) { on_utime(s.utime); });
 }
 
 void PacedTime::on_utime(std::int64_t utime) {
@@ -31,6 +32,7 @@ std::optional<SimTime> PacedTime::now(SimTime steady) {
     if (steady < *started_listening_ + kListening) return std::nullopt;
     if (!has_received_) zero_ = SimTime() - scaled(steady, rate_);
     running_ = true;
+    bus_.reset();
   }
   return zero_ + scaled(steady, rate_);
 }

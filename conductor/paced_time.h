@@ -23,12 +23,13 @@ class PacedTime : public bus::TimeSource {
 
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
+  const bus::Subscriptions* receives() const override { return bus_ ? &bus_->receives() : nullptr; }
 
   // A message of a running system with this utime was received at the steady time last set.
   void on_utime(std::int64_t utime);
 
  private:
-  bus::Bus bus_;
+  std::optional<bus::Bus> bus_;  // until it runs
   double rate_;
   std::optional<SimTime> started_listening_;
   SimTime zero_;  // simulation time at steady time 0, from the messages received so far

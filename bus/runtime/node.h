@@ -74,6 +74,7 @@ class Node {
   void receive(std::string_view channel, std::span<const std::uint8_t> message) {
     bus_.deliver(channel, message);
   }
+  const Subscriptions& receives() const { return bus_.receives(); }
   void set_outbox(Bus::Outbox outbox) { bus_.set_outbox(std::move(outbox)); }
 
   Due due() const;

@@ -15,6 +15,7 @@
 
 #include "bus/event_log.h"
 #include "bus/runtime/lockstep_process.h"
+#include "bus/runtime/message_batches.h"
 #include "bus/runtime/node_command_line.h"
 #include "bus/runtime/state_journal.h"
 #include "bus/transport.h"
@@ -70,6 +71,13 @@ void dispatch_until_silent(lcm::LCM& lcm) {
   }
 }
 
+// A signal ends it.
+void sleep_for(SimDuration duration) {
+  if (duration <= SimDuration()) return;
+  const timespec time{0, duration.nanoseconds()};
+  nanosleep(&time, nullptr);
+}
+
 // The steady time of the next step; at_once() for a node that is due at once.
 SimTime wake_time(const Node& node, const TimeSource& time) {
   const Due due = node.due();
@@ -120,7 +128,8 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
   node->enable_repair();
   if (journal) node->keep_state_in(std::move(journal));
   log.info("started", "url=" + url);
-  run_node(*lcm, *node, *time, stop_requested);
+  ReceiveFilter filter(*lcm, url);
+  run_node(*lcm, *node, *time, stop_requested, &filter);
 }
 
 int run_checked(int argc, char** argv, const NodeProgram& program) {
@@ -174,9 +183,10 @@ void wait_and_dispatch(lcm::LCM& lcm, SimTime wake) {
   for (int i = 1; i < kMaxMessagesPerTurn && poll(&bus, 1, 0) > 0; ++i) lcm.handle();
 }
 
-void dispatch_waiting(lcm::LCM& lcm) {
-  for (int i = 0; i < kMaxMessagesPerTurn && lcm.handleTimeout(0) > 0; ++i) {
-  }
+int dispatch_waiting(lcm::LCM& lcm) {
+  int handled = 0;
+  while (handled < kMaxMessagesPerTurn && lcm.handleTimeout(0) > 0) ++handled;
+  return handled;
 }
 
 void sleep_precisely() { prctl(PR_SET_TIMERSLACK, 1); }
@@ -192,7 +202,8 @@ SimTime steady_now() {
   return SimTime::from_nanoseconds(std::chrono::duration_cast<std::chrono::nanoseconds>(elapsed).count());
 }
 
-void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop) {
+void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
+              ReceiveFilter* filter) {
   Now now{SimTime(), steady_now(), false};
   const auto update_time = [&] {
     now.steady = steady_now();
@@ -205,11 +216,17 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
     return due.steady <= now.steady || due.sim == SimTime::at_once() || (now.sim_known && due.sim <= now.sim);
   };
   sleep_precisely();
+  MessageBatches batches;
   while (!should_stop()) {
-    wait_for_bus(lcm, wake_time(node, time));
+    if (filter != nullptr) filter->follow(&node.receives(), time.receives());
+    const SimTime wake = wake_time(node, time);
+    if (wait_for_bus(lcm, wake)) {
+      const SimTime steady = steady_now();
+      sleep_for(std::min(batches.wait_at(steady), std::max(wake, steady) - steady));
+    }
     time.set_steady(steady_now(), wall_now());
     node.set_steady(steady_now());
-    dispatch_waiting(lcm);
+    batches.note_handled(dispatch_waiting(lcm));
     update_time();
     if (time.restarted()) node.restart(now);
     if (is_due(node.due())) node.step(now);

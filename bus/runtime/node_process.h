@@ -16,6 +16,7 @@
 #include "bus/config/config.h"
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
+#include "bus/runtime/receive_filter.h"
 #include "bus/runtime/scenario.h"
 #include "bus/runtime/time_source.h"
 #include "core/sim_time.h"
@@ -68,8 +69,10 @@ struct NodeProgram {
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
 [[nodiscard]] int run_node_program(int argc, char** argv, const NodeProgram& program);
 
-// The loop alone. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource.
-void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop);
+// The loop alone. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource. `filter`: of `lcm`, on
+// which nothing else is received then; null for none.
+void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
+              ReceiveFilter* filter = nullptr);
 
 // From now on SIGINT and SIGTERM set a flag instead of ending the process.
 void catch_stop_signals();
@@ -79,8 +82,8 @@ bool interrupt_requested();  // SIGINT came: Ctrl-C
 // Sleeps until the bus has something, `wake` (steady) has come, a stop signal, or a tenth of a second has passed.
 // Returns whether the bus has something.
 bool wait_for_bus(lcm::LCM& lcm, SimTime wake);
-// Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work.
-void dispatch_waiting(lcm::LCM& lcm);
+// Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work. Returns how many messages.
+int dispatch_waiting(lcm::LCM& lcm);
 
 // Both, one after the other, in fewer system calls.
 void wait_and_dispatch(lcm::LCM& lcm, SimTime wake);

@@ -50,6 +50,8 @@ class TimeSource {
   virtual SimTime steady_at(SimTime sim) const = 0;
   // True once after simulation time jumped back: another run has begun, state of the old one is void.
   [[nodiscard]] virtual bool restarted() { return false; }
+  // What it receives by itself; null: nothing.
+  virtual const Subscriptions* receives() const { return nullptr; }
 
  protected:
   SimTime steady_;
@@ -66,6 +68,7 @@ class ConductorTime : public TimeSource {
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
+  const Subscriptions* receives() const override { return &bus_.receives(); }
 
   // A CLOCK that was received at `received` (steady).
   void on_clock(const sim_clock_t& clock, SimTime received);
@@ -96,6 +99,7 @@ class MessageTime : public TimeSource {
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
+  const Subscriptions* receives() const override { return &bus_.receives(); }
 
   void on_utime(std::int64_t utime);
 
