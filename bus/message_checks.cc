@@ -115,6 +115,19 @@ std::string problem_between_fields(const environment_change_t& m) {
   return sets_profile && m.num_layers == 0 ? "num_layers is 0 although a profile is set" : "";
 }
 
+std::string problem_between_fields(const link_search_t& m) {
+  double last_s = 0;
+  for (const eigenray_t& path : m.eigenrays) {
+    if (path.delay_s < last_s) return "eigenrays are not in the order of their delays";
+    last_s = path.delay_s;
+    constexpr double kLeastMps = 500, kGreatestMps = 5000;  // half and twice what water has
+    const double speed_mps = path.path_length_m / path.delay_s;
+    if (speed_mps < kLeastMps || speed_mps > kGreatestMps) return "delay_s does not fit path_length_m";
+    if (!(path.amplitude > 0)) return "amplitude is 0";
+  }
+  return "";
+}
+
 std::string problem_between_fields(const modem_config_t& m) {
   return m.bandwidth_hz < 2 * m.center_frequency_hz ? "" : "bandwidth_hz reaches below 0 Hz";
 }

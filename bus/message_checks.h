@@ -23,6 +23,7 @@ template <class Message>
 }
 [[nodiscard]] std::string problem_between_fields(const vehicle_state_t& message);
 [[nodiscard]] std::string problem_between_fields(const environment_change_t& message);
+[[nodiscard]] std::string problem_between_fields(const link_search_t& message);
 [[nodiscard]] std::string problem_between_fields(const modem_config_t& message);
 [[nodiscard]] std::string problem_between_fields(const modem_send_t& message);
 [[nodiscard]] std::string problem_between_fields(const scenario_info_t& message);

@@ -1,6 +1,7 @@
 #include "channel_server/channel_server_node.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
+#include "core/hash.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -29,6 +31,15 @@ constexpr std::int64_t kMaxTicksBehind = 100;
 // How much longer than their rules states and receipts are kept, for every instant that may still be evaluated.
 constexpr SimDuration kKeptLonger = SimDuration::from_milliseconds(1000);
 constexpr SimDuration kForgettingPeriod = SimDuration::from_milliseconds(1000);
+
+// The same for all servers of a scenario.
+std::uint64_t hash_of(const std::vector<scenario_info_t>& scenario) {
+  std::string lines;
+  for (const scenario_info_t& part : scenario) {
+    for (const std::string& line : part.configuration_line) lines += line + '\n';
+  }
+  return xxh3(lines);
+}
 
 SimTime on_grid_from(SimTime now, SimDuration period) {
   return next_on_grid(now - SimDuration::from_nanoseconds(1), period);
@@ -56,6 +67,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard),
       seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points),
+      exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline, hash_of(scenario)),
       packets_(bus(), journal_),
       tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_, kept_rows_},
               pool_.sharing_out()),
@@ -66,6 +78,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       next_scenario_(kBeforeAll),
       next_forgetting_(kBeforeAll) {
   if (rules.medium.shard.index != 0) scenario_.clear();
+  shares_searches_ = !rules.medium.shard.is_alone() && water_.propagation->share_searches(exchange_);
 }
 
 void ChannelServerNode::open_journal(const std::string& path) {
@@ -79,20 +92,26 @@ bus::Due ChannelServerNode::on_due() const {
   if (recovery_) return {.steady = std::min(seabed_.due(), recovery_->due())};
   const SimTime instant = table_waits_ ? SimTime::never() : next_instant();
   return {.sim = std::min({instant, medium_.next_event(), inbox_.due()}),
-          .steady = std::min(seabed_.due(), queries_.due())};
+          .steady = std::min({seabed_.due(), queries_.due(), exchange_.due()})};
 }
 
 void ChannelServerNode::on_step(const bus::Now& now) {
-  if (seabed_.take_replies()) next_environment_ = kBeforeAll;
+  if (seabed_.take_replies()) {
+    next_environment_ = kBeforeAll;
+    exchange_.set_terrain(seabed_.terrain_version());
+    tables_in_work_.reset();
+  }
   if (recovery_ && !(now.sim_known && recover(now))) return seabed_.publish_queries(now);
   if (now.sim_known) {
     journal_.write_inputs(now.sim);
     apply(inbox_.take_inputs(), now.sim);
     set_first_instants(now.sim);
     table_waits_ = false;
-    while (next_instant() <= now.sim && !table_waits_) table_waits_ = !run_instant(next_instant());
+    while (next_instant() <= now.sim && !table_waits_)
+      table_waits_ = !run_instant(next_instant(), now.steady);
     advance_medium(now.sim);
     forget_old(now.sim);
+    exchange_.publish(now.sim);
   }
   answer_queries(now);
 }
@@ -112,31 +131,61 @@ void ChannelServerNode::set_first_instants(SimTime now) {
 }
 
 // What holds from an instant on counts for what leaves at that very instant, so it is published before.
-bool ChannelServerNode::run_instant(SimTime instant) {
+bool ChannelServerNode::run_instant(SimTime instant, SimTime steady) {
   if (instant == next_scenario_) publish_scenario(instant);
   if (instant == next_environment_) publish_environment(instant);
   advance_medium(instant);
   if (instant != next_tick_) return true;
-  if (!run_tick(instant)) return false;
+  if (!run_tick(instant, steady)) return false;
   next_tick_ = next_on_grid(instant, rules_.link_period);
   return true;
 }
 
 // No table of a tick that passed while the server was away is published.
-bool ChannelServerNode::run_tick(SimTime tick) {
+bool ChannelServerNode::run_tick(SimTime tick, SimTime steady) {
   if (recovery_) return true;
-  const auto present = place_all(vehicles_, tick);
-  const auto ranges_m = reach_.reception_ranges_m(
-      tick, vehicles_, present,
+  if (!tables_in_work_ || tables_in_work_->tick != tick) tables_in_work_ = begin_tables(tick);
+  Tables& tables = *tables_in_work_;
+  if (!tables.is_prepared && !prepare(tables, steady)) return false;
+  if (shares_searches_ && exchange_.must_wait(steady)) return false;
+  tables_.publish(tick, tables.present, tables.rows);
+  seabed_.begin_tick(tables.present, tables.rows);
+  tables_in_work_.reset();
+  return true;
+}
+
+ChannelServerNode::Tables ChannelServerNode::begin_tables(SimTime tick) {
+  Tables tables;
+  tables.tick = tick;
+  tables.present = place_all(vehicles_, tick);
+  std::map<const VehicleModem*, const VehicleModem*> kept;
+  for (PlacedVehicle& vehicle : tables.present) {
+    const VehicleModem*& modem = kept[vehicle.modem];
+    if (modem == nullptr)
+      modem = tables.modems.emplace_back(std::make_unique<const VehicleModem>(*vehicle.modem)).get();
+    vehicle.modem = modem;
+  }
+  tables.ranges_m = reach_.reception_ranges_m(
+      tick, vehicles_, tables.present,
       [this](const acoustics::Modem& modem) { return predictor_.least_sinr_db(modem); });
-  TableRows rows = table_rows(present, ranges_m, rules_.medium.shard);
-  Propagation& propagation = *water_.propagation;
+  tables.rows = table_rows(tables.present, tables.ranges_m, rules_.medium.shard);
   kept_rows_.carry_on(tick, {water_.waters->water_at(tick), water_.seabed->version()},
-                      propagation.environment(tick), present, rows);
-  if (!propagation.are_ready(tick, rows.to_compute())) return false;
-  if (propagation.plans_ticks()) propagation.begin_tick(tick, table_rows(present, ranges_m).links);
-  tables_.publish(tick, present, rows);
-  seabed_.begin_tick(present, rows);
+                      water_.propagation->environment(tick), tables.present, tables.rows);
+  return tables;
+}
+
+bool ChannelServerNode::prepare(Tables& tables, SimTime steady) {
+  Propagation& propagation = *water_.propagation;
+  const SimTime tick = tables.tick;
+  const std::vector<EndPair> links = tables.rows.to_compute();
+  if (!propagation.are_ready(tick, links)) return false;
+  if (propagation.plans_ticks())
+    propagation.begin_tick(tick, table_rows(tables.present, tables.ranges_m).links);
+  if (shares_searches_) {
+    propagation.prepare_tables(tick, links, pool_.sharing_out());
+    exchange_.end_tick(tick, steady);
+  }
+  tables.is_prepared = true;
   return true;
 }
 
@@ -198,7 +247,7 @@ bool ChannelServerNode::recover(const bus::Now& now) {
     set_first_instants(reached);
     const bool is_instant = next_instant() <= reached;
     if (is_instant) {
-      table_waits_ = !run_instant(next_instant());
+      table_waits_ = !run_instant(next_instant(), now.steady);
     } else {
       advance_medium(reached);
     }
@@ -224,6 +273,8 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   queries_.clear();
   tables_.clear();
   kept_rows_.clear();
+  exchange_.clear();
+  tables_in_work_.reset();
   journal_.clear();
   recovery_.reset();
   inbox_.forget_after(now.sim + InputProcessor::kMaxAhead);

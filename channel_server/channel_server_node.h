@@ -2,12 +2,14 @@
 // the link tables, and the outcome of every packet; answers link queries. --interface lists its channels.
 //
 // Of several servers of one water (rules.medium.shard) each receives what all the others receive and publishes its
-// share; the first also ENVIRONMENT and SCENARIO; LINK_QUERYs go by their request_id; PING_ANSWER passes on answers to pings.
+// share; the first also ENVIRONMENT and SCENARIO; LINK_QUERYs go by their request_id; PING_ANSWER passes on answers to pings,
+// FOUND_PATHS the paths that two of them need.
 // With a journal a server that was killed goes on where it was (server_recovery.h).
 #pragma once
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,7 @@
 #include "channel_server/links/kept_rows.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_query_service.h"
+#include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
@@ -32,6 +35,7 @@
 #include "channel_server/propagation/reach.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
+#include "channel_server/shards/shard_exchange.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "channel_server/water_model.h"
 #include "core/sim_time.h"
@@ -59,9 +63,21 @@ class ChannelServerNode : public bus::Node {
   // The instants at which something is published by itself: tables, the scenario, and the environment where it changes.
   SimTime next_instant() const { return std::min({next_tick_, next_environment_, next_scenario_}); }
   void set_first_instants(SimTime now);
-  // False when a table waits for the seabed.
-  [[nodiscard]] bool run_instant(SimTime instant);
-  [[nodiscard]] bool run_tick(SimTime tick);
+  // False when a table waits for the seabed or for another server.
+  [[nodiscard]] bool run_instant(SimTime instant, SimTime steady);
+  [[nodiscard]] bool run_tick(SimTime tick, SimTime steady);
+  // The link tables of a tick, which is as it was first seen however long they wait.
+  struct Tables {
+    SimTime tick;
+    std::vector<std::unique_ptr<const VehicleModem>> modems;
+    std::vector<PlacedVehicle> present;
+    std::vector<double> ranges_m;
+    TableRows rows;
+    bool is_prepared = false;  // what this server is to search has been searched
+  };
+  Tables begin_tables(SimTime tick);
+  // False when the seabed under them is not known yet.
+  [[nodiscard]] bool prepare(Tables& tables, SimTime steady);
   void advance_medium(SimTime time);
   void apply(StepInputs inputs, SimTime now);
   void publish_environment(SimTime instant);
@@ -87,6 +103,7 @@ class ChannelServerNode : public bus::Node {
   bus::CrashJournal journal_;
   Inbox inbox_;
   SeabedClient seabed_;
+  ShardExchange exchange_;
   PacketPublisher packets_;
   LinkTablePublisher tables_;
   InputProcessor processor_;
@@ -94,7 +111,9 @@ class ChannelServerNode : public bus::Node {
 
   std::vector<scenario_info_t> scenario_;
   SimTime next_tick_, next_environment_, next_scenario_, next_forgetting_;
+  std::optional<Tables> tables_in_work_;
   bool table_waits_ = false;
+  bool shares_searches_ = false;
 };
 
 // The node of a scenario whose file lies in `folder`. Throws InvalidArgument when the water or a modem is

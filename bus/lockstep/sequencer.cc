@@ -1,7 +1,6 @@
 #include "bus/lockstep/sequencer.h"
 
 #include <algorithm>
-#include <set>
 #include <tuple>
 
 #include "core/check.h"
@@ -12,6 +11,12 @@ namespace {
 template <class Member>
 auto order_of(const Member& member) {
   return std::tie(member.join.step_stage, member.join.participant_name);
+}
+
+// All channels of the family that an expression belongs to: subscriptions to each vehicle's channel make one.
+std::string family_of(const std::string& expression) {
+  const std::size_t dot = expression.find("\\.");
+  return dot == std::string::npos ? expression : expression.substr(0, dot + 2) + ".*";
 }
 
 }  // namespace
@@ -42,7 +47,11 @@ void Sequencer::admit(const lockstep_join_t& join) {
   if (member.taken.empty()) {
     member.join = join;
     member.patterns = {};
-    for (const std::string& expression : join.subscriptions) member.patterns.add(expression);
+    member.waking.clear();
+    for (std::size_t i = 0; i < join.subscriptions.size(); ++i) {
+      member.patterns.add(join.subscriptions[i]);
+      if (join.only_stores[i] == 0) member.waking.insert(family_of(join.subscriptions[i]));
+    }
     member.schedule = {join.step_stage, SimTime::from_nanoseconds(join.next_due_ns)};
   }
   member.present = true;
@@ -118,14 +127,12 @@ lockstep_turn_t Sequencer::turn_of(const std::string& name) const {
   return turn;
 }
 
-// Subscriptions of the others whose messages end the lookahead of the one that steps alone.
+// What may wake one of the others ends the lookahead of the one that steps alone; by family, for each turn has the list.
 std::vector<std::string> Sequencer::stopping_channels(const Member& alone) const {
   std::set<std::string> expressions;
   for (const auto& member : members_) {
-    if (member.get() == &alone || !member->present) continue;
-    for (std::size_t i = 0; i < member->join.subscriptions.size(); ++i) {
-      if (member->join.only_stores[i] == 0) expressions.insert(member->join.subscriptions[i]);
-    }
+    if (member.get() != &alone && member->present)
+      expressions.insert(member->waking.begin(), member->waking.end());
   }
   return {expressions.begin(), expressions.end()};
 }

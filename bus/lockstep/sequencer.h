@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -90,6 +91,7 @@ class Sequencer {
   struct Member {
     lockstep_join_t join;
     bus::ChannelPatterns patterns;
+    std::set<std::string> waking;  // families of channels whose messages may advance its due instant
     bus::ScheduleEntry schedule;
     bool present = true;
     std::vector<std::size_t> inbox;  // indices of all messages that it receives

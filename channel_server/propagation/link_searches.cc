@@ -33,6 +33,10 @@ std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> one_way_of_each(
   return ways;
 }
 
+SharedQuery shared_query(const LinkSearches::Task& task) {
+  return {task.ends.from.id, task.ends.to.id, task.query, *task.water, *task.environment};
+}
+
 }  // namespace
 
 LinkSearches::LinkSearches(std::shared_ptr<const EnvironmentTimeline> waters,
@@ -89,6 +93,7 @@ LinkSearches::Task LinkSearches::over(SimTime at, const LinkEnd& from, const Lin
 
 LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   Task task = task_of(at, from, to, from.id > to.id);
+  task.of_table = true;
   // The phase of a path turns within centimetres.
   if (model_.reuse_distance_m <= 0 || model_.coherent) return task;
   task.shared = true;
@@ -156,14 +161,24 @@ bool LinkSearches::are_ready_for_table(SimTime at, const std::vector<EndPair>& l
 // What a budget has granted is kept for as long as it is used; the cache forgets.
 LinkSearches::Paths LinkSearches::known(const Task& task) {
   if (task.granted != nullptr && task.granted->paths) return task.granted->paths;
-  const Paths* paths = cache_of(task).find(task.query.key());
-  return paths == nullptr ? nullptr : *paths;
+  if (const Paths* paths = cache_of(task).find(task.query.key())) return *paths;
+  if (!is_shared(task)) return nullptr;
+  Paths received = exchange_->received(shared_query(task));
+  return received ? cache_of(task).insert(task.query.key(), std::move(received)) : nullptr;
+}
+
+// Of modems of two kinds each way has a query of its own.
+bool LinkSearches::is_shared(const Task& task) const {
+  const auto& [from, to] = task.ends;
+  return exchange_ != nullptr && task.of_table && exchange_->is_shared(from.id, to.id) &&
+         (from.modem == to.modem || *from.modem == *to.modem);
 }
 
 void LinkSearches::keep(const Task& task, const Paths& paths) {
   if (!paths) return;
   ++searches_;
   cache_of(task).insert(task.query.key(), paths);
+  if (is_shared(task)) exchange_->found(shared_query(task), *paths);
 }
 
 LinkSearches::Paths LinkSearches::find(const Task& task) {
@@ -202,6 +217,19 @@ std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>&
     if (tasks[i].granted != nullptr) tasks[i].granted->paths = found.back();
   }
   return found;
+}
+
+void LinkSearches::find_own(const std::vector<Task>& tasks, const ForEach& for_each) {
+  std::vector<Task> own;
+  for (const Task& task : tasks) {
+    const auto& [from, to] = task.ends;
+    if (!is_shared(task) || exchange_->is_owner(from.id, to.id)) {
+      own.push_back(task);
+    } else if (!task.waits && !known(task)) {
+      exchange_->await(from.id, to.id);
+    }
+  }
+  find_all(own, for_each);
 }
 
 LinkSearches::Paths LinkSearches::search(const Task& task) const {

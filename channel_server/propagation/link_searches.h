@@ -8,7 +8,8 @@
 // seabed, is searched at once; else as for itself.
 //
 // What is found is kept, and searched again when it was forgotten: answers are functions of environment, terrain and query
-// alone, and of the ticks so far where there is a budget. Not thread-safe.
+// alone, and of the ticks so far where there is a budget. Of several servers one searches for two vehicles
+// (path_exchange.h). Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,7 @@
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_exchange.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_map.h"
@@ -47,6 +49,7 @@ class LinkSearches {
     acoustics::RayLink link;  // where the ends are; the query's own unless its paths are extrapolated
     bool reversed = false;    // the transmitter is the profile's last end
     bool shared = false;      // the query serves other links, too
+    bool of_table = false;    // a query of link tables, which the server of the other end makes as well
     SearchBudget::Granted* granted = nullptr;  // null without a budget, and before the link's first turn
     bool waits = false;                        // for that turn
     SimDuration age = {};                      // since the query was the link's own
@@ -65,6 +68,9 @@ class LinkSearches {
   Task for_table(SimTime at, const LinkEnd& from, const LinkEnd& to);
   Task for_packet(SimTime at, const LinkEnd& from, const LinkEnd& to);
 
+  // From now on; it must outlive the searches.
+  void share_through(PathExchange& exchange) { exchange_ = &exchange; }
+
   bool has_budget() const { return budget_.has_value(); }
   // As Propagation::begin_tick.
   void begin_tick(SimTime at, const std::vector<EndPair>& all);
@@ -78,6 +84,9 @@ class LinkSearches {
   Paths find(const Task& task);
   // Of each task, in their order; those that wait find nothing.
   std::vector<Paths> find_all(const std::vector<Task>& tasks, const ForEach& for_each);
+
+  // The searches of a table before it is made: those that another server owns are awaited.
+  void find_own(const std::vector<Task>& tasks, const ForEach& for_each);
 
   std::shared_ptr<const SeabedProfile> seabed_of(const PathQuery& query) const;
   std::int64_t searches() const { return searches_; }  // since the start
@@ -96,6 +105,8 @@ class LinkSearches {
   // Null where the bottom is not known. Calls may overlap between threads.
   Paths search(const Task& task) const;
   void keep(const Task& task, const Paths& paths);
+  // The same paths serve the server of the other end.
+  bool is_shared(const Task& task) const;
 
   std::shared_ptr<const EnvironmentTimeline> waters_;
   std::shared_ptr<SeabedMap> seabed_;
@@ -105,6 +116,7 @@ class LinkSearches {
       ray_waters_;
   Cache own_, shared_;
   std::optional<SearchBudget> budget_;
+  PathExchange* exchange_ = nullptr;  // of a server that is alone
   std::int64_t searches_ = 0;
 };
 

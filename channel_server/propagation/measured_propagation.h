@@ -59,6 +59,10 @@ class MeasuredPropagation : public Propagation {
   void prepare_packet(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override {
     model_->prepare_packet(at, links, for_each);
   }
+  bool share_searches(PathExchange& exchange) override { return model_->share_searches(exchange); }
+  void prepare_tables(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override {
+    model_->prepare_tables(at, links, for_each);
+  }
   bool plans_ticks() const override { return model_->plans_ticks(); }
   void begin_tick(SimTime at, const std::vector<EndPair>& all) override { model_->begin_tick(at, all); }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,

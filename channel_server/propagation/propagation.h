@@ -40,6 +40,8 @@
 
 namespace halocline::channel_server {
 
+class PathExchange;
+
 // A level that stands for none at all where a number has to be finite: 300 dB below 1 uPa, far below the
 // thermal noise of any band (-15 dB re 1 uPa^2/Hz at 1 kHz).
 inline constexpr Decibels kSilence{-300};
@@ -135,6 +137,12 @@ class Propagation {
   // asks for them: an implementation that has time for some searches only plans which.
   virtual bool plans_ticks() const { return false; }
   virtual void begin_tick(SimTime /*at*/, const std::vector<EndPair>& /*all*/) {}
+  // Whether this server and others tell each other what they search for, through `exchange`, from now on; it must outlive the
+  // propagation. Then prepare_tables() is to be called with the links of a tick before receptions() may be, at once where it
+  // awaits nothing. It changes no result.
+  virtual bool share_searches(PathExchange& /*exchange*/) { return false; }
+  virtual void prepare_tables(SimTime /*at*/, const std::vector<EndPair>& /*links*/,
+                              const ForEach& /*for_each*/) {}
   // For many links that leave at one instant, shared out by `for_each`: as reception() one by one, or nearly where
   // an implementation lets links near each other share a search; the same whatever the sharing out.
   virtual std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,

@@ -63,10 +63,15 @@ void RayPropagation::prepare_packet(SimTime at, const std::vector<EndPair>& link
   searches_.find_all(tasks, for_each);
 }
 
+std::vector<LinkSearches::Task> RayPropagation::table_tasks(SimTime at, const std::vector<EndPair>& links) {
+  std::vector<Task> tasks;
+  for (const auto& [from, to] : links) tasks.push_back(searches_.for_table(at, from, to));
+  return tasks;
+}
+
 std::vector<Reception> RayPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                   const ForEach& for_each) {
-  std::vector<LinkSearches::Task> tasks;
-  for (const auto& [from, to] : links) tasks.push_back(searches_.for_table(at, from, to));
+  const std::vector<Task> tasks = table_tasks(at, links);
   const std::vector<LinkSearches::Paths> paths = searches_.find_all(tasks, for_each);
   std::vector<Reception> receptions(links.size());
   for_each(tasks.size(), [&](std::size_t i) {

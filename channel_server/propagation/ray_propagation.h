@@ -71,6 +71,13 @@ class RayPropagation : public Propagation {
   void prepare_packet(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override;
   bool plans_ticks() const override { return searches_.has_budget(); }
   void begin_tick(SimTime at, const std::vector<EndPair>& all) override { searches_.begin_tick(at, all); }
+  bool share_searches(PathExchange& exchange) override {
+    searches_.share_through(exchange);
+    return true;
+  }
+  void prepare_tables(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override {
+    searches_.find_own(table_tasks(at, links), for_each);
+  }
   std::vector<Reception> receptions(SimTime at, const std::vector<EndPair>& links,
                                     const ForEach& for_each) override;
   bool is_ready(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
@@ -105,6 +112,7 @@ class RayPropagation : public Propagation {
  private:
   using Task = LinkSearches::Task;
 
+  std::vector<Task> table_tasks(SimTime at, const std::vector<EndPair>& links);
   // Straight where the bottom is not known.
   Reception along_rays(SimTime at, const Task& task, acoustics::Capacity capacity);
   Reception straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,

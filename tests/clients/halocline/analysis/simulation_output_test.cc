@@ -101,6 +101,7 @@ TEST_F(SimulationOutput, LeavesOutWhatProgramsSayOfThemselvesAndToEachOther) {
   other_.add(6, "STATUS.channel-server-0", status);
   ping_answer_t answer{};
   other_.add(6, "PING_ANSWER", answer);
+  other_.add(6, "FOUND_PATHS.shard-0", found_paths_t{});
   other_.add(6, "TERRAIN_QUERY", terrain_query_t{});
   other_.add(6, "TERRAIN_REPLY.monitor", terrain_tile_t{});
   other_.add_bytes(6, "SOMEBODY_ELSES", {1, 2, 3});
