@@ -1,6 +1,8 @@
 #include "bus/channel_pattern.h"
 
 #include <algorithm>
+#include <optional>
+#include <regex>
 #include <utility>
 
 #include "core/check.h"
@@ -25,6 +27,10 @@ std::optional<std::string> literal(std::string_view expression) {
 
 }  // namespace
 
+struct ChannelPattern::Expression {
+  std::regex regex;
+};
+
 ChannelPattern::ChannelPattern(const std::string& expression) {
   const std::string_view view = expression;
   is_prefix_ = view.ends_with(".*") && literal(view.substr(0, view.size() - 2)).has_value();
@@ -33,14 +39,15 @@ ChannelPattern::ChannelPattern(const std::string& expression) {
     return;
   }
   try {
-    regex_.emplace(expression, std::regex::ECMAScript | std::regex::optimize);
+    expression_ = std::make_shared<const Expression>(
+        Expression{std::regex(expression, std::regex::ECMAScript | std::regex::optimize)});
   } catch (const std::regex_error& error) {
     throw InvalidArgument("'" + expression + "' is no regular expression: " + error.what());
   }
 }
 
 bool ChannelPattern::matches(std::string_view channel) const {
-  if (regex_) return std::regex_match(channel.begin(), channel.end(), *regex_);
+  if (expression_) return std::regex_match(channel.begin(), channel.end(), expression_->regex);
   return is_prefix_ ? channel.starts_with(text_) : channel == text_;
 }
 

@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <optional>
-#include <regex>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +27,8 @@ class ChannelPattern {
  private:
   std::string text_;        // the channel, or what it begins with
   bool is_prefix_ = false;  // text_ is what it begins with
-  std::optional<std::regex> regex_;
+  struct Expression;        // of std::regex, whose header is left out of what all nodes include
+  std::shared_ptr<const Expression> expression_;  // where it is no text
 };
 
 // The expressions of many subscriptions, most of them to one channel.

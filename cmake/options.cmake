@@ -35,6 +35,7 @@ endif()
 
 # What nearly every file includes, parsed once: it halves the time of a build. Files still include what they use
 # (scripts/check_includes looks), and a target whose options change a macro of these headers does without (NO_COMMON_HEADERS).
+# Presets that build everything also compile several sources at a time (CMAKE_UNITY_BUILD; docs/decisions/precompiled-headers.md).
 set(HALOCLINE_COMMON_HEADERS
   <Eigen/Dense> <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <numbers> <optional> <set> <span>
   <sstream> <stdexcept> <string> <string_view> <tuple> <utility> <vector>)
@@ -69,5 +70,7 @@ function(halocline_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE halocline_options ${ARG_LINK})
+  target_compile_options(${name} PRIVATE -fPIC)  # as the common headers of the libraries
+  target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
   add_dependencies(programs ${name})
 endfunction()

@@ -31,7 +31,7 @@ std::string exact(double value) {
   return shortest.find_first_of(".einf") == std::string::npos ? shortest + ".0" : shortest;
 }
 
-std::string quoted(const std::string& value) {
+std::string toml_quoted(const std::string& value) {
   std::string text = "\"";
   for (const char c : value) {
     const auto code = static_cast<unsigned char>(c);
@@ -51,7 +51,7 @@ std::string quoted(const std::string& value) {
 
 std::string to_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return exact(number->get());
-  if (const auto* text = node.as_string()) return quoted(text->get());
+  if (const auto* text = node.as_string()) return toml_quoted(text->get());
   std::ostringstream out;
   node.visit([&](const auto& value) {
     if constexpr (toml::is_value<decltype(value)>) out << value;
@@ -144,7 +144,7 @@ class Writer : public ConfigVisitor {
             std::string_view meaning) override {
     std::string comment(meaning);
     for (std::size_t i = 0; i < allowed.size(); ++i) comment += (i == 0 ? ": " : ", ") + allowed[i];
-    line(key, quoted(value), comment);
+    line(key, toml_quoted(value), comment);
   }
   void vector3(std::string_view key, Vec3& value, const NumberRule& rule) override {
     line(key, array(value), described(rule));

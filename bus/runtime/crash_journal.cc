@@ -5,9 +5,7 @@ namespace {
 
 using Kind = JournalledMessage::Kind;
 
-// A time further before the journal's end than this belongs to another run.
-constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
-constexpr std::size_t kHeadBytes = 20;  // of an output: session, sequence, length of the identity
+constexpr std::size_t kOutputHeadBytes = 20;  // of an output: session, sequence, length of the identity
 
 void append_int64(std::int64_t value, Bytes& to) {
   const auto bits = static_cast<std::uint64_t>(value);
@@ -33,8 +31,9 @@ Bytes CrashJournal::to_bytes(const Output& output) {
 
 std::optional<CrashJournal::Output> CrashJournal::to_output(const JournalledMessage& entry) {
   const Bytes& bytes = entry.bytes;
-  if (bytes.size() < kHeadBytes || uint32_at(bytes, 16) > bytes.size() - kHeadBytes) return std::nullopt;
-  const auto identity = bytes.begin() + kHeadBytes, message = identity + uint32_at(bytes, 16);
+  if (bytes.size() < kOutputHeadBytes || uint32_at(bytes, 16) > bytes.size() - kOutputHeadBytes)
+    return std::nullopt;
+  const auto identity = bytes.begin() + kOutputHeadBytes, message = identity + uint32_at(bytes, 16);
   return Output{
       entry.channel, {identity, message}, int64_at(bytes, 0), int64_at(bytes, 8), {message, bytes.end()}};
 }

@@ -47,6 +47,9 @@
 
 namespace halocline::bus {
 
+// A time further before the journal's end than this belongs to another run.
+inline constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
+
 class CrashJournal {
  public:
   struct Rule {

@@ -12,7 +12,7 @@ namespace {
 
 // Bounds on the lookahead of one turn, so that its result does not outgrow a datagram by much.
 constexpr int kMaxStepsPerTurn = 1000;
-constexpr std::size_t kMaxMessagesPerTurn = 200;
+constexpr std::size_t kMaxPublishedPerTurn = 200;
 
 }  // namespace
 
@@ -74,7 +74,7 @@ bool LockstepTurns::must_pause(const lockstep_turn_t& turn, std::size_t publishe
       if (pattern->second.matches(channel)) return true;
     }
   }
-  return published_.size() >= kMaxMessagesPerTurn;
+  return published_.size() >= kMaxPublishedPerTurn;
 }
 
 lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {

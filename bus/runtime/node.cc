@@ -5,14 +5,13 @@
 #include <tuple>
 #include <utility>
 
+#include "bus/runtime/crash_journal.h"
 #include "bus/version.h"
 #include "core/check.h"
 
 namespace halocline::bus {
 namespace {
 constexpr SimDuration kStatusPeriod = SimDuration::from_milliseconds(1000);
-// A time further before the journal's than this belongs to another run.
-constexpr SimDuration kSameRun = SimDuration::from_milliseconds(10'000);
 
 // A message that was published: channel, session and sequence of its flow, bytes.
 using Published = std::tuple<std::string, std::int64_t, std::int64_t, Bytes>;

@@ -12,7 +12,7 @@
 namespace halocline::clients {
 namespace {
 
-constexpr auto kReceived = static_cast<std::size_t>(packet_outcome_t::RECEIVED);
+constexpr auto kReceivedOutcome = static_cast<std::size_t>(packet_outcome_t::RECEIVED);
 constexpr std::size_t kSnrSamples = 2000;
 const SimDuration kFreshTable = SimDuration::from_seconds(10);
 
@@ -51,7 +51,7 @@ std::vector<PairDelivery> delivery_by_pair(const MissionStore& mission) {
   std::vector<PairDelivery> pairs;
   for (const auto& [pair, counts] : mission.ledger().by_pair()) {
     const auto [from_id, to_id] = pair;
-    pairs.push_back({from_id, to_id, sum(counts), counts[kReceived],
+    pairs.push_back({from_id, to_id, sum(counts), counts[kReceivedOutcome],
                      median_snr_db(mission, from_id, to_id, snr_of_outcomes[pair])});
   }
   return pairs;

@@ -5,13 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/at_ms.h"
+
 namespace halocline::bus {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-SimTime at_ms(std::int64_t ms) { return SimTime() + SimDuration::from_milliseconds(ms); }
+using halocline::testing::at_ms;
 
 class FlowWatchTest : public ::testing::Test {
  protected:

@@ -18,7 +18,7 @@ namespace {
 
 using testing::at_s;
 
-constexpr int kPacedMessage = 60'000;  // bytes, docs/bus.md
+constexpr int kMaxPartBytes = 60'000;  // bytes, docs/bus.md
 
 bus::Scenario scenario_of(int vehicles) {
   bus::Scenario scenario;
@@ -82,7 +82,7 @@ TEST(ScenarioMessages, ALargeScenarioComesInPartsBelowAPacedMessage) {
     EXPECT_EQ(parts[i].part_number, static_cast<std::int32_t>(i));
     EXPECT_EQ(parts[i].part_count, 21);
     EXPECT_EQ(parts[i].description, std::string(999, 'd'));
-    EXPECT_LT(parts[i].getEncodedSize(), kPacedMessage);
+    EXPECT_LT(parts[i].getEncodedSize(), kMaxPartBytes);
     for (const auto& vehicle : parts[i].vehicles) ids.push_back(vehicle.vehicle_id);
     for (const std::string& line : parts[i].configuration_line) text += line + "\n";
   }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline {
@@ -20,7 +21,7 @@ GaussMarkovProcess process(std::uint64_t seed) {
   return {kDeviation, kTime_s, {.seed = seed, .purpose = purpose_of("test"), .who = 0, .which = 0}};
 }
 
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 TEST(GaussMarkov, TheValueAtAnInstantDependsOnNeitherTheStepNorTheOrderOfEvaluation) {
   const GaussMarkovProcess p = process(1);

@@ -11,12 +11,12 @@ namespace halocline::layers {
 namespace {
 
 // The foreign vehicle stands alone, on LCM; confidence intervals go into a report's text alone.
-const std::vector<std::string> kFree{"tests/", "bench/", "core/elementary.",
-                                     "clients/examples/foreign_vehicle.",
-                                     "clients/halocline/analysis/confidence."};
+const std::vector<std::string> kFreeOfRules{"tests/", "bench/", "core/elementary.",
+                                            "clients/examples/foreign_vehicle.",
+                                            "clients/halocline/analysis/confidence."};
 
 bool is_free(const std::string& path) {
-  return std::any_of(kFree.begin(), kFree.end(),
+  return std::any_of(kFreeOfRules.begin(), kFreeOfRules.end(),
                      [&](const std::string& free) { return path.starts_with(free); });
 }
 

@@ -9,6 +9,7 @@
 #include "bathymetry/terrain/generated_terrain.h"
 #include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
+#include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
@@ -21,7 +22,7 @@ namespace {
 using halocline::testing::tolerance;
 
 constexpr ActuatorValues kAhead{0.05, 0, 20};
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 std::shared_ptr<const Model> remus(double buoyancy_ratio = 1) {
   ModelParameters p = remus100_pvs_parameters(CurrentTreatment::kGalilean);

@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/at_ms.h"
 #include "vehicle_sim/sensors/doppler_log.h"
 #include "vehicle_sim/sensors/sensors.h"
 
 namespace halocline::vehicle_sim {
 namespace {
 
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 // With one beam.
 SensorTick a_tick(std::int64_t ms) { return {at_ms(ms), {SensorJob{}}, {EchoBeam{}}, {Echo{}}}; }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/frames.h"
+#include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/faults.h"
 #include "vehicle_sim/model_library.h"
@@ -17,7 +18,7 @@ namespace {
 using halocline::testing::tolerance;
 
 constexpr SimDuration kPeriod = SimDuration::from_milliseconds(200);
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 Fleet fleet_of(std::size_t count, double depth = 20) {
   const auto model = std::make_shared<const Model>(*built_in_model("torpedo"));

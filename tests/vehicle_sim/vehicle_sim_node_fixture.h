@@ -20,6 +20,7 @@
 #include "bus/runtime/scenario.h"
 #include "core/sim_time.h"
 #include "tests/bus/runtime/journal_files.h"
+#include "tests/support/at_ms.h"
 #include "tests/vehicle_sim/world/grounds.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
@@ -31,7 +32,7 @@
 
 namespace halocline::vehicle_sim {
 
-inline SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 inline bus::Scenario scenario_of_two() {
   bus::Scenario scenario;

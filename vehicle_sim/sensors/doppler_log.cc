@@ -10,13 +10,13 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kFirstRangeDraw = 4;  // axes 0 to 3 are the beams' speeds, 4 to 7 their ranges
 
 std::array<Vec3, 4> beams_at(double angle, double yaw) {
   std::array<Vec3, 4> beams;
   for (std::size_t k = 0; k < beams.size(); ++k) {
-    const double azimuth = yaw + kPi / 4 + static_cast<double>(k) * kPi / 2;
+    const double azimuth = yaw + pi / 4 + static_cast<double>(k) * pi / 2;
     beams[k] = {elementary::sin(angle) * elementary::cos(azimuth),
                 elementary::sin(angle) * elementary::sin(azimuth), elementary::cos(angle)};
   }

@@ -11,7 +11,7 @@
 namespace halocline::vehicle_sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 std::size_t index_of(SensorKind kind) { return static_cast<std::size_t>(kind); }
 
@@ -94,7 +94,7 @@ SensorReading SensorSuite::read(const SensorReading& truth, SimTime when, const 
              noise_draw(identity(SensorKind::kCompass), sample(SensorKind::kCompass, when), axis);
     };
     r.attitude = {truth.attitude.roll + tilt_error(1), truth.attitude.pitch + tilt_error(2),
-                  std::remainder(truth.attitude.yaw + error(SensorKind::kCompass, when), 2 * kPi)};
+                  std::remainder(truth.attitude.yaw + error(SensorKind::kCompass, when), 2 * pi)};
   }
   r.angular_rate_fresh = is_fresh(SensorKind::kGyro);
   for (int axis = 0; axis < 3; ++axis) {
@@ -139,7 +139,7 @@ SoundDirection read_usbl(const UsblSettings& usbl, const SensorIdentity& sensor,
   };
   const double bearing = elementary::atan2(towards.y(), towards.x()) + error(0);
   const double elevation = elementary::asin(std::clamp(-towards.z(), -1.0, 1.0)) + error(1);
-  return {std::remainder(bearing, 2 * kPi), std::clamp(elevation, -kPi / 2, kPi / 2)};
+  return {std::remainder(bearing, 2 * pi), std::clamp(elevation, -pi / 2, pi / 2)};
 }
 
 }  // namespace halocline::vehicle_sim

@@ -2,7 +2,6 @@
 #include <numbers>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "acoustics/sea/boundary_reflection.h"
@@ -19,12 +18,6 @@ using acoustics::Reflection;
 using acoustics::SurfaceModel;
 
 constexpr double kWaterSpeed = 1500;  // m/s: of the Rayleigh parameter, as the losses have it
-
-QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
-                   const RowFunction& function) {
-  return {std::move(model), std::move(inputs), std::move(outputs),
-          [function](const CalcOptions&) { return function; }};
-}
 
 InputColumn grazing_column() { return {{"grazing_deg"}, 1e-6, 90, {}}; }
 

@@ -1,6 +1,7 @@
 #include "clients/halocline/calc/columns.h"
 
 #include <cmath>
+#include <utility>
 
 #include "acoustics/sea/pressure.h"
 #include "core/units.h"
@@ -47,6 +48,12 @@ acoustics::AbsorbingWater to_absorbing_water(const std::vector<double>& values, 
 std::vector<InputColumn> joined(std::vector<InputColumn> front, const std::vector<InputColumn>& back) {
   front.insert(front.end(), back.begin(), back.end());
   return front;
+}
+
+QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
+                   const RowFunction& function) {
+  return {std::move(model), std::move(inputs), std::move(outputs),
+          [function](const CalcOptions&) { return function; }};
 }
 
 }  // namespace halocline::clients

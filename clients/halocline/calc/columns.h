@@ -39,4 +39,8 @@ acoustics::AbsorbingWater to_absorbing_water(const std::vector<double>& values, 
 // `front` followed by `back`.
 std::vector<InputColumn> joined(std::vector<InputColumn> front, const std::vector<InputColumn>& back);
 
+// A form that needs no preparation.
+QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
+                   const RowFunction& function);
+
 }  // namespace halocline::clients

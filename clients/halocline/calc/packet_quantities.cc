@@ -24,12 +24,6 @@ using acoustics::Fading;
 using acoustics::Modem;
 using acoustics::Modulation;
 
-QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
-                   const RowFunction& function) {
-  return {std::move(model), std::move(inputs), std::move(outputs),
-          [function](const CalcOptions&) { return function; }};
-}
-
 InputColumn level_column(const std::string& name) { return {{name}, -200, 200, {}}; }
 
 std::vector<double> bit_error_row(const std::vector<double>& v) {

@@ -18,13 +18,6 @@ namespace {
 using acoustics::AbsorptionComponents;
 using acoustics::AbsorptionModel;
 
-// A form that needs no preparation.
-QuantityForm plain(std::string model, std::vector<InputColumn> inputs, std::vector<std::string> outputs,
-                   const RowFunction& function) {
-  return {std::move(model), std::move(inputs), std::move(outputs),
-          [function](const CalcOptions&) { return function; }};
-}
-
 using ThreeArguments = double (*)(double, double, double);
 
 QuantityForm speed_form(const std::string& model, std::vector<InputColumn> inputs, ThreeArguments formula) {

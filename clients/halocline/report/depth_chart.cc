@@ -22,7 +22,7 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::size_t kPoints = 600;
-constexpr double kWidth_px = 1120, kStrip_px = 92;
+constexpr double kChartWidth_px = 1120, kStrip_px = 92;
 
 double depth_m(const TrackPoint& point) { return point.position_ned_m.z(); }
 
@@ -68,7 +68,7 @@ class DepthStrip {
   DepthStrip(const MissionStore& mission, const MissionVehicle& vehicle, const DepthRange& range,
              const TimeAxis& axis, bool is_last)
       : mission_(mission), vehicle_(vehicle), range_(range), axis_(axis) {
-    picture_.width_px = kWidth_px;
+    picture_.width_px = kChartWidth_px;
     picture_.height_px = kStrip_px + (is_last ? 54 : 10);
     picture_.left_px = 190;
     picture_.right_px = 26;

@@ -6,13 +6,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/at_ms.h"
+
 namespace halocline::bus {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-SimTime at_ms(std::int64_t n) { return SimTime() + SimDuration::from_milliseconds(n); }
+using halocline::testing::at_ms;
 
 TEST(LockstepSchedule, TimeAdvancesToTheEarliestDueInstant) {
   LockstepSchedule schedule;

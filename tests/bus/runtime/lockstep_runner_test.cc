@@ -14,6 +14,7 @@
 
 #include "bus/runtime/thread_pool.h"
 #include "tests/bus/runtime/test_nodes.h"
+#include "tests/support/at_ms.h"
 
 namespace halocline::bus {
 namespace {
@@ -23,7 +24,7 @@ using ::testing::ElementsAre;
 using testing::TickingNode;
 
 SimDuration ms(std::int64_t n) { return SimDuration::from_milliseconds(n); }
-SimTime at_ms(std::int64_t n) { return SimTime() + ms(n); }
+using halocline::testing::at_ms;
 
 class LockstepTest : public ::testing::Test {
  protected:

@@ -9,6 +9,7 @@
 #include "bus/subscription.h"
 #include "tests/bus/messages_for_tests.h"
 #include "tests/bus/runtime/test_nodes.h"
+#include "tests/support/at_ms.h"
 
 namespace halocline::bus {
 namespace {
@@ -18,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using testing::TickingNode;
 
-SimTime at_ms(std::int64_t n) { return SimTime() + SimDuration::from_milliseconds(n); }
+using halocline::testing::at_ms;
 
 lockstep_turn_t turn_at(SimTime instant, SimTime horizon = SimTime::at_once()) {
   lockstep_turn_t turn{};

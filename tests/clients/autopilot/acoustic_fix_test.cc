@@ -13,7 +13,7 @@ namespace {
 
 using ::halocline::testing::tolerance;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 const Vec3 kBeacon(300, -200, 80), kPlace(50, 40, 30);
 
 // What a perfect array measures from `place`.
@@ -50,20 +50,20 @@ TEST(AcousticFix, AHeadingThatIsOffTurnsThePlaceAboutTheBeacon) {
 }
 
 TEST(AcousticFix, ABeaconStraightBelowGivesNoPlace) {
-  EXPECT_FALSE(place_by_beacon({}, {50, 40, 80}, {0, -kPi / 2, 0.01, 0.03}, {}, 30));
+  EXPECT_FALSE(place_by_beacon({}, {50, 40, 80}, {0, -pi / 2, 0.01, 0.03}, {}, 30));
 }
 
 // North at 2 m/s, a sample each second for 20 s.
 Navigator northwards() {
   Navigator navigator(Vec3::Zero(), {.log_drift_mps = 0.1, .ground_drift = 0, .start_deviation_m = 10});
-  for (int i = 0; i <= 20; ++i) navigator.add({1.0 * i, {0, 0, i % 2 == 0 ? kPi : -kPi}, 5, -2});
+  for (int i = 0; i <= 20; ++i) navigator.add({1.0 * i, {0, 0, i % 2 == 0 ? pi : -pi}, 5, -2});
   return navigator;
 }
 
 TEST(NavigatorPast, IsLinearBetweenSamplesAndAcrossWholeTurns) {
   const Navigator navigator = northwards();
   EXPECT_NEAR(navigator.at(7.25)->position_ned_m.x(), 14.5, tolerance(1e-9));
-  EXPECT_NEAR(std::abs(navigator.at(7.25)->attitude.yaw), kPi, tolerance(1e-9));  // not half way round
+  EXPECT_NEAR(std::abs(navigator.at(7.25)->attitude.yaw), pi, tolerance(1e-9));  // not half way round
   EXPECT_FALSE(navigator.at(-1));
   EXPECT_EQ(navigator.at(100)->position_ned_m.x(), navigator.position_ned_m(20).x());
 }

@@ -10,10 +10,11 @@
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/autopilot_node.h"
 #include "core/sim_time.h"
+#include "tests/support/at_ms.h"
 
 namespace halocline::clients {
 
-inline SimTime at_ms(std::int64_t ms) { return SimTime() + SimDuration::from_milliseconds(ms); }
+using halocline::testing::at_ms;
 
 inline AutopilotConfig one_mission() {
   AutopilotConfig config;

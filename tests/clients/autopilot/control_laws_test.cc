@@ -11,8 +11,8 @@ namespace {
 
 using ::halocline::testing::tolerance;
 
-constexpr double kPi = std::numbers::pi;
-const double kRounding = tolerance(1e-12);
+using std::numbers::pi;
+const double kControlLawsRounding = tolerance(1e-12);
 
 struct Case {
   Gains gains;
@@ -26,26 +26,26 @@ TEST(ControlLaws, NothingToCorrectGivesAmidshipsAndFeedForward) {
   const ActuatorCommand c = Case{}.after();
   EXPECT_EQ(c.rudder_rad, 0);
   EXPECT_EQ(c.stern_plane_rad, 0);
-  EXPECT_NEAR(c.propeller_rpm, 597.3 * 1.5, kRounding * 1e3);
+  EXPECT_NEAR(c.propeller_rpm, 597.3 * 1.5, kControlLawsRounding * 1e3);
 }
 
 TEST(ControlLaws, CourseToStarboardGivesPositiveRudderInProportion) {
   Case c;
   c.points.course_rad = 0.1;
-  EXPECT_NEAR(c.after().rudder_rad, 0.1 * c.gains.heading_p, kRounding);
+  EXPECT_NEAR(c.after().rudder_rad, 0.1 * c.gains.heading_p, kControlLawsRounding);
 }
 
 TEST(ControlLaws, TurnGoesTheShortWayAcrossSouth) {
   Case c;
-  c.measured.heading_rad = kPi - 0.05;
-  c.points.course_rad = -kPi + 0.05;
-  EXPECT_NEAR(c.after().rudder_rad, 0.1 * c.gains.heading_p, kRounding);
+  c.measured.heading_rad = pi - 0.05;
+  c.points.course_rad = -pi + 0.05;
+  EXPECT_NEAR(c.after().rudder_rad, 0.1 * c.gains.heading_p, kControlLawsRounding);
 }
 
 TEST(ControlLaws, YawRateIsDamped) {
   Case c;
   c.measured.yaw_rate_radps = 0.2;
-  EXPECT_NEAR(c.after().rudder_rad, -0.2 * c.gains.heading_d_s, kRounding);
+  EXPECT_NEAR(c.after().rudder_rad, -0.2 * c.gains.heading_d_s, kControlLawsRounding);
 }
 
 TEST(ControlLaws, TooShallowPushesTheNoseDown) {
@@ -64,7 +64,7 @@ TEST(ControlLaws, PitchAtItsSetLimitNeedsNoStern) {
   Case c;
   c.points.z_ned_m = 1000;  // far below: the set pitch is the maximum, down
   c.measured.pitch_rad = -c.gains.max_pitch_rad;
-  EXPECT_NEAR(c.after().stern_plane_rad, 0, kRounding);
+  EXPECT_NEAR(c.after().stern_plane_rad, 0, kControlLawsRounding);
 }
 
 TEST(ControlLaws, FinsAndPropellerStayWithinTheirLimits) {
@@ -96,14 +96,14 @@ TEST(ControlLaws, DepthIntegralLevelsAVehicleThatIsNotTrimmed) {
   c.gains.depth_i_rad_per_m_s = 0.01;
   c.measured.z_ned_m = 0.5;
   for (int i = 0; i < 10; ++i) c.after(0.1);
-  EXPECT_NEAR(c.integrals.pitch_rad, 0.01 * 0.5 * 1.0, kRounding);
+  EXPECT_NEAR(c.integrals.pitch_rad, 0.01 * 0.5 * 1.0, kControlLawsRounding);
 }
 
 TEST(ControlLaws, IntegralGrowsWithALastingError) {
   Case c;
   c.measured.speed_mps = 1.4;
   for (int i = 0; i < 10; ++i) c.after(0.1);
-  EXPECT_NEAR(c.integrals.speed_rpm, c.gains.speed_i_rpm_per_m * 0.1 * 1.0, kRounding * 10);
+  EXPECT_NEAR(c.integrals.speed_rpm, c.gains.speed_i_rpm_per_m * 0.1 * 1.0, kControlLawsRounding * 10);
 }
 
 TEST(ControlLaws, StoppedMeansAllAtZero) {

@@ -13,8 +13,8 @@ namespace {
 
 using ::halocline::testing::tolerance;
 
-constexpr double kPi = std::numbers::pi;
-const double kRounding = tolerance(1e-9);
+using std::numbers::pi;
+const double kFormationRounding = tolerance(1e-9);
 
 const LeaderReport kReport{{-1234.56, 78.94, 105.31}, -2.5, 1.6, 100.25};
 
@@ -22,7 +22,7 @@ TEST(LeaderReport, SurvivesItsWayToWithinTheRounding) {
   const auto report = decode_report(encode_report(kReport), 103);
   ASSERT_TRUE(report);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(report->position_ned_m[i], kReport.position_ned_m[i], 0.0501);
-  EXPECT_NEAR(report->course_rad, kReport.course_rad, kPi / 65536 * 1.001);
+  EXPECT_NEAR(report->course_rad, kReport.course_rad, pi / 65536 * 1.001);
   EXPECT_NEAR(report->speed_mps, kReport.speed_mps, 0.0005001);
   EXPECT_NEAR(report->time_s, kReport.time_s, 0.0005001);
 }
@@ -32,15 +32,15 @@ TEST(LeaderReport, HasTheLayoutThatIsWrittenDown) {
                                            0x00, 0x00, 0x40, 0xDC, 0x05, 0xE8, 0x03, 0x2D};
   // 1 dm north, 1 dm west, 200 m down, east, 1.5 m/s, second 1. Sum: 241 + 1 + 765 + 215 + 64 + 225 + 235 =
   // 0x6D2; 0xFF - 0xD2 = 0x2D.
-  EXPECT_EQ(encode_report({{0.1, -0.1, 200}, kPi / 2, 1.5, 1}), expected);
+  EXPECT_EQ(encode_report({{0.1, -0.1, 200}, pi / 2, 1.5, 1}), expected);
 }
 
 TEST(LeaderReport, InstantIsCompletedAcrossTheWrapOfItsCount) {
   LeaderReport report = kReport;
   report.time_s = 65.5;  // 36 ms before the count wraps
-  EXPECT_NEAR(decode_report(encode_report(report), 66.2)->time_s, 65.5, kRounding);
+  EXPECT_NEAR(decode_report(encode_report(report), 66.2)->time_s, 65.5, kFormationRounding);
   report.time_s = 5000.123;
-  EXPECT_NEAR(decode_report(encode_report(report), 5060)->time_s, 5000.123, kRounding);
+  EXPECT_NEAR(decode_report(encode_report(report), 5060)->time_s, 5000.123, kFormationRounding);
 }
 
 TEST(LeaderReport, DamagedBytesAreNoReport) {
@@ -66,7 +66,7 @@ Follower follower() {
   formation.across_m = 20;
   formation.below_m = 5;
   Follower follower(formation, 40);
-  follower.on_report({{0, 0, 50}, kPi / 2, 1.5, 100});
+  follower.on_report({{0, 0, 50}, pi / 2, 1.5, 100});
   return follower;
 }
 
@@ -74,8 +74,8 @@ TEST(Follower, InItsPlaceItGoesAsTheLeaderDoes) {
   Follower f = follower();
   // Ten seconds later: 15 m on, less 30 m; starboard of east is south.
   const SetPoints points = f.steer_for(110, {-20, -15, 55});
-  EXPECT_NEAR(points.course_rad, kPi / 2, kRounding);
-  EXPECT_NEAR(points.speed_mps, 1.5, kRounding);
+  EXPECT_NEAR(points.course_rad, pi / 2, kFormationRounding);
+  EXPECT_NEAR(points.speed_mps, 1.5, kFormationRounding);
   EXPECT_EQ(points.z_ned_m, 55);
   EXPECT_EQ(f.phase(), FollowPhase::kFollowing);
 }
@@ -90,12 +90,12 @@ TEST(Follower, NeitherRacesNorTurnsBackForAPlaceFarAway) {
   Follower f = follower();
   EXPECT_EQ(f.steer_for(110, {-20, -1e4, 55}).speed_mps, Formation{}.max_speed_mps);
   EXPECT_EQ(f.steer_for(110, {-20, 1e4, 55}).speed_mps, 0.75);
-  EXPECT_LT(std::abs(wrapped(f.steer_for(110, {1e4, 0, 55}).course_rad - kPi / 2)), kPi / 2);
+  EXPECT_LT(std::abs(wrapped(f.steer_for(110, {1e4, 0, 55}).course_rad - pi / 2)), pi / 2);
 }
 
 TEST(Follower, BesideItsPlaceItTurnsTowardsIt) {
   Follower f = follower();
-  EXPECT_GT(f.steer_for(110, {-10, -15, 55}).course_rad, kPi / 2);  // it lies further south
+  EXPECT_GT(f.steer_for(110, {-10, -15, 55}).course_rad, pi / 2);  // it lies further south
 }
 
 TEST(Follower, KeepsTheLastCourseThenCirclesAtItsSafeDepth) {
@@ -104,7 +104,7 @@ TEST(Follower, KeepsTheLastCourseThenCirclesAtItsSafeDepth) {
   const double lost_s = 100 + formation.fresh_for_s, safe_s = lost_s + formation.keep_course_s;
   SetPoints points = f.steer_for(lost_s + 0.1, {500, 500, 55});
   EXPECT_EQ(f.phase(), FollowPhase::kKeepingCourse);
-  EXPECT_NEAR(points.course_rad, kPi / 2, kRounding);
+  EXPECT_NEAR(points.course_rad, pi / 2, kFormationRounding);
   EXPECT_EQ(points.speed_mps, 1.5);
   EXPECT_EQ(points.z_ned_m, 55);
   points = f.steer_for(safe_s + 0.1, {500, 500, 55});
@@ -112,7 +112,7 @@ TEST(Follower, KeepsTheLastCourseThenCirclesAtItsSafeDepth) {
   EXPECT_EQ(points.z_ned_m, formation.safe_depth_m);
   EXPECT_EQ(points.speed_mps, formation.safe_speed_mps);
   // The circle lies about where it began: from there on it, north of the centre, the course is east.
-  EXPECT_NEAR(f.steer_for(safe_s + 1, {540, 500, 55}).course_rad, kPi / 2, kRounding);
+  EXPECT_NEAR(f.steer_for(safe_s + 1, {540, 500, 55}).course_rad, pi / 2, kFormationRounding);
 }
 
 TEST(Follower, ResumesWhenAReportComes) {

@@ -13,8 +13,8 @@ namespace {
 
 using ::halocline::testing::tolerance;
 
-constexpr double kPi = std::numbers::pi;
-const double kRounding = tolerance(1e-12);  // a handful of operations on numbers of order 1
+using std::numbers::pi;
+const double kGuidanceRounding = tolerance(1e-12);  // a handful of operations on numbers of order 1
 
 // A square of 100 m, 20 m deep, begun at its south-west corner.
 Mission square(AtEnd at_end) {
@@ -32,17 +32,17 @@ SetPoints points_at(const Mission& mission, const Vec3& position) {
 }
 
 TEST(Guidance, OnTheLegTheCourseIsTheLegs) {
-  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, 0, 0}).course_rad, 0, kRounding);
+  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, 0, 0}).course_rad, 0, kGuidanceRounding);
 }
 
 TEST(Guidance, OffTheLegTheCourseLeadsBackByTheLookahead) {
   // 15 m to starboard with a lookahead of 15 m: 45 degrees to port.
-  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, 15, 0}).course_rad, -kPi / 4, kRounding);
-  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, -15, 0}).course_rad, kPi / 4, kRounding);
+  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, 15, 0}).course_rad, -pi / 4, kGuidanceRounding);
+  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, -15, 0}).course_rad, pi / 4, kGuidanceRounding);
 }
 
 TEST(Guidance, FarOffTheLegTheCourseIsStraightTowardsIt) {
-  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, 1e6, 0}).course_rad, -kPi / 2, tolerance(2e-5));
+  EXPECT_NEAR(points_at(square(AtEnd::kHold), {50, 1e6, 0}).course_rad, -pi / 2, tolerance(2e-5));
 }
 
 TEST(Guidance, DepthAndSpeedAreTheMissions) {
@@ -103,8 +103,8 @@ TEST(Guidance, OnTheOrbitTheCourseIsTangentClockwise) {
   mission.hold_radius_m = 40;
   const Progress done{.target = 2, .leg_start_ned_m = {100, 100, 20}, .at_end = true};
   // North of the centre (0, 100), clockwise is east; east of it, south.
-  EXPECT_NEAR(set_points(mission, done, {40, 100, 30}).course_rad, kPi / 2, kRounding);
-  EXPECT_NEAR(set_points(mission, done, {0, 140, 30}).course_rad, kPi, kRounding);
+  EXPECT_NEAR(set_points(mission, done, {40, 100, 30}).course_rad, pi / 2, kGuidanceRounding);
+  EXPECT_NEAR(set_points(mission, done, {0, 140, 30}).course_rad, pi, kGuidanceRounding);
 }
 
 TEST(Guidance, OutsideTheOrbitTheCourseLeadsInAndInsideOut) {
@@ -122,15 +122,15 @@ TEST(Guidance, CounterclockwiseCircleIsTheMirrorOfTheClockwise) {
   for (const double east : {25.0, 50.0, 70.0}) {
     const double there = course_on_circle(center, 30, true, {10, east, 0});
     const double back = course_on_circle(center, 30, false, {10, east, 0});
-    EXPECT_NEAR(std::cos(there), -std::cos(back), kRounding);  // along the circle: the other way
-    EXPECT_NEAR(std::sin(there), std::sin(back), kRounding);   // towards it: the same
+    EXPECT_NEAR(std::cos(there), -std::cos(back), kGuidanceRounding);  // along the circle: the other way
+    EXPECT_NEAR(std::sin(there), std::sin(back), kGuidanceRounding);   // towards it: the same
   }
 }
 
 TEST(Guidance, AnglesAreWrappedToHalfATurn) {
-  EXPECT_NEAR(wrapped(3 * kPi / 2), -kPi / 2, kRounding);
-  EXPECT_NEAR(wrapped(-3 * kPi / 2), kPi / 2, kRounding);
-  EXPECT_EQ(wrapped(-kPi), kPi);
+  EXPECT_NEAR(wrapped(3 * pi / 2), -pi / 2, kGuidanceRounding);
+  EXPECT_NEAR(wrapped(-3 * pi / 2), pi / 2, kGuidanceRounding);
+  EXPECT_EQ(wrapped(-pi), pi);
 }
 
 TEST(Guidance, MissionWithoutWaypointsIsRefused) {

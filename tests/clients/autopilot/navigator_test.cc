@@ -13,8 +13,8 @@ namespace {
 
 using ::halocline::testing::tolerance;
 
-constexpr double kPi = std::numbers::pi;
-const double kRounding = tolerance(1e-9);  // of some thousand sums
+using std::numbers::pi;
+const double kNavigatorRounding = tolerance(1e-9);  // of some thousand sums
 
 // Straight and level at 2 m/s towards `heading` for `seconds`.
 Navigator after(double seconds, double heading, std::optional<Vec3> over_ground = {}) {
@@ -25,41 +25,41 @@ Navigator after(double seconds, double heading, std::optional<Vec3> over_ground 
 }
 
 TEST(Navigator, StraightWayIsSpeedTimesTime) {
-  const Vec3 position = after(100, kPi / 2).position_ned_m(100);
-  EXPECT_NEAR(position.x(), 10, kRounding);
-  EXPECT_NEAR(position.y(), 20 + 200, kRounding);
+  const Vec3 position = after(100, pi / 2).position_ned_m(100);
+  EXPECT_NEAR(position.x(), 10, kNavigatorRounding);
+  EXPECT_NEAR(position.y(), 20 + 200, kNavigatorRounding);
   EXPECT_EQ(position.z(), 30);
 }
 
 TEST(Navigator, PitchShortensTheWay) {
   Navigator navigator(Vec3::Zero(), {});
-  for (int i = 0; i <= 100; ++i) navigator.add({0.1 * i, {0, -kPi / 3, 0}, 0, 2});
-  EXPECT_NEAR(navigator.position_ned_m(10).x(), 10, kRounding);  // 20 m along a slope of 60 degrees
+  for (int i = 0; i <= 100; ++i) navigator.add({0.1 * i, {0, -pi / 3, 0}, 0, 2});
+  EXPECT_NEAR(navigator.position_ned_m(10).x(), 10, kNavigatorRounding);  // 20 m along a slope of 60 degrees
 }
 
 TEST(Navigator, CircleClosesToTheSecondOrderOfTheStep) {
   // A circle of 2 m/s in 60 s: the trapezium of a chord is exact for evenly spaced samples of a full period.
   Navigator navigator(Vec3::Zero(), {});
-  for (int i = 0; i <= 600; ++i) navigator.add({0.1 * i, {0, 0, 2 * kPi * i / 600}, 0, 2});
-  EXPECT_NEAR(navigator.position_ned_m(60).norm(), 0, kRounding);
+  for (int i = 0; i <= 600; ++i) navigator.add({0.1 * i, {0, 0, 2 * pi * i / 600}, 0, 2});
+  EXPECT_NEAR(navigator.position_ned_m(60).norm(), 0, kNavigatorRounding);
 }
 
 TEST(Navigator, IsOffByTheCurrentTimesTheTimeWithoutADopplerLog) {
   const Vec3 current(0.05, -0.03, 0);
   const Vec3 truth = Vec3(10, 20, 30) + 100 * (Vec3(2, 0, 0) + current);
   const Vec3 off = after(100, 0).position_ned_m(100) - truth;
-  EXPECT_NEAR((off + 100 * current).norm(), 0, kRounding);
+  EXPECT_NEAR((off + 100 * current).norm(), 0, kNavigatorRounding);
 }
 
 TEST(Navigator, DopplerLogSeesTheCurrent) {
   const Vec3 over_ground(2.05, -0.03, 0);
   const Vec3 off = after(100, 0, over_ground).position_ned_m(100) - (Vec3(10, 20, 30) + 100 * over_ground);
-  EXPECT_NEAR(off.norm(), 0, kRounding);
+  EXPECT_NEAR(off.norm(), 0, kNavigatorRounding);
 }
 
 TEST(Navigator, DeviationGrowsWithTimeThroughTheWaterAndWithWayOverGround) {
-  EXPECT_NEAR(after(100, 0).deviation_m(), 1 + 0.1 * 100, kRounding);
-  EXPECT_NEAR(after(100, 0, Vec3(2, 0, 0)).deviation_m(), 1 + 0.01 * 200, kRounding);
+  EXPECT_NEAR(after(100, 0).deviation_m(), 1 + 0.1 * 100, kNavigatorRounding);
+  EXPECT_NEAR(after(100, 0, Vec3(2, 0, 0)).deviation_m(), 1 + 0.01 * 200, kNavigatorRounding);
 }
 
 TEST(Navigator, GoodFixRemovesTheDrift) {
@@ -75,9 +75,9 @@ TEST(Navigator, GoodFixRemovesTheDrift) {
 TEST(Navigator, FixAsGoodAsTheReckoningMeetsItHalfway) {
   Navigator navigator = after(100, 0);  // at (210, 20), deviation 11 m
   navigator.fix(200, 40, 11);
-  EXPECT_NEAR(navigator.position_ned_m(100).x(), 205, kRounding);
-  EXPECT_NEAR(navigator.position_ned_m(100).y(), 30, kRounding);
-  EXPECT_NEAR(navigator.deviation_m(), 11 / std::sqrt(2.0), kRounding);
+  EXPECT_NEAR(navigator.position_ned_m(100).x(), 205, kNavigatorRounding);
+  EXPECT_NEAR(navigator.position_ned_m(100).y(), 30, kNavigatorRounding);
+  EXPECT_NEAR(navigator.deviation_m(), 11 / std::sqrt(2.0), kNavigatorRounding);
 }
 
 TEST(Navigator, ReplacedPlaceIsTakenAsItIs) {
@@ -95,7 +95,7 @@ TEST(Navigator, SampleOfThePastIsIgnored) {
 }
 
 TEST(Navigator, BetweenSamplesItGoesOnAtTheLastVelocity) {
-  EXPECT_NEAR(after(10, 0).position_ned_m(10.5).x(), 10 + 20 + 1, kRounding);
+  EXPECT_NEAR(after(10, 0).position_ned_m(10.5).x(), 10 + 20 + 1, kNavigatorRounding);
 }
 
 TEST(Navigator, FixWithoutADeviationIsRefused) {

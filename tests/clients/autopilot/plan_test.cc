@@ -13,8 +13,8 @@ namespace {
 
 using ::halocline::testing::tolerance;
 
-constexpr double kPi = std::numbers::pi;
-const double kRounding = tolerance(1e-9);  // of coordinates of some 100 m
+using std::numbers::pi;
+const double kPlanRounding = tolerance(1e-9);  // of coordinates of some 100 m
 
 Behaviour heading(double heading_rad, double duration_s) {
   return {
@@ -37,16 +37,16 @@ TEST(Survey, HasATrackForEachSpacingAcrossTheBox) { EXPECT_EQ(survey_points(box(
 
 TEST(Survey, TracksReachTheTurnBeyondTheBoxAtBothEnds) {
   const auto points = survey_points(box(0));
-  EXPECT_NEAR(points[0].x(), 100 - 100 - 30, kRounding);
-  EXPECT_NEAR(points[1].x(), 100 + 100 + 30, kRounding);
-  EXPECT_NEAR(points[2].x(), 100 + 100 + 30, kRounding);  // back again
+  EXPECT_NEAR(points[0].x(), 100 - 100 - 30, kPlanRounding);
+  EXPECT_NEAR(points[1].x(), 100 + 100 + 30, kPlanRounding);
+  EXPECT_NEAR(points[2].x(), 100 + 100 + 30, kPlanRounding);  // back again
 }
 
 TEST(Survey, TracksLieASpacingApartFromPortToStarboard) {
   const auto points = survey_points(box(0));
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_NEAR(points[2 * i].y(), -100 + 25.0 * static_cast<double>(i), kRounding);
-    EXPECT_NEAR(points[2 * i + 1].y(), points[2 * i].y(), kRounding);
+    EXPECT_NEAR(points[2 * i].y(), -100 + 25.0 * static_cast<double>(i), kPlanRounding);
+    EXPECT_NEAR(points[2 * i + 1].y(), points[2 * i].y(), kPlanRounding);
   }
 }
 
@@ -54,15 +54,15 @@ TEST(Survey, WhatTheSpacingLeavesIsSharedByBothSides) {
   Behaviour survey = box(0);
   survey.width_m = 110;  // 10 m more than four spacings
   const auto points = survey_points(survey);
-  EXPECT_NEAR(points.front().y() - (-50 - 55), (-50 + 55) - points.back().y(), kRounding);
+  EXPECT_NEAR(points.front().y() - (-50 - 55), (-50 + 55) - points.back().y(), kPlanRounding);
 }
 
 TEST(Survey, TurnsWithItsHeading) {
-  const auto north = survey_points(box(0)), turned = survey_points(box(kPi / 3));
+  const auto north = survey_points(box(0)), turned = survey_points(box(pi / 3));
   const Vec3 center(100, -50, 0);
-  const Eigen::AngleAxisd turn(kPi / 3, Vec3::UnitZ());
+  const Eigen::AngleAxisd turn(pi / 3, Vec3::UnitZ());
   for (std::size_t i = 0; i < north.size(); ++i) {
-    EXPECT_NEAR((turned[i] - center - turn * (north[i] - center)).norm(), 0, kRounding);
+    EXPECT_NEAR((turned[i] - center - turn * (north[i] - center)).norm(), 0, kPlanRounding);
   }
 }
 
@@ -124,7 +124,7 @@ TEST(Plan, HoldCirclesWhereTheLastBehaviourEnded) {
   const Vec3 end(70, 0, 12);
   const PlanProgress progress = advance(plan, begin(Vec3::Zero(), 0), end, 61);
   const SetPoints points = set_points(plan, progress, end + Vec3(40, 0, 0));
-  EXPECT_NEAR(points.course_rad, kPi / 2, kRounding);  // north of it, clockwise
+  EXPECT_NEAR(points.course_rad, pi / 2, kPlanRounding);  // north of it, clockwise
   EXPECT_EQ(points.z_ned_m, 12);
 }
 
@@ -144,7 +144,7 @@ TEST(Plan, LoiterCirclesInItsSense) {
   loiter.sense = Sense::kCounterclockwise;
   const Plan plan = make_plan({}, {loiter});
   const Vec3 north_of_it(30, 100, 20);
-  EXPECT_NEAR(set_points(plan, begin(north_of_it, 0), north_of_it).course_rad, -kPi / 2, kRounding);
+  EXPECT_NEAR(set_points(plan, begin(north_of_it, 0), north_of_it).course_rad, -pi / 2, kPlanRounding);
 }
 
 TEST(Plan, AltitudeOfABehaviourReachesItsSetPoints) {

@@ -11,7 +11,7 @@ namespace {
 
 using ::halocline::testing::tolerance;
 
-const double kRounding = tolerance(1e-9);
+const double kSeabedAheadRounding = tolerance(1e-9);
 
 // A vehicle goes north at z over ground of z = depth + slope * north, and looks every 0.4 m.
 SeabedAhead over_slope(double z, double depth, double slope, double pitch, double until_m) {
@@ -29,15 +29,15 @@ TEST(SeabedAhead, PlaneIsSeenAsItIsAtAnyPitch) {
   for (const double pitch : {-0.3, 0.0, 0.3}) {
     const auto ground = over_slope(10, 20, 0.1, pitch, 40).ground(20);
     ASSERT_TRUE(ground);
-    EXPECT_NEAR(ground->slope, 0.1, kRounding) << pitch;
-    EXPECT_NEAR(ground->z_ned_m, 20 + 0.1 * 40, kRounding) << pitch;
+    EXPECT_NEAR(ground->slope, 0.1, kSeabedAheadRounding) << pitch;
+    EXPECT_NEAR(ground->z_ned_m, 20 + 0.1 * 40, kSeabedAheadRounding) << pitch;
   }
 }
 
 TEST(SeabedAhead, RollDoesNotDeepenTheGround) {
   SeabedAhead seabed;
   seabed.add({0, {0, 0, 10}, {0.5, 0, 0}, true, 10 / std::cos(0.5)});
-  EXPECT_NEAR(seabed.ground(0)->z_ned_m, 20, kRounding);
+  EXPECT_NEAR(seabed.ground(0)->z_ned_m, 20, kSeabedAheadRounding);
 }
 
 TEST(SeabedAhead, StandingStillDeterminesNoSlope) {
@@ -56,15 +56,15 @@ TEST(SeabedAhead, OldEchoesAreNoGround) {
 TEST(AboveGround, KeepsTheHeightAlongASlopeThatFallsAway) {
   const SetPoints points =
       above_ground({3, 4}, over_slope(10, 20, 0.1, 0, 40), 20, 10, {.altitude_m = 5, .max_z_ned_m = 1e3});
-  EXPECT_NEAR(points.z_ned_m, 20 + 4 - 5, kRounding);
-  EXPECT_NEAR(points.climb_rad, -std::atan(0.1), kRounding);
+  EXPECT_NEAR(points.z_ned_m, 20 + 4 - 5, kSeabedAheadRounding);
+  EXPECT_NEAR(points.climb_rad, -std::atan(0.1), kSeabedAheadRounding);
 }
 
 TEST(AboveGround, ClimbsBeforeGroundThatRises) {
   const SetPoints points =
       above_ground({3, 4}, over_slope(0, 20, -0.2, 0, 40), 20, 0, {.altitude_m = 5, .max_z_ned_m = 1e3});
-  EXPECT_NEAR(points.z_ned_m, 20 - 0.2 * 44 - 5, kRounding);  // that of the ground 4 m ahead
-  EXPECT_NEAR(points.climb_rad, std::atan(0.2), kRounding);
+  EXPECT_NEAR(points.z_ned_m, 20 - 0.2 * 44 - 5, kSeabedAheadRounding);  // that of the ground 4 m ahead
+  EXPECT_NEAR(points.climb_rad, std::atan(0.2), kSeabedAheadRounding);
 }
 
 TEST(AboveGround, DepthIsLeftAloneHighAboveTheGround) {
@@ -75,12 +75,12 @@ TEST(AboveGround, DepthIsLeftAloneHighAboveTheGround) {
 
 TEST(AboveGround, DepthBelowTheLeastHeightIsCut) {
   EXPECT_NEAR(above_ground({3, 4}, over_slope(10, 20, 0, 0, 40), 20, 10, {.z_ned_m = 25}).z_ned_m, 17,
-              kRounding);
+              kSeabedAheadRounding);
 }
 
 TEST(AboveGround, BelowTheLeastHeightTheVehicleIsPulledUp) {
   const SetPoints points = above_ground({3, 4}, over_slope(18, 20, 0, 0, 40), 20, 18, {.z_ned_m = 25});
-  EXPECT_NEAR(points.z_ned_m, 17, kRounding);
+  EXPECT_NEAR(points.z_ned_m, 17, kSeabedAheadRounding);
   EXPECT_GT(points.climb_rad, 0.2);
 }
 

@@ -8,29 +8,29 @@
 namespace halocline::clients {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 SimTime at(double seconds) { return SimTime::from_seconds(seconds); }
 
 TEST(DeadReckoning, GoesWhereItPointsAtItsSpeed) {
   DeadReckoning track;
-  for (int i = 0; i <= 100; ++i) track.take({at(i), 2.0, kPi / 3, 0, 10});
+  for (int i = 0; i <= 100; ++i) track.take({at(i), 2.0, pi / 3, 0, 10});
   EXPECT_NEAR(track.gone_ne_m(at(100)).x(), 100, 1e-9);
-  EXPECT_NEAR(track.gone_ne_m(at(100)).y(), 200 * std::sin(kPi / 3), 1e-9);
+  EXPECT_NEAR(track.gone_ne_m(at(100)).y(), 200 * std::sin(pi / 3), 1e-9);
 }
 
 TEST(DeadReckoning, OfAClimbCountsTheHorizontalPartOnly) {
   DeadReckoning track;
-  track.take({at(0), 2.0, 0, kPi / 3, 10});
+  track.take({at(0), 2.0, 0, pi / 3, 10});
   EXPECT_NEAR(track.gone_ne_m(at(10)).x(), 10, 1e-9);
 }
 
 // The chord of an arc that the trapezium rule leaves out: v (w dt)^2 / 12 of the way, w = 0.1 rad/s, dt = 0.1 s.
 TEST(DeadReckoning, ClosesACircleToTheErrorOfTheTrapeziumRule) {
   DeadReckoning track;
-  const double period_s = 20 * kPi;
+  const double period_s = 20 * pi;
   constexpr int kSteps = 628;
-  for (int i = 0; i <= kSteps; ++i) track.take({at(period_s * i / kSteps), 1.5, 2 * kPi * i / kSteps, 0, 0});
+  for (int i = 0; i <= kSteps; ++i) track.take({at(period_s * i / kSteps), 1.5, 2 * pi * i / kSteps, 0, 0});
   EXPECT_LT(track.gone_ne_m(at(period_s)).norm(), 1e-5);
   const double radius = 15;
   EXPECT_NEAR(track.gone_ne_m(at(period_s / 2)).y(), 2 * radius, 2 * radius * 1e-4 / 12 + 1e-6);
@@ -50,7 +50,7 @@ TEST(DeadReckoning, CountsTurnsToEitherSideAndAcrossSouth) {
   DeadReckoning track;
   for (const auto& [seconds, heading_rad] : {std::pair{0.0, 3.0}, {1.0, -3.0}, {2.0, 3.0}})
     track.take({at(seconds), 1.0, heading_rad, 0, 0});
-  const double turn = 2 * kPi - 6;
+  const double turn = 2 * pi - 6;
   EXPECT_NEAR(track.turned_rad(at(0.5)), 0.5 * turn, 1e-12);
   EXPECT_NEAR(track.turned_rad(at(2)), 2 * turn, 1e-12);
   EXPECT_NEAR(track.turned_rad(at(9)), 2 * turn, 1e-12);

@@ -15,7 +15,7 @@
 namespace halocline::clients {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 const Vec3 kWest(0, 0, 50), kEast(0, 1000, 50);
 constexpr double kDepthM = 30;
 
@@ -169,7 +169,7 @@ TEST(PositionEstimator, FindsTheOtherSideLikewise) {
 // current is known here: an unknown one that sets across the line would distinguish the sides.
 TEST(PositionEstimator, KeepsTwoHypothesesOnACourseAlongTheBeacons) {
   Voyage voyage{.start = {300, 200}, .rules = {.drift_m_per_sqrt_s = 1e-4, .current_sigma_mps = 1e-6}};
-  voyage.heading_rad = [](double) { return kPi / 2; };
+  voyage.heading_rad = [](double) { return pi / 2; };
   const End end = sail(voyage);
   ASSERT_TRUE(end.estimate.has_value());
   EXPECT_EQ(end.estimate->hypotheses, 2);
@@ -181,7 +181,7 @@ TEST(PositionEstimator, TakesTheStatedSideOnThatCourse) {
   for (std::uint64_t n = 0; n < 20; ++n) {
     Voyage voyage{.number = n, .start = {300, 200}, .start_sigma_m = 20};
     voyage.rules.current_sigma_mps = 0.1;
-    voyage.heading_rad = [](double) { return kPi / 2; };
+    voyage.heading_rad = [](double) { return pi / 2; };
     const End end = sail(voyage);
     EXPECT_EQ(end.estimate->hypotheses, 1);
     EXPECT_LT(end.normalised_square(), 18.4) << n;  // 1 in 10 000 each
@@ -233,7 +233,7 @@ TEST(PositionEstimator, StartsAnewWhenNothingFits) {
   Vec2 truth(600, 300);
   for (int i = 0; i < 60; ++i) {
     const SimTime now = SimTime::from_seconds(5.0 * i);
-    const double heading = i < 30 ? kPi : kPi / 2;
+    const double heading = i < 30 ? pi : pi / 2;
     estimator.move({now, 1.5, heading, 0, kDepthM});
     if (i == 30) truth += Vec2(3.75, -3.75);  // the turn, by the trapezium rule
     const Vec3& beacon = i % 2 == 0 ? kWest : kEast;

@@ -9,13 +9,14 @@
 #include "core/names.h"
 #include "tests/clients/modem/fake_server.h"
 #include "tests/support/archived_changes.h"
+#include "tests/support/at_ms.h"
 
 namespace halocline::clients {
 namespace {
 
 using ::testing::ElementsAre;
 
-SimTime at_ms(std::int64_t ms) { return SimTime() + SimDuration::from_milliseconds(ms); }
+using halocline::testing::at_ms;
 
 class ModemClientTest : public ::testing::Test {
  protected:

@@ -9,13 +9,14 @@
 #include "core/check.h"
 #include "tests/bus/runtime/journal_files.h"
 #include "tests/clients/modem/fake_server.h"
+#include "tests/support/at_ms.h"
 
 namespace halocline::clients {
 namespace {
 
 using ::testing::ElementsAre;
 
-SimTime at_ms(std::int64_t ms) { return SimTime() + SimDuration::from_milliseconds(ms); }
+using halocline::testing::at_ms;
 
 TrafficConfig two_vehicles() {
   TrafficConfig config;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "tests/support/at_ms.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr SimDuration kTimeout = SimDuration::from_milliseconds(2000);
 constexpr ActuatorValues kPort{-0.1, 0, 10}, kStarboard{0.1, 0, 20};
 
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 TEST(CommandSchedule, WithoutACommandTheStateIsSafe) {
   CommandSchedule schedule(kTimeout);

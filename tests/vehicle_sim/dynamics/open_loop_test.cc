@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "core/units.h"
+#include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/model_library.h"
 
@@ -19,7 +20,7 @@ using halocline::testing::tolerance;
 
 const Model kTorpedo(built_in_model("torpedo").value());
 
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 OpenLoopRun turn(std::int64_t duration_ms) {
   OpenLoopRun run;

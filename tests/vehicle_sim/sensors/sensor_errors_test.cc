@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/frames.h"
+#include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
@@ -23,7 +24,7 @@ constexpr int kSamples = 40'000;
 // generator exceeds with a chance of 6e-5.
 constexpr double kSigmas = 4;
 
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 std::vector<double> draws_of(const SensorIdentity& sensor, int axis = 0) {
   std::vector<double> draws;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::vehicle_sim {
@@ -12,7 +13,7 @@ namespace {
 using halocline::testing::tolerance;
 
 constexpr PacketKey kPacket{2, 2, 100, 7};
-SimTime at_ms(std::int64_t ms) { return SimTime::from_utime(ms * 1000); }
+using halocline::testing::at_ms;
 
 // A desk that has noted a vehicle which turns at 0.1 rad/s, from 0 to 2 s.
 UsblFixAssembler turning(const UsblSettings& settings = {.fitted = true}) {

@@ -38,7 +38,7 @@ packet_outcome_t outcome(std::int8_t result) {
   return message;
 }
 
-LogStatistics of(TemporaryLog& file) {
+LogStatistics statistics_of(TemporaryLog& file) {
   LogReader log(file.path());
   return statistics_of(log);
 }
@@ -49,7 +49,7 @@ TEST(LogStatistics, CountsReceiptsOnceHoweverOftenTheyCame) {
   file.add(2, "RECEIPT.auv-1", receipt(0, modem_receipt_t::ACCEPTED));
   file.add(3, "RECEIPT.auv-1", receipt(1, modem_receipt_t::REFUSED_BUSY));
   file.add(3, "RECEIPT.auv-2", receipt(1, modem_receipt_t::ACCEPTED));
-  const LogStatistics statistics = of(file);
+  const LogStatistics statistics = statistics_of(file);
   EXPECT_EQ(statistics.packets_sent, 3);
   EXPECT_EQ(statistics.receipts[modem_receipt_t::ACCEPTED], 2);
   EXPECT_EQ(statistics.receipts[modem_receipt_t::REFUSED_BUSY], 1);
@@ -59,7 +59,7 @@ TEST(LogStatistics, DelaysHaveLeastMedianAndGreatest) {
   TemporaryLog file;
   for (const double delay : {0.5, 0.1, 0.2, 0.4}) file.add(1, "RECEIVE.auv-1", packet(delay));
   std::ostringstream text;
-  print(text, of(file));
+  print(text, statistics_of(file));
   EXPECT_THAT(text.str(), HasSubstr("0.100000 s least, 0.300000 s median, 0.500000 s greatest"));
 }
 
@@ -69,7 +69,7 @@ TEST(LogStatistics, OutcomesAreCounted) {
   file.add(1, "OUTCOME", outcome(packet_outcome_t::BELOW_CUTOFF));
   file.add(1, "OUTCOME", outcome(packet_outcome_t::BELOW_CUTOFF));
   std::ostringstream text;
-  print(text, of(file));
+  print(text, statistics_of(file));
   EXPECT_THAT(text.str(), HasSubstr("1 received, 2 below cutoff"));
 }
 
@@ -78,7 +78,7 @@ TEST(LogStatistics, ForeignEventsAreCountedApart) {
   file.add_bytes(10, "LCM_SELF_TEST", {1});
   file.add_bytes(20, "CLOCK", {1});
   file.add(30, "CLOCK", testing::clock_at(30));
-  const LogStatistics statistics = of(file);
+  const LogStatistics statistics = statistics_of(file);
   EXPECT_EQ(statistics.events, 3);
   EXPECT_EQ(statistics.foreign, 1);
   EXPECT_EQ(statistics.undecodable, 1);
@@ -90,7 +90,7 @@ TEST(LogStatistics, UndecodableEventsAreCountedWithThePlaceOfTheFirst) {
   TemporaryLog file;
   file.add_bytes(10, "LCM_SELF_TEST", {1});
   file.add_bytes(20, "CLOCK", {1});
-  const LogStatistics statistics = of(file);
+  const LogStatistics statistics = statistics_of(file);
   EXPECT_EQ(statistics.foreign_by_channel.at("LCM_SELF_TEST"), 1);
   EXPECT_EQ(statistics.undecodable_by_channel.at("CLOCK").first_at, file.path() + ", byte 42");
   EXPECT_THAT(to_json(statistics), HasSubstr("byte 42"));
@@ -99,7 +99,7 @@ TEST(LogStatistics, UndecodableEventsAreCountedWithThePlaceOfTheFirst) {
 TEST(LogStatistics, JsonHoldsTheSameNumbers) {
   TemporaryLog file;
   file.add(1, "RECEIVE.auv-1", packet(0.25));
-  const std::string json = to_json(of(file));
+  const std::string json = to_json(statistics_of(file));
   EXPECT_THAT(json, HasSubstr("\"packets_delivered\": 1"));
   EXPECT_THAT(json, HasSubstr("\"median\": 0.25"));
 }
@@ -107,7 +107,7 @@ TEST(LogStatistics, JsonHoldsTheSameNumbers) {
 TEST(LogStatistics, EmptyLogIsDescribed) {
   TemporaryLog file;
   std::ostringstream text;
-  print(text, of(file));
+  print(text, statistics_of(file));
   EXPECT_THAT(text.str(), HasSubstr("messages    0"));
 }
 
