@@ -222,14 +222,15 @@ void Bus::resend(const repair_request_t& request) {
   }
 }
 
-void Bus::repair(SimTime sim, SimTime steady) {
+void Bus::repair(SimTime sim, SimTime steady, bool may_request) {
   steady_ = steady;
   if (!repair_) return;
   if (repair_->heartbeat_is_due(steady)) {
     publish(channels::kHeartbeat.of(identity_.name), repair_->take_heartbeat(sim, steady));
   }
-  for (const repair_request_t& request : repair_->take_requests(sim, steady)) {
-    publish(channels::kRepairRequest, request);
+  if (may_request) {
+    for (const repair_request_t& request : repair_->take_requests(sim, steady))
+      publish(channels::kRepairRequest, request);
   }
   const std::int64_t lost = flows_.lost();
   if (lost > counters_.lost) log_.warning("messages-lost", "count=" + std::to_string(lost));

@@ -91,7 +91,7 @@ class Bus {
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
                        std::vector<std::uint8_t> bytes);
   // What can be repaired of what was published; null before enable_repair().
-  const FlowHistory* history() const { return repair_ ? &repair_->history() : nullptr; }
+  const FlowRepair* flow_repair() const { return repair_.get(); }
 
   void rethrow_if_failed();  // once, what a handler threw while LCM was dispatching
 
@@ -99,7 +99,7 @@ class Bus {
   // bursts (publication_pace.h). Its runner calls set_steady() before LCM dispatches, and repair() by next_repair().
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
-  void repair(SimTime sim, SimTime steady);
+  void repair(SimTime sim, SimTime steady, bool may_request = true);
   SimTime next_repair() const { return repair_ ? repair_->next_due() : SimTime::never(); }
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
   const NodeIdentity& identity() const { return identity_; }

@@ -20,7 +20,7 @@ class ChannelPattern {
   explicit ChannelPattern(const std::string& expression);
   bool matches(std::string_view channel) const;
   // The one channel that it matches; empty where there are more.
-  std::string_view only_channel() const { return is_prefix_ || regex_ ? "" : std::string_view(text_); }
+  std::string_view only_channel() const { return is_prefix_ || expression_ ? "" : std::string_view(text_); }
   // What all channels that it matches begin with, and no others; empty where there is no such text.
   std::string_view only_prefix() const { return is_prefix_ ? std::string_view(text_) : ""; }
 

@@ -12,6 +12,7 @@
 #include "channel_server/packets/packet.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/scenario_messages.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"

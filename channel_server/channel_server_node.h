@@ -36,6 +36,7 @@
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
 #include "channel_server/shards/shard_exchange.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "channel_server/water_model.h"
 #include "core/sim_time.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "bus/node_identity.h"
 #include "core/check.h"
 
 namespace halocline::conductor {

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "bus/flow_history.h"
+#include "bus/flow_repair.h"
 #include "bus/runtime/crash_journal.h"
 #include "bus/version.h"
 #include "core/check.h"
@@ -49,7 +51,7 @@ void Node::step(const Now& now) {
       next_status_ = next_on_grid(now.steady, kStatusPeriod);
     }
   });
-  bus_.repair(now.sim, now.steady);
+  bus_.repair(now.sim, now.steady, !is_behind_);
 }
 
 void Node::keep_state_in(std::unique_ptr<StateJournal> journal) {
@@ -103,12 +105,13 @@ void Node::commit(const Now& now, const std::function<void()>& publish_all) {
 void Node::write_journal(SimTime now) {
   const bool is_whole = journal_->wants_whole();
   Archive published;
-  if (const FlowHistory* history = bus_.history()) {
-    for (const auto& [flow, message] : history->last_messages(is_whole ? 0 : published_saved_)) {
+  if (const FlowRepair* repair = bus_.flow_repair()) {
+    const FlowHistory& history = repair->history();
+    for (const auto& [flow, message] : history.last_messages(is_whole ? 0 : published_saved_)) {
       Published one(flow->channel, flow->session, flow->last, *message);
       published(one);
     }
-    published_saved_ = history->published();
+    published_saved_ = history.published();
   }
   saved_.begin_with_parts(is_whole);
   saved_(status_sequence_);

@@ -62,8 +62,12 @@ class Node {
   // next incarnation contradicts nothing that was received of this one; what this one received since its last step is
   // lost, as if it had been killed before.
   void keep_state_in(std::unique_ptr<StateJournal> journal);
-  // Messages handled from now on were received at this steady time.
-  void set_steady(SimTime steady) { bus_.set_steady(steady); }
+  // Messages handled from now on were received at this steady time. `is_behind`: more are waiting than were handled, so that it
+  // requests no repairs, which would come on top.
+  void set_steady(SimTime steady, bool is_behind = false) {
+    bus_.set_steady(steady);
+    is_behind_ = is_behind;
+  }
   Stage stage() const { return bus_.identity().stage; }
   // Its subscriptions, what it receives by them, and the destination of its messages, for a runner that delivers in LCM's
   // place (bus.h).
@@ -120,6 +124,7 @@ class Node {
   mutable std::int64_t wakeups_at_due_ = 0;
   SimTime next_status_;  // steady
   std::int64_t status_sequence_ = 0;
+  bool is_behind_ = false;
   std::unique_ptr<StateJournal> journal_;
   Archive saved_;                        // what went to the journal last
   std::uint64_t published_saved_ = 0;    // messages whose flows are in the journal (FlowHistory::published)

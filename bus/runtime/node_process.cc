@@ -217,6 +217,7 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   };
   sleep_precisely();
   MessageBatches batches;
+  bool is_behind = false;
   while (!should_stop()) {
     if (filter != nullptr) filter->follow(&node.receives(), time.receives());
     const SimTime wake = wake_time(node, time);
@@ -225,8 +226,10 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
       sleep_for(std::min(batches.wait_at(steady), std::max(wake, steady) - steady));
     }
     time.set_steady(steady_now(), wall_now());
-    node.set_steady(steady_now());
-    batches.note_handled(dispatch_waiting(lcm));
+    node.set_steady(steady_now(), is_behind);
+    const int handled = dispatch_waiting(lcm);
+    is_behind = handled == kMaxMessagesPerTurn;
+    batches.note_handled(handled);
     update_time();
     if (time.restarted()) node.restart(now);
     if (is_due(node.due())) node.step(now);

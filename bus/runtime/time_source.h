@@ -15,6 +15,7 @@
 
 #include "bus/bus.h"
 #include "bus/event_log.h"
+#include "bus/subscription.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {

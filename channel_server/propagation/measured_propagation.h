@@ -22,6 +22,7 @@
 #include "acoustics/sea/environment.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/path_exchange.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "channel_server/propagation/straight_propagation.h"

@@ -41,6 +41,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/link_searches.h"
 #include "channel_server/propagation/link_tracks.h"
+#include "channel_server/propagation/path_exchange.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/received_path.h"

@@ -28,6 +28,7 @@
 #include "channel_server/propagation/path_exchange.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/lru_cache.h"
 #include "core/sim_time.h"
 

@@ -1,4 +1,6 @@
 // Two Buses joined by a network that loses, duplicates and delays datagrams.
+#include "bus/flow_repair.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -14,6 +16,7 @@
 
 #include "bus/bus.h"
 #include "bus/event_log.h"
+#include "bus/flow_watch.h"
 #include "bus/node_identity.h"
 #include "core/sim_time.h"
 #include "tests/bus/messages_for_tests.h"
@@ -260,6 +263,31 @@ TEST(FlowRepair, AFlowThatAWholeHeartbeatDidNotListBeganAfterIt) {
 }
 
 TEST(FlowRepair, AFlowThatAHeartbeatLeftOutMayHaveBegunBefore) { EXPECT_EQ(missing_of_unlisted_flow(2), 0); }
+
+TEST(FlowRepair, AReceiverThatIsBehindRequestsNothing) {
+  lcm::LCM lcm("memq://");
+  Bus receiver(lcm, {"receiver", 1}), publisher(lcm, {"publisher", 2});
+  int requests = 0;
+  publisher.subscribe<repair_request_t>(channels::kRepairRequest,
+                                        [&](const repair_request_t&) { ++requests; });
+  receiver.subscribe<vehicle_state_t>(channels::kState, [](std::string_view, const vehicle_state_t&) {});
+  receiver.enable_repair();
+  auto state = valid_message<vehicle_state_t>(1);
+  for (const std::int64_t sequence : {0, 5}) {
+    state.sequence = sequence;
+    publisher.publish("STATE.a", state);
+  }
+  const auto requested_by = [&](double steady_s, bool may_request) {
+    while (lcm.handleTimeout(0) > 0) {
+    }
+    receiver.repair(SimTime(), SimTime::from_seconds(steady_s), may_request);
+    while (lcm.handleTimeout(0) > 0) {
+    }
+    return requests;
+  };
+  EXPECT_EQ(requested_by(1, false), 0);
+  EXPECT_EQ(requested_by(2, true), 1);
+}
 
 TEST_F(FlowRepairTest, ARequestForAnUnknownMessageIsIgnored) {
   start(0);

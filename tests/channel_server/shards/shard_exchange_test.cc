@@ -20,10 +20,13 @@
 #include "bus/channels.h"
 #include "bus/event_log.h"
 #include "bus/message_codec.h"
+#include "bus/node_identity.h"
+#include "channel_server/channel_server_config.h"
 #include "channel_server/channel_server_node.h"
 #include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/shards/path_messages.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/water_model.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/flat_bottom.h"
 
