@@ -95,6 +95,11 @@ void relate(modem_config_t& m) {
   m.center_frequency_hz = 25'000;
   m.bandwidth_hz = 5'000;
 }
+void relate(eigenray_t& m) { m.path_length_m = 1500 * m.delay_s; }
+void relate(link_search_t& m) {
+  std::sort(m.eigenrays.begin(), m.eigenrays.end(),
+            [](const eigenray_t& a, const eigenray_t& b) { return a.delay_s < b.delay_s; });
+}
 void relate(scenario_info_t& m) { m.part_count = m.part_number + 1; }
 void relate(terrain_tile_t& m) {
   m.tile_rows = 1;
