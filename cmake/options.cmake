@@ -64,13 +64,18 @@ function(halocline_module name)
   target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
 endfunction()
 
-# halocline_program(name SOURCES ... LINK ...): an executable in build/<preset>/bin, one of the target `programs`.
-add_custom_target(programs)
-function(halocline_program name)
+# halocline_executable(name SOURCES ... LINK ...): an executable in build/<preset>/bin.
+function(halocline_executable name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE halocline_options ${ARG_LINK})
   target_compile_options(${name} PRIVATE -fPIC)  # as the common headers of the libraries
   target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
+endfunction()
+
+# halocline_program(name SOURCES ... LINK ...): the same, of the target `programs`: what a user runs.
+add_custom_target(programs)
+function(halocline_program name)
+  halocline_executable(${name} ${ARGN})
   add_dependencies(programs ${name})
 endfunction()
