@@ -249,11 +249,6 @@ void Sequencer::release() {
   held_.erase(held_.begin(), next);
 }
 
-bool Sequencer::has_input() const {
-  return std::any_of(members_.begin(), members_.end(),
-                     [](const auto& member) { return member->present && member->schedule.has_input; });
-}
-
 // The last instant at which nobody has a step to take any more, but for another pass.
 SimTime Sequencer::safe() const {
   SimTime safe = SimTime::never();

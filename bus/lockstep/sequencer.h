@@ -137,7 +137,10 @@ class Sequencer {
   // Adds to the round those that share its lookahead; returns the horizon.
   SimTime look_ahead(const std::vector<bus::ScheduleEntry>& all, std::vector<std::size_t>& round) const;
   void release();
-  bool has_input() const;
+  bool has_input() const {
+    return std::any_of(members_.begin(), members_.end(),
+                       [](const auto& member) { return member->present && member->schedule.has_input; });
+  }
   SimTime safe() const;
   lockstep_turn_t turn_with_inputs(const Member& member, std::size_t begin, std::size_t end) const;
   std::map<std::string, bool> stopping_channels(const Member& of) const;

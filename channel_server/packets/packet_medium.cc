@@ -77,15 +77,10 @@ SimTime PacketMedium::next_event() const {
 SimTime PacketMedium::next_ping() const {
   SimTime next = SimTime::never();
   if (!may_have_pings_) return next;
-  const auto departs = [](const auto& entry) { return entry.second.request.kind == PacketKind::kPing; };
-  const auto flies = [](const auto& entry) {
-    return entry.second->packet->request.kind == PacketKind::kPing;
-  };
-  if (const auto first = std::find_if(departures_.begin(), departures_.end(), departs);
-      first != departures_.end())
-    next = std::get<0>(first->first);
-  if (const auto first = std::find_if(flights_.begin(), flights_.end(), flies); first != flights_.end())
-    next = std::min(next, std::get<0>(first->first));
+  for (const auto& [key, departure] : departures_)
+    if (departure.request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
+  for (const auto& [key, flight] : flights_)
+    if (flight->packet->request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
   return next;
 }
 
