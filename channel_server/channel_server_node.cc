@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "acoustics/modem/modem.h"
@@ -96,6 +97,18 @@ bus::Due ChannelServerNode::on_due() const {
           .steady = std::min({seabed_.due(), queries_.due(), exchange_.due()})};
 }
 
+// Between ticks it publishes what packets come to and answers; other servers receive only answers to pings of that.
+SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
+  for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kLinkReply}) {
+    if (matters(family.of("any"))) return SimTime::at_once();
+  }
+  for (const std::string_view channel : {channels::kOutcome, channels::kEnvironment, channels::kRayQuery}) {
+    if (matters(channel)) return SimTime::at_once();
+  }
+  return matters(channels::kPingAnswer) ? std::min({next_instant(), medium_.next_ping(), inbox_.next_ping()})
+                                        : next_instant();
+}
+
 void ChannelServerNode::on_step(const bus::Now& now) {
   if (seabed_.take_replies()) {
     next_environment_ = kBeforeAll;
@@ -112,7 +125,6 @@ void ChannelServerNode::on_step(const bus::Now& now) {
       table_waits_ = !run_instant(next_instant(), now.steady);
     advance_medium(now.sim);
     forget_old(now.sim);
-    exchange_.publish(now.sim);
   }
   answer_queries(now);
 }

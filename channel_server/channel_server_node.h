@@ -56,6 +56,7 @@ class ChannelServerNode : public bus::Node {
 
  protected:
   bus::Due on_due() const override;
+  SimTime on_quiet_until(const ChannelTest& matters) const override;
   void on_step(const bus::Now& now) override;
   void on_restart(const bus::Now& now) override;
   std::string status_text() const override;

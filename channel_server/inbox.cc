@@ -73,6 +73,14 @@ SimTime Inbox::due() const {
   return due;
 }
 
+SimTime Inbox::next_ping() const {
+  SimTime next = SimTime::never();
+  for (const auto& [vehicle, send] : inputs_.sends) {
+    if (send.packet_kind == modem_send_t::PING) next = std::min(next, SimTime::from_utime(send.utime));
+  }
+  return next;
+}
+
 void Inbox::forget_after(SimTime latest) {
   const std::int64_t utime = latest.to_utime();
   const auto is_later = [&](const auto& entry) { return entry.second.utime > utime; };

@@ -37,6 +37,8 @@ class Inbox {
 
   // The simulation time at which a step is needed for them; states and modems wait for any.
   SimTime due() const;
+  // The start of the first ping among them; never() without one.
+  SimTime next_ping() const;
   // Another run has begun: forgets what is stamped after `latest`. The rest may belong to the new run.
   void forget_after(SimTime latest);
 

@@ -27,11 +27,12 @@ void apply_join(const bus::Bytes& bytes, const std::string& scenario_digest, Seq
 }
 
 void apply_round(const bus::Bytes& bytes, bool ending, Sequencer& sequencer) {
-  while (!sequencer.begin_round()) {
+  const auto results = expected(bus::decoded_list<lockstep_result_t>(bytes));
+  while (!sequencer.begin_past_round(results)) {
     if (ending) throw std::runtime_error("the journal has a round after the last");
     sequencer.begin_instant(sequencer.next_instant());
   }
-  sequencer.complete(expected(bus::decoded_list<lockstep_result_t>(bytes)));
+  sequencer.complete(results);
 }
 
 }  // namespace

@@ -79,8 +79,10 @@ bool LockstepConductor::begin_running() {
 }
 
 bool LockstepConductor::begin_next_round() {
-  admit_and_dismiss();
-  if (stop_requested_ && !run_.ending) end_at(sequencer_.now());
+  if (sequencer_.is_level()) {
+    admit_and_dismiss();
+    if (stop_requested_ && !run_.ending) end_at(sequencer_.now());
+  }
   const SimTime after_end = rules_.end + SimDuration::from_nanoseconds(1);
   sequencer_.set_furthest(rules_.lookahead ? std::min(after_end, furthest_) : SimTime::at_once());
   while (!sequencer_.begin_round()) {
@@ -100,7 +102,8 @@ bool LockstepConductor::begin_next_instant() {
     return true;
   }
   if (next > furthest_) return false;
-  for (lockstep_message_t& message : std::exchange(injected_, {})) {
+  auto injected = sequencer_.is_level() ? std::exchange(injected_, {}) : std::vector<lockstep_message_t>();
+  for (lockstep_message_t& message : injected) {
     record(EntryKind::kInjected, bus::encoded(message));
     sequencer_.inject(std::move(message));
   }

@@ -20,7 +20,7 @@ void LockstepParticipant::on_grant(const lockstep_grant_t& grant, SimTime steady
   next_join_ = steady + kKeepAlivePeriod;
   const std::int64_t first = grant.first_turns[static_cast<std::size_t>(me - addressed.begin())];
   const std::int64_t last = first + grant.num_turns - 1;
-  if (last == turns_taken_ && !last_result_.empty()) return answer();
+  if (last == turns_taken_ && !last_result_.empty()) return has_just_answered_ ? void() : answer();
   if (last <= turns_taken_ || first > turns_taken_ + 1)
     return send_join();  // the conductor does not know how many turns it has taken
   const auto body = grants_.add(last, grant.slice_number, grant.slice_count, grant.slice_bytes);
@@ -48,6 +48,7 @@ void LockstepParticipant::take(const std::vector<lockstep_turn_t>& turns, std::i
 }
 
 void LockstepParticipant::answer() {
+  has_just_answered_ = true;
   lockstep_answer_t answer;
   answer.run_id = join_.run_id;
   answer.incarnation = join_.incarnation;
@@ -81,6 +82,7 @@ void LockstepParticipant::on_notice(const lockstep_notice_t& notice, SimTime ste
 }
 
 void LockstepParticipant::on_timer(SimTime steady) {
+  has_just_answered_ = false;
   if (has_ended() || steady < next_join_) return;
   if (state_ == State::kLeft && steady > last_received_ + kLinger) {
     state_ = State::kOver;

@@ -3,7 +3,8 @@
 //
 // Every grant carries the participant's incarnation and the number of its turn. The next turn is taken; the last one
 // taken is answered again with the answer that was kept; any other is ignored. So grants may be lost, duplicated and
-// reordered, and each turn is taken exactly once.
+// reordered, and each turn is taken exactly once. Repetitions that came while a turn was being taken ask for an answer that is
+// on its way, and are ignored.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +38,8 @@ class LockstepParticipant {
 
   void on_grant(const lockstep_grant_t& grant, SimTime steady);
   void on_notice(const lockstep_notice_t& notice, SimTime steady);
-  // Sends the JOIN that is due.
+  // Between two batches of messages: those given since the last call had come before the first of them was handled. Sends the
+  // JOIN that is due.
   void on_timer(SimTime steady);
   SimTime next_timer() const { return next_join_; }
   // Requests its last turn: with the next answer, and with each JOIN.
@@ -63,6 +65,7 @@ class LockstepParticipant {
   std::int64_t turns_taken_ = 0;
   SliceCollector grants_;
   Bytes last_result_;
+  bool has_just_answered_ = false;  // since the last on_timer()
   SimTime next_join_, last_received_, reached_;
 };
 

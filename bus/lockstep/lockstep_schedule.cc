@@ -68,4 +68,13 @@ SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alo
   return horizon;
 }
 
+SimTime shared_horizon(std::span<const ScheduleEntry> entries, int stage, SimTime now) {
+  SimTime horizon = now + kLongestSharedLookahead;
+  for (const ScheduleEntry& entry : entries) {
+    const SimTime promised = entry.stage == stage ? std::max(entry.due, entry.quiet_until) : entry.due;
+    horizon = std::min(horizon, entry.has_input ? SimTime::at_once() : promised);
+  }
+  return horizon;
+}
+
 }  // namespace halocline::bus

@@ -23,6 +23,9 @@ struct ScheduleEntry {
   int stage = 0;
   SimTime due = SimTime::never();
   bool has_input = false;  // messages that may advance its due instant: it steps at the present instant
+  // It publishes nothing before this that another than a service may be made due by, unless it has input of others than
+  // services. Before `due` it publishes nothing anyway.
+  SimTime quiet_until = SimTime::at_once();
 };
 
 class LockstepSchedule {
@@ -51,5 +54,14 @@ class LockstepSchedule {
 // a promise to publish nothing before it unless a message is received, so until the earliest of the others is due
 // nobody can publish anything that it would receive. at_once() when another has input.
 SimTime lockstep_horizon(std::span<const ScheduleEntry> entries, std::size_t alone);
+
+// Lookahead that the entries of one stage share: each may step at all of its own instants before this one, because until
+// then none of the others is due, and none of the stage publishes what the rest of it receives. The present or earlier: there is
+// none. It is kLongestSharedLookahead at most.
+//
+// A service (Stage::kTerrain) may be asked and may answer meanwhile. It publishes only what answers a message, at the instant of that
+// message, to whom the message came from, so that others may have stepped beyond that instant.
+inline constexpr SimDuration kLongestSharedLookahead = SimDuration::from_milliseconds(100);
+SimTime shared_horizon(std::span<const ScheduleEntry> entries, int stage, SimTime now);
 
 }  // namespace halocline::bus

@@ -1,8 +1,10 @@
 #include "bus/lockstep/sequencer.h"
 
-#include <algorithm>
+#include <iterator>
+#include <stdexcept>
 #include <tuple>
 
+#include "bus/node_identity.h"
 #include "core/check.h"
 
 namespace halocline::conductor {
@@ -12,6 +14,8 @@ template <class Member>
 auto order_of(const Member& member) {
   return std::tie(member.join.step_stage, member.join.participant_name);
 }
+
+constexpr int kServices = static_cast<int>(bus::Stage::kTerrain);
 
 // All channels of the family that an expression belongs to: subscriptions to each vehicle's channel make one.
 std::string family_of(const std::string& expression) {
@@ -47,15 +51,32 @@ void Sequencer::admit(const lockstep_join_t& join) {
   if (member.taken.empty()) {
     member.join = join;
     member.patterns = {};
+    member.families.clear();
     member.waking.clear();
     for (std::size_t i = 0; i < join.subscriptions.size(); ++i) {
       member.patterns.add(join.subscriptions[i]);
+      member.families.insert(family_of(join.subscriptions[i]));
       if (join.only_stores[i] == 0) member.waking.insert(family_of(join.subscriptions[i]));
     }
     member.schedule = {join.step_stage, SimTime::from_nanoseconds(join.next_due_ns)};
+    member.reached = SimTime::at_once();
   }
   member.present = true;
+  note_members_changed();
+}
+
+void Sequencer::note_members_changed() {
   receivers_.clear();
+  for (const auto& member : members_) {
+    member->stopping.clear();
+    member->schedule.quiet_until = SimTime::at_once();  // it promised that to those before
+  }
+}
+
+bool Sequencer::is_level() const {
+  return held_.empty() && std::none_of(members_.begin(), members_.end(), [this](const auto& member) {
+           return member->present && member->reached > now();
+         });
 }
 
 bool Sequencer::dismiss(const std::string& name) {
@@ -74,7 +95,8 @@ void Sequencer::end_run(SimTime instant) {
 std::vector<bus::ScheduleEntry> Sequencer::schedule_entries() const {
   std::vector<bus::ScheduleEntry> entries;
   for (const auto& member : members_)
-    entries.push_back(member->present ? member->schedule : bus::ScheduleEntry{member->schedule.stage});
+    entries.push_back(member->present ? member->schedule
+                                      : bus::ScheduleEntry{.stage = member->schedule.stage});
   return entries;
 }
 
@@ -101,11 +123,46 @@ bool Sequencer::begin_round() {
     if (next != members_.end()) round_ = {(*next)->join.participant_name};
   } else {
     const auto all = schedule_entries();
-    const auto chosen = schedule_.round(all);
-    for (const std::size_t i : chosen) round_.push_back(members_[i]->join.participant_name);
-    if (chosen.size() == 1) horizon_ = std::min(bus::lockstep_horizon(all, chosen[0]), furthest_);
+    auto chosen = schedule_.round(all);
+    leave_out_those_ahead(chosen);
+    if (!chosen.empty()) horizon_ = look_ahead(all, chosen);
+    for (const std::size_t i : chosen) {
+      Member& member = *members_[i];
+      if (member.stopping.empty()) member.stopping = stopping_channels(member);
+      round_.push_back(member.join.participant_name);
+    }
   }
   return in_round();
+}
+
+bool Sequencer::begin_past_round(const std::vector<lockstep_result_t>& results) {
+  if (!begin_round()) return false;
+  round_.clear();
+  for (const lockstep_result_t& result : results) round_.push_back(result.participant_name);
+  return true;
+}
+
+void Sequencer::leave_out_those_ahead(std::vector<std::size_t>& round) {
+  const auto others = std::stable_partition(round.begin(), round.end(), [this](std::size_t i) {
+    return !std::exchange(members_[i]->was_ahead, false) || members_[i]->reached < now();
+  });
+  if (others != round.begin()) round.erase(others, round.end());
+}
+
+// While something is held one that steps alone keeps to what is shared, too: the others may be waiting for a service.
+SimTime Sequencer::look_ahead(const std::vector<bus::ScheduleEntry>& all,
+                              std::vector<std::size_t>& round) const {
+  const int stage = all[round.front()].stage;
+  const SimTime shared = std::min(bus::shared_horizon(all, stage, now()), furthest_);
+  if (shared > now()) {
+    std::vector<std::size_t> sharing;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].stage == stage && all[i].due < shared) sharing.push_back(i);
+    }
+    if (sharing.size() > 1) round = std::move(sharing);
+  }
+  if (round.size() > 1 || !held_.empty()) return shared;
+  return std::min(bus::lockstep_horizon(all, round.front()), furthest_);
 }
 
 lockstep_turn_t Sequencer::turn_with_inputs(const Member& member, std::size_t begin, std::size_t end) const {
@@ -118,23 +175,39 @@ lockstep_turn_t Sequencer::turn_with_inputs(const Member& member, std::size_t be
 lockstep_turn_t Sequencer::turn_of(const std::string& name) const {
   const Member& member = *find(name);
   lockstep_turn_t turn = turn_with_inputs(member, member.delivered, member.inbox.size());
-  turn.instant_ns = now().nanoseconds();
+  turn.instant_ns = instant_of(member).nanoseconds();
   turn.horizon_ns = horizon_.nanoseconds();
   turn.max_steps = -1;
   turn.farewell = last_turn_ ? 1 : 0;
-  if (horizon_ > now()) turn.stopping_channels = stopping_channels(member);
+  if (horizon_ > now() || shares_its_stage(member)) {
+    for (const auto& [family, only_asks] : member.stopping) {
+      turn.stopping_channels.push_back(family);
+      turn.only_asks.push_back(only_asks ? 1 : 0);
+    }
+  }
   turn.num_stopping = static_cast<std::int32_t>(turn.stopping_channels.size());
   return turn;
 }
 
-// What may wake one of the others ends the lookahead of the one that steps alone; by family, for each turn has the list.
-std::vector<std::string> Sequencer::stopping_channels(const Member& alone) const {
-  std::set<std::string> expressions;
+// What may wake one of the others, and whatever those of its stage receive; by family, for each turn has the list.
+std::map<std::string, bool> Sequencer::stopping_channels(const Member& of) const {
+  std::map<std::string, bool> families;
   for (const auto& member : members_) {
-    if (member.get() != &alone && member->present)
-      expressions.insert(member->waking.begin(), member->waking.end());
+    if (member.get() == &of || !member->present) continue;
+    const bool is_service = member->schedule.stage == kServices;
+    const bool is_mate = member->schedule.stage == of.schedule.stage;
+    for (const std::string& family : is_mate ? member->families : member->waking) {
+      const auto [known, is_new] = families.try_emplace(family, is_service);
+      known->second = known->second && is_service;
+    }
   }
-  return {expressions.begin(), expressions.end()};
+  return families;
+}
+
+bool Sequencer::shares_its_stage(const Member& member) const {
+  return std::any_of(members_.begin(), members_.end(), [&](const auto& other) {
+    return other.get() != &member && other->present && other->schedule.stage == member.schedule.stage;
+  });
 }
 
 void Sequencer::complete(std::vector<lockstep_result_t> results) {
@@ -145,13 +218,46 @@ void Sequencer::complete(std::vector<lockstep_result_t> results) {
             [](const auto& a, const auto& b) { return order_of(*a.first) < order_of(*b.first); });
   for (const auto& [member, result] : in_order) take_result(*member, *result);
   for (const auto& [member, result] : in_order) {
-    for (lockstep_message_t& message : result->outputs) deliver(std::move(message));
+    for (lockstep_message_t& message : result->outputs) held_.push_back({std::move(message), member});
   }
-  const SimTime reached = SimTime::from_nanoseconds(results.front().reached_ns);
-  if (results.size() == 1 && reached > now())
-    schedule_.resume_after(reached, in_order.front().first->schedule.stage);
+  std::stable_sort(held_.begin(), held_.end(), [](const Held& a, const Held& b) {
+    return a.message.instant_ns != b.message.instant_ns ? a.message.instant_ns < b.message.instant_ns
+                                                        : order_of(*a.publisher) < order_of(*b.publisher);
+  });
   round_.clear();
   ++rounds_;
+  release();
+  const Member& any = *in_order.front().first;
+  SimTime reached = any.reached;
+  for (const auto& [member, result] : in_order) reached = std::max(reached, member->reached);
+  reached = std::min(reached, safe());
+  if (held_.empty() && !has_input() && reached > now()) schedule_.resume_after(reached, any.schedule.stage);
+  for (const auto& [member, result] : in_order) member->was_ahead = member->reached > now();
+}
+
+// In the order of the run: instant by instant, as far as nobody can publish anything before it, and as nobody has been woken,
+// who would.
+void Sequencer::release() {
+  const SimTime safe_until = safe();
+  auto next = held_.begin();
+  while (next != held_.end()) {
+    const SimTime instant = next->instant();
+    if (instant > now() && (instant > safe_until || has_input())) break;
+    if (instant > now()) schedule_.resume_after(instant, next->publisher->schedule.stage);
+    for (; next != held_.end() && next->instant() == instant; ++next) deliver(std::move(next->message));
+  }
+  held_.erase(held_.begin(), next);
+}
+
+// The last instant at which nobody has a step to take any more, but for another pass.
+SimTime Sequencer::safe() const {
+  SimTime safe = SimTime::never();
+  for (const auto& member : members_) {
+    if (!member->present) continue;
+    const SimTime due = member->schedule.due;
+    safe = std::min(safe, due > member->reached ? due - SimDuration::from_nanoseconds(1) : due);
+  }
+  return safe;
 }
 
 void Sequencer::take_result(Member& member, const lockstep_result_t& result) {
@@ -160,13 +266,20 @@ void Sequencer::take_result(Member& member, const lockstep_result_t& result) {
   if (result.num_steps == kDropped) {
     member.present = false;
     member.inbox.resize(member.delivered);
-    return;
+    return note_members_changed();
   }
   member.delivered = member.inbox.size();
   member.schedule.due = SimTime::from_nanoseconds(result.next_due_ns);
   member.digest = result.outputs_digest;
-  member.taken.push_back({now().nanoseconds(), result.reached_ns, result.num_steps, member.delivered});
+  member.taken.push_back(
+      {instant_of(member).nanoseconds(), result.reached_ns, result.num_steps, member.delivered});
+  member.reached = SimTime::from_nanoseconds(result.reached_ns);
+  // Where it is due again at the instant of its step, those that share its lookahead may not pass that.
+  const bool is_due_again = member.schedule.due <= member.reached;
+  member.schedule.quiet_until =
+      is_due_again ? SimTime::at_once() : SimTime::from_nanoseconds(result.quiet_until_ns);
   if (!last_turn_) return;
+  note_members_changed();
   member.present = false;  // should it come back, it begins anew
   member.taken.clear();
   member.inbox.clear();
@@ -179,6 +292,12 @@ void Sequencer::deliver(lockstep_message_t message) {
   const lockstep_message_t& kept = messages_.back();
   for (const Receiver& receiver : receivers_of(kept.channel_name)) {
     if (!receiver.member->present) continue;
+    if (receiver.member->reached.nanoseconds() > kept.instant_ns) {
+      throw std::runtime_error(
+          kept.channel_name +
+          " was published at t=" + std::to_string(1e-9 * static_cast<double>(kept.instant_ns)) +
+          " s, before the instant that its publisher promised to " + receiver.member->join.participant_name);
+    }
     receiver.member->inbox.push_back(index);
     if (receiver.may_wake) receiver.member->schedule.has_input = true;
   }

@@ -70,11 +70,23 @@ bool LockstepTurns::must_pause(const lockstep_turn_t& turn, std::size_t publishe
     const std::string& channel = published_[i].channel_name;
     if (interest_in(channel).receives) return true;
     for (const std::string& expression : turn.stopping_channels) {
-      const auto pattern = stopping_.try_emplace(expression, expression).first;
-      if (pattern->second.matches(channel)) return true;
+      if (pattern_of(expression).matches(channel)) return true;
     }
   }
   return published_.size() >= kMaxPublishedPerTurn;
+}
+
+const ChannelPattern& LockstepTurns::pattern_of(const std::string& expression) {
+  return stopping_.try_emplace(expression, expression).first->second;
+}
+
+SimTime LockstepTurns::quiet_until(const lockstep_turn_t& turn) {
+  return node_.quiet_until([&](std::string_view channel) {
+    for (std::size_t i = 0; i < turn.stopping_channels.size(); ++i) {
+      if (turn.only_asks[i] == 0 && pattern_of(turn.stopping_channels[i]).matches(channel)) return true;
+    }
+    return false;
+  });
 }
 
 lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
@@ -92,7 +104,7 @@ lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
     const std::size_t published_before = published_.size();
     now_ = next;
     node_.step({now_, now_});
-    paused = must_pause(turn, published_before);
+    paused = must_pause(turn, published_before) || node_.lockstep_due() <= now_;
   }
   digest_ = digest_of(digest_, published_);
   lockstep_result_t result;
@@ -100,6 +112,7 @@ lockstep_result_t LockstepTurns::take(const lockstep_turn_t& turn) {
   result.num_steps = steps;
   result.reached_ns = now_.nanoseconds();
   result.next_due_ns = node_.lockstep_due().nanoseconds();
+  result.quiet_until_ns = quiet_until(turn).nanoseconds();
   result.outputs_digest = digest_;
   result.num_outputs = static_cast<std::int32_t>(published_.size());
   result.outputs = published_;

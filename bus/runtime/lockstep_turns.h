@@ -1,8 +1,9 @@
 // Executes the turns of a lockstep run for one node: delivers the turn's messages, steps the node if it is due, and
 // returns what it published and when it is next due.
 //
-// Its inputs are delivered as LCM would, and its outputs go to the result alone. With lookahead (a turn whose horizon lies beyond its instant) it steps at its own instants until the
-// horizon, or until it publishes a message that may advance the due instant of a participant.
+// Its inputs are delivered as LCM would, and its outputs go to the result alone. With lookahead (a turn whose horizon lies
+// beyond its instant) it steps at its own instants until the horizon, until it publishes a message that may advance the due
+// instant of a participant, or until it is due again at the instant of a step.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +38,8 @@ class LockstepTurns {
   Interest interest_in(const std::string& channel);
   void deliver(const std::vector<lockstep_message_t>& messages);
   bool must_pause(const lockstep_turn_t& turn, std::size_t published_before);
+  const ChannelPattern& pattern_of(const std::string& expression);
+  SimTime quiet_until(const lockstep_turn_t& turn);
 
   Node& node_;
   std::map<std::string, Interest, std::less<>> interests_;

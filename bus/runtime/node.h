@@ -42,6 +42,8 @@ struct Due {
 
 class Node {
  public:
+  using ChannelTest = std::function<bool(std::string_view channel)>;
+
   // Subscriptions are made by the derived constructors; nothing is published before the first step.
   Node(lcm::LCM& lcm, NodeIdentity identity) : bus_(lcm, std::move(identity)) {}
   virtual ~Node() = default;
@@ -84,6 +86,9 @@ class Node {
   Due due() const;
   // When it is due in lockstep, where steady time is simulation time.
   SimTime lockstep_due() const;
+  // In lockstep: it publishes nothing before this on channels for which `matters`, unless it receives something of others
+  // than services (lockstep_schedule.h); later than when it is due where it steps without publishing on them.
+  SimTime quiet_until(const ChannelTest& matters) const;
   // due() keeps what it was until a message that may advance it, or a call of the runner; this says that something else has
   // changed it.
   void note_due_changed() { known_due_.reset(); }
@@ -97,6 +102,8 @@ class Node {
 
  protected:
   virtual Due on_due() const = 0;
+  // As quiet_until(), but for STATUS; a channel of a family is tested by any of its names. at_once(): when it is due.
+  virtual SimTime on_quiet_until(const ChannelTest& /*matters*/) const { return SimTime::at_once(); }
   virtual void on_step(const Now& now) = 0;
   virtual void on_stop(const Now& /*now*/) {}
   // Simulation time jumped back: another run has begun. Discard what was received of the old one.

@@ -59,6 +59,7 @@ void PacketMedium::add_answer(const PingAnswer& answer) {
 
 void PacketMedium::add_departure(SimTime at, Departure departure) {
   const SendRequest& request = departure.request;
+  may_have_pings_ = may_have_pings_ || request.kind == PacketKind::kPing;
   departures_.insert_or_assign(
       DepartureKey{at, request.vehicle, request.kind, request.packet_sequence, request.destination_id,
                    departure.queued == nullptr, request.session},
@@ -70,6 +71,16 @@ SimTime PacketMedium::next_event() const {
   if (waiting_) return next;
   if (!departures_.empty()) next = std::get<0>(departures_.begin()->first);
   if (!flights_.empty()) next = std::min(next, std::get<0>(flights_.begin()->first));
+  return next;
+}
+
+SimTime PacketMedium::next_ping() const {
+  SimTime next = SimTime::never();
+  if (!may_have_pings_) return next;
+  for (const auto& [key, departure] : departures_)
+    if (departure.request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
+  for (const auto& [key, flight] : flights_)
+    if (flight->packet->request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
   return next;
 }
 
@@ -316,6 +327,7 @@ ReceiverState& PacketMedium::state_of(VehicleId id) {
 }
 
 void PacketMedium::forget_before(SimTime time) {
+  may_have_pings_ = next_ping() != SimTime::never();
   register_.forget_before(time);
   answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));
   for (auto receiver = receivers_.begin(); receiver != receivers_.end();) {

@@ -86,6 +86,8 @@ class PacketMedium {
 
   // When something next happens; SimTime::never() when the water is silent, or waits.
   SimTime next_event() const;
+  // When a ping next departs, arrives or ends; SimTime::never() without one, though the water waits.
+  SimTime next_ping() const;
   // Everything that happens up to and including `time`, which does not decrease from call to call; up to the first
   // event that waits.
   std::vector<MediumEvent> advance_to(SimTime time);
@@ -152,6 +154,7 @@ class PacketMedium {
       answered_;  // see add_answer
   SimTime advanced_to_ = SimTime::at_once();
   bool waiting_ = false;
+  bool may_have_pings_ = false;  // among departures and flights
 };
 
 }  // namespace halocline::channel_server

@@ -126,23 +126,19 @@ void ShardExchange::found(const SharedQuery& query, const FoundPaths& paths) {
   peer.last_bytes += bytes;
 }
 
-void ShardExchange::send(std::size_t peer, SimTime time, bool ends_tick) {
+void ShardExchange::send_all(std::size_t peer, SimTime tick) {
   std::vector<found_paths_t> messages = std::exchange(peers_[peer].outbox, {});
   peers_[peer].last_bytes = 0;
-  if (messages.empty() && ends_tick) messages.emplace_back();
+  if (messages.empty()) messages.emplace_back();
   for (found_paths_t& message : messages) {
-    message.utime = time.to_utime();
+    message.utime = tick.to_utime();
     message.shard_index = shard_.index;
     message.shard_count = shard_.count;
-    message.ends_tick = ends_tick && &message == &messages.back();
+    message.ends_tick = &message == &messages.back();
     message.num_searches = static_cast<std::int32_t>(message.searches.size());
     published_ += message.num_searches;
     publisher_.publish(channel_of(static_cast<int>(peer)), std::move(message));
   }
-}
-
-void ShardExchange::publish(SimTime now) {
-  for (std::size_t i = 0; i < peers_.size(); ++i) send(i, now, /*ends_tick=*/false);
 }
 
 void ShardExchange::await(VehicleId a, VehicleId b) {
@@ -151,7 +147,7 @@ void ShardExchange::await(VehicleId a, VehicleId b) {
 
 void ShardExchange::end_tick(SimTime tick, SimTime steady) {
   for (std::size_t i = 0; i < peers_.size(); ++i) {
-    if (static_cast<int>(i) != shard_.index) send(i, tick, /*ends_tick=*/true);
+    if (static_cast<int>(i) != shard_.index) send_all(i, tick);
   }
   tick_ = SimTime::from_utime(tick.to_utime());  // as the marks have it
   waits_until_ = steady + deadline_;

@@ -1,8 +1,8 @@
 // Channel servers of one water tell each other, by FOUND_PATHS, the paths that both ends of a link need (path_exchange.h).
 //
-// Who searches. For link tables the owner of a pair (Shard::owner_of); at a tick it publishes what it has found, with the mark
-// that this is all, and awaits the marks of others for what they own. For a packet the receiver's server, which
-// publishes what it finds; nobody waits for that.
+// Who searches. For link tables the owner of a pair (Shard::owner_of); at a tick it publishes what it has found since the one
+// before, with the mark that this is all, and awaits the marks of others for what they own. For a packet the receiver's server;
+// nobody waits for that. Between ticks nothing is published, so that in lockstep servers share lookahead.
 //
 // Waiting. Until the marks have come, or the deadline, in steady time, has passed: the other counts as away then, and nobody
 // waits for it until it ends a tick again. What has not come by then is searched for here. In lockstep the marks come within the
@@ -38,7 +38,7 @@ class ShardExchange : public PathExchange {
  public:
   // What is received is kept in two halves, of which the older is dropped when the newer has this many paths: 40 MB each.
   static constexpr std::size_t kMaxPathsOfHalf = 200'000;
-  // Searches that wait to be published to one server: what is found beyond these is not.
+  // Searches that wait for the tick to be published to one server: what is found beyond these is not.
   static constexpr std::size_t kMaxWaitingMessages = 1000;  // below 60 kB each
 
   // `scenario`: a hash of it, the same for all servers that are to believe each other. Subscribes, unless the server is alone. Bus
@@ -60,8 +60,6 @@ class ShardExchange : public PathExchange {
   void end_tick(SimTime tick, SimTime steady);
   // Whether something that was awaited may still come.
   [[nodiscard]] bool must_wait(SimTime steady);
-  // What was found since the last time.
-  void publish(SimTime now);
   // Steady time at which waiting ends; never() when nothing is waited for.
   SimTime due() const;
   // Another run has begun.
@@ -89,7 +87,7 @@ class ShardExchange : public PathExchange {
   void take(const found_paths_t& message);
   void keep(const link_search_t& search);
   bool is_missing(const Peer& peer) const;
-  void send(std::size_t peer, SimTime time, bool ends_tick);
+  void send_all(std::size_t peer, SimTime tick);
 
   bus::Bus& bus_;
   bus::NumberedPublisher& publisher_;

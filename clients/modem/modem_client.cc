@@ -10,16 +10,18 @@ namespace {
 constexpr std::size_t kLongestPayload = 32768;  // modem_send_t
 }
 
-ModemClient::ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy)
+ModemClient::ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy, bus::Wakeup wakeup)
     : bus_(bus), address_(std::move(address)), policy_(policy) {
   require(is_valid_name(address_.vehicle),
           "vehicle name '" + address_.vehicle + "'; allowed is a name of " + std::string(kNameRule));
   require(address_.vehicle_id >= 1, "a vehicle's id is a whole number from 1");
   require(policy_.interval > SimDuration(), "the interval between repetitions must be above 0");
-  bus_.subscribe<modem_receipt_t>(bus::channels::kReceipt.of(address_.vehicle),
-                                  [this](const modem_receipt_t& receipt) { take_receipt(receipt); });
-  bus_.subscribe<modem_receive_t>(bus::channels::kReceive.of(address_.vehicle),
-                                  [this](const modem_receive_t& packet) { take_packet(packet); });
+  bus_.subscribe<modem_receipt_t>(
+      bus::channels::kReceipt.of(address_.vehicle),
+      [this](const modem_receipt_t& receipt) { take_receipt(receipt); }, wakeup);
+  bus_.subscribe<modem_receive_t>(
+      bus::channels::kReceive.of(address_.vehicle),
+      [this](const modem_receive_t& packet) { take_packet(packet); }, wakeup);
 }
 
 std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t destination,

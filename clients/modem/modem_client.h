@@ -30,6 +30,7 @@
 #include <utility>
 
 #include "bus/bus.h"
+#include "bus/subscription.h"
 #include "core/archive.h"
 #include "core/sim_time.h"
 
@@ -73,7 +74,9 @@ class ModemClient {
   // Bounds of what a client keeps: packets not taken yet, receipts, and packet identities to detect duplicates.
   static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 1000, kMaxRemembered = 1000;
 
-  ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {});
+  // `wakeup`: what the handlers of receipts and packets may do to the node (bus/subscription.h).
+  ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy = {},
+              bus::Wakeup wakeup = bus::Wakeup::kMayAdvanceDue);
   ModemClient(const ModemClient&) = delete;
   ModemClient& operator=(const ModemClient&) = delete;
 

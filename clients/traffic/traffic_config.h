@@ -1,6 +1,7 @@
 // The sections [vehicle.traffic] of a scenario file: who sends what to whom, and how often.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -33,6 +34,13 @@ struct VehicleTraffic {
 
 struct TrafficConfig {
   std::vector<VehicleTraffic> vehicles;  // one for each of the scenario
+
+  // Whether packets may be passed on: otherwise nobody looks for the header of relays in what it receives.
+  bool uses_relays() const {
+    return std::any_of(vehicles.begin(), vehicles.end(), [](const VehicleTraffic& traffic) {
+      return traffic.is_relayed() || traffic.relay.passes_on;
+    });
+  }
 };
 
 void visit(bus::ConfigVisitor& v, TrafficConfig& config);

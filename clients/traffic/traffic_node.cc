@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bus/runtime/scenario.h"
+#include "bus/subscription.h"
 
 namespace halocline::clients {
 namespace {
@@ -33,17 +34,19 @@ std::vector<std::uint8_t> traffic_payload(std::int64_t number, std::int32_t size
 }
 
 TrafficNode::TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const TrafficConfig& config)
-    : Node(lcm, std::move(identity)) {
+    : Node(lcm, std::move(identity)), uses_relays_(config.uses_relays()) {
   for (const VehicleTraffic& traffic : config.vehicles) add_sender(config, traffic);
 }
 
 void TrafficNode::add_sender(const TrafficConfig& config, const VehicleTraffic& traffic) {
   // A session for each vehicle, so that (session, packet_sequence) names a packet without its sender.
   const auto entropy = static_cast<std::uint64_t>(bus().identity().session);
+  // Only what may have to be passed on makes a packet due.
+  const auto wakeup = uses_relays_ ? bus::Wakeup::kMayAdvanceDue : bus::Wakeup::kStoreOnly;
   const ModemAddress address{traffic.vehicle, traffic.vehicle_id, bus::session_of(entropy, traffic.vehicle)};
   senders_.emplace_back(new Sender{traffic,
                                    destination_id(config, traffic),
-                                   {bus(), address},
+                                   {bus(), address, {}, wakeup},
                                    Relay(traffic.vehicle_id, traffic.relay, entropy),
                                    next_packet_at(traffic, SimTime())});
   Sender* sender = senders_.back().get();
@@ -55,7 +58,7 @@ void TrafficNode::on_packet(Sender& sender, const modem_receive_t& packet) {
   bus().log().debug("packet-received", "vehicle=" + sender.traffic.vehicle +
                                            " source=" + std::to_string(packet.source_id) +
                                            " packet=" + std::to_string(packet.packet_sequence));
-  sender.relay.take(packet.payload, SimTime::from_utime(packet.utime));
+  if (uses_relays_) sender.relay.take(packet.payload, SimTime::from_utime(packet.utime));
 }
 
 void TrafficNode::on_receipt(Sender& sender, const modem_receipt_t& receipt) {
@@ -140,13 +143,9 @@ std::string TrafficNode::status_text() const {
 }
 
 std::string TrafficNode::relay_text() const {
+  if (!uses_relays_) return "";
   RelayCounters sum;
-  bool is_used = false;
-  for (const auto& sender : senders_) {
-    sum.add(sender->relay.counters());
-    is_used = is_used || sender->traffic.is_relayed() || sender->traffic.relay.passes_on;
-  }
-  if (!is_used) return "";
+  for (const auto& sender : senders_) sum.add(sender->relay.counters());
   return "; end to end: sent " + std::to_string(sum.originated) + ", delivered " +
          std::to_string(sum.delivered) + ", confirmed " + std::to_string(sum.confirmed) + "; passed on " +
          std::to_string(sum.passed_on) + ", duplicates " + std::to_string(sum.duplicates) + ", expired " +

@@ -65,6 +65,7 @@ class TrafficNode : public bus::Node {
   static void transmit_due(Sender& sender, const bus::Now& now);
   std::string relay_text() const;
 
+  bool uses_relays_;
   std::vector<std::unique_ptr<Sender>> senders_;
 };
 

@@ -15,14 +15,16 @@ namespace halocline::conductor::testing {
 
 class ChattyNode : public bus::Node {
  public:
-  // Subscribes to the news of others (NEWS.<other>, stored), and to requests (REQUEST.<name>, answered at the same
+  // Subscribes to the news and events of others (NEWS.<other>, EVENT.<other>, stored), and to requests (REQUEST.<name>, answered at the same
   // instant). Now and then sends a request to `neighbour`.
   ChattyNode(lcm::LCM& lcm, const std::string& name, bus::Stage stage, SimDuration period,
              const std::vector<std::string>& others, std::string neighbour)
       : Node(lcm, {name, 1, stage}), period_(period), neighbour_(std::move(neighbour)) {
     for (const std::string& other : others) {
-      bus().subscribe<sim_clock_t>(
-          "NEWS." + other, [this](const sim_clock_t& m) { fold(m.clock_step_us); }, bus::Wakeup::kStoreOnly);
+      for (const std::string family : {"NEWS.", "EVENT."}) {
+        bus().subscribe<sim_clock_t>(
+            family + other, [this](const sim_clock_t& m) { fold(m.clock_step_us); }, bus::Wakeup::kStoreOnly);
+      }
     }
     bus().subscribe<sim_clock_t>("REQUEST." + name, [this](const sim_clock_t& m) {
       fold(m.clock_step_us);

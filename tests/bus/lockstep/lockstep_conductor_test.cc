@@ -46,17 +46,18 @@ std::string last_reports(SimulatedLockstep& run) {
   return text;
 }
 
-void expect_the_same_messages(const NetworkRules& rules, unsigned count) {
+void expect_the_same_messages(const NetworkRules& rules, unsigned count,
+                              const std::vector<testing::NodeRule>& nodes = testing::five_nodes()) {
   int crashes = 0;
+  const Messages expected = testing::messages_of_one_process(nodes, kEnd);
   for (unsigned seed = 0; seed < seeds(count); ++seed) {
-    SimulatedLockstep run(testing::five_nodes(), kEnd, rules, seed);
+    SimulatedLockstep run(nodes, kEnd, rules, seed);
     ASSERT_NO_THROW(run.run()) << "seed " << seed << ", " << last_reports(run);
     const Messages& messages = run.messages();
-    const auto differs =
-        std::mismatch(messages.begin(), messages.end(), reference().begin(), reference().end());
-    ASSERT_TRUE(messages == reference())
+    const auto differs = std::mismatch(messages.begin(), messages.end(), expected.begin(), expected.end());
+    ASSERT_TRUE(messages == expected)
         << "seed " << seed << ": differs from message " << differs.first - messages.begin() << " on, of "
-        << messages.size() << " and " << reference().size();
+        << messages.size() << " and " << expected.size();
     crashes += run.crashes();
   }
   if (rules.participant_crashes_per_s + rules.conductor_crashes_per_s > 0) {
@@ -99,6 +100,34 @@ TEST(LockstepConductor, PublishesTheSameWhenAllCrashAndReturn) {
                             .participant_crashes_per_s = 20,
                             .conductor_crashes_per_s = 20},
                            150);
+}
+
+TEST(LockstepConductor, PublishesTheSameWhereAStageSharesLookahead) {
+  expect_the_same_messages({}, 20, testing::sharing_nodes());
+  expect_the_same_messages({.lookahead = false}, 3, testing::sharing_nodes());
+  expect_the_same_messages(
+      {.loss = 0.1, .duplication = 0.1, .longest_delay = SimDuration::from_milliseconds(5)}, 10,
+      testing::sharing_nodes());
+}
+
+TEST(LockstepConductor, PublishesTheSameWhereAStageSharesLookaheadAndAllCrashAndReturn) {
+  expect_the_same_messages({.loss = 0.05, .participant_crashes_per_s = 20, .conductor_crashes_per_s = 10}, 40,
+                           testing::sharing_nodes());
+}
+
+TEST(LockstepConductor, SharedLookaheadSavesExchanges) {
+  SimulatedLockstep with(testing::sharing_nodes(), kEnd, {}, 1);
+  SimulatedLockstep without(testing::sharing_nodes(), kEnd, {.lookahead = false}, 1);
+  with.run();
+  without.run();
+  EXPECT_LT(with.conductor().sequencer().rounds(), without.conductor().sequencer().rounds() / 2);
+}
+
+TEST(LockstepConductor, WhoPublishesBeforeTheInstantThatItPromisedEndsTheRun) {
+  auto nodes = testing::sharing_nodes();
+  nodes[5].kind = testing::NodeRule::Kind::kLiar;
+  SimulatedLockstep run(nodes, kEnd, {}, 1);
+  EXPECT_THROW(run.run(), std::runtime_error);
 }
 
 // Wherever it crashes, its last output included: the run ends, and its log is whole.

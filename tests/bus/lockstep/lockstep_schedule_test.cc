@@ -78,5 +78,25 @@ TEST(LockstepHorizon, IsThePresentWhileAnotherHasInput) {
   EXPECT_EQ(lockstep_horizon(entries, 0), SimTime::at_once());
 }
 
+TEST(SharedHorizon, IsBoundedByOthersThatAreDueAndByWhoOfTheStagePromisedLeast) {
+  const SimTime never = SimTime::never();
+  const std::vector<ScheduleEntry> entries{
+      {0, at_ms(60)}, {6, at_ms(10), false, at_ms(50)}, {6, at_ms(12), false, at_ms(40)}, {6, never}};
+  EXPECT_EQ(shared_horizon(entries, 6, at_ms(10)), at_ms(40));
+  EXPECT_EQ(shared_horizon(entries, 0, at_ms(10)), at_ms(10));
+  EXPECT_EQ(shared_horizon(std::vector<ScheduleEntry>{{6, at_ms(10), false, never}}, 6, at_ms(10)),
+            at_ms(10) + kLongestSharedLookahead);
+}
+
+TEST(SharedHorizon, IsThePresentWhereOneHasInputOrPromisesNothing) {
+  const SimTime never = SimTime::never();
+  EXPECT_LE(shared_horizon(std::vector<ScheduleEntry>{{6, at_ms(10), false, never}, {6, never, true, never}},
+                           6, at_ms(10)),
+            at_ms(10));
+  EXPECT_LE(
+      shared_horizon(std::vector<ScheduleEntry>{{6, at_ms(10)}, {6, never, false, never}}, 6, at_ms(10)),
+      at_ms(10));
+}
+
 }  // namespace
 }  // namespace halocline::bus

@@ -17,6 +17,7 @@
 #include "bus/runtime/lockstep_turns.h"
 #include "core/sim_time.h"
 #include "tests/bus/lockstep/chatty_node.h"
+#include "tests/bus/lockstep/sharing_node.h"
 
 namespace halocline::conductor::testing {
 namespace {
@@ -40,19 +41,43 @@ std::vector<NodeRule> five_nodes() {
           {"server", bus::Stage::kChannel, ms(70)}};
 }
 
-std::unique_ptr<ChattyNode> make_node(lcm::LCM& lcm, const std::vector<NodeRule>& nodes, std::size_t index) {
+std::vector<NodeRule> sharing_nodes() {
+  const auto ms = [](std::int64_t n) { return SimDuration::from_milliseconds(n); };
+  using Kind = NodeRule::Kind;
+  return {{"clock", bus::Stage::kTime, ms(100)},
+          {"bottom", bus::Stage::kTerrain, ms(1), Kind::kService},
+          {"mover-a", bus::Stage::kVehicles, ms(20)},
+          {"mover-b", bus::Stage::kVehicles, ms(30)},
+          {"server-a", bus::Stage::kChannel, ms(2), Kind::kSharing},
+          {"server-b", bus::Stage::kChannel, ms(3), Kind::kSharing},
+          {"server-c", bus::Stage::kChannel, ms(5), Kind::kSharing}};
+}
+
+std::unique_ptr<bus::Node> make_node(lcm::LCM& lcm, const std::vector<NodeRule>& nodes, std::size_t index) {
   const NodeRule& part = nodes[index];
-  std::vector<std::string> others;
+  std::vector<std::string> others, mates, sharing;
   for (const NodeRule& other : nodes) {
-    if (other.name != part.name) others.push_back(other.name);
+    if (other.kind == NodeRule::Kind::kSharing) sharing.push_back(other.name);
+    if (other.name != part.name) (other.stage == part.stage ? mates : others).push_back(other.name);
   }
+  switch (part.kind) {
+    case NodeRule::Kind::kService:
+      return std::make_unique<AnsweringNode>(lcm, part.name, sharing);
+    case NodeRule::Kind::kSharing:
+    case NodeRule::Kind::kLiar:
+      return std::make_unique<SharingNode>(lcm, part.name, part.period, others, mates,
+                                           part.kind == NodeRule::Kind::kLiar);
+    case NodeRule::Kind::kChatty:
+      break;
+  }
+  others.insert(others.end(), mates.begin(), mates.end());
   return std::make_unique<ChattyNode>(lcm, part.name, part.stage, part.period, others,
                                       nodes[(index + 2) % nodes.size()].name);
 }
 
 Messages messages_of_one_process(const std::vector<NodeRule>& nodes, SimTime end) {
   lcm::LCM lcm("memq://");
-  std::vector<std::unique_ptr<ChattyNode>> made;
+  std::vector<std::unique_ptr<bus::Node>> made;
   std::vector<bus::Node*> all;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     made.push_back(make_node(lcm, nodes, i));

@@ -18,8 +18,8 @@
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_turns.h"
+#include "bus/runtime/node.h"
 #include "core/sim_time.h"
-#include "tests/bus/lockstep/chatty_node.h"
 
 namespace halocline::conductor::testing {
 
@@ -29,12 +29,16 @@ std::string text_of(const lockstep_message_t& message);
 
 // One of the nodes that take part: a name, its stage and its period.
 struct NodeRule {
+  enum class Kind { kChatty, kService, kSharing, kLiar };
   std::string name;
   bus::Stage stage;
   SimDuration period;
+  Kind kind = Kind::kChatty;
 };
 std::vector<NodeRule> five_nodes();
-std::unique_ptr<ChattyNode> make_node(lcm::LCM& lcm, const std::vector<NodeRule>& nodes, std::size_t index);
+// Three servers that share lookahead and ask a service, among others.
+std::vector<NodeRule> sharing_nodes();
+std::unique_ptr<bus::Node> make_node(lcm::LCM& lcm, const std::vector<NodeRule>& nodes, std::size_t index);
 
 // The messages of all nodes in one process, by bus::LockstepRunner.
 Messages messages_of_one_process(const std::vector<NodeRule>& nodes, SimTime end);
@@ -77,7 +81,7 @@ class SimulatedLockstep {
  private:
   struct Process {
     lcm::LCM memq{"memq://"};
-    std::unique_ptr<ChattyNode> node;
+    std::unique_ptr<bus::Node> node;
     std::unique_ptr<bus::LockstepTurns> turns;
     std::unique_ptr<bus::LockstepParticipant> participant;
   };

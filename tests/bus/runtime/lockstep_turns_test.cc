@@ -80,8 +80,42 @@ TEST_F(LockstepTurnsTest, LookaheadCoversAllInstantsBeforeTheHorizon) {
 TEST_F(LockstepTurnsTest, LookaheadEndsWithAStepThatPublishesOnAStoppingChannel) {
   lockstep_turn_t turn = turn_at(at_ms(0), at_ms(300));
   turn.stopping_channels = {"TICK\\..*"};
+  turn.only_asks = {0};
   turn.num_stopping = 1;
   EXPECT_EQ(turns_.take(turn).num_steps, 1);
+}
+
+TEST_F(LockstepTurnsTest, ANodeThatPromisesNothingIsQuietUntilItIsDue) {
+  const lockstep_result_t result = turns_.take(turn_at(at_ms(0)));
+  EXPECT_EQ(result.quiet_until_ns, result.next_due_ns);
+}
+
+// But where it publishes STATUS before, once a second, and that matters to others than services.
+TEST(LockstepTurnsOfAQuietNode, ItsPromiseCoversTheChannelsThatOthersThanServicesReceive) {
+  class Quiet : public TickingNode {
+   public:
+    using TickingNode::TickingNode;
+    SimTime on_quiet_until(const ChannelTest& matters) const override {
+      return matters("TICK.a") ? SimTime::at_once() : at_ms(5000);
+    }
+  };
+  lcm::LCM memq("memq://");
+  std::vector<std::string> journal;
+  Quiet quiet(memq, "a", SimDuration::from_milliseconds(100), journal);
+  LockstepTurns turns(quiet);
+  int instant_ms = 0;
+  const auto quiet_until = [&](const std::string& channel, bool only_asks) {
+    lockstep_turn_t turn = turn_at(at_ms(instant_ms));
+    turn.stopping_channels = {channel};
+    turn.only_asks = {static_cast<std::int8_t>(only_asks)};
+    turn.num_stopping = 1;
+    instant_ms += 100;
+    return SimTime::from_nanoseconds(turns.take(turn).quiet_until_ns);
+  };
+  EXPECT_EQ(quiet_until("OTHER", false), at_ms(5000));
+  EXPECT_EQ(quiet_until("TICK\\..*", false), at_ms(200));
+  EXPECT_EQ(quiet_until("TICK\\..*", true), at_ms(5000));
+  EXPECT_EQ(quiet_until("STATUS\\..*", false), at_ms(1000));
 }
 
 TEST_F(LockstepTurnsTest, ReplayedTurnsTakeAsManyStepsAsTheyDid) {
