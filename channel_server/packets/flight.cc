@@ -112,10 +112,9 @@ std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const 
                  &fleet.modem(flight.receiver_id, expected).modem};
 }
 
-void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                   Propagation& propagation) {
+void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,
+                   const VehicleRegistry& fleet, Propagation& propagation) {
   ++flight.solutions;
-  const auto end = next_end(flight, decided_at, fleet, propagation);
   if (!end) return;
   if (!serves(flight, *end)) evaluate(flight, *end, propagation);
   for (int round = 0; round < kMaxRounds; ++round) {
@@ -128,9 +127,7 @@ void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fl
   }
 }
 
-bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                 Propagation& propagation) {
-  const auto end = next_end(flight, decided_at, fleet, propagation);
+bool is_solvable(const Flight& flight, const std::optional<LinkEnd>& end, Propagation& propagation) {
   return !end || serves(flight, *end) ||
          propagation.is_ready_for_packet(flight.packet->departure, flight.packet->link_end(), *end);
 }

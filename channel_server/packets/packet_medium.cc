@@ -69,7 +69,7 @@ SimTime PacketMedium::next_event() const {
   SimTime next = SimTime::never();
   if (waiting_) return next;
   if (!departures_.empty()) next = std::get<0>(departures_.begin()->first);
-  if (!flights_.empty()) next = std::min(next, std::get<0>(flights_.begin()->first));
+  if (!flights_.empty()) next = std::min(next, flights_.next_event());
   return next;
 }
 
@@ -80,12 +80,9 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
     if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
       depart(departures_.extract(departures_.begin()).mapped(), events);
-    } else if (must_wait(*flights_.begin()->second, next)) {
+    } else if (!on_flight_event(next, events)) {
       waiting_ = true;
       reached = next;
-    } else {
-      spare_ = flights_.extract(flights_.begin());
-      on_flight_event(std::move(spare_.mapped()), next, events);
     }
   }
   advanced_to_ = std::max(advanced_to_, reached);
@@ -175,6 +172,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   PacketOutcome others = outcome_out_of_reach(packet, reach_m);
   others.receivers = 0;
   const bool is_costly = propagation_.uses_bottom();
+  const std::uint64_t identity = identity_for_draws(*packet);
   std::vector<EndPair> links;
   for (const PlacedVehicle& receiver : present) {
     if (receiver.id == source) continue;
@@ -189,14 +187,15 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
         events.push_back({departure, departure < advanced_to_, std::move(lost)});
       }
     } else if (rule_.shard.serves(receiver.id)) {
-      auto flight = std::make_unique<Flight>();
+      FlightPointer flight = flights_.make_flight();
       flight->packet = packet;
+      flight->identity = identity;
       flight->receiver_id = receiver.id;
       flight->receiver = fleet_.name_of(receiver.id);
       if (const auto end = is_costly ? next_end(*flight, departure, fleet_, propagation_) : std::nullopt) {
         links.push_back({packet->link_end(), *end});
       }
-      schedule(departure, std::move(flight));  // solved there
+      flights_.add(departure, std::move(flight));  // solved there
     }
   }
   if (is_costly) propagation_.prepare_packet(departure, links, for_each_);
@@ -205,44 +204,44 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   }
 }
 
-bool PacketMedium::must_wait(const Flight& flight, SimTime at) const {
-  return flight.stage == Flight::Stage::kTravelling && !is_solvable(flight, at, fleet_, propagation_);
-}
-
-void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events) {
-  switch (flight->stage) {
-    case Flight::Stage::kTravelling:
-      return begin_reception(std::move(flight), at);
-    case Flight::Stage::kPreamble:
-      return end_preamble(std::move(flight), at);
-    case Flight::Stage::kBits:
-      return end_packet(*flight, at, events);
+bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events) {
+  const Flight& first = flights_.first();
+  if (first.stage == Flight::Stage::kTravelling) {
+    const auto end = next_end(first, at, fleet_, propagation_);
+    if (!is_solvable(first, end, propagation_)) return false;
+    begin_reception(flights_.take_first(), end, at);
+  } else if (first.stage == Flight::Stage::kPreamble) {
+    end_preamble(flights_.take_first(), at);
+  } else {
+    FlightPointer flight = flights_.take_first();
+    end_packet(*flight, at, events);
+    flights_.reuse(std::move(flight));
   }
+  return true;
 }
 
-void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
-  solve_arrival(*flight, at, fleet_, propagation_);
+void PacketMedium::begin_reception(FlightPointer flight, const std::optional<LinkEnd>& end, SimTime at) {
+  solve_arrival(*flight, end, at, fleet_, propagation_);
   const SimTime first_sound = flight->first_sound();
   if (first_sound > at + kSolvedInTime && flight->solutions < kMaxSolutions) {
-    return schedule(first_sound, std::move(flight));
+    return flights_.add(first_sound, std::move(flight));
   }
   const SimTime arrival = flight->arrival();
   auto& budget = flight->reception.budget;
   // The reception holds for a place within a decimetre.
-  if (const auto place = fleet_.prediction(flight->receiver_id, arrival, at)) {
-    budget.range_m = (place->position_ned_m - flight->packet->departure_ned_m).norm();
-  }
+  const auto place = fleet_.prediction(flight->receiver_id, arrival, at);
+  if (place) budget.range_m = (place->position_ned_m - flight->packet->departure_ned_m).norm();
   budget.noise_level = noise_.level(flight->packet->modem.band(), propagation_.environment(arrival).noise);
   const Decibels noise = budget.noise_level - flight->modem.directivity_index;
   budget.snr = budget.received_level - noise - band_loss(flight->packet->modem, flight->modem);
-  flight->receiver_absent = !fleet_.placement(flight->receiver_id, arrival, at);
+  flight->receiver_absent = !fleet_.is_present(place);
   flight->large_scale = large_scale_of(*flight, rule_.fading, rule_.seed);
   flight->signal = received_signal(*flight, to_power_ratio(noise).value, rule_.fading);
-  flight->draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
+  flight->draws = draws_of(rule_.seed, flight->identity, flight->receiver_id);
   state_of(flight->receiver_id).open(audible_packet(*flight));
   flight->stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
-  schedule(preamble_end, std::move(flight));
+  flights_.add(preamble_end, std::move(flight));
 }
 
 void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
@@ -261,7 +260,7 @@ void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
   if (flight->acquired) receiver.acquire({flight->packet, signal.begin, signal.end}, signal.preamble_end);
   flight->stage = Flight::Stage::kBits;
   const SimTime last_bit = std::max(signal.end, at);
-  schedule(last_bit, std::move(flight));
+  flights_.add(last_bit, std::move(flight));
 }
 
 OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
@@ -297,18 +296,6 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
     if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
   }
   state_of(flight.receiver_id).close(flight.first_sound(), at);
-}
-
-void PacketMedium::schedule(SimTime at, FlightPointer flight) {
-  const FlightKey key{at, flight->stage, flight->receiver_id, flight->packet->name()};
-  if (spare_.empty()) {
-    const bool fresh = flights_.emplace(key, std::move(flight)).second;
-    return ensure(fresh, "two flights of one packet to one receiver");
-  }
-  spare_.key() = key;
-  spare_.mapped() = std::move(flight);
-  const bool fresh = flights_.insert(std::move(spare_)).inserted;
-  ensure(fresh, "two flights of one packet to one receiver");
 }
 
 ReceiverState& PacketMedium::state_of(VehicleId id) {

@@ -22,7 +22,9 @@ class PowerSteps {
       SimTime at;
       double power;
     };
-    std::vector<Change> changes{{begin, 0}};
+    std::vector<Change> changes;
+    changes.reserve(1 + 2 * paths.size());
+    changes.push_back({begin, 0});
     for (const Interference& path : paths) {
       if (path.end <= begin || path.begin >= end) continue;
       changes.push_back({std::max(path.begin, begin), path.power});
@@ -31,6 +33,7 @@ class PowerSteps {
     std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
       return std::tie(a.at, a.power) < std::tie(b.at, b.power);
     });
+    steps_.reserve(changes.size());
     double power = 0;
     for (std::size_t i = 0; i < changes.size(); ++i) {
       power += changes[i].power;
@@ -115,12 +118,15 @@ bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& 
 
 }  // namespace
 
-PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver) {
+std::uint64_t identity_for_draws(const Packet& packet) {
   const SendRequest& request = packet.request;
-  const std::uint64_t identity = identity_of(
+  return identity_of(
       {static_cast<std::uint64_t>(request.source_id), static_cast<std::uint64_t>(request.destination_id),
        static_cast<std::uint64_t>(request.kind), static_cast<std::uint64_t>(request.packet_sequence),
        static_cast<std::uint64_t>(packet.departure.nanoseconds())});
+}
+
+PacketDraws draws_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver) {
   constexpr std::uint32_t kAcquisition = purpose_of("packet-acquisition"), kBits = purpose_of("packet-bits"),
                           kTiming = purpose_of("packet-timing");
   const auto address = [&](std::uint32_t purpose) {
