@@ -53,8 +53,9 @@ struct Flight {
   double travel_time_s = 0;  // of the first significant path
 
   // Once it has arrived.
-  bool receiver_absent = false;  // at the first significant path: its state is older than the time-out
-  double large_scale = 1;        // of the pressures, by the link's large-scale fading
+  ReceiverState* sounds_at = nullptr;  // which it is open at until it ends
+  bool receiver_absent = false;        // at the first significant path: its state is older than the time-out
+  double large_scale = 1;              // of the pressures, by the link's large-scale fading
   ReceivedSignal signal;
   PacketDraws draws = {};
   std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before

@@ -1,55 +1,50 @@
 #include "channel_server/packets/flight_queue.h"
 
 #include <algorithm>
-#include <compare>
-#include <tuple>
-#include <utility>
+#include <cstdint>
+#include <memory>
 
 #include "channel_server/packets/packet.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
-namespace {
 
-constexpr std::size_t kMostKept = 1024;  // flights that have ended: a megabyte
-
-}  // namespace
-
-bool FlightQueue::is_later(const Entry& a, const Entry& b) {
-  const auto order = std::tie(a.at, a.stage, a.receiver_id) <=> std::tie(b.at, b.stage, b.receiver_id);
-  return order != 0 ? order > 0 : a.flight->packet->name() > b.flight->packet->name();
+bool FlightQueue::IsLater::operator()(const Entry& a, const Entry& b) const {
+  if (a.at != b.at) return a.at > b.at;
+  if (a.order != b.order) return a.order > b.order;
+  return a.flight->packet->name() > b.flight->packet->name();
 }
 
-void FlightQueue::add(SimTime at, FlightPointer flight) {
-  const Flight& added = *flight;
-  entries_.push_back({at, added.stage, added.receiver_id, std::move(flight)});
-  std::push_heap(entries_.begin(), entries_.end(), is_later);
+void FlightQueue::add(SimTime at, Flight& flight) {
+  const std::int64_t order = (std::int64_t{static_cast<int>(flight.stage)} << 32) + flight.receiver_id;
+  entries_.push_back({at, order, &flight});
+  std::push_heap(entries_.begin(), entries_.end(), IsLater());
 }
 
-FlightPointer FlightQueue::take_first() {
-  std::pop_heap(entries_.begin(), entries_.end(), is_later);
-  Entry first = std::move(entries_.back());
+Flight& FlightQueue::take_first() {
+  std::pop_heap(entries_.begin(), entries_.end(), IsLater());
+  const Entry first = entries_.back();
   entries_.pop_back();
-  ensure(entries_.empty() || is_later(entries_.front(), first), "two flights of one packet to one receiver");
-  return std::move(first.flight);
+  ensure(entries_.empty() || IsLater()(entries_.front(), first), "two flights of one packet to one receiver");
+  return *first.flight;
 }
 
-FlightPointer FlightQueue::make_flight() {
-  if (ended_.empty()) return std::make_unique<Flight>();
-  FlightPointer flight = std::move(ended_.back());
+Flight& FlightQueue::make_flight() {
+  if (ended_.empty()) return flights_.emplace_back();
+  Flight* flight = ended_.back();
   ended_.pop_back();
-  return flight;
+  return *flight;
 }
 
-void FlightQueue::reuse(FlightPointer ended) {
-  if (ended_.size() == kMostKept) return;
-  *ended = Flight();
-  ended_.push_back(std::move(ended));
+void FlightQueue::end(Flight& flight) {
+  std::destroy_at(&flight);
+  ended_.push_back(std::construct_at(&flight));
 }
 
 void FlightQueue::clear() {
   entries_.clear();
   ended_.clear();
+  flights_.clear();
 }
 
 }  // namespace halocline::channel_server

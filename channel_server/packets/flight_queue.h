@@ -1,20 +1,18 @@
 // The flights of a medium, in the order of their next events: by instant, then by stage, receiver and packet.
 //
-// A binary heap of small entries: which of them come first is decided in most cases without a look at the flights. A flight
-// that has ended is kept for the next packet, so that its memory is not asked for again.
+// A binary heap of small entries, most of which are compared without a look at the flights. Flights stay where they are made;
+// one that has ended serves the next packet, so there are as many as ever were under way at a time.
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "channel_server/packets/flight.h"
-#include "channel_server/vehicles/vehicle_id.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
-
-using FlightPointer = std::unique_ptr<Flight>;
 
 class FlightQueue {
  public:
@@ -23,27 +21,29 @@ class FlightQueue {
   // Of the first, only while not empty.
   SimTime next_event() const { return entries_.front().at; }
   const Flight& first() const { return *entries_.front().flight; }
-  FlightPointer take_first();
+  // Removes it: to be added again, or to be ended.
+  Flight& take_first();
 
-  // Its next event is at `at`, in the stage that it has. No other flight may be the same packet's to the same receiver.
-  void add(SimTime at, FlightPointer flight);
-
-  // As made by default.
-  FlightPointer make_flight();
-  void reuse(FlightPointer ended);
+  // As made by default; to be added.
+  Flight& make_flight();
+  // Its next event is at `at`, in the stage that it has. No other flight may be of the same packet to the same receiver.
+  void add(SimTime at, Flight& flight);
+  void end(Flight& flight);
   void clear();
 
  private:
   struct Entry {
     SimTime at;
-    Flight::Stage stage;
-    VehicleId receiver_id;
-    FlightPointer flight;
+    std::int64_t order;  // stage, then receiver
+    Flight* flight;
   };
-  static bool is_later(const Entry& a, const Entry& b);
+  struct IsLater {
+    bool operator()(const Entry& a, const Entry& b) const;
+  };
 
   std::vector<Entry> entries_;  // a heap, the earliest first
-  std::vector<FlightPointer> ended_;
+  std::deque<Flight> flights_;
+  std::vector<Flight*> ended_;
 };
 
 }  // namespace halocline::channel_server

@@ -128,8 +128,8 @@ class PacketMedium {
 
   // Of the first flight; false: it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
-  void begin_reception(FlightPointer flight, const std::optional<LinkEnd>& end, SimTime at);
-  void end_preamble(FlightPointer flight, SimTime at);
+  void begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
+  void end_preamble(Flight& flight, SimTime at);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   OutcomeKind decide_outcome(Flight& flight, SimTime at);
   ReceiverState& state_of(VehicleId id);
@@ -146,6 +146,9 @@ class PacketMedium {
   std::map<VehicleId, ReceiverState> receivers_;
   std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
       answered_;  // see add_answer
+  // Of one launch and of one advance, whose memory serves the next.
+  std::vector<PlacedVehicle> present_;
+  std::vector<MediumEvent> events_;
   SimTime advanced_to_ = SimTime::at_once();
   bool waiting_ = false;
 };

@@ -156,11 +156,16 @@ void VehicleRegistry::clear() {
 
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant) {
   std::vector<PlacedVehicle> placed;
+  place_all(fleet, instant, placed);
+  return placed;
+}
+
+void place_all(const VehicleRegistry& fleet, SimTime instant, std::vector<PlacedVehicle>& placed) {
+  placed.clear();
   placed.reserve(fleet.size());
   fleet.visit_present(instant, [&](VehicleId id, const Placement& place, const VehicleModem& modem) {
     placed.push_back({id, place, &modem});
   });
-  return placed;
 }
 
 }  // namespace halocline::channel_server

@@ -68,6 +68,12 @@ class VehicleRegistry {
     return predicted && predicted->age <= rule_.state_timeout;
   }
 
+  // Null of a vehicle that is unknown; valid until the registry is changed.
+  const StateHistory* states_of(VehicleId id) const {
+    const Vehicle* vehicle = find(id);
+    return vehicle != nullptr ? &vehicle->states : nullptr;
+  }
+
   std::optional<VehicleId> id_of(std::string_view name) const;
   // Of a vehicle that is not forgotten; empty text otherwise.
   std::string name_of(VehicleId id) const;
@@ -127,5 +133,7 @@ struct PlacedVehicle {
 
 // All present at `instant`, by id.
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant);
+// The same into `placed`, whatever it held.
+void place_all(const VehicleRegistry& fleet, SimTime instant, std::vector<PlacedVehicle>& placed);
 
 }  // namespace halocline::channel_server
