@@ -12,6 +12,7 @@
 // A cell is a stretch of constant interference at one frequency.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,16 @@ namespace halocline::acoustics {
 
 inline constexpr double kEffectiveRatioBeta = 2.95;
 
-// Information bits of the blocks of a packet with that many in all.
+// Calls visit(information bits) for each block of a packet with that many in all.
+template <class Visit>
+void for_each_coded_block(const Modem& modem, std::int64_t information_bits, Visit&& visit) {
+  const std::int64_t header = std::min<std::int64_t>(modem.layout.header_bits, information_bits);
+  if (header > 0) visit(header);
+  std::int64_t left = information_bits - header;
+  const std::int64_t frame = modem.layout.frame_bytes > 0 ? 8 * std::int64_t{modem.layout.frame_bytes} : left;
+  for (; left > 0; left -= frame) visit(std::min(frame, left));
+}
+// The same in a list.
 std::vector<std::int64_t> coded_blocks(const Modem& modem, std::int64_t information_bits);
 
 // Energy of a chip of a code of rate 1/2 over the noise density, for a ratio of 1 in the band: B / (2 R).

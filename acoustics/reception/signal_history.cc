@@ -283,6 +283,8 @@ SignalHistory still_history(const std::vector<SoundPath>& paths, const Lock& loc
   std::sort(history.edges_s.begin(), history.edges_s.end());
   history.edges_s.erase(std::unique(history.edges_s.begin(), history.edges_s.end()), history.edges_s.end());
   const double signal = mean_signal(paths, lock.window);
+  history.signal.reserve(history.edges_s.size() - 1);
+  history.echoes.reserve(history.edges_s.size() - 1);
   for (std::size_t i = 0; i + 1 < history.edges_s.size(); ++i) {
     double echoes = 0;
     for (const Echo& echo : own_echoes) {

@@ -48,10 +48,10 @@ struct SignalHistory {
   double mean_signal(std::size_t stretch) const;
 };
 
-// The receiver's modem and what it locked on.
+// The receiver's modem and what it locked on, both of which outlive this.
 struct Lock {
-  const Modem* modem = nullptr;
-  GuardWindow window;
+  const Modem* modem;
+  const GuardWindow& window;
 };
 
 // Of a packet that begins at `begin` in the window; `band` is the packet's. `large_scale` is 10^(X/20).

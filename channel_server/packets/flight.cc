@@ -112,14 +112,14 @@ std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const 
                  &fleet.modem(flight.receiver_id, expected).modem};
 }
 
-void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                   Propagation& propagation) {
+void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,
+                   const VehicleRegistry& fleet, Propagation& propagation) {
   ++flight.solutions;
-  const auto end = next_end(flight, decided_at, fleet, propagation);
   if (!end) return;
   if (!serves(flight, *end)) evaluate(flight, *end, propagation);
+  const StateHistory& states = *fleet.states_of(flight.receiver_id);
   for (int round = 0; round < kMaxRounds; ++round) {
-    const auto receiver = fleet.prediction(flight.receiver_id, flight.arrival(), decided_at);
+    const auto receiver = states.at(flight.arrival(), decided_at, fleet.rule());
     const Vec3 moved = receiver->position_ned_m - flight.place.position_ned_m;
     const double travel_time_s = std::max(flight.solved_delay_s + flight.slowness_s_per_m.dot(moved), 0.0);
     const double change_s = std::abs(travel_time_s - flight.travel_time_s);
@@ -128,15 +128,14 @@ void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fl
   }
 }
 
-bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                 Propagation& propagation) {
-  const auto end = next_end(flight, decided_at, fleet, propagation);
+bool is_solvable(const Flight& flight, const std::optional<LinkEnd>& end, Propagation& propagation) {
   return !end || serves(flight, *end) ||
          propagation.is_ready_for_packet(flight.packet->departure, flight.packet->link_end(), *end);
 }
 
 AudiblePacket audible_packet(const Flight& flight) {
   AudiblePacket audible{flight.packet, flight.signal.begin, flight.signal.end, {}};
+  audible.paths.reserve(flight.reception.paths.size());
   for (const SoundPath& path : flight.reception.paths) {
     const SimTime begin = begin_of(flight, path);
     const SimTime end = begin + shrunk(flight.packet->timing.duration, path.doppler_factor);

@@ -37,6 +37,7 @@ struct Flight {
   enum class Stage { kTravelling, kPreamble, kBits };
 
   PacketPointer packet;
+  std::uint64_t identity = 0;  // of the packet, for draws
   VehicleId receiver_id = 0;
   std::string receiver;
   Stage stage = Stage::kTravelling;
@@ -52,8 +53,9 @@ struct Flight {
   double travel_time_s = 0;  // of the first significant path
 
   // Once it has arrived.
-  bool receiver_absent = false;  // at the first significant path: its state is older than the time-out
-  double large_scale = 1;        // of the pressures, by the link's large-scale fading
+  ReceiverState* sounds_at = nullptr;  // which it is open at until it ends
+  bool receiver_absent = false;        // at the first significant path: its state is older than the time-out
+  double large_scale = 1;              // of the pressures, by the link's large-scale fading
   ReceivedSignal signal;
   PacketDraws draws = {};
   std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before
@@ -70,18 +72,17 @@ struct Flight {
   double doppler_factor() const;
 };
 
-// Solves for travel time and reception, with what is known at `decided_at`. A receiver that is forgotten keeps the
-// last solution. Throws as Propagation::reception.
-void solve_arrival(Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                   Propagation& propagation);
-
 // Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`; empty: nowhere.
 std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation);
 
+// Solves for travel time and reception, with what is known at `decided_at`; `end` is next_end() of the same. A receiver that
+// is forgotten keeps the last solution. Throws as Propagation::reception.
+void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,
+                   const VehicleRegistry& fleet, Propagation& propagation);
+
 // Whether the propagation knows all that solve_arrival() needs of it (Propagation::is_ready).
-bool is_solvable(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
-                 Propagation& propagation);
+bool is_solvable(const Flight& flight, const std::optional<LinkEnd>& end, Propagation& propagation);
 
 // All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);

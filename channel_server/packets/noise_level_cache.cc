@@ -3,9 +3,13 @@
 namespace halocline::channel_server {
 
 Decibels NoiseLevelCache::level(const acoustics::Band& band, const acoustics::NoiseSources& sources) {
-  return levels_.find_or_make({band.low_hz, band.high_hz, sources.shipping, sources.wind_mps}, [&] {
-    return acoustics::noise_level_over_band(band.low_hz, band.high_hz, sources);
-  });
+  const Key key{band.low_hz, band.high_hz, sources.shipping, sources.wind_mps};
+  if (key != last_) {
+    last_level_ = levels_.find_or_make(
+        key, [&] { return acoustics::noise_level_over_band(band.low_hz, band.high_hz, sources); });
+    last_ = key;
+  }
+  return last_level_;
 }
 
 }  // namespace halocline::channel_server

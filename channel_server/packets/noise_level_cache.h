@@ -22,6 +22,9 @@ class NoiseLevelCache {
  private:
   using Key = std::array<double, 4>;  // low and high end of the band, Hz; shipping; wind, m/s
   LruCache<Key, Decibels> levels_{kMaxKept};
+  // What was asked for last, which is what most packets ask for.
+  Key last_ = {};
+  Decibels last_level_;
 };
 
 }  // namespace halocline::channel_server

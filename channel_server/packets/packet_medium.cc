@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
@@ -70,7 +71,7 @@ SimTime PacketMedium::next_event() const {
   SimTime next = SimTime::never();
   if (waiting_) return next;
   if (!departures_.empty()) next = std::get<0>(departures_.begin()->first);
-  if (!flights_.empty()) next = std::min(next, std::get<0>(flights_.begin()->first));
+  if (!flights_.empty()) next = std::min(next, flights_.next_event());
   return next;
 }
 
@@ -85,22 +86,19 @@ SimTime PacketMedium::next_ping() const {
 }
 
 std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
-  std::vector<MediumEvent> events;
+  events_.clear();
   waiting_ = false;
   SimTime reached = time;
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
     if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
-      depart(departures_.extract(departures_.begin()).mapped(), events);
-    } else if (must_wait(*flights_.begin()->second, next)) {
+      depart(departures_.extract(departures_.begin()).mapped(), events_);
+    } else if (!on_flight_event(next, events_)) {
       waiting_ = true;
       reached = next;
-    } else {
-      spare_ = flights_.extract(flights_.begin());
-      on_flight_event(std::move(spare_.mapped()), next, events);
     }
   }
   advanced_to_ = std::max(advanced_to_, reached);
-  return events;
+  return {std::make_move_iterator(events_.begin()), std::make_move_iterator(events_.end())};
 }
 
 bool PacketMedium::must_be_put_off(const Departure& departure) const {
@@ -180,14 +178,15 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
   const bool is_served = rule_.shard.serves(source);
   if (is_served) state_of(source).transmit({packet, departure, departure + packet->timing.duration});
-  const std::vector<PlacedVehicle> present = place_all(fleet_, departure);
-  const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present)
+  place_all(fleet_, departure, present_);
+  const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present_)
                                            : acoustics::kGreatestBoundedRange;
   PacketOutcome others = outcome_out_of_reach(packet, reach_m);
   others.receivers = 0;
   const bool is_costly = propagation_.uses_bottom();
+  const std::uint64_t identity = identity_for_draws(*packet);
   std::vector<EndPair> links;
-  for (const PlacedVehicle& receiver : present) {
+  for (const PlacedVehicle& receiver : present_) {
     if (receiver.id == source) continue;
     const double range_m = (receiver.placement.position_ned_m - packet->departure_ned_m).norm();
     if (stays_beyond(reach_m, range_m, receiver.placement.velocity_ned_mps.norm())) {
@@ -200,14 +199,15 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
         events.push_back({departure, departure < advanced_to_, std::move(lost)});
       }
     } else if (rule_.shard.serves(receiver.id)) {
-      auto flight = std::make_unique<Flight>();
-      flight->packet = packet;
-      flight->receiver_id = receiver.id;
-      flight->receiver = fleet_.name_of(receiver.id);
-      if (const auto end = is_costly ? next_end(*flight, departure, fleet_, propagation_) : std::nullopt) {
+      Flight& flight = flights_.make_flight();
+      flight.packet = packet;
+      flight.identity = identity;
+      flight.receiver_id = receiver.id;
+      flight.receiver = fleet_.name_of(receiver.id);
+      if (const auto end = is_costly ? next_end(flight, departure, fleet_, propagation_) : std::nullopt) {
         links.push_back({packet->link_end(), *end});
       }
-      schedule(departure, std::move(flight));  // solved there
+      flights_.add(departure, flight);  // solved there
     }
   }
   if (is_costly) propagation_.prepare_packet(departure, links, for_each_);
@@ -216,63 +216,67 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   }
 }
 
-bool PacketMedium::must_wait(const Flight& flight, SimTime at) const {
-  return flight.stage == Flight::Stage::kTravelling && !is_solvable(flight, at, fleet_, propagation_);
+bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events) {
+  const Flight& first = flights_.first();
+  if (first.stage == Flight::Stage::kTravelling) {
+    const auto end = next_end(first, at, fleet_, propagation_);
+    if (!is_solvable(first, end, propagation_)) return false;
+    begin_reception(flights_.take_first(), end, at);
+  } else if (first.stage == Flight::Stage::kPreamble) {
+    end_preamble(flights_.take_first(), at);
+  } else {
+    Flight& flight = flights_.take_first();
+    end_packet(flight, at, events);
+    flights_.end(flight);
+  }
+  return true;
 }
 
-void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events) {
-  switch (flight->stage) {
-    case Flight::Stage::kTravelling:
-      return begin_reception(std::move(flight), at);
-    case Flight::Stage::kPreamble:
-      return end_preamble(std::move(flight), at);
-    case Flight::Stage::kBits:
-      return end_packet(*flight, at, events);
+void PacketMedium::begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at) {
+  solve_arrival(flight, end, at, fleet_, propagation_);
+  const SimTime first_sound = flight.first_sound();
+  if (first_sound > at + kSolvedInTime && flight.solutions < kMaxSolutions) {
+    return flights_.add(first_sound, flight);
   }
-}
-
-void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
-  solve_arrival(*flight, at, fleet_, propagation_);
-  const SimTime first_sound = flight->first_sound();
-  if (first_sound > at + kSolvedInTime && flight->solutions < kMaxSolutions) {
-    return schedule(first_sound, std::move(flight));
-  }
-  const SimTime arrival = flight->arrival();
-  auto& budget = flight->reception.budget;
+  const SimTime arrival = flight.arrival();
+  auto& budget = flight.reception.budget;
   // The reception holds for a place within a decimetre.
-  if (const auto place = fleet_.prediction(flight->receiver_id, arrival, at)) {
-    budget.range_m = (place->position_ned_m - flight->packet->departure_ned_m).norm();
-  }
-  budget.noise_level = noise_.level(flight->packet->modem.band(), propagation_.environment(arrival).noise);
-  const Decibels noise = budget.noise_level - flight->modem.directivity_index;
-  budget.snr = budget.received_level - noise - band_loss(flight->packet->modem, flight->modem);
-  flight->receiver_absent = !fleet_.placement(flight->receiver_id, arrival, at);
-  flight->large_scale = large_scale_of(*flight, rule_.fading, rule_.seed);
-  flight->signal = received_signal(*flight, to_power_ratio(noise).value, rule_.fading);
-  flight->draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
-  state_of(flight->receiver_id).open(audible_packet(*flight));
-  flight->stage = Flight::Stage::kPreamble;
-  const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
-  schedule(preamble_end, std::move(flight));
+  const auto place = fleet_.prediction(flight.receiver_id, arrival, at);
+  if (place) budget.range_m = (place->position_ned_m - flight.packet->departure_ned_m).norm();
+  budget.noise_level = noise_.level(flight.packet->modem.band(), propagation_.environment(arrival).noise);
+  const Decibels noise = budget.noise_level - flight.modem.directivity_index;
+  budget.snr = budget.received_level - noise - band_loss(flight.packet->modem, flight.modem);
+  flight.receiver_absent = !fleet_.is_present(place);
+  flight.large_scale = large_scale_of(flight, rule_.fading, rule_.seed);
+  flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
+  flight.draws = draws_of(rule_.seed, flight.identity, flight.receiver_id);
+  flight.sounds_at = &state_of(flight.receiver_id);
+  flight.sounds_at->open(audible_packet(flight));
+  flight.stage = Flight::Stage::kPreamble;
+  const SimTime preamble_end = std::max(flight.signal.preamble_end, at);
+  flights_.add(preamble_end, flight);
 }
 
-void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
-  ReceiverState& receiver = state_of(flight->receiver_id);
-  const ReceivedSignal& signal = flight->signal;
-  const bool is_impossible = outcome_before_acquisition(*flight) != OutcomeKind::kReceived ||
-                             is_shifted_too_far(*flight) ||
+void PacketMedium::end_preamble(Flight& flight, SimTime at) {
+  ReceiverState& receiver = *flight.sounds_at;
+  const ReceivedSignal& signal = flight.signal;
+  const bool is_impossible = outcome_before_acquisition(flight) != OutcomeKind::kReceived ||
+                             is_shifted_too_far(flight) ||
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
-  if (!is_impossible) flight->followed = receiver.followed_at(signal.preamble_end);
-  if (!is_impossible && !flight->followed) {
-    evaluate_signal(*flight, rule_.fading, rule_.seed);
-    const auto others = receiver.interferers_of(*flight->packet, signal.begin, signal.preamble_end);
-    flight->acquired = acquires(signal, others, flight->draws, flight->statistics);
-    if (flight->acquired) flight->timing_error_s = timing_error_s(signal, others, flight->draws.timing);
+  if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
+  if (!is_impossible && !flight.followed) {
+    evaluate_signal(flight, rule_.fading, rule_.seed);
+    const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.preamble_end);
+    flight.acquired = acquires(signal, others, flight.draws, flight.statistics);
+    if (flight.acquired && signal.fades) {
+      const double draw = timing_draw_of(rule_.seed, flight.identity, flight.receiver_id);
+      flight.timing_error_s = timing_error_s(signal, others, draw);
+    }
   }
-  if (flight->acquired) receiver.acquire({flight->packet, signal.begin, signal.end}, signal.preamble_end);
-  flight->stage = Flight::Stage::kBits;
+  if (flight.acquired) receiver.acquire({flight.packet, signal.begin, signal.end}, signal.preamble_end);
+  flight.stage = Flight::Stage::kBits;
   const SimTime last_bit = std::max(signal.end, at);
-  schedule(last_bit, std::move(flight));
+  flights_.add(last_bit, flight);
 }
 
 OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
@@ -283,7 +287,7 @@ OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
   flight.receiver_absent = flight.receiver_absent || !fleet_.placement(flight.receiver_id, at, at);
   const OutcomeKind before = outcome_before_acquisition(flight);
   if (before != OutcomeKind::kReceived) return before;
-  const ReceiverState& receiver = state_of(flight.receiver_id);
+  const ReceiverState& receiver = *flight.sounds_at;
   for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
     if (statistics.colliders.size() < kMaxColliders) statistics.colliders.push_back(own->name());
   }
@@ -307,19 +311,7 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
     add_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
   }
-  state_of(flight.receiver_id).close(flight.first_sound(), at);
-}
-
-void PacketMedium::schedule(SimTime at, FlightPointer flight) {
-  const FlightKey key{at, flight->stage, flight->receiver_id, flight->packet->name()};
-  if (spare_.empty()) {
-    const bool fresh = flights_.emplace(key, std::move(flight)).second;
-    return ensure(fresh, "two flights of one packet to one receiver");
-  }
-  spare_.key() = key;
-  spare_.mapped() = std::move(flight);
-  const bool fresh = flights_.insert(std::move(spare_)).inserted;
-  ensure(fresh, "two flights of one packet to one receiver");
+  flight.sounds_at->close(flight.first_sound(), at);
 }
 
 ReceiverState& PacketMedium::state_of(VehicleId id) {

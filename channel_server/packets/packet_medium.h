@@ -46,6 +46,7 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "channel_server/packets/flight.h"
+#include "channel_server/packets/flight_queue.h"
 #include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
@@ -115,7 +116,6 @@ class PacketMedium {
   // Events at one instant happen in the order of the rest of the key.
   using DepartureKey =
       std::tuple<SimTime, std::string, PacketKind, std::int64_t, VehicleId, bool, std::int64_t>;
-  using FlightKey = std::tuple<SimTime, Flight::Stage, VehicleId, PacketName>;
   struct Decision {
     SendResult result;
     SimTime start;
@@ -128,14 +128,12 @@ class PacketMedium {
   void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
   PacketPointer at_its_departure(const Packet& queued) const;
 
-  using FlightPointer = std::unique_ptr<Flight>;
-  bool must_wait(const Flight& flight, SimTime at) const;
-  void on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
-  void begin_reception(FlightPointer flight, SimTime at);
-  void end_preamble(FlightPointer flight, SimTime at);
+  // Of the first flight; false: it must wait for the propagation.
+  bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
+  void begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
+  void end_preamble(Flight& flight, SimTime at);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   OutcomeKind decide_outcome(Flight& flight, SimTime at);
-  void schedule(SimTime at, FlightPointer flight);
   ReceiverState& state_of(VehicleId id);
 
   const VehicleRegistry& fleet_;
@@ -146,12 +144,13 @@ class PacketMedium {
   SendRegister register_;
   NoiseLevelCache noise_;
   std::map<DepartureKey, Departure> departures_;
-  std::map<FlightKey, FlightPointer> flights_;
-  std::map<FlightKey, FlightPointer>::node_type
-      spare_;  // of the flight that was taken last, for its next event
+  FlightQueue flights_;
   std::map<VehicleId, ReceiverState> receivers_;
   std::set<std::tuple<SimTime, VehicleId, VehicleId, std::int64_t, std::int64_t>>
       answered_;  // see add_answer
+  // Of one launch and of one advance, whose memory serves the next.
+  std::vector<PlacedVehicle> present_;
+  std::vector<MediumEvent> events_;
   SimTime advanced_to_ = SimTime::at_once();
   bool waiting_ = false;
   bool may_have_pings_ = false;  // among departures and flights

@@ -17,7 +17,7 @@ bool overlap(const PacketInterval& span, SimTime begin, SimTime end) {
 }  // namespace
 
 void ReceiverState::open(AudiblePacket packet) {
-  open_.insert(packet.begin);
+  open_.insert(std::upper_bound(open_.begin(), open_.end(), packet.begin), packet.begin);
   longest_ = std::max(longest_, packet.end - packet.begin);
   const auto place = std::upper_bound(sounds_.begin(), sounds_.end(), packet.begin,
                                       [](SimTime begin, const AudiblePacket& h) { return begin < h.begin; });
@@ -25,7 +25,7 @@ void ReceiverState::open(AudiblePacket packet) {
 }
 
 void ReceiverState::close(SimTime begin, SimTime now) {
-  open_.erase(open_.find(begin));
+  open_.erase(std::lower_bound(open_.begin(), open_.end(), begin));
   if (size() > 2 * size_at_forgetting_ + kFewSounds) forget(now);
 }
 
@@ -76,7 +76,7 @@ Interferers ReceiverState::interferers_of(const Packet& packet, SimTime begin, S
 
 void ReceiverState::forget(SimTime now) {
   SimTime horizon = now - kept_longer_;
-  if (!open_.empty()) horizon = std::min(horizon, *open_.begin());
+  if (!open_.empty()) horizon = std::min(horizon, open_.front());
   std::erase_if(sounds_, [&](const AudiblePacket& packet) { return packet.end < horizon; });
   std::erase_if(transmissions_, [&](const PacketInterval& span) { return span.end < horizon; });
   std::erase_if(acquisitions_,

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <set>
 #include <vector>
 
 #include "acoustics/math/frequency_band.h"
@@ -82,7 +81,7 @@ class ReceiverState {
   SimDuration longest_;                // of all so far
   std::vector<PacketInterval> transmissions_;
   std::vector<Acquisition> acquisitions_;
-  std::multiset<SimTime> open_;  // begins
+  std::vector<SimTime> open_;  // begins, ascending
   std::size_t size_at_forgetting_ = 0;
 };
 

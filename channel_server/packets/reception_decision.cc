@@ -22,7 +22,10 @@ class PowerSteps {
       SimTime at;
       double power;
     };
-    std::vector<Change> changes{{begin, 0}};
+    if (paths.empty()) return;
+    std::vector<Change> changes;
+    changes.reserve(1 + 2 * paths.size());
+    changes.push_back({begin, 0});
     for (const Interference& path : paths) {
       if (path.end <= begin || path.begin >= end) continue;
       changes.push_back({std::max(path.begin, begin), path.power});
@@ -31,6 +34,7 @@ class PowerSteps {
     std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
       return std::tie(a.at, a.power) < std::tie(b.at, b.power);
     });
+    steps_.reserve(changes.size());
     double power = 0;
     for (std::size_t i = 0; i < changes.size(); ++i) {
       power += changes[i].power;
@@ -42,6 +46,7 @@ class PowerSteps {
   // Calls visit(seconds, power) for each stretch of constant power within [from, to), a part of the whole.
   template <class Visitor>
   void for_each_stretch(SimTime from, SimTime to, Visitor&& visit) const {
+    if (steps_.empty()) return visit((to - from).seconds(), 0.0);
     auto step = std::upper_bound(steps_.begin(), steps_.end(), from,
                                  [](SimTime time, const Step& one) { return time < one.from; });
     while (from < to) {
@@ -57,7 +62,7 @@ class PowerSteps {
     SimTime from;
     double power;
   };
-  std::vector<Step> steps_;  // by time, the first where the whole begins
+  std::vector<Step> steps_;  // by time, the first where the whole begins; none without paths
 };
 
 // Means of signal and own echoes over a part of the packet; of no duration, those of its first instant.
@@ -115,19 +120,25 @@ bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& 
 
 }  // namespace
 
-PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver) {
+std::uint64_t identity_for_draws(const Packet& packet) {
   const SendRequest& request = packet.request;
-  const std::uint64_t identity = identity_of(
+  return identity_of(
       {static_cast<std::uint64_t>(request.source_id), static_cast<std::uint64_t>(request.destination_id),
        static_cast<std::uint64_t>(request.kind), static_cast<std::uint64_t>(request.packet_sequence),
        static_cast<std::uint64_t>(packet.departure.nanoseconds())});
-  constexpr std::uint32_t kAcquisition = purpose_of("packet-acquisition"), kBits = purpose_of("packet-bits"),
-                          kTiming = purpose_of("packet-timing");
-  const auto address = [&](std::uint32_t purpose) {
-    return DrawAddress{
-        .seed = seed, .purpose = purpose, .who = static_cast<std::uint32_t>(receiver), .which = identity};
-  };
-  return {uniform_at(address(kAcquisition)), uniform_at(address(kBits)), normal_at(address(kTiming))};
+}
+
+PacketDraws draws_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver) {
+  constexpr std::uint32_t kAcquisition = purpose_of("packet-acquisition"), kBits = purpose_of("packet-bits");
+  const auto who = static_cast<std::uint32_t>(receiver);
+  return {uniform_at({.seed = seed, .purpose = kAcquisition, .who = who, .which = identity}),
+          uniform_at({.seed = seed, .purpose = kBits, .who = who, .which = identity})};
+}
+
+double timing_draw_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver) {
+  constexpr std::uint32_t kTiming = purpose_of("packet-timing");
+  return normal_at(
+      {.seed = seed, .purpose = kTiming, .who = static_cast<std::uint32_t>(receiver), .which = identity});
 }
 
 double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime end) {
@@ -157,7 +168,7 @@ double success_probability(const ReceivedSignal& signal, const std::vector<Inter
   const PowerSteps steps(others, signal.preamble_end, signal.end);
   double success = 1;
   std::int64_t before = 0;
-  for (const std::int64_t bits : acoustics::coded_blocks(modem, all_bits)) {
+  acoustics::for_each_coded_block(modem, all_bits, [&](std::int64_t bits) {
     const auto time_of = [&](std::int64_t bit) {
       return signal.preamble_end +
              SimDuration::from_seconds(bits_s * static_cast<double>(bit) / static_cast<double>(all_bits));
@@ -166,7 +177,7 @@ double success_probability(const ReceivedSignal& signal, const std::vector<Inter
     add_cells(signal, steps, time_of(before), time_of(before + bits), block);
     success *= block.success(bits);
     before += bits;
-  }
+  });
   return success;
 }
 

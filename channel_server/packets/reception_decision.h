@@ -52,9 +52,12 @@ struct ReceivedSignal {
 
 struct PacketDraws {
   double acquisition = 0, success = 0;  // in (0, 1)
-  double timing = 0;                    // standard normal
 };
-PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver);
+// The same for all receivers of a packet.
+std::uint64_t identity_for_draws(const Packet& packet);
+PacketDraws draws_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver);
+// Standard normal, for the measured time of arrival.
+double timing_draw_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver);
 
 // Mean over [begin, end) of the sum of powers; of no duration, the sum at that instant.
 double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime end);

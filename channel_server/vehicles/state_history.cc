@@ -1,6 +1,7 @@
 #include "channel_server/vehicles/state_history.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/dead_reckoning.h"
 
@@ -32,10 +33,20 @@ bool StateHistory::insert(const StampedState& state) {
   return true;
 }
 
+// Nearly always one of the latest.
+StateHistory::Place StateHistory::first_after(SimTime time) const {
+  constexpr int kLatest = 4;
+  Place after = states_.end();
+  for (int i = 0; i < kLatest; ++i, --after) {
+    if (after == begin() || std::prev(after)->time <= time) return after;
+  }
+  return std::upper_bound(begin(), after, time, is_later);
+}
+
 std::optional<Placement> StateHistory::at(SimTime instant, SimTime decided_at,
                                           const PositionRule& rule) const {
   const SimTime known_until = decided_at - rule.state_lag;
-  const Place after = std::upper_bound(begin(), states_.end(), std::min(instant, known_until), is_later);
+  const Place after = first_after(std::min(instant, known_until));
   if (after == begin()) return std::nullopt;
   const StampedState& before = *std::prev(after);
   const bool bracketed =

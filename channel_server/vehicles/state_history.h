@@ -64,6 +64,7 @@ class StateHistory {
  private:
   using Place = std::vector<StampedState>::const_iterator;
   Place begin() const { return states_.begin() + static_cast<std::ptrdiff_t>(forgotten_); }
+  Place first_after(SimTime time) const;
   void forget_first(std::size_t count);
 
   std::vector<StampedState> states_;  // ascending by time, each time once

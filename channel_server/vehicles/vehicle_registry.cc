@@ -1,5 +1,6 @@
 #include "channel_server/vehicles/vehicle_registry.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/check.h"
@@ -22,16 +23,34 @@ std::string VehicleRegistry::add_state(std::string_view name, VehicleId id, cons
   if (known != ids_.end() && known->second != id) {
     return "vehicle_id " + std::to_string(id) + "; this vehicle has the id " + std::to_string(known->second);
   }
-  const auto holder = vehicles_.find(id);
-  if (holder != vehicles_.end() && holder->second.name != name) {
-    return "vehicle_id " + std::to_string(id) + " belongs to " + holder->second.name;
+  const std::size_t place = place_of(id);
+  const bool is_known = place < vehicles_.size() && vehicles_[place]->id == id;
+  if (is_known && vehicles_[place]->name != name) {
+    return "vehicle_id " + std::to_string(id) + " belongs to " + vehicles_[place]->name;
   }
-  if (holder == vehicles_.end() && vehicles_.size() == kMaxVehicles) {
+  if (!is_known && vehicles_.size() == kMaxVehicles) {
     return "too many vehicles; at most " + std::to_string(kMaxVehicles) + " are followed";
   }
-  Vehicle& vehicle = holder == vehicles_.end() ? add_vehicle(name, id) : holder->second;
+  Vehicle& vehicle = is_known ? *vehicles_[place] : add_vehicle(name, id);
   vehicle.states.insert(state);
   return {};
+}
+
+// Where the vehicle is among all, or belongs. Ids that follow one another, as those of most fleets, need no search.
+std::size_t VehicleRegistry::place_of(VehicleId id) const {
+  if (vehicles_.empty() || id <= vehicles_.front()->id) return 0;
+  const auto guess = static_cast<std::size_t>(static_cast<std::int64_t>(id) -
+                                              static_cast<std::int64_t>(vehicles_.front()->id));
+  if (guess < vehicles_.size() && vehicles_[guess]->id == id) return guess;
+  const auto place =
+      std::lower_bound(vehicles_.begin(), vehicles_.end(), id,
+                       [](const auto& vehicle, VehicleId sought) { return vehicle->id < sought; });
+  return static_cast<std::size_t>(place - vehicles_.begin());
+}
+
+const VehicleRegistry::Vehicle* VehicleRegistry::find(VehicleId id) const {
+  const std::size_t place = place_of(id);
+  return place < vehicles_.size() && vehicles_[place]->id == id ? vehicles_[place].get() : nullptr;
 }
 
 VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, VehicleId id) {
@@ -41,13 +60,15 @@ VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, Ve
     modems = std::move(announced->second.modems);
     forget_announced(announced);
   }
-  return vehicles_.emplace(id, Vehicle{std::string(name), {}, std::move(modems)}).first->second;
+  const auto place = vehicles_.begin() + static_cast<std::ptrdiff_t>(place_of(id));
+  return **vehicles_.insert(place,
+                            std::make_unique<Vehicle>(Vehicle{id, std::string(name), {}, std::move(modems)}));
 }
 
 void VehicleRegistry::announce_modem(std::string_view name, SimTime from, const VehicleModem& modem,
                                      SimTime received_at) {
   if (const auto id = ids_.find(name); id != ids_.end()) {
-    return vehicles_.at(id->second).modems.announce(from, modem);
+    return vehicles_[place_of(id->second)]->modems.announce(from, modem);
   }
   auto announced = announced_.find(name);
   if (announced == announced_.end()) {
@@ -71,23 +92,20 @@ void VehicleRegistry::forget_announced(std::map<std::string, Announced, std::les
 
 std::vector<VehicleId> VehicleRegistry::present(SimTime instant) const {
   std::vector<VehicleId> ids;
-  for (const auto& [id, vehicle] : vehicles_) {
-    if (placement(id, instant, instant)) ids.push_back(id);
-  }
+  visit_present(instant, [&](VehicleId id, const auto&, const auto&) { ids.push_back(id); });
   return ids;
 }
 
 std::optional<Placement> VehicleRegistry::placement(VehicleId id, SimTime instant, SimTime decided_at) const {
   auto placed = prediction(id, instant, decided_at);
-  if (placed && placed->age > rule_.state_timeout) placed.reset();
+  if (!is_present(placed)) placed.reset();
   return placed;
 }
 
 std::optional<Placement> VehicleRegistry::prediction(VehicleId id, SimTime instant,
                                                      SimTime decided_at) const {
-  const auto vehicle = vehicles_.find(id);
-  if (vehicle == vehicles_.end()) return std::nullopt;
-  return vehicle->second.states.at(instant, decided_at, rule_);
+  const Vehicle* vehicle = find(id);
+  return vehicle != nullptr ? vehicle->states.at(instant, decided_at, rule_) : std::nullopt;
 }
 
 std::optional<VehicleId> VehicleRegistry::id_of(std::string_view name) const {
@@ -96,13 +114,13 @@ std::optional<VehicleId> VehicleRegistry::id_of(std::string_view name) const {
 }
 
 std::string VehicleRegistry::name_of(VehicleId id) const {
-  const auto vehicle = vehicles_.find(id);
-  return vehicle == vehicles_.end() ? std::string() : vehicle->second.name;
+  const Vehicle* vehicle = find(id);
+  return vehicle != nullptr ? vehicle->name : std::string();
 }
 
 const VehicleModem& VehicleRegistry::modem(VehicleId id, SimTime instant) const {
-  const auto vehicle = vehicles_.find(id);
-  return vehicle == vehicles_.end() ? modems_.standard : vehicle->second.modems.at(instant);
+  const Vehicle* vehicle = find(id);
+  return vehicle != nullptr ? vehicle->modems.at(instant) : modems_.standard;
 }
 
 const VehicleModem& VehicleRegistry::modem(std::string_view name, SimTime instant) const {
@@ -112,16 +130,16 @@ const VehicleModem& VehicleRegistry::modem(std::string_view name, SimTime instan
 }
 
 void VehicleRegistry::forget_before(SimTime time) {
-  for (auto vehicle = vehicles_.begin(); vehicle != vehicles_.end();) {
-    if (vehicle->second.states.latest() < time) {
-      ids_.erase(vehicle->second.name);
-      vehicle = vehicles_.erase(vehicle);
+  const auto has_gone = [&](const auto& vehicle) { return vehicle->states.latest() < time; };
+  for (const auto& vehicle : vehicles_) {
+    if (has_gone(vehicle)) {
+      ids_.erase(vehicle->name);
     } else {
-      vehicle->second.states.forget_before(time);
-      vehicle->second.modems.forget_before(time);
-      ++vehicle;
+      vehicle->states.forget_before(time);
+      vehicle->modems.forget_before(time);
     }
   }
+  std::erase_if(vehicles_, has_gone);
   while (!announced_.empty()) {
     const auto oldest = announced_.find(announced_by_turn_.begin()->second);
     if (oldest->second.received_at >= time) break;
@@ -138,10 +156,16 @@ void VehicleRegistry::clear() {
 
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant) {
   std::vector<PlacedVehicle> placed;
-  for (const VehicleId id : fleet.present(instant)) {
-    placed.push_back({id, *fleet.placement(id, instant, instant), &fleet.modem(id, instant)});
-  }
+  place_all(fleet, instant, placed);
   return placed;
+}
+
+void place_all(const VehicleRegistry& fleet, SimTime instant, std::vector<PlacedVehicle>& placed) {
+  placed.clear();
+  placed.reserve(fleet.size());
+  fleet.visit_present(instant, [&](VehicleId id, const Placement& place, const VehicleModem& modem) {
+    placed.push_back({id, place, &modem});
+  });
 }
 
 }  // namespace halocline::channel_server

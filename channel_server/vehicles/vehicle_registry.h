@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,10 +51,28 @@ class VehicleRegistry {
 
   // Ascending ids of all present at `instant`.
   std::vector<VehicleId> present(SimTime instant) const;
+  // Calls visit(id, placement, modem) for each of them, in that order.
+  template <class Visit>
+  void visit_present(SimTime instant, Visit&& visit) const {
+    for (const auto& vehicle : vehicles_) {
+      const auto place = vehicle->states.at(instant, instant, rule_);
+      if (is_present(place)) visit(vehicle->id, *place, vehicle->modems.at(instant));
+    }
+  }
   // Where the vehicle is at `instant` as decided at `decided_at`; empty when unknown or its state is too old.
   std::optional<Placement> placement(VehicleId id, SimTime instant, SimTime decided_at) const;
   // The same, however old the state: for an instant to come.
   std::optional<Placement> prediction(VehicleId id, SimTime instant, SimTime decided_at) const;
+  // Whether a prediction is a placement as well: known, and of a state that is not too old.
+  bool is_present(const std::optional<Placement>& predicted) const {
+    return predicted && predicted->age <= rule_.state_timeout;
+  }
+
+  // Null of a vehicle that is unknown; valid until the registry is changed.
+  const StateHistory* states_of(VehicleId id) const {
+    const Vehicle* vehicle = find(id);
+    return vehicle != nullptr ? &vehicle->states : nullptr;
+  }
 
   std::optional<VehicleId> id_of(std::string_view name) const;
   // Of a vehicle that is not forgotten; empty text otherwise.
@@ -65,8 +84,7 @@ class VehicleRegistry {
   // unknown id.
   template <class Visit>
   void visit_modems(VehicleId id, SimTime from, SimTime to, Visit&& visit) const {
-    const auto vehicle = vehicles_.find(id);
-    if (vehicle != vehicles_.end()) vehicle->second.modems.visit_during(from, to, visit);
+    if (const Vehicle* vehicle = find(id)) vehicle->modems.visit_during(from, to, visit);
   }
 
   // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it, and
@@ -82,6 +100,7 @@ class VehicleRegistry {
 
  private:
   struct Vehicle {
+    VehicleId id;
     std::string name;
     StateHistory states;
     ModemSchedule modems;
@@ -91,12 +110,14 @@ class VehicleRegistry {
     SimTime received_at;
     std::uint64_t turn = 0;  // of the latest announcement, among all
   };
+  std::size_t place_of(VehicleId id) const;
+  const Vehicle* find(VehicleId id) const;
   Vehicle& add_vehicle(std::string_view name, VehicleId id);
   void forget_announced(std::map<std::string, Announced, std::less<>>::iterator announced);
 
   PositionRule rule_;
   ConfiguredModems modems_;
-  std::map<VehicleId, Vehicle> vehicles_;
+  std::vector<std::unique_ptr<Vehicle>> vehicles_;  // by id
   std::map<std::string, VehicleId, std::less<>> ids_;
   std::map<std::string, Announced, std::less<>> announced_;
   std::map<std::uint64_t, std::string> announced_by_turn_;
@@ -112,5 +133,7 @@ struct PlacedVehicle {
 
 // All present at `instant`, by id.
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant);
+// The same into `placed`, whatever it held.
+void place_all(const VehicleRegistry& fleet, SimTime instant, std::vector<PlacedVehicle>& placed);
 
 }  // namespace halocline::channel_server

@@ -32,8 +32,7 @@ class StillLink {
         model_(model),
         link_{.seed = 1, .lower_id = pair, .higher_id = pair + 1'000'000},
         noise_(to_power_ratio(noise).value),
-        lock_{&modem_,
-              reception_.paths.empty() ? acoustics::GuardWindow() : best_window(reception_.paths, modem_)} {
+        window_(reception_.paths.empty() ? acoustics::GuardWindow() : best_window(reception_.paths, modem_)) {
     Packet packet;
     packet.modem = modem_;
     packet.timing = packet_timing(modem_, payload_bytes);
@@ -70,7 +69,8 @@ class StillLink {
   acoustics::FadingModel model_;
   acoustics::FadingLink link_;
   double noise_;
-  acoustics::Lock lock_;
+  acoustics::GuardWindow window_;
+  acoustics::Lock lock_{&modem_, window_};
   PacketPointer packet_;
 };
 

@@ -1,0 +1,50 @@
+#include "channel_server/packets/flight_queue.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+
+#include "channel_server/packets/packet.h"
+#include "core/check.h"
+
+namespace halocline::channel_server {
+
+bool FlightQueue::IsLater::operator()(const Entry& a, const Entry& b) const {
+  if (a.at != b.at) return a.at > b.at;
+  if (a.order != b.order) return a.order > b.order;
+  return a.flight->packet->name() > b.flight->packet->name();
+}
+
+void FlightQueue::add(SimTime at, Flight& flight) {
+  const std::int64_t order = (std::int64_t{static_cast<int>(flight.stage)} << 32) + flight.receiver_id;
+  entries_.push_back({at, order, &flight});
+  std::push_heap(entries_.begin(), entries_.end(), IsLater());
+}
+
+Flight& FlightQueue::take_first() {
+  std::pop_heap(entries_.begin(), entries_.end(), IsLater());
+  const Entry first = entries_.back();
+  entries_.pop_back();
+  ensure(entries_.empty() || IsLater()(entries_.front(), first), "two flights of one packet to one receiver");
+  return *first.flight;
+}
+
+Flight& FlightQueue::make_flight() {
+  if (ended_.empty()) return flights_.emplace_back();
+  Flight* flight = ended_.back();
+  ended_.pop_back();
+  return *flight;
+}
+
+void FlightQueue::end(Flight& flight) {
+  std::destroy_at(&flight);
+  ended_.push_back(std::construct_at(&flight));
+}
+
+void FlightQueue::clear() {
+  entries_.clear();
+  ended_.clear();
+  flights_.clear();
+}
+
+}  // namespace halocline::channel_server
