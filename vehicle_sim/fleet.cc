@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "core/check.h"
+#include "vehicle_sim/dynamics/actuator_forces.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
+#include "vehicle_sim/dynamics/submergence.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 
 namespace halocline::vehicle_sim {
@@ -19,12 +21,15 @@ Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
       waves_(settings.waves, settings.seed),
       faults_(members_.size()) {
   require_in_range(settings.step.seconds(), 1e-3, VehicleWorld::kLongestStep_s, "physics step", "s");
-  for (const FleetMember& member : members_) {
-    commands_.emplace_back(settings.command_timeout);
-    obeyed_.push_back(kSafeState);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const FleetMember& member = members_[i];
+    const ActuatorValues safe = member.model ? safe_state(member.model->parameters()) : ActuatorValues{};
+    commands_.emplace_back(settings.command_timeout, safe);
+    obeyed_.push_back(safe);
     world_index_.push_back(world_.size());
     if (!member.model) continue;
     world_.add(member.model, member.start);
+    if (member.model->parameters().drop_weight.mass_kg > 0) weighted_.push_back(i);
   }
   for (const FleetTether& tether : settings.tethers) tie(tether);
   move_water();  // where the vehicles start
@@ -91,18 +96,36 @@ void Fleet::take_due_faults() {
   waiting_faults_.erase(waiting_faults_.begin(), waiting_faults_.begin() + static_cast<std::ptrdiff_t>(due));
 }
 
+bool Fleet::has_released(std::size_t member) const {
+  return world_.state(world_index_[member]).actuators.weight == DropWeightState::kReleased;
+}
+
+ModelParameters Fleet::sound_parameters(std::size_t member) const {
+  const ModelParameters& whole = members_[member].model->parameters();
+  return has_released(member) ? without_weight(whole) : whole;
+}
+
 void Fleet::set_broken_model(std::size_t member) {
-  const auto& sound = members_[member].model;
   const VehicleFaults& faults = faults_[member];
-  const bool is_sound = !faults.changes_model();
+  const bool is_as_at_start = !faults.changes_model() && !has_released(member);
   world_.set_model(world_index_[member],
-                   is_sound ? sound : std::make_shared<const Model>(faults.broken(sound->parameters())));
+                   is_as_at_start ? members_[member].model
+                                  : std::make_shared<const Model>(faults.broken(sound_parameters(member))));
+}
+
+// A weight is gone from the step after its release on.
+void Fleet::drop_weights() {
+  std::erase_if(weighted_, [this](std::size_t member) {
+    if (!has_released(member)) return false;
+    set_broken_model(member);
+    return true;
+  });
 }
 
 // The step is made with the water that is inside half way through it.
 void Fleet::fill_leaks() {
   for (const std::size_t member : leaking_) {
-    const ModelParameters& sound = members_[member].model->parameters();
+    const ModelParameters sound = sound_parameters(member);
     VehicleFaults& faults = faults_[member];
     if (!faults.is_filling(sound.water_density_kg_m3)) continue;
     VehicleFaults halfway = faults;
@@ -116,7 +139,17 @@ bool Fleet::water_varies() const {
   return current_.depends_on_depth() || current_.depends_on_time() || !waves_.calm();
 }
 
-Water Fleet::water_at(const Vec3& position_ned_m) const {
+bool Fleet::rides_waves(std::size_t index) const {
+  return !waves_.calm() && moves(index) &&
+         members_[index].model->parameters().sea_surface == SeaSurface::kWaves;
+}
+
+double Fleet::sea_surface_z_m(std::size_t index, const Vec3& point_ned_m, SimTime when) const {
+  const double still = settings_.sea_surface_z_m;
+  return rides_waves(index) ? still - waves_.elevation_m(point_ned_m, 0, when) : still;
+}
+
+Water Fleet::water_at(std::size_t index, const Vec3& position_ned_m) const {
   Water water{.current_ned_mps = current_everywhere_.velocity_mps,
               .sea_surface_z_m = settings_.sea_surface_z_m,
               .current_rate_ned_mps2 = current_everywhere_.acceleration_mps2};
@@ -127,13 +160,30 @@ Water Fleet::water_at(const Vec3& position_ned_m) const {
     water.current_ned_mps += wave.velocity_mps;
     water.current_rate_ned_mps2 += wave.acceleration_mps2;
   }
+  if (rides_waves(index)) move_surface(index, position_ned_m, water);
   return water;
+}
+
+// The surface z = still - elevation by its tangent plane at the vehicle: dz/ds = a_s / g, for elevation's slope is -a_s / g, and
+// dz/dt = v_z.
+void Fleet::move_surface(std::size_t index, const Vec3& position_ned_m, Water& water) const {
+  const ModelParameters& p = members_[index].model->parameters();
+  const double least_depth =
+      depth_below_surface_m(position_ned_m, settings_.sea_surface_z_m) - waves_.highest_m();
+  if (p.floats.empty() && is_wholly_submerged(p.hull, least_depth)) return;
+  const WaterMotion surface = waves_.at(position_ned_m, 0, time_);
+  water.surface_slope = surface.acceleration_mps2 / WaveField::kGravity;
+  water.surface_slope.z() = 0;
+  water.surface_rate_mps = surface.velocity_mps.z();
+  water.sea_surface_z_m =
+      sea_surface_z_m(index, position_ned_m, time_) - water.surface_slope.dot(position_ned_m);
 }
 
 void Fleet::move_water() {
   current_everywhere_ = current_.everywhere(time_, settings_.step);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (moves(i)) world_.set_water(world_index_[i], water_at(world_.state(world_index_[i]).position_ned_m));
+    if (moves(i))
+      world_.set_water(world_index_[i], water_at(i, world_.state(world_index_[i]).position_ned_m));
   }
 }
 
@@ -177,6 +227,7 @@ void Fleet::advance(SimTime until) {
     fill_leaks();
     world_.step(settings_.step.seconds());
     time_ = time_ + settings_.step;
+    drop_weights();
     take_due_faults();
     if (take_due_current() || water_varies()) move_water();
   }
@@ -189,14 +240,32 @@ VehicleState Fleet::state_at(std::size_t index, SimTime when) const {
   ensure(ahead >= SimDuration() && ahead < settings_.step,
          "a state is known from time() to less than a step later");
   if (ahead == SimDuration() || has_diverged(index)) return state;
-  return rk4_step(model_of(index), state, obeyed_[index], water_at(state.position_ned_m), ahead.seconds());
+  return rk4_step(model_of(index), state, obeyed_[index], water_at(index, state.position_ned_m),
+                  ahead.seconds());
+}
+
+// At r from CO: p + R r, R (v + omega x r).
+KinematicState Fleet::published_at(std::size_t index, SimTime when) const {
+  const VehicleState state = state_at(index, when);
+  KinematicState seen = to_kinematic_state(state);
+  if (!moves(index)) return seen;
+  const Vec3& r = members_[index].model->parameters().transducer_m;
+  if (r.isZero(0)) return seen;
+  seen.pose.position_ned_m += state.orientation * r;
+  seen.velocity_ned_mps += state.orientation * seen.angular_velocity_body_radps.cross(r);
+  return seen;
 }
 
 SensorReading Fleet::reading_at(std::size_t index, SimTime when) const {
   const VehicleState state = state_at(index, when);
-  Water water = water_at(state.position_ned_m);
+  Water water = water_at(index, state.position_ned_m);
   water.current_ned_mps += (when - time_).seconds() * water.current_rate_ned_mps2;
   if (!moves(index)) return measure_fixed(state, water);
+  water.sea_surface_z_m = settings_.sea_surface_z_m;
+  if (rides_waves(index)) {
+    const double depth = depth_below_surface_m(state.position_ned_m, water.sea_surface_z_m);
+    water.sea_surface_z_m -= waves_.elevation_m(state.position_ned_m, depth, when);
+  }
   SensorReading reading = measure(model_of(index), state, water);
   reading.safe_state = commands_[index].is_safe_state();
   reading.on_seabed = on_seabed(index);

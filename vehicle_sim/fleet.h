@@ -87,13 +87,16 @@ class Fleet {
 
   // Where a vehicle is at `when`, time() <= when < time() + step.
   VehicleState state_at(std::size_t index, SimTime when) const;
-  // What its sensors would measure then without errors; altitude is left unavailable.
+  // The state that others see: that of its modem's transducer, where the model has it off the hull's middle.
+  KinematicState published_at(std::size_t index, SimTime when) const;
+  // What its sensors would measure then without errors; altitude is left unavailable. Depth is that of the water's pressure.
   SensorReading reading_at(std::size_t index, SimTime when) const;
 
   double tether_distance_m(std::size_t tether) const { return world_.tether_distance_m(tether); }
   double tether_pull_n(std::size_t tether) const { return world_.tether_pull_n(tether); }  // in the last step
 
-  double sea_surface_z_m() const { return settings_.sea_surface_z_m; }
+  // z of the surface that a vehicle floats on, above or below a point.
+  double sea_surface_z_m(std::size_t index, const Vec3& point_ned_m, SimTime when) const;
 
   bool has_diverged(std::size_t index) const;  // VehicleWorld::has_diverged
   bool on_seabed(std::size_t index) const;     // touched the ground in the last step
@@ -117,9 +120,15 @@ class Fleet {
   void set_broken_model(std::size_t member);
   void fill_leaks();  // over the step from time() on
   const Model& model_of(std::size_t index) const { return world_.model(world_index_[index]); }
+  ModelParameters sound_parameters(
+      std::size_t member) const;  // without faults, and without a weight that is released
+  bool has_released(std::size_t member) const;
+  void drop_weights();
   bool water_varies() const;
+  bool rides_waves(std::size_t index) const;
   // The water at a vehicle for the step from time() on.
-  Water water_at(const Vec3& position_ned_m) const;
+  Water water_at(std::size_t index, const Vec3& position_ned_m) const;
+  void move_surface(std::size_t index, const Vec3& position_ned_m, Water& water) const;
   // Sets the water of every vehicle for the step from time() on.
   void move_water();
 
@@ -137,6 +146,7 @@ class Fleet {
   std::vector<VehicleFaults> faults_;
   std::vector<FaultOf> waiting_faults_;  // ascending in time
   std::vector<std::size_t> leaking_;     // members that leak or have leaked, ascending
+  std::vector<std::size_t> weighted_;    // members that have a weight to drop, ascending
 };
 
 }  // namespace halocline::vehicle_sim

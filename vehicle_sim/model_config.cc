@@ -55,11 +55,15 @@ void visit_body(ConfigVisitor& v, ModelParameters& p) {
            {0.01, 1000, "m", "of the hull, a spheroid for contact and at the surface"});
   v.number("diameter_m", p.hull.diameter_m, {0.001, 1000, "m", "of the hull, at most its length"});
   v.number("mass_kg", p.mass_kg, {1e-3, kMax, "kg", "dry mass"});
-  v.number("buoyancy_n", p.buoyancy_n, {0, kMax, "N", "of the whole hull under water"});
+  bus::choice(v, "sea_surface", p.sea_surface, {"still", "waves"},
+              "what it floats on: the still surface, or that of the waves");
+  v.number("buoyancy_n", p.buoyancy_n, {0, kMax, "N", "of the whole hull under water, without its floats"});
   v.vector3("center_of_gravity_m", p.center_of_gravity_m, {-1000, 1000, "m", "from the hull's middle"});
   v.vector3("center_of_buoyancy_m", p.center_of_buoyancy_m, {-1000, 1000, "m", "from the hull's middle"});
   v.vector3("leak_offset_m", p.leak_offset_m,
             {-1000, 1000, "m", "where the water of a leak gathers, from the centre of gravity"});
+  v.vector3("transducer_m", p.transducer_m,
+            {-1000, 1000, "m", "of the modem, from the hull's middle: what STATE gives the place of"});
   visit_symmetric(v, "inertia_kg_m2", p.inertia_kg_m2, 1e-9, "kg m^2",
                   "about the centre of gravity: roll, pitch, yaw");
   visit_symmetric(v, "added_mass", p.added_mass, 0, "kg; kg m^2", "about the hull's middle: surge to yaw");
@@ -81,6 +85,11 @@ void visit_lift_drag(ConfigVisitor& v, LiftDrag& l) {
   v.number("lift_slope_per_rad", l.lift_slope_per_rad, {0, 1000, "1/rad", "of the angle of attack"});
   v.number("aspect_ratio", l.aspect_ratio, {1e-6, 1000, "", "for the induced drag"});
   v.number("oswald_efficiency", l.oswald_efficiency, {1e-6, 1, "", "for the induced drag"});
+  bus::choice(v, "law", l.law, {"angle", "bounded"},
+              "of the angle itself, jumping in reverse flow, or bounded and smooth at every angle");
+  v.number("x_m", l.x_m, {-1000, 1000, "m", "bounded: where it acts on the axis, negative aft"});
+  v.number("broadside_drag", l.broadside_drag,
+           {0, 1000, "", "bounded: drag coefficient added straight across; 0: by the induced drag's law"});
 }
 
 void visit_body_lift(ConfigVisitor& v, BodyLift& b) {
@@ -131,6 +140,35 @@ void visit_fin_servo(ConfigVisitor& v, FinServo& s) {
   bus::degrees(v, "max_angle_deg", s.max_angle_rad, {0, 90, "deg", "greatest deflection either way"});
 }
 
+void visit_float(ConfigVisitor& v, Float& f) {
+  v.vector3("bottom_m", f.bottom_m, {-1000, 1000, "m", "middle of its bottom, from the hull's middle"});
+  v.number("length_m", f.length_m, {0.001, 1000, "m", "along the hull"});
+  v.number("beam_m", f.beam_m, {0.001, 1000, "m", "across"});
+  v.number("height_m", f.height_m, {0.001, 1000, "m", "from its bottom up"});
+}
+
+void visit_slow(ConfigVisitor& v, SlowActuator& a, const std::string& limit_key, const std::string& unit) {
+  v.number(limit_key, a.limit, {0, 1000, unit, "greatest set point either way"});
+  v.number("rate_" + unit + "_per_s", a.rate, {0, 1000, unit + "/s", "greatest rate"});
+  v.number("lag_s", a.lag_s, {1e-3, 1000, "s", "behind its command, first order, where that is slower"});
+}
+
+void visit_ballast(ConfigVisitor& v, ModelParameters& p) {
+  v.section("buoyancy_engine", "A bladder that changes the volume at constant mass", [&](ConfigVisitor& s) {
+    visit_slow(s, p.buoyancy_engine.pump, "max_volume_m3", "m3");
+    s.vector3("position_m", p.buoyancy_engine.position_m, {-1000, 1000, "m", "from the hull's middle"});
+  });
+  v.section("moving_mass", "A part of the mass that is driven along the hull", [&](ConfigVisitor& s) {
+    s.number("mass_kg", p.moving_mass.mass_kg, {0, kMax, "kg", "of the body's; 0: there is none"});
+    visit_slow(s, p.moving_mass.drive, "max_offset_m", "m");
+  });
+  v.section("drop_weight", "A part of the body that can be dropped", [&](ConfigVisitor& s) {
+    s.number("mass_kg", p.drop_weight.mass_kg, {0, kMax, "kg", "of the body's; 0: there is none"});
+    s.number("buoyancy_n", p.drop_weight.buoyancy_n, {0, kMax, "N", "its own, of the body's"});
+    s.vector3("position_m", p.drop_weight.position_m, {-1000, 1000, "m", "from the hull's middle"});
+  });
+}
+
 // The values that rules on single keys cannot see.
 void check_as_a_whole(ConfigVisitor& v, const ModelParameters& p) {
   try {
@@ -153,7 +191,7 @@ ModelFile read_model(bus::ConfigFile& file) {
   file.read([&](ConfigVisitor& v) {
     std::string base;
     v.text("based_on", base, built_in_models(), "a built-in model to start from");
-    if (!base.empty()) model.parameters = built_in_model(base).value_or(model.parameters);
+    if (is_built_in(base)) model = load_model(base);
     visit_whole(v, model);
   });
   file.check(/*whole_file=*/true);
@@ -171,7 +209,7 @@ void visit(ConfigVisitor& v, ModelParameters& p) {
   v.number("gravity_m_s2", p.gravity_m_s2, {0.1, 100, "m/s^2", "acceleration of free fall"});
   v.section("body", "Mass, shape and added mass", [&](ConfigVisitor& s) { visit_body(s, p); });
   v.section("damping", "Linear damping", [&](ConfigVisitor& s) { visit_damping(s, p.damping); });
-  v.section("lift_drag", "Lift and drag in the vertical plane, of the angle of attack (remus100-pvs)",
+  v.section("lift_drag", "Lift and drag of hull and wings in the vertical plane, of the angle of attack",
             [&](ConfigVisitor& s) { visit_lift_drag(s, p.lift_drag); });
   v.section("body_lift", "Drag along the hull and lift across it, bounded at every angle",
             [&](ConfigVisitor& s) { visit_body_lift(s, p.body_lift); });
@@ -187,18 +225,23 @@ void visit(ConfigVisitor& v, ModelParameters& p) {
       "thruster", "Thrusters, in the order of thruster_rpm", p.thrusters.size(),
       [&](std::size_t n) { p.thrusters.resize(n); },
       [&](ConfigVisitor& s, std::size_t i) { visit_thruster(s, p.thrusters[i]); });
+  v.list(
+      "float", "Upright elliptic cylinders that pierce the surface", p.floats.size(),
+      [&](std::size_t n) { p.floats.resize(n); },
+      [&](ConfigVisitor& s, std::size_t i) { visit_float(s, p.floats[i]); });
+  visit_ballast(v, p);
 }
 
 bool names_a_model_file(const std::string& model) { return model.ends_with(".toml"); }
 
 ModelFile load_model(const std::string& model, const std::string& folder) {
   if (!names_a_model_file(model)) {
-    auto parameters = built_in_model(model);
     std::string names;
     for (const std::string& name : built_in_models()) names += name + ", ";
-    require(parameters.has_value(),
+    require(is_built_in(model),
             "unknown vehicle model '" + model + "'; there are " + names + "or a file .toml");
-    return {*parameters, {}};
+    if (const auto programmed = programmed_model(model)) return {*programmed, {}};
+    return parse_model(built_in_model_text(model), model);
   }
   auto file = bus::ConfigFile::load((std::filesystem::path(folder) / model).string());
   return read_model(file);

@@ -108,7 +108,8 @@ void SensorStation::measure(const Fleet& fleet, std::size_t i, bool all_due, std
       beams.push_back({state.position_ned_m, altimeter_direction(state), altimeter_range_m_});
     jobs.emplace_back(SensorJob{i, reading}, std::move(beams));
   }
-  if (gps_due && works(SensorKind::kGps) && gps_sees_sky(s.gps, state, fleet.sea_surface_z_m())) {
+  if (gps_due && works(SensorKind::kGps) &&
+      gps_sees_sky(s.gps, state, fleet.sea_surface_z_m(i, state.position_ned_m, when))) {
     const SensorIdentity gps = identity(i, SensorKind::kGps);
     const std::int64_t sample = sample_at(when, s.gps.period);
     if (!drops_out(gps, sample, s.gps.errors.dropout))

@@ -138,7 +138,7 @@ void visit_section(ConfigVisitor& v, VehicleSimConfig& c, SimDuration allowed_si
   v.number("seabed_friction", c.seabed_friction, {0, 10, "", "Coulomb's coefficient of hull on seabed"});
   v.section("current", "Parts of the current that are added to current_ned_mps",
             [&](ConfigVisitor& section) { visit_current(section, c.current); });
-  v.section("waves", "Orbital motion of the water under waves",
+  v.section("waves", "Waves: the motion of the water and, for models that float on them, of the surface",
             [&](ConfigVisitor& section) { visit_waves(section, c.waves); });
 }
 
@@ -237,7 +237,7 @@ void check_models(ConfigVisitor& v) {
         item.shared_with_others();
         item.text("model", models[i], {}, "what moves it");
         const bool is_ours = models[i] == kFixed || models[i] == kExternal || names_a_model_file(models[i]);
-        if (!is_ours && !built_in_model(models[i]))
+        if (!is_ours && !is_built_in(models[i]))
           item.problem("model", "allowed are " + known + ", or a model file ending in .toml");
       });
 }

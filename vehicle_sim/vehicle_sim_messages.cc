@@ -26,6 +26,10 @@ ThrusterSpeeds read_rpm(const double (&from)[kMaxThrusters]) {
   return hz;
 }
 
+DropWeightState weight_of(std::int8_t released) {
+  return released != 0 ? DropWeightState::kReleased : DropWeightState::kHeld;
+}
+
 // The same meanings in the same order: see the constants of vehicle_sensors_t, vehicle_dvl_t, vehicle_sonar_t.
 std::int8_t to_wire(AltitudeStatus status) { return static_cast<std::int8_t>(status); }
 static_assert(static_cast<int>(AltitudeStatus::kMeasured) == 0 &&
@@ -61,12 +65,16 @@ vehicle_command_t to_command_message(const TimedCommand& command) {
   m.rudder_rad = command.actuators.rudder_rad;
   m.stern_plane_rad = command.actuators.stern_planes_rad;
   write_rpm(command.actuators.thruster_hz, m.thruster_rpm);
+  m.buoyancy_m3 = command.actuators.buoyancy_m3;
+  m.moving_mass_m = command.actuators.moving_mass_m;
+  m.release_weight = command.actuators.weight == DropWeightState::kReleased ? 1 : 0;
   return m;
 }
 
 TimedCommand from_message(const vehicle_command_t& m) {
   return {SimTime::from_utime(m.utime),
-          {m.rudder_rad, m.stern_plane_rad, m.propeller_rpm / kSecondsPerMinute, read_rpm(m.thruster_rpm)}};
+          {m.rudder_rad, m.stern_plane_rad, m.propeller_rpm / kSecondsPerMinute, read_rpm(m.thruster_rpm),
+           m.buoyancy_m3, m.moving_mass_m, weight_of(m.release_weight)}};
 }
 
 vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
@@ -88,6 +96,9 @@ vehicle_sensors_t to_sensors_message(SimTime when, const SensorReading& r) {
   m.rudder_angle_rad = r.actuators.rudder_rad;
   m.stern_angle_rad = r.actuators.stern_planes_rad;
   write_rpm(r.actuators.thruster_hz, m.thruster_rpm);
+  m.buoyancy_m3 = r.actuators.buoyancy_m3;
+  m.moving_mass_m = r.actuators.moving_mass_m;
+  m.weight_released = r.actuators.weight == DropWeightState::kReleased ? 1 : 0;
   m.safe_state = r.safe_state ? 1 : 0;
   m.on_seabed = r.on_seabed ? 1 : 0;
   return m;
@@ -104,8 +115,9 @@ SensorReading from_message(const vehicle_sensors_t& m) {
   r.water_speed_mps = m.water_speed_mps;
   r.attitude = {m.roll_rad, m.pitch_rad, m.heading_rad};
   r.angular_velocity_body_radps = read(m.angular_rate_body_radps);
-  r.actuators = {m.rudder_angle_rad, m.stern_angle_rad, m.shaft_rpm / kSecondsPerMinute,
-                 read_rpm(m.thruster_rpm)};
+  r.actuators = {m.rudder_angle_rad,          m.stern_angle_rad, m.shaft_rpm / kSecondsPerMinute,
+                 read_rpm(m.thruster_rpm),    m.buoyancy_m3,     m.moving_mass_m,
+                 weight_of(m.weight_released)};
   r.safe_state = m.safe_state != 0;
   r.on_seabed = m.on_seabed != 0;
   return r;

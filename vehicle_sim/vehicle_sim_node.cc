@@ -162,7 +162,7 @@ void VehicleSimNode::on_step(const bus::Now& now) {
 void VehicleSimNode::publish_states(SimTime when) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (fleet_->has_diverged(i)) continue;  // its state is not known
-    const KinematicState state = to_kinematic_state(fleet_->state_at(i, when));
+    const KinematicState state = fleet_->published_at(i, when);
     if (!published_[i].take(config_.states, config_.state_period, when, state)) continue;
     publish(bus::channels::kState, i, to_state_message(when, ids_[i], state));
   }

@@ -35,7 +35,7 @@ class Flat : public Seabed {
 };
 
 std::shared_ptr<const Model> model_with(double buoyancy_ratio, const char* name = "torpedo") {
-  ModelParameters p = built_in_model(name).value();
+  ModelParameters p = programmed_model(name).value();
   p.buoyancy_n *= buoyancy_ratio;
   return std::make_shared<const Model>(p);
 }

@@ -53,6 +53,18 @@ void visit_hover_gains(ConfigVisitor& v, HoverGains& g) {
   v.number("full_rpm", g.full_rpm, {1, 1e5, "rpm", "greatest speed of a thruster"});
 }
 
+void visit_glide(ConfigVisitor& v, GlideGains& g) {
+  v.number("shallow_z_m", g.shallow_z_m,
+           {-100, 12000, "m", "z at which a climb ends; a dive ends at the behaviour's depth"});
+  degrees(v, "pitch_deg", g.pitch_rad, {1, 60, "deg", "down on dives, up on climbs"});
+  v.number("volume_m3", g.volume_m3,
+           {0, 1000, "m^3", "of the buoyancy engine, less on dives, more on climbs"});
+  v.number("mass_p_m_per_rad", g.mass_p_m_per_rad,
+           {0, 1000, "m/rad", "place of the moving mass per rad of pitch"});
+  v.number("mass_i_m_per_rad_s", g.mass_i_m_per_rad_s, {0, 1000, "m/(rad s)", "and per rad and second"});
+  v.number("max_mass_m", g.max_mass_m, {0, 1000, "m", "of its place, either way"});
+}
+
 void visit_where(ConfigVisitor& v, Behaviour& b) {
   v.number("depth_m", b.depth_m, {-100, 12000, "m", "z of heading, loiter and survey"});
   v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
@@ -82,9 +94,10 @@ void visit_formation(ConfigVisitor& v, Formation& f) {
 }
 
 void visit_behaviour(ConfigVisitor& v, Behaviour& b) {
-  bus::choice(v, "kind", b.kind, {"waypoints", "heading", "loiter", "survey", "follow"}, "what is done");
+  bus::choice(v, "kind", b.kind, {"waypoints", "heading", "loiter", "survey", "follow", "wait"},
+              "what is done");
   v.points("waypoints", b.waypoints, {-1e6, 1e6, "m", "of waypoints: north, east, down of each"});
-  v.number("duration_s", b.duration_s, {0, 1e7, "s", "of heading, loiter and follow; 0: for ever"});
+  v.number("duration_s", b.duration_s, {0, 1e7, "s", "of heading, loiter, follow and wait; 0: for ever"});
   v.number("speed_mps", b.speed_mps, {0, 50, "m/s", "through the water; 0: the mission's"});
   visit_where(v, b);
   v.section("formation", "kind = follow: the place beside a leader, kept by its acoustic reports",
@@ -134,8 +147,9 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
             "north, east, down of each waypoint; without these and behaviours the vehicle is not piloted"});
   v.number("speed_mps", m.speed_mps, {0.01, 50, "m/s", "speed through the water"});
   bus::choice(
-      v, "at_end", m.at_end, {"loop", "hold", "stop"},
-      "after the last waypoint: start again, circle it (with thrusters: stay at it), or stop the propeller");
+      v, "at_end", m.at_end, {"loop", "hold", "stop", "surface"},
+      "after the last waypoint: start again, circle it (with thrusters: stay at it), stop, or stop and rise "
+      "by buoyancy engine and drop weight");
   v.number("acceptance_radius_m", m.acceptance_radius_m,
            {0.1, 1e4, "m", "horizontal distance at which a waypoint counts as reached"});
   v.number("hold_radius_m", m.hold_radius_m, {1, 1e5, "m", "radius of the circle round the last waypoint"});
@@ -143,8 +157,9 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
   v.number("min_altitude_m", m.min_altitude_m,
            {0, 1000, "m", "least height above the seabed, where the altimeter sees it"});
   v.number("ground_ahead_m", pilot.ground_ahead_m, {0, 1000, "m", "how far ahead the ground is looked at"});
-  bus::choice(v, "steering", pilot.steering, {"fins", "thrusters"},
-              "what steers it: propeller and fins, or four thrusters as hover has them");
+  bus::choice(
+      v, "steering", pilot.steering, {"fins", "thrusters", "buoyancy"},
+      "what steers it: propeller and fins, thrusters as hover has them, or buoyancy, moving mass and rudder");
   bus::choice(v, "navigate_by", pilot.navigate_by, {"state", "sensors"},
               "source of its position: the true state, or dead reckoning by its own sensors");
   v.section("navigator", "Uncertainty of dead reckoning, with navigate_by = sensors",
@@ -155,6 +170,8 @@ void visit_mission(ConfigVisitor& v, PilotConfig& pilot) {
             [&](ConfigVisitor& gains) { visit_gains(gains, pilot.gains); });
   v.section("hover_gains", "Gains with thrusters; the defaults suit hover",
             [&](ConfigVisitor& gains) { visit_hover_gains(gains, pilot.hover_gains); });
+  v.section("glide", "The sawtooth, with steering = buoyancy; the defaults suit glider",
+            [&](ConfigVisitor& glide) { visit_glide(glide, pilot.glide); });
   visit_behaviours(v, pilot);
 }
 

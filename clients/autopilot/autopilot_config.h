@@ -9,6 +9,7 @@
 #include "bus/config/config.h"
 #include "clients/autopilot/acoustic_fix.h"
 #include "clients/autopilot/control_laws.h"
+#include "clients/autopilot/glide_laws.h"
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/navigator.h"
@@ -19,7 +20,7 @@
 namespace halocline::clients {
 
 // What the vehicle is steered with.
-enum class Steering { kFins, kThrusters };
+enum class Steering { kFins, kThrusters, kBuoyancy };
 
 // Source of the vehicle's position.
 enum class NavigateBy { kState, kSensors };
@@ -47,6 +48,7 @@ struct PilotConfig {
   Steering steering = Steering::kFins;
   Gains gains;             // of fins
   HoverGains hover_gains;  // of thrusters
+  GlideGains glide;        // by buoyancy
 
   bool is_piloted() const { return !mission.waypoints.empty() || !behaviours.empty(); }
 };

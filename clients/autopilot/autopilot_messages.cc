@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kMaxBehavioursOfPlan = 100, kMaxWaypointsOfPlan = 1200;
 
 // The order of the enumerations is that of the messages' constants.
-static_assert(static_cast<int>(BehaviourKind::kFollow) == plan_behaviour_t::FOLLOW);
-static_assert(static_cast<int>(AtEnd::kStop) == vehicle_plan_t::STOP);
-static_assert(static_cast<int>(Activity::kCirclingSafely) == autopilot_status_t::CIRCLING_SAFELY);
+static_assert(static_cast<int>(BehaviourKind::kWait) == plan_behaviour_t::WAIT);
+static_assert(static_cast<int>(AtEnd::kSurface) == vehicle_plan_t::SURFACE);
+static_assert(static_cast<int>(Activity::kSurfacing) == autopilot_status_t::SURFACING);
 static_assert(static_cast<int>(DepthRule::kAvoidingSeabed) == autopilot_status_t::DEPTH_AVOIDING_SEABED);
 
 plan_behaviour_t to_message(const Behaviour& behaviour, double speed_mps) {
@@ -153,6 +153,8 @@ vehicle_command_t to_message(const ActuatorCommand& command) {
   message.propeller_rpm = command.propeller_rpm;
   message.rudder_rad = command.rudder_rad;
   message.stern_plane_rad = command.stern_plane_rad;
+  message.buoyancy_m3 = command.buoyancy_m3;
+  message.moving_mass_m = command.moving_mass_m;
   return message;
 }
 

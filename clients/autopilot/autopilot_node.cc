@@ -167,18 +167,31 @@ void AutopilotNode::look_at_ground(Pilot& pilot, const Situation& situation) {
   pilot.looked = true;
 }
 
+vehicle_command_t AutopilotNode::command_for(Pilot& pilot, const SetPoints& points,
+                                             const Situation& situation) const {
+  const PilotConfig& config = pilot.config;
+  const double dt_s = period_.seconds();
+  switch (config.steering) {
+    case Steering::kThrusters:
+      return to_message(pilot.pilot.with_thrusters(config.hover_gains, points, situation, dt_s));
+    case Steering::kBuoyancy:
+      return to_message(pilot.pilot.by_buoyancy(config.glide, config.gains, points, situation, dt_s));
+    case Steering::kFins:
+      break;
+  }
+  return to_message(pilot.pilot.with_fins(config.gains, points, situation, dt_s));
+}
+
 SetPoints AutopilotNode::steer(Pilot& pilot, const Situation& situation, SimTime instant) {
   const auto before = pilot.pilot.progress();
   const auto phase_before = pilot.pilot.follow_phase();
-  const SetPoints points = pilot.pilot.steer_for(situation);
+  SetPoints points = pilot.pilot.steer_for(situation);
+  if (pilot.config.steering == Steering::kBuoyancy) points.speed_mps = 0;  // it follows from the buoyancy
   report_progress(pilot, before);
   if (const auto phase = pilot.pilot.follow_phase(); phase && phase != phase_before)
     bus().log().info("formation", "vehicle=" + pilot.config.vehicle + " now=\"" + to_text(*phase) + "\"");
-  const double dt_s = period_.seconds();
-  vehicle_command_t message =
-      pilot.config.steering == Steering::kThrusters
-          ? to_message(pilot.pilot.with_thrusters(pilot.config.hover_gains, points, situation, dt_s))
-          : to_message(pilot.pilot.with_fins(pilot.config.gains, points, situation, dt_s));
+  vehicle_command_t message = command_for(pilot, points, situation);
+  message.release_weight = points.surface ? 1 : 0;
   message.utime = instant.to_utime();
   message.session = bus().identity().session;
   message.sequence = pilot.sequence++;

@@ -82,6 +82,7 @@ class AutopilotNode : public bus::Node {
   void command_all(SimTime instant);
   bool is_fresh(std::int64_t utime, SimTime now) const;
   // What it steered for.
+  vehicle_command_t command_for(Pilot& pilot, const SetPoints& points, const Situation& situation) const;
   SetPoints steer(Pilot& pilot, const Situation& situation, SimTime instant);
   void report(Pilot& pilot, const std::optional<SetPoints>& points, SimTime instant);
   static void look_at_ground(Pilot& pilot, const Situation& situation);

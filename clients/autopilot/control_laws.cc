@@ -3,10 +3,7 @@
 #include <algorithm>
 
 namespace halocline::clients {
-namespace {
 
-// proportional + integral, held to [lowest, highest]; the integral moves only while that does not bind, or
-// where it leads back from the limit.
 double limited_pi(double proportional, double integrand, double lowest, double highest, double& integral) {
   const double free = proportional + integral + integrand;
   const bool winds_up = (free > highest && integrand > 0) || (free < lowest && integrand < 0);
@@ -18,6 +15,8 @@ double rudder(const Gains& g, const SetPoints& points, const Measured& m) {
   const double error = wrapped(points.course_rad - m.heading_rad);
   return std::clamp(g.heading_p * error - g.heading_d_s * m.yaw_rate_radps, -g.max_fin_rad, g.max_fin_rad);
 }
+
+namespace {
 
 double stern_plane(const Gains& g, const SetPoints& points, const Measured& m, double dt_s,
                    Integrals& integrals) {

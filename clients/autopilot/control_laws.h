@@ -45,6 +45,8 @@ struct ActuatorCommand {
   double propeller_rpm = 0;    // 0 to max_rpm
   double rudder_rad = 0;       // within +-max_fin
   double stern_plane_rad = 0;  // within +-max_fin
+  double buoyancy_m3 = 0;      // of a buoyancy engine (glide_laws.h)
+  double moving_mass_m = 0;    // of a moving mass, positive forward
 };
 
 // Integrator states.
@@ -52,6 +54,13 @@ struct Integrals {
   double pitch_rad = 0;  // of depth, as pitch
   double speed_rpm = 0;  // of speed, as propeller speed
 };
+
+// proportional + integral, held to [lowest, highest]; the integral moves on by the integrand only while that does not bind, or
+// where it leads back from the limit.
+double limited_pi(double proportional, double integrand, double lowest, double highest, double& integral);
+
+// The rudder alone.
+double rudder(const Gains& gains, const SetPoints& points, const Measured& measured);
 
 // One step of `dt_s` (0 or above) seconds; moves `integrals` on.
 ActuatorCommand command(const Gains& gains, const SetPoints& points, const Measured& measured, double dt_s,

@@ -63,16 +63,18 @@ Progress advance(const Mission& mission, Progress progress, const Vec3& position
 
 SetPoints set_points(const Mission& mission, const Progress& progress, const Vec3& position_ned_m) {
   SetPoints points{.z_ned_m = mission.waypoints.at(progress.target).z(), .speed_mps = mission.speed_mps};
-  if (progress.at_end && mission.at_end == AtEnd::kStop) {
-    points.propel = false;
-    points.speed_mps = 0;
-  } else if (progress.at_end) {
+  if (progress.at_end && stops(mission.at_end)) return stopped(mission.at_end, points.z_ned_m);
+  if (progress.at_end) {
     points.course_rad =
         course_on_circle(mission.waypoints.back(), mission.hold_radius_m, true, position_ned_m);
   } else {
     points.course_rad = course_on_leg(mission, progress, position_ned_m);
   }
   return points;
+}
+
+SetPoints stopped(AtEnd at_end, double z_ned_m) {
+  return {.propel = false, .surface = at_end == AtEnd::kSurface, .z_ned_m = z_ned_m};
 }
 
 double course_on_circle(const Vec3& center_ned_m, double radius_m, bool clockwise,

@@ -3,7 +3,7 @@
 // Model: the waypoints are joined by straight legs. On a leg, line-of-sight guidance (Fossen 2021, Handbook,
 // 2nd ed., section 12.3): course = leg's azimuth - atan(cross-track error / lookahead). A waypoint is reached
 // within the acceptance radius (horizontal), or when the plane through it across the leg is passed. After the
-// last one the mission starts again, stops, or holds: a clockwise orbit by a vector field (Beard and McLain
+// last one the mission starts again, stops, comes to the surface, or holds: a clockwise orbit by a vector field (Beard and McLain
 // 2012, Small Unmanned Aircraft, eq. 10.13): course = azimuth from the centre + pi/2 + atan(gain (distance -
 // radius) / radius). Depth is that of the waypoint ahead, from the start of its leg. Frame: world NED,
 // metres; course clockwise from north, radians. Left out: current (the error it leaves shrinks with the
@@ -19,7 +19,7 @@
 
 namespace halocline::clients {
 
-enum class AtEnd { kLoop, kHold, kStop };
+enum class AtEnd { kLoop, kHold, kStop, kSurface };
 
 struct Mission {
   std::vector<Vec3> waypoints;     // at least one
@@ -51,6 +51,7 @@ enum class DepthRule {
 // What to steer for.
 struct SetPoints {
   bool propel = true;     // false: stopped, fins amidships
+  bool surface = false;   // not propelled: rises by buoyancy engine or drop weight
   double course_rad = 0;  // -pi to pi
   double z_ned_m = 0;
   double speed_mps = 0;
@@ -73,6 +74,10 @@ SetPoints set_points(const Mission& mission, const Progress& progress, const Vec
 // The course of a circle about `center`, from wherever the vehicle is; `radius_m` above 0.
 double course_on_circle(const Vec3& center_ned_m, double radius_m, bool clockwise,
                         const Vec3& position_ned_m);
+
+// Stopped where a plan ends; kSurface: to rise. `at_end` kStop or kSurface.
+SetPoints stopped(AtEnd at_end, double z_ned_m);
+inline bool stops(AtEnd at_end) { return at_end == AtEnd::kStop || at_end == AtEnd::kSurface; }
 
 // The same direction within -pi (excluded) to pi.
 double wrapped(double angle_rad);

@@ -38,10 +38,8 @@ Vec3 center_of(const Behaviour& b) { return {b.center_north_m, b.center_east_m, 
 SetPoints at_the_end(const Plan& plan, const PlanProgress& progress, const Vec3& position) {
   const Behaviour& last = plan.behaviours[progress.index];
   SetPoints points{.z_ned_m = progress.end_ned_m.z(), .speed_mps = plan.routes[progress.index].speed_mps};
-  if (plan.at_end == AtEnd::kStop) {
-    points.propel = false;
-    points.speed_mps = 0;
-  } else if (last.kind == BehaviourKind::kLoiter) {
+  if (stops(plan.at_end)) return stopped(plan.at_end, points.z_ned_m);
+  if (last.kind == BehaviourKind::kLoiter) {
     points.course_rad =
         course_on_circle(center_of(last), last.radius_m, last.sense == Sense::kClockwise, position);
   } else {
@@ -51,6 +49,7 @@ SetPoints at_the_end(const Plan& plan, const PlanProgress& progress, const Vec3&
 }
 
 SetPoints without_route(const Behaviour& behaviour, double speed_mps, const Vec3& position) {
+  if (behaviour.kind == BehaviourKind::kWait) return stopped(AtEnd::kStop, position.z());
   SetPoints points{.course_rad = behaviour.heading_rad, .z_ned_m = behaviour.depth_m, .speed_mps = speed_mps};
   if (behaviour.kind == BehaviourKind::kLoiter) {
     points.course_rad = course_on_circle(center_of(behaviour), behaviour.radius_m,

@@ -2,10 +2,10 @@
 //
 // Behaviours: waypoints (guidance.h); a heading kept; a loiter, a circle of given radius and sense about a
 // point (the vector field of guidance.h, mirrored for counterclockwise); a survey, parallel tracks over a
-// rectangle joined outside of it; following a leader (formation.h gives its set points). Waypoints and
+// rectangle joined outside of it; following a leader (formation.h gives its set points); waiting, stopped. Waypoints and
 // surveys end at their last point, the others after their duration. Each at a depth, or at a height above
 // the ground (seabed_ahead.h turns it into a depth). After the last one: again from the first, hold
-// (circle where it ended; a loiter goes on), or stop. Frame: world NED, metres; z of a depth is down from
+// (circle where it ended; a loiter goes on), stop, or come to the surface. Frame: world NED, metres; z of a depth is down from
 // the datum. Left out: current across a heading or a circle, obstacles, behaviours at once. Pure
 // functions.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace halocline::clients {
 
-enum class BehaviourKind { kWaypoints, kHeading, kLoiter, kSurvey, kFollow };
+enum class BehaviourKind { kWaypoints, kHeading, kLoiter, kSurvey, kFollow, kWait };
 enum class Sense { kClockwise, kCounterclockwise };
 
 // Where a follower keeps from its leader, and what it does without it.
@@ -38,7 +38,7 @@ struct Formation {
 struct Behaviour {
   BehaviourKind kind = BehaviourKind::kWaypoints;
   std::vector<Vec3> waypoints{};
-  double duration_s = 0;                         // of heading, loiter and follow; 0: for ever
+  double duration_s = 0;                         // of heading, loiter, follow and wait; 0: for ever
   double speed_mps = 0;                          // through the water; 0: the mission's
   double depth_m = 10;                           // z, of heading, loiter and survey
   double altitude_m = 0;                         // above the ground, instead of depth; 0: not used

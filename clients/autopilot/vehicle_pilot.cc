@@ -10,6 +10,11 @@ namespace {
 constexpr double kCarrotM = 10;       // thrusters steer for a point this far along a course
 constexpr double kMinSpeedMps = 0.3;  // of a follower through the water: below it fins do not steer
 
+Measured measured_of(const Situation& s) {
+  return {s.position_ned_m.z(), s.attitude.yaw,   s.attitude.pitch,
+          s.pitch_rate_radps,   s.yaw_rate_radps, s.water_speed_mps};
+}
+
 }  // namespace
 
 VehiclePilot::VehiclePilot(Plan plan, SeabedRules seabed_rules)
@@ -48,9 +53,12 @@ std::optional<FollowPhase> VehiclePilot::follow_phase() const {
 
 ActuatorCommand VehiclePilot::with_fins(const Gains& gains, const SetPoints& points, const Situation& s,
                                         double dt_s) {
-  const Measured measured{s.position_ned_m.z(), s.attitude.yaw,   s.attitude.pitch,
-                          s.pitch_rate_radps,   s.yaw_rate_radps, s.water_speed_mps};
-  return command(gains, points, measured, dt_s, integrals_);
+  return command(gains, points, measured_of(s), dt_s, integrals_);
+}
+
+ActuatorCommand VehiclePilot::by_buoyancy(const GlideGains& glide, const Gains& gains,
+                                          const SetPoints& points, const Situation& s, double dt_s) {
+  return glide_command(glide, gains, points, measured_of(s), dt_s, glide_);
 }
 
 std::array<double, 4> VehiclePilot::with_thrusters(const HoverGains& gains, const SetPoints& points,
@@ -67,8 +75,10 @@ std::array<double, 4> VehiclePilot::with_thrusters(const HoverGains& gains, cons
 
 Activity VehiclePilot::activity() const {
   if (!progress_) return Activity::kWaitingForState;
-  if (progress_->ended || progress_->route.at_end)
+  if (progress_->ended || progress_->route.at_end) {
+    if (plan_.at_end == AtEnd::kSurface) return Activity::kSurfacing;
     return plan_.at_end == AtEnd::kStop ? Activity::kFinished : Activity::kHolding;
+  }
   if (const auto phase = follow_phase()) {
     switch (*phase) {
       case FollowPhase::kWaiting:
@@ -82,6 +92,7 @@ Activity VehiclePilot::activity() const {
     }
   }
   const BehaviourKind kind = plan_.behaviours[progress_->index].kind;
+  if (kind == BehaviourKind::kWait) return Activity::kWaiting;
   if (kind == BehaviourKind::kHeading) return Activity::kKeepingHeading;
   return kind == BehaviourKind::kLoiter ? Activity::kLoitering : Activity::kFollowingLeg;
 }
@@ -94,11 +105,12 @@ std::string VehiclePilot::text() const {
   const std::string to_waypoint = "to waypoint " + std::to_string(progress_->route.target);
   if (kind == BehaviourKind::kHeading) return "keeps a heading";
   if (kind == BehaviourKind::kLoiter) return "circles";
+  if (kind == BehaviourKind::kWait) return "waits";
   return kind == BehaviourKind::kSurvey ? "surveys, " + to_waypoint : to_waypoint;
 }
 
 void VehiclePilot::archive(Archive& a) {
-  a(seabed_, progress_, integrals_, hover_integrals_);
+  a(seabed_, progress_, integrals_, hover_integrals_, glide_);
   for (auto& follower : followers_) {
     if (follower) a(*follower);
   }
@@ -115,6 +127,7 @@ void VehiclePilot::restart() {
   progress_.reset();
   integrals_ = {};
   hover_integrals_ = {};
+  glide_ = {};
 }
 
 }  // namespace halocline::clients

@@ -1,8 +1,8 @@
 // One vehicle's pilot: from its navigation state to set points, and on to actuator commands.
 //
 // It carries a plan (plan.h) through, follows a leader by its reports (formation.h), keeps above the
-// ground that its altimeter showed it (seabed_ahead.h), and steers with fins (control_laws.h) or with
-// thrusters (hover_laws.h). Values in, values out: where a situation comes from is the node's.
+// ground that its altimeter showed it (seabed_ahead.h), and steers with fins (control_laws.h), with
+// thrusters (hover_laws.h) or by buoyancy (glide_laws.h). Values in, values out: where a situation comes from is the node's.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/formation.h"
+#include "clients/autopilot/glide_laws.h"
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
 #include "clients/autopilot/plan.h"
@@ -48,6 +49,8 @@ enum class Activity {
   kFollowingLeader,
   kLeaderLost,      // keeps its course
   kCirclingSafely,  // without its leader
+  kWaiting,
+  kSurfacing,  // where the plan ended
 };
 
 class VehiclePilot {
@@ -64,6 +67,8 @@ class VehiclePilot {
 
   ActuatorCommand with_fins(const Gains& gains, const SetPoints& points, const Situation& situation,
                             double dt_s);
+  ActuatorCommand by_buoyancy(const GlideGains& glide, const Gains& gains, const SetPoints& points,
+                              const Situation& situation, double dt_s);
   // Straight to the point steered for where there is one, else along the course.
   std::array<double, 4> with_thrusters(const HoverGains& gains, const SetPoints& points,
                                        const Situation& situation, double dt_s);
@@ -91,6 +96,7 @@ class VehiclePilot {
   std::optional<PlanProgress> progress_;
   Integrals integrals_;
   HoverIntegrals hover_integrals_;
+  GlideState glide_;
 };
 
 }  // namespace halocline::clients

@@ -43,6 +43,8 @@ void add_water_options(CLI::App* command, VehicleReplay& r) {
       ->add_option("--current-treatment", r.current_treatment,
                    "upstream: as published with remus100-pvs; galilean: exactly; default: the model's")
       ->check(CLI::IsMember({"upstream", "galilean"}));
+  command->add_option("--sea-surface-z-m", r.sea_surface_z_m,
+                      "a surface at rest, 0 for that of the datum; default: water without one");
   command
       ->add_option("--buoyancy-over-weight", r.buoyancy_over_weight, "times the model's buoyancy, 0.5 to 2")
       ->check(CLI::Range(0.5, 2.0));
@@ -55,8 +57,9 @@ void add_replay(CLI::App* parent, int& exit_code) {
   command->add_option("--model", r->model, "built-in name or file .toml")->required();
   command->add_option(
       "--commands", r->commands,
-      "CSV: t_s, propeller_rpm, rudder_deg, stern_plane_deg, thruster_1_rpm to thruster_4_rpm; each row "
-      "holds until the next, absent columns are 0; none: all at 0");
+      "CSV: t_s, propeller_rpm, rudder_deg, stern_plane_deg, thruster_1_rpm to thruster_4_rpm, buoyancy_m3, "
+      "moving_mass_m, release_weight (1 drops it); each row holds until the next, absent columns are 0; "
+      "none: all at 0");
   command->add_option("--duration-s", r->duration_s, "of the run")->required()->check(CLI::Range(0., 1e6));
   command->add_option("--step-ms", r->step_ms, "of the integration, 0.1 to 20")->check(CLI::Range(0.1, 20.));
   command->add_option("--sample-s", r->sample_s, "between rows of the result")->check(CLI::Range(1e-3, 1e6));

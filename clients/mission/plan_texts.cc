@@ -21,6 +21,8 @@ std::string behaviour_text(const vehicle_plan_t& plan) {
       return "loiters";
     case plan_behaviour_t::FOLLOW:
       return "follows " + plan.behaviours[index].leader_name;
+    case plan_behaviour_t::WAIT:
+      return "waits";
     default:
       return "carries out its plan";
   }
@@ -53,6 +55,10 @@ std::string doing(const autopilot_status_t& status, const vehicle_plan_t* plan) 
       return "has lost its leader and keeps its course";
     case autopilot_status_t::CIRCLING_SAFELY:
       return "has lost its leader and circles at the safe depth";
+    case autopilot_status_t::WAITING:
+      return "waits";
+    case autopilot_status_t::SURFACING:
+      return "has finished its plan and rises";
     default:
       return "";
   }
@@ -80,6 +86,7 @@ std::string activity_text(const autopilot_status_t& status, const vehicle_plan_t
 
 std::string progress_text(const vehicle_plan_t& plan) {
   if (!plan.plan_ended) return behaviour_text(plan);
+  if (plan.at_end == vehicle_plan_t::SURFACE) return "has done its plan and rises";
   return plan.at_end == vehicle_plan_t::STOP ? "has done its plan and stopped"
                                              : "has done its plan and holds";
 }

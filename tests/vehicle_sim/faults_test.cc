@@ -157,7 +157,7 @@ TEST(Faults, WithoutItsPropellerAVehicleCoastsAgainstItsDrag) {
 
 TEST(Faults, AMendedPropellerDrivesAgain) {
   const auto speed_after_a_minute = [](bool mend) {
-    Fleet fleet = fleet_of(*built_in_model("torpedo"));
+    Fleet fleet = fleet_of(*programmed_model("torpedo"));
     EXPECT_TRUE(fleet.apply_fault(0, {.from = SimTime(), .kind = FaultKind::kLostPropeller}));
     if (mend) {
       EXPECT_TRUE(fleet.apply_fault(0, {.from = at_s(5), .kind = FaultKind::kLostPropeller, .mended = true}));
@@ -195,7 +195,7 @@ TEST(Faults, AStuckRudderTurnsACircleWhateverIsCommanded) {
 }
 
 TEST(Faults, WithoutAnAngleARudderSticksWhereItIs) {
-  Fleet fleet = fleet_of(*built_in_model("torpedo"));
+  Fleet fleet = fleet_of(*programmed_model("torpedo"));
   run(fleet, 0, 5, 5 * kDegree);
   const double there = fleet.state_at(0, at_s(5)).actuators.rudder_rad;
   EXPECT_NEAR(there, 5 * kDegree, 1e-3);

@@ -21,7 +21,7 @@ constexpr SimDuration kPeriod = SimDuration::from_milliseconds(200);
 using halocline::testing::at_ms;
 
 Fleet fleet_of(std::size_t count, double depth = 20) {
-  const auto model = std::make_shared<const Model>(*built_in_model("torpedo"));
+  const auto model = std::make_shared<const Model>(*programmed_model("torpedo"));
   std::vector<FleetMember> members;
   for (std::size_t i = 0; i < count; ++i) {
     VehicleState start;

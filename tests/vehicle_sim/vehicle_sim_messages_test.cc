@@ -33,7 +33,7 @@ TEST(VehicleSimMessages, AStateSurvivesTheRoundTrip) {
 }
 
 TEST(VehicleSimMessages, ACommandSurvivesTheRoundTrip) {
-  const TimedCommand command{kWhen, {0.1, -0.2, 25, {10, -20, 30, -40}}};
+  const TimedCommand command{kWhen, {0.1, -0.2, 25, {10, -20, 30, -40}, 2e-4, -0.03, DropWeightState::kReleased}};
   const vehicle_command_t message = to_command_message(command);
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.propeller_rpm, 1500);

@@ -7,6 +7,11 @@ namespace {
 
 double held(double value, double limit) { return std::clamp(value, -limit, limit); }
 
+// (command - value) / T, no faster than the rate.
+double slow_rate(const SlowActuator& a, double value, double command) {
+  return held((command - value) / a.lag_s, a.rate);
+}
+
 }  // namespace
 
 // Saturation: -max <= command <= max.
@@ -18,11 +23,13 @@ ActuatorValues limited(const ModelParameters& p, const ActuatorValues& command) 
   for (std::size_t i = 0; i < p.thrusters.size(); ++i) {
     held_to.thruster_hz[i] = held(command.thruster_hz[i], p.thrusters[i].max_hz);
   }
+  held_to.buoyancy_m3 = held(command.buoyancy_m3, p.buoyancy_engine.pump.limit);
+  held_to.moving_mass_m = held(command.moving_mass_m, p.moving_mass.drive.limit);
+  if (p.drop_weight.mass_kg > 0) held_to.weight = command.weight;
   return held_to;
 }
 
-// First-order lag: d delta / dt = (delta_c - delta) / T, of fins, propeller and thrusters alike (Fossen 2021,
-// section 9.4).
+// First-order lag: d delta / dt = (delta_c - delta) / T, of all alike (Fossen 2021, section 9.4).
 ActuatorValues actuator_rate(const ModelParameters& p, const ActuatorValues& value,
                              const ActuatorValues& command) {
   ActuatorValues rate;
@@ -32,7 +39,13 @@ ActuatorValues actuator_rate(const ModelParameters& p, const ActuatorValues& val
   for (std::size_t i = 0; i < p.thrusters.size(); ++i) {
     rate.thruster_hz[i] = (command.thruster_hz[i] - value.thruster_hz[i]) / p.thrusters[i].lag_s;
   }
+  rate.buoyancy_m3 = slow_rate(p.buoyancy_engine.pump, value.buoyancy_m3, command.buoyancy_m3);
+  rate.moving_mass_m = slow_rate(p.moving_mass.drive, value.moving_mass_m, command.moving_mass_m);
   return rate;
+}
+
+ActuatorValues safe_state(const ModelParameters& p) {
+  return {.buoyancy_m3 = p.buoyancy_engine.pump.limit, .moving_mass_m = -p.moving_mass.drive.limit};
 }
 
 }  // namespace halocline::vehicle_sim

@@ -81,7 +81,11 @@ inline BodyForce thruster_force(const Thruster& t, double density, const BodyVel
 // The command held to the limits of the actuators. `command` finite.
 ActuatorValues limited(const ModelParameters& model, const ActuatorValues& command);
 
-// Rate of change of each actuator, per second: (limited command - value) / lag.
+// What a vehicle does without a pilot: propeller and thrusters stopped, fins amidships, a buoyancy engine at its greatest volume
+// and a moving mass aft, so that it climbs.
+ActuatorValues safe_state(const ModelParameters& model);
+
+// Rate of change of each actuator, per second: (limited command - value) / lag, of slow ones no faster than their rate.
 ActuatorValues actuator_rate(const ModelParameters& model, const ActuatorValues& value,
                              const ActuatorValues& limited_command);
 

@@ -6,7 +6,8 @@
 
 namespace halocline::vehicle_sim {
 
-CommandSchedule::CommandSchedule(SimDuration timeout) : timeout_(timeout) {
+CommandSchedule::CommandSchedule(SimDuration timeout, const ActuatorValues& safe)
+    : timeout_(timeout), safe_state_(safe) {
   require(timeout > SimDuration(), "the command time-out must be positive");
 }
 
@@ -28,7 +29,7 @@ ActuatorValues CommandSchedule::at(SimTime now) {
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(reached));
   }
   safe_ = !commanded_ || now - obeyed_.from > timeout_;
-  return safe_ ? kSafeState : obeyed_.actuators;
+  return safe_ ? safe_state_ : obeyed_.actuators;
 }
 
 }  // namespace halocline::vehicle_sim

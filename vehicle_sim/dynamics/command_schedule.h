@@ -1,9 +1,8 @@
 // Schedule of a vehicle's commands: each holds from its own time on, until a later one, or until the time-out; then the
 // vehicle is in its safe state.
 //
-// Safe state: propeller and thrusters stopped and fins amidships, so a vehicle without a pilot slows down and
-// drifts; one that is buoyant (the scenario's buoyancy_over_weight above 1) comes up. A vehicle that was
-// never commanded is in it too. The command at an instant does not depend on the order in which commands
+// Safe state (safe_state): a vehicle without a pilot slows down and drifts; one that is buoyant (the scenario's
+// buoyancy_over_weight above 1) or has a buoyancy engine comes up. A vehicle that was never commanded is in it too. The command at an instant does not depend on the order in which commands
 // with different times came.
 #pragma once
 
@@ -15,8 +14,6 @@
 #include "vehicle_sim/dynamics/vehicle_state.h"
 
 namespace halocline::vehicle_sim {
-
-inline constexpr ActuatorValues kSafeState{};
 
 struct TimedCommand {
   SimTime from;  // holds from this instant on
@@ -33,8 +30,8 @@ class CommandSchedule {
  public:
   static constexpr std::size_t kMaxWaiting = 1000;
 
-  // `timeout` above 0: the age at which a command is no longer obeyed.
-  explicit CommandSchedule(SimDuration timeout);
+  // `timeout` above 0: the age at which a command is no longer obeyed, but `safe` is.
+  explicit CommandSchedule(SimDuration timeout, const ActuatorValues& safe = {});
 
   // Schedules a command received at `now`. Of two for one instant the one received later counts.
   [[nodiscard]] CommandVerdict add(const TimedCommand& command, SimTime now);
@@ -49,7 +46,8 @@ class CommandSchedule {
 
  private:
   SimDuration timeout_;
-  TimedCommand obeyed_{SimTime::at_once(), kSafeState};
+  ActuatorValues safe_state_;
+  TimedCommand obeyed_{SimTime::at_once(), {}};
   std::vector<TimedCommand> waiting_;  // ascending in time
   bool commanded_ = false;             // obeyed_ holds a command
   bool safe_ = true;

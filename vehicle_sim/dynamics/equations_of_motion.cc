@@ -1,10 +1,12 @@
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/elementary.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
+#include "vehicle_sim/dynamics/floats.h"
 #include "vehicle_sim/dynamics/hull_forces.h"
 #include "vehicle_sim/dynamics/submergence.h"
 
@@ -73,12 +75,21 @@ RelativeFlow relative_flow(const Model& model, const BodyVelocity& nu, const Wor
   return flow;
 }
 
-Submergence submergence(const ModelParameters& p, const Numbers& s, double sea_surface_z_m) {
-  if (is_wholly_submerged(p.hull, s.position.z - sea_surface_z_m)) return {};
+Vec3 to_vec3(const Axes& a) { return {a.x, a.y, a.z}; }
+
+Submergence submergence(const ModelParameters& p, const Numbers& s, const Water& water) {
+  const double surface_z = surface_z_at(water, to_vec3(s.position));
+  if (is_wholly_submerged(p.hull, s.position.z - surface_z)) return {};
   VehicleState pose;
-  pose.position_ned_m = {s.position.x, s.position.y, s.position.z};
+  pose.position_ned_m = to_vec3(s.position);
   pose.orientation = Quaternion(s.orientation.data());
-  return submergence(p, pose, sea_surface_z_m);
+  return submergence(p, pose, surface_z, water.surface_slope);
+}
+
+WetFloats wet_floats(const ModelParameters& p, const Numbers& s, const WorldAxes& axes, const Water& water) {
+  if (p.floats.empty()) return {};
+  const double surface_z = surface_z_at(water, to_vec3(s.position));
+  return wet_floats(p.floats, surface_z - s.position.z, axes.down, turned_to_body(axes, water.surface_slope));
 }
 
 BodyForce thrusters_force(const ModelParameters& p, const Numbers& state, const RelativeFlow& flow) {
@@ -88,6 +99,22 @@ BodyForce thrusters_force(const ModelParameters& p, const Numbers& state, const 
                                    state.actuators.thruster_hz[i]);
   }
   return force;
+}
+
+// Buoyancy of floats, rho g V at their centroid c, and what the pressure of water that accelerates at a_w does beyond the
+// acceleration of the whole vehicle with it (relative_flow: m a_w at the centre of gravity): rho V a_w at c less m a_w there,
+// V and c of floats and body together. In waves much longer than the hull the sum is the force of Froude and Krylov.
+BodyForce floats_force(const Model& model, const WetFloats& wet, const WorldAxes& axes, const Water& water) {
+  const ModelParameters& p = model.parameters();
+  const double rho = p.water_density_kg_m3, g = p.gravity_m_s2;
+  const Axes up = -1.0 * axes.down;
+  const BodyForce buoyancy(rho * g * wet.volume_m3 * up, rho * g * cross(wet.moment_m4, up));
+  const Axes rate = turned_to_body(axes, water.current_rate_ned_mps2);
+  const double body_kg = wet.bottom_share * p.buoyancy_n / g;  // of the water that the body displaces
+  const double excess_kg = rho * wet.volume_m3 + body_kg - p.mass_kg;
+  const Axes excess_moment =
+      rho * wet.moment_m4 + body_kg * Axes(p.center_of_buoyancy_m) - p.mass_kg * Axes(p.center_of_gravity_m);
+  return buoyancy + BodyForce(excess_kg * rate, cross(excess_moment, rate));
 }
 
 BodyForce hull_force(const ModelParameters& p, const RelativeFlow& flow) {
@@ -119,6 +146,15 @@ BodyForce restoring_force(const Model& model, const Axes& down, const Submergenc
           cross(weight * Axes(p.center_of_gravity_m) - buoyancy * center_of_buoyancy, down)};
 }
 
+// What the set points of a buoyancy engine and a moving mass add to these: rho g V up at its place, m g down for each metre that
+// the mass is off its middle.
+BodyForce ballast_force(const ModelParameters& p, const ActuatorValues& actuators, const Axes& down,
+                        double submerged_share) {
+  const double lift_n = p.water_density_kg_m3 * p.gravity_m_s2 * actuators.buoyancy_m3 * submerged_share;
+  const Axes shift(p.moving_mass.mass_kg * p.gravity_m_s2 * actuators.moving_mass_m, 0, 0);
+  return {-lift_n * down, cross(shift - lift_n * Axes(p.buoyancy_engine.position_m), down)};
+}
+
 BodyForce total_coriolis_force(const Model& model, const BodyVelocity& nu_r) {
   const ModelParameters& p = model.parameters();
   if (p.added_mass_coriolis == AddedMassCoriolis::kFull) return coriolis_force(model.mass(), nu_r);
@@ -131,12 +167,16 @@ BodyVelocity acceleration(const Model& model, const Numbers& state, const WorldA
                           const Water& water) {
   const ModelParameters& p = model.parameters();
   const RelativeFlow flow = relative_flow(model, state.velocity, axes, water);
-  const Submergence under = submergence(p, state, water.sea_surface_z_m);
+  const WetFloats wet = wet_floats(p, state, axes, water);
+  const Submergence under =
+      p.floats.empty() ? submergence(p, state, water) : Submergence{wet.bottom_share, wet.bottom_share, 0};
   BodyForce of_hull = hull_force(p, flow);
   if (!p.thrusters.empty()) of_hull = of_hull + thrusters_force(p, state, flow);
-  const BodyForce force = total_coriolis_force(model, flow.nu_r) + under.hull * of_hull +
-                          under.stern * stern_force(p, state, flow) +
-                          restoring_force(model, axes.down, under);
+  BodyForce force = total_coriolis_force(model, flow.nu_r) + under.hull * of_hull +
+                    under.stern * stern_force(p, state, flow) + restoring_force(model, axes.down, under);
+  if (!p.floats.empty()) force = force + floats_force(model, wet, axes, water);
+  if (p.buoyancy_engine.pump.limit > 0 || p.moving_mass.mass_kg > 0)
+    force = force + ballast_force(p, state.actuators, axes.down, under.hull);
   const Vec6 a = times(model.inverse_mass(), force);
   return {flow.current_rate + Axes(a[0], a[1], a[2]), Axes(a[3], a[4], a[5])};
 }
@@ -168,6 +208,9 @@ ActuatorValues advanced(const ActuatorValues& a, const ActuatorValues& rate, dou
   ActuatorValues next{a.rudder_rad + dt * rate.rudder_rad, a.stern_planes_rad + dt * rate.stern_planes_rad,
                       a.propeller_hz + dt * rate.propeller_hz, a.thruster_hz};
   for (std::size_t i = 0; i < next.thruster_hz.size(); ++i) next.thruster_hz[i] += dt * rate.thruster_hz[i];
+  next.buoyancy_m3 = a.buoyancy_m3 + dt * rate.buoyancy_m3;
+  next.moving_mass_m = a.moving_mass_m + dt * rate.moving_mass_m;
+  next.weight = a.weight;
   return next;
 }
 
@@ -183,6 +226,7 @@ Numbers advanced(const Numbers& s, const Numbers& rate, double dt) {
 Water after(const Water& water, double seconds) {
   Water later = water;
   later.current_ned_mps += seconds * water.current_rate_ned_mps2;
+  later.sea_surface_z_m += seconds * water.surface_rate_mps;
   return later;
 }
 
@@ -217,7 +261,8 @@ VehicleState rk4_step(const Model& model, const VehicleState& state, const Actua
   const Numbers k3 = rate_of_change(model, advanced(start, k2, step_s / 2), held, halfway);
   const Numbers k4 = rate_of_change(model, advanced(start, k3, step_s), held, at_end);
   const Numbers sum = advanced(advanced(advanced(k1, k2, 2), k3, 2), k4, 1);
-  const Numbers end = advanced(start, sum, step_s / 6);
+  Numbers end = advanced(start, sum, step_s / 6);
+  end.actuators.weight = std::max(state.actuators.weight, held.weight);  // released for good
   return {Vec3(end.position.x, end.position.y, end.position.z),
           Quaternion(end.orientation.data()).normalized(), end.velocity.vector(), end.actuators};
 }

@@ -1,5 +1,6 @@
 #include "vehicle_sim/dynamics/hull_forces.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "core/elementary.h"
@@ -20,6 +21,7 @@ BodyForce roll_only_coriolis_force(const Mat6& mass, const BodyVelocity& nu) {
 // to 8.26); X = -D cos(alpha) + L sin(alpha), Z = -D sin(alpha) - L cos(alpha).
 BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity& nu_r,
                           double relative_speed_mps) {
+  if (l.law == LiftLaw::kBounded) return bounded_lift_force(l, density, nu_r);
   const double u = nu_r.u, w = nu_r.w + 0.0;  // -0 + 0 = +0: one branch of atan2 for both zeros
   const double alpha = elementary::atan2(w, u);
   const double in_plane = std::sqrt(u * u + w * w);
@@ -29,6 +31,20 @@ BodyForce lift_drag_force(const LiftDrag& l, double density, const BodyVelocity&
   const double dynamic_force = 0.5 * density * relative_speed_mps * relative_speed_mps * l.reference_area_m2;
   const double lift = dynamic_force * cl, drag = dynamic_force * cd;
   return {-cos_alpha * drag + sin_alpha * lift, 0, -sin_alpha * drag - cos_alpha * lift, 0, 0, 0};
+}
+
+BodyForce bounded_lift_force(const LiftDrag& l, double density, const BodyVelocity& nu_r) {
+  const double u = nu_r.u, w = nu_r.w - l.x_m * nu_r.q;
+  const double speed_squared = u * u + w * w;
+  if (speed_squared == 0) return {};
+  const double slope = l.lift_slope_per_rad;
+  const double induced = slope * slope / (std::numbers::pi * l.oswald_efficiency * l.aspect_ratio);
+  const double bend = l.broadside_drag > 0 ? induced / l.broadside_drag - 1 : 0;
+  const double sine_squared = w * w / speed_squared;
+  const double drag = speed_squared * (l.zero_lift_drag + induced * sine_squared / (1 + bend * sine_squared));
+  const double scale = -0.5 * density * l.reference_area_m2 / std::sqrt(speed_squared);
+  const double z = scale * (drag * w + slope * u * u * w);
+  return {scale * (drag * u - slope * u * w * w), 0, z, 0, -l.x_m * z, 0};
 }
 
 // Y = -1/2 rho D C_d int |v + x r| (v + x r) dx, N likewise with x in the integral (Fossen 2021, eq. 6.91 and 6.92), as a

@@ -45,10 +45,18 @@ inline BodyForce damping_force(const Damping& damping, const BodyVelocity& nu_r,
           -d[3] * nu_r.p * share[3], -d[4] * nu_r.q * share[4], -d[5] * nu_r.r * share[5]};
 }
 
-// Lift across and drag along the flow in the x-z plane (eq. 8.23 to 8.26); no moment. The lift law is linear
-// in alpha = atan2(w, u) in [-pi, pi]; a w of -0 counts as +0. `density` in kg/m^3.
+// Lift across and drag along the flow in the x-z plane (eq. 8.23 to 8.26). LiftLaw::kAngle: no moment; linear
+// in alpha = atan2(w, u) in [-pi, pi]; a w of -0 counts as +0. LiftLaw::kBounded: see bounded_lift_force. `density`
+// in kg/m^3.
 BodyForce lift_drag_force(const LiftDrag& lift_drag, double density, const BodyVelocity& nu_r,
                           double relative_speed_mps);
+
+// With w_l = w - x q at the place of the lift, V^2 = u^2 + w_l^2, sin(alpha) = w_l / V, cos(alpha) = u / V: lift
+// 1/2 rho S a V^2 sin(alpha) cos(alpha) across the flow, drag 1/2 rho S V^2 (C_D0 + k s / (1 + b s)) along it with
+// s = sin(alpha)^2, k = a^2 / (pi e AR), which holds at small angles, and b = k / broadside_drag - 1, so that
+//   X = -1/2 rho S (C_D V u - a u w_l^2 / V),   Z = -1/2 rho S (C_D V w_l + a u^2 w_l / V),   M = -x Z.
+// Lift does no work at x, drag takes energy at every angle.
+BodyForce bounded_lift_force(const LiftDrag& lift_drag, double density, const BodyVelocity& nu_r);
 
 // X = -1/2 rho S C_Da u |u|, and across the hull -1/2 rho S C_L |u| v_l with v_l the velocity across it at the place of
 // the lift, center_aft behind the middle as the hull moves (x_l = -sign(u) center_aft): the sin(alpha)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "core/check.h"
@@ -41,6 +42,7 @@ std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun&
   const SimTime end = SimTime() + run.duration;
   OpenLoopSample now{SimTime(), run.start, to_euler(run.start.orientation).yaw, {}};
   std::vector<OpenLoopSample> samples;
+  std::optional<Model> lightened;  // once a weight is gone
   auto next = run.schedule.begin();
   for (SimTime next_sample;;) {
     for (; next != run.schedule.end() && next->from <= now.time; ++next) now.command = next->actuators;
@@ -51,7 +53,11 @@ std::vector<OpenLoopSample> run_open_loop(const Model& model, const OpenLoopRun&
     SimTime until = std::min(next_on_grid(now.time, run.step), next_sample);
     if (next != run.schedule.end()) until = std::min(until, next->from);
     if (until > end) return samples;
-    now.state = rk4_step(model, now.state, now.command, run.water, (until - now.time).seconds());
+    const bool drops = model.parameters().drop_weight.mass_kg > 0 &&
+                       now.state.actuators.weight == DropWeightState::kReleased;
+    if (drops && !lightened) lightened.emplace(without_weight(model.parameters()));
+    now.state = rk4_step(lightened ? *lightened : model, now.state, now.command, run.water,
+                         (until - now.time).seconds());
     now.yaw_unwrapped_rad = unwrapped(to_euler(now.state.orientation).yaw, now.yaw_unwrapped_rad);
     now.time = until;
     if (!is_finite(now.state)) throw Diverged(now.time);
@@ -63,6 +69,8 @@ ModelParameters without_limits(ModelParameters parameters) {
   parameters.fin_servo.max_angle_rad = std::numbers::pi / 2;
   parameters.propeller.max_hz = kNoLimit;
   for (Thruster& thruster : parameters.thrusters) thruster.max_hz = kNoLimit;
+  for (SlowActuator* slow : {&parameters.buoyancy_engine.pump, &parameters.moving_mass.drive})
+    if (slow->limit > 0) slow->limit = kNoLimit;
   return parameters;
 }
 

@@ -1,7 +1,7 @@
 // A vehicle run along a schedule of commands and sampled: what the reference trajectories are made of.
 //
 // Solves equations_of_motion.h by steps on the grid of `step` from time 0, cut where a command or a sample
-// falls between. The vehicle is free: no ground. Given the same run the same numbers come out. Pure; any
+// falls between. The vehicle is free: no ground. A weight is gone from the step after its release on. Given the same run the same numbers come out. Pure; any
 // number of threads.
 #pragma once
 

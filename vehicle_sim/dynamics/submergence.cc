@@ -27,11 +27,13 @@ double submerged_share_of_circle(double depth_in_radii) {
 
 // Sections at xi in (-1, 1) along the axis have the radius D/2 sqrt(1 - xi^2) and the volume 1 - xi^2; their sum by the
 // midpoint rule.
-Submergence submergence(const ModelParameters& model, const VehicleState& state, double sea_surface_z_m) {
+Submergence submergence(const ModelParameters& model, const VehicleState& state, double surface_z_m,
+                        const Vec3& slope) {
   const HullShape& hull = model.hull;
-  const double depth = depth_below_surface_m(state.position_ned_m, sea_surface_z_m);
+  const double depth = depth_below_surface_m(state.position_ned_m, surface_z_m);
   if (is_wholly_submerged(hull, depth)) return {};
-  const double down_along_x = (state.orientation * Vec3::UnitX()).z();
+  const Vec3 bow = state.orientation * Vec3::UnitX();
+  const double down_along_x = bow.z() - slope.dot(bow);  // under the surface, a metre along the hull
   double weight_sum = 0, wet_sum = 0, wet_moment = 0;
   for (int i = 0; i < kSections; ++i) {
     const double along = (2 * i + 1.0) / kSections - 1;  // -1 to 1 over the hull

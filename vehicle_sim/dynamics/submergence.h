@@ -3,8 +3,8 @@
 // Model: the hull, a spheroid about its axis, is cut across the axis into sections; each counts as a circle
 // cut by the water level at the depth of its centre, weighted by its volume. Exact for a level hull; for one
 // that is pitched the cut through a section is taken as level, an error below one section's radius in depth.
-// Left out: waves, the water a hull carries with it, the change of added mass. `sea_surface_z_m` in the world
-// frame.
+// Waves tilt and lift the level at each section as the surface's tangent plane does. Left out: the water a hull carries with it,
+// the change of added mass. Hulls with floats are not this: floats.h.
 #pragma once
 
 #include "vehicle_sim/dynamics/vehicle_model.h"
@@ -24,8 +24,9 @@ inline bool is_wholly_submerged(const HullShape& hull, double depth_m) {
   return depth_m > hull.length_m / 2 + hull.diameter_m;
 }
 
-// Exactly {1, 1, 0} for a hull that is wholly submerged.
-Submergence submergence(const ModelParameters& model, const VehicleState& state, double sea_surface_z_m);
+// Exactly {1, 1, 0} for a hull that is wholly submerged. `surface_z_m` of the surface above or below CO; `slope`: Water's.
+Submergence submergence(const ModelParameters& model, const VehicleState& state, double surface_z_m,
+                        const Vec3& slope = Vec3::Zero());
 
 // Share of a circle's area below the water level, its centre `depth` (positive under water) from the level,
 // in units of the radius: 0 at -1 or less, 1/2 at 0, 1 at 1 or more.

@@ -33,6 +33,17 @@ void check_body(const ModelParameters& p) {
   require(p.center_of_gravity_m.allFinite(), "the centre of gravity is not finite");
   require(p.center_of_buoyancy_m.allFinite(), "the centre of buoyancy is not finite");
   require(p.leak_offset_m.allFinite(), "the place of a leak's water is not finite");
+  require(p.transducer_m.allFinite(), "the place of the transducer is not finite");
+}
+
+void check_floats(const std::vector<Float>& floats) {
+  require(floats.size() <= kMaxFloats, "a vehicle has 16 floats at most");
+  for (const Float& f : floats) {
+    require(f.bottom_m.allFinite(), "the place of a float is not finite");
+    require_positive(f.length_m, "float length", "m");
+    require_positive(f.beam_m, "float beam", "m");
+    require_positive(f.height_m, "float height", "m");
+  }
 }
 
 void check_forces(const ModelParameters& p) {
@@ -42,6 +53,8 @@ void check_forces(const ModelParameters& p) {
   require_not_negative(p.lift_drag.zero_lift_drag, "zero-lift drag coefficient", "");
   require_positive(p.lift_drag.aspect_ratio, "aspect ratio", "");
   require_in_range(p.lift_drag.oswald_efficiency, kMin, 1, "Oswald efficiency", "");
+  require_finite(p.lift_drag.x_m, "place of the lift");
+  require_not_negative(p.lift_drag.broadside_drag, "broadside drag coefficient", "");
   require_not_negative(p.body_lift.reference_area_m2, "body lift reference area", "m^2");
   require_not_negative(p.body_lift.axial_drag, "axial drag coefficient", "");
   require_not_negative(p.body_lift.lift_slope_per_rad, "body lift slope", "1/rad");
@@ -75,6 +88,22 @@ void check_thruster(const Thruster& t) {
   require_not_negative(t.max_hz, "greatest propeller speed", "Hz");
 }
 
+void check_slow(const SlowActuator& a, const char* what) {
+  require_not_negative(a.limit, what, "");
+  require_not_negative(a.rate, what, "");
+  require_positive(a.lag_s, what, "s");
+}
+
+void check_ballast(const ModelParameters& p) {
+  check_slow(p.buoyancy_engine.pump, "buoyancy engine");
+  require(p.buoyancy_engine.position_m.allFinite(), "the place of the buoyancy engine is not finite");
+  require_not_negative(p.moving_mass.mass_kg, "moving mass", "kg");
+  check_slow(p.moving_mass.drive, "moving mass");
+  require_in_range(p.drop_weight.mass_kg, 0, p.mass_kg, "drop weight", "kg");
+  require_in_range(p.drop_weight.buoyancy_n, 0, p.buoyancy_n, "buoyancy of the drop weight", "N");
+  require(p.drop_weight.position_m.allFinite(), "the place of the drop weight is not finite");
+}
+
 void check_actuators(const ModelParameters& p) {
   check_fins(p.rudder);
   check_fins(p.stern_planes);
@@ -106,14 +135,36 @@ Mat6 rigid_body_mass_matrix(double mass_kg, const Mat3& inertia_kg_m2, const Vec
 
 Model::Model(ModelParameters parameters) : parameters_(std::move(parameters)) {
   check_body(parameters_);
+  check_floats(parameters_.floats);
   check_forces(parameters_);
   check_actuators(parameters_);
+  check_ballast(parameters_);
   rigid_body_mass_ =
       rigid_body_mass_matrix(parameters_.mass_kg, parameters_.inertia_kg_m2, parameters_.center_of_gravity_m);
   mass_ = rigid_body_mass_ + parameters_.added_mass;
   require(mass_.allFinite() && mass_.isApprox(mass_.transpose()), "the mass matrix is not symmetric");
   require(mass_.llt().info() == Eigen::Success, "the mass matrix is not positive definite");
   inverse_mass_ = mass_.inverse();
+  if (parameters_.drop_weight.mass_kg > 0) Model{without_weight(parameters_)};  // must be possible, too
+}
+
+// A body less a part: m' = m - m_w, m' r' = m r - m_w r_w, I' = I - (m m_w / m') (d^2 1 - d d^T) with d = r_w - r, the parallel
+// axes of both about the new centre of gravity; a weight is a point.
+ModelParameters without_weight(ModelParameters p) {
+  const DropWeight weight = p.drop_weight;
+  if (weight.mass_kg == 0) return p;
+  const double rest_kg = p.mass_kg - weight.mass_kg, rest_n = p.buoyancy_n - weight.buoyancy_n;
+  require_positive(rest_kg, "mass without the drop weight", "kg");
+  const Vec3 d = weight.position_m - p.center_of_gravity_m;
+  p.inertia_kg_m2 -=
+      p.mass_kg * weight.mass_kg / rest_kg * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+  p.center_of_gravity_m -= weight.mass_kg / rest_kg * d;
+  if (rest_n > 0)
+    p.center_of_buoyancy_m -= weight.buoyancy_n / rest_n * (weight.position_m - p.center_of_buoyancy_m);
+  p.mass_kg = rest_kg;
+  p.buoyancy_n = rest_n;
+  p.drop_weight = {};
+  return p;
 }
 
 }  // namespace halocline::vehicle_sim

@@ -7,7 +7,8 @@
 // heave; roll, pitch, yaw). All SI and radians; propeller speed in revolutions per second (Hz). An effect whose
 // area or coefficient is 0 is absent. docs/vehicles.md describes each effect and the models made of them. Left out:
 // shift of added mass near the surface, fins' own added mass, propeller lateral forces, the propeller's race over
-// the fins. Threads: a Model never changes; any number of threads may read one.
+// the fins, what a moving mass does to the mass matrix. Threads: a Model never changes; any number of threads may
+// read one.
 #pragma once
 
 #include <array>
@@ -29,6 +30,20 @@ using Mat3 = Eigen::Matrix3d;
 struct HullShape {
   double length_m = 0;    // above 0
   double diameter_m = 0;  // above 0, at most the length
+};
+
+// A wall-sided hull that pierces the surface, besides what the body's buoyancy tells of: an upright elliptic cylinder.
+struct Float {
+  Vec3 bottom_m = Vec3::Zero();  // middle of its bottom, from CO
+  double length_m = 0;           // along x, above 0
+  double beam_m = 0;             // across, above 0
+  double height_m = 0;           // from the bottom up, above 0
+};
+
+// The surface that a hull floats on.
+enum class SeaSurface {
+  kStill,  // level: waves act under it by their orbital motion alone
+  kWaves,  // that of the waves
 };
 
 // Which terms of the added-mass Coriolis matrix act.
@@ -53,15 +68,23 @@ struct Damping {
   Vec6 decay_s_per_m = Vec6::Zero();  // 0 or above; 0 leaves the term constant
 };
 
-// Lift and drag of the hull in its x-z plane, of the angle of attack alpha = atan2(w_r, u_r), as
-// `remus100-pvs` has it:
-// C_L = lift_slope alpha, C_D = zero_lift_drag + C_L^2 / (pi oswald aspect_ratio). Jumps in reverse flow.
+enum class LiftLaw {
+  kAngle,  // of alpha itself, as published with `remus100-pvs`: jumps in reverse flow
+  kBounded,  // of sin(alpha) cos(alpha) and sin(alpha)^2 in the flow at x_m: the same at small angles, smooth at all
+};
+
+// Lift and drag of the hull and its wings in the x-z plane, of the angle of attack alpha = atan2(w_r, u_r):
+// C_L = lift_slope alpha, C_D = zero_lift_drag + C_L^2 / (pi oswald aspect_ratio).
 struct LiftDrag {
   double reference_area_m2 = 0;   // 0 or above
   double zero_lift_drag = 0;      // C_D0, 0 or above
   double lift_slope_per_rad = 0;  // 0 or above
   double aspect_ratio = 1;        // above 0
   double oswald_efficiency = 1;   // e, above 0 and at most 1
+  LiftLaw law = LiftLaw::kAngle;
+  double x_m = 0;  // kBounded: where the force acts on the body's axis, negative aft
+  double broadside_drag =
+      0;  // kBounded: at 90 degrees, above zero_lift_drag; 0: that of the induced drag's sin(alpha)^2
 };
 
 // Drag along the hull and lift across it, bounded and smooth at every angle of attack: see body_lift_force.
@@ -127,11 +150,39 @@ struct Thruster {
 };
 
 inline constexpr std::size_t kMaxThrusters = 4;  // besides the propeller
+inline constexpr std::size_t kMaxFloats = 16;
 
 // First-order lag of the fins towards the command, which is first held to the limit.
 struct FinServo {
   double lag_s = 0.1;        // above 0
   double max_angle_rad = 0;  // 0 to pi/2
+};
+
+// What moves to its command by a first-order lag, no faster than its rate, and no further than its limit.
+struct SlowActuator {
+  double limit = 0;  // either way, 0 or above
+  double rate = 0;   // a second, 0 or above
+  double lag_s = 1;  // above 0
+};
+
+// A bladder that oil is pumped in and out of: changes the volume, at constant mass. Volumes in m^3, beyond neutral.
+struct BuoyancyEngine {
+  SlowActuator pump;  // limit 0: there is none
+  Vec3 position_m = Vec3::Zero();
+};
+
+// A part of the body that is driven along its x axis; the body's numbers hold with it in its middle. Places in metres, positive
+// forward.
+struct MovingMass {
+  double mass_kg = 0;  // 0 or above; 0: there is none
+  SlowActuator drive;
+};
+
+// A part of the body that can be dropped; the body's numbers hold with it.
+struct DropWeight {
+  double mass_kg = 0;     // 0 or above; 0: there is none
+  double buoyancy_n = 0;  // its own, 0 or above
+  Vec3 position_m = Vec3::Zero();
 };
 
 // What a model is made from. A plain struct, so that a file may fill it.
@@ -140,11 +191,13 @@ struct ModelParameters {
   double water_density_kg_m3 = 1026;
   double gravity_m_s2 = 9.81;
   HullShape hull;
+  SeaSurface sea_surface = SeaSurface::kStill;
   double mass_kg = 0;                        // dry mass, above 0
-  double buoyancy_n = 0;                     // of the whole hull under water, 0 or above
+  double buoyancy_n = 0;                     // of the whole hull under water without its floats, 0 or above
   Vec3 center_of_gravity_m = Vec3::Zero();   // from CO
   Vec3 center_of_buoyancy_m = Vec3::Zero();  // from CO
   Vec3 leak_offset_m = Vec3::Zero();  // of the place where a leak's water gathers from the centre of gravity
+  Vec3 transducer_m = Vec3::Zero();   // of the modem, from CO: STATE gives its place
   Mat3 inertia_kg_m2 = Mat3::Identity();  // about the centre of gravity; symmetric, positive
   Mat6 added_mass = Mat6::Zero();         // about CO; symmetric, none negative
   AddedMassCoriolis added_mass_coriolis = AddedMassCoriolis::kFull;
@@ -158,6 +211,10 @@ struct ModelParameters {
   FinServo fin_servo;
   Thruster propeller;
   std::vector<Thruster> thrusters;  // kMaxThrusters at most
+  std::vector<Float> floats;  // kMaxFloats at most; with any the spheroid displaces no water at the surface
+  BuoyancyEngine buoyancy_engine;
+  MovingMass moving_mass;
+  DropWeight drop_weight;
 };
 
 // A model ready for use: the parameters, checked, and the matrices made from them.
@@ -177,6 +234,9 @@ class Model {
   ModelParameters parameters_;
   Mat6 rigid_body_mass_, mass_, inverse_mass_;
 };
+
+// The vehicle once its weight is gone. A vehicle without one stays as it is.
+ModelParameters without_weight(ModelParameters parameters);
 
 // The matrix S(a) with S(a) b = a x b.
 Mat3 skew(const Vec3& a);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/archive.h"
@@ -14,20 +15,27 @@
 
 namespace halocline::vehicle_sim {
 
+enum class DropWeightState : std::int64_t { kHeld, kReleased };  // as wide as a number: no padding
+
 // Fins, propeller and thrusters, as commanded or as they are. Positive rudder turns to starboard (positive yaw rate),
 // positive stern planes push the bow down, a positive propeller drives ahead, a positive thruster pushes the
-// hull along its direction.
+// hull along its direction, a positive volume of the buoyancy engine lifts it, a moving mass forward pitches the bow down. A
+// weight once released stays so, whatever is commanded.
 struct ActuatorValues {
   double rudder_rad = 0;
   double stern_planes_rad = 0;
   double propeller_hz = 0;                             // revolutions per second
   std::array<double, kMaxThrusters> thruster_hz = {};  // in the model's order; unused ones 0
+  double buoyancy_m3 = 0;
+  double moving_mass_m = 0;
+  DropWeightState weight = DropWeightState::kHeld;
 
   bool operator==(const ActuatorValues&) const = default;
 };
 
 inline bool is_finite(const ActuatorValues& a) {
   return std::isfinite(a.rudder_rad) && std::isfinite(a.stern_planes_rad) && std::isfinite(a.propeller_hz) &&
+         std::isfinite(a.buoyancy_m3) && std::isfinite(a.moving_mass_m) &&
          std::all_of(a.thruster_hz.begin(), a.thruster_hz.end(), [](double n) { return std::isfinite(n); });
 }
 
@@ -45,10 +53,18 @@ struct VehicleState {
 // The water round a vehicle over a step.
 struct Water {
   Vec3 current_ned_mps = Vec3::Zero();  // at the start of the step, uniform over the hull, finite
-  // z of the sea surface in the world frame, metres; minus infinity is water without a surface.
+  // z of the sea surface in the world frame, metres; minus infinity is water without a surface. Where the surface slopes: of
+  // its tangent plane at the vehicle, above or below the world's origin.
   double sea_surface_z_m = -std::numeric_limits<double>::infinity();
   Vec3 current_rate_ned_mps2 = Vec3::Zero();  // acceleration of the water during the step, finite
+  Vec3 surface_slope = Vec3::Zero();          // dz/dnorth and dz/deast of the surface, and 0; finite
+  double surface_rate_mps = 0;                // of sea_surface_z_m during the step, finite
 };
+
+// z of the surface above or below a point.
+inline double surface_z_at(const Water& water, const Vec3& point_ned_m) {
+  return water.sea_surface_z_m + water.surface_slope.dot(point_ned_m);
+}
 
 // False when any number of the state is NaN or infinite.
 inline bool is_finite(const VehicleState& s) {

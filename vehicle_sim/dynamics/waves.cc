@@ -13,7 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kGravity = 9.81;              // m/s^2
 constexpr double kLowest = 0.5, kHighest = 4;  // times the peak's frequency: all but 0.5 % of the energy
 constexpr double kNarrowBelow = 0.07, kNarrowAbove = 0.09;  // JONSWAP's sigma
 
@@ -36,7 +35,7 @@ double spectrum(double omega, double peak, double gamma) {
 
 // Deep water: k = omega^2 / g.
 WaveField::Component component(double amplitude, double omega, double phase) {
-  return {amplitude, omega, omega * omega / kGravity, phase};
+  return {amplitude, omega, omega * omega / WaveField::kGravity, phase};
 }
 
 // a_i = sqrt(2 S(omega_i) d omega), scaled so that the sum of a_i^2 / 2 is (H_s / 4)^2.
@@ -89,6 +88,23 @@ WaterMotion WaveField::at(const Vec3& position_ned_m, double depth_m, SimTime no
   }
   return {{forward * north_, forward * east_, down},
           {forward_rate * north_, forward_rate * east_, down_rate}};
+}
+
+double WaveField::elevation_m(const Vec3& position_ned_m, double depth_m, SimTime now) const {
+  const double along = north_ * position_ned_m.x() + east_ * position_ned_m.y(), t = now.seconds();
+  const double depth = std::max(depth_m, 0.0);
+  double sum = 0;
+  for (const Component& c : components_) {
+    const double theta = c.wave_number_per_m * along - c.frequency_radps * t + c.phase_rad;
+    sum += c.amplitude_m * elementary::exp(-c.wave_number_per_m * depth) * elementary::cos(theta);
+  }
+  return sum;
+}
+
+double WaveField::highest_m() const {
+  double sum = 0;
+  for (const Component& c : components_) sum += c.amplitude_m;
+  return sum;
 }
 
 }  // namespace halocline::vehicle_sim

@@ -7,8 +7,7 @@
 // peakedness 1 Pierson and Moskowitz 1964, scaled to its significant height; components of equal width of
 // frequency from half to four times the peak, each frequency drawn within its width and each phase drawn,
 // addressed by seed and component (core/random.h), so the sea does not repeat. Holds for steepness below
-// about 0.1 and water deeper than half a wavelength. Left out: the moving surface itself (a vehicle floats on
-// the still one), spreading, drift, breaking, the bottom.
+// about 0.1 and water deeper than half a wavelength. Left out: spreading, drift, breaking, the bottom.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +37,8 @@ struct WaveSettings {
 
 class WaveField {
  public:
+  static constexpr double kGravity = 9.81;  // m/s^2
+
   // Throws InvalidArgument where a setting lies outside of its range.
   WaveField(const WaveSettings& settings, std::uint64_t seed);
 
@@ -47,6 +48,12 @@ class WaveField {
 
   // `depth_m` below the still surface; what is above moves as the surface does.
   WaterMotion at(const Vec3& position_ned_m, double depth_m, SimTime now) const;
+  // How high the surface stands above the still one over that place; at a depth, the head of water whose pressure the waves
+  // add there: sum of a exp(-k d) cos(theta). Its rate is the water's velocity up, its slope the acceleration over -g
+  // (both at the surface).
+  double elevation_m(const Vec3& position_ned_m, double depth_m, SimTime now) const;
+  // No elevation is higher or lower.
+  double highest_m() const;
   const std::vector<Component>& components() const { return components_; }
   bool calm() const { return components_.empty(); }
 

@@ -151,18 +151,51 @@ class SpeedJudge {
   std::map<std::tuple<const vehicle_sim::Model*, double, std::string>, double> held_;
 };
 
+const char* to_text(Steering steering) {
+  return steering == Steering::kFins ? "fins" : steering == Steering::kThrusters ? "thrusters" : "buoyancy";
+}
+
+// What a model can be steered with.
+std::vector<Steering> steerings_of(const vehicle_sim::ModelParameters& model) {
+  constexpr std::size_t kHorizontal = 2;  // thrusters that steer on the surface
+  const bool has_thrusters = model.thrusters.size() == vehicle_sim::kMaxThrusters ||
+                             (!model.floats.empty() && model.thrusters.size() >= kHorizontal);
+  std::vector<Steering> all;
+  if (model.propeller.diameter_m > 0 && model.rudder.area_m2 > 0 && model.stern_planes.area_m2 > 0)
+    all.push_back(Steering::kFins);
+  if (has_thrusters) all.push_back(Steering::kThrusters);
+  if (model.buoyancy_engine.pump.limit > 0 || model.drop_weight.mass_kg > 0)
+    all.push_back(Steering::kBuoyancy);
+  return all;
+}
+
 // Empty when the model has what the pilot steers with.
 std::string lacking(const vehicle_sim::ModelParameters& model, Steering steering) {
-  const bool has_thrusters = model.thrusters.size() == vehicle_sim::kMaxThrusters;
-  const bool has_fins =
-      model.propeller.diameter_m > 0 && model.rudder.area_m2 > 0 && model.stern_planes.area_m2 > 0;
-  if (steering == Steering::kThrusters ? has_thrusters : has_fins) return "";
-  const std::string has = has_thrusters ? "\"thrusters\""
-                          : has_fins    ? "\"fins\""
-                                        : "neither: it cannot be piloted";
-  return (steering == Steering::kThrusters ? " has no four thrusters"
-                                           : " has no propeller, rudder and stern planes") +
-         ("; allowed for it is " + has);
+  const std::vector<Steering> all = steerings_of(model);
+  if (std::find(all.begin(), all.end(), steering) != all.end()) return "";
+  std::string allowed;
+  for (const Steering other : all)
+    allowed += (allowed.empty() ? "\"" : " or \"") + std::string(to_text(other)) + "\"";
+  const std::string lack = steering == Steering::kFins ? " has no propeller, rudder and stern planes"
+                           : steering == Steering::kThrusters
+                               ? " has no thrusters to steer by: four, or two where it floats on the surface"
+                               : " has no buoyancy engine and no drop weight";
+  return lack + "; allowed for it is " + (allowed.empty() ? "neither: it cannot be piloted" : allowed);
+}
+
+// Without an engine a vehicle can only wait before it rises.
+void check_glide(std::size_t i, const vehicle_sim::ModelParameters& model, const PilotConfig& pilot,
+                 bus::ConfigFile& file) {
+  if (model.buoyancy_engine.pump.limit > 0) return;
+  for (std::size_t k = 0; k < pilot.behaviours.size(); ++k) {
+    if (pilot.behaviours[k].kind == BehaviourKind::kWait) continue;
+    file.refuse(key_of(i, "mission.behaviour." + std::to_string(k) + ".kind"), "",
+                "the model " + model.name + " has no buoyancy engine; allowed for it is \"wait\"");
+  }
+  if (pilot.behaviours.empty())
+    file.refuse(key_of(i, "mission.waypoints"), "",
+                "the model " + model.name +
+                    " has no buoyancy engine; allowed for it are behaviours of kind \"wait\"");
 }
 
 void check_pilots(const ScenarioConfig& config, bus::ConfigFile& file) {
@@ -175,11 +208,13 @@ void check_pilots(const ScenarioConfig& config, bus::ConfigFile& file) {
     const PilotConfig& pilot = config.autopilot.vehicles.at(i);
     if (!model || !pilot.is_piloted()) continue;
     const std::string lack = lacking(model->parameters(), pilot.steering);
-    if (lack.empty()) {
-      judge.check(i, *model);
-    } else {
-      file.refuse(key_of(i, "mission.steering"), pilot.steering == Steering::kFins ? "fins" : "thrusters",
+    if (!lack.empty()) {
+      file.refuse(key_of(i, "mission.steering"), to_text(pilot.steering),
                   "the model " + model->name() + lack);
+    } else if (pilot.steering == Steering::kBuoyancy) {
+      check_glide(i, model->parameters(), pilot, file);
+    } else {
+      judge.check(i, *model);
     }
   }
 }

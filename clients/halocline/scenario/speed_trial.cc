@@ -64,10 +64,12 @@ SpeedTrial try_speed(const vehicle_sim::Model& model, const PilotConfig& config,
   const auto steps = static_cast<int>(std::ceil(period_s / kLongestStep_s));
   const auto periods = static_cast<int>(std::ceil(kTrial_s / period_s));
   const int last = std::max(periods / 10, 1);
+  vehicle_sim::Water water;
+  if (!model.parameters().floats.empty()) water.sea_surface_z_m = 0;
   SpeedTrial trial;
   for (int i = 0; i < periods; ++i) {
     const ActuatorValues values = pilot.steer(state, period_s);
-    for (int k = 0; k < steps; ++k) state = rk4_step(model, state, values, {}, period_s / steps);
+    for (int k = 0; k < steps; ++k) state = rk4_step(model, state, values, water, period_s / steps);
     if (!is_finite(state)) return {};
     trial.depth_error_m = std::max(trial.depth_error_m, std::abs(state.position_ned_m.z()));
     if (i >= periods - last) trial.speed_mps += state.velocity_body[0] / last;

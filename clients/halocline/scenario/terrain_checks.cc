@@ -63,6 +63,7 @@ class MissionChecks {
         return check_track(key, "circle", b, circle(b));
       case BehaviourKind::kHeading:
       case BehaviourKind::kFollow:
+      case BehaviourKind::kWait:
         return;
     }
   }

@@ -35,6 +35,7 @@ const std::vector<std::string>& command_columns() {
     std::vector<std::string> list{"t_s", "propeller_rpm", "rudder_deg", "stern_plane_deg"};
     for (std::size_t i = 1; i <= vehicle_sim::kMaxThrusters; ++i)
       list.push_back("thruster_" + std::to_string(i) + "_rpm");
+    list.insert(list.end(), {"buoyancy_m3", "moving_mass_m", "release_weight"});
     return list;
   }();
   return names;
@@ -49,6 +50,10 @@ ScheduledCommand to_command(const std::vector<double>& cells) {
   command.actuators.stern_planes_rad = to_radians(cells[3]);
   for (std::size_t i = 0; i < vehicle_sim::kMaxThrusters; ++i)
     command.actuators.thruster_hz[i] = cells[4 + i] / kSecondsPerMinute;
+  constexpr std::size_t kNext = 4 + vehicle_sim::kMaxThrusters;
+  command.actuators.buoyancy_m3 = cells[kNext];
+  command.actuators.moving_mass_m = cells[kNext + 1];
+  if (cells[kNext + 2] != 0) command.actuators.weight = vehicle_sim::DropWeightState::kReleased;
   return command;
 }
 
@@ -126,7 +131,36 @@ class RowWriter {
   bool first_ = true;
 };
 
-void write_row(RowWriter& row, const OpenLoopSample& s, std::size_t thrusters, bool wrap_yaw) {
+// The columns behind the common ones: a name, and its values as commanded and as they are.
+void write_more_actuators(RowWriter& row, const OpenLoopSample& s, const ModelParameters& model) {
+  const ActuatorValues &command = s.command, &actual = s.state.actuators;
+  for (std::size_t i = 0; i < model.thrusters.size(); ++i) {
+    row.number(command.thruster_hz[i] * kSecondsPerMinute);
+    row.number(actual.thruster_hz[i] * kSecondsPerMinute);
+  }
+  if (model.buoyancy_engine.pump.limit > 0) {
+    row.number(command.buoyancy_m3);
+    row.number(actual.buoyancy_m3);
+  }
+  if (model.moving_mass.mass_kg > 0) {
+    row.number(command.moving_mass_m);
+    row.number(actual.moving_mass_m);
+  }
+  if (model.drop_weight.mass_kg > 0)
+    row.number(actual.weight == vehicle_sim::DropWeightState::kReleased ? 1 : 0);
+}
+
+void write_names(std::ostream& out, const ModelParameters& model) {
+  out << "t,x_n,y_e,z_d,phi,theta,psi,u,v,w,p,q,r,cmd_rudder,cmd_stern,cmd_rpm,act_rudder,act_stern,act_rpm";
+  for (std::size_t i = 1; i <= model.thrusters.size(); ++i)
+    out << ",cmd_thruster_" << i << "_rpm,act_thruster_" << i << "_rpm";
+  if (model.buoyancy_engine.pump.limit > 0) out << ",cmd_buoyancy_m3,act_buoyancy_m3";
+  if (model.moving_mass.mass_kg > 0) out << ",cmd_moving_mass_m,act_moving_mass_m";
+  if (model.drop_weight.mass_kg > 0) out << ",weight_released";
+  out << "\n";
+}
+
+void write_row(RowWriter& row, const OpenLoopSample& s, const ModelParameters& model, bool wrap_yaw) {
   const EulerAngles euler = to_euler(s.state.orientation);
   row.number(s.time.seconds());
   row.numbers(s.state.position_ned_m);
@@ -134,10 +168,7 @@ void write_row(RowWriter& row, const OpenLoopSample& s, std::size_t thrusters, b
   row.numbers(s.state.velocity_body);
   row.actuators(s.command);
   row.actuators(s.state.actuators);
-  for (std::size_t i = 0; i < thrusters; ++i) {
-    row.number(s.command.thruster_hz[i] * kSecondsPerMinute);
-    row.number(s.state.actuators.thruster_hz[i] * kSecondsPerMinute);
-  }
+  write_more_actuators(row, s, model);
   row.end();
 }
 
@@ -160,14 +191,11 @@ std::vector<ScheduledCommand> read_schedule(std::istream& in, const std::string&
   return schedule;
 }
 
-void write_samples(std::ostream& out, const std::vector<OpenLoopSample>& samples, std::size_t thrusters,
-                   bool wrap_yaw) {
-  out << "t,x_n,y_e,z_d,phi,theta,psi,u,v,w,p,q,r,cmd_rudder,cmd_stern,cmd_rpm,act_rudder,act_stern,act_rpm";
-  for (std::size_t i = 1; i <= thrusters; ++i)
-    out << ",cmd_thruster_" << i << "_rpm,act_thruster_" << i << "_rpm";
-  out << "\n";
+void write_samples(std::ostream& out, const std::vector<OpenLoopSample>& samples,
+                   const ModelParameters& model, bool wrap_yaw) {
+  write_names(out, model);
   RowWriter row(out);
-  for (const OpenLoopSample& sample : samples) write_row(row, sample, thrusters, wrap_yaw);
+  for (const OpenLoopSample& sample : samples) write_row(row, sample, model, wrap_yaw);
 }
 
 int replay_vehicle(const VehicleReplay& r) {
@@ -177,12 +205,13 @@ int replay_vehicle(const VehicleReplay& r) {
   run.start = start_of(r, current);
   run.schedule = schedule_of(r);
   run.water.current_ned_mps = current;
+  if (r.sea_surface_z_m) run.water.sea_surface_z_m = *r.sea_surface_z_m;
   run.duration = SimDuration::from_seconds(r.duration_s);
   run.step = SimDuration::from_seconds(r.step_ms / 1000);
   run.sample_period = SimDuration::from_seconds(r.sample_s);
   const vehicle_sim::Model model(parameters_of(r));
   std::ostringstream text;
-  write_samples(text, run_open_loop(model, run), model.parameters().thrusters.size(), r.wrap_yaw);
+  write_samples(text, run_open_loop(model, run), model.parameters(), r.wrap_yaw);
   write_output(r.out, text.str());
   return 0;
 }

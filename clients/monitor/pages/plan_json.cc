@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 const char* kind_text(const vehicle_plan_t& plan) {
-  constexpr const char* kKinds[] = {"waypoints", "heading", "loiter", "survey", "follow"};
+  constexpr const char* kKinds[] = {"waypoints", "heading", "loiter", "survey", "follow", "wait"};
   const auto index = static_cast<std::size_t>(plan.behaviour_index);
   if (index >= plan.behaviours.size()) return "waypoints";
   const int kind = plan.behaviours[index].behaviour_kind;
@@ -26,6 +26,8 @@ const char* end_text(const vehicle_plan_t& plan) {
       return "loop";
     case vehicle_plan_t::HOLD:
       return "hold";
+    case vehicle_plan_t::SURFACE:
+      return "surface";
     default:
       return "stop";
   }

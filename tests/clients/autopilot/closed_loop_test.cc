@@ -30,7 +30,7 @@ constexpr int kStepsPerCommand = 5;
 class ClosedLoop {
  public:
   ClosedLoop(const std::string& model, Mission mission)
-      : model_(vs::built_in_model(model).value()), mission_(std::move(mission)) {}
+      : model_(vs::programmed_model(model).value()), mission_(std::move(mission)) {}
 
   // Runs for `seconds`; `look` sees the state after each command period.
   void run(double seconds, const std::function<void(double, const vs::VehicleState&)>& look = nullptr) {

@@ -53,7 +53,7 @@ Fleet torpedo() {
   start.orientation = to_quaternion({0, 0, std::numbers::pi / 4});
   start.velocity_body.head<3>() =
       1.5 * Vec3::UnitX() + start.orientation.conjugate() * settings.current.uniform_ned_mps;
-  const auto model = std::make_shared<const vehicle_sim::Model>(*vehicle_sim::built_in_model("torpedo"));
+  const auto model = std::make_shared<const vehicle_sim::Model>(*vehicle_sim::programmed_model("torpedo"));
   return Fleet(settings, {{"auv", model, start}}, nullptr, SimTime());
 }
 

@@ -158,5 +158,29 @@ TEST(Plan, AltitudeOfABehaviourReachesItsSetPoints) {
 
 TEST(Plan, NothingToDoIsRefused) { EXPECT_THROW(make_plan({}, {}), InvalidArgument); }
 
+TEST(Plan, WaitingStopsForItsDurationAndThenComesUp) {
+  const Plan plan =
+      make_plan({.waypoints = {}, .at_end = AtEnd::kSurface}, {{.kind = BehaviourKind::kWait, .duration_s = 60}});
+  const Vec3 here(1, 2, 30);
+  PlanProgress progress = advance(plan, begin(here, 0), here, 59);
+  SetPoints points = set_points(plan, progress, here);
+  EXPECT_FALSE(points.propel);
+  EXPECT_FALSE(points.surface);
+  EXPECT_EQ(points.z_ned_m, 30);
+  progress = advance(plan, progress, here, 60);
+  points = set_points(plan, progress, here);
+  EXPECT_TRUE(progress.ended);
+  EXPECT_FALSE(points.propel);
+  EXPECT_TRUE(points.surface);
+}
+
+TEST(Plan, ARouteMayEndAtTheSurface) {
+  const Plan plan = make_plan({.waypoints = {{0, 0, 30}}, .at_end = AtEnd::kSurface}, {});
+  const Vec3 there(0, 0, 30);
+  const SetPoints points = set_points(plan, advance(plan, begin(there, 0), there, 1), there);
+  EXPECT_FALSE(points.propel);
+  EXPECT_TRUE(points.surface);
+}
+
 }  // namespace
 }  // namespace halocline::clients

@@ -18,14 +18,14 @@ using halocline::testing::at_ms;
 TEST(CommandSchedule, WithoutACommandTheStateIsSafe) {
   CommandSchedule schedule(kTimeout);
   EXPECT_TRUE(schedule.is_safe_state());
-  EXPECT_EQ(schedule.at(at_ms(0)), kSafeState);
+  EXPECT_EQ(schedule.at(at_ms(0)), ActuatorValues());
   EXPECT_TRUE(schedule.is_safe_state());
 }
 
 TEST(CommandSchedule, ACommandHoldsFromItsOwnTimeOn) {
   CommandSchedule schedule(kTimeout);
   EXPECT_EQ(schedule.add({at_ms(500), kPort}, at_ms(0)), CommandVerdict::kTaken);
-  EXPECT_EQ(schedule.at(at_ms(499)), kSafeState);
+  EXPECT_EQ(schedule.at(at_ms(499)), ActuatorValues());
   EXPECT_EQ(schedule.at(at_ms(500)), kPort);
   EXPECT_FALSE(schedule.is_safe_state());
 }
@@ -34,7 +34,7 @@ TEST(CommandSchedule, ACommandIsVoidOnceOlderThanTheTimeout) {
   CommandSchedule schedule(kTimeout);
   EXPECT_EQ(schedule.add({at_ms(0), kPort}, at_ms(0)), CommandVerdict::kTaken);
   EXPECT_EQ(schedule.at(at_ms(2000)), kPort);
-  EXPECT_EQ(schedule.at(at_ms(2001)), kSafeState);
+  EXPECT_EQ(schedule.at(at_ms(2001)), ActuatorValues());
   EXPECT_TRUE(schedule.is_safe_state());
 }
 

@@ -1,4 +1,4 @@
-// What every built-in vehicle obeys, and how each behaves under way.
+// What every programmed vehicle obeys, and how each behaves under way.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,7 +49,7 @@ VehicleState run(const Model& model, VehicleState state, const ActuatorValues& c
   return state;
 }
 
-Model model_named(const std::string& name) { return Model(built_in_model(name).value()); }
+Model model_named(const std::string& name) { return Model(programmed_model(name).value()); }
 
 // Every actuator of either kind of vehicle at work, in a turn that also pitches.
 constexpr ActuatorValues kManoeuvre{0.12, -0.03, 22, {25, 20, 12, 8}};
@@ -141,11 +141,12 @@ TEST_P(EachModel, WhatIsNotANumberStaysWithinItsVehicle) {
   EXPECT_TRUE(is_finite(run(model_, {}, kManoeuvre, 1)));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EachModel, ::testing::ValuesIn(built_in_models()), [](const auto& test) {
-  std::string name = test.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, EachModel, ::testing::Values("torpedo", "hover", "remus100-pvs"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 constexpr double kFullAhead = 1525.0 / 60;
 
@@ -226,7 +227,7 @@ TEST(Remus100Pvs, LiftJumpsInReverseFlowAsPublished) {
 }
 
 TEST(BodyLift, IsTheSameForBothDirectionsOfTheFlow) {
-  const BodyLift b = built_in_model("torpedo")->body_lift;
+  const BodyLift b = programmed_model("torpedo")->body_lift;
   Vec6 ahead = Vec6::Zero();
   ahead.head<3>() << 1.5, 0.4, -0.3;
   Vec6 astern = ahead;
@@ -238,7 +239,7 @@ TEST(BodyLift, IsTheSameForBothDirectionsOfTheFlow) {
 }
 
 TEST(FinsInLocalFlow, TakeEnergyAtEveryAngleAndDeflection) {
-  const FinPair fins = built_in_model("torpedo")->rudder;
+  const FinPair fins = programmed_model("torpedo")->rudder;
   for (std::uint32_t who = 0; who < 1000; ++who) {
     const Vec6 nu = random_state(who).velocity_body;
     // A fin held at an angle is part of the hull: the water does no positive work on it.
@@ -248,7 +249,7 @@ TEST(FinsInLocalFlow, TakeEnergyAtEveryAngleAndDeflection) {
 }
 
 TEST(FinsInLocalFlow, StraightAheadMatchTheLinearLawAtSmallDeflection) {
-  FinPair fins = built_in_model("torpedo")->rudder;
+  FinPair fins = programmed_model("torpedo")->rudder;
   FinPair linear = fins;
   linear.law = FinLaw::kDeflection;
   const Vec6 ahead = 2 * Vec6::Unit(0);
@@ -272,13 +273,13 @@ TEST(Hover, EachPairOfThrustersDrivesItsOwnMotion) {
 }
 
 TEST(Hover, ThrustAtRestIsTheBollardPull) {
-  const Thruster t = built_in_model("hover")->thrusters[0];
+  const Thruster t = programmed_model("hover")->thrusters[0];
   EXPECT_NEAR(thruster_force(t, 1026, BodyVelocity(), 0, 60).vector()[0], 51.5, tolerance(1e-9));
   EXPECT_NEAR(thruster_force(t, 1026, BodyVelocity(), 0, -60).vector()[0], -0.78 * 51.5, tolerance(1e-9));
 }
 
 TEST(Thruster, PushesAlongItsDirectionAboutItsPlace) {
-  Thruster t = built_in_model("hover")->thrusters[0];
+  Thruster t = programmed_model("hover")->thrusters[0];
   t.position_m = {0.3, -0.2, 0.1};
   t.direction = Vec3(1, 2, -2) / 3;
   t.torque_share = 0;
@@ -288,7 +289,7 @@ TEST(Thruster, PushesAlongItsDirectionAboutItsPlace) {
 }
 
 TEST(Thruster, AxialInflowIsThatOfTheWaterAlongTheShaft) {
-  const Thruster t = built_in_model("hover")->thrusters[1];
+  const Thruster t = programmed_model("hover")->thrusters[1];
   Vec6 turning = Vec6::Zero();
   turning[5] = 0.5;  // the starboard one moves astern: -r y
   Vec6 backing = Vec6::Zero();

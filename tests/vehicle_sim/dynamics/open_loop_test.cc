@@ -18,7 +18,7 @@ namespace {
 
 using halocline::testing::tolerance;
 
-const Model kTorpedo(built_in_model("torpedo").value());
+const Model kTorpedo(programmed_model("torpedo").value());
 
 using halocline::testing::at_ms;
 

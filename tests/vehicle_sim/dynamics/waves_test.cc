@@ -64,6 +64,28 @@ TEST(Waves, AccelerationIsTheRateOfTheVelocity) {
   EXPECT_LT((rate - waves.at(p, 4, SimTime::from_seconds(10)).acceleration_mps2).norm(), tolerance(1e-6));
 }
 
+// At the surface its rate is the water's velocity up and its slope the acceleration along over -g; below, its
+// change with depth is the acceleration down over -g, as pressure drives the water. Central differences as above.
+TEST(Waves, TheSurfaceMovesAndSlopesWithTheWater) {
+  const WaveField waves({.kind = SeaKind::kJonswap, .height_m = 3, .period_s = 7, .toward_rad = 2}, 5);
+  const Vec3 p(12, 7, 0);
+  const auto elevation = [&](const Vec3& at, double depth, double t) {
+    return waves.elevation_m(at, depth, SimTime::from_seconds(t));
+  };
+  const WaterMotion water = waves.at(p, 0, SimTime::from_seconds(9));
+  EXPECT_NEAR((elevation(p, 0, 9 + kDelta) - elevation(p, 0, 9 - kDelta)) / (2 * kDelta),
+              -water.velocity_mps.z(), tolerance(1e-6));
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vec3 d = kDelta * Vec3::Unit(axis);
+    EXPECT_NEAR((elevation(p + d, 0, 9) - elevation(p - d, 0, 9)) / (2 * kDelta),
+                -water.acceleration_mps2[axis] / WaveField::kGravity, tolerance(1e-6));
+  }
+  const WaterMotion below = waves.at({12, 7, 4}, 4, SimTime::from_seconds(9));
+  EXPECT_NEAR((elevation(p, 4 + kDelta, 9) - elevation(p, 4 - kDelta, 9)) / (2 * kDelta),
+              -below.acceleration_mps2.z() / WaveField::kGravity, tolerance(1e-6));
+  EXPECT_LE(std::abs(elevation(p, 0, 9)), waves.highest_m());
+}
+
 TEST(Waves, ASeaHasItsSignificantHeight) {
   for (const SeaKind kind : {SeaKind::kPiersonMoskowitz, SeaKind::kJonswap}) {
     double energy = 0;

@@ -42,7 +42,7 @@ TerrainPointer terrain(const Shape& shape, double spacing_m = 5) {
 }
 
 std::shared_ptr<const Model> torpedo(double buoyancy_ratio) {
-  ModelParameters p = built_in_model("torpedo").value();
+  ModelParameters p = programmed_model("torpedo").value();
   p.buoyancy_n = p.mass_kg * p.gravity_m_s2 * buoyancy_ratio;
   return std::make_shared<const Model>(p);
 }

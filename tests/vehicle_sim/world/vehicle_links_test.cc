@@ -32,12 +32,12 @@ using halocline::testing::tolerance;
 constexpr double kMaxPenetration = 0.02;  // m, the project's bound
 
 std::shared_ptr<const Model> torpedo() {
-  return std::make_shared<const Model>(built_in_model("torpedo").value());
+  return std::make_shared<const Model>(programmed_model("torpedo").value());
 }
 
 // A hull in an ideal fluid: added mass, no drag, centres of gravity and buoyancy in one point.
 std::shared_ptr<const Model> ideal() {
-  ModelParameters p = built_in_model("torpedo").value();
+  ModelParameters p = programmed_model("torpedo").value();
   p.buoyancy_n = p.mass_kg * p.gravity_m_s2;
   p.center_of_gravity_m = p.center_of_buoyancy_m = Vec3::Zero();
   p.damping = {};
@@ -201,7 +201,7 @@ TEST_P(Meeting, TwoThatMeetDoNotPassThroughEachOther) {
 }
 
 TEST_P(Meeting, AVehicleThatSinksOntoOneOnTheGroundIsHeldByIt) {
-  ModelParameters heavy = built_in_model("torpedo").value();
+  ModelParameters heavy = programmed_model("torpedo").value();
   heavy.buoyancy_n *= 0.97;
   const auto model = std::make_shared<const Model>(heavy);
   VehicleWorld world(testing::flat(10));

@@ -39,7 +39,7 @@ struct Outcome {
 // contact at once.
 Outcome crowd(const ForEach& for_each) {
   VehicleWorld world(testing::ridge(20.7, 0.01), 0.5, for_each);
-  ModelParameters p = *built_in_model("torpedo");
+  ModelParameters p = *programmed_model("torpedo");
   p.buoyancy_n *= 0.95;
   const auto model = std::make_shared<const Model>(p);
   for (int i = 0; i < 180; ++i) {

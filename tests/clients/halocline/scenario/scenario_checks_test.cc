@@ -179,6 +179,33 @@ TEST_F(ScenarioChecks, HoverIsSteeredByThrustersAndTorpedoByFins) {
               ElementsAre(AllOf(HasSubstr("sea.toml:8"), HasSubstr("allowed for it is \"fins\""))));
 }
 
+TEST_F(ScenarioChecks, AGliderIsSteeredByBuoyancyAndASurfaceCraftByTwoThrusters) {
+  const auto errors = [&](const std::string& model, const std::string& steering,
+                          const std::string& more = "") {
+    return errors_with(
+        "start_ned_m = [0.0, 0.0, 1.0]\n[vehicle.mission]\nwaypoints = [[50.0, 0.0, 20.0]]\nsteering = \"" +
+            steering + "\"\n" + more,
+        model);
+  };
+  EXPECT_THAT(errors("glider", "buoyancy"), IsEmpty());
+  EXPECT_THAT(errors("glider", "fins"), ElementsAre(HasSubstr("allowed for it is \"buoyancy\"")));
+  EXPECT_THAT(errors("surface-craft", "thrusters", "speed_mps = 1\n"), IsEmpty());
+  EXPECT_THAT(errors("surface-craft", "buoyancy"), ElementsAre(HasSubstr("allowed for it is \"thrusters\"")));
+  EXPECT_THAT(errors("drifter", "buoyancy"), ElementsAre(HasSubstr("it cannot be piloted")));
+}
+
+TEST_F(ScenarioChecks, ALanderWaitsAndDoesNothingElse) {
+  const auto errors = [&](const std::string& kind) {
+    return errors_with(
+        "[vehicle.mission]\nsteering = \"buoyancy\"\nat_end = \"surface\"\n"
+        "[[vehicle.mission.behaviour]]\nkind = \"" +
+            kind + "\"\nduration_s = 100\n",
+        "lander");
+  };
+  EXPECT_THAT(errors("wait"), IsEmpty());
+  EXPECT_THAT(errors("heading"), ElementsAre(HasSubstr("allowed for it is \"wait\"")));
+}
+
 TEST_F(ScenarioChecks, ASpeedThatTheVehicleDoesNotHoldIsRefused) {
   const auto errors = [&](const std::string& model, const std::string& keys) {
     return errors_with("[vehicle.mission]\n" + keys + "waypoints = [[50.0, 0.0, 20.0]]\n", model);
