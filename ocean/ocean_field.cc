@@ -183,6 +183,14 @@ OceanField::GeodeticPlace OceanField::geodetic(double north_m, double east_m) co
           origin_.longitude_rad + across / cosine};
 }
 
+bool OceanField::covers(double north_m, double east_m) const {
+  const GeodeticPlace place = geodetic(north_m, east_m);
+  const auto within = [](const std::vector<double>& axis, double value) {
+    return value >= axis.front() - kOutsideRad && value <= axis.back() + kOutsideRad;
+  };
+  return within(grid_.latitudes_rad, place.latitude_rad) && within(grid_.longitudes_rad, place.longitude_rad);
+}
+
 OceanField::Corners OceanField::corners(const GeodeticPlace& place) const {
   const Bracket row = bracket(grid_.latitudes_rad, place.latitude_rad),
                 column = bracket(grid_.longitudes_rad, place.longitude_rad);

@@ -58,6 +58,9 @@ class OceanField {
   bool is_steady() const { return grid_.times_s.size() == 1; }
   const OceanGrid& grid() const { return grid_; }
 
+  // Whether the grid reaches a place.
+  bool covers(double north_m, double east_m) const;
+
   // Of a field that has it. `place`: north, east and depth.
   Vec3 current_ned_mps(const Vec3& place, double time_s) const;
   WaterAtDepth water_at(const Vec3& place, double time_s) const;

@@ -51,6 +51,9 @@ class ArcTracer {
   double range_m() const { return range_; }
   double bottom_at_receiver_m() const { return bottom_at_receiver_; }
   double source_speed_mps() const { return source_speed_; }
+  const RayWater& water_at_receiver() const {
+    return sea_.section != nullptr ? sea_.section->columns().back() : sea_.water;
+  }
   std::size_t source_layer() const { return source_layer_; }
   std::size_t source_facet() const { return source_facet_; }
   // Whether the options exclude a ray launched at `theta` after `bounces`.
