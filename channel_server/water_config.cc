@@ -24,8 +24,6 @@
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "core/units.h"
-#include "ocean/ocean_field.h"
-#include "ocean/ocean_field_reader.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -255,23 +253,6 @@ acoustics::SoundSpeedProfile profile_from_file(const EnvironmentConfig& config,
              {path, path_in(folder, p.salinity_file), latitude, longitude, static_cast<int>(p.time_index)},
              model)
       .profile;
-}
-
-// The field that sound goes through, where the scenario has one.
-void set_field(const bus::Scenario& scenario, const std::string& folder,
-               acoustics::Environment& environment) {
-  const bus::OceanEntry& entry = scenario.ocean;
-  if (entry.file.empty() || !entry.carries_sound) return;
-  auto field = ocean::read_ocean_field(
-      {path_in(folder, entry.file),
-       entry.start_date,
-       {to_radians(scenario.origin_latitude_deg), to_radians(scenario.origin_longitude_deg)}});
-  if (!field->has_water()) return;
-  require(environment.profile.model() != acoustics::SoundSpeedModel::kTeos10,
-          "ocean fields hold no absolute salinity: teos10 cannot use them");
-  const double period_s = entry.sound_period.seconds();
-  environment.field = {std::move(field), period_s / 2, period_s};
-  environment.profile = environment_at(environment, 0, 0).profile;
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,13 +9,12 @@
 
 #include "core/check.h"
 #include "core/csv_table.h"
-#include "core/units.h"
 #include "ocean/ocean_field.h"
-#include "ocean/ocean_field_reader.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_config.h"
 #include "vehicle_sim/model_library.h"
+#include "vehicle_sim/moving_ocean.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -266,18 +264,6 @@ std::shared_ptr<const Model> model_for(const std::string& name, const VehicleSim
   return std::make_shared<const Model>(parameters);
 }
 
-// The field whose currents move vehicles; null: none.
-std::shared_ptr<const ocean::OceanField> moving_ocean(const bus::Scenario& scenario,
-                                                      const VehicleSimConfig& config) {
-  const bus::OceanEntry& entry = scenario.ocean;
-  if (entry.file.empty() || !entry.moves_vehicles) return nullptr;
-  auto field = ocean::read_ocean_field(
-      {(std::filesystem::path(config.model_folder) / entry.file).string(),
-       entry.start_date,
-       {to_radians(scenario.origin_latitude_deg), to_radians(scenario.origin_longitude_deg)}});
-  return field->has_current() ? field : nullptr;
-}
-
 }  // namespace
 
 void visit(ConfigVisitor& v, VehicleSimConfig& config) {
@@ -294,7 +280,7 @@ void visit(ConfigVisitor& v, VehicleSimConfig& config) {
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config) {
   std::map<std::string, std::shared_ptr<const Model>> models;  // vehicles of one kind share it
   OceanCurrent current(config.current, scenario.seed);
-  const auto ocean = moving_ocean(scenario, config);
+  const auto ocean = moving_ocean(scenario, config.model_folder);
   std::vector<FleetMember> members;
   for (const bus::VehicleEntry& entry : scenario.vehicles) {
     if (entry.model == kExternal) continue;
@@ -316,7 +302,7 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   settings.command_timeout = config.command_timeout;
   settings.sea_surface_z_m = scenario.sea_surface_z_m;
   settings.current = config.current;
-  settings.ocean = moving_ocean(scenario, config);
+  settings.ocean = moving_ocean(scenario, config.model_folder);
   settings.waves = config.waves;
   settings.seed = scenario.seed;
   settings.seabed_friction = config.seabed_friction;

@@ -26,9 +26,8 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/rays/arc_steps.h"
+#include "acoustics/rays/arcs/arc_steps.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/bounce_losses.h"
 #include "acoustics/rays/section_tracer.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"

@@ -177,7 +177,7 @@ bool FanTracer::next_layer_is_whole(State& s, std::size_t knot, bool down) const
 
 bool FanTracer::run_through_layers(State& s, std::size_t knot) {
   // Between bounces at the bottom E = d xi / d theta = -(sin p + g xi^2 q) stays, and X = -q / sin grows by
-  // E d(dr)/dxi a layer (acoustics/rays/ray_column.h).
+  // E d(dr)/dxi a layer (acoustics/rays/arcs/ray_column.h).
   if (column_.xi() != s.xi) column_.set(s.xi);
   const double xi2 = s.xi * s.xi, sine_before = away_from_zero(s.sine);
   double turning = -(sine_before * s.p + water_.gradients_per_s()[s.layer] * xi2 * s.q);  // E

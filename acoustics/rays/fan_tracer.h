@@ -1,7 +1,7 @@
 // Traces the fan of rays among which a search brackets its eigenrays: fast, depth and its slope only.
 //
 // Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers between two
-// bounces at the bottom come from a column (acoustics/rays/ray_column.h), all that lies above the shallowest bottom
+// bounces at the bottom come from a column (acoustics/rays/arcs/ray_column.h), all that lies above the shallowest bottom
 // as one excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope
 // over links of kilometres; more within a microradian of a ray that grazes). Rays that lose 6 dB more than
 // paths may are given up, by interpolated losses. Where the water changes along the link rays are those of ArcTracer.
@@ -17,9 +17,9 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/arc_steps.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/ray_column.h"
+#include "acoustics/rays/arcs/arc_steps.h"
+#include "acoustics/rays/arcs/ray_column.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"

@@ -18,8 +18,7 @@
 
 #include <vector>
 
-#include "acoustics/rays/arc_steps.h"
-#include "acoustics/rays/bounce_losses.h"
+#include "acoustics/rays/arcs/arc_steps.h"
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/ray_section.h"
 

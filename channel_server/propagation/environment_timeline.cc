@@ -83,15 +83,12 @@ const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
   const acoustics::WaterField& field = span.environment.field;
   if (!field || field.ocean->is_steady()) return span.environment;
   const std::int64_t step = step_of(span.environment, instant);
-  const std::lock_guard lock(field_waters_->mutex);
-  auto& known = field_waters_->known[span.id + step * kIdsOfAStep];
-  if (!known) {
-    acoustics::Environment there = span.environment;
-    there.field.time_s = (static_cast<double>(step) + 0.5) * field.period_s;
-    there.profile = environment_at(there, 0, 0).profile;
-    known = std::make_unique<const acoustics::Environment>(std::move(there));
-  }
-  return *known;
+  const auto [known, is_new] = field_waters_.try_emplace(span.id + step * kIdsOfAStep, span.environment);
+  acoustics::Environment& there = known->second;
+  if (!is_new) return there;
+  there.field.time_s = (static_cast<double>(step) + 0.5) * field.period_s;
+  there.profile = environment_at(there, 0, 0).profile;
+  return there;
 }
 
 SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
@@ -101,8 +98,8 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
 }
 
 void EnvironmentTimeline::forget_before(SimTime time) {
-  std::erase_if(field_waters_->known, [time](const auto& water) {
-    const acoustics::WaterField& field = water.second->field;
+  std::erase_if(field_waters_, [time](const auto& water) {
+    const acoustics::WaterField& field = water.second.field;
     return field.time_s + field.period_s < time.seconds();
   });
   constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // for each time all others are moved

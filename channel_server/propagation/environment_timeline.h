@@ -10,14 +10,12 @@
 // span of WaterField::period_s that an instant lies in: so many links and packets share their searches, and delays jump by what half
 // a span changes. Spans begin at multiples of the period. A profile that is announced ends the field.
 //
-// A value in memory; not thread-safe while changes are added.
+// A value in memory; not thread-safe, also where it is only asked: it keeps the environments that a field makes.
 #pragma once
 
 #include <compare>
 #include <cstdint>
 #include <map>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,12 +88,8 @@ class EnvironmentTimeline {
 
   std::vector<Span> spans_;  // by order; the first is the initial environment
   WaterId last_id_ = 0;
-  // Environments with the field as it is at other times, by their water. Several threads look.
-  struct FieldWaters {
-    std::mutex mutex;
-    std::map<WaterId, std::unique_ptr<const acoustics::Environment>> known;
-  };
-  std::unique_ptr<FieldWaters> field_waters_ = std::make_unique<FieldWaters>();
+  // Environments with the field as it is at other times, by their water.
+  mutable std::map<WaterId, acoustics::Environment> field_waters_;
 };
 
 }  // namespace halocline::channel_server

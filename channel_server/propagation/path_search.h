@@ -13,9 +13,9 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
 #include "acoustics/link/extrapolate_arrivals.h"
+#include "acoustics/link/field_section.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
-#include "acoustics/rays/field_section.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
@@ -97,7 +97,7 @@ struct FoundPaths {
 };
 
 // The water along the query's link: `water`, or where the environment has a field, that between the query's places down to the
-// depth (acoustics/rays/field_section.h).
+// depth (acoustics/link/field_section.h).
 acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
                                  const acoustics::Environment& environment, const PathQuery& query,
                                  double deepest_m);

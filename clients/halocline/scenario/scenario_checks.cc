@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -238,7 +239,7 @@ bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
   const bus::OceanEntry& entry = config.scenario.ocean;
   if (entry.file.empty()) return true;
   try {
-    const auto field = ocean::read_ocean_field({entry.file,
+    const auto field = ocean::read_ocean_field({(std::filesystem::path(config.folder) / entry.file).string(),
                                                 entry.start_date,
                                                 {to_radians(config.scenario.origin_latitude_deg),
                                                  to_radians(config.scenario.origin_longitude_deg)}});

@@ -1,4 +1,4 @@
-#include "acoustics/rays/arc_steps.h"
+#include "acoustics/rays/arcs/arc_steps.h"
 
 #include <algorithm>
 #include <cmath>

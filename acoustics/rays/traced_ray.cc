@@ -1,4 +1,4 @@
-#include "acoustics/rays/bounce_losses.h"
+#include "acoustics/rays/traced_ray.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "acoustics/rays/field_section.h"
+#include "acoustics/link/field_section.h"
 
 #include <algorithm>
 #include <cmath>
