@@ -24,6 +24,7 @@ constexpr double kLeastStrip = 20;      // m
 constexpr double kTallestSkewed = 10;   // m: of layers in which the gradient changes along the line
 constexpr double kDeepestProbe = 5000;  // m, as of ray_water()
 constexpr double kLeastAxisHeight = 1;  // m: half-height of what takes the place of a kink
+constexpr double kRoundedShare = 0.45;  // of the heights beside: less than half, so that two never meet
 constexpr int kAxisPieces = 16;
 constexpr std::size_t kMostStrips = 512;
 
@@ -216,7 +217,8 @@ void LineWater::round_channels() {
       is_axis = is_axis || (c[j] < c[j - 1] && c[j] < c[j + 1]);
       most = std::max(most, std::abs((c[j + 1] - c[j]) / below - (c[j] - c[j - 1]) / above));
     }
-    const double d = is_axis ? std::min({above / 2, below / 2, 4 * tolerance_ / most}) : 0;
+    const double d =
+        is_axis ? std::min({kRoundedShare * above, kRoundedShare * below, 4 * tolerance_ / most}) : 0;
     const int pieces = d > kLeastAxisHeight ? kAxisPieces : 0;
     for (int k = 0; k <= pieces; ++k) {
       const double x = pieces > 0 ? d * (2.0 * k / pieces - 1) : 0;
