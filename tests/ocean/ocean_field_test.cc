@@ -159,7 +159,8 @@ TEST(OceanField, RefusesWhatItCannotBe) {
   };
   const OceanGrid grid = small_grid();
   EXPECT_EQ(refusal(grid, constant(grid), kGridOrigin), "taken");
-  EXPECT_EQ(refusal(grid, constant(grid), {kGridOrigin.latitude_rad, to_radians(310)}), "taken");  // another turn
+  EXPECT_EQ(refusal(grid, constant(grid), {kGridOrigin.latitude_rad, to_radians(310)}),
+            "taken");  // another turn
   EXPECT_NE(refusal(grid, constant(grid), {to_radians(45), kGridOrigin.longitude_rad})
                 .find("latitude of the scenario's origin is 45 deg; allowed is 39.5 to 40.75 deg"),
             std::string::npos);
