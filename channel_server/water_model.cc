@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "acoustics/sea/sound_speed.h"
 #include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/replay_config.h"

@@ -15,6 +15,7 @@
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "ocean/ocean_field.h"
 
 namespace halocline::acoustics {
 namespace {

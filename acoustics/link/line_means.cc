@@ -12,6 +12,7 @@
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/units.h"
+#include "ocean/ocean_field.h"
 
 namespace halocline::acoustics {
 namespace {

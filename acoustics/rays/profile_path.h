@@ -13,6 +13,7 @@
 #include "acoustics/math/fold_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/traced_ray.h"
 
 namespace halocline::acoustics {
 

@@ -20,6 +20,7 @@
 
 #include "acoustics/rays/arcs/arc_steps.h"
 #include "acoustics/rays/traced_ray.h"
+#include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_section.h"
 
 namespace halocline::acoustics {

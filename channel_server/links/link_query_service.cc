@@ -6,6 +6,7 @@
 
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/echo_survey.h"
 #include "core/check.h"

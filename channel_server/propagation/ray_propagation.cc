@@ -8,6 +8,7 @@
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/extrapolate_arrivals.h"
+#include "acoustics/link/field_section.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/received_field.h"

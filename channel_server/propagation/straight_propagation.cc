@@ -9,6 +9,7 @@
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/rays/arrivals.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {

@@ -1,7 +1,9 @@
 #include "ocean/ocean_field_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/check.h"
+#include "core/frames.h"
 #include "core/units.h"
 #include "ocean/potential_temperature.h"
 #include "tests/support/tolerance.h"

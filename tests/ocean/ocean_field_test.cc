@@ -1,5 +1,6 @@
 #include "ocean/ocean_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>

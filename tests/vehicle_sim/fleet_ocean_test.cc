@@ -7,12 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
 #include "core/units.h"
 #include "ocean/ocean_field.h"
 #include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/fleet.h"
 
 namespace halocline::vehicle_sim {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "acoustics/modem/modem.h"
+#include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_registry.h"

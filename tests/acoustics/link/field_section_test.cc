@@ -5,11 +5,13 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/link/line_means.h"
+#include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/profile_path.h"
 #include "acoustics/rays/traced_ray.h"

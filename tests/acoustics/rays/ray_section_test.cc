@@ -16,6 +16,7 @@
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
+#include "acoustics/sea/sound_speed_profile.h"
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/acoustics/rays/runge_kutta_ray.h"
