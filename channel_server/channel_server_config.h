@@ -140,6 +140,10 @@ void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
 acoustics::Environment make_environment(const EnvironmentConfig& config, const bus::Scenario& scenario,
                                         const std::string& folder);
 
+// Puts the ocean's field that the scenario names, where sound goes through it, and its profile at the world's origin into the
+// environment. Throws InvalidArgument when it cannot be.
+void set_field(const bus::Scenario& scenario, const std::string& folder, acoustics::Environment& environment);
+
 // Its profile of sound speed. Throws likewise.
 acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const bus::Scenario& scenario,
                                           const std::string& folder);

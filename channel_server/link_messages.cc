@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "bus/message_checks.h"
 #include "channel_server/propagation/link_tracks.h"

@@ -307,6 +307,7 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   environment.ph = config.ph;
   environment.latitude_rad = to_radians(scenario.origin_latitude_deg);
   environment.sea_surface_z_m = scenario.sea_surface_z_m;
+  set_field(scenario, folder, environment);
   validate(environment);
   return environment;
 }

@@ -1,12 +1,17 @@
 #include "channel_server/water_model.h"
 
+#include <filesystem>
 #include <string>
 #include <utility>
 
+#include "acoustics/sea/sound_speed.h"
 #include "channel_server/propagation/measured_propagation.h"
 #include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/replay_config.h"
+#include "core/check.h"
 #include "core/sim_time.h"
+#include "core/units.h"
+#include "ocean/ocean_field_reader.h"
 
 namespace halocline::channel_server {
 
@@ -21,6 +26,22 @@ void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& sc
     }
     timeline.schedule(SimTime::from_seconds(c.at_s), change);
   }
+}
+
+void set_field(const bus::Scenario& scenario, const std::string& folder,
+               acoustics::Environment& environment) {
+  const bus::OceanEntry& entry = scenario.ocean;
+  if (entry.file.empty() || !entry.carries_sound) return;
+  auto field = ocean::read_ocean_field(
+      {(std::filesystem::path(folder) / entry.file).string(),
+       entry.start_date,
+       {to_radians(scenario.origin_latitude_deg), to_radians(scenario.origin_longitude_deg)}});
+  if (!field->has_water()) return;
+  require(environment.profile.model() != acoustics::SoundSpeedModel::kTeos10,
+          "ocean fields hold no absolute salinity: teos10 cannot use them");
+  const double period_s = entry.sound_period.seconds();
+  environment.field = {std::move(field), period_s / 2, period_s};
+  environment.profile = environment_at(environment, 0, 0).profile;
 }
 
 WaterModel straight_model(const acoustics::Environment& environment, const acoustics::FadingModel& fading) {

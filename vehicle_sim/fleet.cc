@@ -136,7 +136,7 @@ void Fleet::fill_leaks() {
 }
 
 bool Fleet::water_varies() const {
-  return current_.depends_on_depth() || current_.depends_on_time() || !waves_.calm();
+  return current_.depends_on_depth() || current_.depends_on_time() || !waves_.calm() || settings_.ocean;
 }
 
 bool Fleet::rides_waves(std::size_t index) const {
@@ -155,6 +155,12 @@ Water Fleet::water_at(std::size_t index, const Vec3& position_ned_m) const {
               .current_rate_ned_mps2 = current_everywhere_.acceleration_mps2};
   const double depth = depth_below_surface_m(position_ned_m, settings_.sea_surface_z_m);
   if (current_.depends_on_depth()) water.current_ned_mps += current_.at_depth(depth);
+  if (settings_.ocean) {
+    const WaterMotion field =
+        motion_of(*settings_.ocean, {position_ned_m.x(), position_ned_m.y(), depth}, time_, settings_.step);
+    water.current_ned_mps += field.velocity_mps;
+    water.current_rate_ned_mps2 += field.acceleration_mps2;
+  }
   if (!waves_.calm()) {
     const WaterMotion wave = waves_.at(position_ned_m, depth, time_);
     water.current_ned_mps += wave.velocity_mps;

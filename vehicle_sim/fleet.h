@@ -16,6 +16,7 @@
 #include "core/for_each.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
+#include "ocean/ocean_field.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
@@ -48,6 +49,7 @@ struct FleetSettings {
   SimDuration command_timeout = SimDuration::from_milliseconds(2000);  // above 0
   double sea_surface_z_m = 0;
   CurrentSettings current;
+  std::shared_ptr<const ocean::OceanField> ocean;  // whose currents are added; null: none
   WaveSettings waves;
   std::uint64_t seed = 1;  // of random currents and waves
   double seabed_friction = VehicleWorld::kDefaultFriction;

@@ -9,10 +9,12 @@
 
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "ocean/ocean_field.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/model_config.h"
 #include "vehicle_sim/model_library.h"
+#include "vehicle_sim/moving_ocean.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -278,14 +280,16 @@ void visit(ConfigVisitor& v, VehicleSimConfig& config) {
 std::vector<FleetMember> members_of(const bus::Scenario& scenario, const VehicleSimConfig& config) {
   std::map<std::string, std::shared_ptr<const Model>> models;  // vehicles of one kind share it
   OceanCurrent current(config.current, scenario.seed);
+  const auto ocean = moving_ocean(scenario, config.model_folder);
   std::vector<FleetMember> members;
   for (const bus::VehicleEntry& entry : scenario.vehicles) {
     if (entry.model == kExternal) continue;
     const bool is_fixed = entry.model == kFixed;
     if (!is_fixed && !models.contains(entry.model)) models[entry.model] = model_for(entry.model, config);
     const double depth = depth_below_surface_m(entry.start_ned_m, scenario.sea_surface_z_m);
-    const Vec3 current_there =
-        current.everywhere(SimTime(), config.step).velocity_mps + current.at_depth(depth);
+    Vec3 current_there = current.everywhere(SimTime(), config.step).velocity_mps + current.at_depth(depth);
+    if (ocean)
+      current_there += ocean->current_ned_mps({entry.start_ned_m.x(), entry.start_ned_m.y(), depth}, 0);
     members.push_back(
         {entry.name, is_fixed ? nullptr : models.at(entry.model), start_of(entry, current_there)});
   }
@@ -298,6 +302,7 @@ FleetSettings settings_of(const bus::Scenario& scenario, const VehicleSimConfig&
   settings.command_timeout = config.command_timeout;
   settings.sea_surface_z_m = scenario.sea_surface_z_m;
   settings.current = config.current;
+  settings.ocean = moving_ocean(scenario, config.model_folder);
   settings.waves = config.waves;
   settings.seed = scenario.seed;
   settings.seabed_friction = config.seabed_friction;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -13,9 +14,7 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kOffBoundary = 1e-6;  // m, as in acoustics/rays/layered_path.cc
-constexpr double kGiveUp = 0.25;       // of the least factor
-constexpr std::size_t kLossSteps = 64;
+constexpr double kOffBoundary = 1e-6;          // m, as in acoustics/rays/layered_path.cc
 constexpr std::size_t kUsualEvents = 48;       // of one ray: its history rarely has to grow
 constexpr std::uint64_t kTurnsFrom = 100'000;  // numbers of turns follow those of facets
 constexpr int kMaxSteps = 200'000;             // crossings of layers: a guard, never met
@@ -29,7 +28,9 @@ struct ArcTracer::State : ArcPoint {
 };
 
 ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
-    : sea_(sea), surface_loss_(sea.surface, sea.options.frequency_hz), range_(std::max(link.range_m, 1e-3)) {
+    : sea_(sea),
+      losses_(sea, sea.water.speed_at(sea.profile.deepest_m())),
+      range_(std::max(link.range_m, 1e-3)) {
   require_in_range(link.range_m, 0, 1e7, "range", "m");
   bottom_at_receiver_ = sea.profile.depth_at(range_);
   const double bottom_at_source = sea.profile.depth_at(0);
@@ -40,19 +41,8 @@ ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
   source_layer_ = sea.water.layer_at(source_depth_);
   source_facet_ = sea.profile.facet_at(0);
   source_speed_ = sea.water.speed_at(source_depth_);
-  min_factor_ = kGiveUp * sea.options.min_boundary_factor;
-  const double bottom_speed = sea.water.speed_at(sea.profile.deepest_m());
-  bottom_factor_.resize(kLossSteps + 1);
-  for (std::size_t i = 0; i <= kLossSteps; ++i) {
-    bottom_factor_[i] = bottom_magnitude_at_sine(
-        sea.bottom, static_cast<double>(i) / static_cast<double>(kLossSteps), bottom_speed);
-  }
-}
-
-double ArcTracer::rough_bottom_factor(double sine) const {
-  const double place = sine * static_cast<double>(kLossSteps);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), kLossSteps - 1);
-  return bottom_factor_[i] + (place - static_cast<double>(i)) * (bottom_factor_[i + 1] - bottom_factor_[i]);
+  if (sea.section == nullptr) return;
+  section_.emplace(sea_, losses_, SectionEnds{source_depth_, range_, bottom_at_receiver_});
 }
 
 void ArcTracer::add_details(const State& s, double dr, double z, double sine, TracedDetails& details) const {
@@ -126,29 +116,18 @@ void ArcTracer::cross_knot(State& s, bool down) const {
 bool ArcTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
   const double g = sea_.water.gradients_per_s()[0], sine = std::max(std::abs(s.sine), kMinSine);
   s.c = sea_.water.speeds_mps()[0];
-  // Pressure release, V = -1. The mirrored water has the gradient -g: a jump of 2 g.
+  // The mirrored water has the gradient -g: a jump of 2 g.
   s.p -= 2 * s.q * s.xi * s.xi * g / sine;
   s.px -= 2 * s.qx * s.xi * s.xi * g / sine;
   s.sine = -s.sine;
   s.orientation = -s.orientation;
-  ray.events.push_back({RayEvent::kSurface, 0});
-  ray.family = continued_family(ray.family, 0);
-  ++ray.surface_bounces;
-  if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
-  const double lost_db = surface_loss_.db_at_sine(std::min(sine, 1.0));
-  if (lost_db > 0) ray.factor *= elementary::exp(-std::numbers::ln10 / 20 * lost_db);
-  if (details != nullptr) {
-    details->surface_loss_db += lost_db;
-    details->surface_sine_squares += sine * sine;
-  }
-  return ray.factor >= min_factor_;
+  return losses_.at_surface(sine, ray, details);
 }
 
 bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
   // The direction is mirrored at the reflecting slope (bounce_off), which gives xi' = cos(out) / c. The tube:
   //   p' = p + q (g (xi + xi') cot G + 2 k / sin G) / c, G the grazing angle, k the bend of the bottom per metre
-  // (Cerveny 2001, reflection at a curved boundary, in the plane of the ray). Pressure: Rayleigh's V
-  // (acoustics/sea/boundary_reflection.h).
+  // (Cerveny 2001, reflection at a curved boundary, in the plane of the ray).
   const Facet& facet = sea_.profile.facets()[index];
   const double g = sea_.water.gradients_per_s()[s.layer], ct = s.xi * s.c, st = s.sine;
   const FacetBounce bounce = bounce_off(facet, s);
@@ -173,20 +152,7 @@ bool ArcTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedD
   s.on_facet = true;
   s.images += s.orientation;
   s.orientation = -s.orientation;
-  ray.events.push_back({RayEvent::kBottom, facet.smooth_group});
-  ray.family = continued_family(ray.family, 1 + facet.smooth_group);
-  ++ray.bottom_bounces;
-  if (is_excluded(ray.theta, ray.surface_bounces + ray.bottom_bounces)) return false;
-  if (details == nullptr) {
-    ray.factor *= rough_bottom_factor(sin_g);
-  } else {
-    const Reflection one = bottom_reflection_at_sine(sea_.bottom, std::min(sin_g, 1.0), s.c);
-    ray.factor *= one.magnitude;
-    details->bottom_phase_rad += one.phase_rad;
-    details->bottom_loss_db += one.loss_db();
-    details->bottom_sine_squares += sin_g * sin_g;
-  }
-  return ray.factor >= min_factor_;
+  return losses_.at_bottom(facet, sin_g, s.c, ray, details);
 }
 
 void ArcTracer::arrive(const State& s, TracedRay& ray) const {
@@ -253,6 +219,7 @@ bool ArcTracer::go_to_knot(State& s, const ArcStep& step, TracedRay& ray, Traced
 }
 
 void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
+  if (section_) return section_->trace(theta, ray, details);
   State s = start(theta, ray);
   const double shallowest = sea_.profile.shallowest_m();
   for (int steps = 0; steps < kMaxSteps; ++steps) {
@@ -260,7 +227,8 @@ void ArcTracer::trace(double theta, TracedRay& ray, TracedDetails* details) cons
     const double left = range_ - s.r;
     const bool near_bottom = sea_.water.depths_m()[s.layer + 1] > shallowest;
     ArcHit hit;
-    if (near_bottom && find_hit(sea_.water, sea_.profile, s, step, std::min(step.dr, left), hit)) {
+    if (near_bottom &&
+        find_hit(curvature_of(sea_.water, s), sea_.profile, s, step, std::min(step.dr, left), hit)) {
       if (!go_to_bottom(s, hit, ray, details)) return;
     } else if (step.dr >= left) {
       go_part(s, left, ray, details);

@@ -6,6 +6,7 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
+#include "acoustics/rays/traced_ray.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {

@@ -37,7 +37,7 @@ double power_without_absorption(const ArcTracer& tracer, double pressure) {
 
 DiffuseWindows::DiffuseWindows(const ArcTracer& tracer)
     : tracer_(tracer),
-      receiver_speed_(tracer.sea().water.speed_at(tracer.receiver_depth_m())),
+      receiver_speed_(tracer.water_at_receiver().speed_at(tracer.receiver_depth_m())),
       max_loss_db_(-20 * elementary::log10(tracer.sea().options.min_boundary_factor)),
       weak_(elementary::exp10(-tracer.sea().options.diffuse_below_db / 10)),
       least_(power_without_absorption(tracer, tracer.sea().options.diffuse_below_pressure)) {}
@@ -120,7 +120,7 @@ double DiffuseWindows::mixed_power(const FanRay& a, const FanRay& b) const {
 // dr = h xi (c1 + c2) / (s1 + s2), to where it turns s / (xi |g|).
 double DiffuseWindows::density(double xi) const {
   const auto square = [xi](double speed) { return 1 - xi * xi * speed * speed; };
-  const RayWater& water = tracer_.sea().water;
+  const RayWater& water = tracer_.water_at_receiver();
   const double bottom = tracer_.bottom_at_receiver_m(), here = square(receiver_speed_);
   if (here <= 0) return 0;
   double half = 0;

@@ -50,9 +50,10 @@ class LinkSearch {
       : sea_(sea),
         link_(link),
         solver_(solver),
-        core_(solver == RaySolver::kImages ? std::nullopt
-                                           : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
-                                                          sea.options.frequency_hz)) {}
+        core_(solver == RaySolver::kImages || sea.section
+                  ? std::nullopt
+                  : channel_core(sea.water, sea.bottom_profile.shallowest_m(), link,
+                                 sea.options.frequency_hz)) {}
 
   // Within the limits, those on the bounces' loss relative to the strongest path.
   std::vector<Arrival> paths() const;
@@ -84,7 +85,8 @@ std::vector<Arrival> LinkSearch::solved(const RayOptions& options) const {
     case RaySolver::kSnell:
       return layered_rays(flat_sea(options, sea_.bottom_profile.depth_at(link_.range_m)), link_);
     case RaySolver::kArcs:
-      return profile_rays({sea_.water, sea_.bottom_profile, sea_.bottom, sea_.surface, options, core_speed()},
+      return profile_rays({sea_.water, sea_.bottom_profile, sea_.bottom, sea_.surface, options, core_speed(),
+                           sea_.section.get()},
                           link_);
   }
   return {};
@@ -203,7 +205,7 @@ RayWater ray_water(const Environment& environment, double frequency_hz, double t
 }
 
 RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
-  if (!sea.bottom_profile.is_flat_until(link.range_m)) return RaySolver::kArcs;
+  if (sea.section || !sea.bottom_profile.is_flat_until(link.range_m)) return RaySolver::kArcs;
   const bool one_speed = sea.water.is_isovelocity_above(sea.bottom_profile.depth_at(link.range_m));
   return one_speed ? RaySolver::kImages : RaySolver::kSnell;
 }
@@ -211,6 +213,8 @@ RaySolver choose_solver(const RaySea& sea, const RayLink& link) {
 Arrivals arrivals(const RaySea& sea, const RayLink& link, std::optional<RaySolver> solver) {
   require(!solver || *solver == RaySolver::kArcs || sea.bottom_profile.is_flat_until(link.range_m),
           "the ray solvers 'images' and 'snell' need a flat bottom");
+  require(!solver || *solver == RaySolver::kArcs || !sea.section,
+          "the ray solvers 'images' and 'snell' need water that is the same all along the link");
   const RayLink held = held_apart_over(sea.bottom_profile, link);
   const RaySolver chosen = solver.value_or(choose_solver(sea, held));
   const LinkSearch search(sea, held, chosen);

@@ -17,12 +17,14 @@
 // and turned), but which rays the limit on the launch angle drops depends on the end they leave from.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/ray_section.h"
 #include "acoustics/sea/ray_water.h"
 
 namespace halocline::acoustics {
@@ -34,6 +36,8 @@ struct RaySea {
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
+  // Water that changes along the link, whose first column is `water`; null: water of depth alone.
+  std::shared_ptr<const RaySection> section = nullptr;
 };
 
 // The water of an environment at a frequency, Hz: 50 us for a profile of 15 rows, so keep it. With a tolerance above

@@ -170,13 +170,14 @@ bool FanTracer::next_layer_is_whole(State& s, std::size_t knot, bool down) const
   if (profile_.is_deeper_than(water_.depths_m()[layer + 1] + kKnotMargin, s.facet, s.r + dr)) return true;
   stand_at_knot(s, knot, down);
   const double next_sine = down ? column_.sine_at(next) : -column_.sine_at(next);
-  s.hits = find_hit(water_, profile_, s, {dr, water_.depths_m()[next], next_sine, false, down}, dr, s.hit);
+  s.hits = find_hit(curvature_of(water_, s), profile_, s,
+                    {dr, water_.depths_m()[next], next_sine, false, down}, dr, s.hit);
   return !s.hits;
 }
 
 bool FanTracer::run_through_layers(State& s, std::size_t knot) {
   // Between bounces at the bottom E = d xi / d theta = -(sin p + g xi^2 q) stays, and X = -q / sin grows by
-  // E d(dr)/dxi a layer (acoustics/rays/ray_column.h).
+  // E d(dr)/dxi a layer (acoustics/rays/arcs/ray_column.h).
   if (column_.xi() != s.xi) column_.set(s.xi);
   const double xi2 = s.xi * s.xi, sine_before = away_from_zero(s.sine);
   double turning = -(sine_before * s.p + water_.gradients_per_s()[s.layer] * xi2 * s.q);  // E
@@ -223,7 +224,7 @@ void FanTracer::trace_from(State& s, std::size_t enough_events, FanRay& ray) {
     const ArcStep step = next_step(water_, s);
     const double left = range_ - s.r;
     const bool may_hit = is_near_bottom(s.layer) && !clears_bottom(s.sine, step.sine);
-    if (may_hit && find_hit(water_, profile_, s, step, std::min(step.dr, left), s.hit)) {
+    if (may_hit && find_hit(curvature_of(water_, s), profile_, s, step, std::min(step.dr, left), s.hit)) {
       if (!go_to_bottom(s, s.hit)) return;
     } else if (step.dr >= left) {
       go_part(s, left);
@@ -238,7 +239,21 @@ void FanTracer::trace_from(State& s, std::size_t enough_events, FanRay& ray) {
   }
 }
 
+FanRay FanTracer::trace_through_section(double theta) {
+  exact_.trace(theta, traced_);
+  FanRay ray{.theta = theta, .first_event = events_.size(), .events = traced_.events.size()};
+  events_.insert(events_.end(), traced_.events.begin(), traced_.events.end());
+  ray.arrived = traced_.arrived;
+  ray.loss_db = traced_.factor > 0 ? -20 * elementary::log10(traced_.factor) : kMaxLossOfABounceDb;
+  if (!ray.arrived) return ray;
+  ray.zeta = traced_.zeta;
+  ray.zeta_slope = traced_.zeta_slope;
+  ray.slowness = traced_.sine * traced_.xi / std::sqrt(1 - traced_.sine * traced_.sine);
+  return ray;
+}
+
 FanRay FanTracer::trace(double theta, std::size_t enough_events) {
+  if (exact_.sea().section != nullptr) return trace_through_section(theta);
   FanRay ray{.theta = theta, .first_event = events_.size()};
   State s = start(theta);
   trace_from(s, enough_events, ray);

@@ -1,10 +1,10 @@
 // Traces the fan of rays among which a search brackets its eigenrays: fast, depth and its slope only.
 //
 // Model: that of acoustics/rays/arc_tracer.h, arc by arc, without step error; whole layers between two
-// bounces at the bottom come from a column (acoustics/rays/ray_column.h), all that lies above the shallowest bottom
+// bounces at the bottom come from a column (acoustics/rays/arcs/ray_column.h), all that lies above the shallowest bottom
 // as one excursion. Its zeta and d zeta/d theta are those of ArcTracer to rounding (1e-7 m and 1e-7 of the slope
 // over links of kilometres; more within a microradian of a ray that grazes). Rays that lose 6 dB more than
-// paths may are given up, by interpolated losses.
+// paths may are given up, by interpolated losses. Where the water changes along the link rays are those of ArcTracer.
 //
 // Keeps a column and the rays' events between calls: one for each search, not shared between threads.
 #pragma once
@@ -17,9 +17,10 @@
 
 #include "acoustics/math/fold_field.h"
 #include "acoustics/math/hermite_cubic.h"
-#include "acoustics/rays/arc_steps.h"
 #include "acoustics/rays/arc_tracer.h"
-#include "acoustics/rays/ray_column.h"
+#include "acoustics/rays/arcs/arc_steps.h"
+#include "acoustics/rays/arcs/ray_column.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 
@@ -75,6 +76,7 @@ class FanTracer {
 
  private:
   struct State;
+  FanRay trace_through_section(double theta);
   State start(double theta) const;
   void trace_from(State& s, std::size_t enough_events, FanRay& ray);
   void go(State& s, double dr, double z, double sine) const;
@@ -97,6 +99,7 @@ class FanTracer {
   const RayWater& water_;
   const BottomProfile& profile_;
   RayColumn column_;
+  TracedRay traced_;                                         // a buffer
   std::vector<EventCode> events_;                            // of all rays
   double range_, shallowest_, max_loss_db_, steepest_rise_;  // of the bottom, sine
   std::vector<double> bottom_loss_db_;                       // at sines 0..1, evenly

@@ -267,7 +267,9 @@ std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {
     angles.push_back(-theta);
   };
   const RayWater& water = tracer.sea().water;
-  for (std::size_t i = 0; i < water.speeds_mps().size(); ++i) {
+  // Knots of a section are many, their kinks small.
+  const std::size_t knots = tracer.sea().section != nullptr ? 0 : water.speeds_mps().size();
+  for (std::size_t i = 0; i < knots; ++i) {
     if (i > 0 && water.depths_m()[i - 1] > tracer.sea().profile.deepest_m()) break;
     const double cosine = tracer.source_speed_mps() / water.speeds_mps()[i];
     if (cosine >= 1 || cosine < elementary::cos(limit)) continue;

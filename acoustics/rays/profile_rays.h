@@ -18,6 +18,7 @@
 
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/traced_ray.h"
 
 namespace halocline::acoustics {
 

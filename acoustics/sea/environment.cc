@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "acoustics/sea/pressure.h"
+#include "acoustics/sea/sound_speed.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
@@ -15,6 +18,30 @@ void validate(const Environment& environment) {
   require_in_range(environment.ph, 7, 9, "pH");
   require_in_range(environment.latitude_rad, -std::numbers::pi / 2, std::numbers::pi / 2, "latitude", "rad");
   require_in_range(environment.sea_surface_z_m, -100, 100, "z of the sea surface", "m");
+}
+
+Environment environment_at(const Environment& environment, double north_m, double east_m) {
+  Environment there = environment;
+  if (!environment.field) return there;
+  std::vector<WaterRow> rows;
+  for (const auto& [depth_m, temperature_degc, salinity_psu] :
+       environment.field.ocean->column_at(north_m, east_m, environment.field.time_s)) {
+    rows.push_back({depth_m, temperature_degc, salinity_psu});
+  }
+  there.profile =
+      SoundSpeedProfile::from_water(std::move(rows), environment.profile.model(), environment.latitude_rad);
+  there.field = {};
+  return there;
+}
+
+double sound_speed_at(const Environment& environment, const Vec3& position_ned_m) {
+  const double depth_m =
+      std::clamp(depth_below_surface_m(position_ned_m, environment.sea_surface_z_m), 0.0, kDeepestWater);
+  if (!environment.field) return environment.profile.sound_speed_mps(depth_m);
+  const ocean::WaterAtDepth water = environment.field.ocean->water_at(
+      {position_ned_m.x(), position_ned_m.y(), depth_m}, environment.field.time_s);
+  return sound_speed_mps(environment.profile.model(), water.temperature_degc, water.salinity_psu, depth_m,
+                         environment.latitude_rad);
 }
 
 AbsorbingWater absorbing_water(const Environment& environment, double depth_m) {

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/sea/water_columns.h"
 #include "core/check.h"
 
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kThinnestSample = 1.0;  // m: sampling a smooth profile goes no finer
-constexpr double kTallestSample =
-    250.0;  // m: nor coarser, so that a bump between two probes is not passed over
 constexpr double kTallestProbe = 5000.0;  // m: below it formulas and tables are taken as constant
 
 constexpr double kLeastRounding = 1.0;        // m: half-height of what takes the place of a kink
@@ -22,31 +20,28 @@ LayerAbsorption parabola(double top, double middle, double bottom) {
   return {top, 4 * middle - 3 * top - bottom, 2 * (top + bottom) - 4 * middle};
 }
 
-// Adds knots below the last one down to `to`, halving until the chord is within tolerance of the profile.
-void sample(const SoundSpeedProfile& profile, double to, double tolerance, std::vector<SpeedRow>& knots) {
-  const SpeedRow from = knots.back();
-  const double height = to - from.depth_m, end = profile.sound_speed_mps(to);
-  const auto off = [&](double share) {
-    const double chord = from.sound_speed_mps + share * (end - from.sound_speed_mps);
-    return std::abs(profile.sound_speed_mps(from.depth_m + share * height) - chord);
-  };
-  const bool fits = height <= kTallestSample && std::max({off(0.25), off(0.5), off(0.75)}) <= tolerance;
-  if (fits || height <= kThinnestSample) {
-    knots.push_back({to, end});
-    return;
+WaterColumns one_column(const std::vector<SpeedRow>& knots) {
+  WaterColumns column{{}, {{}}};
+  for (const SpeedRow& knot : knots) {
+    column.depths_m.push_back(knot.depth_m);
+    column.speeds_mps.front().push_back(knot.sound_speed_mps);
   }
-  sample(profile, from.depth_m + height / 2, tolerance, knots);
-  sample(profile, to, tolerance, knots);
+  return column;
+}
+
+std::vector<SpeedRow> knots_of_column(const WaterColumns& column) {
+  std::vector<SpeedRow> knots;
+  for (std::size_t i = 0; i < column.depths_m.size(); ++i)
+    knots.push_back({column.depths_m[i], column.speeds_mps.front()[i]});
+  return knots;
 }
 
 std::vector<SpeedRow> sampled_knots(const SoundSpeedProfile& profile, double tolerance) {
-  std::vector<SpeedRow> knots = {{0, profile.sound_speed_mps(0)}};
   std::vector<double> corners = profile.row_depths_m();
   corners.push_back(std::max(kTallestProbe, corners.empty() ? 0.0 : corners.back()));
-  for (const double depth : corners) {
-    if (depth > knots.back().depth_m) sample(profile, depth, tolerance, knots);
-  }
-  return knots;
+  corners.insert(corners.begin(), 0);
+  const auto speed = [&](std::size_t, double depth) { return profile.sound_speed_mps(depth); };
+  return knots_of_column(sampled(corners, 1, speed, tolerance));
 }
 
 // Adds knots in place of `knot` if it is the axis of a channel whose kink is mild enough; false otherwise. With x = z -
@@ -159,24 +154,7 @@ std::vector<SpeedRow> knots_of(const SoundSpeedProfile& profile, double speed_to
 std::vector<SpeedRow> thinned(const std::vector<SpeedRow>& knots, double tolerance_mps) {
   require_in_range(tolerance_mps, 0, 100, "tolerance of thinning", "m/s");
   if (knots.size() < 3) return knots;
-  std::vector<SpeedRow> kept = {knots.front()};
-  std::size_t from = 0;
-  while (from + 1 < knots.size()) {
-    const auto chord_fits = [&](std::size_t to) {
-      const double slope = (knots[to].sound_speed_mps - knots[from].sound_speed_mps) /
-                           (knots[to].depth_m - knots[from].depth_m);
-      for (std::size_t k = from + 1; k < to; ++k) {
-        const double chord = knots[from].sound_speed_mps + slope * (knots[k].depth_m - knots[from].depth_m);
-        if (std::abs(chord - knots[k].sound_speed_mps) > tolerance_mps) return false;
-      }
-      return true;
-    };
-    std::size_t to = knots.size() - 1;
-    while (to > from + 1 && !chord_fits(to)) --to;
-    kept.push_back(knots[to]);
-    from = to;
-  }
-  return kept;
+  return knots_of_column(thinned(one_column(knots), tolerance_mps));
 }
 
 }  // namespace halocline::acoustics

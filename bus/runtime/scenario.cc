@@ -25,6 +25,20 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
 }
 
+void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
+  v.text("file", ocean.file, {},
+         "CF netCDF with currents, or temperature and salinity, or both; empty: none");
+  if (!ocean.file.empty() && !v.writing()) require_readable(v, "file", ocean.file);
+  v.text("start_date", ocean.start_date, {},
+         "of simulation time 0, as 2026-05-01T06:00:00Z; empty: the file's first time");
+  v.boolean("moves_vehicles", ocean.moves_vehicles,
+            "its currents are added to those of the vehicle simulator");
+  v.boolean("carries_sound", ocean.carries_sound,
+            "sound goes through its temperature and salinity, in place of the profile");
+  seconds(v, "sound_period_s", ocean.sound_period,
+          {1, 1e7, "s", "spans in each of which sound has the water of the span's middle"});
+}
+
 // Two vehicles with one name would publish on one channel; with one id, they would be one to all others.
 void check_unique(ConfigVisitor& v, const std::vector<VehicleEntry>& vehicles, std::size_t index) {
   for (std::size_t i = 0; i < index; ++i) {
@@ -61,6 +75,8 @@ void visit(ConfigVisitor& v, Scenario& s) {
     seconds(section, "clock_period_s", s.clock_period,
             {1e-3, 60, "s", "simulated time between CLOCK messages"});
   });
+  v.section("ocean", "The ocean as fields of place and time",
+            [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
   v.list(
       "vehicle", "A vehicle", s.vehicles.size(), [&](std::size_t n) { s.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) {

@@ -2,7 +2,7 @@
 //
 // A scenario is one TOML file. Each program reads this part and the sections of its own; `halocline run`
 // reads all, so that it finds every error at once. Sections and their owners:
-//   [scenario] [time] [[vehicle]]      this file
+//   [scenario] [time] [ocean] [[vehicle]]    this file
 //   [terrain]                          bathymetry/bathymetry_config.h
 //   [environment] [modem] [channel_server], [vehicle.modem]    channel_server/channel_server_config.h
 //   [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]    vehicle_sim/vehicle_sim_config.h
@@ -32,6 +32,16 @@ struct VehicleEntry {
   double speed_mps = 0;             // at the start, forward through the water
 };
 
+// The ocean as fields of place and time, from a file (ocean/ocean_field_reader.h).
+struct OceanEntry {
+  std::string file;            // relative to the scenario; empty: none
+  std::string start_date;      // of simulation time 0; empty: the file's first time
+  bool moves_vehicles = true;  // its currents act on them
+  bool carries_sound = true;   // sound goes through its temperature and salinity
+  SimDuration sound_period =
+      SimDuration::from_seconds(600);  // sound has the water of the middle of such a span
+};
+
 struct Scenario {
   std::string name = "unnamed";
   std::string description;
@@ -42,6 +52,7 @@ struct Scenario {
   double sea_surface_z_m = 0;  // z of the surface in the world frame: negative when it lies above the datum
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall
   SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time
+  OceanEntry ocean;
   std::vector<VehicleEntry> vehicles;
   std::string configuration;  // configuration_of() its file, no key of it; empty where there is none
 

@@ -6,6 +6,7 @@
 
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/echo_survey.h"
 #include "core/check.h"
@@ -241,7 +242,9 @@ void LinkQueryService::add_details(Waiting& waiting) {
   double deepest_m = std::max(details.tracks.link.source_depth_m, details.tracks.link.receiver_depth_m);
   for (const acoustics::RayPoint& point : details.tracks.seabed)
     deepest_m = std::max(deepest_m, point.depth_m);
-  details.water = column_of(propagation_.environment(waiting.reply.at).profile, deepest_m);
+  const Vec3& place = from.placed().placement.position_ned_m;
+  details.water = column_of(
+      environment_at(propagation_.environment(waiting.reply.at), place.x(), place.y()).profile, deepest_m);
   waiting.reply.details = std::move(details);
 }
 

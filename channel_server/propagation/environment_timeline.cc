@@ -1,6 +1,7 @@
 #include "channel_server/propagation/environment_timeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/check.h"
@@ -12,9 +13,14 @@ acoustics::Environment changed(acoustics::Environment environment, const Environ
   environment.noise.wind_mps = change.wind_mps.value_or(environment.noise.wind_mps);
   environment.noise.shipping = change.shipping.value_or(environment.noise.shipping);
   environment.sea_surface_z_m = change.sea_surface_z_m.value_or(environment.sea_surface_z_m);
-  if (change.profile) environment.profile = *change.profile;
+  if (change.profile) {
+    environment.profile = *change.profile;
+    environment.field = {};
+  }
   return environment;
 }
+
+constexpr EnvironmentTimeline::WaterId kIdsOfAStep = 1LL << 32;  // more than there are of other changes
 
 constexpr SimTime kAlways = SimTime::from_nanoseconds(std::numeric_limits<std::int64_t>::min());
 
@@ -62,6 +68,29 @@ const EnvironmentTimeline::Span& EnvironmentTimeline::span_at(SimTime instant) c
   return *std::prev(later);
 }
 
+std::int64_t EnvironmentTimeline::step_of(const acoustics::Environment& environment, SimTime instant) {
+  if (!environment.field || environment.field.ocean->is_steady()) return 0;
+  return static_cast<std::int64_t>(std::floor(instant.seconds() / environment.field.period_s));
+}
+
+EnvironmentTimeline::WaterId EnvironmentTimeline::water_at(SimTime instant) const {
+  const Span& span = span_at(instant);
+  return span.id + step_of(span.environment, instant) * kIdsOfAStep;
+}
+
+const acoustics::Environment& EnvironmentTimeline::at(SimTime instant) const {
+  const Span& span = span_at(instant);
+  const acoustics::WaterField& field = span.environment.field;
+  if (!field || field.ocean->is_steady()) return span.environment;
+  const std::int64_t step = step_of(span.environment, instant);
+  const auto [known, is_new] = field_waters_.try_emplace(span.id + step * kIdsOfAStep, span.environment);
+  acoustics::Environment& there = known->second;
+  if (!is_new) return there;
+  there.field.time_s = (static_cast<double>(step) + 0.5) * field.period_s;
+  there.profile = environment_at(there, 0, 0).profile;
+  return there;
+}
+
 SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
   const auto later = std::upper_bound(spans_.begin() + 1, spans_.end(), instant,
                                       [](SimTime time, const Span& span) { return time < span.order.from; });
@@ -69,6 +98,10 @@ SimTime EnvironmentTimeline::next_change_after(SimTime instant) const {
 }
 
 void EnvironmentTimeline::forget_before(SimTime time) {
+  std::erase_if(field_waters_, [time](const auto& water) {
+    const acoustics::WaterField& field = water.second.field;
+    return field.time_s + field.period_s < time.seconds();
+  });
   constexpr std::size_t kForgottenTogether = kAnnouncedKept / 10;  // for each time all others are moved
   if (changes_kept() < kAnnouncedKept + kForgottenTogether) return;
   auto surplus = changes_kept() - kAnnouncedKept;

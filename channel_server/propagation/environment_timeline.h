@@ -6,11 +6,16 @@
 // received: what is published stays true. Changes of one instant apply in the order of their sessions and sequence
 // numbers, so what holds is a function of what was received and when, not of the order in one turn.
 //
-// A value in memory; not thread-safe while changes are added.
+// Where the environment has a field of temperature and salinity that changes with time, sound has the water of the middle of the
+// span of WaterField::period_s that an instant lies in: so many links and packets share their searches, and delays jump by what half
+// a span changes. Spans begin at multiples of the period. A profile that is announced ends the field.
+//
+// A value in memory; not thread-safe, also where it is only asked: it keeps the environments that a field makes.
 #pragma once
 
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,9 +56,9 @@ class EnvironmentTimeline {
                                      const EnvironmentChange& change);
 
   // At an instant; a change holds at its very instant. References are valid until the next change is added.
-  const acoustics::Environment& at(SimTime instant) const { return span_at(instant).environment; }
-  WaterId water_at(SimTime instant) const { return span_at(instant).id; }
-  // The first change after `instant`; never() when none is known.
+  const acoustics::Environment& at(SimTime instant) const;
+  WaterId water_at(SimTime instant) const;
+  // The first change, but of a field, after `instant`; never() when none is known.
   SimTime next_change_after(SimTime instant) const;
 
   // Forgets changes that were announced and superseded before `time`, but for the latest kAnnouncedKept, of which
@@ -77,10 +82,14 @@ class EnvironmentTimeline {
     WaterId id = 0;
   };
   const Span& span_at(SimTime instant) const;
+  // Of a field's spans, from 0; 0 where it does not change.
+  static std::int64_t step_of(const acoustics::Environment& environment, SimTime instant);
   void insert(const Order& order, const EnvironmentChange& change);
 
   std::vector<Span> spans_;  // by order; the first is the initial environment
   WaterId last_id_ = 0;
+  // Environments with the field as it is at other times, by their water.
+  mutable std::map<WaterId, acoustics::Environment> field_waters_;
 };
 
 }  // namespace halocline::channel_server

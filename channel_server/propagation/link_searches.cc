@@ -86,7 +86,7 @@ LinkSearches::Task LinkSearches::task_of(SimTime at, const LinkEnd& from, const 
 LinkSearches::Task LinkSearches::over(SimTime at, const LinkEnd& from, const LinkEnd& to,
                                       const std::shared_ptr<const SeabedProfile>& seabed) {
   Task task = task_of(at, from, to, /*reversed=*/false);
-  task.query.places = {};
+  if (!task.environment->field) task.query.places = {};
   task.query.given = seabed;
   return task;
 }

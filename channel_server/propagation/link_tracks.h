@@ -13,6 +13,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/traced_ray.h"
 
 namespace halocline::channel_server {
 

@@ -89,6 +89,24 @@ void validate(const RayModel& model) {
   require_in_range(model.profile_reuse_distance_m, 0.1, 1000, "distance of reuse of bottom profiles", "m");
 }
 
+acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
+                                 const acoustics::Environment& environment, const PathQuery& query,
+                                 double deepest_m) {
+  if (!environment.field) return {water, nullptr};
+  const auto [north, east, last_north, last_east] = query.places;
+  return water_between(environment, {north, east, 0}, {last_north, last_east, 0}, deepest_m,
+                       query.frequency_hz, model.speed_tolerance_mps);
+}
+
+acoustics::EndSpeeds end_speeds(const acoustics::RayWater& water, const acoustics::Environment& environment,
+                                const PathQuery& query) {
+  const double source_m = query.link.source_depth_m, receiver_m = query.link.receiver_depth_m;
+  if (!environment.field) return {water.speed_at(source_m), water.speed_at(receiver_m)};
+  const auto [north, east, last_north, last_east] = query.places;
+  return {sound_speed_at(environment, {north, east, source_m + environment.sea_surface_z_m}),
+          sound_speed_at(environment, {last_north, last_east, receiver_m + environment.sea_surface_z_m})};
+}
+
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,
                                                const acoustics::Environment& environment,
                                                const PathQuery& query, const SeabedProfile& seabed) {
@@ -96,7 +114,9 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
   const acoustics::BottomProfile bottom = bottom_under(seabed, query.link, environment.sea_surface_z_m);
   const double depth_m = mean_depth_m(bottom, query.link.range_m);
   if (model.bounces_follow_range) options.max_bounces = bounces_for(query.link.range_m, depth_m);
-  const acoustics::RaySea sea{water, bottom, model.bottom, surface_of(model, environment), options};
+  const acoustics::LinkWater along = water_along(model, water, environment, query, bottom.deepest_m());
+  const acoustics::RaySea sea{along.water, bottom,       model.bottom, surface_of(model, environment),
+                              options,     along.section};
   auto found = std::make_shared<FoundPaths>();
   found->given = query.given;
   found->mean_depth_m = depth_m;
@@ -115,8 +135,10 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
   const double deepest_end_m = std::max(query.link.source_depth_m, query.link.receiver_depth_m);
   const double depth_m =
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
+  const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
   auto windows = acoustics::weak_arrivals(
-      {water, depth_m, model.bottom, surface_of(model, environment), options_of(model, query)}, query.link);
+      {along.water, depth_m, model.bottom, surface_of(model, environment), options_of(model, query)},
+      query.link);
   if (!windows) return nullptr;
   auto found = std::make_shared<FoundPaths>();
   found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};

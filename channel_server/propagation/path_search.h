@@ -12,6 +12,8 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
+#include "acoustics/link/extrapolate_arrivals.h"
+#include "acoustics/link/field_section.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/bottom_profile.h"
@@ -63,7 +65,7 @@ struct PathQuery {
 
   EnvironmentTimeline::WaterId water_id = 0;
   double frequency_hz = 0;
-  ProfileEnds places = {};  // of the bottom, unless it is given
+  ProfileEnds places = {};  // of the bottom, unless it is given, and of the water, where it has a field
   std::int64_t seabed_version = 0;
   std::shared_ptr<const SeabedProfile> given = {};
   acoustics::RayLink link = {};
@@ -93,6 +95,15 @@ struct FoundPaths {
   double mean_depth_m = 0;  // between the ends
   bool blocked = false;     // the bottom cuts the straight line
 };
+
+// The water along the query's link: `water`, or where the environment has a field, that between the query's places down to the
+// depth (acoustics/link/field_section.h).
+acoustics::LinkWater water_along(const RayModel& model, const acoustics::RayWater& water,
+                                 const acoustics::Environment& environment, const PathQuery& query,
+                                 double deepest_m);
+// Sound speeds at the ends of the query's link, likewise.
+acoustics::EndSpeeds end_speeds(const acoustics::RayWater& water, const acoustics::Environment& environment,
+                                const PathQuery& query);
 
 // Over the bottom that is given, in the water of the query at its instant.
 std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acoustics::RayWater& water,

@@ -54,11 +54,6 @@ Decibels diffuse_level(const std::vector<SoundPath>& paths) {
   return summed_level(paths, [](const SoundPath& path) { return path.diffuse; });
 }
 
-double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m) {
-  const double depth_m = depth_below_surface_m(position_ned_m, environment.sea_surface_z_m);
-  return environment.profile.sound_speed_mps(std::clamp(depth_m, 0.0, acoustics::kDeepestWater));
-}
-
 LinkTracks Propagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& to) {
   const Reception reception = this->reception(at, from, to);
   const acoustics::LinkBudget& budget = reception.budget;

@@ -116,9 +116,6 @@ std::size_t number_of_paths(const std::vector<SoundPath>& paths);
 // The level of these.
 Decibels diffuse_level(const std::vector<SoundPath>& paths);
 
-// Sound speed where an end is, m/s; above the surface and below the deepest water, that of these.
-double sound_speed_at(const acoustics::Environment& environment, const Vec3& position_ned_m);
-
 class Propagation {
  public:
   virtual ~Propagation() = default;

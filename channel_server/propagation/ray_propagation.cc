@@ -8,6 +8,7 @@
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/scattering_loss.h"
 #include "acoustics/link/extrapolate_arrivals.h"
+#include "acoustics/link/field_section.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/link/received_field.h"
@@ -92,6 +93,7 @@ bool RayPropagation::are_ready(SimTime at, const std::vector<EndPair>& links) {
 
 std::optional<acoustics::LeastLoss> RayPropagation::least_loss(SimTime at, double frequency_hz,
                                                                double deepest_end_m) const {
+  if (waters_->at(at).field) return std::nullopt;  // waters of many kinds
   const Decibels gain = gain_beyond_powers(model_, waters_->at(at));
   return acoustics::LeastLoss::of_rays(waters_->at(at), frequency_hz, deepest_end_m, gain,
                                        {model_.least_depth_m, model_.greatest_depth_m, model_.bottom});
@@ -136,8 +138,7 @@ acoustics::Arrivals RayPropagation::arrivals_at(const Task& task, const FoundPat
   const bool itself = searched.range_m == link.range_m && searched.source_depth_m == link.source_depth_m &&
                       searched.receiver_depth_m == link.receiver_depth_m;
   if (itself) return found.arrivals;
-  const acoustics::EndSpeeds speeds{task.water->speed_at(searched.source_depth_m),
-                                    task.water->speed_at(searched.receiver_depth_m)};
+  const acoustics::EndSpeeds speeds = end_speeds(*task.water, *task.environment, task.query);
   return {found.arrivals.solver, extrapolate_arrivals(found.arrivals.paths, searched, speeds, link)};
 }
 
@@ -165,8 +166,11 @@ LinkTracks RayPropagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd
                        kept_at_surface(boundaries_, *task.environment, task.query.frequency_hz, arrival)});
     }
   }
-  LinkTracks tracks = tracks_of({*task.water, bottom, model_.bottom, surface, model_.options}, task.link,
-                                task.reversed, std::move(paths), *from.modem, *to.modem);
+  const acoustics::LinkWater water =
+      water_along(model_, *task.water, *task.environment, task.query, bottom.deepest_m());
+  LinkTracks tracks = tracks_of({water.water, bottom, model_.bottom, surface, model_.options,
+                                 /*core_speed_mps=*/0, water.section.get()},
+                                task.link, task.reversed, std::move(paths), *from.modem, *to.modem);
   weigh(answer(task, *found_paths, acoustics::Capacity::kLeftOut).paths, *to.modem, tracks);
   return tracks;
 }

@@ -7,6 +7,7 @@
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/traced_ray.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "core/units.h"
 

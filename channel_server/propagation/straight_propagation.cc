@@ -1,11 +1,15 @@
 #include "channel_server/propagation/straight_propagation.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "acoustics/fading/sound_path.h"
+#include "acoustics/link/line_means.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/beam_pattern.h"
+#include "acoustics/rays/arrivals.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -24,6 +28,23 @@ SoundPath straight_path(const acoustics::Environment& water, const acoustics::Li
   return path;
 }
 
+// The budget of a straight path through a field: delay and absorption are those along the line, levels change by what that
+// absorbs more than the profile.
+void take_field(const acoustics::LinkKernel& kernel, const acoustics::Environment& water, const EndPair& ends,
+                acoustics::Capacity capacity, acoustics::LinkBudget& budget) {
+  const auto& [from, to] = ends;
+  const acoustics::LineMeans means =
+      acoustics::means_along(water, from.position_ned_m, to.position_ned_m, from.modem->band().centre_hz());
+  const double length_m = std::max(budget.range_m, acoustics::kMinDistance);
+  const double absorbing_m = budget.range_m < acoustics::kMinDistance ? 0 : budget.range_m;
+  const Decibels more{(means.absorption_db_per_km - budget.absorption_db_per_km) * absorbing_m / 1000};
+  const Decibels loss = from.modem->source_level - budget.received_level + more;
+  budget = kernel.budget_of_path(from.position_ned_m, to.position_ned_m, loss, absorbing_m, capacity);
+  budget.delay_s = length_m * means.slowness_s_per_m;
+  budget.mean_sound_speed_mps = 1 / means.slowness_s_per_m;
+  budget.absorption_db_per_km = means.absorption_db_per_km;
+}
+
 }  // namespace
 
 StraightPropagation::StraightPropagation(acoustics::Environment environment, std::size_t max_kernels)
@@ -40,6 +61,7 @@ Reception StraightPropagation::along_line(const acoustics::LinkKernel& kernel,
   const auto& [from, to] = ends;
   Reception reception;
   reception.budget = kernel.budget(from.position_ned_m, to.position_ned_m, capacity);
+  if (water.field) take_field(kernel, water, ends, capacity, reception.budget);
   SoundPath path = straight_path(water, reception.budget, from, to);
   path.fading = path_fading(fading_, water.noise.wind_mps, from.modem->centre_frequency_hz, 0, 0);
   reception.paths = {path};

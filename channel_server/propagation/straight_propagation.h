@@ -24,7 +24,9 @@
 
 namespace halocline::channel_server {
 
-// The straight path of acoustics/link/link_kernel.h, in the water of the instant, weighed by both beams.
+// The straight path of acoustics/link/link_kernel.h, in the water of the instant, weighed by both beams. Through a field delay and
+// absorption are those along the line (acoustics/link/line_means.h); echoes off the bottom and the capacity's change over the band
+// are those of the profile at the world's origin.
 //
 // A LinkKernel takes a millisecond to make and a fraction of a microsecond to evaluate, so one is kept for each pair of
 // different modems, `max_kernels` at most.
@@ -57,6 +59,7 @@ class StraightPropagation : public Propagation {
                           const std::vector<acoustics::BottomPoint>& points) override;
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override {
+    if (waters_->at(at).field) return std::nullopt;  // waters of many kinds
     return acoustics::LeastLoss::of_straight_path(waters_->at(at), frequency_hz, deepest_end_m);
   }
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }

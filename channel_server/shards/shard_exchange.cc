@@ -31,6 +31,10 @@ std::uint64_t hash_of(const acoustics::RayWater& water, const acoustics::Environ
   std::string bytes;
   append(environment.noise.wind_mps, bytes);
   append(environment.sea_surface_z_m, bytes);
+  if (environment.field) {
+    append(environment.field.ocean->hash(), bytes);
+    append(environment.field.time_s, bytes);
+  }
   for (const double depth_m : water.depths_m()) append(depth_m, bytes);
   for (const double speed_mps : water.speeds_mps()) append(speed_mps, bytes);
   for (const acoustics::LayerAbsorption& layer : water.absorption()) {

@@ -73,4 +73,11 @@ Vec3 OceanCurrent::at_depth(double depth_m) const {
           a.east_mps + share * (below->east_mps - a.east_mps), 0};
 }
 
+// Du/Dt = du/dt + (u . grad) u, by where the water is a step later: its pressure gradient carries what it displaces along.
+WaterMotion motion_of(const ocean::OceanField& field, const Vec3& place, SimTime now, SimDuration step) {
+  const Vec3 here = field.current_ned_mps(place, now.seconds());
+  const Vec3 then = field.current_ned_mps(place + step.seconds() * here, (now + step).seconds());
+  return {here, (then - here) / step.seconds()};
+}
+
 }  // namespace halocline::vehicle_sim

@@ -5,12 +5,14 @@
 // - by depth: a table of horizontal velocities, linear between its depths, constant beyond;
 // - tide: amplitude cos(2 pi t / period + phase) toward an azimuth (one constituent, rectilinear);
 // - random: a Gauss-Markov process in north and in east (core/gauss_markov.h), the same everywhere; its value at an
-//   instant depends on neither the step nor the order of evaluation.
+//   instant depends on neither the step nor the order of evaluation;
+// - a field of place, depth and time (ocean/ocean_field.h), the same for every vehicle simulator that reads its file.
 // What acts on a vehicle within a step: the velocity where it is at the start of the step, changed evenly by the
 // acceleration. Uniform, tide and random carry a neutrally buoyant vehicle along exactly: the path is that in still
-// water plus the integral of the velocity. The part by depth acts as relative velocity at the depth of CO;
+// water plus the integral of the velocity. The parts by depth and by place act as relative velocity at CO, a
+// field also by the acceleration of the water there, so that it carries what starts with it round its eddies;
 // neglected are the shear over the hull (it would turn a pitched hull), and the change of the added mass's
-// momentum on the way through the shear (rate of depth times the gradient, below 0.01 m/s^2 in the sea).
+// momentum on the way through the shear (rate of place times the gradient, below 0.01 m/s^2 in the sea).
 // Source: Fossen 2021, section 10.3, for irrotational currents and first-order Gauss-Markov processes.
 #pragma once
 
@@ -21,6 +23,7 @@
 #include "core/frames.h"
 #include "core/gauss_markov.h"
 #include "core/sim_time.h"
+#include "ocean/ocean_field.h"
 #include "vehicle_sim/dynamics/waves.h"
 
 namespace halocline::vehicle_sim {
@@ -74,5 +77,8 @@ class OceanCurrent {
   GaussMarkovProcess north_, east_;
   GaussMarkovProcess::Cursor north_cursor_, east_cursor_;
 };
+
+// At a place (north, east, depth below the surface, m); the acceleration is that of the water which is there.
+WaterMotion motion_of(const ocean::OceanField& field, const Vec3& place, SimTime now, SimDuration step);
 
 }  // namespace halocline::vehicle_sim

@@ -41,6 +41,7 @@ void resolve(channel_server::ProfileConfig& profile, const ScenarioConfig& confi
 // Fills in what the scenario implies by leaving it out.
 void resolve(ScenarioConfig& config) {
   make_absolute(config.terrain.raster.path, config.folder);
+  make_absolute(config.scenario.ocean.file, config.folder);
   for (auto& vehicle : config.scenario.vehicles) make_absolute(vehicle.model, config.folder);
   for (auto& nested : config.terrain.nested) make_absolute(nested.raster.path, config.folder);
   resolve(config.channel_server.environment.profile, config);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "acoustics/modem/modem.h"
+#include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -19,7 +21,11 @@
 #include "clients/traffic/traffic_config.h"
 #include "core/check.h"
 #include "core/csv_table.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
+#include "core/units.h"
+#include "ocean/ocean_field.h"
+#include "ocean/ocean_field_reader.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/fleet.h"
 #include "vehicle_sim/vehicle_sim_config.h"
@@ -264,6 +270,34 @@ void check_names(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
+// False where its file is refused, which others then need not read.
+bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
+  const bus::OceanEntry& entry = config.scenario.ocean;
+  if (entry.file.empty()) return true;
+  try {
+    const auto field = ocean::read_ocean_field({(std::filesystem::path(config.folder) / entry.file).string(),
+                                                entry.start_date,
+                                                {to_radians(config.scenario.origin_latitude_deg),
+                                                 to_radians(config.scenario.origin_longitude_deg)}});
+    make_environment(config.channel_server.environment, config.scenario, config.folder);
+    const double last_s = field->grid().times_s.back();
+    if (!field->is_steady() && config.scenario.duration.seconds() > last_s) {
+      file.warn("ocean.file", entry.file,
+                "its last time is " + format_number(last_s) +
+                    " s after the start: the ocean stays so from then on");
+    }
+    for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
+      const Vec3& start = config.scenario.vehicles[i].start_ned_m;
+      if (!field->covers(start.x(), start.y()))
+        file.warn(key_of(i, "start_ned_m"), "", "the ocean is not known there: the nearest column holds");
+    }
+    return true;
+  } catch (const InvalidArgument& error) {
+    file.refuse("ocean.file", entry.file, error.what());
+    return false;
+  }
+}
+
 void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
   const channel_server::ProfileConfig& profile = config.channel_server.environment.profile;
   if (profile.source != channel_server::ProfileSource::kFile) return;
@@ -275,6 +309,7 @@ void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
 }  // namespace
 
 void check_water(const ScenarioConfig& config, bus::ConfigFile& file) {
+  if (!check_ocean(config, file)) return;
   check_count(config, file);
   check_names(config, file);
   check_profile(config, file);

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/rays/arcs/ray_column.h"
 #include "acoustics/rays/arrivals.h"
-#include "acoustics/rays/ray_column.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "tests/acoustics/rays/layered_waters.h"

@@ -12,6 +12,7 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/rays/profile_rays.h"
+#include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/bottom_profile.h"
 #include "acoustics/sea/ray_water.h"
 #include "acoustics/sea/sound_speed_profile.h"

@@ -1,4 +1,4 @@
-#include "acoustics/rays/arc_steps.h"
+#include "acoustics/rays/arcs/arc_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,27 +23,24 @@ double sine_of_bend(double x) {
 }
 
 // The arc of a step stays above z + slope * (way): curving up above its tangent, curving down above its chord.
-double deepest_slope(const RayWater& water, const ArcPoint& s, const ArcStep& step) {
-  const double g = water.gradients_per_s()[s.layer];
-  if (g < 0 && step.dr > 0) return (step.z - s.z) / step.dr;
-  return g == 0 && step.z == s.z ? 0 : s.sine * s.per_xi / s.c;
+double deepest_slope(double curvature, const ArcPoint& s, const ArcStep& step) {
+  if (curvature > 0 && step.dr > 0) return (step.z - s.z) / step.dr;
+  return curvature == 0 && step.z == s.z ? 0 : s.sine * s.per_xi / s.c;
 }
 
-// An arc that curves down has d2z/dr2 = kappa / cos^3 >= kappa = -xi g, so it stays above its chord by at least
+// An arc that curves down has d2z/dr2 = kappa / cos^3 >= kappa, so it stays above its chord by at least
 // kappa / 2 x (dr - x) after the way x: kappa / 2.
-double bow_of(const RayWater& water, const ArcPoint& s, const ArcStep& step) {
-  const double g = water.gradients_per_s()[s.layer];
-  return g < 0 && step.dr > 0 ? -s.xi * g / 2 : 0;
+double bow_of(double curvature, const ArcStep& step) {
+  return curvature > 0 && step.dr > 0 ? curvature / 2 : 0;
 }
 
-// Where the ray's circle meets the facet's line y = d + b x, x and y from the ray along r and down. With kappa = -xi g
+// Where the ray's circle meets the facet's line y = d + b x, x and y from the ray along r and down. With kappa
 // the curvature, kappa (x^2 + y^2) / 2 = cos y - sin x, so A x^2 + B x + C = 0:
 //   A = kappa (1 + b^2) / 2,  B = kappa d b + sin - b cos,  C = kappa d^2 / 2 - d cos.
-bool solve_facet(const RayWater& water, const Facet& facet, const ArcPoint& s, bool on_it, double until,
+bool solve_facet(double curvature, const Facet& facet, const ArcPoint& s, bool on_it, double until,
                  double& dr) {
   const double st = s.sine, ct = s.xi * s.c, b = facet.slope;
-  const double curvature = -s.xi * water.gradients_per_s()[s.layer];  // d angle / d length
-  double d = facet.z0 + b * (s.r - facet.r0) - s.z;                   // how far the line is below the ray
+  double d = facet.z0 + b * (s.r - facet.r0) - s.z;  // how far the line is below the ray
   double x;
   if (on_it) {
     const double a2 = curvature * (1 + b * b) / 2, b2 = st - ct * b;
@@ -66,11 +63,11 @@ bool solve_facet(const RayWater& water, const Facet& facet, const ArcPoint& s, b
 
 }  // namespace
 
-bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoint& s, const ArcStep& step,
+bool find_hit(double curvature, const BottomProfile& profile, const ArcPoint& s, const ArcStep& step,
               double until, ArcHit& hit) {
   const std::vector<Facet>& facets = profile.facets();
   const std::vector<double>& blocks = profile.block_shallowest_m();
-  const double end = s.r + until, slope = deepest_slope(water, s, step), bow = bow_of(water, s, step);
+  const double end = s.r + until, slope = deepest_slope(curvature, s, step), bow = bow_of(curvature, step);
   // The deepest that the arc can be after `way`; a line or curving down, so deepest at an end of any interval.
   const auto deepest = [&](double way) { return s.z + way * (slope - bow * (step.dr - way)) + kMargin; };
   const auto below = [&](double shallowest, double r0, double r1) {  // the arc cannot reach down there
@@ -99,7 +96,7 @@ bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoin
     }
     for (; i < next && facets[i].r0 <= end; ++i) {
       if (misses(facets[i])) continue;
-      if (solve_facet(water, facets[i], s, s.on_facet && i == s.facet, until, hit.dr)) {
+      if (solve_facet(curvature, facets[i], s, s.on_facet && i == s.facet, until, hit.dr)) {
         hit.facet = i;
         return true;
       }

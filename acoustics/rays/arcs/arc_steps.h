@@ -57,8 +57,13 @@ inline ArcStep next_step(const RayWater& water, const ArcPoint& s) {
   return {2 * steep * s.per_xi / std::abs(g), s.z, -s.sine, true, down};
 }
 
-// Whether the bottom is met within `until` m of range, before `step` ends; where, if so.
-[[nodiscard]] bool find_hit(const RayWater& water, const BottomProfile& profile, const ArcPoint& at,
+// The change of a ray's angle along its way within its layer, rad/m: an arc of a circle has the same throughout.
+inline double curvature_of(const RayWater& water, const ArcPoint& at) {
+  return -at.xi * water.gradients_per_s()[at.layer];
+}
+
+// Whether the bottom is met within `until` m of range, before `step` along an arc of that curvature ends; where, if so.
+[[nodiscard]] bool find_hit(double curvature, const BottomProfile& profile, const ArcPoint& at,
                             const ArcStep& step, double until, ArcHit& hit);
 
 // What a ray does at a facet. The direction that reflects is the facet's own or, where it is bent and that throws no

@@ -1,4 +1,4 @@
-#include "acoustics/rays/ray_column.h"
+#include "acoustics/rays/arcs/ray_column.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,273 @@
+#include "ocean/ocean_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/check.h"
+#include "core/elementary.h"
+#include "core/hash.h"
+#include "core/units.h"
+
+namespace halocline::ocean {
+namespace {
+
+constexpr double kEquatorialRadius = 6'378'137;         // m, WGS 84
+constexpr double kEccentricity2 = 6.69437999014e-3;     // its square
+constexpr double kDeepest = 12'000;                     // m
+constexpr double kNearestPole = to_radians(89);         // of the origin
+constexpr double kOutsideRad = to_radians(1.0 / 3600);  // of the grid: what rounding of axes may take
+
+void require_rising(const std::vector<double>& axis, double lowest, double highest, std::string_view what,
+                    std::string_view unit, double unit_size = 1) {
+  require(!axis.empty(), "the axis of " + std::string(what) + " is empty");
+  for (std::size_t i = 0; i < axis.size(); ++i) {
+    require_in_range(axis[i] / unit_size, lowest, highest, what, unit);
+    require(i == 0 || axis[i] > axis[i - 1], "the axis of " + std::string(what) + " does not rise");
+  }
+}
+
+// One variable on its grid.
+struct Layers {
+  std::span<float> values;
+  std::size_t depths, rows, columns;
+  std::size_t horizontal() const { return rows * columns; }
+};
+
+// Above and below the values of each column; those that have none at all are named in the result.
+std::vector<bool> fill_columns(const Layers& layers) {
+  std::vector<bool> is_empty(layers.horizontal(), false);
+  const auto value = [&](std::size_t depth, std::size_t column) -> float& {
+    return layers.values[depth * layers.horizontal() + column];
+  };
+  for (std::size_t column = 0; column < layers.horizontal(); ++column) {
+    std::size_t first = 0;
+    while (first < layers.depths && std::isnan(value(first, column))) ++first;
+    is_empty[column] = first == layers.depths;
+    if (is_empty[column]) continue;
+    for (std::size_t depth = 0; depth < first; ++depth) value(depth, column) = value(first, column);
+    for (std::size_t depth = first + 1; depth < layers.depths; ++depth) {
+      if (std::isnan(value(depth, column))) value(depth, column) = value(depth - 1, column);
+    }
+  }
+  return is_empty;
+}
+
+// Columns without values take those of the nearest one, by steps along rows and columns; of several, of the first found
+// going out from all in the order of the file.
+void fill_land(const Layers& layers, std::vector<bool> is_empty) {
+  std::deque<std::size_t> front;
+  for (std::size_t column = 0; column < is_empty.size(); ++column) {
+    if (!is_empty[column]) front.push_back(column);
+  }
+  const auto spread = [&](std::size_t from, std::size_t to) {
+    if (!is_empty[to]) return;
+    is_empty[to] = false;
+    for (std::size_t depth = 0; depth < layers.depths; ++depth)
+      layers.values[depth * layers.horizontal() + to] = layers.values[depth * layers.horizontal() + from];
+    front.push_back(to);
+  };
+  while (!front.empty()) {
+    const std::size_t at = front.front(), column = at % layers.columns;
+    front.pop_front();
+    if (column > 0) spread(at, at - 1);
+    if (column + 1 < layers.columns) spread(at, at + 1);
+    if (at >= layers.columns) spread(at, at - layers.columns);
+    if (at + layers.columns < layers.horizontal()) spread(at, at + layers.columns);
+  }
+}
+
+void fill(std::vector<float>& values, const OceanGrid& grid, std::string_view what) {
+  const std::size_t of_time = grid.depths_m.size() * grid.columns();
+  for (std::size_t time = 0; time < grid.times_s.size(); ++time) {
+    const Layers layers{std::span(values).subspan(time * of_time, of_time), grid.depths_m.size(),
+                        grid.latitudes_rad.size(), grid.longitudes_rad.size()};
+    std::vector<bool> is_empty = fill_columns(layers);
+    const bool has_some = std::find(is_empty.begin(), is_empty.end(), false) != is_empty.end();
+    require(has_some, std::string(what) + " has no value at time " + std::to_string(time) + " (from 0)");
+    fill_land(layers, std::move(is_empty));
+  }
+}
+
+void check(const std::vector<float>& values, const OceanGrid& grid, double lowest, double highest,
+           std::string_view what, std::string_view unit) {
+  if (values.empty()) return;
+  require(values.size() == grid.levels() * grid.columns(),
+          std::string(what) + " has another number of values than its grid has points");
+  for (const float value : values) {
+    if (!std::isnan(value)) require_in_range(value, lowest, highest, what, unit);
+  }
+}
+
+std::uint64_t hash_of(const OceanGrid& grid, const OceanValues& values) {
+  std::uint64_t hash = 0;
+  const auto add = [&hash](const auto& numbers) {
+    const auto bytes = std::as_bytes(std::span(numbers));
+    hash = xxh3(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()), hash);
+  };
+  for (const auto* axis : {&grid.times_s, &grid.depths_m, &grid.latitudes_rad, &grid.longitudes_rad})
+    add(*axis);
+  for (const auto* of : {&values.east_mps, &values.north_mps, &values.temperature_degc, &values.salinity_psu})
+    add(*of);
+  return hash;
+}
+
+std::string_view name_of(bool is_latitude) { return is_latitude ? "latitude" : "longitude"; }
+
+void require_within(const std::vector<double>& axis, double value, bool is_latitude) {
+  if (value >= axis.front() - kOutsideRad && value <= axis.back() + kOutsideRad) return;
+  require_in_range(to_degrees(value), to_degrees(axis.front()), to_degrees(axis.back()),
+                   std::string(name_of(is_latitude)) + " of the scenario's origin", "deg");
+}
+
+}  // namespace
+
+OceanField::OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin& origin)
+    : grid_(std::move(grid)), values_(std::move(values)), origin_(origin) {
+  require_rising(grid_.times_s, -1e12, 1e12, "time", "s");
+  require_rising(grid_.depths_m, 0, kDeepest, "depth", "m");
+  require_rising(grid_.latitudes_rad, -90, 90, "latitude", "deg", to_radians(1));
+  require_rising(grid_.longitudes_rad, -720, 720, "longitude", "deg", to_radians(1));
+  require(grid_.longitudes_rad.back() - grid_.longitudes_rad.front() < 2 * std::numbers::pi,
+          "longitudes go round the earth; allowed is less than a turn");
+  require(values_.east_mps.empty() == values_.north_mps.empty() &&
+              values_.temperature_degc.empty() == values_.salinity_psu.empty(),
+          "allowed are both components of the current or none, temperature with salinity or neither");
+  require_in_range(to_degrees(origin_.latitude_rad), -to_degrees(kNearestPole), to_degrees(kNearestPole),
+                   "latitude of the scenario's origin", "deg");
+  // The origin's longitude, in the turn of the grid.
+  const double middle = (grid_.longitudes_rad.front() + grid_.longitudes_rad.back()) / 2;
+  origin_.longitude_rad = middle + std::remainder(origin_.longitude_rad - middle, 2 * std::numbers::pi);
+  require_within(grid_.latitudes_rad, origin_.latitude_rad, true);
+  require_within(grid_.longitudes_rad, origin_.longitude_rad, false);
+  check(values_.east_mps, grid_, -10, 10, "eastward current", "m/s");
+  check(values_.north_mps, grid_, -10, 10, "northward current", "m/s");
+  check(values_.temperature_degc, grid_, -5, 45, "temperature", "degC");
+  check(values_.salinity_psu, grid_, 0, 50, "salinity", "psu");
+  if (has_current()) {
+    fill(values_.east_mps, grid_, "eastward current");
+    fill(values_.north_mps, grid_, "northward current");
+  }
+  if (has_water()) {
+    fill(values_.temperature_degc, grid_, "temperature");
+    fill(values_.salinity_psu, grid_, "salinity");
+  }
+  // Radii of curvature of the ellipsoid: M = a (1 - e2) / (1 - e2 sin^2)^(3/2), N = a / (1 - e2 sin^2)^(1/2).
+  const double sine = elementary::sin(origin_.latitude_rad), w2 = 1 - kEccentricity2 * sine * sine;
+  transverse_radius_m_ = kEquatorialRadius / std::sqrt(w2);
+  meridional_radius_m_ = transverse_radius_m_ * (1 - kEccentricity2) / w2;
+  hash_ = hash_of(grid_, values_);
+}
+
+OceanField::Bracket OceanField::bracket(const std::vector<double>& axis, double value) {
+  if (axis.size() == 1 || value <= axis.front()) return {0, 0, 0};
+  if (value >= axis.back()) return {axis.size() - 1, axis.size() - 1, 0};
+  const auto above = std::upper_bound(axis.begin(), axis.end(), value);
+  const auto high = static_cast<std::size_t>(above - axis.begin());
+  return {high - 1, high, (value - axis[high - 1]) / (axis[high] - axis[high - 1])};
+}
+
+// The transverse Mercator projection's inverse to second order in the distance over the earth's radius (Snyder 1987, page
+// 63): with phi1 the latitude of the foot of the place on the origin's meridian,
+//   phi = phi1 - y^2 tan(phi1) / (2 M N),  lambda = lambda0 + y / (N cos(phi1)).
+OceanField::GeodeticPlace OceanField::geodetic(double north_m, double east_m) const {
+  const double foot = origin_.latitude_rad + north_m / meridional_radius_m_;
+  const auto [sine, cosine] = elementary::sin_cos(foot);
+  const double across = east_m / transverse_radius_m_;
+  return {foot - across * east_m / (2 * meridional_radius_m_) * sine / cosine,
+          origin_.longitude_rad + across / cosine};
+}
+
+bool OceanField::covers(double north_m, double east_m) const {
+  const GeodeticPlace place = geodetic(north_m, east_m);
+  const auto within = [](const std::vector<double>& axis, double value) {
+    return value >= axis.front() - kOutsideRad && value <= axis.back() + kOutsideRad;
+  };
+  return within(grid_.latitudes_rad, place.latitude_rad) && within(grid_.longitudes_rad, place.longitude_rad);
+}
+
+OceanField::Corners OceanField::corners(const GeodeticPlace& place) const {
+  const Bracket row = bracket(grid_.latitudes_rad, place.latitude_rad),
+                column = bracket(grid_.longitudes_rad, place.longitude_rad);
+  const std::size_t columns = grid_.longitudes_rad.size();
+  return {{row.low * columns + column.low, row.low * columns + column.high, row.high * columns + column.low,
+           row.high * columns + column.high},
+          {(1 - row.share) * (1 - column.share), (1 - row.share) * column.share,
+           row.share * (1 - column.share), row.share * column.share}};
+}
+
+double OceanField::at_level(const std::vector<float>& values, const Corners& corners, const Bracket& time,
+                            std::size_t depth) const {
+  const auto bilinear = [&](std::size_t instant) {
+    const float* level = values.data() + (instant * grid_.depths_m.size() + depth) * grid_.columns();
+    double sum = 0;
+    for (int i = 0; i < 4; ++i) sum += corners.weight[i] * level[corners.at[i]];
+    return sum;
+  };
+  const double before = bilinear(time.low);
+  return time.share > 0 ? before + time.share * (bilinear(time.high) - before) : before;
+}
+
+double OceanField::at(const std::vector<float>& values, const Corners& corners, const Bracket& time,
+                      const Bracket& depth) const {
+  const double above = at_level(values, corners, time, depth.low);
+  return depth.share > 0 ? above + depth.share * (at_level(values, corners, time, depth.high) - above)
+                         : above;
+}
+
+// True north lies (lambda - lambda0) sin(phi) to the west of grid north.
+Vec3 OceanField::current_ned_mps(const Vec3& place, double time_s) const {
+  const GeodeticPlace there = geodetic(place.x(), place.y());
+  const Corners about = corners(there);
+  const Bracket time = bracket(grid_.times_s, time_s), depth = bracket(grid_.depths_m, place.z());
+  const double east = at(values_.east_mps, about, time, depth),
+               north = at(values_.north_mps, about, time, depth);
+  const auto [sine, cosine] = elementary::sin_cos((there.longitude_rad - origin_.longitude_rad) *
+                                                  elementary::sin(there.latitude_rad));
+  return {cosine * north + sine * east, cosine * east - sine * north, 0};
+}
+
+WaterAtDepth OceanField::water_at(const Vec3& place, double time_s) const {
+  const Corners about = corners(geodetic(place.x(), place.y()));
+  const Bracket time = bracket(grid_.times_s, time_s), depth = bracket(grid_.depths_m, place.z());
+  return {place.z(), at(values_.temperature_degc, about, time, depth),
+          at(values_.salinity_psu, about, time, depth)};
+}
+
+std::vector<WaterAtDepth> OceanField::column_at(double north_m, double east_m, double time_s) const {
+  const Corners about = corners(geodetic(north_m, east_m));
+  const Bracket time = bracket(grid_.times_s, time_s);
+  std::vector<WaterAtDepth> column;
+  column.reserve(grid_.depths_m.size());
+  for (std::size_t depth = 0; depth < grid_.depths_m.size(); ++depth) {
+    column.push_back({grid_.depths_m[depth], at_level(values_.temperature_degc, about, time, depth),
+                      at_level(values_.salinity_psu, about, time, depth)});
+  }
+  return column;
+}
+
+// Along the way latitude and longitude change all but evenly; a crossing is found by where their chord has it, 100 m off at
+// most over 100 km.
+std::vector<double> OceanField::crossings(const Vec3& from, const Vec3& to) const {
+  std::vector<double> shares;
+  const auto cross = [&shares](const std::vector<double>& axis, double a, double b) {
+    if (a == b) return;
+    for (const double line : axis) {
+      const double share = (line - a) / (b - a);
+      if (share > 0 && share < 1) shares.push_back(share);
+    }
+  };
+  const GeodeticPlace a = geodetic(from.x(), from.y()), b = geodetic(to.x(), to.y());
+  cross(grid_.latitudes_rad, a.latitude_rad, b.latitude_rad);
+  cross(grid_.longitudes_rad, a.longitude_rad, b.longitude_rad);
+  cross(grid_.depths_m, from.z(), to.z());
+  std::sort(shares.begin(), shares.end());
+  return shares;
+}
+
+}  // namespace halocline::ocean

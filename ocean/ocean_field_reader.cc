@@ -1,0 +1,28 @@
+#include "ocean/ocean_field_reader.h"
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+
+#include "core/shared_module.h"
+
+namespace halocline::ocean {
+
+std::shared_ptr<const OceanField> read_ocean_field(const FieldQuery& query) {
+  static const auto read = reinterpret_cast<OceanFieldReader*>(
+      module_symbol("halocline_ocean_fields.so", "halocline_read_ocean_field"));
+  using Key = std::tuple<std::string, std::string, double, double>;
+  static std::mutex mutex;
+  static std::map<Key, std::weak_ptr<const OceanField>> kept;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const OceanField>& known =
+      kept[{query.path, query.start_date, query.origin.latitude_rad, query.origin.longitude_rad}];
+  std::shared_ptr<const OceanField> field = known.lock();
+  if (field) return field;
+  field.reset(read(query));
+  known = field;
+  return field;
+}
+
+}  // namespace halocline::ocean

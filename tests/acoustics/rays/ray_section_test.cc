@@ -1,0 +1,337 @@
+// Water that changes along the link: closed forms, the layered search, and rays integrated by Runge and Kutta.
+#include "acoustics/sea/ray_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
+#include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/boundary_reflection.h"
+#include "acoustics/sea/ray_water.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "core/check.h"
+#include "core/units.h"
+#include "tests/acoustics/rays/runge_kutta_ray.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using testing::tolerance;
+
+const FluidBottom kSand = fluid_bottom(1.9, 1650, 0.8);
+
+double sand_magnitude(double sine, double speed_mps) {
+  return bottom_magnitude_at_sine(kSand, sine, speed_mps);
+}
+
+double little_absorption(double depth_m) { return 3 + depth_m / 100; }  // dB/km
+
+// Nodes of a section, by which tests know it beside the section itself.
+struct Nodes {
+  std::vector<double> ranges, depths;
+  std::vector<std::vector<double>> speeds;  // of each column
+};
+
+template <class Speed>
+Nodes nodes_of(double range_m, int strips, const std::vector<double>& depths, const Speed& speed) {
+  Nodes nodes{{}, depths, {}};
+  for (int i = 0; i <= strips; ++i) {
+    nodes.ranges.push_back(range_m * i / strips);
+    nodes.speeds.emplace_back();
+    for (const double depth : depths) nodes.speeds.back().push_back(speed(nodes.ranges.back(), depth));
+  }
+  return nodes;
+}
+
+std::shared_ptr<const RaySection> section_of(const Nodes& nodes) {
+  std::vector<RayWater> columns;
+  for (const std::vector<double>& column : nodes.speeds) {
+    std::vector<SpeedRow> rows;
+    for (std::size_t j = 0; j < nodes.depths.size(); ++j) rows.push_back({nodes.depths[j], column[j]});
+    columns.emplace_back(rows, little_absorption);
+  }
+  return std::make_shared<const RaySection>(nodes.ranges, std::move(columns));
+}
+
+RaySea sea_of(std::shared_ptr<const RaySection> section, BottomProfile bottom) {
+  RaySea sea{section->columns().front(), std::move(bottom), kSand, {}, {}};
+  sea.options.max_bounces = 20;
+  sea.section = std::move(section);
+  return sea;
+}
+
+std::vector<double> even_depths(double step, double deepest) {
+  std::vector<double> depths;
+  for (double z = 0; z <= deepest; z += step) depths.push_back(z);
+  return depths;
+}
+
+std::optional<Arrival> direct_of(const Arrivals& found) {
+  for (const Arrival& path : found.paths)
+    if (path.surface_bounces + path.bottom_bounces == 0) return path;
+  return std::nullopt;
+}
+
+// c = c0 + g . x everywhere: t = acosh(1 + g^2 d^2 / (2 c1 c2)) / g (Jensen and others 2011, section 3.3, turned by an angle).
+TEST(RaySection, AGradientInAnyDirectionHasItsClosedForm) {
+  std::mt19937 draw(7);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int k = 0; k < 60; ++k) {
+    const double a = 0.01 * (2 * share(draw) - 1), b = 0.1 * (2 * share(draw) - 1),
+                 range = 500 + 4000 * share(draw);
+    const auto speed = [&](double r, double z) { return 1500 + a * (r - 2000) + b * (z - 500); };
+    const auto section = section_of(nodes_of(range, 1 + k % 9, even_depths(40, 1000), speed));
+    const RayLink link{300 + 400 * share(draw), 300 + 400 * share(draw), range};
+    const auto direct = direct_of(arrivals(sea_of(section, BottomProfile::flat(1000)), link));
+    ASSERT_TRUE(direct);
+    const double c1 = speed(0, link.source_depth_m), c2 = speed(range, link.receiver_depth_m),
+                 g = std::hypot(a, b);
+    const double d2 = range * range + std::pow(link.receiver_depth_m - link.source_depth_m, 2);
+    const double x = g * std::sqrt(d2) / (2 * std::sqrt(c1 * c2));
+    EXPECT_NEAR(direct->delay_s, 2 / g * std::asinh(x), tolerance(2e-9));
+    // The length of the arc of the circle that both ends and the line c = 0 give.
+    const double chord_angle = std::atan2(link.receiver_depth_m - link.source_depth_m, range);
+    const double turned = direct->arrival_angle_rad - direct->launch_angle_rad;
+    EXPECT_NEAR((direct->arrival_angle_rad + direct->launch_angle_rad) / 2, chord_angle, tolerance(1e-8));
+    EXPECT_NEAR(direct->path_length_m, std::sqrt(d2) * turned / 2 / std::sin(turned / 2), tolerance(1e-5));
+  }
+}
+
+void expect_same(const Arrivals& found, const Arrivals& expected, double delay_s, double decibels) {
+  ASSERT_EQ(found.paths.size(), expected.paths.size());
+  for (std::size_t i = 0; i < found.paths.size(); ++i) {
+    const Arrival &a = found.paths[i], &b = expected.paths[i];
+    EXPECT_NEAR(a.delay_s, b.delay_s, delay_s);
+    EXPECT_NEAR(20 * std::log10(a.amplitude / b.amplitude), 0, decibels);
+    EXPECT_NEAR(a.absorption_db, b.absorption_db, 10 * decibels);  // the means of layers are to first order
+    EXPECT_NEAR(std::remainder(a.phase_rad - b.phase_rad, 2 * std::numbers::pi), 0, 1e-4);
+    EXPECT_NEAR(a.launch_angle_rad, b.launch_angle_rad, 1e-6);
+    EXPECT_NEAR(a.arrival_angle_rad, b.arrival_angle_rad, 1e-6);
+    EXPECT_EQ(a.identity, b.identity);
+    EXPECT_EQ(a.caustics, b.caustics);
+  }
+}
+
+// In water that is the same along the link a section is the layered search: with columns alike, and with columns that differ
+// by a nanometre a second, so that rays cross triangles.
+TEST(RaySection, IsTheLayeredSearchWhereTheWaterIsTheSame) {
+  const std::vector<double> depths{0, 15, 30, 45, 60, 90, 130, 200};
+  const std::vector<double> speeds{1512, 1511, 1505, 1496, 1492, 1490, 1491, 1492.5};
+  std::mt19937 draw(3);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int k = 0; k < 24; ++k) {
+    const double range = 400 + 4000 * share(draw), nearly = k % 2 == 0 ? 0 : 1e-9;
+    Nodes nodes = nodes_of(range, 1 + k % 5, depths, [&](double r, double z) {
+      const auto j = std::find(depths.begin(), depths.end(), z) - depths.begin();
+      return speeds[static_cast<std::size_t>(j)] + nearly * std::sin(r + 7 * z);
+    });
+    const RayLink link{5 + 120 * share(draw), 5 + 120 * share(draw), range};
+    const BottomProfile bottom = k % 3 == 0
+                                     ? BottomProfile::flat(160)
+                                     : BottomProfile({{-100, 150}, {range / 2, 160}, {range + 100, 140}});
+    RaySea sea = sea_of(section_of(nodes), bottom);
+    sea.options.diffuse_below_db = 0;
+    const Arrivals found = arrivals(sea, link);
+    EXPECT_EQ(found.solver, RaySolver::kArcs);
+    sea.section = nullptr;
+    expect_same(found, arrivals(sea, link, RaySolver::kArcs), tolerance(1e-9), tolerance(1e-4));
+  }
+}
+
+// Two triangles a rectangle, as the header of the section has them.
+PiecewiseWater pieces_of(const Nodes& nodes) {
+  const int layers = static_cast<int>(nodes.depths.size()) - 1;
+  const auto place = [](const std::vector<double>& axis, double x) {
+    const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, x);
+    return static_cast<int>(above - axis.begin()) - 1;
+  };
+  PiecewiseWater water;
+  water.piece = [=](double r, double z) {
+    const int i = place(nodes.ranges, r), j = place(nodes.depths, z);
+    const double x = (r - nodes.ranges[i]) / (nodes.ranges[i + 1] - nodes.ranges[i]);
+    const double y = (z - nodes.depths[j]) / (nodes.depths[j + 1] - nodes.depths[j]);
+    const bool falls = (i + j) % 2 == 0;
+    return 2 * (i * layers + j) + (y > (falls ? x : 1 - x) ? 1 : 0);
+  };
+  water.speed = [=](int piece, double r, double z) -> SpeedThere {
+    const bool lower = piece % 2 == 1;
+    const int i = piece / 2 / layers, j = piece / 2 % layers;
+    const bool falls = (i + j) % 2 == 0;
+    // Three corners: one column has both knots, the other that of the half.
+    const int both = lower == falls ? i : i + 1, other = lower == falls ? i + 1 : i, knot = lower ? j + 1 : j;
+    const double down =
+        (nodes.speeds[both][j + 1] - nodes.speeds[both][j]) / (nodes.depths[j + 1] - nodes.depths[j]);
+    const double along =
+        (nodes.speeds[other][knot] - nodes.speeds[both][knot]) / (nodes.ranges[other] - nodes.ranges[both]);
+    return {nodes.speeds[both][knot] + along * (r - nodes.ranges[both]) + down * (z - nodes.depths[knot]),
+            along, down};
+  };
+  return water;
+}
+
+// The ray of a path as Runge and Kutta find it: launched so that it comes to the receiver's depth, after as many bounces.
+std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
+  double angle = path.launch_angle_rad;
+  for (int i = 0; i < 12; ++i) {
+    constexpr double kStep = 1e-6;
+    const RungeKuttaRay ray = tracer.trace(link.source_depth_m, link.range_m, angle),
+                        beside = tracer.trace(link.source_depth_m, link.range_m, angle + kStep);
+    if (!ray.arrived || !beside.arrived) return std::nullopt;
+    const double off = ray.z - link.receiver_depth_m;
+    if (std::abs(off) < 1e-7) return angle;
+    angle -= off * kStep / (beside.z - ray.z);
+  }
+  return std::nullopt;
+}
+
+struct Compared {
+  double delay_s = 0, decibels = 0;
+  bool caustics_alike = true;
+};
+
+// Caustics are where two neighbouring rays cross.
+int caustics_between(const RungeKuttaRay& a, const RungeKuttaRay& b) {
+  int caustics = 0;
+  double before = 0;
+  for (std::size_t i = 0; i < std::min(a.depths.size(), b.depths.size()); ++i) {
+    if (a.bounces_then[i] != b.bounces_then[i]) continue;
+    const double apart = (b.depths[i] - a.depths[i]) * (a.bounces_then[i] % 2 == 0 ? 1 : -1);
+    if (before * apart < 0) ++caustics;
+    before = apart;
+  }
+  return caustics;
+}
+
+std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
+  constexpr double kApart = 2e-6, kStation = 40;
+  const auto angle = launch_of(tracer, link, path);
+  if (!angle) return std::nullopt;
+  const auto traced = [&](double at) {
+    return tracer.trace(link.source_depth_m, link.range_m, at, kStation);
+  };
+  const RungeKuttaRay ray = traced(*angle), low = traced(*angle - kApart / 2),
+                      high = traced(*angle + kApart / 2);
+  if (ray.surface != path.surface_bounces || ray.bottom != path.bottom_bounces) return std::nullopt;
+  const double tube = std::abs(high.z - low.z) / kApart * std::cos(ray.angle);
+  const RungeKuttaRay start = tracer.trace(link.source_depth_m, 1e-3, *angle);
+  const double amplitude =
+      ray.bottom_magnitude * std::sqrt(ray.c * std::cos(*angle) / (start.c * link.range_m * tube));
+  return Compared{std::abs(path.delay_s - ray.tau), std::abs(20 * std::log10(path.amplitude / amplitude)),
+                  caustics_between(low, high) == path.caustics};
+}
+
+// Through a front, over a bottom that slopes: all paths within 30 dB of the strongest. Of rays that all but graze a boundary
+// some do not come to the receiver when they are launched a nanoradian off; they are not compared.
+TEST(RaySection, RandomLinksThroughAFrontAgreeWithRungeKutta) {
+  std::mt19937 draw(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  std::size_t compared = 0, not_compared = 0;
+  for (int k = 0; k < 100; ++k) {
+    const double range = 1000 + 5000 * share(draw), front = range * share(draw),
+                 width = 300 + 700 * share(draw);
+    const Nodes nodes = nodes_of(range, static_cast<int>(std::ceil(range / 200)), even_depths(20, 300),
+                                 [&](double r, double z) { return front_speed(front, width, r, z).c; });
+    const StraightBottom bottom{140 + 80 * share(draw), 0.02 * (share(draw) - 0.5)};
+    RaySea sea = sea_of(section_of(nodes),
+                        BottomProfile({{-1000, bottom.at(-1000)}, {range + 1000, bottom.at(range + 1000)}}));
+    sea.options.airy_folds = false;  // rays as they are
+    sea.options.diffuse_below_db = 0;
+    const RayLink link{5 + 90 * share(draw), 5 + 90 * share(draw), range};
+    const RungeKuttaTracer tracer(pieces_of(nodes), bottom, sand_magnitude, 20);
+    const Arrivals found = arrivals(sea, link);
+    double strongest = 0;
+    for (const Arrival& path : found.paths) strongest = std::max(strongest, path.amplitude);
+    for (const Arrival& path : found.paths) {
+      if (path.amplitude < 0.03 * strongest) continue;
+      const auto one = compare(tracer, link, path);
+      if (!one) {
+        ++not_compared;
+        continue;
+      }
+      ++compared;
+      EXPECT_LT(one->delay_s, tolerance(1e-9));
+      EXPECT_LT(one->decibels, tolerance(0.01));
+      EXPECT_TRUE(one->caustics_alike);
+    }
+  }
+  EXPECT_GT(compared, 1000U);
+  EXPECT_LT(not_compared, compared / 200);
+}
+
+// The triangles of a smooth front: delays of direct paths against those in the front itself. Half the size leaves a quarter of
+// the error. Jumps of the gradient may split a path in three; the one launched nearest to the front's counts.
+TEST(RaySection, TrianglesConvergeToTheFrontWithTheSquareOfTheirSize) {
+  constexpr double kRange = 3000, kFront = 1500, kWidth = 600;
+  const PiecewiseWater smooth{[](double, double) { return 0; },
+                              [](int, double r, double z) { return front_speed(kFront, kWidth, r, z); }};
+  const RungeKuttaTracer tracer(smooth, {400, 0}, sand_magnitude, 5);
+  std::vector<double> errors;
+  for (const int finer : {1, 2, 4}) {
+    const auto section =
+        section_of(nodes_of(kRange, 15 * finer, even_depths(20.0 / finer, 400),
+                            [](double r, double z) { return front_speed(kFront, kWidth, r, z).c; }));
+    std::vector<double> of_links;
+    for (int k = 0; k < 9; ++k) {
+      const RayLink link{150.0 + 10 * k, 230.0 - 5 * k, kRange};
+      double nearest = 1, error = 1;
+      for (const Arrival& path : arrivals(sea_of(section, BottomProfile::flat(400)), link).paths) {
+        if (path.surface_bounces + path.bottom_bounces > 0) continue;
+        const auto angle = launch_of(tracer, link, path);
+        if (!angle || std::abs(*angle - path.launch_angle_rad) > nearest) continue;
+        nearest = std::abs(*angle - path.launch_angle_rad);
+        error = std::abs(path.delay_s - tracer.trace(link.source_depth_m, kRange, *angle).tau);
+      }
+      of_links.push_back(error);
+    }
+    std::sort(of_links.begin(), of_links.end());
+    errors.push_back(of_links[4]);
+  }
+  EXPECT_LT(errors[2], tolerance(1e-6));
+  EXPECT_GT(errors[0] / errors[1], 3);
+  EXPECT_GT(errors[1] / errors[2], 3);
+}
+
+// The other way round the paths are the same backwards. With an even number of strips the mirrored section has the same
+// triangles.
+TEST(RaySection, PathsAreReciprocal) {
+  constexpr double kRange = 4000;
+  Nodes nodes = nodes_of(kRange, 20, even_depths(20, 300),
+                         [](double r, double z) { return front_speed(1800, 500, r, z).c; });
+  const BottomProfile bottom({{0, 180}, {kRange, 220}});
+  RaySea sea = sea_of(section_of(nodes), bottom);
+  sea.options.airy_folds = false;
+  const Arrivals there = arrivals(sea, {40, 70, kRange});
+  std::reverse(nodes.speeds.begin(), nodes.speeds.end());
+  sea = sea_of(section_of(nodes), bottom.reversed(kRange));
+  sea.options.airy_folds = false;
+  const Arrivals back = arrivals(sea, {70, 40, kRange});
+  ASSERT_GT(there.paths.size(), 4U);
+  ASSERT_EQ(there.paths.size(), back.paths.size());
+  for (std::size_t i = 0; i < there.paths.size(); ++i) {
+    EXPECT_NEAR(there.paths[i].delay_s, back.paths[i].delay_s, tolerance(1e-9));
+    EXPECT_NEAR(there.paths[i].launch_angle_rad, -back.paths[i].arrival_angle_rad, tolerance(1e-7));
+  }
+}
+
+TEST(RaySection, RefusesWhatItCannotBe) {
+  const RayWater one({{0, 1500}, {100, 1490}}, little_absorption),
+      other({{0, 1500}, {90, 1490}}, little_absorption);
+  EXPECT_THROW(RaySection({0, 100}, {one, other}), InvalidArgument);
+  EXPECT_THROW(RaySection({0, 0}, {one, one}), InvalidArgument);
+  EXPECT_THROW(RaySection({10}, {one}), InvalidArgument);
+  const RaySea sea = sea_of(std::make_shared<const RaySection>(std::vector<double>{0}, std::vector{one}),
+                            BottomProfile::flat(90));
+  EXPECT_THROW(arrivals(sea, {10, 20, 500}, RaySolver::kSnell), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace halocline::acoustics

@@ -1,0 +1,149 @@
+// Propagation through an ocean field: which water holds when, and what links make of it.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "acoustics/link/line_means.h"
+#include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "channel_server/propagation/environment_timeline.h"
+#include "channel_server/propagation/path_search.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/ray_propagation.h"
+#include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
+#include "channel_server/propagation/straight_propagation.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "core/frames.h"
+#include "core/sim_time.h"
+#include "ocean/ocean_field.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::channel_server {
+namespace {
+
+using testing::tolerance;
+
+constexpr double kMetresPerRadian = 6'371'000;
+
+// Columns 1 km apart about the origin on the equator, at 0 and 3600 s; warmer with time and towards the north.
+acoustics::Environment warming_sea(double per_hour, double per_km) {
+  ocean::OceanGrid grid{{0, 3600}, {0, 30, 60, 200}, {}, {}};
+  for (int i = -4; i <= 4; ++i) {
+    grid.latitudes_rad.push_back(1000.0 * i / kMetresPerRadian);
+    grid.longitudes_rad.push_back(1000.0 * i / kMetresPerRadian);
+  }
+  ocean::OceanValues values;
+  for (const double time : grid.times_s) {
+    for (const double depth : grid.depths_m) {
+      for (const double north : grid.latitudes_rad) {
+        for (std::size_t east = 0; east < grid.longitudes_rad.size(); ++east) {
+          const double warmer = per_hour * time / 3600 + per_km * north * kMetresPerRadian / 1000;
+          values.temperature_degc.push_back(
+              static_cast<float>(16 - depth / 40 + warmer * std::exp(-depth / 60)));
+          values.salinity_psu.push_back(35);
+        }
+      }
+    }
+  }
+  acoustics::Environment sea;
+  sea.field = {std::make_shared<const ocean::OceanField>(grid, values, ocean::GeodeticOrigin{0, 0}), 300,
+               600};
+  sea.profile = environment_at(sea, 0, 0).profile;
+  return sea;
+}
+
+LinkEnd end_at(VehicleId id, const Vec3& place, const acoustics::Modem& modem) {
+  return {id, place, Vec3::Zero(), &modem};
+}
+
+TEST(WaterOfAField, HoldsForASpanAsItIsInItsMiddle) {
+  const acoustics::Environment sea = warming_sea(2, 0);
+  const EnvironmentTimeline waters(sea);
+  const auto at = [](double seconds) { return SimTime::from_seconds(seconds); };
+  EXPECT_EQ(waters.water_at(at(600)), waters.water_at(at(1199.9)));
+  EXPECT_NE(waters.water_at(at(599.9)), waters.water_at(at(600)));
+  const Vec3 place{100, 200, 20};
+  EXPECT_EQ(sound_speed_at(waters.at(at(600)), place), sound_speed_at(waters.at(at(1100)), place));
+  EXPECT_EQ(waters.at(at(1000)).field.time_s, 900);
+  acoustics::Environment then = sea;
+  then.field.time_s = 900;
+  EXPECT_EQ(sound_speed_at(waters.at(at(1000)), place), sound_speed_at(then, place));
+  EXPECT_NEAR(waters.at(at(1000)).profile.sound_speed_mps(20), sound_speed_at(then, {0, 0, 20}),
+              tolerance(1e-9));
+}
+
+TEST(WaterOfAField, EndsWithAProfileThatIsAnnounced) {
+  EnvironmentTimeline waters(warming_sea(2, 1));
+  EnvironmentChange change;
+  change.profile = acoustics::SoundSpeedProfile::isovelocity(1500, {10, 35});
+  waters.schedule(SimTime::from_seconds(700), change);
+  EXPECT_TRUE(waters.at(SimTime::from_seconds(650)).field);
+  EXPECT_FALSE(waters.at(SimTime::from_seconds(700)).field);
+  EXPECT_EQ(sound_speed_at(waters.at(SimTime::from_seconds(700)), {0, 0, 50}), 1500);
+}
+
+TEST(StraightPathThroughAField, TakesDelayAndAbsorptionAlongTheLine) {
+  const acoustics::Environment sea = warming_sea(0, 0.8);
+  const acoustics::Modem modem;
+  const LinkEnd a = end_at(1, {-3000, 0, 20}, modem), b = end_at(2, {2500, 800, 50}, modem);
+  StraightPropagation straight(sea);
+  const Reception there = straight.reception(SimTime(), a, b), back = straight.reception(SimTime(), b, a);
+  const double range = (b.position_ned_m - a.position_ned_m).norm();
+  const acoustics::LineMeans means = means_along(straight.environment(SimTime()), a.position_ned_m,
+                                                 b.position_ned_m, modem.band().centre_hz());
+  EXPECT_NEAR(there.budget.delay_s, range * means.slowness_s_per_m, tolerance(1e-12));
+  EXPECT_EQ(there.paths.front().delay_s, there.budget.delay_s);
+  EXPECT_EQ(there.budget.delay_s, back.budget.delay_s);
+  // In the water of the origin alone the level differs by what the line absorbs more.
+  acoustics::Environment origin = environment_at(straight.environment(SimTime()), 0, 0);
+  const Reception layered = StraightPropagation(origin).reception(SimTime(), a, b);
+  EXPECT_GT(std::abs(there.budget.delay_s - layered.budget.delay_s), 1e-5);
+  const double more_db = (means.absorption_db_per_km - layered.budget.absorption_db_per_km) * range / 1000;
+  EXPECT_NEAR((layered.budget.received_level - there.budget.received_level).value, more_db, tolerance(1e-9));
+}
+
+// Reception along rays over a level bottom.
+Reception along_rays(const acoustics::Environment& sea, const LinkEnd& from, const LinkEnd& to) {
+  RayModel model;
+  model.speed_tolerance_mps = 0.02;
+  RayPropagation rays(std::make_shared<EnvironmentTimeline>(sea), std::make_shared<SeabedMap>(SeabedRule{}),
+                      model);
+  return rays.reception_over(SimTime(), from, to,
+                             std::make_shared<const SeabedProfile>(SeabedProfile::flat(120)));
+}
+
+TEST(RaysThroughAField, AreTheLayeredOnesWhereItIsTheSameEverywhere) {
+  const acoustics::Environment sea = warming_sea(0, 0);
+  const acoustics::Modem modem;
+  const LinkEnd a = end_at(1, {-2000, 0, 20}, modem), b = end_at(2, {1500, 800, 50}, modem);
+  const Reception field = along_rays(sea, a, b), layered = along_rays(environment_at(sea, -2000, 0), a, b);
+  ASSERT_GT(field.paths.size(), 5U);
+  ASSERT_EQ(field.paths.size(), layered.paths.size());
+  for (std::size_t i = 0; i < field.paths.size(); ++i) {
+    EXPECT_EQ(field.paths[i].delay_s, layered.paths[i].delay_s);
+    EXPECT_EQ(field.paths[i].level, layered.paths[i].level);
+  }
+}
+
+// The direct path goes about as fast as on the average of both sides.
+TEST(RaysThroughAField, GoFasterWhereItIsWarm) {
+  const acoustics::Environment sea = warming_sea(0, 0.3);
+  const acoustics::Modem modem;
+  const LinkEnd a = end_at(1, {0, 0, 40}, modem), b = end_at(2, {1000, 0, 40}, modem);
+  const Reception field = along_rays(sea, a, b), cold = along_rays(environment_at(sea, 0, 0), a, b),
+                  warm = along_rays(environment_at(sea, 1000, 0), a, b);
+  for (const Reception* one : {&field, &cold, &warm}) {
+    ASSERT_FALSE(one->paths.empty());
+    EXPECT_EQ(one->paths.front().surface_bounces + one->paths.front().bottom_bounces, 0);
+  }
+  const double apart = cold.paths.front().delay_s - warm.paths.front().delay_s;
+  EXPECT_GT(apart, 1e-4);
+  EXPECT_NEAR(cold.paths.front().delay_s - field.paths.front().delay_s, apart / 2, tolerance(0.1 * apart));
+}
+
+}  // namespace
+}  // namespace halocline::channel_server

@@ -1,0 +1,17 @@
+// The ocean's field of a scenario whose currents move vehicles.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bus/runtime/scenario.h"
+#include "ocean/ocean_field.h"
+
+namespace halocline::vehicle_sim {
+
+// Of a scenario whose file lies in `folder`; null where it has none, or none with currents, or they do not count. Throws
+// InvalidArgument where its file cannot be read (ocean/ocean_field_reader.h).
+std::shared_ptr<const ocean::OceanField> moving_ocean(const bus::Scenario& scenario,
+                                                      const std::string& folder);
+
+}  // namespace halocline::vehicle_sim
