@@ -48,11 +48,11 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
     inputs_.changes.push_back(m);
   });
   if (shard.is_alone()) return;
-  bus_.subscribe<ping_answer_t>(channels::kPingAnswer, [this](const ping_answer_t& m) {
-    if (inputs_.ping_answers.size() >= kMaxMessages) {
-      return bus_.refuse(channels::kPingAnswer, "too many messages at once");
+  bus_.subscribe<modem_reply_t>(channels::kModemReply, [this](const modem_reply_t& m) {
+    if (inputs_.modem_replies.size() >= kMaxMessages) {
+      return bus_.refuse(channels::kModemReply, "too many messages at once");
     }
-    inputs_.ping_answers.push_back(m);
+    inputs_.modem_replies.push_back(m);
   });
 }
 
@@ -67,7 +67,7 @@ SimTime Inbox::due() const {
   if (!queries_.empty() || !inputs_.changes.empty()) return SimTime::at_once();
   SimTime due = SimTime::never();
   for (const auto& [vehicle, send] : inputs_.sends) due = std::min(due, SimTime::from_utime(send.utime));
-  for (const ping_answer_t& answer : inputs_.ping_answers) {
+  for (const modem_reply_t& answer : inputs_.modem_replies) {
     due = std::min(due, SimTime::from_nanoseconds(answer.answer_start_ns));
   }
   return due;
@@ -80,7 +80,7 @@ void Inbox::forget_after(SimTime latest) {
   std::erase_if(inputs_.modems, is_later);
   std::erase_if(inputs_.sends, is_later);
   std::erase_if(inputs_.changes, [&](const environment_change_t& change) { return change.utime > utime; });
-  inputs_.ping_answers.clear();
+  inputs_.modem_replies.clear();
 }
 
 }  // namespace halocline::channel_server

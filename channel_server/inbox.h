@@ -21,12 +21,12 @@ struct StepInputs {
   ByVehicle<modem_config_t> modems;
   ByVehicle<modem_send_t> sends;
   std::vector<environment_change_t> changes;
-  std::vector<ping_answer_t> ping_answers;  // of other shards
+  std::vector<modem_reply_t> modem_replies;  // of other shards
 };
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards PING_ANSWER. The bus must
+  // Subscribes to STATE, MODEM, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards MODEM_REPLY. The bus must
   // outlive it.
   Inbox(bus::Bus& bus, const Shard& shard);
   Inbox(const Inbox&) = delete;

@@ -28,7 +28,7 @@ SimTime InputProcessor::apply(StepInputs inputs, SimTime now) {
   apply_modems(inputs.modems, now);
   const SimTime changed_from = apply_changes(inputs.changes, now);
   apply_sends(std::move(inputs.sends), now);
-  for (const ping_answer_t& message : inputs.ping_answers) medium_.add_answer(to_answer(message));
+  for (const modem_reply_t& message : inputs.modem_replies) medium_.add_answer(to_answer(message));
   return changed_from;
 }
 

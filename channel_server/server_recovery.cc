@@ -18,7 +18,7 @@ constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
 bool is_input(std::string_view channel) {
   const auto in = [&](const bus::Family& family) { return channel.starts_with(family.prefix); };
   return in(channels::kState) || in(channels::kModem) || in(channels::kSend) ||
-         channel == channels::kSetEnvironment || channel == channels::kPingAnswer;
+         channel == channels::kSetEnvironment || channel == channels::kModemReply;
 }
 
 }  // namespace

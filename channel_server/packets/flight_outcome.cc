@@ -28,11 +28,11 @@ bool is_for(const SendRequest& request, VehicleId receiver) {
   return request.destination_id == receiver || request.destination_id == kBroadcastId;
 }
 
-// Of a ping's answer: what its sender measures, less what both ends know of packets and turnaround.
+// Of an answer: what the one that asked measures, less what both ends know of packets and turnaround.
 double two_way_travel_time_s(const Flight& answer) {
-  const Packet& ping = *answer.packet->answers;
+  const Packet& asked = *answer.packet->answers;
   const SimDuration waited =
-      answer.packet->departure - ping.departure - ping.timing.duration - kPingTurnaround;
+      answer.packet->departure - asked.departure - asked.timing.duration - kReplyTurnaround;
   return waited.seconds() + answer.travel_time_s;
 }
 
@@ -105,19 +105,29 @@ PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) 
   return outcome;
 }
 
-PingAnswer answer_of(const Flight& flight, SimTime at) {
-  const Packet& ping = *flight.packet;
+bool asks_for_answer(const PacketOutcome& outcome) {
+  const SendRequest& request = outcome.packet->request;
+  return outcome.deliver && request.destination_id == outcome.receiver_id &&
+         (request.kind == PacketKind::kPing || request.wants_ack);
+}
+
+ModemReply answer_of(const Flight& flight, SimTime at) {
+  const Packet& asked = *flight.packet;
   SendRequest answer;
   answer.vehicle = flight.receiver;
   answer.source_id = flight.receiver_id;
-  answer.destination_id = ping.request.source_id;
-  answer.session = ping.request.session;
-  answer.packet_sequence = ping.request.packet_sequence;
+  answer.destination_id = asked.request.source_id;
+  answer.session = asked.request.session;
+  answer.packet_sequence = asked.request.packet_sequence;
   const SimTime measured_arrival = flight.arrival() + SimDuration::from_seconds(flight.timing_error_s);
-  answer.start = std::max(measured_arrival + ping.timing.duration + kPingTurnaround, at);
-  answer.kind = PacketKind::kPingReply;
+  answer.start = std::max(measured_arrival + asked.timing.duration + kReplyTurnaround, at);
+  answer.kind = asked.request.kind == PacketKind::kPing ? PacketKind::kPingReply : PacketKind::kAck;
+  if (answer.kind == PacketKind::kAck) {
+    for (std::size_t frame = 0; frame < asked.frame_bytes.size(); frame += 8)
+      answer.payload.push_back(static_cast<std::uint8_t>(flight.statistics.frames_good >> frame));
+  }
   answer.stamped = false;
-  return {answer, ping.departure, ping.timing.duration};
+  return {answer, asked.departure, asked.timing.duration};
 }
 
 }  // namespace halocline::channel_server

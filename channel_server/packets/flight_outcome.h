@@ -17,7 +17,9 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind);
 // Of a packet that does not get as far as `range_m`, at several receivers: kOutOfReach. Levels are kSilence, nothing else was
 // computed.
 PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m);
-// Of a ping that was received by `at`: its addressee's modem answers.
-PingAnswer answer_of(const Flight& flight, SimTime at);
+// Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received by its addressee.
+bool asks_for_answer(const PacketOutcome& outcome);
+// The answer to a packet that was received by `at`.
+ModemReply answer_of(const Flight& flight, SimTime at);
 
 }  // namespace halocline::channel_server

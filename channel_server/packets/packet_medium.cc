@@ -43,7 +43,7 @@ std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTim
   return rule_.shard.serves(request.source_id) ? std::optional(refusal) : std::nullopt;
 }
 
-void PacketMedium::add_answer(const PingAnswer& answer) {
+void PacketMedium::add_answer(const ModemReply& answer) {
   const SendRequest& request = answer.request;
   if (!answered_
            .insert({request.start, request.source_id, request.destination_id, request.session,
@@ -51,10 +51,10 @@ void PacketMedium::add_answer(const PingAnswer& answer) {
            .second) {
     return;
   }
-  Packet ping;
-  ping.departure = answer.ping_departure;
-  ping.timing.duration = answer.ping_duration;
-  add_departure(request.start, {request, std::make_shared<const Packet>(std::move(ping)), nullptr});
+  Packet asked;
+  asked.departure = answer.asked_departure;
+  asked.timing.duration = answer.asked_duration;
+  add_departure(request.start, {request, std::make_shared<const Packet>(std::move(asked)), nullptr});
 }
 
 void PacketMedium::add_departure(SimTime at, Departure departure) {
@@ -109,18 +109,17 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   const SendRequest asked = departure.request;
   SendRequest& request = departure.request;
   if (departure.is_put_off) request.start = asked.start + fleet_.rule().state_lag;
-  const VehicleModem& modem = fleet_.modem(request.vehicle, request.start);
-  // A payload beyond the largest is refused, so its duration is of no consequence.
-  const auto timing =
-      packet_timing(modem.modem, std::min(request.payload.size(), largest_payload_bytes(modem)));
-  const Decision decision = decide(request, timing.duration);
+  Framing framing = framing_of(fleet_.modem(request.vehicle, request.start), request);
+  const acoustics::PacketTiming timing = framing.timing;
+  const Decision decision = decide(request, framing);
   const bool accepted = decision.result == SendResult::kAccepted || decision.result == SendResult::kQueued;
   if (accepted) {
     register_.occupy(request.vehicle, decision.start, timing.duration);
     const auto place = fleet_.placement(request.source_id, request.start, request.start);
-    const auto packet = std::make_shared<const Packet>(Packet{request, decision.start, timing, modem.modem,
-                                                              place->position_ned_m, place->velocity_ned_mps,
-                                                              departure.answers});
+    const auto packet = std::make_shared<const Packet>(
+        Packet{request, decision.start, timing, std::move(framing.modem), place->position_ned_m,
+               place->velocity_ned_mps, departure.answers, framing.rate_number, std::move(framing.format),
+               std::move(framing.frame_bytes)});
     if (decision.result == SendResult::kAccepted) {
       launch(packet, events);
     } else {
@@ -138,15 +137,16 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
 }
 
-PacketMedium::Decision PacketMedium::decide(const SendRequest& request, SimDuration duration) const {
+PacketMedium::Decision PacketMedium::decide(const SendRequest& request, const Framing& framing) const {
   const auto id = fleet_.id_of(request.vehicle);
   const SimTime start = request.start;
   if (!id || !fleet_.placement(*id, start, start)) return {SendResult::kUnknownVehicle, start};
   if (*id != request.source_id) return {SendResult::kWrongSource, start};
   const VehicleModem& modem = fleet_.modem(request.vehicle, start);
-  if (request.payload.size() > largest_payload_bytes(modem)) return {SendResult::kTooLarge, start};
-  if (!register_.is_busy(request.vehicle, start, duration)) return {SendResult::kAccepted, start};
-  if (modem.when_busy == WhenBusy::kRefuse || request.kind == PacketKind::kPingReply) {
+  if (framing.problem != SendResult::kAccepted) return {framing.problem, start};
+  if (!register_.is_busy(request.vehicle, start, framing.timing.duration))
+    return {SendResult::kAccepted, start};
+  if (modem.when_busy == WhenBusy::kRefuse || is_answer(request.kind)) {
     return {SendResult::kBusy, start};
   }
   if (register_.waiting_at(request.vehicle, start) >= kMaxQueued) return {SendResult::kQueueFull, start};
@@ -289,10 +289,10 @@ OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
   const OutcomeKind kind = decide_outcome(flight, at);
   PacketOutcome outcome = outcome_of(flight, kind);
-  const bool is_answered = outcome.deliver && flight.packet->request.kind == PacketKind::kPing;
+  const bool is_answered = asks_for_answer(outcome);
   events.push_back({at, at < advanced_to_, std::move(outcome)});
   if (is_answered) {
-    const PingAnswer answer = answer_of(flight, at);
+    const ModemReply answer = answer_of(flight, at);
     add_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
   }

@@ -12,8 +12,8 @@
 // packet.h lists the possible outcomes and in which order the first that holds is found. A packet lasts
 // duration / doppler factor at a receiver. A modem that has acquired a packet follows it to its end, even if
 // weak or for another; what arrives meanwhile it does not acquire. A transmission of its own ends that, and every
-// reception it overlaps. A ping that its addressee received is answered kPingTurnaround later, unless that
-// modem is busy then: a packet like any other.
+// reception it overlaps. A ping that its addressee received is answered kReplyTurnaround later, as is a packet that wants an
+// acknowledgement, unless that modem is busy then: the answer is a packet like any other.
 //
 // Repeatability. Decisions depend on the contents of states and requests, on the seed, and on instants of
 // simulation time, not on the order they were given in. Events are sorted by time, then receipts before
@@ -29,8 +29,8 @@
 // most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
 //
 // Shards. A medium that shares the water with others (rule.shard) gets all states and requests, decides all
-// of them, and follows packets only to the receivers it serves. Only the answer to a ping depends on what another
-// shard's vehicle received; it leaves kPingTurnaround after that, and add_answer() passes it on meanwhile.
+// of them, and follows packets only to the receivers it serves. Only a modem's own answer depends on what another
+// shard's vehicle received; it leaves kReplyTurnaround after that, and add_answer() passes it on meanwhile.
 //
 // Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet.
 #pragma once
@@ -48,6 +48,7 @@
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/packets/packet_framing.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/send_register.h"
 #include "channel_server/propagation/propagation.h"
@@ -81,8 +82,8 @@ class PacketMedium {
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
   [[nodiscard]] std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
 
-  // A modem that another shard serves will answer a ping; a repetition changes nothing.
-  void add_answer(const PingAnswer& answer);
+  // A modem that another shard serves will answer a packet; a repetition changes nothing.
+  void add_answer(const ModemReply& answer);
 
   // When something next happens; SimTime::never() when the water is silent, or waits.
   SimTime next_event() const;
@@ -106,7 +107,7 @@ class PacketMedium {
   // A request that waits for its start; with a packet, one that was queued and waits for its departure.
   struct Departure {
     SendRequest request;
-    std::shared_ptr<const Packet> answers;  // of a ping's answer
+    std::shared_ptr<const Packet> answers;  // of a modem's answer: what asked for it
     std::shared_ptr<const Packet> queued;
     bool is_put_off = false;  // by the state lag
   };
@@ -122,7 +123,7 @@ class PacketMedium {
   void add_departure(SimTime at, Departure departure);
   void depart(Departure departure, std::vector<MediumEvent>& events);
   [[nodiscard]] bool must_be_put_off(const Departure& departure) const;
-  Decision decide(const SendRequest& request, SimDuration duration) const;
+  Decision decide(const SendRequest& request, const Framing& framing) const;
   void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
   PacketPointer at_its_departure(const Packet& queued) const;
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "acoustics/modem/modem.h"
+#include "channel_server/vehicles/modem_rates.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -28,8 +29,18 @@ struct VehicleModem {
   std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768; the modem's own limit holds as well
   WhenBusy when_busy = WhenBusy::kRefuse;
   std::string profile = kGenericProfile;  // where the numbers come from: a name, or the path of a file
+  std::int32_t rate_number = 0;           // of the modem's own rate, 0..255
+  RateSet rates = {};                     // the other rates that it sends and receives, by number
   bool operator==(const VehicleModem&) const = default;
 };
+
+// As which modem the vehicle receives a packet of this one: its own, unless a rate of another family knows the packet's.
+inline const acoustics::Modem& receiving_modem(const VehicleModem& receiver, const acoustics::Modem& packet) {
+  if (same_family(packet, receiver.modem)) return receiver.modem;
+  const ModemRate* rate =
+      receiver.rates.find([&](const ModemRate& r) { return same_family(packet, r.modem); });
+  return rate == nullptr ? receiver.modem : rate->modem;
+}
 
 // The largest payload of one packet that both limits allow.
 inline std::size_t largest_payload_bytes(const VehicleModem& modem) {

@@ -66,7 +66,7 @@ PacketOutcome some_outcome() {
   request.destination_id = 4;
   request.stamped = true;
   end.packet = std::make_shared<const Packet>(
-      Packet{request, at_s(10.5), {for_s(0.05), for_s(0.01), 40}, odd_modem().modem, {1, 2, 3}, {}, {}});
+      Packet{request, at_s(10.5), {for_s(0.05), for_s(0.01), 40}, odd_modem().modem, {1, 2, 3}, {}, {}, 3, {0, {40}}, {5}});
   end.receiver_id = 4;
   end.receiver = "v4";
   end.travel_time_s = 1.25;
@@ -79,7 +79,7 @@ PacketOutcome some_outcome() {
   end.doppler_factor = 1.0625;
   end.arrival_azimuth_rad = -3;
   end.arrival_elevation_rad = 0.125;
-  end.statistics = {{81}, {12.5}, 0.75, 0.5, 0.625, 0.25, {{9, 77, PacketKind::kPing, 2, at_s(3), 1234}}};
+  end.statistics = {{81}, {12.5}, 0.75, 0.5, 0.625, 0.25, {{9, 77, PacketKind::kPing, 2, at_s(3), 1234}}, 1};
   return end;
 }
 
@@ -94,6 +94,7 @@ TEST(ChannelServerMessages, EveryProfileSurvivesTheRoundTrip) {
   for (const std::string& profile : built_in_modems()) {
     VehicleModem modem = load_modem(profile);
     modem.modem.source_level = {190};  // one of the numbers that are free
+    set_rates_of(load_modem(profile), modem);
     const modem_config_t message = to_message(modem, at_s(3));
     EXPECT_EQ(bus::problem_in(message), "");
     EXPECT_EQ(to_modem(message), modem);
@@ -119,7 +120,7 @@ TEST(ChannelServerMessages, AProfilesOwnNumbersMayNotBeOthers) {
   message.preamble_s = 0.1;
   EXPECT_THROW(to_modem(message), InvalidArgument);
   message = to_message(load_modem("micromodem-psk-1"), at_s(3));
-  message.psk_rate = 3;
+  message.modem_profile = "micromodem-psk-99";
   EXPECT_THROW(to_modem(message), InvalidArgument);
 }
 
@@ -192,6 +193,15 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(SendResult::kQueueFull), modem_receipt_t::REFUSED_QUEUE_FULL);
   EXPECT_EQ(static_cast<int>(PacketKind::kData), modem_send_t::DATA);
   EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_send_t::PING);
+  EXPECT_EQ(static_cast<int>(SendResult::kNoRate), modem_receipt_t::REFUSED_NO_RATE);
+  EXPECT_EQ(static_cast<int>(SendResult::kNoKind), modem_receipt_t::REFUSED_NO_KIND);
+  EXPECT_EQ(static_cast<int>(PacketKind::kAck), modem_receive_t::ACK);
+  EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_send_t::MINI_PACKET);
+  EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_receive_t::MINI_PACKET);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanus), modem_send_t::JANUS);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanus), modem_receive_t::JANUS);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanusCargo), modem_send_t::JANUS_CARGO);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanusCargo), modem_receive_t::JANUS_CARGO);
   EXPECT_EQ(static_cast<int>(PacketKind::kData), modem_receive_t::DATA);
   EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_receive_t::PING);
   EXPECT_EQ(static_cast<int>(PacketKind::kPingReply), modem_receive_t::PING_REPLY);

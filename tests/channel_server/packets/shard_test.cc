@@ -75,17 +75,17 @@ std::vector<std::string> said_by(int count) {
     SimTime next = SimTime::never();
     for (const auto& server : servers) next = std::min(next, server->medium.next_event());
     if (next == SimTime::never()) break;
-    std::vector<PingAnswer> answers;
+    std::vector<ModemReply> answers;
     for (const auto& server : servers) {
       for (const MediumEvent& event : server->medium.advance_to(next)) {
-        if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
+        if (const auto* answer = std::get_if<ModemReply>(&event.what)) {
           answers.push_back(*answer);
         } else {
           published.push_back(text_of(event));
         }
       }
     }
-    for (const PingAnswer& answer : answers) {
+    for (const ModemReply& answer : answers) {
       for (const auto& server : servers) server->medium.add_answer(answer);
     }
   }
@@ -122,14 +122,14 @@ TEST(Shard, AnAnswerAddedTwiceIsTransmittedOnce) {
     }
   }
   PacketMedium medium(fleet, propagation, {for_s(10), for_s(60), 1, {0, 2}});  // serves 4
-  PingAnswer answer;
+  ModemReply answer;
   answer.request.vehicle = name_of(3);
   answer.request.source_id = 3;
   answer.request.destination_id = 4;
   answer.request.packet_sequence = 8;
   answer.request.kind = PacketKind::kPingReply;
   answer.request.start = at_s(2);
-  answer.ping_departure = at_s(1);
+  answer.asked_departure = at_s(1);
   medium.add_answer(answer);
   std::size_t ends = medium.advance_to(at_s(10)).size();
   medium.add_answer(answer);
