@@ -31,6 +31,10 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
         keep(inputs_.modems, vehicle, m, channels::kModem);
       },
       bus::Wakeup::kStoreOnly);
+  bus_.subscribe<modem_listen_t>(channels::kListen,
+                                 [this](std::string_view vehicle, const modem_listen_t& m) {
+                                   keep(inputs_.listens, vehicle, m, channels::kListen);
+                                 });
   bus_.subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
     keep(inputs_.sends, vehicle, m, channels::kSend);
   });
@@ -67,6 +71,8 @@ SimTime Inbox::due() const {
   if (!queries_.empty() || !inputs_.changes.empty()) return SimTime::at_once();
   SimTime due = SimTime::never();
   for (const auto& [vehicle, send] : inputs_.sends) due = std::min(due, SimTime::from_utime(send.utime));
+  for (const auto& [vehicle, listen] : inputs_.listens)
+    due = std::min(due, SimTime::from_utime(listen.utime));
   for (const modem_reply_t& answer : inputs_.modem_replies) {
     due = std::min(due, SimTime::from_nanoseconds(answer.answer_start_ns));
   }
@@ -78,6 +84,7 @@ void Inbox::forget_after(SimTime latest) {
   const auto is_later = [&](const auto& entry) { return entry.second.utime > utime; };
   std::erase_if(inputs_.states, is_later);
   std::erase_if(inputs_.modems, is_later);
+  std::erase_if(inputs_.listens, is_later);
   std::erase_if(inputs_.sends, is_later);
   std::erase_if(inputs_.changes, [&](const environment_change_t& change) { return change.utime > utime; });
   inputs_.modem_replies.clear();

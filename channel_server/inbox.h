@@ -19,6 +19,7 @@ struct StepInputs {
 
   ByVehicle<vehicle_state_t> states;
   ByVehicle<modem_config_t> modems;
+  ByVehicle<modem_listen_t> listens;
   ByVehicle<modem_send_t> sends;
   std::vector<environment_change_t> changes;
   std::vector<modem_reply_t> modem_replies;  // of other shards
@@ -26,8 +27,8 @@ struct StepInputs {
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards MODEM_REPLY. The bus must
-  // outlive it.
+  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards MODEM_REPLY. The bus
+  // must outlive it.
   Inbox(bus::Bus& bus, const Shard& shard);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;

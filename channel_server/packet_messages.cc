@@ -153,6 +153,19 @@ packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at) {
   return message;
 }
 
+modem_event_t to_message(const ModemEvent& event, SimTime at) {
+  modem_event_t message{};
+  message.utime = at.to_utime();
+  message.event_ns = at.nanoseconds();
+  message.modem_event = static_cast<std::int8_t>(event.kind);
+  message.send_session = event.session;
+  message.packet_sequence = event.packet_sequence;
+  message.level_db = event.level.value;
+  message.sinr_db = event.sinr.value;
+  message.packet_outcome = static_cast<std::int8_t>(event.outcome);
+  return message;
+}
+
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   const SendRequest& request = outcome.packet->request;
   auto message = common_fields<modem_receive_t>(outcome, at);
@@ -163,8 +176,10 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   } else {
     message.travel_time_s = outcome.measured_travel_time_s;
   }
+  // Who overhears an answer does not know when the question left.
+  if (request.destination_id == outcome.receiver_id)
+    message.two_way_travel_time_s = outcome.two_way_travel_time_s;
   message.wants_ack = request.wants_ack && request.destination_id == outcome.receiver_id ? 1 : 0;
-  message.two_way_travel_time_s = outcome.two_way_travel_time_s;
   message.arrival_utime =
       (outcome.packet->departure + SimDuration::from_seconds(outcome.measured_travel_time_s)).to_utime();
   const PowerRatio sinr = to_power_ratio(outcome.statistics.sinr);
@@ -190,6 +205,8 @@ std::string identity_of(const packet_outcome_t& m) {
   return joined({m.source_id, m.send_session, m.packet_sequence, m.packet_kind, m.receiver_id,
                  m.send_session == 0 ? m.departure_utime : 0});
 }
+
+std::string identity_of(const modem_event_t& m) { return joined({m.event_ns, m.modem_event}); }
 
 std::string identity_of(const modem_reply_t& m) {
   return joined({m.answering_id, m.asking_id, m.packet_kind, m.send_session, m.packet_sequence, m.answer_start_ns});

@@ -17,7 +17,7 @@ constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
 
 bool is_input(std::string_view channel) {
   const auto in = [&](const bus::Family& family) { return channel.starts_with(family.prefix); };
-  return in(channels::kState) || in(channels::kModem) || in(channels::kSend) ||
+  return in(channels::kState) || in(channels::kModem) || in(channels::kListen) || in(channels::kSend) ||
          channel == channels::kSetEnvironment || channel == channels::kModemReply;
 }
 
@@ -25,7 +25,11 @@ bool is_input(std::string_view channel) {
 
 ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path)
     : journal_(journal), inbox_(inbox) {
-  journal_.open({path, kJournalled, is_input, {channels::kModem}, {std::string(channels::kSetEnvironment)}});
+  journal_.open({path,
+                 kJournalled,
+                 is_input,
+                 {channels::kModem, channels::kListen},
+                 {std::string(channels::kSetEnvironment)}});
   journal_.replay_inputs([this](SimTime at) { steps_.push_back({at, inbox_.take_inputs()}); });
 }
 

@@ -93,6 +93,16 @@ VehicleModem to_modem(const modem_config_t& message) {
   return modem;
 }
 
+Listening to_listening(const modem_listen_t& message) {
+  Listening listening;
+  listening.asleep = message.asleep != 0;
+  if (message.wake_utime != 0) listening.wakes = SimTime::from_utime(message.wake_utime);
+  listening.promiscuous = message.promiscuous != 0;
+  listening.events = message.events != 0;
+  listening.carrier_threshold = {message.carrier_threshold_db};
+  return listening;
+}
+
 modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   modem_config_t message{};
   message.utime = from.to_utime();

@@ -23,9 +23,10 @@ void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
          "path of one");
   if (v.writing() || profile == m.profile) return;
   bus::report_refusal(v, "profile", [&] {
-    const WhenBusy when_busy = m.when_busy;
-    m = load_modem(profile, v.folder());
-    m.when_busy = when_busy;
+    VehicleModem other = load_modem(profile, v.folder());
+    other.when_busy = m.when_busy;
+    other.listening = m.listening;
+    m = std::move(other);
   });
 }
 
@@ -120,6 +121,13 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
   });
 }
 
+void visit_listening(bus::ConfigVisitor& v, Listening& listening) {
+  v.boolean("promiscuous", listening.promiscuous, "RECEIVE also of packets for other vehicles");
+  v.boolean("events", listening.events, "publishes MODEM_EVENTs: transmissions, packets detected, carrier");
+  v.number("carrier_threshold_db", listening.carrier_threshold.value,
+           {0, 100, "dB", "events: carrier is sensed where the sound of others exceeds the noise by this"});
+}
+
 // The values that rules on single keys cannot see.
 void check_as_a_whole(bus::ConfigVisitor& v, const acoustics::Modem& a) {
   if (a.preamble > a.packet_overhead)
@@ -204,6 +212,7 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   visit_reception(v, a);
   visit_beam(v, a.beam);
   bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "on a SEND during a transmission");
+  visit_listening(v, m.listening);
   if (!v.writing() && m.profile != kGenericProfile) {
     bus::report_refusal(v, "profile", [&] { set_rates_of(load_modem(m.profile, v.folder()), m); });
   }

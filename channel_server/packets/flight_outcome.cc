@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "channel_server/packets/reception_decision.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/elementary.h"
@@ -73,14 +74,37 @@ bool is_shifted_too_far(const Flight& flight) {
   return !flight.signal.fades && std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
 }
 
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind) {
+OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fleet,
+                           const ReceiverState& receiver) {
+  const ReceivedSignal& signal = flight.signal;
+  DecisionStatistics& statistics = flight.statistics;
+  statistics.acquisition_draw = flight.draws.acquisition;
+  statistics.success_draw = flight.draws.success;
+  flight.receiver_absent = flight.receiver_absent || !fleet.placement(flight.receiver_id, at, at);
+  const OutcomeKind before = outcome_before_acquisition(flight);
+  if (before != OutcomeKind::kReceived) return before;
+  if (fleet.sleeps_during(flight.receiver_id, signal.begin, signal.end)) return OutcomeKind::kAsleep;
+  for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
+    if (statistics.colliders.size() < kMaxColliders) statistics.colliders.push_back(own->name());
+  }
+  if (!statistics.colliders.empty()) return OutcomeKind::kHalfDuplex;
+  if (is_shifted_too_far(flight)) return OutcomeKind::kDoppler;
+  if (flight.followed) {
+    statistics.colliders.push_back(flight.followed->name());
+    return OutcomeKind::kCollided;
+  }
+  const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
+  return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
+}
+
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, bool promiscuous) {
   PacketOutcome outcome;
   outcome.kind = kind;
   outcome.packet = flight.packet;
   outcome.receiver_id = flight.receiver_id;
   outcome.receiver = flight.receiver;
-  outcome.deliver =
-      outcome.kind == OutcomeKind::kReceived && is_for(flight.packet->request, flight.receiver_id);
+  outcome.deliver = outcome.kind == OutcomeKind::kReceived &&
+                    (promiscuous || is_for(flight.packet->request, flight.receiver_id));
   outcome.travel_time_s = flight.travel_time_s;
   outcome.measured_travel_time_s = measured(flight, flight.travel_time_s);
   if (flight.packet->answers) outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight));

@@ -107,7 +107,7 @@ struct Packet {
   SendRequest request;
   SimTime departure;  // of the first bit
   acoustics::PacketTiming timing;
-  acoustics::Modem modem;  // as which the sender transmits it, decided when it was accepted
+  acoustics::Modem modem;               // as which the sender transmits it, decided when it was accepted
   Vec3 departure_ned_m = Vec3::Zero();  // where the first bit left
   Vec3 velocity_ned_mps = Vec3::Zero();
   std::shared_ptr<const Packet> answers = {};  // of an answer: the packet that asked for it
@@ -126,21 +126,23 @@ using PacketPointer = std::shared_ptr<const Packet>;  // never null
 // What became of a packet at one possible receiver; in the order of packet_outcome_t. It is the first of these that
 // holds, in the order of the numbers in brackets.
 enum class OutcomeKind {
-  kReceived,      // [12] none of the others: at least one frame was right
+  kReceived,      // [13] none of the others: at least one frame was right
   kBelowCutoff,   // [5] all paths together are below the receiver's least receivable level
   kReceiverGone,  // [1] the receiver's state had grown too old at the first bit or at the last
   kShadow,        // [4] no path: the water bends every ray away
   kBlocked,       // [4] no path: the terrain stands in all
   kOutOfBand,     // [3] the bands of the two modems share nothing
-  kCollided,      // [8] the receiver followed another packet; [9, 10] or without others it had been received
-  kHalfDuplex,    // [6] the receiver transmitted at some instant of the packet
-  kDoppler,       // [7] shifted by more than the receiver's modem follows
-  kBitErrors,     // [10] acquired, with wrong bits in every frame
-  kNotAcquired,   // [9] its preamble was not acquired
+  kCollided,      // [9] the receiver followed another packet; [10, 11] or without others it had been received
+  kHalfDuplex,    // [7] the receiver transmitted at some instant of the packet
+  kDoppler,       // [8] shifted by more than the receiver's modem follows
+  kBitErrors,     // [11] acquired, with wrong bits in every frame
+  kNotAcquired,   // [10] its preamble was not acquired
   kForeign,       // [2] the waveform families of the two modems differ: its detector does not know this sound
   kTooWeak,       // [4] no path: the bounces leave too little of every ray
   kTooSteep,      // [4] no path: every ray that arrives is launched more steeply than is searched
   kOutOfReach,    // [0] so far away at the departure that its sound cannot matter (propagation/reach.h)
+  kAsleep,        // [6] the receiver's modem slept at some instant of the packet
+  kExtraLoss,     // [12] none of the others, but lost on purpose (extra_loss.h)
 };
 
 // What the outcome was decided by.
@@ -162,7 +164,8 @@ struct PacketOutcome {
   std::size_t receivers = 1;  // that it stands for
   std::string receiver;       // its name when the packet left
   OutcomeKind kind = OutcomeKind::kReceived;
-  bool deliver = false;      // received, and addressed to this receiver or to all
+  bool deliver =
+      false;  // received, and addressed to this receiver or to all, or this receiver is promiscuous
   double travel_time_s = 0;  // of the first significant path
   double measured_travel_time_s =
       0;  // as the receiver's modem measures it: with noise, in steps of its time quantum
@@ -178,10 +181,30 @@ struct PacketOutcome {
   DecisionStatistics statistics;
 };
 
+// In the order of modem_event_t.
+enum class ModemEventKind {
+  kTransmissionBegan,
+  kTransmissionEnded,
+  kPacketDetected,  // at the end of its preamble
+  kPacketEnded,     // the last bit of one detected
+  kCarrierBegan,
+  kCarrierEnded,
+};
+
+// What a modem does or notices (modem_watch.h).
+struct ModemEvent {
+  std::string vehicle;
+  ModemEventKind kind = ModemEventKind::kTransmissionBegan;
+  std::int64_t session = 0, packet_sequence = 0;  // of an own transmission
+  Decibels level = {};  // of the packet or carrier, dB re 1 uPa; 0 of an own transmission
+  Decibels sinr = {};   // of a packet that ended
+  OutcomeKind outcome = OutcomeKind::kReceived;  // likewise
+};
+
 struct MediumEvent {
-  SimTime at;         // exactly when it happened
+  SimTime at;                                                         // exactly when it happened
+  std::variant<Receipt, PacketOutcome, ModemReply, ModemEvent> what;  // answers only for other shards
   bool late = false;  // the medium had been advanced beyond `at` before it could know of this
-  std::variant<Receipt, PacketOutcome, ModemReply> what;  // answers only for other shards
 };
 
 }  // namespace halocline::channel_server

@@ -23,9 +23,14 @@ constexpr int kMaxSolutions = 64;
 
 PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
                            ReachModel* reach, ForEach for_each)
-    : fleet_(fleet), propagation_(propagation), rule_(rule), reach_(reach), for_each_(std::move(for_each)) {
-  require(rule.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
-  require(rule.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
+    : fleet_(fleet),
+      propagation_(propagation),
+      rule_(std::move(rule)),
+      reach_(reach),
+      for_each_(std::move(for_each)),
+      watch_(fleet, propagation, noise_) {
+  require(rule_.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
+  require(rule_.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
 }
 
 std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
@@ -70,7 +75,7 @@ SimTime PacketMedium::next_event() const {
   if (waiting_) return next;
   if (!departures_.empty()) next = std::get<0>(departures_.begin()->first);
   if (!flights_.empty()) next = std::min(next, std::get<0>(flights_.begin()->first));
-  return next;
+  return std::min({next, watch_.next_end(), watch_.next_carrier()});
 }
 
 std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
@@ -78,8 +83,12 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   waiting_ = false;
   SimTime reached = time;
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
-    if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
+    if (watch_.next_end() == next) {
+      watch_.end_transmission(events);
+    } else if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
       depart(departures_.extract(departures_.begin()).mapped(), events);
+    } else if (flights_.empty() || std::get<0>(flights_.begin()->first) != next) {
+      watch_.judge_carrier(state_of(watch_.next_to_judge()), events);
     } else if (must_wait(*flights_.begin()->second, next)) {
       waiting_ = true;
       reached = next;
@@ -88,6 +97,7 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
       on_flight_event(std::move(spare_.mapped()), next, events);
     }
   }
+  for (MediumEvent& event : events) event.late = event.at < advanced_to_;
   advanced_to_ = std::max(advanced_to_, reached);
   return events;
 }
@@ -134,7 +144,7 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   }
   register_.decide(asked, receipt);
   if (!rule_.shard.serves(request.source_id)) return;
-  events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
+  events.push_back({request.start, std::move(receipt)});
 }
 
 PacketMedium::Decision PacketMedium::decide(const SendRequest& request, const Framing& framing) const {
@@ -168,7 +178,10 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   const SimTime departure = packet->departure;
   const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
   const bool is_served = rule_.shard.serves(source);
-  if (is_served) state_of(source).transmit({packet, departure, departure + packet->timing.duration});
+  if (is_served) {
+    state_of(source).transmit({packet, departure, departure + packet->timing.duration});
+    watch_.begin_transmission(*packet, events);
+  }
   const std::vector<PlacedVehicle> present = place_all(fleet_, departure);
   const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present)
                                            : acoustics::kGreatestBoundedRange;
@@ -186,7 +199,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
         PacketOutcome lost = outcome_out_of_reach(packet, range_m);
         lost.receiver_id = receiver.id;
         lost.receiver = fleet_.name_of(receiver.id);
-        events.push_back({departure, departure < advanced_to_, std::move(lost)});
+        events.push_back({departure, std::move(lost)});
       }
     } else if (rule_.shard.serves(receiver.id)) {
       auto flight = std::make_unique<Flight>();
@@ -201,7 +214,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   }
   if (is_costly) propagation_.prepare_packet(departure, links, for_each_);
   if (is_served && others.receivers > 0) {
-    events.push_back({departure, departure < advanced_to_, std::move(others)});
+    events.push_back({departure, std::move(others)});
   }
 }
 
@@ -214,7 +227,7 @@ void PacketMedium::on_flight_event(FlightPointer flight, SimTime at, std::vector
     case Flight::Stage::kTravelling:
       return begin_reception(std::move(flight), at);
     case Flight::Stage::kPreamble:
-      return end_preamble(std::move(flight), at);
+      return end_preamble(std::move(flight), at, events);
     case Flight::Stage::kBits:
       return end_packet(*flight, at, events);
   }
@@ -240,16 +253,18 @@ void PacketMedium::begin_reception(FlightPointer flight, SimTime at) {
   flight->signal = received_signal(*flight, to_power_ratio(noise).value, rule_.fading);
   flight->draws = draws_of(rule_.seed, *flight->packet, flight->receiver_id);
   state_of(flight->receiver_id).open(audible_packet(*flight));
+  watch_.judge_carrier_at(flight->receiver_id, at);
   flight->stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight->signal.preamble_end, at);
   schedule(preamble_end, std::move(flight));
 }
 
-void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
+void PacketMedium::end_preamble(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events) {
   ReceiverState& receiver = state_of(flight->receiver_id);
   const ReceivedSignal& signal = flight->signal;
   const bool is_impossible = outcome_before_acquisition(*flight) != OutcomeKind::kReceived ||
                              is_shifted_too_far(*flight) ||
+                             fleet_.sleeps_during(flight->receiver_id, signal.begin, signal.preamble_end) ||
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight->followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight->followed) {
@@ -258,45 +273,37 @@ void PacketMedium::end_preamble(FlightPointer flight, SimTime at) {
     flight->acquired = acquires(signal, others, flight->draws, flight->statistics);
     if (flight->acquired) flight->timing_error_s = timing_error_s(signal, others, flight->draws.timing);
   }
-  if (flight->acquired) receiver.acquire({flight->packet, signal.begin, signal.end}, signal.preamble_end);
+  if (flight->acquired) {
+    receiver.acquire({flight->packet, signal.begin, signal.end}, signal.preamble_end);
+    watch_.detect(*flight, events);
+  }
   flight->stage = Flight::Stage::kBits;
   const SimTime last_bit = std::max(signal.end, at);
   schedule(last_bit, std::move(flight));
 }
 
-OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
-  const ReceivedSignal& signal = flight.signal;
-  DecisionStatistics& statistics = flight.statistics;
-  statistics.acquisition_draw = flight.draws.acquisition;
-  statistics.success_draw = flight.draws.success;
-  flight.receiver_absent = flight.receiver_absent || !fleet_.placement(flight.receiver_id, at, at);
-  const OutcomeKind before = outcome_before_acquisition(flight);
-  if (before != OutcomeKind::kReceived) return before;
-  const ReceiverState& receiver = state_of(flight.receiver_id);
-  for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
-    if (statistics.colliders.size() < kMaxColliders) statistics.colliders.push_back(own->name());
-  }
-  if (!statistics.colliders.empty()) return OutcomeKind::kHalfDuplex;
-  if (is_shifted_too_far(flight)) return OutcomeKind::kDoppler;
-  if (flight.followed) {
-    statistics.colliders.push_back(flight.followed->name());
-    return OutcomeKind::kCollided;
-  }
-  const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
-  return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
-}
-
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
-  const OutcomeKind kind = decide_outcome(flight, at);
-  PacketOutcome outcome = outcome_of(flight, kind);
+  OutcomeKind kind = decide_outcome(flight, at, fleet_, state_of(flight.receiver_id));
+  if (kind == OutcomeKind::kReceived &&
+      is_lost_on_purpose(rule_.extra_loss, rule_.seed, *flight.packet, flight.receiver, flight.receiver_id)) {
+    kind = OutcomeKind::kExtraLoss;
+    flight.statistics.frames_good = 0;
+  }
+  PacketOutcome outcome = outcome_of(flight, kind, fleet_.listening(flight.receiver_id, at).promiscuous);
   const bool is_answered = asks_for_answer(outcome);
-  events.push_back({at, at < advanced_to_, std::move(outcome)});
+  ModemWatch::end(flight, at, kind, events);
+  events.push_back({at, std::move(outcome)});
   if (is_answered) {
     const ModemReply answer = answer_of(flight, at);
     add_answer(answer);
-    if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
+    if (!rule_.shard.is_alone()) events.push_back({at, answer});
   }
   state_of(flight.receiver_id).close(flight.first_sound(), at);
+}
+
+void PacketMedium::on_listening_changed(const std::string& vehicle, SimTime from) {
+  const auto id = fleet_.id_of(vehicle);
+  if (id && rule_.shard.serves(*id)) watch_.judge_carrier_at(*id, std::max(from, advanced_to_));
 }
 
 void PacketMedium::schedule(SimTime at, FlightPointer flight) {
@@ -317,6 +324,7 @@ ReceiverState& PacketMedium::state_of(VehicleId id) {
 
 void PacketMedium::forget_before(SimTime time) {
   register_.forget_before(time);
+  watch_.forget_before(time);
   answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));
   for (auto receiver = receivers_.begin(); receiver != receivers_.end();) {
     receiver->second.forget(time + rule_.max_lateness);
@@ -326,6 +334,7 @@ void PacketMedium::forget_before(SimTime time) {
 
 void PacketMedium::clear() {
   register_ = SendRegister();
+  watch_.clear();
   departures_.clear();
   flights_.clear();
   receivers_.clear();

@@ -9,6 +9,7 @@
 //   flight.h              when and how it arrives
 //   receiver_state.h      what else sounds at the receiver meanwhile
 //   reception_decision.h  whether it is acquired at the end of its preamble, and right at its last bit
+//   modem_watch.h         what its modem reports meanwhile
 // packet.h lists the possible outcomes and in which order the first that holds is found. A packet lasts
 // duration / doppler factor at a receiver. A modem that has acquired a packet follows it to its end, even if
 // weak or for another; what arrives meanwhile it does not acquire. A transmission of its own ends that, and every
@@ -45,7 +46,9 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/flight.h"
+#include "channel_server/packets/modem_watch.h"
 #include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_framing.h"
@@ -67,6 +70,7 @@ struct MediumRule {
   std::uint64_t seed = 1;                                              // of all draws
   acoustics::FadingModel fading = {};                                  // of every link
   Shard shard = {};  // of several media of one water, each with all requests
+  std::vector<ExtraLoss> extra_loss = {};
 };
 
 class PacketMedium {
@@ -84,6 +88,9 @@ class PacketMedium {
 
   // A modem that another shard serves will answer a packet; a repetition changes nothing.
   void add_answer(const ModemReply& answer);
+
+  // The registry has learnt that a vehicle's modem listens otherwise from `from` on.
+  void on_listening_changed(const std::string& vehicle, SimTime from);
 
   // When something next happens; SimTime::never() when the water is silent, or waits.
   SimTime next_event() const;
@@ -131,9 +138,8 @@ class PacketMedium {
   bool must_wait(const Flight& flight, SimTime at) const;
   void on_flight_event(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
   void begin_reception(FlightPointer flight, SimTime at);
-  void end_preamble(FlightPointer flight, SimTime at);
+  void end_preamble(FlightPointer flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
-  OutcomeKind decide_outcome(Flight& flight, SimTime at);
   void schedule(SimTime at, FlightPointer flight);
   ReceiverState& state_of(VehicleId id);
 
@@ -144,6 +150,7 @@ class PacketMedium {
   ForEach for_each_;
   SendRegister register_;
   NoiseLevelCache noise_;
+  ModemWatch watch_;
   std::map<DepartureKey, Departure> departures_;
   std::map<FlightKey, FlightPointer> flights_;
   std::map<FlightKey, FlightPointer>::node_type

@@ -153,8 +153,8 @@ Decoded decode(const ReceivedSignal& signal, const std::vector<Interference>& ot
     const double chance = chances.next(format.frame_bits[i]);
     if (i == 0) first = chance;
     none *= 1 - chance;
-    const bool good = i == 0 ? draws.success < header * chance
-                             : header_good && draws.later_frames[i - 1] < chance;
+    const bool good =
+        i == 0 ? draws.success < header * chance : header_good && draws.later_frames[i - 1] < chance;
     if (good) decoded.frames_good |= 1u << i;
   }
   // Of one frame without the loss of digits in 1 - (1 - P).
@@ -170,22 +170,29 @@ bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& 
 
 }  // namespace
 
-PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver) {
+DrawAddress draw_address(std::uint64_t seed, std::uint32_t purpose, const Packet& packet,
+                         VehicleId receiver) {
   const SendRequest& request = packet.request;
   const std::uint64_t identity = identity_of(
       {static_cast<std::uint64_t>(request.source_id), static_cast<std::uint64_t>(request.destination_id),
        static_cast<std::uint64_t>(request.kind), static_cast<std::uint64_t>(request.packet_sequence),
        static_cast<std::uint64_t>(packet.departure.nanoseconds())});
+  return {.seed = seed, .purpose = purpose, .who = static_cast<std::uint32_t>(receiver), .which = identity};
+}
+
+PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver) {
   constexpr std::uint32_t kAcquisition = purpose_of("packet-acquisition"), kBits = purpose_of("packet-bits"),
                           kTiming = purpose_of("packet-timing"), kFrame = purpose_of("packet-frame");
+  DrawAddress at = draw_address(seed, 0, packet, receiver);
   const auto address = [&](std::uint32_t purpose) {
-    return DrawAddress{
-        .seed = seed, .purpose = purpose, .who = static_cast<std::uint32_t>(receiver), .which = identity};
+    at.purpose = purpose;
+    return at;
   };
-  PacketDraws draws{uniform_at(address(kAcquisition)), uniform_at(address(kBits)), normal_at(address(kTiming))};
+  PacketDraws draws{uniform_at(address(kAcquisition)), uniform_at(address(kBits)),
+                    normal_at(address(kTiming))};
   for (std::size_t frame = 1; frame < packet.format.frame_bits.size(); ++frame) {
     DrawAddress of_frame = address(kFrame);
-    of_frame.which = identity_of({identity, frame});
+    of_frame.which = identity_of({at.which, frame});
     draws.later_frames.push_back(uniform_at(of_frame));
   }
   return draws;

@@ -33,6 +33,7 @@
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "core/random.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -54,9 +55,12 @@ struct ReceivedSignal {
   std::optional<acoustics::SignalHistory> without_shift = {};
 };
 
+// Of a draw for a packet at a receiver: by the packet's contents, but for its session.
+DrawAddress draw_address(std::uint64_t seed, std::uint32_t purpose, const Packet& packet, VehicleId receiver);
+
 struct PacketDraws {
-  double acquisition = 0, success = 0;  // in (0, 1)
-  double timing = 0;                    // standard normal
+  double acquisition = 0, success = 0;    // in (0, 1)
+  double timing = 0;                      // standard normal
   std::vector<double> later_frames = {};  // in (0, 1), of the second frame and those after it
 };
 PacketDraws draws_of(std::uint64_t seed, const Packet& packet, VehicleId receiver);

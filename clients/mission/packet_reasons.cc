@@ -110,6 +110,10 @@ std::string deciding_reason(const packet_outcome_t& o, const VehicleName& name) 
       return "the two modems are of different waveform families";
     case packet_outcome_t::HALF_DUPLEX:
       return "the receiver itself was transmitting" + (others.empty() ? "" : " " + others);
+    case packet_outcome_t::ASLEEP:
+      return "the receiver's modem was asleep";
+    case packet_outcome_t::EXTRA_LOSS:
+      return "received, but an extra_loss of the scenario took it. " + survival(o);
     case packet_outcome_t::DOPPLER:
       return fmt::format("Doppler factor {:.6f} is beyond what the modem follows",
                          o.strongest_path_doppler_factor);

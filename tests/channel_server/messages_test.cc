@@ -26,6 +26,7 @@
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "core/frames.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {
@@ -183,6 +184,14 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(OutcomeKind::kTooWeak), packet_outcome_t::TOO_WEAK);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kTooSteep), packet_outcome_t::TOO_STEEP);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kOutOfReach), packet_outcome_t::OUT_OF_REACH);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kAsleep), packet_outcome_t::ASLEEP);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kExtraLoss), packet_outcome_t::EXTRA_LOSS);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionBegan), modem_event_t::TRANSMISSION_BEGAN);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionEnded), modem_event_t::TRANSMISSION_ENDED);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kPacketDetected), modem_event_t::PACKET_DETECTED);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kPacketEnded), modem_event_t::PACKET_ENDED);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kCarrierBegan), modem_event_t::CARRIER_BEGAN);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kCarrierEnded), modem_event_t::CARRIER_ENDED);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kBitErrors), packet_outcome_t::BIT_ERRORS);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kStraight), packet_outcome_t::STRAIGHT);
@@ -260,6 +269,44 @@ TEST(ChannelServerMessages, AReceiverCannotKnowWhenAPacketWithoutAStampLeft) {
   EXPECT_EQ(to_receive(end, at_s(11.3)).departure_utime, 0);
   EXPECT_EQ(to_receive(end, at_s(11.3)).travel_time_s, 0);
   EXPECT_EQ(to_outcome(end, at_s(11.3)).travel_time_s, 1.25);  // the ledger knows
+}
+
+TEST(ChannelServerMessages, WhoOverhearsAnAnswerDoesNotKnowWhenTheQuestionLeft) {
+  PacketOutcome end = some_outcome();
+  end.two_way_travel_time_s = 2.5;
+  end.receiver_id = end.packet->request.destination_id;
+  EXPECT_EQ(to_receive(end, at_s(11.3)).two_way_travel_time_s, 2.5);
+  end.receiver_id += 1;
+  EXPECT_EQ(to_receive(end, at_s(11.3)).two_way_travel_time_s, 0);
+}
+
+TEST(ChannelServerMessages, AModemEventHoldsItsExactInstant) {
+  ModemEvent event{"auv1", ModemEventKind::kPacketEnded};
+  event.level = Decibels{110.5};
+  event.sinr = Decibels{7.25};
+  event.outcome = OutcomeKind::kCollided;
+  const modem_event_t message = to_message(event, SimTime::from_nanoseconds(1'234'567'891));
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.event_ns, 1'234'567'891);
+  EXPECT_EQ(message.utime, 1'234'568);
+  EXPECT_EQ(message.modem_event, modem_event_t::PACKET_ENDED);
+  EXPECT_EQ(message.level_db, 110.5);
+  EXPECT_EQ(message.sinr_db, 7.25);
+  EXPECT_EQ(message.packet_outcome, packet_outcome_t::COLLIDED);
+}
+
+TEST(ChannelServerMessages, AListenKeepsHowTheModemReceives) {
+  modem_listen_t message{};
+  message.asleep = message.promiscuous = message.events = 1;
+  message.wake_utime = 5'000'000;
+  message.carrier_threshold_db = 12;
+  const Listening listening = to_listening(message);
+  EXPECT_TRUE(listening.is_asleep(at_s(4.9)));
+  EXPECT_FALSE(listening.is_asleep(at_s(5)));
+  EXPECT_TRUE(listening.promiscuous && listening.events);
+  EXPECT_EQ(listening.carrier_threshold.value, 12);
+  message.wake_utime = 0;
+  EXPECT_TRUE(to_listening(message).is_asleep(at_s(1e6))) << "until another LISTEN";
 }
 
 TEST(ChannelServerMessages, AReceivedPacketCarriesItsPayload) {

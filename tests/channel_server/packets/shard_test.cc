@@ -44,14 +44,23 @@ std::string text_of(const MediumEvent& event) {
         << end->two_way_travel_time_s << ' ' << end->budget.snr.value << ' ' << end->statistics.sinr.value
         << ' ' << end->statistics.success_draw;
     for (const PacketName& collider : end->statistics.colliders) out << ' ' << collider.packet_sequence;
+  } else if (const auto* noticed = std::get_if<ModemEvent>(&event.what)) {
+    out << "event " << noticed->vehicle << ' ' << static_cast<int>(noticed->kind) << ' '
+        << noticed->level.value << ' ' << static_cast<int>(noticed->outcome);
   }
   return out.str();
+}
+
+ConfiguredModems watching_modems() {
+  ConfiguredModems modems = testing::busy_modems();
+  for (auto& [name, modem] : modems.of_vehicle) modem.listening.events = true;
+  return modems;
 }
 
 // A registry, a propagation and a medium of one server; all receive all.
 struct Server {
   Server(Shard shard, double until_s)
-      : fleet({for_s(0.05), for_s(5)}, testing::busy_modems()),
+      : fleet({for_s(0.05), for_s(5)}, watching_modems()),
         medium(fleet, propagation,
                {.max_lateness = for_s(10), .max_earliness = for_s(until_s), .seed = 1, .shard = shard}) {
     for (const auto& timed : testing::busy_states(until_s)) {
