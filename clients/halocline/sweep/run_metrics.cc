@@ -32,7 +32,8 @@ constexpr std::array<RunNumberInfo, kRunNumbers> kInfo{
      {"throughput_bps", "bit s-1", "payload bits delivered to their destinations per second"},
      {"channel_load", "1", "durations of the packets sent, over the run: G of textbooks"},
      {"channel_use", "1", "durations of the packets received by the one they were for, over the run: S"},
-     {"network_load", "1", "packets offered to networks times the mean duration of those sent, over the run"},
+     {"network_load", "1",
+      "packets offered to networks times the longest duration of one sent, over the run"},
      {"network_offered", "1", "packets offered to networks"},
      {"network_delivered", "1", "packets that networks delivered, at each receiver"},
      {"network_delay_mean_s", "s", "mean time from the offer to the delivery"},
@@ -56,7 +57,7 @@ struct Counts {
   OutcomeSummary outcomes{3'600'000'000};
   LogStatistics statistics;
   std::int64_t payload_bits = 0;
-  double sent_s = 0;  // durations of packets
+  double sent_s = 0, longest_s = 0;  // durations of packets: their sum, and the greatest
   std::int64_t offered = 0;
   std::vector<double> network_delays_s, hops;
 
@@ -72,7 +73,10 @@ struct Counts {
         if (is_whole && is_addressed) payload_bits += std::int64_t{8} * message.payload_size;
       } else if constexpr (std::is_same_v<Message, modem_receipt_t>) {
         Message message;
-        if (decode_checked(event.data, message)) sent_s += message.duration_s;
+        if (decode_checked(event.data, message)) {
+          sent_s += message.duration_s;
+          longest_s = std::max(longest_s, message.duration_s);
+        }
       } else if constexpr (std::is_same_v<Message, network_event_t>) {
         Message message;
         if (decode_checked(event.data, message)) count(message);
@@ -97,13 +101,13 @@ double received_s(const OutcomeSummary& outcomes) {
   return sum_s;
 }
 
-void set_network(Counts& counts, double sent, RunMetrics& metrics) {
+void set_network(Counts& counts, RunMetrics& metrics) {
   auto& delays = counts.network_delays_s;
   std::sort(delays.begin(), delays.end());
   metrics[RunNumber::kChannelLoad] = counts.sent_s / metrics.simulated_s;
   metrics[RunNumber::kChannelUse] = received_s(counts.outcomes) / metrics.simulated_s;
   const auto offered = static_cast<double>(counts.offered);
-  metrics[RunNumber::kNetworkLoad] = sent > 0 ? offered * counts.sent_s / sent / metrics.simulated_s : 0;
+  metrics[RunNumber::kNetworkLoad] = offered * counts.longest_s / metrics.simulated_s;
   metrics[RunNumber::kNetworkOffered] = offered;
   metrics[RunNumber::kNetworkDelivered] = static_cast<double>(delays.size());
   metrics[RunNumber::kNetworkDelayMean] = mean(delays);
@@ -162,7 +166,7 @@ RunMetrics metrics_of(LogReader& log) {
   metrics[RunNumber::kLatencyMean] = mean(latencies);
   metrics[RunNumber::kThroughput] =
       metrics.simulated_s > 0 ? static_cast<double>(counts.payload_bits) / metrics.simulated_s : kNaN;
-  set_network(counts, static_cast<double>(accepted), metrics);
+  set_network(counts, metrics);
   return metrics;
 }
 
