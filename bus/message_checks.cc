@@ -3,9 +3,11 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "bus/message_field.h"
 #include "bus/message_fields.h"
@@ -84,6 +86,12 @@ class FieldChecker {
   }
 };
 
+// Without frames the modem divides the payload.
+std::string problem_of_frames(const std::vector<std::int32_t>& frame_bytes, std::int32_t payload_size) {
+  const std::int64_t sum = std::accumulate(frame_bytes.begin(), frame_bytes.end(), std::int64_t{0});
+  return frame_bytes.empty() || sum == payload_size ? "" : "frame_bytes together are not payload_size";
+}
+
 template <class Slice>
 std::string problem_of_slice(const Slice& m) {
   return m.slice_number < m.slice_count ? "" : "slice_number is not below slice_count";
@@ -133,8 +141,20 @@ std::string problem_between_fields(const modem_config_t& m) {
 }
 
 std::string problem_between_fields(const modem_send_t& m) {
-  const bool to_one = m.packet_kind != modem_send_t::PING || m.destination_id != kBroadcastId;
-  return to_one ? "" : "destination_id is 0 for all; a PING goes to one vehicle";
+  const bool is_ping = m.packet_kind == modem_send_t::PING;
+  if (m.packet_kind == modem_send_t::PING_REPLY || m.packet_kind == modem_send_t::ACK)
+    return "packet_kind is one that modems make by themselves";
+  if (is_ping && m.destination_id == kBroadcastId)
+    return "destination_id is 0 for all; a PING goes to one vehicle";
+  if (m.wants_ack != 0 && m.destination_id == kBroadcastId)
+    return "destination_id is 0 for all; wants_ack goes to one vehicle";
+  if (m.wants_ack != 0 && is_ping) return "wants_ack is 1 of a PING, which is answered by a PING_REPLY";
+  if (m.num_frames > 0 && m.packet_kind != modem_send_t::DATA) return "num_frames is above 0; of DATA alone";
+  return problem_of_frames(m.frame_bytes, m.payload_size);
+}
+
+std::string problem_between_fields(const modem_receive_t& m) {
+  return problem_of_frames(m.frame_bytes, m.payload_size);
 }
 
 std::string problem_between_fields(const scenario_info_t& m) {

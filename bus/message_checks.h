@@ -26,6 +26,7 @@ template <class Message>
 [[nodiscard]] std::string problem_between_fields(const link_search_t& message);
 [[nodiscard]] std::string problem_between_fields(const modem_config_t& message);
 [[nodiscard]] std::string problem_between_fields(const modem_send_t& message);
+[[nodiscard]] std::string problem_between_fields(const modem_receive_t& message);
 [[nodiscard]] std::string problem_between_fields(const scenario_info_t& message);
 [[nodiscard]] std::string problem_between_fields(const terrain_tile_t& message);
 [[nodiscard]] std::string problem_between_fields(const lockstep_grant_t& message);

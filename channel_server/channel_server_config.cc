@@ -1,9 +1,13 @@
 #include "channel_server/channel_server_config.h"
 
+#include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "channel_server/modems/modem_config.h"
+#include "channel_server/packets/extra_loss.h"
+#include "channel_server/packets/packet.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
@@ -78,6 +82,22 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               {1, 10000, "", "RAY_QUERYs for one link table"});
 }
 
+void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
+  constexpr std::array kKinds{"any", "data",        "ping",  "ping-reply",
+                              "ack", "mini-packet", "janus", "janus-cargo"};
+  v.text("from", loss.from, {}, "name of the sender; empty: any");
+  v.text("to", loss.to, {}, "name of the receiver; empty: any");
+  std::size_t kind = loss.kind ? 1 + static_cast<std::size_t>(*loss.kind) : 0;
+  bus::choice(v, "kind", kind, {kKinds.begin(), kKinds.end()}, "of packet");
+  loss.kind = kind == 0 ? std::nullopt : std::optional(static_cast<PacketKind>(kind - 1));
+  v.number("share", loss.share, {0, 1, "", "of the packets that would have been received, lost on purpose"});
+  double at_s = loss.begin.seconds(), until_s = loss.end == SimTime::never() ? 0 : loss.end.seconds();
+  v.number("at_s", at_s, {0, 1e7, "s", "simulation time from which packets depart into it"});
+  v.number("until_s", until_s, {0, 1e7, "s", "and until when; 0: for ever"});
+  loss.begin = SimTime::from_seconds(at_s);
+  loss.end = until_s > 0 ? SimTime::from_seconds(until_s) : SimTime::never();
+}
+
 }  // namespace
 
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
@@ -89,6 +109,11 @@ void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
       [&](bus::ConfigVisitor& item, std::size_t i) {
         visit_vehicle(item, config.vehicles[i], config.modem);
       });
+  std::vector<ExtraLoss>& losses = config.rules.medium.extra_loss;
+  v.list(
+      "extra_loss", "Packets lost on purpose, for tests of protocols", losses.size(),
+      [&](std::size_t n) { losses.resize(n); },
+      [&](bus::ConfigVisitor& item, std::size_t i) { visit_extra_loss(item, losses[i]); });
   v.section("channel_server", "How the channel server works",
             [&](bus::ConfigVisitor& s) { visit_rules(s, config.rules); });
 }

@@ -97,16 +97,17 @@ bus::Due ChannelServerNode::on_due() const {
           .steady = std::min({seabed_.due(), queries_.due(), exchange_.due()})};
 }
 
-// Between ticks it publishes what packets come to and answers; other servers receive only answers to pings of that.
+// Between ticks it publishes what packets come to and answers; other servers receive only the answers of that.
 SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
-  for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kLinkReply}) {
+  for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kModemEvent, channels::kLinkReply}) {
     if (matters(family.of("any"))) return SimTime::at_once();
   }
   for (const std::string_view channel : {channels::kOutcome, channels::kEnvironment, channels::kRayQuery}) {
     if (matters(channel)) return SimTime::at_once();
   }
-  return matters(channels::kPingAnswer) ? std::min({next_instant(), medium_.next_ping(), inbox_.next_ping()})
-                                        : next_instant();
+  return matters(channels::kModemReply)
+             ? std::min({next_instant(), medium_.next_answerable(), inbox_.next_answerable()})
+             : next_instant();
 }
 
 void ChannelServerNode::on_step(const bus::Now& now) {

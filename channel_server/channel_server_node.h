@@ -2,7 +2,7 @@
 // the link tables, and the outcome of every packet; answers link queries. --interface lists its channels.
 //
 // Of several servers of one water (rules.medium.shard) each receives what all the others receive and publishes its
-// share; the first also ENVIRONMENT and SCENARIO; LINK_QUERYs go by their request_id; PING_ANSWER passes on answers to pings,
+// share; the first also ENVIRONMENT and SCENARIO; LINK_QUERYs go by their request_id; MODEM_REPLY passes on answers to pings,
 // FOUND_PATHS the paths that two of them need.
 // With a journal a server that was killed goes on where it was (server_recovery.h).
 #pragma once

@@ -31,6 +31,10 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
         keep(inputs_.modems, vehicle, m, channels::kModem);
       },
       bus::Wakeup::kStoreOnly);
+  bus_.subscribe<modem_listen_t>(channels::kListen,
+                                 [this](std::string_view vehicle, const modem_listen_t& m) {
+                                   keep(inputs_.listens, vehicle, m, channels::kListen);
+                                 });
   bus_.subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
     keep(inputs_.sends, vehicle, m, channels::kSend);
   });
@@ -48,11 +52,11 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
     inputs_.changes.push_back(m);
   });
   if (shard.is_alone()) return;
-  bus_.subscribe<ping_answer_t>(channels::kPingAnswer, [this](const ping_answer_t& m) {
-    if (inputs_.ping_answers.size() >= kMaxMessages) {
-      return bus_.refuse(channels::kPingAnswer, "too many messages at once");
+  bus_.subscribe<modem_reply_t>(channels::kModemReply, [this](const modem_reply_t& m) {
+    if (inputs_.modem_replies.size() >= kMaxMessages) {
+      return bus_.refuse(channels::kModemReply, "too many messages at once");
     }
-    inputs_.ping_answers.push_back(m);
+    inputs_.modem_replies.push_back(m);
   });
 }
 
@@ -67,16 +71,18 @@ SimTime Inbox::due() const {
   if (!queries_.empty() || !inputs_.changes.empty()) return SimTime::at_once();
   SimTime due = SimTime::never();
   for (const auto& [vehicle, send] : inputs_.sends) due = std::min(due, SimTime::from_utime(send.utime));
-  for (const ping_answer_t& answer : inputs_.ping_answers) {
+  for (const auto& [vehicle, listen] : inputs_.listens)
+    due = std::min(due, SimTime::from_utime(listen.utime));
+  for (const modem_reply_t& answer : inputs_.modem_replies) {
     due = std::min(due, SimTime::from_nanoseconds(answer.answer_start_ns));
   }
   return due;
 }
 
-SimTime Inbox::next_ping() const {
+SimTime Inbox::next_answerable() const {
   SimTime next = SimTime::never();
   for (const auto& [vehicle, send] : inputs_.sends) {
-    if (send.packet_kind == modem_send_t::PING) next = std::min(next, SimTime::from_utime(send.utime));
+    if (send.packet_kind == modem_send_t::PING || send.wants_ack) next = std::min(next, SimTime::from_utime(send.utime));
   }
   return next;
 }
@@ -86,9 +92,10 @@ void Inbox::forget_after(SimTime latest) {
   const auto is_later = [&](const auto& entry) { return entry.second.utime > utime; };
   std::erase_if(inputs_.states, is_later);
   std::erase_if(inputs_.modems, is_later);
+  std::erase_if(inputs_.listens, is_later);
   std::erase_if(inputs_.sends, is_later);
   std::erase_if(inputs_.changes, [&](const environment_change_t& change) { return change.utime > utime; });
-  inputs_.ping_answers.clear();
+  inputs_.modem_replies.clear();
 }
 
 }  // namespace halocline::channel_server

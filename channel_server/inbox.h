@@ -19,15 +19,16 @@ struct StepInputs {
 
   ByVehicle<vehicle_state_t> states;
   ByVehicle<modem_config_t> modems;
+  ByVehicle<modem_listen_t> listens;
   ByVehicle<modem_send_t> sends;
   std::vector<environment_change_t> changes;
-  std::vector<ping_answer_t> ping_answers;  // of other shards
+  std::vector<modem_reply_t> modem_replies;  // of other shards
 };
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards PING_ANSWER. The bus must
-  // outlive it.
+  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards MODEM_REPLY. The bus
+  // must outlive it.
   Inbox(bus::Bus& bus, const Shard& shard);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
@@ -37,8 +38,8 @@ class Inbox {
 
   // The simulation time at which a step is needed for them; states and modems wait for any.
   SimTime due() const;
-  // The start of the first ping among them; never() without one.
-  SimTime next_ping() const;
+  // The start of the first packet among them that a modem may answer; never() without one.
+  SimTime next_answerable() const;
   // Another run has begun: forgets what is stamped after `latest`. The rest may belong to the new run.
   void forget_after(SimTime latest);
 

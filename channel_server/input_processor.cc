@@ -26,9 +26,10 @@ InputProcessor::InputProcessor(bus::Bus& bus, VehicleRegistry& vehicles, Environ
 SimTime InputProcessor::apply(StepInputs inputs, SimTime now) {
   apply_states(std::move(inputs.states), now);
   apply_modems(inputs.modems, now);
+  apply_listens(inputs.listens, now);
   const SimTime changed_from = apply_changes(inputs.changes, now);
   apply_sends(std::move(inputs.sends), now);
-  for (const ping_answer_t& message : inputs.ping_answers) medium_.add_answer(to_answer(message));
+  for (const modem_reply_t& message : inputs.modem_replies) medium_.add_answer(to_answer(message));
   return changed_from;
 }
 
@@ -52,6 +53,14 @@ void InputProcessor::apply_modems(const StepInputs::ByVehicle<modem_config_t>& m
     } catch (const InvalidArgument& error) {
       bus_.refuse(channels::kModem.of(vehicle), error.what());
     }
+  }
+}
+
+void InputProcessor::apply_listens(const StepInputs::ByVehicle<modem_listen_t>& listens, SimTime now) {
+  for (const auto& [vehicle, message] : listens) {
+    const SimTime from = SimTime::from_utime(message.utime);
+    vehicles_.announce_listening(vehicle, from, to_listening(message), now);
+    medium_.on_listening_changed(vehicle, from);
   }
 }
 

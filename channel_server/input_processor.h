@@ -1,5 +1,5 @@
-// Applies the inputs of a step to the models of the channel server: states and modems to the registry, changes of
-// the water to the timeline, transmissions and answers to pings to the packet medium.
+// Applies the inputs of a step to the models of the channel server: states, modems and how they listen to the registry, changes
+// of the water to the timeline, transmissions and answers to pings to the packet medium.
 //
 // Within a step, states and transmissions are applied by their time and the vehicle's name, not in order of arrival,
 // so that of two vehicles that claim one id at one time the same one gets it in every run. What is impossible is
@@ -34,6 +34,7 @@ class InputProcessor {
 
  private:
   void apply_states(StepInputs::ByVehicle<vehicle_state_t> states, SimTime now);
+  void apply_listens(const StepInputs::ByVehicle<modem_listen_t>& listens, SimTime now);
   void apply_modems(const StepInputs::ByVehicle<modem_config_t>& modems, SimTime now);
   SimTime apply_changes(const std::vector<environment_change_t>& changes, SimTime now);
   void apply_sends(StepInputs::ByVehicle<modem_send_t> sends, SimTime now);

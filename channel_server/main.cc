@@ -21,11 +21,13 @@ int main(int argc, char** argv) {
   program.node_name = "channel-server";
   program.stage = halocline::bus::Stage::kChannel;
   program.interface =
-      "subscribes: STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
-      "            PING_ANSWER, FOUND_PATHS.<itself> (of other shards),\n"
+      "subscribes: STATE.<vehicle>, MODEM.<vehicle>, LISTEN.<vehicle>, SEND.<vehicle>, LINK_QUERY, "
+      "SET_ENVIRONMENT,\n"
+      "            MODEM_REPLY, FOUND_PATHS.<itself> (of other shards),\n"
       "            RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
-      "publishes:  LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT, SCENARIO,\n"
-      "            LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER and FOUND_PATHS.<shard> (as a shard),\n"
+      "publishes:  LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>, OUTCOME,\n"
+      "            ENVIRONMENT, SCENARIO,\n"
+      "            LINK_REPLY.<client>, RAY_QUERY, MODEM_REPLY and FOUND_PATHS.<shard> (as a shard),\n"
       "            STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   std::string share, journal;

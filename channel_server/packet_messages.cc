@@ -1,7 +1,10 @@
 #include "channel_server/packet_messages.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <initializer_list>
+#include <vector>
 
 namespace halocline::channel_server {
 namespace {
@@ -18,12 +21,17 @@ Message common_fields(const PacketOutcome& outcome, SimTime at) {
   message.destination_id = request.destination_id;
   message.receiver_id = outcome.receiver_id;
   message.packet_kind = static_cast<std::int8_t>(request.kind);
+  message.rate_number = outcome.packet->rate_number;
   message.departure_utime = outcome.packet->departure.to_utime();
   message.travel_time_s = outcome.travel_time_s;
   message.received_level_db = outcome.budget.received_level.value;
   message.snr_db = outcome.budget.snr.value;
   message.strongest_path_doppler_factor = outcome.doppler_factor;
   message.sinr_db = outcome.statistics.sinr.value;
+  message.duration_s = outcome.packet->timing.duration.seconds();
+  message.noise_level_db = outcome.budget.noise_level.value;
+  message.num_frames = static_cast<std::int32_t>(outcome.packet->frame_bytes.size());
+  message.frames_good = outcome.statistics.frames_good;
   return message;
 }
 
@@ -46,6 +54,18 @@ void set_statistics(const DecisionStatistics& statistics, packet_outcome_t& mess
   for (const PacketName& name : statistics.colliders) message.colliders.push_back(to_message(name));
 }
 
+// The payload with zeros for the frames that were not right.
+std::vector<std::uint8_t> readable_payload(const Packet& packet, std::uint32_t frames_good) {
+  std::vector<std::uint8_t> payload = packet.request.payload;
+  auto frame = payload.begin();
+  for (std::size_t i = 0; i < packet.frame_bytes.size(); ++i) {
+    const auto end = frame + packet.frame_bytes[i];
+    if ((frames_good >> i & 1u) == 0) std::fill(frame, end, std::uint8_t{0});
+    frame = end;
+  }
+  return payload;
+}
+
 std::string joined(std::initializer_list<std::int64_t> numbers) {
   std::string text;
   for (const std::int64_t number : numbers) text += (text.empty() ? "" : " ") + std::to_string(number);
@@ -65,35 +85,43 @@ SendRequest to_request(std::string_view vehicle, const modem_send_t& message) {
   request.payload = message.payload;
   request.kind = static_cast<PacketKind>(message.packet_kind);
   request.stamped = message.stamped != 0;
+  request.wants_ack = message.wants_ack != 0;
+  if (message.sets_rate != 0) request.rate_number = message.rate_number;
+  if (message.sets_source_level != 0) request.source_level = Decibels{message.source_level_db};
+  request.frame_bytes = message.frame_bytes;
   return request;
 }
 
-ping_answer_t to_message(const PingAnswer& answer, SimTime at) {
-  ping_answer_t message{};
+modem_reply_t to_message(const ModemReply& answer, SimTime at) {
+  modem_reply_t message{};
   message.utime = at.to_utime();
   message.answering_vehicle = answer.request.vehicle;
   message.answering_id = answer.request.source_id;
-  message.ping_source_id = answer.request.destination_id;
-  message.ping_session = answer.request.session;
-  message.ping_sequence = answer.request.packet_sequence;
+  message.packet_kind = static_cast<std::int8_t>(answer.request.kind);
+  message.asking_id = answer.request.destination_id;
+  message.send_session = answer.request.session;
+  message.packet_sequence = answer.request.packet_sequence;
   message.answer_start_ns = answer.request.start.nanoseconds();
-  message.ping_departure_ns = answer.ping_departure.nanoseconds();
-  message.ping_duration_ns = answer.ping_duration.nanoseconds();
+  message.asked_departure_ns = answer.asked_departure.nanoseconds();
+  message.asked_duration_ns = answer.asked_duration.nanoseconds();
+  message.payload_size = static_cast<std::int32_t>(answer.request.payload.size());
+  message.payload = answer.request.payload;
   return message;
 }
 
-PingAnswer to_answer(const ping_answer_t& message) {
-  PingAnswer answer;
+ModemReply to_answer(const modem_reply_t& message) {
+  ModemReply answer;
   answer.request.vehicle = message.answering_vehicle;
   answer.request.source_id = message.answering_id;
-  answer.request.destination_id = message.ping_source_id;
-  answer.request.session = message.ping_session;
-  answer.request.packet_sequence = message.ping_sequence;
+  answer.request.destination_id = message.asking_id;
+  answer.request.session = message.send_session;
+  answer.request.packet_sequence = message.packet_sequence;
   answer.request.start = SimTime::from_nanoseconds(message.answer_start_ns);
-  answer.request.kind = PacketKind::kPingReply;
+  answer.request.kind = static_cast<PacketKind>(message.packet_kind);
+  answer.request.payload = message.payload;
   answer.request.stamped = false;
-  answer.ping_departure = SimTime::from_nanoseconds(message.ping_departure_ns);
-  answer.ping_duration = SimDuration::from_nanoseconds(message.ping_duration_ns);
+  answer.asked_departure = SimTime::from_nanoseconds(message.asked_departure_ns);
+  answer.asked_duration = SimDuration::from_nanoseconds(message.asked_duration_ns);
   return answer;
 }
 
@@ -112,10 +140,9 @@ packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at) {
   auto message = common_fields<packet_outcome_t>(outcome, at);
   message.outcome = static_cast<std::int8_t>(outcome.kind);
   message.num_receivers = static_cast<std::int32_t>(outcome.receivers);
-  message.duration_s = outcome.packet->timing.duration.seconds();
+  message.num_frames_good = std::popcount(outcome.statistics.frames_good);
   message.range_m = outcome.budget.range_m;
   message.transmission_loss_db = outcome.budget.transmission_loss.value;
-  message.noise_level_db = outcome.budget.noise_level.value;
   message.cutoff_level_db = outcome.cutoff.value;
   message.propagation_used = static_cast<std::int8_t>(outcome.propagation);
   message.num_paths = static_cast<std::int32_t>(outcome.path_count);
@@ -123,6 +150,19 @@ packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at) {
   message.arrival_azimuth_rad = outcome.arrival_azimuth_rad;
   message.arrival_elevation_rad = outcome.arrival_elevation_rad;
   set_statistics(outcome.statistics, message);
+  return message;
+}
+
+modem_event_t to_message(const ModemEvent& event, SimTime at) {
+  modem_event_t message{};
+  message.utime = at.to_utime();
+  message.event_ns = at.nanoseconds();
+  message.modem_event = static_cast<std::int8_t>(event.kind);
+  message.send_session = event.session;
+  message.packet_sequence = event.packet_sequence;
+  message.level_db = event.level.value;
+  message.sinr_db = event.sinr.value;
+  message.packet_outcome = static_cast<std::int8_t>(event.outcome);
   return message;
 }
 
@@ -136,9 +176,18 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   } else {
     message.travel_time_s = outcome.measured_travel_time_s;
   }
-  message.two_way_travel_time_s = outcome.two_way_travel_time_s;
+  // Who overhears an answer does not know when the question left.
+  if (request.destination_id == outcome.receiver_id)
+    message.two_way_travel_time_s = outcome.two_way_travel_time_s;
+  message.wants_ack = request.wants_ack && request.destination_id == outcome.receiver_id ? 1 : 0;
+  message.arrival_utime =
+      (outcome.packet->departure + SimDuration::from_seconds(outcome.measured_travel_time_s)).to_utime();
+  const PowerRatio sinr = to_power_ratio(outcome.statistics.sinr);
+  message.snr_out_db = to_decibels(bit_energy(outcome.packet->modem, sinr)).value;
+  message.mse_db = to_decibels(acoustics::least_mean_square_error(sinr)).value;
+  message.frame_bytes = outcome.packet->frame_bytes;
   message.payload_size = static_cast<std::int32_t>(request.payload.size());
-  message.payload = request.payload;
+  message.payload = readable_payload(*outcome.packet, outcome.statistics.frames_good);
   return message;
 }
 
@@ -157,8 +206,10 @@ std::string identity_of(const packet_outcome_t& m) {
                  m.send_session == 0 ? m.departure_utime : 0});
 }
 
-std::string identity_of(const ping_answer_t& m) {
-  return joined({m.answering_id, m.ping_source_id, m.ping_session, m.ping_sequence, m.answer_start_ns});
+std::string identity_of(const modem_event_t& m) { return joined({m.event_ns, m.modem_event}); }
+
+std::string identity_of(const modem_reply_t& m) {
+  return joined({m.answering_id, m.asking_id, m.packet_kind, m.send_session, m.packet_sequence, m.answer_start_ns});
 }
 
 }  // namespace halocline::channel_server

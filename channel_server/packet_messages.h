@@ -12,11 +12,12 @@
 namespace halocline::channel_server {
 
 SendRequest to_request(std::string_view vehicle, const modem_send_t& message);
-ping_answer_t to_message(const PingAnswer& answer, SimTime at);
-PingAnswer to_answer(const ping_answer_t& message);
+modem_reply_t to_message(const ModemReply& answer, SimTime at);
+ModemReply to_answer(const modem_reply_t& message);
 
 modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);
 packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at);
+modem_event_t to_message(const ModemEvent& event, SimTime at);
 // Only for an outcome whose packet is to be delivered.
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 
@@ -25,6 +26,7 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 std::string identity_of(const modem_receipt_t& message);
 std::string identity_of(const modem_receive_t& message);
 std::string identity_of(const packet_outcome_t& message);
-std::string identity_of(const ping_answer_t& message);
+std::string identity_of(const modem_reply_t& message);
+std::string identity_of(const modem_event_t& message);
 
 }  // namespace halocline::channel_server

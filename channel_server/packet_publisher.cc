@@ -13,9 +13,12 @@ namespace channels = bus::channels;
 void PacketPublisher::publish(const MediumEvent& event) {
   if (const auto* receipt = std::get_if<Receipt>(&event.what)) {
     publish(*receipt, event.at);
-  } else if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
-    const ping_answer_t message = to_message(*answer, event.at);
-    journal_.publish_once(std::string(channels::kPingAnswer), message, identity_of(message));
+  } else if (const auto* answer = std::get_if<ModemReply>(&event.what)) {
+    const modem_reply_t message = to_message(*answer, event.at);
+    journal_.publish_once(std::string(channels::kModemReply), message, identity_of(message));
+  } else if (const auto* noticed = std::get_if<ModemEvent>(&event.what)) {
+    const modem_event_t message = to_message(*noticed, event.at);
+    journal_.publish_once(channels::kModemEvent.of(noticed->vehicle), message, identity_of(message));
   } else {
     publish(std::get<PacketOutcome>(event.what), event.at, event.late);
   }

@@ -11,6 +11,7 @@
 #include "channel_server/modems/modem_config.h"
 #include "core/check.h"
 #include "core/frames.h"
+#include "core/names.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -23,34 +24,6 @@ acoustics::BeamPattern beam_in(const modem_config_t& message) {
     rows.push_back({message.beam_elevation_rad[i], message.beam_loss_db[i]});
   }
   return rows.empty() ? acoustics::BeamPattern() : acoustics::BeamPattern(std::move(rows));
-}
-
-// The profile that the message names.
-std::string profile_in(const modem_config_t& message) {
-  switch (message.modem_profile) {
-    case modem_config_t::PROFILE_GENERIC:
-      return kGenericProfile;
-    case modem_config_t::PROFILE_JANUS:
-      return "janus";
-    case modem_config_t::PROFILE_MICROMODEM_FSK:
-      return "micromodem-fsk";
-    case modem_config_t::PROFILE_MICROMODEM_PSK:
-      return "micromodem-psk-" + std::to_string(message.psk_rate);
-  }
-  throw InvalidArgument("modem_profile is no value of its enumeration");
-}
-
-void set_profile(const std::string& profile, modem_config_t& message) {
-  for (const std::int8_t number :
-       {modem_config_t::PROFILE_GENERIC, modem_config_t::PROFILE_JANUS,
-        modem_config_t::PROFILE_MICROMODEM_FSK, modem_config_t::PROFILE_MICROMODEM_PSK}) {
-    message.modem_profile = number;
-    const bool has_rates = number == modem_config_t::PROFILE_MICROMODEM_PSK;
-    for (message.psk_rate = has_rates ? 1 : 0; message.psk_rate <= (has_rates ? 5 : 0); ++message.psk_rate) {
-      if (profile_in(message) == profile) return;
-    }
-  }
-  throw InvalidArgument("modem profile '" + profile + "' has no number in modem_config_t");
 }
 
 acoustics::SoundSpeedProfile profile_in(const environment_change_t& m, const acoustics::Environment& before) {
@@ -92,7 +65,7 @@ VehicleModem to_modem(const modem_config_t& message) {
   require(message.error_model >= 0 &&
               static_cast<std::size_t>(message.error_model) < acoustics::kErrorModels.size(),
           "error_model is no value of its enumeration");
-  const VehicleModem profile = load_modem(profile_in(message));
+  const VehicleModem profile = load_modem(message.modem_profile);
   VehicleModem modem = profile;
   modem.modem.family = message.family;
   modem.modem.source_level = {message.source_level_db};
@@ -116,8 +89,18 @@ VehicleModem to_modem(const modem_config_t& message) {
   modem.max_payload_bytes = message.max_payload_bytes;
   modem.when_busy = static_cast<WhenBusy>(message.when_busy);
   validate(modem.modem);
-  if (profile.profile != kGenericProfile) require_packets_of(profile, modem.modem);
+  if (profile.profile != kGenericProfile) set_rates_of(profile, modem);
   return modem;
+}
+
+Listening to_listening(const modem_listen_t& message) {
+  Listening listening;
+  listening.asleep = message.asleep != 0;
+  if (message.wake_utime != 0) listening.wakes = SimTime::from_utime(message.wake_utime);
+  listening.promiscuous = message.promiscuous != 0;
+  listening.events = message.events != 0;
+  listening.carrier_threshold = {message.carrier_threshold_db};
+  return listening;
 }
 
 modem_config_t to_message(const VehicleModem& modem, SimTime from) {
@@ -132,7 +115,9 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   message.bit_rate_bps = modem.modem.bit_rate_bps;
   message.packet_overhead_s = modem.modem.packet_overhead.seconds();
   message.max_payload_bytes = modem.max_payload_bytes;
-  set_profile(modem.profile, message);
+  require(is_valid_name(modem.profile),
+          "modem profile '" + modem.profile + "' is a file, which modem_config_t cannot name");
+  message.modem_profile = modem.profile;
   message.preamble_s = modem.modem.preamble.seconds();
   message.guard_time_s = modem.modem.guard_time.seconds();
   message.guard_taper_s = seconds_of(modem.modem.guard_taper);

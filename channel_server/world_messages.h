@@ -19,6 +19,7 @@ StampedState to_state(const vehicle_state_t& message);
 // Throws InvalidArgument for a modem that acoustics/modem/modem.h refuses.
 VehicleModem to_modem(const modem_config_t& message);
 modem_config_t to_message(const VehicleModem& modem, SimTime from);
+Listening to_listening(const modem_listen_t& message);
 
 // What ENVIRONMENT holds beside the water.
 struct WaterDescription {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "acoustics/modem/packet_format.h"
 #include "acoustics/modem/preamble_detection.h"
 #include "core/check.h"
 #include "core/names.h"
@@ -10,7 +11,6 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr std::int64_t kBitsPerByte = 8;
 constexpr double kMaxBits = 1e6;
 constexpr double kLeastShare = 1e-30;  // of a band, for band_loss
 
@@ -18,7 +18,9 @@ void validate(const FrameLayout& layout) {
   require_in_range(layout.header_bits, 0, kMaxBits, "header", "bits");
   require_in_range(layout.tail_bits, 0, kMaxBits, "tail of a coded block", "bits");
   require_in_range(layout.frame_bytes, 0, kMaxPayloadBytes, "frame", "bytes");
-  require_in_range(layout.max_frames, layout.frame_bytes > 0 ? 1 : 0, 1024, "frames of a packet");
+  require_in_range(layout.max_frames, layout.frame_bytes > 0 ? 1 : 0, kMaxFrames, "frames of a packet");
+  require_in_range(layout.mini_packet_bits, 0, kMaxBits, "mini-packet", "bits");
+  require_in_range(layout.application_bits, 0, layout.header_bits, "application's part of the header", "bits");
 }
 
 void validate_hopping(const Modem& modem) {
@@ -27,17 +29,6 @@ void validate_hopping(const Modem& modem) {
   require_in_range(modem.hop_clearing.seconds(), 0, 60, "clearing time of the hop pattern", "s");
   require(hops_well(modem),
           "hopping needs a chip, and a pattern that does not return before the chip has ended");
-}
-
-// Bytes that are sent for a payload: whole frames, where there are frames.
-std::int64_t sent_bytes(const FrameLayout& layout, std::int64_t payload_bytes) {
-  if (layout.frame_bytes == 0) return payload_bytes;
-  return (payload_bytes + layout.frame_bytes - 1) / layout.frame_bytes * layout.frame_bytes;
-}
-
-// Bits of a coded block: its information and the tail, nothing where there is nothing to send.
-std::int64_t block_bits(const FrameLayout& layout, std::int64_t information_bits) {
-  return information_bits > 0 ? information_bits + layout.tail_bits : 0;
 }
 
 }  // namespace
@@ -79,15 +70,7 @@ Modem generic_modem(Decibels strength, Decibels cut_off, double centre_frequency
 }
 
 PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes) {
-  require(payload_bytes <= max_payload_bytes(modem), "a payload of " + std::to_string(payload_bytes) +
-                                                         " bytes; allowed is at most " +
-                                                         std::to_string(max_payload_bytes(modem)));
-  // Duration = overhead + (coded header + coded body, each with its tail) / bit rate.
-  const FrameLayout& layout = modem.layout;
-  const std::int64_t body_bits = kBitsPerByte * sent_bytes(layout, static_cast<std::int64_t>(payload_bytes));
-  const std::int64_t bits = block_bits(layout, layout.header_bits) + block_bits(layout, body_bits);
-  return {modem.packet_overhead + SimDuration::from_seconds(static_cast<double>(bits) / modem.bit_rate_bps),
-          modem.preamble, layout.header_bits + body_bits};
+  return packet_timing(modem, data_format(modem, payload_bytes));
 }
 
 std::size_t max_payload_bytes(const Modem& modem) {
@@ -105,9 +88,17 @@ double acquisition_probability(const Modem& modem, PowerRatio sinr) {
   return detection_probability(modem.preamble_pieces, kFalseAlarmProbability, {time_bandwidth * sinr.value});
 }
 
+PowerRatio bit_energy(const Modem& modem, PowerRatio sinr) {
+  return {sinr.value * modem.bandwidth_hz / modem.bit_rate_bps};  // Eb / N0 = SNR B / R
+}
+
+PowerRatio least_mean_square_error(PowerRatio sinr) {
+  require(sinr.value >= 0, "a signal-to-noise ratio must not be negative or NaN");
+  return {1 / (1 + sinr.value)};
+}
+
 double bit_error_rate(const Modem& modem, PowerRatio sinr) {
-  // Eb / N0 = SNR B / R.
-  return bit_error_rate(modem.error_model, PowerRatio{sinr.value * modem.bandwidth_hz / modem.bit_rate_bps});
+  return bit_error_rate(modem.error_model, bit_energy(modem, sinr));
 }
 
 bool hops_well(const Modem& modem) {

@@ -33,7 +33,9 @@ struct FrameLayout {
   std::int32_t header_bits = 0;  // a coded block before the payload that has to be right as well
   std::int32_t tail_bits = 0;    // that end the code, after every coded block; carry nothing
   std::int32_t frame_bytes = 0;  // 0: the payload is sent as it is, in no frames
-  std::int32_t max_frames = 0;   // in one packet; read only with frame_bytes above 0
+  std::int32_t max_frames = 0;   // in one packet, at most kMaxFrames; read only with frame_bytes above 0
+  std::int32_t mini_packet_bits = 0;  // of a mini-packet, all of it; 0: the modem has none
+  std::int32_t application_bits = 0;  // of the header, free for applications (JANUS: 34); 0: none
   bool operator==(const FrameLayout&) const = default;
 };
 
@@ -104,8 +106,8 @@ struct PacketTiming {
   std::int64_t information_bits;  // that all have to be right: header and whole frames, before coding
 };
 
-// How a packet of `payload_bytes` occupies the water. The payload must not exceed max_payload_bytes
-// (InvalidArgument).
+// How a packet of `payload_bytes` occupies the water (packet_format.h has those of other kinds). The payload must not exceed
+// max_payload_bytes (InvalidArgument).
 PacketTiming packet_timing(const Modem& modem, std::size_t payload_bytes);
 
 // Largest payload of one packet, bytes: its frames, or kMaxPayloadBytes without frames.
@@ -119,8 +121,17 @@ inline constexpr double kFalseAlarmProbability = 1e-8;
 // interference over the modem's band (>= 0), during the preamble. 1 without a preamble.
 double acquisition_probability(const Modem& modem, PowerRatio sinr);
 
+// Eb/N0 of an information bit, after despreading and decoding: sinr bandwidth / bit rate, noise and interference white over the
+// band.
+PowerRatio bit_energy(const Modem& modem, PowerRatio sinr);
+
+// Mean square error of the symbols, of power 1, of an equaliser whose output has the ratio `sinr` of signal to noise, interference
+// and what is left of echoes: J = 1 / (1 + sinr) for the linear equaliser of least mean square error (Proakis, 4th
+// edition, section 10.2.2).
+PowerRatio least_mean_square_error(PowerRatio sinr);
+
 // The probability that an information bit is wrong after decoding, 0..0.5, never rising with `sinr` (as above,
-// during the bits). Eb/N0 = sinr bandwidth / bit rate: noise and interference are taken as white over the band.
+// during the bits).
 double bit_error_rate(const Modem& modem, PowerRatio sinr);
 
 // True when `receiver` knows the waveform of `sender`. Another family's sound triggers no detector.

@@ -8,12 +8,6 @@
 namespace halocline::acoustics {
 double chip_energy(const Modem& modem) { return 0.5 * modem.bandwidth_hz / modem.bit_rate_bps; }
 
-std::vector<std::int64_t> coded_blocks(const Modem& modem, std::int64_t information_bits) {
-  std::vector<std::int64_t> blocks;
-  for_each_coded_block(modem, information_bits, [&](std::int64_t bits) { blocks.push_back(bits); });
-  return blocks;
-}
-
 BlockDecoder::BlockDecoder(const Modem& modem, bool fades)
     : modem_(modem), interleaved_(fades && is_coded_frequency_shift_keying(modem.error_model)) {}
 

@@ -1,7 +1,7 @@
 // Whether a packet is detected and decoded, from its ratio of signal to noise and interference over time and band.
 //
-// Model. A packet's information bits lie evenly after its preamble, in blocks: the header and each frame, or the payload as
-// one block. All blocks have to be right.
+// Model. A packet's information bits lie evenly after its preamble, in blocks: the header and each frame
+// (acoustics/modem/packet_format.h).
 // - Bits that fade together (PSK, uncoded FSK, and everything without fading): errors do not depend on each other,
 //     ln P = sum over cells of bits in the cell * ln(1 - BER(SINR))
 // - Coded frequency-shift keying, whose interleaver spreads a block over its time and whose hops spread it over the band,
@@ -14,25 +14,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "acoustics/modem/modem.h"
 
 namespace halocline::acoustics {
 
 inline constexpr double kEffectiveRatioBeta = 2.95;
-
-// Calls visit(information bits) for each block of a packet with that many in all.
-template <class Visit>
-void for_each_coded_block(const Modem& modem, std::int64_t information_bits, Visit&& visit) {
-  const std::int64_t header = std::min<std::int64_t>(modem.layout.header_bits, information_bits);
-  if (header > 0) visit(header);
-  std::int64_t left = information_bits - header;
-  const std::int64_t frame = modem.layout.frame_bytes > 0 ? 8 * std::int64_t{modem.layout.frame_bytes} : left;
-  for (; left > 0; left -= frame) visit(std::min(frame, left));
-}
-// The same in a list.
-std::vector<std::int64_t> coded_blocks(const Modem& modem, std::int64_t information_bits);
 
 // Energy of a chip of a code of rate 1/2 over the noise density, for a ratio of 1 in the band: B / (2 R).
 double chip_energy(const Modem& modem);

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "acoustics/math/fast_functions.h"
-#include "acoustics/reception/decoding.h"
+#include "acoustics/modem/packet_format.h"
 #include "core/elementary.h"
 #include "core/units.h"
 
@@ -22,7 +22,7 @@ constexpr std::array<double, ReceptionCurves::kThresholds + 1> kLosses{0,   0.00
 ReceptionCurves::ReceptionCurves(const Modem& modem, std::size_t payload_bytes)
     : modem_(modem),
       timing_(packet_timing(modem, payload_bytes)),
-      blocks_(coded_blocks(modem, timing_.information_bits)) {
+      blocks_(data_format(modem, payload_bytes).blocks()) {
   for (std::size_t i = 0; i < kRows; ++i) {
     const PowerRatio sinr = to_power_ratio(Decibels{kLeastDb + kStepDb * static_cast<double>(i)});
     acquisition_.push_back(acquisition_probability(modem, sinr));

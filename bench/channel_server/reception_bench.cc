@@ -9,6 +9,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/modem/packet_format.h"
 #include "acoustics/reception/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
@@ -44,7 +45,8 @@ void judgement(benchmark::State& state, const char* profile) {
   const auto paths = paths_of(state.range(0), modem.centre_frequency_hz);
   Packet packet;
   packet.modem = modem;
-  packet.timing = packet_timing(modem, 32);
+  packet.format = data_format(modem, 32);
+  packet.timing = packet_timing(modem, packet.format);
   const auto shared = std::make_shared<const Packet>(packet);
   const SimTime begin = SimTime::from_seconds(100);
   const acoustics::FadingLink link{.seed = 1, .lower_id = 1, .higher_id = 2};

@@ -177,8 +177,9 @@ void LinkQueryService::set_reception(const ResolvedEnd& from, const ResolvedEnd&
     return;
   }
   LinkRow& row = answer.row;
-  const Reception reception = propagation_.reception(at, link_end(from.placed()), link_end(to.placed()));
-  const acoustics::Modem &transmitter = from.modem.modem, &receiver = to.modem.modem;
+  const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
+  const Reception reception =
+      propagation_.reception(at, link_end(from.placed()), receiving_end(to.placed(), transmitter));
   row.set(reception,
           predictor_.forecast(*predictor_.rates_of(transmitter), transmitter, receiver, reception));
   row.multipath = multipath_of(reception, receiver.min_receivable_level);

@@ -35,6 +35,12 @@ LinkEnd link_end(const PlacedVehicle& vehicle) {
           &vehicle.modem->modem};
 }
 
+LinkEnd receiving_end(const PlacedVehicle& vehicle, const acoustics::Modem& sender) {
+  LinkEnd end = link_end(vehicle);
+  end.modem = &receiving_modem(*vehicle.modem, sender);
+  return end;
+}
+
 TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& ranges_m,
                      Shard shard) {
   std::vector<Vec3> places;
@@ -47,7 +53,8 @@ TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vect
     for (std::size_t to = 0; to < vehicles.size(); ++to) {
       if (to == from || (places[to] - places[from]).squaredNorm() > range_m * range_m) continue;
       transmitter.receivers.push_back(to);
-      rows.links.push_back({link_end(vehicles[from]), link_end(vehicles[to])});
+      rows.links.push_back(
+          {link_end(vehicles[from]), receiving_end(vehicles[to], vehicles[from].modem->modem)});
     }
     rows.transmitters.push_back(std::move(transmitter));
   }

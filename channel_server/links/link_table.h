@@ -59,8 +59,9 @@ struct LinkTable {
   std::size_t out_of_range = 0;                       // vehicles present without one
 };
 
-// As the propagation takes it.
+// As the propagation takes it; a receiver as which it receives packets of `sender`.
 LinkEnd link_end(const PlacedVehicle& vehicle);
+LinkEnd receiving_end(const PlacedVehicle& vehicle, const acoustics::Modem& sender);
 
 // Which links have rows: of each transmitter that a shard serves those to receivers within its range, transmitter by
 // transmitter, the receivers in the order of the vehicles.

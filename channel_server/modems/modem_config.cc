@@ -1,7 +1,10 @@
 #include "channel_server/modems/modem_config.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <sstream>
 #include <utility>
 
 #include "acoustics/modem/beam_pattern.h"
@@ -20,9 +23,10 @@ void visit_profile(bus::ConfigVisitor& v, VehicleModem& m) {
          "path of one");
   if (v.writing() || profile == m.profile) return;
   bus::report_refusal(v, "profile", [&] {
-    const WhenBusy when_busy = m.when_busy;
-    m = load_modem(profile, v.folder());
-    m.when_busy = when_busy;
+    VehicleModem other = load_modem(profile, v.folder());
+    other.when_busy = m.when_busy;
+    other.listening = m.listening;
+    m = std::move(other);
   });
 }
 
@@ -52,7 +56,11 @@ void visit_framing(bus::ConfigVisitor& v, acoustics::Modem& a) {
   bus::integer_as(v, "header_bits", layout.header_bits, {0, 1e6, "bits", "a coded block before the payload"});
   bus::integer_as(v, "tail_bits", layout.tail_bits, {0, 1e6, "bits", "that end each coded block"});
   bus::integer_as(v, "frame_bytes", layout.frame_bytes, {0, 32768, "bytes", "sent whole; 0: no frames"});
-  bus::integer_as(v, "max_frames", layout.max_frames, {0, 1024, "", "of a packet with frames"});
+  bus::integer_as(v, "max_frames", layout.max_frames, {0, 32, "", "of a packet with frames"});
+  bus::integer_as(v, "mini_packet_bits", layout.mini_packet_bits,
+                  {0, 1e6, "bits", "of a mini-packet, addresses and check included; 0: there are none"});
+  bus::integer_as(v, "application_bits", layout.application_bits,
+                  {0, 1e6, "bits", "of the header, which packets of kind JANUS carry; 0: there are none"});
   bus::seconds(v, "chip_s", a.chip, {0, 10, "s", "of frequency-hopped FSK; 0: no hopping"});
   bus::integer_as(v, "hop_count", a.hop_count, {0, 1024, "", "pairs of tones to hop between; 0: no hopping"});
   bus::seconds(v, "hop_clearing_s", a.hop_clearing,
@@ -76,6 +84,13 @@ void visit_reception(bus::ConfigVisitor& v, acoustics::Modem& a) {
                {0, 1, "s", "resolution of the measured time of arrival; 0: none"});
   bus::choice(v, "error_model", a.error_model, bus::names_of(acoustics::kErrorModels),
               "how often bits are wrong");
+}
+
+// Of a profile's file alone.
+void visit_rates(bus::ConfigVisitor& v, VehicleModem& m, std::string& rates) {
+  bus::integer_as(v, "rate_number", m.rate_number, {0, 255, "", "by which a SEND names this rate"});
+  v.text("rates", rates, {},
+         "that such a modem also sends and receives: profiles, as `profile` names them, with blanks between");
 }
 
 void visit_max_payload(bus::ConfigVisitor& v, VehicleModem& m) {
@@ -106,6 +121,13 @@ void visit_beam(bus::ConfigVisitor& v, acoustics::BeamPattern& beam) {
   });
 }
 
+void visit_listening(bus::ConfigVisitor& v, Listening& listening) {
+  v.boolean("promiscuous", listening.promiscuous, "RECEIVE also of packets for other vehicles");
+  v.boolean("events", listening.events, "publishes MODEM_EVENTs: transmissions, packets detected, carrier");
+  v.number("carrier_threshold_db", listening.carrier_threshold.value,
+           {0, 100, "dB", "events: carrier is sensed where the sound of others exceeds the noise by this"});
+}
+
 // The values that rules on single keys cannot see.
 void check_as_a_whole(bus::ConfigVisitor& v, const acoustics::Modem& a) {
   if (a.preamble > a.packet_overhead)
@@ -117,7 +139,14 @@ void check_as_a_whole(bus::ConfigVisitor& v, const acoustics::Modem& a) {
     v.problem("hop_count", "allowed is 0, or a chip_s above 0 and a hop_clearing_s not below it");
 }
 
-VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile) {
+std::string names_for_errors() {
+  std::string names;
+  for (const ModemText& text : built_in_modem_texts()) names += std::string(text.name) + ", ";
+  return names;
+}
+
+// Its rates by the names of their profiles, in `rates`.
+VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile, std::string& rates) {
   VehicleModem m;
   m.profile = profile;
   file.read([&](bus::ConfigVisitor& v) {
@@ -126,12 +155,49 @@ VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile) {
     visit_max_payload(v, m);
     visit_reception(v, m.modem);
     visit_framing(v, m.modem);
+    visit_rates(v, m, rates);
     visit_beam(v, m.modem.beam);
     check_as_a_whole(v, m.modem);
   });
   file.check(/*whole_file=*/true);
   validate(m.modem);
   m.max_payload_bytes = static_cast<std::int32_t>(largest_payload_bytes(m));
+  return m;
+}
+
+// One profile without its rates.
+VehicleModem one_rate(const std::string& profile, const std::string& folder) {
+  std::string of_itself;
+  if (profile.ends_with(".toml")) {
+    auto file = bus::ConfigFile::load((std::filesystem::path(folder) / profile).string());
+    return read_modem(file, profile, of_itself);
+  }
+  for (const ModemText& text : built_in_modem_texts()) {
+    if (profile != text.name) continue;
+    auto file = bus::ConfigFile::parse(text.toml, profile);
+    return read_modem(file, profile, of_itself);
+  }
+  throw InvalidArgument("unknown modem profile '" + profile + "'; there are " + names_for_errors() +
+                        "or a file .toml");
+}
+
+// The profile in `file`, whose rates lie in `folder` where they are files. A rate of its own number is itself.
+VehicleModem with_rates(bus::ConfigFile& file, const std::string& profile, const std::string& folder) {
+  std::string names;
+  VehicleModem m = read_modem(file, profile, names);
+  std::vector<ModemRate> rates;
+  std::istringstream list(names);
+  for (std::string name; list >> name;) {
+    const VehicleModem rate = one_rate(name, folder);
+    if (rate.rate_number == m.rate_number) continue;
+    const auto taken = [&](const ModemRate& other) { return other.number == rate.rate_number; };
+    require(std::none_of(rates.begin(), rates.end(), taken),
+            profile + ": two rates have the number " + std::to_string(rate.rate_number));
+    rates.push_back({rate.rate_number, rate.max_payload_bytes, rate.modem});
+  }
+  std::sort(rates.begin(), rates.end(),
+            [](const ModemRate& a, const ModemRate& b) { return a.number < b.number; });
+  m.rates = rates_in_vehicle(RateSet(std::move(rates)), m.modem, m.modem);
   return m;
 }
 
@@ -146,8 +212,9 @@ void visit_modem(bus::ConfigVisitor& v, VehicleModem& m) {
   visit_reception(v, a);
   visit_beam(v, a.beam);
   bus::choice(v, "when_busy", m.when_busy, {"refuse", "queue"}, "on a SEND during a transmission");
+  visit_listening(v, m.listening);
   if (!v.writing() && m.profile != kGenericProfile) {
-    bus::report_refusal(v, "profile", [&] { require_packets_of(load_modem(m.profile, v.folder()), a); });
+    bus::report_refusal(v, "profile", [&] { set_rates_of(load_modem(m.profile, v.folder()), m); });
   }
   check_as_a_whole(v, a);
 }
@@ -158,7 +225,8 @@ std::optional<SimDuration> taper_from(double seconds) {
 
 double seconds_of(std::optional<SimDuration> taper) { return taper ? taper->seconds() : -1; }
 
-void require_packets_of(const VehicleModem& profile, const acoustics::Modem& modem) {
+void set_rates_of(const VehicleModem& profile, VehicleModem& vehicle) {
+  const acoustics::Modem& modem = vehicle.modem;
   const auto fixed = [&](bool same, const std::string& what) {
     require(same,
             what + " of profile " + profile.profile + " is its own; only the generic profile has another");
@@ -166,6 +234,7 @@ void require_packets_of(const VehicleModem& profile, const acoustics::Modem& mod
   fixed(modem.bit_rate_bps == profile.modem.bit_rate_bps, "bit rate");
   fixed(modem.packet_overhead == profile.modem.packet_overhead, "packet overhead");
   fixed(modem.preamble == profile.modem.preamble, "preamble");
+  vehicle.rates = rates_in_vehicle(profile.rates, profile.modem, modem);
 }
 
 const std::vector<std::string>& built_in_modems() {
@@ -179,20 +248,24 @@ const std::vector<std::string>& built_in_modems() {
 
 VehicleModem load_modem(const std::string& profile, const std::string& folder) {
   if (profile.ends_with(".toml")) {
-    auto file = bus::ConfigFile::load((std::filesystem::path(folder) / profile).string());
-    return read_modem(file, profile);
+    const std::filesystem::path path = std::filesystem::path(folder) / profile;
+    auto file = bus::ConfigFile::load(path.string());
+    return with_rates(file, profile, path.parent_path().string());
   }
-  std::string names;
-  for (const ModemText& text : built_in_modem_texts()) {
-    if (profile == text.name) return parse_modem(text.toml, profile);
-    names += std::string(text.name) + ", ";
-  }
-  throw InvalidArgument("unknown modem profile '" + profile + "'; there are " + names + "or a file .toml");
+  static const std::map<std::string, VehicleModem> built_in = [] {
+    std::map<std::string, VehicleModem> known;
+    for (const ModemText& text : built_in_modem_texts()) known.emplace(text.name, parse_modem(text.toml, text.name));
+    return known;
+  }();
+  const auto known = built_in.find(profile);
+  require(known != built_in.end(), "unknown modem profile '" + profile + "'; there are " +
+                                       names_for_errors() + "or a file .toml");
+  return known->second;
 }
 
 VehicleModem parse_modem(const std::string& text, const std::string& name_for_errors) {
   auto file = bus::ConfigFile::parse(text, name_for_errors);
-  return read_modem(file, name_for_errors);
+  return with_rates(file, name_for_errors, ".");
 }
 
 }  // namespace halocline::channel_server

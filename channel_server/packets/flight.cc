@@ -109,7 +109,7 @@ std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const 
   const auto predicted = fleet.prediction(flight.receiver_id, expected, decided_at);
   if (!predicted) return std::nullopt;
   return LinkEnd{flight.receiver_id, predicted->position_ned_m, predicted->velocity_ned_mps,
-                 &fleet.modem(flight.receiver_id, expected).modem};
+                 &receiving_modem(fleet.modem(flight.receiver_id, expected), flight.packet->modem)};
 }
 
 void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,

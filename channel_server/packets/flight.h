@@ -60,6 +60,7 @@ struct Flight {
   PacketDraws draws = {};
   std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before
   bool acquired = false;
+  bool reports = false;       // its detection was reported, so its end is
   double timing_error_s = 0;  // of the arrival, as the receiver measures it; 0 unless acquired
   DecisionStatistics statistics;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "channel_server/packets/reception_decision.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/elementary.h"
@@ -28,11 +29,11 @@ bool is_for(const SendRequest& request, VehicleId receiver) {
   return request.destination_id == receiver || request.destination_id == kBroadcastId;
 }
 
-// Of a ping's answer: what its sender measures, less what both ends know of packets and turnaround.
+// Of an answer: what the one that asked measures, less what both ends know of packets and turnaround.
 double two_way_travel_time_s(const Flight& answer) {
-  const Packet& ping = *answer.packet->answers;
+  const Packet& asked = *answer.packet->answers;
   const SimDuration waited =
-      answer.packet->departure - ping.departure - ping.timing.duration - kPingTurnaround;
+      answer.packet->departure - asked.departure - asked.timing.duration - kReplyTurnaround;
   return waited.seconds() + answer.travel_time_s;
 }
 
@@ -73,14 +74,37 @@ bool is_shifted_too_far(const Flight& flight) {
   return !flight.signal.fades && std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
 }
 
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind) {
+OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fleet,
+                           const ReceiverState& receiver) {
+  const ReceivedSignal& signal = flight.signal;
+  DecisionStatistics& statistics = flight.statistics;
+  statistics.acquisition_draw = flight.draws.acquisition;
+  statistics.success_draw = flight.draws.success;
+  flight.receiver_absent = flight.receiver_absent || !fleet.placement(flight.receiver_id, at, at);
+  const OutcomeKind before = outcome_before_acquisition(flight);
+  if (before != OutcomeKind::kReceived) return before;
+  if (fleet.sleeps_during(flight.receiver_id, signal.begin, signal.end)) return OutcomeKind::kAsleep;
+  for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
+    if (statistics.colliders.size() < kMaxColliders) statistics.colliders.push_back(own->name());
+  }
+  if (!statistics.colliders.empty()) return OutcomeKind::kHalfDuplex;
+  if (is_shifted_too_far(flight)) return OutcomeKind::kDoppler;
+  if (flight.followed) {
+    statistics.colliders.push_back(flight.followed->name());
+    return OutcomeKind::kCollided;
+  }
+  const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
+  return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
+}
+
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, bool promiscuous) {
   PacketOutcome outcome;
   outcome.kind = kind;
   outcome.packet = flight.packet;
   outcome.receiver_id = flight.receiver_id;
   outcome.receiver = flight.receiver;
-  outcome.deliver =
-      outcome.kind == OutcomeKind::kReceived && is_for(flight.packet->request, flight.receiver_id);
+  outcome.deliver = outcome.kind == OutcomeKind::kReceived &&
+                    (promiscuous || is_for(flight.packet->request, flight.receiver_id));
   outcome.travel_time_s = flight.travel_time_s;
   outcome.measured_travel_time_s = measured(flight, flight.travel_time_s);
   if (flight.packet->answers) outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight));
@@ -105,19 +129,28 @@ PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) 
   return outcome;
 }
 
-PingAnswer answer_of(const Flight& flight, SimTime at) {
-  const Packet& ping = *flight.packet;
+bool asks_for_answer(const PacketOutcome& outcome) {
+  const SendRequest& request = outcome.packet->request;
+  return outcome.deliver && request.destination_id == outcome.receiver_id && wants_answer(request);
+}
+
+ModemReply answer_of(const Flight& flight, SimTime at) {
+  const Packet& asked = *flight.packet;
   SendRequest answer;
   answer.vehicle = flight.receiver;
   answer.source_id = flight.receiver_id;
-  answer.destination_id = ping.request.source_id;
-  answer.session = ping.request.session;
-  answer.packet_sequence = ping.request.packet_sequence;
+  answer.destination_id = asked.request.source_id;
+  answer.session = asked.request.session;
+  answer.packet_sequence = asked.request.packet_sequence;
   const SimTime measured_arrival = flight.arrival() + SimDuration::from_seconds(flight.timing_error_s);
-  answer.start = std::max(measured_arrival + ping.timing.duration + kPingTurnaround, at);
-  answer.kind = PacketKind::kPingReply;
+  answer.start = std::max(measured_arrival + asked.timing.duration + kReplyTurnaround, at);
+  answer.kind = asked.request.kind == PacketKind::kPing ? PacketKind::kPingReply : PacketKind::kAck;
+  if (answer.kind == PacketKind::kAck) {
+    for (std::size_t frame = 0; frame < asked.frame_bytes.size(); frame += 8)
+      answer.payload.push_back(static_cast<std::uint8_t>(flight.statistics.frames_good >> frame));
+  }
   answer.stamped = false;
-  return {answer, ping.departure, ping.timing.duration};
+  return {answer, asked.departure, asked.timing.duration};
 }
 
 }  // namespace halocline::channel_server

@@ -3,6 +3,9 @@
 
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/packets/receiver_state.h"
+#include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -12,12 +15,18 @@ OutcomeKind outcome_before_acquisition(const Flight& flight);
 // A wall where nothing fades; with fading the shift costs signal (acoustics/reception/signal_history.h).
 bool is_shifted_too_far(const Flight& flight);
 
-// The record of a flight that ended as `kind`.
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind);
+// At the last bit, at `at`: sets the rest of the statistics. `receiver`: what sounds there meanwhile.
+OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fleet,
+                           const ReceiverState& receiver);
+
+// The record of a flight that ended as `kind`; `promiscuous`: the receiver takes packets for others, too.
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, bool promiscuous = false);
 // Of a packet that does not get as far as `range_m`, at several receivers: kOutOfReach. Levels are kSilence, nothing else was
 // computed.
 PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m);
-// Of a ping that was received by `at`: its addressee's modem answers.
-PingAnswer answer_of(const Flight& flight, SimTime at);
+// Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received by its addressee.
+bool asks_for_answer(const PacketOutcome& outcome);
+// The answer to a packet that was received by `at`.
+ModemReply answer_of(const Flight& flight, SimTime at);
 
 }  // namespace halocline::channel_server

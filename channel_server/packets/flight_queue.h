@@ -30,6 +30,11 @@ class FlightQueue {
   void add(SimTime at, Flight& flight);
   void end(Flight& flight);
   void clear();
+  // Calls visit(instant of the next event, flight) for each, in no order.
+  template <class Visit>
+  void visit(Visit&& visit) const {
+    for (const Entry& entry : entries_) visit(entry.at, *entry.flight);
+  }
 
  private:
   struct Entry {

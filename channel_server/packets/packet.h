@@ -4,12 +4,14 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "acoustics/link/link_budget.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/modem/packet_format.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -19,16 +21,26 @@
 
 namespace halocline::channel_server {
 
+// In the order of modem_send_t.
 enum class PacketKind {
   kData,
-  kPing,       // to one vehicle, whose modem answers by itself
-  kPingReply,  // that answer; carries session and packet_sequence of the ping
+  kPing,        // to one vehicle, whose modem answers by itself
+  kPingReply,   // that answer; carries session and packet_sequence of the ping
+  kAck,         // the answer to a packet that wants one, likewise; the payload says which frames were right
+  kMiniPacket,  // a few bits
+  kJanus,       // JANUS's baseline packet, without cargo
+  kJanusCargo,  // the same with cargo
 };
 
-// From the last bit of a ping as sent (counted from its first bit's arrival) to the first bit of the answer.
+// Whether modems make it by themselves.
+constexpr bool is_answer(PacketKind kind) {
+  return kind == PacketKind::kPingReply || kind == PacketKind::kAck;
+}
+
+// From the last bit of a packet as sent (counted from its first bit's arrival) to the first bit of the modem's answer.
 // Our choice: time for a modem to decode and to turn from receiving to sending, and longer than Doppler makes
-// any packet (10 ms of 3 s at 5 m/s); both ends know it, so that the sender of the ping can subtract it.
-inline constexpr SimDuration kPingTurnaround = SimDuration::from_milliseconds(100);
+// any packet (10 ms of 3 s at 5 m/s); both ends know it, so that the sender of the packet can subtract it.
+inline constexpr SimDuration kReplyTurnaround = SimDuration::from_milliseconds(100);
 
 // Transmit this: `session` and `packet_sequence` are the sender's names for it.
 struct SendRequest {
@@ -40,27 +52,38 @@ struct SendRequest {
   SimTime start;  // when the first bit is to leave; a modem that queues may send it later
   std::vector<std::uint8_t> payload;
   PacketKind kind = PacketKind::kData;
-  bool stamped = true;  // the packet carries the instant of its departure by the sender's clock
+  bool stamped = true;     // the packet carries the instant of its departure by the sender's clock
+  bool wants_ack = false;  // to one vehicle, whose modem answers by itself
+  std::optional<std::int32_t> rate_number = {};  // none: the modem's own rate
+  std::optional<Decibels> source_level = {};     // dB re 1 uPa at 1 m; none: the modem's own
+  std::vector<std::int32_t> frame_bytes = {};    // of the payload's frames; none: as the modem divides it
 };
 
-// A modem answers a ping by itself.
-struct PingAnswer {
+// Whether the addressee's modem answers it by itself.
+inline bool wants_answer(const SendRequest& request) {
+  return request.kind == PacketKind::kPing || request.wants_ack;
+}
+
+// A modem answers a packet by itself.
+struct ModemReply {
   SendRequest request;  // of the answer; starts when it leaves
-  SimTime ping_departure;
-  SimDuration ping_duration;
+  SimTime asked_departure;
+  SimDuration asked_duration;
 };
 
 // In the order of modem_receipt_t.
 enum class SendResult {
   kAccepted,
   kBusy,            // another transmission of this modem overlaps this one
-  kTooLarge,        // the payload is beyond the modem's largest
+  kTooLarge,        // the payload or a frame is beyond what the modem sends in a packet of this kind
   kUnknownVehicle,  // no fresh state at the start: nowhere to transmit from
   kWrongSource,     // source_id is not the id of the vehicle
   kStale,           // the start lies too far in the past
   kTooEarly,        // the start lies too far in the future
   kQueued,          // accepted; it starts when those before it have ended
   kQueueFull,       // the modem queues, and too many wait already
+  kNoRate,          // the modem has no rate of that number
+  kNoKind,          // the modem has no packets of that kind, or not at that rate
 };
 
 struct Receipt {
@@ -89,10 +112,13 @@ struct Packet {
   SendRequest request;
   SimTime departure;  // of the first bit
   acoustics::PacketTiming timing;
-  acoustics::Modem modem;               // of the sender when the packet was accepted
+  acoustics::Modem modem;               // as which the sender transmits it, decided when it was accepted
   Vec3 departure_ned_m = Vec3::Zero();  // where the first bit left
   Vec3 velocity_ned_mps = Vec3::Zero();
-  std::shared_ptr<const Packet> answers = {};  // of a kPingReply: the ping
+  std::shared_ptr<const Packet> answers = {};  // of an answer: the packet that asked for it
+  std::int32_t rate_number = 0;
+  acoustics::PacketFormat format = {};
+  std::vector<std::int32_t> frame_bytes = {};  // of the payload in each frame of the format
 
   PacketName name() const {
     return {request.source_id, request.packet_sequence, request.kind, request.destination_id,
@@ -105,21 +131,23 @@ using PacketPointer = std::shared_ptr<const Packet>;  // never null
 // What became of a packet at one possible receiver; in the order of packet_outcome_t. It is the first of these that
 // holds, in the order of the numbers in brackets.
 enum class OutcomeKind {
-  kReceived,      // [12] none of the others
+  kReceived,      // [13] none of the others: at least one frame was right
   kBelowCutoff,   // [5] all paths together are below the receiver's least receivable level
   kReceiverGone,  // [1] the receiver's state had grown too old at the first bit or at the last
   kShadow,        // [4] no path: the water bends every ray away
   kBlocked,       // [4] no path: the terrain stands in all
   kOutOfBand,     // [3] the bands of the two modems share nothing
-  kCollided,      // [8] the receiver followed another packet; [9, 10] or without others it had been received
-  kHalfDuplex,    // [6] the receiver transmitted at some instant of the packet
-  kDoppler,       // [7] shifted by more than the receiver's modem follows
-  kBitErrors,     // [10] acquired, with bits that were wrong
-  kNotAcquired,   // [9] its preamble was not acquired
+  kCollided,      // [9] the receiver followed another packet; [10, 11] or without others it had been received
+  kHalfDuplex,    // [7] the receiver transmitted at some instant of the packet
+  kDoppler,       // [8] shifted by more than the receiver's modem follows
+  kBitErrors,     // [11] acquired, with wrong bits in every frame
+  kNotAcquired,   // [10] its preamble was not acquired
   kForeign,       // [2] the waveform families of the two modems differ: its detector does not know this sound
   kTooWeak,       // [4] no path: the bounces leave too little of every ray
   kTooSteep,      // [4] no path: every ray that arrives is launched more steeply than is searched
   kOutOfReach,    // [0] so far away at the departure that its sound cannot matter (propagation/reach.h)
+  kAsleep,        // [6] the receiver's modem slept at some instant of the packet
+  kExtraLoss,     // [12] none of the others, but lost on purpose (extra_loss.h)
 };
 
 // What the outcome was decided by.
@@ -127,10 +155,11 @@ struct DecisionStatistics {
   Decibels interference = kSilence;    // mean over the bits, dB re 1 uPa in the packet's band
   Decibels sinr;                       // over the bits; 0 unless it came to that
   double acquisition_probability = 0;  // 0 unless it came to that
-  double success_probability = 0;      // of all bits being right; 0 unless it came to that
+  double success_probability = 0;      // of at least one frame being right; 0 unless it came to that
   double acquisition_draw = 0;         // in (0, 1): acquired when below the probability
-  double success_draw = 0;             // likewise
+  double success_draw = 0;             // likewise, of the header and the first frame
   std::vector<PacketName> colliders;   // the loudest first, 16 at most
+  std::uint32_t frames_good = 0;       // bit i: frame i was right
 };
 
 // The outcome of a packet at one possible receiver; or, kOutOfReach, at all that are out of reach but for its destination.
@@ -140,11 +169,12 @@ struct PacketOutcome {
   std::size_t receivers = 1;  // that it stands for
   std::string receiver;       // its name when the packet left
   OutcomeKind kind = OutcomeKind::kReceived;
-  bool deliver = false;      // received, and addressed to this receiver or to all
+  bool deliver =
+      false;  // received, and addressed to this receiver or to all, or this receiver is promiscuous
   double travel_time_s = 0;  // of the first significant path
   double measured_travel_time_s =
       0;  // as the receiver's modem measures it: with noise, in steps of its time quantum
-  double two_way_travel_time_s = 0;  // likewise, of a kPingReply: out and back; else 0
+  double two_way_travel_time_s = 0;  // likewise, of an answer: out and back; else 0
   acoustics::LinkBudget budget;      // from the sender at departure to the receiver at arrival
   Decibels cutoff;                   // the receiver's, dB re 1 uPa
   PropagationUsed propagation = PropagationUsed::kStraight;
@@ -156,10 +186,30 @@ struct PacketOutcome {
   DecisionStatistics statistics;
 };
 
+// In the order of modem_event_t.
+enum class ModemEventKind {
+  kTransmissionBegan,
+  kTransmissionEnded,
+  kPacketDetected,  // at the end of its preamble
+  kPacketEnded,     // the last bit of one detected
+  kCarrierBegan,
+  kCarrierEnded,
+};
+
+// What a modem does or notices (modem_watch.h).
+struct ModemEvent {
+  std::string vehicle;
+  ModemEventKind kind = ModemEventKind::kTransmissionBegan;
+  std::int64_t session = 0, packet_sequence = 0;  // of an own transmission
+  Decibels level = {};  // of the packet or carrier, dB re 1 uPa; 0 of an own transmission
+  Decibels sinr = {};   // of a packet that ended
+  OutcomeKind outcome = OutcomeKind::kReceived;  // likewise
+};
+
 struct MediumEvent {
-  SimTime at;         // exactly when it happened
+  SimTime at;                                                         // exactly when it happened
+  std::variant<Receipt, PacketOutcome, ModemReply, ModemEvent> what;  // answers only for other shards
   bool late = false;  // the medium had been advanced beyond `at` before it could know of this
-  std::variant<Receipt, PacketOutcome, PingAnswer> what;  // answers only for other shards
 };
 
 }  // namespace halocline::channel_server

@@ -24,9 +24,14 @@ constexpr int kMaxSolutions = 64;
 
 PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
                            ReachModel* reach, ForEach for_each)
-    : fleet_(fleet), propagation_(propagation), rule_(rule), reach_(reach), for_each_(std::move(for_each)) {
-  require(rule.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
-  require(rule.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
+    : fleet_(fleet),
+      propagation_(propagation),
+      rule_(std::move(rule)),
+      reach_(reach),
+      for_each_(std::move(for_each)),
+      watch_(fleet, propagation, noise_) {
+  require(rule_.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
+  require(rule_.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
 }
 
 std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
@@ -44,7 +49,7 @@ std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTim
   return rule_.shard.serves(request.source_id) ? std::optional(refusal) : std::nullopt;
 }
 
-void PacketMedium::add_answer(const PingAnswer& answer) {
+void PacketMedium::add_answer(const ModemReply& answer) {
   const SendRequest& request = answer.request;
   if (!answered_
            .insert({request.start, request.source_id, request.destination_id, request.session,
@@ -52,15 +57,15 @@ void PacketMedium::add_answer(const PingAnswer& answer) {
            .second) {
     return;
   }
-  Packet ping;
-  ping.departure = answer.ping_departure;
-  ping.timing.duration = answer.ping_duration;
-  add_departure(request.start, {request, std::make_shared<const Packet>(std::move(ping)), nullptr});
+  Packet asked;
+  asked.departure = answer.asked_departure;
+  asked.timing.duration = answer.asked_duration;
+  add_departure(request.start, {request, std::make_shared<const Packet>(std::move(asked)), nullptr});
 }
 
 void PacketMedium::add_departure(SimTime at, Departure departure) {
   const SendRequest& request = departure.request;
-  may_have_pings_ = may_have_pings_ || request.kind == PacketKind::kPing;
+  may_be_answered_ = may_be_answered_ || wants_answer(request);
   departures_.insert_or_assign(
       DepartureKey{at, request.vehicle, request.kind, request.packet_sequence, request.destination_id,
                    departure.queued == nullptr, request.session},
@@ -72,16 +77,17 @@ SimTime PacketMedium::next_event() const {
   if (waiting_) return next;
   if (!departures_.empty()) next = std::get<0>(departures_.begin()->first);
   if (!flights_.empty()) next = std::min(next, flights_.next_event());
-  return next;
+  return std::min({next, watch_.next_end(), watch_.next_carrier()});
 }
 
-SimTime PacketMedium::next_ping() const {
+SimTime PacketMedium::next_answerable() const {
   SimTime next = SimTime::never();
-  if (!may_have_pings_) return next;
+  if (!may_be_answered_) return next;
   for (const auto& [key, departure] : departures_)
-    if (departure.request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
-  for (const auto& [key, flight] : flights_)
-    if (flight->packet->request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
+    if (wants_answer(departure.request)) next = std::min(next, std::get<0>(key));
+  flights_.visit([&](SimTime at, const Flight& flight) {
+    if (wants_answer(flight.packet->request)) next = std::min(next, at);
+  });
   return next;
 }
 
@@ -90,13 +96,18 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   waiting_ = false;
   SimTime reached = time;
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
-    if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
+    if (watch_.next_end() == next) {
+      watch_.end_transmission(events_);
+    } else if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
       depart(departures_.extract(departures_.begin()).mapped(), events_);
+    } else if (flights_.empty() || flights_.next_event() != next) {
+      watch_.judge_carrier(state_of(watch_.next_to_judge()), events_);
     } else if (!on_flight_event(next, events_)) {
       waiting_ = true;
       reached = next;
     }
   }
+  for (MediumEvent& event : events_) event.late = event.at < advanced_to_;
   advanced_to_ = std::max(advanced_to_, reached);
   return {std::make_move_iterator(events_.begin()), std::make_move_iterator(events_.end())};
 }
@@ -118,18 +129,17 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   const SendRequest asked = departure.request;
   SendRequest& request = departure.request;
   if (departure.is_put_off) request.start = asked.start + fleet_.rule().state_lag;
-  const VehicleModem& modem = fleet_.modem(request.vehicle, request.start);
-  // A payload beyond the largest is refused, so its duration is of no consequence.
-  const auto timing =
-      packet_timing(modem.modem, std::min(request.payload.size(), largest_payload_bytes(modem)));
-  const Decision decision = decide(request, timing.duration);
+  Framing framing = framing_of(fleet_.modem(request.vehicle, request.start), request);
+  const acoustics::PacketTiming timing = framing.timing;
+  const Decision decision = decide(request, framing);
   const bool accepted = decision.result == SendResult::kAccepted || decision.result == SendResult::kQueued;
   if (accepted) {
     register_.occupy(request.vehicle, decision.start, timing.duration);
     const auto place = fleet_.placement(request.source_id, request.start, request.start);
-    const auto packet = std::make_shared<const Packet>(Packet{request, decision.start, timing, modem.modem,
-                                                              place->position_ned_m, place->velocity_ned_mps,
-                                                              departure.answers});
+    const auto packet = std::make_shared<const Packet>(
+        Packet{request, decision.start, timing, std::move(framing.modem), place->position_ned_m,
+               place->velocity_ned_mps, departure.answers, framing.rate_number, std::move(framing.format),
+               std::move(framing.frame_bytes)});
     if (decision.result == SendResult::kAccepted) {
       launch(packet, events);
     } else {
@@ -144,18 +154,19 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   }
   register_.decide(asked, receipt);
   if (!rule_.shard.serves(request.source_id)) return;
-  events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
+  events.push_back({request.start, std::move(receipt)});
 }
 
-PacketMedium::Decision PacketMedium::decide(const SendRequest& request, SimDuration duration) const {
+PacketMedium::Decision PacketMedium::decide(const SendRequest& request, const Framing& framing) const {
   const auto id = fleet_.id_of(request.vehicle);
   const SimTime start = request.start;
   if (!id || !fleet_.placement(*id, start, start)) return {SendResult::kUnknownVehicle, start};
   if (*id != request.source_id) return {SendResult::kWrongSource, start};
   const VehicleModem& modem = fleet_.modem(request.vehicle, start);
-  if (request.payload.size() > largest_payload_bytes(modem)) return {SendResult::kTooLarge, start};
-  if (!register_.is_busy(request.vehicle, start, duration)) return {SendResult::kAccepted, start};
-  if (modem.when_busy == WhenBusy::kRefuse || request.kind == PacketKind::kPingReply) {
+  if (framing.problem != SendResult::kAccepted) return {framing.problem, start};
+  if (!register_.is_busy(request.vehicle, start, framing.timing.duration))
+    return {SendResult::kAccepted, start};
+  if (modem.when_busy == WhenBusy::kRefuse || is_answer(request.kind)) {
     return {SendResult::kBusy, start};
   }
   if (register_.waiting_at(request.vehicle, start) >= kMaxQueued) return {SendResult::kQueueFull, start};
@@ -177,7 +188,10 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   const SimTime departure = packet->departure;
   const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
   const bool is_served = rule_.shard.serves(source);
-  if (is_served) state_of(source).transmit({packet, departure, departure + packet->timing.duration});
+  if (is_served) {
+    state_of(source).transmit({packet, departure, departure + packet->timing.duration});
+    watch_.begin_transmission(*packet, events);
+  }
   place_all(fleet_, departure, present_);
   const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present_)
                                            : acoustics::kGreatestBoundedRange;
@@ -196,7 +210,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
         PacketOutcome lost = outcome_out_of_reach(packet, range_m);
         lost.receiver_id = receiver.id;
         lost.receiver = fleet_.name_of(receiver.id);
-        events.push_back({departure, departure < advanced_to_, std::move(lost)});
+        events.push_back({departure, std::move(lost)});
       }
     } else if (rule_.shard.serves(receiver.id)) {
       Flight& flight = flights_.make_flight();
@@ -212,7 +226,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   }
   if (is_costly) propagation_.prepare_packet(departure, links, for_each_);
   if (is_served && others.receivers > 0) {
-    events.push_back({departure, departure < advanced_to_, std::move(others)});
+    events.push_back({departure, std::move(others)});
   }
 }
 
@@ -223,7 +237,7 @@ bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events)
     if (!is_solvable(first, end, propagation_)) return false;
     begin_reception(flights_.take_first(), end, at);
   } else if (first.stage == Flight::Stage::kPreamble) {
-    end_preamble(flights_.take_first(), at);
+    end_preamble(flights_.take_first(), at, events);
   } else {
     Flight& flight = flights_.take_first();
     end_packet(flight, at, events);
@@ -241,27 +255,9 @@ void PacketMedium::begin_reception(Flight& flight, const std::optional<LinkEnd>&
   const SimTime arrival = flight.arrival();
   auto& budget = flight.reception.budget;
   // The reception holds for a place within a decimetre.
-  const auto place = fleet_.prediction(flight.receiver_id, arrival, at);
-  if (place) budget.range_m = (place->position_ned_m - flight.packet->departure_ned_m).norm();
-  budget.noise_level = noise_.level(flight.packet->modem.band(), propagation_.environment(arrival).noise);
-  const Decibels noise = budget.noise_level - flight.modem.directivity_index;
-  budget.snr = budget.received_level - noise - band_loss(flight.packet->modem, flight.modem);
-  flight.receiver_absent = !fleet_.is_present(place);
-  flight.large_scale = large_scale_of(flight, rule_.fading, rule_.seed);
-  flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
-  flight.draws = draws_of(rule_.seed, flight.identity, flight.receiver_id);
-  flight.sounds_at = &state_of(flight.receiver_id);
-  flight.sounds_at->open(audible_packet(flight));
-  flight.stage = Flight::Stage::kPreamble;
-  const SimTime preamble_end = std::max(flight.signal.preamble_end, at);
-  flights_.add(preamble_end, flight);
-}
-
-void PacketMedium::end_preamble(Flight& flight, SimTime at) {
-  ReceiverState& receiver = *flight.sounds_at;
-  const ReceivedSignal& signal = flight.signal;
-  const bool is_impossible = outcome_before_acquisition(flight) != OutcomeKind::kReceived ||
-                             is_shifted_too_far(flight) ||
+  if (flight.acquired) receiver.acquire({flight.packet, signal.begin, signal.end}, signal.preamble_end);
+  flight.stage = Flight::Stage::kBits;
+                             fleet_.sleeps_during(flight.receiver_id, signal.begin, signal.preamble_end) ||
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight.followed) {
@@ -273,45 +269,37 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at) {
       flight.timing_error_s = timing_error_s(signal, others, draw);
     }
   }
-  if (flight.acquired) receiver.acquire({flight.packet, signal.begin, signal.end}, signal.preamble_end);
+  if (flight.acquired) {
+    receiver.acquire({flight.packet, signal.begin, signal.end}, signal.preamble_end);
+    watch_.detect(flight, events);
+  }
   flight.stage = Flight::Stage::kBits;
   const SimTime last_bit = std::max(signal.end, at);
   flights_.add(last_bit, flight);
 }
 
-OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
-  const ReceivedSignal& signal = flight.signal;
-  DecisionStatistics& statistics = flight.statistics;
-  statistics.acquisition_draw = flight.draws.acquisition;
-  statistics.success_draw = flight.draws.success;
-  flight.receiver_absent = flight.receiver_absent || !fleet_.placement(flight.receiver_id, at, at);
-  const OutcomeKind before = outcome_before_acquisition(flight);
-  if (before != OutcomeKind::kReceived) return before;
-  const ReceiverState& receiver = *flight.sounds_at;
-  for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
-    if (statistics.colliders.size() < kMaxColliders) statistics.colliders.push_back(own->name());
-  }
-  if (!statistics.colliders.empty()) return OutcomeKind::kHalfDuplex;
-  if (is_shifted_too_far(flight)) return OutcomeKind::kDoppler;
-  if (flight.followed) {
-    statistics.colliders.push_back(flight.followed->name());
-    return OutcomeKind::kCollided;
-  }
-  const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
-  return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
-}
-
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
-  const OutcomeKind kind = decide_outcome(flight, at);
-  PacketOutcome outcome = outcome_of(flight, kind);
-  const bool is_answered = outcome.deliver && flight.packet->request.kind == PacketKind::kPing;
-  events.push_back({at, at < advanced_to_, std::move(outcome)});
+  OutcomeKind kind = decide_outcome(flight, at, fleet_, *flight.sounds_at);
+  if (kind == OutcomeKind::kReceived &&
+      is_lost_on_purpose(rule_.extra_loss, rule_.seed, *flight.packet, flight.receiver, flight.receiver_id)) {
+    kind = OutcomeKind::kExtraLoss;
+    flight.statistics.frames_good = 0;
+  }
+  PacketOutcome outcome = outcome_of(flight, kind, fleet_.listening(flight.receiver_id, at).promiscuous);
+  const bool is_answered = asks_for_answer(outcome);
+  ModemWatch::end(flight, at, kind, events);
+  events.push_back({at, std::move(outcome)});
   if (is_answered) {
-    const PingAnswer answer = answer_of(flight, at);
+    const ModemReply answer = answer_of(flight, at);
     add_answer(answer);
-    if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
+    if (!rule_.shard.is_alone()) events.push_back({at, answer});
   }
   flight.sounds_at->close(flight.first_sound(), at);
+}
+
+void PacketMedium::on_listening_changed(const std::string& vehicle, SimTime from) {
+  const auto id = fleet_.id_of(vehicle);
+  if (id && rule_.shard.serves(*id)) watch_.judge_carrier_at(*id, std::max(from, advanced_to_));
 }
 
 ReceiverState& PacketMedium::state_of(VehicleId id) {
@@ -319,8 +307,9 @@ ReceiverState& PacketMedium::state_of(VehicleId id) {
 }
 
 void PacketMedium::forget_before(SimTime time) {
-  may_have_pings_ = next_ping() != SimTime::never();
+  may_be_answered_ = next_answerable() != SimTime::never();
   register_.forget_before(time);
+  watch_.forget_before(time);
   answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));
   for (auto receiver = receivers_.begin(); receiver != receivers_.end();) {
     receiver->second.forget(time + rule_.max_lateness);
@@ -330,6 +319,7 @@ void PacketMedium::forget_before(SimTime time) {
 
 void PacketMedium::clear() {
   register_ = SendRegister();
+  watch_.clear();
   departures_.clear();
   flights_.clear();
   receivers_.clear();

@@ -9,11 +9,12 @@
 //   flight.h              when and how it arrives
 //   receiver_state.h      what else sounds at the receiver meanwhile
 //   reception_decision.h  whether it is acquired at the end of its preamble, and right at its last bit
+//   modem_watch.h         what its modem reports meanwhile
 // packet.h lists the possible outcomes and in which order the first that holds is found. A packet lasts
 // duration / doppler factor at a receiver. A modem that has acquired a packet follows it to its end, even if
 // weak or for another; what arrives meanwhile it does not acquire. A transmission of its own ends that, and every
-// reception it overlaps. A ping that its addressee received is answered kPingTurnaround later, unless that
-// modem is busy then: a packet like any other.
+// reception it overlaps. A ping that its addressee received is answered kReplyTurnaround later, as is a packet that wants an
+// acknowledgement, unless that modem is busy then: the answer is a packet like any other.
 //
 // Repeatability. Decisions depend on the contents of states and requests, on the seed, and on instants of
 // simulation time, not on the order they were given in. Events are sorted by time, then receipts before
@@ -29,8 +30,8 @@
 // most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
 //
 // Shards. A medium that shares the water with others (rule.shard) gets all states and requests, decides all
-// of them, and follows packets only to the receivers it serves. Only the answer to a ping depends on what another
-// shard's vehicle received; it leaves kPingTurnaround after that, and add_answer() passes it on meanwhile.
+// of them, and follows packets only to the receivers it serves. Only a modem's own answer depends on what another
+// shard's vehicle received; it leaves kReplyTurnaround after that, and add_answer() passes it on meanwhile.
 //
 // Left out: echoes of a modem's own transmissions, motion of the receiver between the paths of one packet.
 #pragma once
@@ -45,10 +46,13 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/flight_queue.h"
+#include "channel_server/packets/modem_watch.h"
 #include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/packets/packet_framing.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/send_register.h"
 #include "channel_server/propagation/propagation.h"
@@ -67,6 +71,7 @@ struct MediumRule {
   std::uint64_t seed = 1;                                              // of all draws
   acoustics::FadingModel fading = {};                                  // of every link
   Shard shard = {};  // of several media of one water, each with all requests
+  std::vector<ExtraLoss> extra_loss = {};
 };
 
 class PacketMedium {
@@ -82,13 +87,16 @@ class PacketMedium {
   // a refusal for lateness or earliness, or the answer to a repetition. Otherwise the receipt is an event.
   [[nodiscard]] std::optional<Receipt> transmit(const SendRequest& request, SimTime now);
 
-  // A modem that another shard serves will answer a ping; a repetition changes nothing.
-  void add_answer(const PingAnswer& answer);
+  // A modem that another shard serves will answer a packet; a repetition changes nothing.
+  void add_answer(const ModemReply& answer);
+
+  // The registry has learnt that a vehicle's modem listens otherwise from `from` on.
+  void on_listening_changed(const std::string& vehicle, SimTime from);
 
   // When something next happens; SimTime::never() when the water is silent, or waits.
   SimTime next_event() const;
-  // When a ping next departs, arrives or ends; SimTime::never() without one, though the water waits.
-  SimTime next_ping() const;
+  // When a packet that a modem may answer next departs, arrives or ends; SimTime::never() without one, though the water waits.
+  SimTime next_answerable() const;
   // Everything that happens up to and including `time`, which does not decrease from call to call; up to the first
   // event that waits.
   std::vector<MediumEvent> advance_to(SimTime time);
@@ -109,7 +117,7 @@ class PacketMedium {
   // A request that waits for its start; with a packet, one that was queued and waits for its departure.
   struct Departure {
     SendRequest request;
-    std::shared_ptr<const Packet> answers;  // of a ping's answer
+    std::shared_ptr<const Packet> answers;  // of a modem's answer: what asked for it
     std::shared_ptr<const Packet> queued;
     bool is_put_off = false;  // by the state lag
   };
@@ -124,16 +132,15 @@ class PacketMedium {
   void add_departure(SimTime at, Departure departure);
   void depart(Departure departure, std::vector<MediumEvent>& events);
   [[nodiscard]] bool must_be_put_off(const Departure& departure) const;
-  Decision decide(const SendRequest& request, SimDuration duration) const;
+  Decision decide(const SendRequest& request, const Framing& framing) const;
   void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
   PacketPointer at_its_departure(const Packet& queued) const;
 
   // Of the first flight; false: it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
   void begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
-  void end_preamble(Flight& flight, SimTime at);
+  void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
-  OutcomeKind decide_outcome(Flight& flight, SimTime at);
   ReceiverState& state_of(VehicleId id);
 
   const VehicleRegistry& fleet_;
@@ -143,6 +150,7 @@ class PacketMedium {
   ForEach for_each_;
   SendRegister register_;
   NoiseLevelCache noise_;
+  ModemWatch watch_;
   std::map<DepartureKey, Departure> departures_;
   FlightQueue flights_;
   std::map<VehicleId, ReceiverState> receivers_;
@@ -153,7 +161,7 @@ class PacketMedium {
   std::vector<MediumEvent> events_;
   SimTime advanced_to_ = SimTime::at_once();
   bool waiting_ = false;
-  bool may_have_pings_ = false;  // among departures and flights
+  bool may_be_answered_ = false;  // any of departures and flights
 };
 
 }  // namespace halocline::channel_server

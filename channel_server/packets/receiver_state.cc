@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace halocline::channel_server {
 namespace {
@@ -72,6 +73,36 @@ Interferers ReceiverState::interferers_of(const Packet& packet, SimTime begin, S
     return std::tie(a.begin, a.end, a.power) < std::tie(b.begin, b.end, b.power);
   });
   return found;
+}
+
+SimTime ReceiverState::transmission_end(SimTime instant) const {
+  for (const PacketInterval& span : transmissions_) {
+    if (span.begin <= instant && instant < span.end) return span.end;
+  }
+  return SimTime::never();
+}
+
+PowerCrossing ReceiverState::next_crossing(SimTime from, const acoustics::Band& band, double level,
+                                           bool is_above) const {
+  std::vector<std::pair<SimTime, double>> changes{{from, 0}};
+  for (const AudiblePacket& sound : sounds_) {
+    if (sound.end <= from) continue;
+    const double share = band_share(sound.packet->modem.band(), band);
+    if (share == 0) continue;
+    for (const AudiblePath& path : sound.paths) {
+      if (path.end <= from) continue;
+      changes.emplace_back(std::max(path.begin, from), path.power * share);
+      changes.emplace_back(path.end, -path.power * share);
+    }
+  }
+  std::sort(changes.begin(), changes.end());
+  double power = 0;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    power += changes[i].second;
+    const bool is_last = i + 1 == changes.size() || changes[i + 1].first > changes[i].first;
+    if (is_last && (power > level) == is_above) return {changes[i].first, std::max(power, 0.0)};
+  }
+  return {};
 }
 
 void ReceiverState::forget(SimTime now) {

@@ -45,6 +45,12 @@ struct Interferers {
   std::vector<Interference> paths;  // in an order that does not depend on the order of arrival
 };
 
+// The sum of all paths of others in a band at the instant at which it passes a level.
+struct PowerCrossing {
+  SimTime at = SimTime::never();
+  double power = 0;  // from then on, uPa^2
+};
+
 class ReceiverState {
  public:
   // `kept_longer`: how long after its end a sound may still overlap a reception that is added late.
@@ -65,6 +71,13 @@ class ReceiverState {
   std::shared_ptr<const Packet> followed_at(SimTime instant) const;
   // All other packets than `packet` during [begin, end), in its band; those of no power in it left out.
   Interferers interferers_of(const Packet& packet, SimTime begin, SimTime end) const;
+
+  // Whether it transmits at `instant`, and until when; never() where it does not.
+  bool transmits_at(SimTime instant) const { return transmission_end(instant) != SimTime::never(); }
+  SimTime transmission_end(SimTime instant) const;
+  // The first instant from `from` on at which the power in `band` of all paths known so far is above `level`, or with `is_above`
+  // false is not.
+  PowerCrossing next_crossing(SimTime from, const acoustics::Band& band, double level, bool is_above) const;
 
   bool silent() const { return sounds_.empty() && transmissions_.empty() && open_.empty(); }
   // Drops what ended before every open reception and `kept_longer` before `now`.

@@ -112,10 +112,65 @@ void add_cells(const ReceivedSignal& signal, const PowerSteps& others, SimTime b
   }
 }
 
+// The chances of a packet's blocks, one after the other.
+class BlockChances {
+ public:
+  BlockChances(const ReceivedSignal& signal, const std::vector<Interference>& others)
+      : signal_(signal),
+        all_bits_(static_cast<double>(signal.packet->timing.information_bits)),
+        bits_s_((signal.end - signal.preamble_end).seconds()),
+        steps_(others, signal.preamble_end, signal.end) {}
+
+  // Of the next block being right.
+  double next(std::int64_t bits) {
+    if (bits == 0) return 1;
+    acoustics::BlockDecoder block(signal_.packet->modem, signal_.fades);
+    add_cells(signal_, steps_, time_of(before_), time_of(before_ + bits), block);
+    before_ += bits;
+    return block.success(bits);
+  }
+
+ private:
+  SimTime time_of(std::int64_t bit) const {
+    return signal_.preamble_end + SimDuration::from_seconds(bits_s_ * static_cast<double>(bit) / all_bits_);
+  }
+
+  const ReceivedSignal& signal_;
+  double all_bits_, bits_s_;
+  PowerSteps steps_;
+  std::int64_t before_ = 0;
+};
+
+struct Decoded {
+  double probability = 0;         // of at least one frame
+  std::uint32_t frames_good = 0;  // by the draws
+};
+
+Decoded decode(const ReceivedSignal& signal, const std::vector<Interference>& others,
+               const PacketDraws& draws) {
+  const acoustics::PacketFormat& format = signal.packet->format;
+  BlockChances chances(signal, others);
+  const double header = chances.next(format.header_bits);
+  const bool header_good = draws.success < header;
+  Decoded decoded;
+  double first = 1, none = 1;  // the chance of the first frame, and of all being wrong, given the header
+  for (std::size_t i = 0; i < format.frame_bits.size(); ++i) {
+    const double chance = chances.next(format.frame_bits[i]);
+    if (i == 0) first = chance;
+    none *= 1 - chance;
+    const bool good =
+        i == 0 ? draws.success < header * chance : header_good && draws.later_frames[i - 1] < chance;
+    if (good) decoded.frames_good |= 1u << i;
+  }
+  // Of one frame without the loss of digits in 1 - (1 - P).
+  decoded.probability = format.frame_bits.size() == 1 ? header * first : header * (1 - none);
+  return decoded;
+}
+
 bool is_received(const ReceivedSignal& signal, const std::vector<Interference>& others,
                  const PacketDraws& draws) {
   return draws.acquisition < acquisition_probability(signal, others) &&
-         draws.success < success_probability(signal, others);
+         decode(signal, others, draws).frames_good != 0;
 }
 
 }  // namespace
@@ -128,11 +183,25 @@ std::uint64_t identity_for_draws(const Packet& packet) {
        static_cast<std::uint64_t>(packet.departure.nanoseconds())});
 }
 
-PacketDraws draws_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver) {
-  constexpr std::uint32_t kAcquisition = purpose_of("packet-acquisition"), kBits = purpose_of("packet-bits");
-  const auto who = static_cast<std::uint32_t>(receiver);
-  return {uniform_at({.seed = seed, .purpose = kAcquisition, .who = who, .which = identity}),
-          uniform_at({.seed = seed, .purpose = kBits, .who = who, .which = identity})};
+DrawAddress draw_address(std::uint64_t seed, std::uint32_t purpose, const Packet& packet,
+                         VehicleId receiver) {
+  return {.seed = seed,
+          .purpose = purpose,
+          .who = static_cast<std::uint32_t>(receiver),
+          .which = identity_for_draws(packet)};
+}
+
+PacketDraws draws_of(std::uint64_t seed, const Packet& packet, std::uint64_t identity, VehicleId receiver) {
+  constexpr std::uint32_t kAcquisition = purpose_of("packet-acquisition"), kBits = purpose_of("packet-bits"),
+                          kFrame = purpose_of("packet-frame");
+  const auto address = [&](std::uint32_t purpose, std::uint64_t which) {
+    return DrawAddress{
+        .seed = seed, .purpose = purpose, .who = static_cast<std::uint32_t>(receiver), .which = which};
+  };
+  PacketDraws draws{uniform_at(address(kAcquisition, identity)), uniform_at(address(kBits, identity))};
+  for (std::size_t frame = 1; frame < packet.format.frame_bits.size(); ++frame)
+    draws.later_frames.push_back(uniform_at(address(kFrame, identity_of({identity, frame}))));
+  return draws;
 }
 
 double timing_draw_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver) {
@@ -162,23 +231,9 @@ double acquisition_probability(const ReceivedSignal& signal, const std::vector<I
 }
 
 double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& others) {
-  const acoustics::Modem& modem = signal.packet->modem;
-  const std::int64_t all_bits = signal.packet->timing.information_bits;
-  const double bits_s = (signal.end - signal.preamble_end).seconds();
-  const PowerSteps steps(others, signal.preamble_end, signal.end);
-  double success = 1;
-  std::int64_t before = 0;
-  acoustics::for_each_coded_block(modem, all_bits, [&](std::int64_t bits) {
-    const auto time_of = [&](std::int64_t bit) {
-      return signal.preamble_end +
-             SimDuration::from_seconds(bits_s * static_cast<double>(bit) / static_cast<double>(all_bits));
-    };
-    acoustics::BlockDecoder block(modem, signal.fades);
-    add_cells(signal, steps, time_of(before), time_of(before + bits), block);
-    success *= block.success(bits);
-    before += bits;
-  });
-  return success;
+  PacketDraws draws;
+  draws.later_frames.resize(std::max<std::size_t>(signal.packet->format.frame_bits.size(), 1) - 1);
+  return decode(signal, others, draws).probability;
 }
 
 double timing_error_s(const ReceivedSignal& signal, const Interferers& others, double standard_normal) {
@@ -222,8 +277,10 @@ OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& ot
   statistics.sinr = level_of(mean_sinr(signal, others.paths, signal.preamble_end, signal.end).value);
   statistics.colliders = colliders_of(signal, others);
   if (acquired) {
-    statistics.success_probability = success_probability(signal, others.paths);
-    if (draws.success < statistics.success_probability) return OutcomeKind::kReceived;
+    const Decoded decoded = decode(signal, others.paths, draws);
+    statistics.success_probability = decoded.probability;
+    statistics.frames_good = decoded.frames_good;
+    if (decoded.frames_good != 0) return OutcomeKind::kReceived;
   }
   if (!statistics.colliders.empty() && is_received(signal, {}, draws)) return OutcomeKind::kCollided;
   if (signal.without_shift) {

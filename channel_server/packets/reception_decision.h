@@ -10,8 +10,12 @@
 //      its link.
 //   acquired  when draw 1 < acquisition_probability(modem, mean S / (N + mean I)), means over the preamble: a correlator
 //             gathers what sounds during the whole of it;
-//   received  when draw 2 < the product over the blocks of the packet of their probability to be right
-//             (acoustics/reception/decoding.h).
+//   header    right when draw 2 < P_header, 1 without one
+//   frames    the first is right when draw 2 < P_header P_0, frame i when the header is and draw 2 + i < P_i; P of a block is
+//             its probability to be right (acoustics/reception/decoding.h) in its own span of time
+//   received  when at least one frame is right.
+// Given the header, draw 2 / P_header is uniform again, so all frames are decided independently of each other, and a packet of
+// one frame by one draw.
 // Both curves are those of acoustics/modem/modem.h. Interference counts as noise that is white over the band.
 //
 // A loss counts as a collision when the same draws without the other packets give a reception, and as the Doppler shift's
@@ -29,6 +33,7 @@
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "core/random.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -50,12 +55,17 @@ struct ReceivedSignal {
   std::optional<acoustics::SignalHistory> without_shift = {};
 };
 
+// Of a draw for a packet at a receiver: by the packet's contents, but for its session.
+DrawAddress draw_address(std::uint64_t seed, std::uint32_t purpose, const Packet& packet, VehicleId receiver);
+
 struct PacketDraws {
-  double acquisition = 0, success = 0;  // in (0, 1)
+  double acquisition = 0, success = 0;    // in (0, 1)
+  std::vector<double> later_frames = {};  // in (0, 1), of the second frame and those after it
 };
 // The same for all receivers of a packet.
 std::uint64_t identity_for_draws(const Packet& packet);
-PacketDraws draws_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver);
+// `identity`: identity_for_draws() of the packet.
+PacketDraws draws_of(std::uint64_t seed, const Packet& packet, std::uint64_t identity, VehicleId receiver);
 // Standard normal, for the measured time of arrival.
 double timing_draw_of(std::uint64_t seed, std::uint64_t identity, VehicleId receiver);
 
@@ -64,7 +74,7 @@ double mean_power(const std::vector<Interference>& paths, SimTime begin, SimTime
 
 // Sums over `others` are taken in their order.
 double acquisition_probability(const ReceivedSignal& signal, const std::vector<Interference>& others);
-// Of all information bits being right.
+// Of at least one frame being right: P_header (1 - product over frames of (1 - P_i)).
 double success_probability(const ReceivedSignal& signal, const std::vector<Interference>& others);
 
 // Of the measured time of arrival: normal, with the deviation that noise leaves a matched filter,

@@ -124,10 +124,16 @@ ReachModel::Crowd ReachModel::crowd_of(SimTime at, const VehicleRegistry& regist
                                        const std::vector<PlacedVehicle>& vehicles) const {
   const double surface_z_m = waters_->at(at).sea_surface_z_m;
   Crowd crowd;
-  const auto add = [&](const VehicleModem& carried) {
-    const acoustics::Modem& modem = carried.modem;
+  const auto add_one = [&](const acoustics::Modem& modem) {
     const auto is_known = [&](const acoustics::Modem* known) { return known == &modem || *known == modem; };
     if (std::none_of(crowd.modems.begin(), crowd.modems.end(), is_known)) crowd.modems.push_back(&modem);
+  };
+  // As its own modem it receives every rate of its family.
+  const auto add = [&](const VehicleModem& carried) {
+    add_one(carried.modem);
+    for (const ModemRate& rate : carried.rates.all()) {
+      if (!same_family(rate.modem, carried.modem)) add_one(rate.modem);
+    }
   };
   for (const PlacedVehicle& vehicle : vehicles) {
     crowd.deepest_m =

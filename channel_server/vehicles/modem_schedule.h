@@ -1,16 +1,21 @@
-// Which modem a vehicle carries at an instant: the one configured, until it announces another.
+// What a vehicle's modem is and how it listens at an instant: as configured, until the vehicle announces otherwise.
 //
 // Announcements hold from the instant they name, whatever their order.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "acoustics/modem/modem.h"
+#include "channel_server/vehicles/modem_rates.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::channel_server {
 
@@ -18,6 +23,20 @@ namespace halocline::channel_server {
 enum class WhenBusy {
   kRefuse,  // the transmission is refused
   kQueue,   // it starts when those before it have ended
+};
+
+// How a modem receives, and what it reports of that.
+struct Listening {
+  bool asleep = false;                // acquires nothing and senses no carrier; it transmits all the same
+  std::optional<SimTime> wakes = {};  // of one asleep: by itself, at this instant
+  bool promiscuous = false;           // packets for others are received as well
+  bool events = false;                // what it does and notices is reported (packets/modem_watch.h)
+  // Carrier is sensed where the sound of others exceeds the noise in the modem's band by this, 0..100 dB. 6 dB is our choice:
+  // over 10 ms and 5 kHz the power of noise is known within 0.6 dB, so noise alone does not get there.
+  Decibels carrier_threshold{6};
+
+  bool is_asleep(SimTime instant) const { return asleep && !(wakes && instant >= *wakes); }
+  bool operator==(const Listening&) const = default;
 };
 
 // The profile whose packets may be of any form.
@@ -28,37 +47,63 @@ struct VehicleModem {
   std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768; the modem's own limit holds as well
   WhenBusy when_busy = WhenBusy::kRefuse;
   std::string profile = kGenericProfile;  // where the numbers come from: a name, or the path of a file
+  std::int32_t rate_number = 0;           // of the modem's own rate, 0..255
+  RateSet rates = {};                     // the other rates that it sends and receives, by number
+  Listening listening = {};               // at the start; then as the vehicle announces
   bool operator==(const VehicleModem&) const = default;
 };
+
+// As which modem the vehicle receives a packet of this one: its own, unless a rate of another family knows the packet's.
+inline const acoustics::Modem& receiving_modem(const VehicleModem& receiver, const acoustics::Modem& packet) {
+  if (same_family(packet, receiver.modem)) return receiver.modem;
+  const ModemRate* rate =
+      receiver.rates.find([&](const ModemRate& r) { return same_family(packet, r.modem); });
+  return rate == nullptr ? receiver.modem : rate->modem;
+}
 
 // The largest payload of one packet that both limits allow.
 inline std::size_t largest_payload_bytes(const VehicleModem& modem) {
   return std::min(static_cast<std::size_t>(modem.max_payload_bytes), max_payload_bytes(modem.modem));
 }
 
-class ModemSchedule {
+template <class Value>
+class Schedule {
  public:
-  explicit ModemSchedule(VehicleModem configured) : configured_(std::move(configured)) {}
+  explicit Schedule(Value configured) : configured_(std::move(configured)) {}
 
-  // `modem` holds from `from` on, until an announcement of a later instant. A repetition of what holds
+  // `value` holds from `from` on, until an announcement of a later instant. A repetition of what holds
   // already changes nothing.
-  void announce(SimTime from, const VehicleModem& modem);
-  const VehicleModem& at(SimTime instant) const;
-  // Calls visit(modem) for each that is carried at some instant of [from, to].
+  void announce(SimTime from, const Value& value) {
+    if (at(from) == value) return;
+    announced_.insert_or_assign(from, value);
+    if (announced_.size() > kMaxAnnouncements) announced_.erase(announced_.begin());
+  }
+  const Value& at(SimTime instant) const {
+    const auto later = announced_.upper_bound(instant);
+    return later == announced_.begin() ? configured_ : std::prev(later)->second;
+  }
+  // Calls visit(value, first instant within the interval) for each that holds at some instant of [from, to].
   template <class Visit>
   void visit_during(SimTime from, SimTime to, Visit&& visit) const {
-    visit(at(from));
+    visit(at(from), from);
     for (auto next = announced_.upper_bound(from); next != announced_.end() && next->first <= to; ++next) {
-      visit(next->second);
+      visit(next->second, next->first);
     }
   }
   // Drops announcements that were superseded before `time`.
-  void forget_before(SimTime time);
+  void forget_before(SimTime time) {
+    while (announced_.size() > 1 && std::next(announced_.begin())->first < time) {
+      announced_.erase(announced_.begin());
+    }
+  }
 
  private:
   static constexpr std::size_t kMaxAnnouncements = 64;  // the earliest make room
-  VehicleModem configured_;
-  std::map<SimTime, VehicleModem> announced_;
+  Value configured_;
+  std::map<SimTime, Value> announced_;
 };
+
+using ModemSchedule = Schedule<VehicleModem>;
+using ListenSchedule = Schedule<Listening>;
 
 }  // namespace halocline::channel_server

@@ -55,34 +55,46 @@ const VehicleRegistry::Vehicle* VehicleRegistry::find(VehicleId id) const {
 
 VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, VehicleId id) {
   ids_.emplace(name, id);
-  ModemSchedule modems(modems_.of(name));
+  Schedules schedules = configured(name);
   if (const auto announced = announced_.find(name); announced != announced_.end()) {
-    modems = std::move(announced->second.modems);
+    schedules = std::move(announced->second.schedules);
     forget_announced(announced);
   }
   const auto place = vehicles_.begin() + static_cast<std::ptrdiff_t>(place_of(id));
   return **vehicles_.insert(place,
-                            std::make_unique<Vehicle>(Vehicle{id, std::string(name), {}, std::move(modems)}));
+                            std::make_unique<Vehicle>(Vehicle{id, std::string(name), {}, std::move(schedules)}));
+}
+
+VehicleRegistry::Schedules VehicleRegistry::configured(std::string_view name) const {
+  const VehicleModem& modem = modems_.of(name);
+  return {ModemSchedule(modem), ListenSchedule(modem.listening)};
 }
 
 void VehicleRegistry::announce_modem(std::string_view name, SimTime from, const VehicleModem& modem,
                                      SimTime received_at) {
-  if (const auto id = ids_.find(name); id != ids_.end()) {
-    return vehicles_[place_of(id->second)]->modems.announce(from, modem);
-  }
+  schedules_of(name, received_at).modems.announce(from, modem);
+}
+
+void VehicleRegistry::announce_listening(std::string_view name, SimTime from, const Listening& listening,
+                                         SimTime received_at) {
+  schedules_of(name, received_at).listening.announce(from, listening);
+}
+
+VehicleRegistry::Schedules& VehicleRegistry::schedules_of(std::string_view name, SimTime received_at) {
+  if (const auto id = ids_.find(name); id != ids_.end()) return vehicles_[place_of(id->second)]->announced;
   auto announced = announced_.find(name);
   if (announced == announced_.end()) {
     if (announced_.size() == kMaxAnnounced) {
       forget_announced(announced_.find(announced_by_turn_.begin()->second));
     }
-    announced = announced_.emplace(name, Announced{ModemSchedule(modems_.of(name)), {}, 0}).first;
+    announced = announced_.emplace(name, Announced{configured(name), {}, 0}).first;
   }
   Announced& entry = announced->second;
-  entry.modems.announce(from, modem);
   entry.received_at = received_at;
   announced_by_turn_.erase(entry.turn);
   entry.turn = ++turns_;
   announced_by_turn_.emplace(entry.turn, name);
+  return entry.schedules;
 }
 
 void VehicleRegistry::forget_announced(std::map<std::string, Announced, std::less<>>::iterator announced) {
@@ -120,13 +132,28 @@ std::string VehicleRegistry::name_of(VehicleId id) const {
 
 const VehicleModem& VehicleRegistry::modem(VehicleId id, SimTime instant) const {
   const Vehicle* vehicle = find(id);
-  return vehicle != nullptr ? vehicle->modems.at(instant) : modems_.standard;
+  return vehicle != nullptr ? vehicle->announced.modems.at(instant) : modems_.standard;
 }
 
 const VehicleModem& VehicleRegistry::modem(std::string_view name, SimTime instant) const {
   if (const auto id = ids_.find(name); id != ids_.end()) return modem(id->second, instant);
   const auto announced = announced_.find(name);
-  return announced == announced_.end() ? modems_.of(name) : announced->second.modems.at(instant);
+  return announced == announced_.end() ? modems_.of(name) : announced->second.schedules.modems.at(instant);
+}
+
+const Listening& VehicleRegistry::listening(VehicleId id, SimTime instant) const {
+  const Vehicle* vehicle = find(id);
+  return vehicle != nullptr ? vehicle->announced.listening.at(instant) : modems_.standard.listening;
+}
+
+// Sleep begins with an announcement, so one of the first instants of those that hold meanwhile is one of sleep.
+bool VehicleRegistry::sleeps_during(VehicleId id, SimTime from, SimTime to) const {
+  const Vehicle* vehicle = find(id);
+  if (vehicle == nullptr) return false;
+  bool sleeps = false;
+  vehicle->announced.listening.visit_during(
+      from, to, [&](const Listening& listening, SimTime since) { sleeps |= listening.is_asleep(since); });
+  return sleeps;
 }
 
 void VehicleRegistry::forget_before(SimTime time) {
@@ -136,7 +163,8 @@ void VehicleRegistry::forget_before(SimTime time) {
       ids_.erase(vehicle->name);
     } else {
       vehicle->states.forget_before(time);
-      vehicle->modems.forget_before(time);
+      vehicle->announced.modems.forget_before(time);
+      vehicle->announced.listening.forget_before(time);
     }
   }
   std::erase_if(vehicles_, has_gone);

@@ -48,6 +48,9 @@ class VehicleRegistry {
   [[nodiscard]] std::string add_state(std::string_view name, VehicleId id, const StampedState& state);
   // The vehicle carries `modem` from `from` on. A modem may be announced before the vehicle's first state.
   void announce_modem(std::string_view name, SimTime from, const VehicleModem& modem, SimTime received_at);
+  // Its modem listens like this from `from` on; likewise.
+  void announce_listening(std::string_view name, SimTime from, const Listening& listening,
+                          SimTime received_at);
 
   // Ascending ids of all present at `instant`.
   std::vector<VehicleId> present(SimTime instant) const;
@@ -80,11 +83,17 @@ class VehicleRegistry {
   // The standard one for an unknown id.
   const VehicleModem& modem(VehicleId id, SimTime instant) const;
   const VehicleModem& modem(std::string_view name, SimTime instant) const;
+  // How its modem listens; as configured by default for an unknown id.
+  const Listening& listening(VehicleId id, SimTime instant) const;
+  // Whether its modem sleeps at some instant of [from, to].
+  bool sleeps_during(VehicleId id, SimTime from, SimTime to) const;
   // Calls visit(modem) for each that the vehicle carries at some instant of [from, to], as far as announced; never for an
   // unknown id.
   template <class Visit>
   void visit_modems(VehicleId id, SimTime from, SimTime to, Visit&& visit) const {
-    if (const Vehicle* vehicle = find(id)) vehicle->modems.visit_during(from, to, visit);
+    if (const Vehicle* vehicle = find(id))
+      vehicle->announced.modems.visit_during(from, to,
+                                             [&](const VehicleModem& modem, SimTime) { visit(modem); });
   }
 
   // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it, and
@@ -99,20 +108,27 @@ class VehicleRegistry {
   std::size_t announced() const { return announced_.size(); }  // modems of vehicles without a state
 
  private:
+  struct Schedules {
+    ModemSchedule modems;
+    ListenSchedule listening;
+  };
   struct Vehicle {
     VehicleId id;
     std::string name;
     StateHistory states;
-    ModemSchedule modems;
+    Schedules announced;
   };
   struct Announced {
-    ModemSchedule modems;
+    Schedules schedules;
     SimTime received_at;
     std::uint64_t turn = 0;  // of the latest announcement, among all
   };
   std::size_t place_of(VehicleId id) const;
   const Vehicle* find(VehicleId id) const;
   Vehicle& add_vehicle(std::string_view name, VehicleId id);
+  Schedules configured(std::string_view name) const;
+  // Of a vehicle with or without a state; what is announced now was received at `received_at`.
+  Schedules& schedules_of(std::string_view name, SimTime received_at);
   void forget_announced(std::map<std::string, Announced, std::less<>>::iterator announced);
 
   PositionRule rule_;

@@ -154,7 +154,7 @@ std::optional<RangeMeasurement> LocaliserNode::range_of(const Vehicle& vehicle,
     travel_s = packet.two_way_travel_time_s;
     const SimTime left = SimTime::from_utime(receipt->start_utime);
     range.at = {left, left + SimDuration::from_seconds(receipt->duration_s + travel_s) +
-                          channel_server::kPingTurnaround};
+                          channel_server::kReplyTurnaround};
   } else if (vehicle.config.use_stamps && packet.stamped) {
     travel_s = packet.travel_time_s;
     range.at = {SimTime::from_utime(packet.departure_utime) + SimDuration::from_seconds(travel_s)};

@@ -26,10 +26,12 @@ std::size_t class_of_outcome(std::size_t outcome) {
       return 1;
     case packet_outcome_t::BIT_ERRORS:
     case packet_outcome_t::DOPPLER:
+    case packet_outcome_t::EXTRA_LOSS:
       return 2;
     case packet_outcome_t::COLLIDED:
       return 3;
     case packet_outcome_t::HALF_DUPLEX:
+    case packet_outcome_t::ASLEEP:
       return 4;
     default:
       return 5;

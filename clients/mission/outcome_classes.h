@@ -1,6 +1,6 @@
 // The marks and colours of outcomes: one table for reports and monitors.
 //
-// Fifteen outcomes are too many to distinguish by colour, so they share six classes, each with a mark of its own.
+// Seventeen outcomes are too many to distinguish by colour, so they share six classes, each with a mark of its own.
 // Colours: Okabe and Ito 2008, which colour-blind people can distinguish.
 #pragma once
 

@@ -110,6 +110,10 @@ std::string deciding_reason(const packet_outcome_t& o, const VehicleName& name) 
       return "the two modems are of different waveform families";
     case packet_outcome_t::HALF_DUPLEX:
       return "the receiver itself was transmitting" + (others.empty() ? "" : " " + others);
+    case packet_outcome_t::ASLEEP:
+      return "the receiver's modem was asleep";
+    case packet_outcome_t::EXTRA_LOSS:
+      return "received, but an extra_loss of the scenario took it. " + survival(o);
     case packet_outcome_t::DOPPLER:
       return fmt::format("Doppler factor {:.6f} is beyond what the modem follows",
                          o.strongest_path_doppler_factor);
@@ -134,7 +138,7 @@ std::string refusal(std::int8_t receipt_result) {
     case modem_receipt_t::REFUSED_BUSY:
       return "Not transmitted: the modem was still transmitting.";
     case modem_receipt_t::REFUSED_TOO_LARGE:
-      return "Not transmitted: the payload is larger than the modem takes.";
+      return "Not transmitted: the payload is larger than the modem takes in such a packet.";
     case modem_receipt_t::REFUSED_UNKNOWN_VEHICLE:
       return "Not transmitted: no fresh state of the sender was known.";
     case modem_receipt_t::REFUSED_WRONG_SOURCE:
@@ -145,6 +149,10 @@ std::string refusal(std::int8_t receipt_result) {
       return "Not transmitted: its start lies too far in the future.";
     case modem_receipt_t::REFUSED_QUEUE_FULL:
       return "Not transmitted: the modem's queue was full.";
+    case modem_receipt_t::REFUSED_NO_RATE:
+      return "Not transmitted: the modem has no such rate.";
+    case modem_receipt_t::REFUSED_NO_KIND:
+      return "Not transmitted: the modem has no packets of this kind at this rate.";
     default:
       return "";
   }

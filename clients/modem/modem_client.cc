@@ -24,6 +24,26 @@ ModemClient::ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy polic
       [this](const modem_receive_t& packet) { take_packet(packet); }, wakeup);
 }
 
+void ModemClient::on_event(EventHandler handler) {
+  bus_.subscribe<modem_event_t>(bus::channels::kModemEvent.of(address_.vehicle), std::move(handler));
+}
+
+void ModemClient::listen(SimTime from, const ListenOptions& options) {
+  require(options.carrier_threshold_db >= 0 && options.carrier_threshold_db <= 100,
+          "the threshold of the carrier is 0 to 100 dB above the noise");
+  ++changes_;
+  modem_listen_t message{};
+  message.utime = from.to_utime();
+  message.session = address_.session;
+  message.sequence = next_listen_++;
+  message.asleep = options.asleep ? 1 : 0;
+  message.wake_utime = options.wakes.to_utime();
+  message.promiscuous = options.promiscuous ? 1 : 0;
+  message.events = options.events ? 1 : 0;
+  message.carrier_threshold_db = options.carrier_threshold_db;
+  bus_.publish(bus::channels::kListen.of(address_.vehicle), message);
+}
+
 std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t destination,
                                std::span<const std::uint8_t> payload, SendOptions options) {
   require(options.kind == modem_send_t::DATA || options.kind == modem_send_t::PING,
@@ -101,7 +121,7 @@ SimTime ModemClient::next_resend() const {
 }
 
 void ModemClient::archive(Archive& a) {
-  a(next_sequence_, counters_, pending_, receipts_, waiting_, known_, known_in_order_);
+  a(next_sequence_, next_listen_, counters_, pending_, receipts_, waiting_, known_, known_in_order_);
   if (!a.is_loading()) return;
   for (auto& [sequence, pending] : pending_) {
     pending.next_try = SimTime();

@@ -49,6 +49,16 @@ struct SendOptions {
   bool stamped = true;  // carries the instant of its departure: the receiver computes the delay
 };
 
+// How the modem listens; the defaults are those of [modem].
+struct ListenOptions {
+  bool asleep = false;       // acquires nothing
+  SimTime wakes;             // of one asleep: by itself, at this instant; 0: by another listen() alone
+  bool promiscuous = false;  // packets for others are received as well
+  bool events = false;       // MODEM_EVENTs are published
+  double carrier_threshold_db =
+      6;  // carrier is sensed where the sound of others exceeds the noise by this, 0..100
+};
+
 // When to repeat a SEND that was not answered; steady time.
 struct ResendPolicy {
   SimDuration interval = SimDuration::from_milliseconds(200);   // above 0
@@ -70,6 +80,7 @@ class ModemClient {
  public:
   using ReceiptHandler = std::function<void(const modem_receipt_t&)>;
   using ReceiveHandler = std::function<void(const modem_receive_t&)>;
+  using EventHandler = std::function<void(const modem_event_t&)>;
 
   // Bounds of what a client keeps: packets not taken yet, receipts, and packet identities to detect duplicates.
   static constexpr std::size_t kMaxWaiting = 1000, kMaxReceipts = 1000, kMaxRemembered = 1000;
@@ -84,6 +95,13 @@ class ModemClient {
   void on_receipt(ReceiptHandler handler) { receipt_handler_ = std::move(handler); }
   // Called for each packet that arrives, once. Without a handler packets wait for take_received().
   void on_receive(ReceiveHandler handler) { receive_handler_ = std::move(handler); }
+
+  // Called for each event of the modem, where it reports them (listen). Before the first step of a node.
+  void on_event(EventHandler handler);
+
+  // Publishes a LISTEN that holds from `from` on (simulation time); nothing answers it. Throws InvalidArgument for a threshold
+  // out of range.
+  void listen(SimTime from, const ListenOptions& options);
 
   // Publishes a SEND that starts at `start` (simulation time) and returns its packet_sequence.
   // `destination`: a vehicle's id, or kBroadcastId. `payload`: 0 to 32768 bytes; a modem's own limit shows in
@@ -139,7 +157,7 @@ class ModemClient {
   ReceiveHandler receive_handler_;
   ModemCounters counters_;
   std::uint64_t changes_ = 0;
-  std::int64_t next_sequence_ = 0;
+  std::int64_t next_sequence_ = 0, next_listen_ = 0;
   std::map<std::int64_t, Pending> pending_;
   std::map<std::int64_t, modem_receipt_t> receipts_;
   std::deque<modem_receive_t> waiting_;

@@ -62,6 +62,10 @@ final class OutcomeCause {
         return "rays arrive only more steeply than is searched";
       case packet_outcome_t.OUT_OF_REACH:
         return "so far away that its sound cannot matter";
+      case packet_outcome_t.ASLEEP:
+        return "the receiver's modem slept";
+      case packet_outcome_t.EXTRA_LOSS:
+        return "an extra_loss of the scenario took it";
       default:
         return "";
     }

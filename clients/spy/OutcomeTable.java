@@ -8,7 +8,7 @@ import javax.swing.table.AbstractTableModel;
 /** Packet outcomes, the newest on top. For the event thread alone. */
 final class OutcomeTable extends AbstractTableModel implements Refreshed {
   static final int OUTCOME_COLUMN = 4;
-  private static final String[] KINDS = {"data", "ping", "reply"};  // modem_receive_t.DATA, PING, PING_REPLY
+  private static final String[] KINDS = {"data", "ping", "reply", "ack", "mini", "janus", "cargo"};  // of modem_receive_t
   private static final String[] COLUMNS = {
       "decided, s", "packet", "to", "kind", "outcome", "cause", "range, m", "level, dB", "noise, dB",
       "SNR, dB", "SINR, dB", "acquired", "draw", "bits right", "draw"};

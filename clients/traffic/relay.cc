@@ -69,6 +69,7 @@ void Relay::deliver(const RelayPacket& packet, SimTime at) {
     return;
   }
   ++counters_.delivered;
+  if (delivery_handler_) delivery_handler_(packet, at);
   if (packet.kind != RelayKind::kDataToConfirm) return;
   // Its number is that of the packet confirmed.
   RelayPacket confirmation{RelayKind::kConfirmation,

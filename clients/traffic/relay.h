@@ -12,10 +12,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <set>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "clients/traffic/relay_packet.h"
@@ -51,6 +53,10 @@ class Relay {
 
   // `vehicle_id`: whose. `seed`: of the waits.
   Relay(std::int32_t vehicle_id, RelayRules rules, std::uint64_t seed);
+
+  // Called with each packet of others that is delivered to this vehicle, once.
+  using DeliveryHandler = std::function<void(const RelayPacket&, SimTime at)>;
+  void on_delivery(DeliveryHandler handler) { delivery_handler_ = std::move(handler); }
 
   // A packet of this vehicle's own, to be transmitted at `at`.
   void originate(std::int32_t destination, std::vector<std::uint8_t> payload, SimTime at);
@@ -98,6 +104,7 @@ class Relay {
   std::int32_t vehicle_id_;
   RelayRules rules_;
   std::uint64_t seed_;
+  DeliveryHandler delivery_handler_;
   RelayCounters counters_;
   std::uint64_t changes_ = 0;
   std::uint16_t next_number_ = 0;

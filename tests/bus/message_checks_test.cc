@@ -143,8 +143,48 @@ TEST(MessageChecks, AVehicleHasAnIdFromOneAndAPacketMayGoToAll) {
   EXPECT_EQ(problem_after<modem_send_t>([](auto& m) {
               m.destination_id = 0;
               m.packet_kind = modem_send_t::DATA;
+              m.wants_ack = 0;
             }),
             "");
+}
+
+TEST(MessageChecks, AnAcknowledgementComesFromOneVehicleAndNotToAPing) {
+  const auto wanting = [](std::int32_t destination, std::int8_t kind) {
+    return problem_after<modem_send_t>([&](auto& m) {
+      m.wants_ack = 1;
+      m.destination_id = destination;
+      m.packet_kind = kind;
+      m.num_frames = 0;
+      m.frame_bytes.clear();
+    });
+  };
+  EXPECT_EQ(wanting(2, modem_send_t::DATA), "");
+  EXPECT_EQ(wanting(2, modem_send_t::MINI_PACKET), "");
+  EXPECT_NE(wanting(0, modem_send_t::DATA), "");
+  EXPECT_NE(wanting(2, modem_send_t::PING), "");
+}
+
+TEST(MessageChecks, NobodySendsWhatModemsMakeByThemselves) {
+  for (const std::int8_t kind : {modem_send_t::PING_REPLY, modem_send_t::ACK})
+    EXPECT_NE(problem_after<modem_send_t>([&](auto& m) { m.packet_kind = kind; }), "");
+}
+
+TEST(MessageChecks, FramesTogetherAreThePayloadOfData) {
+  const auto with_frames = [](const std::vector<std::int32_t>& frames, std::int8_t kind) {
+    return problem_after<modem_send_t>([&](auto& m) {
+      m.packet_kind = kind;
+      m.wants_ack = 0;
+      m.payload = {1, 2, 3};
+      m.payload_size = 3;
+      m.frame_bytes = frames;
+      m.num_frames = static_cast<std::int32_t>(frames.size());
+    });
+  };
+  EXPECT_EQ(with_frames({}, modem_send_t::DATA), "");
+  EXPECT_EQ(with_frames({1, 0, 2}, modem_send_t::DATA), "");
+  EXPECT_NE(with_frames({1, 1}, modem_send_t::DATA), "");
+  EXPECT_NE(with_frames({4, -1}, modem_send_t::DATA), "");
+  EXPECT_NE(with_frames({1, 2}, modem_send_t::JANUS_CARGO), "");
 }
 
 TEST(MessageChecks, APingGoesToOneVehicle) {

@@ -95,6 +95,18 @@ void relate(modem_config_t& m) {
   m.center_frequency_hz = 25'000;
   m.bandwidth_hz = 5'000;
 }
+template <class Message>
+void set_frames(Message& m) {
+  m.num_frames = m.payload_size > 0 ? 2 : 1;
+  m.frame_bytes = {m.payload_size};
+  if (m.num_frames == 2) m.frame_bytes = {1, m.payload_size - 1};
+}
+void relate(modem_send_t& m) {
+  m.packet_kind = modem_send_t::DATA;
+  m.destination_id = std::max(m.destination_id, 1);
+  set_frames(m);
+}
+void relate(modem_receive_t& m) { set_frames(m); }
 void relate(eigenray_t& m) { m.path_length_m = 1500 * m.delay_s; }
 void relate(link_search_t& m) {
   std::sort(m.eigenrays.begin(), m.eigenrays.end(),

@@ -127,6 +127,7 @@ TEST(ChannelServerConfig, EveryProfilePrintedReadsBackTheSame) {
     config.modem.modem.directivity_index = {6};
     config.modem.max_payload_bytes = 20;
     config.modem.when_busy = WhenBusy::kQueue;
+    set_rates_of(load_modem(profile), config.modem);
     const std::string printed = bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, true);
     EXPECT_EQ(read(printed).modem, config.modem) << printed;
   }

@@ -26,6 +26,7 @@
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 #include "core/frames.h"
+#include "core/units.h"
 #include "tests/channel_server/channel_fixtures.h"
 
 namespace halocline::channel_server {
@@ -66,7 +67,7 @@ PacketOutcome some_outcome() {
   request.destination_id = 4;
   request.stamped = true;
   end.packet = std::make_shared<const Packet>(
-      Packet{request, at_s(10.5), {for_s(0.05), for_s(0.01), 40}, odd_modem().modem, {1, 2, 3}, {}, {}});
+      Packet{request, at_s(10.5), {for_s(0.05), for_s(0.01), 40}, odd_modem().modem, {1, 2, 3}, {}, {}, 3, {0, {40}}, {5}});
   end.receiver_id = 4;
   end.receiver = "v4";
   end.travel_time_s = 1.25;
@@ -79,7 +80,7 @@ PacketOutcome some_outcome() {
   end.doppler_factor = 1.0625;
   end.arrival_azimuth_rad = -3;
   end.arrival_elevation_rad = 0.125;
-  end.statistics = {{81}, {12.5}, 0.75, 0.5, 0.625, 0.25, {{9, 77, PacketKind::kPing, 2, at_s(3), 1234}}};
+  end.statistics = {{81}, {12.5}, 0.75, 0.5, 0.625, 0.25, {{9, 77, PacketKind::kPing, 2, at_s(3), 1234}}, 1};
   return end;
 }
 
@@ -94,6 +95,7 @@ TEST(ChannelServerMessages, EveryProfileSurvivesTheRoundTrip) {
   for (const std::string& profile : built_in_modems()) {
     VehicleModem modem = load_modem(profile);
     modem.modem.source_level = {190};  // one of the numbers that are free
+    set_rates_of(load_modem(profile), modem);
     const modem_config_t message = to_message(modem, at_s(3));
     EXPECT_EQ(bus::problem_in(message), "");
     EXPECT_EQ(to_modem(message), modem);
@@ -119,7 +121,7 @@ TEST(ChannelServerMessages, AProfilesOwnNumbersMayNotBeOthers) {
   message.preamble_s = 0.1;
   EXPECT_THROW(to_modem(message), InvalidArgument);
   message = to_message(load_modem("micromodem-psk-1"), at_s(3));
-  message.psk_rate = 3;
+  message.modem_profile = "micromodem-psk-99";
   EXPECT_THROW(to_modem(message), InvalidArgument);
 }
 
@@ -182,6 +184,14 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(OutcomeKind::kTooWeak), packet_outcome_t::TOO_WEAK);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kTooSteep), packet_outcome_t::TOO_STEEP);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kOutOfReach), packet_outcome_t::OUT_OF_REACH);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kAsleep), packet_outcome_t::ASLEEP);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kExtraLoss), packet_outcome_t::EXTRA_LOSS);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionBegan), modem_event_t::TRANSMISSION_BEGAN);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionEnded), modem_event_t::TRANSMISSION_ENDED);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kPacketDetected), modem_event_t::PACKET_DETECTED);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kPacketEnded), modem_event_t::PACKET_ENDED);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kCarrierBegan), modem_event_t::CARRIER_BEGAN);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kCarrierEnded), modem_event_t::CARRIER_ENDED);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kBitErrors), packet_outcome_t::BIT_ERRORS);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kStraight), packet_outcome_t::STRAIGHT);
@@ -192,6 +202,15 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(SendResult::kQueueFull), modem_receipt_t::REFUSED_QUEUE_FULL);
   EXPECT_EQ(static_cast<int>(PacketKind::kData), modem_send_t::DATA);
   EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_send_t::PING);
+  EXPECT_EQ(static_cast<int>(SendResult::kNoRate), modem_receipt_t::REFUSED_NO_RATE);
+  EXPECT_EQ(static_cast<int>(SendResult::kNoKind), modem_receipt_t::REFUSED_NO_KIND);
+  EXPECT_EQ(static_cast<int>(PacketKind::kAck), modem_receive_t::ACK);
+  EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_send_t::MINI_PACKET);
+  EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_receive_t::MINI_PACKET);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanus), modem_send_t::JANUS);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanus), modem_receive_t::JANUS);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanusCargo), modem_send_t::JANUS_CARGO);
+  EXPECT_EQ(static_cast<int>(PacketKind::kJanusCargo), modem_receive_t::JANUS_CARGO);
   EXPECT_EQ(static_cast<int>(PacketKind::kData), modem_receive_t::DATA);
   EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_receive_t::PING);
   EXPECT_EQ(static_cast<int>(PacketKind::kPingReply), modem_receive_t::PING_REPLY);
@@ -250,6 +269,44 @@ TEST(ChannelServerMessages, AReceiverCannotKnowWhenAPacketWithoutAStampLeft) {
   EXPECT_EQ(to_receive(end, at_s(11.3)).departure_utime, 0);
   EXPECT_EQ(to_receive(end, at_s(11.3)).travel_time_s, 0);
   EXPECT_EQ(to_outcome(end, at_s(11.3)).travel_time_s, 1.25);  // the ledger knows
+}
+
+TEST(ChannelServerMessages, WhoOverhearsAnAnswerDoesNotKnowWhenTheQuestionLeft) {
+  PacketOutcome end = some_outcome();
+  end.two_way_travel_time_s = 2.5;
+  end.receiver_id = end.packet->request.destination_id;
+  EXPECT_EQ(to_receive(end, at_s(11.3)).two_way_travel_time_s, 2.5);
+  end.receiver_id += 1;
+  EXPECT_EQ(to_receive(end, at_s(11.3)).two_way_travel_time_s, 0);
+}
+
+TEST(ChannelServerMessages, AModemEventHoldsItsExactInstant) {
+  ModemEvent event{"auv1", ModemEventKind::kPacketEnded};
+  event.level = Decibels{110.5};
+  event.sinr = Decibels{7.25};
+  event.outcome = OutcomeKind::kCollided;
+  const modem_event_t message = to_message(event, SimTime::from_nanoseconds(1'234'567'891));
+  EXPECT_EQ(bus::problem_in(message), "");
+  EXPECT_EQ(message.event_ns, 1'234'567'891);
+  EXPECT_EQ(message.utime, 1'234'568);
+  EXPECT_EQ(message.modem_event, modem_event_t::PACKET_ENDED);
+  EXPECT_EQ(message.level_db, 110.5);
+  EXPECT_EQ(message.sinr_db, 7.25);
+  EXPECT_EQ(message.packet_outcome, packet_outcome_t::COLLIDED);
+}
+
+TEST(ChannelServerMessages, AListenKeepsHowTheModemReceives) {
+  modem_listen_t message{};
+  message.asleep = message.promiscuous = message.events = 1;
+  message.wake_utime = 5'000'000;
+  message.carrier_threshold_db = 12;
+  const Listening listening = to_listening(message);
+  EXPECT_TRUE(listening.is_asleep(at_s(4.9)));
+  EXPECT_FALSE(listening.is_asleep(at_s(5)));
+  EXPECT_TRUE(listening.promiscuous && listening.events);
+  EXPECT_EQ(listening.carrier_threshold.value, 12);
+  message.wake_utime = 0;
+  EXPECT_TRUE(to_listening(message).is_asleep(at_s(1e6))) << "until another LISTEN";
 }
 
 TEST(ChannelServerMessages, AReceivedPacketCarriesItsPayload) {

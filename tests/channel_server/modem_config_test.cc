@@ -1,5 +1,8 @@
 #include "channel_server/modems/modem_config.h"
 
+#include <filesystem>
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -74,7 +77,46 @@ TEST(ModemConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
   expected.doppler_correction = 0.02;
   expected.time_quantum = for_s(0.001);
   expected.error_model = acoustics::ErrorModel::kDbpskRayleigh;
-  EXPECT_EQ(modem, (VehicleModem{expected, 10, WhenBusy::kQueue, "micromodem-psk-1"}));
+  VehicleModem all{expected, 10, WhenBusy::kQueue, "micromodem-psk-1", 1};
+  set_rates_of(load_modem("micromodem-psk-1"), all);
+  EXPECT_EQ(modem, all);
+}
+
+// Rates of the same waveform have the vehicle's band and family, and their own framing; those of another keep their band.
+TEST(ModemConfig, TheRatesOfAProfileTakeTheVehiclesNumbers) {
+  const auto modem =
+      read("[modem]\nprofile = \"micromodem-psk-1\"\nsource_level_db = 150\ncenter_frequency_hz = 10000\n"
+           "family = \"psk-of-our-own\"\n")
+          .modem;
+  ASSERT_EQ(modem.rates.all().size(), 6u);
+  const ModemRate& fsk = modem.rates.all()[0];
+  const ModemRate& fast = modem.rates.all()[4];
+  EXPECT_EQ(fsk.number, 0);
+  EXPECT_EQ(fsk.modem.family, "micromodem-fsk");
+  EXPECT_EQ(fsk.modem.centre_frequency_hz, 25'000);
+  EXPECT_EQ(fsk.modem.source_level.value, 150);
+  EXPECT_EQ(fast.number, 5);
+  EXPECT_EQ(fast.modem.family, "psk-of-our-own");
+  EXPECT_EQ(fast.modem.centre_frequency_hz, 10'000);
+  EXPECT_EQ(fast.modem.bit_rate_bps, 5300);
+  EXPECT_EQ(fast.modem.layout, load_modem("micromodem-psk-5").modem.layout);
+  EXPECT_EQ(fast.max_payload_bytes, 2048);
+}
+
+TEST(ModemConfig, RatesAreFilesBesideAFileOrKnownByName) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "rates";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "slow.toml") << "family = \"mine\"\nbit_rate_bps = 10\nrates = \"fast.toml janus\"\n";
+  std::ofstream(folder / "fast.toml") << "family = \"mine\"\nbit_rate_bps = 1000\nrate_number = 7\n";
+  std::ofstream(folder / "wrong.toml") << "rates = \"fast.toml fast.toml\"\n";
+  std::ofstream(folder / "lost.toml") << "rates = \"semaphore\"\n";
+  const VehicleModem slow = load_modem("slow.toml", folder.string());
+  ASSERT_EQ(slow.rates.all().size(), 2u);
+  EXPECT_EQ(slow.rates.all()[0].number, 7);
+  EXPECT_EQ(slow.rates.all()[0].modem.bit_rate_bps, 1000);
+  EXPECT_EQ(slow.rates.all()[1].modem.family, "janus");
+  EXPECT_THROW(load_modem("wrong.toml", folder.string()), InvalidArgument);
+  EXPECT_THROW(load_modem("lost.toml", folder.string()), InvalidArgument);
 }
 
 TEST(ModemConfig, AVehiclesProfileStartsFromItsOwnNumbers) {

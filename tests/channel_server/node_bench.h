@@ -54,6 +54,7 @@ class NodeBench {
     record(channels::kLinks, links);
     record(channels::kReceipt, receipts);
     record(channels::kReceive, receives);
+    record(channels::kModemEvent, events);
     record(channels::kLinkReply, replies);
     record(channels::kStatus, statuses);
     bus_.subscribe<packet_outcome_t>(channels::kOutcome,
@@ -94,6 +95,12 @@ class NodeBench {
     message.payload.assign(static_cast<std::size_t>(bytes), 0x42);
     bus_.publish(channels::kSend.of(name_of(source)), message);
     return message;
+  }
+
+  // Nothing repeated: what is not set is off.
+  void listen(VehicleId id, double time_s, modem_listen_t message) {
+    message.utime = at_s(time_s).to_utime();
+    bus_.publish(channels::kListen.of(name_of(id)), message);
   }
 
   environment_change_t change_of_wind(double time_s, double wind_mps, std::int64_t sequence = 0) {
@@ -147,6 +154,7 @@ class NodeBench {
   std::vector<ReceivedOn<link_table_t>> links;
   std::vector<ReceivedOn<modem_receipt_t>> receipts;
   std::vector<ReceivedOn<modem_receive_t>> receives;
+  std::vector<ReceivedOn<modem_event_t>> events;
   std::vector<ReceivedOn<link_reply_t>> replies;
   std::vector<ReceivedOn<node_status_t>> statuses;
   std::vector<packet_outcome_t> outcomes;

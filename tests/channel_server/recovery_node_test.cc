@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "bus/event_log.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "tests/channel_server/node_bench.h"
 
@@ -33,20 +34,32 @@ std::string unnumbered(Message message) {
   return bytes;
 }
 
+VehicleModem reporting_modem() {
+  VehicleModem modem = testing::quick_modem();
+  modem.listening.events = true;
+  return modem;
+}
+
 // One incarnation of a server, beside the bathymetry service.
 struct Incarnation {
   Incarnation(bool rays, const std::string& journal)
-      : bench({}, {testing::quick_modem(), {}},
+      : bench({}, {reporting_modem(), {}},
               rays ? ray_model(testing::even_water(), {}, {}) : straight_model(testing::even_water())),
         bottom(bench.lcm(), kBottomM) {
     if (!journal.empty()) bench.node().open_journal(journal);
   }
   // What four vehicles, two to six kilometres apart, publish in a tenth of a second: two send at times, of which
-  // one pings.
+  // one pings; and one sleeps at times.
   void publish(int tenth) {
     const double t = tenth / 10.0;
     for (VehicleId id = 1; id <= kVehicles; ++id) {
       bench.state(id, t, {2000.0 * id + t, 40.0 * id - 2 * t, 60}, {1, -2, 0});
+    }
+    if (tenth % 50 == 20) {  // sleeps for two seconds
+      modem_listen_t listen{};
+      listen.asleep = listen.events = 1;
+      listen.wake_utime = (tenth + 21) * 100'000LL;
+      bench.listen(4, t + 0.1, listen);
     }
     if (tenth % 7 == 3) bench.send(1 + tenth % kVehicles, t + 0.02, tenth, 20);
     if (tenth % 23 != 5) return;
@@ -75,12 +88,13 @@ struct Incarnation {
 };
 
 struct Published {
-  std::multiset<std::string> outcomes, receives, receipts;
+  std::multiset<std::string> outcomes, receives, receipts, events;
   std::multiset<double> arrivals_s;
   void add(const NodeBench& bench) {
     for (const auto& m : bench.outcomes) outcomes.insert(unnumbered(m));
     for (const auto& m : bench.receives) receives.insert(m.channel + unnumbered(m.message));
     for (const auto& m : bench.receipts) receipts.insert(m.channel + unnumbered(m.message));
+    for (const auto& m : bench.events) events.insert(m.channel + unnumbered(m.message));
   }
 };
 
@@ -128,6 +142,8 @@ TEST_P(RecoveringServer, PublishesInAllIncarnationsWhatAnUninterruptedServerPubl
   EXPECT_TRUE(several.outcomes == one.outcomes);
   EXPECT_TRUE(several.receives == one.receives);
   EXPECT_TRUE(several.receipts.size() == one.receipts.size());
+  EXPECT_GT(one.events.size(), 200u);
+  EXPECT_TRUE(several.events == one.events);
   EXPECT_GT(late_, 5) << "nothing was due while it was away: not much of a test";
 }
 

@@ -20,7 +20,8 @@ constexpr std::int64_t kDay_us = 86'400'000'000;
 template <class Message>
 inline constexpr bool kIsPlayed =
     std::is_same_v<Message, vehicle_state_t> || std::is_same_v<Message, modem_send_t> ||
-    std::is_same_v<Message, modem_config_t> || std::is_same_v<Message, environment_change_t>;
+    std::is_same_v<Message, modem_config_t> || std::is_same_v<Message, modem_listen_t> ||
+    std::is_same_v<Message, environment_change_t>;
 
 // Of STATE.auv-1: auv-1.
 std::string vehicle_of(const std::string& channel) { return channel.substr(channel.find('.') + 1); }
@@ -34,6 +35,8 @@ std::int64_t utime_of(const Recording::Event& event) {
   return std::visit([](const auto& message) { return message.utime; }, event.message);
 }
 void set_utime(Recording::Event& event, std::int64_t utime) {
+  auto* listen = std::get_if<modem_listen_t>(&event.message);
+  if (listen != nullptr && listen->wake_utime != 0) listen->wake_utime += utime - listen->utime;
   std::visit([&](auto& message) { message.utime = utime; }, event.message);
 }
 

@@ -5,7 +5,7 @@
 //
 // - A lockstep run stamps its log with simulation time: messages are played at their stamps, in their order. A stamp
 //   that breaks their order was damaged and counts as the one before it.
-// - Any other log (lcm-logger's, one recorded at sea) goes by the messages' own utime: STATE, MODEM and
+// - Any other log (lcm-logger's, one recorded at sea) goes by the messages' own utime: STATE, MODEM, LISTEN and
 //   SET_ENVIRONMENT when they hold, SEND when it starts. A utime more than 30 days from the median of all states' comes
 //   from another clock (or from none: 0): such a message is played at the latest valid utime that the log had reached.
 //   When no state has a time, all go by the stamps.
@@ -35,7 +35,7 @@ struct Recording {
   struct Event {
     SimTime at;
     std::string channel;
-    std::variant<vehicle_state_t, modem_send_t, modem_config_t, environment_change_t> message;
+    std::variant<vehicle_state_t, modem_send_t, modem_config_t, modem_listen_t, environment_change_t> message;
   };
   std::vector<Event> events;  // by time; of one time, in the log's order
   SimTime end;                // of the run, as far as the log shows

@@ -26,7 +26,7 @@ bool is_one_of(std::string_view name, std::initializer_list<std::string_view> na
 bool is_between_programs(std::string_view channel) {
   return is_one_of(family_of(channel),
                    {"STATUS", "HEARTBEAT", "REPAIR_REQUEST", "REPAIR", "RAY_QUERY", "RAY_REPLY",
-                    "TERRAIN_QUERY", "TERRAIN_REPLY", "PING_ANSWER", "FOUND_PATHS"});
+                    "TERRAIN_QUERY", "TERRAIN_REPLY", "MODEM_REPLY", "FOUND_PATHS"});
 }
 
 bool is_of_channel_server(std::string_view channel) {

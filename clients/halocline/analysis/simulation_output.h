@@ -2,7 +2,7 @@
 // vehicle simulator was split (channel_server/vehicles/shard.h, vehicle_sim/vehicle_block.h) with runs whose was not.
 //
 // Left out are the messages between programs: STATUS, HEARTBEAT, REPAIR_REQUEST, REPAIR,
-// RAY_QUERY, RAY_REPLY, TERRAIN_QUERY, TERRAIN_REPLY, PING_ANSWER, FOUND_PATHS, and what is on channels that are none of ours. The
+// RAY_QUERY, RAY_REPLY, TERRAIN_QUERY, TERRAIN_REPLY, MODEM_REPLY, FOUND_PATHS, and what is on channels that are none of ours. The
 // messages of a channel server (SCENARIO, ENVIRONMENT, LINKS, RECEIPT, RECEIVE, OUTCOME, LINK_REPLY) are written without
 // session and sequence, which depend on the number of servers, those of a vehicle simulator (STATE, SENSORS, DVL, GPS,
 // SONAR, USBL, FAULT) without session. Messages of one stamp are put in order by channel and bytes,

@@ -10,6 +10,7 @@
 #include "channel_server/channel_server_node.h"
 #include "channel_server/vehicles/shard.h"
 #include "clients/autopilot/autopilot_node.h"
+#include "clients/examples/networks/network_node.h"
 #include "clients/halocline/scenario/scenario_checks.h"
 #include "clients/localiser/localiser_node.h"
 #include "clients/traffic/traffic_node.h"
@@ -60,6 +61,7 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
   visit(v, config.autopilot);
   visit(v, config.traffic);
   visit(v, config.localiser);
+  networks::visit(v, config.network);
 }
 
 namespace {
@@ -118,6 +120,7 @@ std::string commented_toml() {
   config.scenario.vehicles[0].name = "auv-1";
   config.scenario.vehicles[0].id = 1;
   config.channel_server.vehicles.resize(1);
+  config.channel_server.rules.medium.extra_loss.resize(1);
   config.vehicle_sim.tethers.resize(1);
   config.vehicle_sim.faults.resize(1);
   config.vehicle_sim.faults[0].fault.angle_rad = 0;
@@ -126,6 +129,7 @@ std::string commented_toml() {
   config.autopilot.vehicles[0].behaviours.resize(1);
   config.traffic.vehicles.resize(1);
   config.localiser.vehicles.resize(1);
+  config.network.members.resize(1);
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);
 }
 
@@ -156,6 +160,8 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
     add_vehicle_sims(config);
     add<AutopilotNode>(bus::Stage::kPilots, "autopilot", config.autopilot);
     add<TrafficNode>(bus::Stage::kTraffic, "traffic", config.traffic);
+    if (config.network.rules.mac != networks::MacKind::kNone)
+      add<networks::NetworkNode>(bus::Stage::kTraffic, "network", config.network, config.scenario.seed);
     add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
   }
   add_channel_servers(config);

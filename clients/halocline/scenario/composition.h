@@ -18,6 +18,7 @@
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
 #include "clients/autopilot/autopilot_config.h"
+#include "clients/examples/networks/network_config.h"
 #include "clients/localiser/localiser_config.h"
 #include "clients/traffic/traffic_config.h"
 #include "vehicle_sim/vehicle_sim_config.h"
@@ -33,7 +34,8 @@ struct ScenarioConfig {
   AutopilotConfig autopilot;
   TrafficConfig traffic;
   LocaliserConfig localiser;
-  std::string folder = ".";  // where relative paths of the file start
+  networks::NetworkConfig network;  // an example client; runs where it names a protocol
+  std::string folder = ".";         // where relative paths of the file start
 };
 
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);

@@ -189,15 +189,15 @@ std::shared_ptr<const channel_server::SeabedProfile> survey_bottom(const bathyme
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to) {
   const auto terrain = make_terrain(config).terrain;
   const channel_server::LinkEnd here{0, from.position_ned_m, from.velocity_ned_mps, &from.modem.modem};
-  const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &to.modem.modem};
+  const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
+  const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &receiver};
   const auto waters = std::make_shared<channel_server::EnvironmentTimeline>(
       make_environment(config.channel_server.environment, config.scenario, config.folder));
   channel_server::ServerRules rules = config.channel_server.rules;
   rules.medium.fading = config.channel_server.propagation.fading;
   channel_server::LinkPredictor predictor = make_predictor(rules);
   const auto forecast = [&](const channel_server::Reception& reception) {
-    const acoustics::Modem& transmitter = from.modem.modem;
-    return predictor.forecast(*predictor.rates_of(transmitter), transmitter, to.modem.modem, reception);
+    return predictor.forecast(*predictor.rates_of(transmitter), transmitter, receiver, reception);
   };
   const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
   require_above_seabed(*terrain, from);
@@ -218,7 +218,7 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
                                     rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
                                          : straight_arrival(answer.reception, beams));
     answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
-    answer.multipath = multipath_of(answer.reception, to.modem.modem.min_receivable_level);
+    answer.multipath = multipath_of(answer.reception, receiver.min_receivable_level);
     return answer;
   }
   channel_server::StraightPropagation propagation(waters, rules.medium.fading);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "acoustics/modem/modem.h"
@@ -298,6 +299,18 @@ bool check_ocean(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
+// Vehicles of processes that are not ours need no entry, so an unknown name may be meant.
+void check_extra_loss(const ScenarioConfig& config, bus::ConfigFile& file) {
+  const auto& losses = config.channel_server.rules.medium.extra_loss;
+  for (std::size_t i = 0; i < losses.size(); ++i) {
+    for (const auto& [key, name] : {std::pair("from", losses[i].from), {"to", losses[i].to}}) {
+      if (!name.empty() && config.scenario.find(name) == nullptr)
+        file.warn("extra_loss." + std::to_string(i) + "." + key, name,
+                  "the scenario has no vehicle of that name");
+    }
+  }
+}
+
 void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
   const channel_server::ProfileConfig& profile = config.channel_server.environment.profile;
   if (profile.source != channel_server::ProfileSource::kFile) return;
@@ -312,6 +325,7 @@ void check_water(const ScenarioConfig& config, bus::ConfigFile& file) {
   if (!check_ocean(config, file)) return;
   check_count(config, file);
   check_names(config, file);
+  check_extra_loss(config, file);
   check_profile(config, file);
 }
 

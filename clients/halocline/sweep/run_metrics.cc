@@ -29,7 +29,16 @@ constexpr std::array<RunNumberInfo, kRunNumbers> kInfo{
      {"delay_p90_s", "s", "90th percentile of the travel time of what was delivered"},
      {"delay_p99_s", "s", "99th percentile of the travel time of what was delivered"},
      {"latency_mean_s", "s", "mean time from the first bit sent to the last bit received"},
-     {"throughput_bps", "bit s-1", "payload bits delivered to their destinations per second"}}};
+     {"throughput_bps", "bit s-1", "payload bits delivered to their destinations per second"},
+     {"channel_load", "1", "durations of the packets sent, over the run: G of textbooks"},
+     {"channel_use", "1", "durations of the packets received by the one they were for, over the run: S"},
+     {"network_load", "1",
+      "packets offered to networks times the longest duration of one sent, over the run"},
+     {"network_offered", "1", "packets offered to networks"},
+     {"network_delivered", "1", "packets that networks delivered, at each receiver"},
+     {"network_delay_mean_s", "s", "mean time from the offer to the delivery"},
+     {"network_delay_p90_s", "s", "90th percentile of the time from the offer to the delivery"},
+     {"network_hops_mean", "1", "mean number of packets of modems on the way of what was delivered"}}};
 
 double mean(const std::vector<double>& values) {
   double sum = 0;
@@ -48,6 +57,9 @@ struct Counts {
   OutcomeSummary outcomes{3'600'000'000};
   LogStatistics statistics;
   std::int64_t payload_bits = 0;
+  double sent_s = 0, longest_s = 0;  // durations of packets: their sum, and the greatest
+  std::int64_t offered = 0;
+  std::vector<double> network_delays_s, hops;
 
   void count(const LoggedEvent& event) {
     outcomes.count(event);
@@ -55,11 +67,53 @@ struct Counts {
     with_type_of(event.channel, [&]<class Message>() {
       if constexpr (std::is_same_v<Message, modem_receive_t>) {
         Message message;
-        if (decode_checked(event.data, message)) payload_bits += std::int64_t{8} * message.payload_size;
+        const bool is_whole = decode_checked(event.data, message);
+        const bool is_addressed =
+            message.destination_id == 0 || message.destination_id == message.receiver_id;
+        if (is_whole && is_addressed) payload_bits += std::int64_t{8} * message.payload_size;
+      } else if constexpr (std::is_same_v<Message, modem_receipt_t>) {
+        Message message;
+        if (decode_checked(event.data, message)) {
+          sent_s += message.duration_s;
+          longest_s = std::max(longest_s, message.duration_s);
+        }
+      } else if constexpr (std::is_same_v<Message, network_event_t>) {
+        Message message;
+        if (decode_checked(event.data, message)) count(message);
       }
     });
   }
+
+  void count(const network_event_t& m) {
+    offered += m.network_event == network_event_t::OFFERED ? 1 : 0;
+    if (m.network_event != network_event_t::DELIVERED) return;
+    network_delays_s.push_back(static_cast<double>(m.utime - m.offered_utime) * 1e-6);
+    hops.push_back(m.hop_count);
+  }
 };
+
+// Of packets received by the one vehicle that they were for.
+double received_s(const OutcomeSummary& outcomes) {
+  double sum_s = 0;
+  for (const packet_outcome_t& o : outcomes.outcomes()) {
+    if (o.outcome == packet_outcome_t::RECEIVED && o.destination_id == o.receiver_id) sum_s += o.duration_s;
+  }
+  return sum_s;
+}
+
+void set_network(Counts& counts, RunMetrics& metrics) {
+  auto& delays = counts.network_delays_s;
+  std::sort(delays.begin(), delays.end());
+  metrics[RunNumber::kChannelLoad] = counts.sent_s / metrics.simulated_s;
+  metrics[RunNumber::kChannelUse] = received_s(counts.outcomes) / metrics.simulated_s;
+  const auto offered = static_cast<double>(counts.offered);
+  metrics[RunNumber::kNetworkLoad] = offered * counts.longest_s / metrics.simulated_s;
+  metrics[RunNumber::kNetworkOffered] = offered;
+  metrics[RunNumber::kNetworkDelivered] = static_cast<double>(delays.size());
+  metrics[RunNumber::kNetworkDelayMean] = mean(delays);
+  metrics[RunNumber::kNetworkDelay90] = nearest_rank(delays, 0.9);
+  metrics[RunNumber::kNetworkHopsMean] = mean(counts.hops);
+}
 
 void add_delivery(const OutcomeSummary& outcomes, RunMetrics& metrics, std::vector<double>& delays,
                   std::vector<double>& latencies) {
@@ -112,6 +166,7 @@ RunMetrics metrics_of(LogReader& log) {
   metrics[RunNumber::kLatencyMean] = mean(latencies);
   metrics[RunNumber::kThroughput] =
       metrics.simulated_s > 0 ? static_cast<double>(counts.payload_bits) / metrics.simulated_s : kNaN;
+  set_network(counts, metrics);
   return metrics;
 }
 

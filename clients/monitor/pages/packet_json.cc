@@ -15,14 +15,8 @@ namespace {
 using nlohmann::json;
 
 const char* kind_name(std::int8_t kind) {
-  switch (kind) {
-    case modem_receive_t::PING:
-      return "ping";
-    case modem_receive_t::PING_REPLY:
-      return "ping_reply";
-    default:
-      return "data";
-  }
+  constexpr const char* kNames[] = {"data", "ping", "ping_reply", "ack", "mini_packet", "janus", "janus_cargo"};
+  return kind >= 0 && kind < static_cast<int>(std::size(kNames)) ? kNames[kind] : "data";
 }
 
 const char* result_name(const clients::PacketRecord& packet) {
@@ -34,7 +28,9 @@ const char* result_name(const clients::PacketRecord& packet) {
                                     "refused_stale",
                                     "refused_too_early",
                                     "queued",
-                                    "refused_queue_full"};
+                                    "refused_queue_full",
+                                    "refused_no_rate",
+                                    "refused_no_kind"};
   if (!packet.receipt || *packet.receipt < 0 || *packet.receipt >= static_cast<int>(std::size(kNames)))
     return "unknown";
   return kNames[*packet.receipt];

@@ -70,17 +70,5 @@ TEST(BlockDecoder, ALoudBlockIsRight) {
   EXPECT_EQ(block.success(1000), 1);
 }
 
-TEST(CodedBlocks, AreTheHeaderAndEachFrame) {
-  Modem modem;
-  modem.layout = {.header_bits = 64, .tail_bits = 8, .frame_bytes = 32, .max_frames = 4};
-  EXPECT_EQ(coded_blocks(modem, 64 + 3 * 256), (std::vector<std::int64_t>{64, 256, 256, 256}));
-  modem.layout = {.header_bits = 64};
-  EXPECT_EQ(coded_blocks(modem, 64 + 800), (std::vector<std::int64_t>{64, 800}));
-  EXPECT_EQ(coded_blocks(modem, 64), (std::vector<std::int64_t>{64}));
-  modem.layout = {};
-  EXPECT_EQ(coded_blocks(modem, 128), (std::vector<std::int64_t>{128}));
-  EXPECT_TRUE(coded_blocks(modem, 0).empty());
-}
-
 }  // namespace
 }  // namespace halocline::acoustics

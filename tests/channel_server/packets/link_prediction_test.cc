@@ -19,6 +19,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/modem/packet_format.h"
 #include "acoustics/reception/reception_curves.h"
 #include "acoustics/reception/signal_history.h"
 #include "acoustics/reception/steady_band.h"
@@ -105,6 +106,7 @@ TEST_P(PredictedLink, DeliversAsManyPacketsAsRealised) {
   Packet packet;
   packet.modem = modem;
   packet.timing = timing;
+  packet.format = data_format(modem, std::min(kPayloadBytes, max_payload_bytes(modem)));
   const auto shared = std::make_shared<const Packet>(packet);
   const SimTime begin = SimTime::from_seconds(100);
   std::array<Share, kNoiseDb.size()> acquired{}, delivered{};

@@ -173,7 +173,7 @@ TEST_F(PingTest, TheAnswerLeavesATurnaroundAfterThePing) {
   const auto replies = replies_in(run());
   ASSERT_FALSE(replies.empty());
   const double one_way_s = (place_of(2) - place_of(1)).norm() / kSpeedMps;
-  EXPECT_NEAR(replies[0].packet->departure.seconds(), 10 + one_way_s + 0.2 + kPingTurnaround.seconds(),
+  EXPECT_NEAR(replies[0].packet->departure.seconds(), 10 + one_way_s + 0.2 + kReplyTurnaround.seconds(),
               tolerance(2e-9));
 }
 

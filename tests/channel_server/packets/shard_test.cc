@@ -44,14 +44,23 @@ std::string text_of(const MediumEvent& event) {
         << end->two_way_travel_time_s << ' ' << end->budget.snr.value << ' ' << end->statistics.sinr.value
         << ' ' << end->statistics.success_draw;
     for (const PacketName& collider : end->statistics.colliders) out << ' ' << collider.packet_sequence;
+  } else if (const auto* noticed = std::get_if<ModemEvent>(&event.what)) {
+    out << "event " << noticed->vehicle << ' ' << static_cast<int>(noticed->kind) << ' '
+        << noticed->level.value << ' ' << static_cast<int>(noticed->outcome);
   }
   return out.str();
+}
+
+ConfiguredModems watching_modems() {
+  ConfiguredModems modems = testing::busy_modems();
+  for (auto& [name, modem] : modems.of_vehicle) modem.listening.events = true;
+  return modems;
 }
 
 // A registry, a propagation and a medium of one server; all receive all.
 struct Server {
   Server(Shard shard, double until_s)
-      : fleet({for_s(0.05), for_s(5)}, testing::busy_modems()),
+      : fleet({for_s(0.05), for_s(5)}, watching_modems()),
         medium(fleet, propagation,
                {.max_lateness = for_s(10), .max_earliness = for_s(until_s), .seed = 1, .shard = shard}) {
     for (const auto& timed : testing::busy_states(until_s)) {
@@ -75,17 +84,17 @@ std::vector<std::string> said_by(int count) {
     SimTime next = SimTime::never();
     for (const auto& server : servers) next = std::min(next, server->medium.next_event());
     if (next == SimTime::never()) break;
-    std::vector<PingAnswer> answers;
+    std::vector<ModemReply> answers;
     for (const auto& server : servers) {
       for (const MediumEvent& event : server->medium.advance_to(next)) {
-        if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
+        if (const auto* answer = std::get_if<ModemReply>(&event.what)) {
           answers.push_back(*answer);
         } else {
           published.push_back(text_of(event));
         }
       }
     }
-    for (const PingAnswer& answer : answers) {
+    for (const ModemReply& answer : answers) {
       for (const auto& server : servers) server->medium.add_answer(answer);
     }
   }
@@ -122,14 +131,14 @@ TEST(Shard, AnAnswerAddedTwiceIsTransmittedOnce) {
     }
   }
   PacketMedium medium(fleet, propagation, {for_s(10), for_s(60), 1, {0, 2}});  // serves 4
-  PingAnswer answer;
+  ModemReply answer;
   answer.request.vehicle = name_of(3);
   answer.request.source_id = 3;
   answer.request.destination_id = 4;
   answer.request.packet_sequence = 8;
   answer.request.kind = PacketKind::kPingReply;
   answer.request.start = at_s(2);
-  answer.ping_departure = at_s(1);
+  answer.asked_departure = at_s(1);
   medium.add_answer(answer);
   std::size_t ends = medium.advance_to(at_s(10)).size();
   medium.add_answer(answer);

@@ -9,6 +9,7 @@
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/modem/packet_format.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/reception/link_prediction.h"
 #include "acoustics/reception/reception_curves.h"
@@ -35,7 +36,8 @@ class StillLink {
         window_(reception_.paths.empty() ? acoustics::GuardWindow() : best_window(reception_.paths, modem_)) {
     Packet packet;
     packet.modem = modem_;
-    packet.timing = packet_timing(modem_, payload_bytes);
+    packet.format = data_format(modem_, payload_bytes);
+    packet.timing = packet_timing(modem_, packet.format);
     packet_ = std::make_shared<const Packet>(packet);
   }
   StillLink(const StillLink&) = delete;

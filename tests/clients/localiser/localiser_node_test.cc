@@ -93,7 +93,7 @@ class Sea : public bus::Node {
     bus().publish(bus::channels::kReceipt.of("auv"), receipt);
     const double out_s = (place(left) - beacon.start_ned_m).norm() / kSoundSpeedMps;
     const SimTime answer_leaves =
-        left + SimDuration::from_seconds(out_s + kPingDurationS) + channel_server::kPingTurnaround;
+        left + SimDuration::from_seconds(out_s + kPingDurationS) + channel_server::kReplyTurnaround;
     // Where the vehicle is when the answer comes: a fixed point, of which three steps leave micrometres.
     double back_s = out_s;
     for (int i = 0; i < 3; ++i)

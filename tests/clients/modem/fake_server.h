@@ -19,6 +19,8 @@ class FakeServer {
     });
   }
 
+  bus::Bus& bus() { return bus_; }
+
   void accept(const modem_send_t& message) { answer(message, modem_receipt_t::ACCEPTED); }
 
   void answer(const modem_send_t& message, std::int8_t result) {

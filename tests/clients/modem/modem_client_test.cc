@@ -55,6 +55,38 @@ TEST_F(ModemClientTest, SendCarriesTheRequestedFields) {
   EXPECT_THAT(received.payload, ElementsAre(9, 8));
 }
 
+TEST_F(ModemClientTest, ListenCarriesWhatIsAskedForAndCountsOn) {
+  std::vector<modem_listen_t> received;
+  server_.bus().subscribe<modem_listen_t>(bus::channels::kListen.of("auv-1"),
+                                          [&](const modem_listen_t& m) { received.push_back(m); });
+  modem_.listen(at_ms(1000), {.promiscuous = true, .events = true, .carrier_threshold_db = 9});
+  modem_.listen(at_ms(2000), {.asleep = true, .wakes = at_ms(5000)});
+  drain();
+  ASSERT_EQ(received.size(), 2u);
+  EXPECT_EQ(received[0].utime, 1'000'000);
+  EXPECT_EQ(received[0].session, 42);
+  EXPECT_EQ(received[0].wake_utime, 0);
+  EXPECT_TRUE(received[0].promiscuous && received[0].events && !received[0].asleep);
+  EXPECT_EQ(received[0].carrier_threshold_db, 9);
+  EXPECT_EQ(received[1].sequence, 1);
+  EXPECT_TRUE(received[1].asleep && !received[1].events);
+  EXPECT_EQ(received[1].wake_utime, 5'000'000);
+  EXPECT_THROW(modem_.listen(at_ms(0), {.carrier_threshold_db = 101}), InvalidArgument);
+}
+
+TEST_F(ModemClientTest, EventsOfTheOwnModemAreHandedOn) {
+  std::vector<std::int8_t> kinds;
+  modem_.on_event([&](const modem_event_t& event) { kinds.push_back(event.modem_event); });
+  modem_event_t event{};
+  event.session = 99;
+  event.modem_event = modem_event_t::CARRIER_BEGAN;
+  server_.bus().publish(bus::channels::kModemEvent.of("auv-2"), event);
+  event.modem_event = modem_event_t::PACKET_DETECTED;
+  server_.bus().publish(bus::channels::kModemEvent.of("auv-1"), event);
+  drain();
+  EXPECT_THAT(kinds, ElementsAre(modem_event_t::PACKET_DETECTED));
+}
+
 TEST_F(ModemClientTest, APacketCarriesItsDepartureUnlessDisabled) {
   send(0);
   modem_.send(at_ms(0), at_ms(0), 7, {}, {.stamped = false});

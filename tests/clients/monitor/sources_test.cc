@@ -28,7 +28,7 @@ TEST(Modems, AreThoseOfTheConfiguration) {
   EXPECT_EQ(messages[1].channel, "MODEM.auv-2");
   EXPECT_EQ(bus::decoded<modem_config_t>(messages[0].bytes)->guard_time_s, 0.002);
   const auto janus = bus::decoded<modem_config_t>(messages[1].bytes);
-  EXPECT_EQ(janus->modem_profile, modem_config_t::PROFILE_JANUS);
+  EXPECT_EQ(janus->modem_profile, "janus");
   EXPECT_EQ(janus->utime, 5'000'000);
   EXPECT_TRUE(modems_in("[modem]\nprofile = \"away.toml\"", names, SimTime()).empty());
   EXPECT_TRUE(modems_in("[modem", names, SimTime()).empty());

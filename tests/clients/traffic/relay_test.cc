@@ -97,6 +97,19 @@ TEST(Relay, AVehicleThatIsNoRelayOnlyTakesWhatIsForIt) {
   EXPECT_EQ(addressed.counters().delivered, 1);
 }
 
+TEST(Relay, HandsOnEachPacketThatIsForItOnce) {
+  Relay addressed(9, rules(false), 5);
+  std::vector<SimTime> deliveries;
+  addressed.on_delivery([&](const RelayPacket& packet, SimTime at) {
+    EXPECT_EQ(packet.destination, 9);
+    deliveries.push_back(at);
+  });
+  addressed.take(first_packet(), at_s(11));
+  addressed.take(first_packet(), at_s(12));
+  ASSERT_EQ(deliveries.size(), 1u);
+  EXPECT_EQ(deliveries[0], at_s(11));
+}
+
 TEST(Relay, APacketToAllIsDeliveredAndPassedOn) {
   Relay origin(1, rules(false, 2), 5), relay(2, rules(true), 5);
   origin.originate(kBroadcastId, {1}, at_s(0));

@@ -143,7 +143,7 @@ export interface Packet {
   key: string;
   source: number;
   destination: number;
-  kind: "data" | "ping" | "ping_reply";
+  kind: "data" | "ping" | "ping_reply" | "ack" | "mini_packet" | "janus" | "janus_cargo";
   bytes: number;
   depart_s: number;
   duration_s: number;

@@ -99,8 +99,8 @@ TEST_F(SimulationOutput, LeavesOutWhatProgramsSayOfThemselvesAndToEachOther) {
   node_status_t status{};
   status.node_name = "channel-server-0";
   other_.add(6, "STATUS.channel-server-0", status);
-  ping_answer_t answer{};
-  other_.add(6, "PING_ANSWER", answer);
+  modem_reply_t answer{};
+  other_.add(6, "MODEM_REPLY", answer);
   other_.add(6, "FOUND_PATHS.shard-0", found_paths_t{});
   other_.add(6, "TERRAIN_QUERY", terrain_query_t{});
   other_.add(6, "TERRAIN_REPLY.monitor", terrain_tile_t{});

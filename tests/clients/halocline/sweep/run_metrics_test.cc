@@ -56,6 +56,58 @@ TEST(RunMetrics, DelaysHaveNearestRankPercentiles) {
   EXPECT_NEAR(metrics[RunNumber::kLatencyMean], 1.01, 1e-5);
 }
 
+TEST(RunMetrics, LoadAndUseOfTheChannelAreTimeOfPacketsOverTheRun) {
+  TemporaryLog file;
+  modem_receipt_t receipt{};
+  receipt.duration_s = 2;
+  for (receipt.packet_sequence = 0; receipt.packet_sequence < 3; ++receipt.packet_sequence)
+    file.add(1, "RECEIPT.a", receipt);
+  auto received = outcome(0, 2, 2, packet_outcome_t::RECEIVED),
+       overheard = outcome(0, 2, 3, packet_outcome_t::RECEIVED),
+       lost = outcome(1, 2, 2, packet_outcome_t::COLLIDED);
+  for (packet_outcome_t* o : {&received, &overheard, &lost}) {
+    o->duration_s = 2;
+    file.add(20'000'000, "OUTCOME", *o);
+  }
+  EXPECT_DOUBLE_EQ(of(file)[RunNumber::kChannelLoad], 0.3);
+  EXPECT_DOUBLE_EQ(of(file)[RunNumber::kChannelUse], 0.1);
+}
+
+TEST(RunMetrics, NetworksCountFromTheOfferToTheDelivery) {
+  TemporaryLog file;
+  network_event_t event{};
+  event.origin_id = 1;
+  for (int i = 0; i < 4; ++i) {
+    event.network_event = network_event_t::OFFERED;
+    event.packet_number = i;
+    event.utime = event.offered_utime = i * 1'000'000;
+    file.add(event.utime, "NETWORK_EVENT.a", event);
+    if (i == 0) continue;
+    event.network_event = i == 1 ? network_event_t::DROPPED : network_event_t::DELIVERED;
+    event.utime += i * 10'000'000;
+    event.hop_count = i;
+    file.add(40'000'000, "NETWORK_EVENT.b", event);
+  }
+  const RunMetrics metrics = of(file);
+  EXPECT_EQ(metrics[RunNumber::kNetworkOffered], 4);
+  EXPECT_EQ(metrics[RunNumber::kNetworkDelivered], 2);
+  EXPECT_DOUBLE_EQ(metrics[RunNumber::kNetworkDelayMean], 25);
+  EXPECT_DOUBLE_EQ(metrics[RunNumber::kNetworkDelay90], 30);
+  EXPECT_DOUBLE_EQ(metrics[RunNumber::kNetworkHopsMean], 2.5);
+}
+
+TEST(RunMetrics, APacketForAnotherThatIsOverheardIsNoThroughput) {
+  TemporaryLog file;
+  modem_receive_t packet{};
+  packet.source_id = 1;
+  packet.destination_id = 2;
+  packet.payload_size = 10;
+  packet.payload.resize(10);
+  for (packet.receiver_id = 2; packet.receiver_id <= 3; ++packet.receiver_id)
+    file.add(8'000'000, "RECEIVE.v" + std::to_string(packet.receiver_id), packet);
+  EXPECT_DOUBLE_EQ(of(file)[RunNumber::kThroughput], 10);
+}
+
 TEST(RunMetrics, ThroughputIsPayloadOverTheRun) {
   TemporaryLog file;
   modem_receive_t packet{};

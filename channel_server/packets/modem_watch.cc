@@ -1,0 +1,97 @@
+#include "channel_server/packets/modem_watch.h"
+
+#include <algorithm>
+
+#include "acoustics/modem/modem.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+
+void ModemWatch::begin_transmission(const Packet& packet, std::vector<MediumEvent>& events) {
+  const SendRequest& request = packet.request;
+  judge_carrier_at(request.source_id, packet.departure);
+  if (!fleet_.listening(request.source_id, packet.departure).events) return;
+  ModemEvent event{request.vehicle, ModemEventKind::kTransmissionBegan};
+  event.session = request.session;
+  event.packet_sequence = request.packet_sequence;
+  events.push_back({packet.departure, event});
+  event.kind = ModemEventKind::kTransmissionEnded;
+  ends_.emplace(std::pair(packet.departure + packet.timing.duration, request.source_id), std::move(event));
+}
+
+void ModemWatch::end_transmission(std::vector<MediumEvent>& events) {
+  auto end = ends_.extract(ends_.begin());
+  events.push_back({end.key().first, std::move(end.mapped())});
+}
+
+void ModemWatch::detect(Flight& flight, std::vector<MediumEvent>& events) const {
+  const SimTime at = flight.signal.preamble_end;
+  flight.reports = fleet_.listening(flight.receiver_id, at).events;
+  if (!flight.reports) return;
+  ModemEvent event{flight.receiver, ModemEventKind::kPacketDetected};
+  event.level = flight.reception.budget.received_level;
+  events.push_back({at, std::move(event)});
+}
+
+void ModemWatch::end(const Flight& flight, SimTime at, OutcomeKind outcome,
+                     std::vector<MediumEvent>& events) {
+  if (!flight.reports) return;
+  ModemEvent event{flight.receiver, ModemEventKind::kPacketEnded};
+  event.level = flight.reception.budget.received_level;
+  event.sinr = flight.statistics.sinr;
+  event.outcome = outcome;
+  events.push_back({at, std::move(event)});
+}
+
+void ModemWatch::judge_carrier_at(VehicleId id, SimTime at) {
+  if (at == SimTime::never()) return;
+  if (carriers_.contains(id) || fleet_.listening(id, at).events) due_.insert({at, id});
+}
+
+void ModemWatch::judge_carrier(const ReceiverState& heard, std::vector<MediumEvent>& events) {
+  const auto [at, id] = *due_.begin();
+  due_.erase(due_.begin());
+  Carrier& carrier = carriers_[id];
+  const Listening& listening = fleet_.listening(id, at);
+  if (!listening.events || listening.is_asleep(at) || heard.transmits_at(at)) {
+    if (carrier.sensed) change(id, carrier, at, 0, events);
+    if (listening.is_asleep(at) && listening.wakes) judge_carrier_at(id, *listening.wakes);
+    return judge_carrier_at(id, heard.transmission_end(at));
+  }
+  const SimTime from = carrier.changed == SimTime::at_once() ? at : carrier.changed + kCarrierHold;
+  if (from > at) return judge_carrier_at(id, from);
+  const acoustics::Modem& modem = fleet_.modem(id, at).modem;
+  const Decibels noise =
+      noise_.level(modem.band(), propagation_.environment(at).noise) - modem.directivity_index;
+  const double threshold = to_power_ratio(noise + listening.carrier_threshold).value;
+  const PowerCrossing crossing = heard.next_crossing(at, modem.band(), threshold, !carrier.sensed);
+  if (crossing.at > at) return judge_carrier_at(id, crossing.at);
+  change(id, carrier, at, crossing.power, events);
+  judge_carrier_at(id, at + kCarrierHold);
+}
+
+void ModemWatch::change(VehicleId id, Carrier& carrier, SimTime at, double power,
+                        std::vector<MediumEvent>& events) {
+  carrier.sensed = !carrier.sensed;
+  carrier.changed = at;
+  ModemEvent event{fleet_.name_of(id),
+                   carrier.sensed ? ModemEventKind::kCarrierBegan : ModemEventKind::kCarrierEnded};
+  event.level = level_of(power);
+  events.push_back({at, std::move(event)});
+}
+
+void ModemWatch::forget_before(SimTime time) {
+  std::erase_if(carriers_, [&](const auto& entry) {
+    const Carrier& carrier = entry.second;
+    return !carrier.sensed && carrier.changed < time;
+  });
+}
+
+void ModemWatch::clear() {
+  ends_.clear();
+  carriers_.clear();
+  due_.clear();
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,77 @@
+// Medium access control: when a vehicle transmits the frames that wait in its queue.
+//
+// A protocol is a class with attempt(), which is called when the first frame is due, and what else it needs of what the modem
+// receives and notices. Frames are transmitted one after the other, first in first out; one that comes while kMaxWaiting wait is
+// dropped. Values in, values out: the node (network_node.h) passes messages and time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "bus/messages.h"
+#include "clients/examples/networks/network_config.h"
+#include "clients/examples/networks/network_packet.h"
+#include "core/sim_time.h"
+
+namespace halocline::networks {
+
+// What a MAC calls.
+struct MacPort {
+  std::function<void(SimTime at, const Frame&)> transmit;  // hands a frame to the modem
+  std::function<void(SimTime at, const Frame&)> deliver;   // a frame for this vehicle, or for all
+  std::function<void(SimTime at, const Frame&)> drop;      // given up
+  std::function<double()> draw;                            // the vehicle's next random number in (0, 1)
+};
+
+class Mac {
+ public:
+  static constexpr std::size_t kMaxWaiting = 100;
+
+  Mac(MacPort port, const NetworkRules& rules) : port_(std::move(port)), rules_(rules) {}
+  virtual ~Mac() = default;
+  Mac(const Mac&) = delete;
+  Mac& operator=(const Mac&) = delete;
+
+  // A frame to be transmitted.
+  void offer(Frame frame, SimTime now);
+  // The modem received this, for whomever where it is promiscuous.
+  virtual void on_packet(const modem_receive_t& packet, std::int32_t own_id);
+  void on_event(const modem_event_t& event);
+  // The modem refused what was transmitted last.
+  virtual void on_refused(SimTime now);
+
+  virtual SimTime next() const;
+  virtual void step(SimTime now);
+
+ protected:
+  // The first frame is due: transmit it, or set due_.
+  virtual void attempt(SimTime now) { transmit_first(now); }
+  // When a frame that is first in the queue from `now` on is due.
+  virtual SimTime first_try(SimTime now) const { return now; }
+
+  void transmit(Frame frame, SimTime now);
+  void transmit_first(SimTime now);
+  void drop_first(SimTime now);
+  SimDuration random_wait(SimDuration mean) const;  // exponentially distributed
+
+  MacPort port_;
+  NetworkRules rules_;
+  std::deque<Frame> queue_;
+  SimTime due_ = SimTime::never();  // of the first frame
+  bool transmits_ = false;
+  bool carrier_ = false;  // the sound of others is sensed
+};
+
+// `index` of `count` vehicles that share the slots.
+std::unique_ptr<Mac> make_aloha(MacPort port, const NetworkRules& rules);
+std::unique_ptr<Mac> make_slotted_aloha(MacPort port, const NetworkRules& rules);
+std::unique_ptr<Mac> make_tdma(MacPort port, const NetworkRules& rules, std::int64_t index,
+                               std::int64_t count);
+std::unique_ptr<Mac> make_csma(MacPort port, const NetworkRules& rules);
+std::unique_ptr<Mac> make_maca(MacPort port, const NetworkRules& rules);
+
+}  // namespace halocline::networks

@@ -1,0 +1,48 @@
+// The sections [network] and [vehicle.network] of a scenario file: protocols and offered load of the example networks.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bus/config/config.h"
+#include "core/sim_time.h"
+
+namespace halocline::networks {
+
+enum class MacKind { kNone, kAloha, kSlottedAloha, kTdma, kCsma, kMaca };
+enum class RouterKind { kStatic, kFlooding };
+
+struct NetworkRules {
+  MacKind mac = MacKind::kNone;
+  RouterKind router = RouterKind::kStatic;
+  SimDuration interval = SimDuration::from_seconds(60);  // mean, of the packets that a vehicle offers
+  std::int32_t data_bytes = 32;
+  SimDuration slot = SimDuration::from_seconds(1);        // slotted ALOHA, TDMA
+  SimDuration backoff = SimDuration::from_seconds(10);    // mean; CSMA, MACA
+  int tries = 1;                                          // likewise
+  double carrier_threshold_db = 6;                        // likewise
+  SimDuration handshake = SimDuration::from_seconds(5);   // MACA
+  SimDuration exchange = SimDuration::from_seconds(10);   // MACA
+  int hops = 4;                                           // flooding
+  SimDuration relay_wait = SimDuration::from_seconds(2);  // flooding
+};
+
+struct NetworkMember {
+  std::string vehicle;
+  std::int32_t vehicle_id = 0;
+  std::string destination;  // of what it offers: a vehicle, or "all"; empty: it offers nothing
+  std::string via;          // static routing: the neighbour that all packets go to; empty: their destination
+};
+
+struct NetworkConfig {
+  NetworkRules rules;
+  std::vector<NetworkMember> members;  // one for each vehicle of the scenario
+};
+
+void visit(bus::ConfigVisitor& v, NetworkConfig& config);
+
+// The id of a member; kBroadcastId for "all" and "". Throws InvalidArgument for a name that the scenario lacks.
+std::int32_t id_of(const NetworkConfig& config, const std::string& name);
+
+}  // namespace halocline::networks

@@ -1,0 +1,177 @@
+#include "clients/examples/networks/network_node.h"
+
+#include <algorithm>
+
+#include "bus/runtime/scenario.h"
+#include "core/check.h"
+#include "core/elementary.h"
+#include "core/names.h"
+#include "core/random.h"
+
+namespace halocline::networks {
+namespace {
+
+constexpr SimDuration kListenPeriod =
+    SimDuration::from_milliseconds(60'000);  // a server may be started later
+
+// A message holds whole microseconds.
+SimTime whole_microsecond_from(SimTime time) {
+  return SimTime::from_utime((time + SimDuration::from_nanoseconds(499)).to_utime());
+}
+
+}  // namespace
+
+NetworkNode::NetworkNode(lcm::LCM& lcm, bus::NodeIdentity identity, const NetworkConfig& config,
+                         std::uint64_t seed)
+    : Node(lcm, std::move(identity)), rules_(config.rules), seed_(seed) {
+  require(rules_.mac != MacKind::kNone,
+          "network.mac is none; allowed is a protocol where a network is to run");
+  for (std::size_t i = 0; i < config.members.size(); ++i) add_station(config, i);
+}
+
+void NetworkNode::add_station(const NetworkConfig& config, std::size_t i) {
+  const NetworkMember& member = config.members[i];
+  const auto entropy = static_cast<std::uint64_t>(bus().identity().session);
+  const clients::ModemAddress address{member.vehicle, member.vehicle_id,
+                                      bus::session_of(entropy, member.vehicle)};
+  stations_.emplace_back(new Station{member, id_of(config, member.destination), {bus(), address}});
+  Station& station = *stations_.back();
+  make_protocols(station, config, i);
+  station.next_offer = member.destination.empty() ? SimTime::never() : offer_after(station, SimTime());
+  station.modem.on_receive([&station](const modem_receive_t& packet) {
+    station.mac->on_packet(packet, station.member.vehicle_id);
+  });
+  station.modem.on_event([&station](const modem_event_t& event) { station.mac->on_event(event); });
+  station.modem.on_receipt([&station](const modem_receipt_t& receipt) {
+    const bool is_accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
+                             receipt.receipt_result == modem_receipt_t::QUEUED;
+    if (!is_accepted) station.mac->on_refused(SimTime::from_utime(receipt.utime));
+  });
+}
+
+void NetworkNode::make_protocols(Station& station, const NetworkConfig& config, std::size_t i) {
+  RouterPort router;
+  router.hand_down = [&station](SimTime at, Frame frame) { station.mac->offer(std::move(frame), at); };
+  router.deliver = [this, &station](SimTime at, const NetworkPacket& packet) {
+    report(station, network_event_t::DELIVERED, packet, at);
+  };
+  router.drop = [this, &station](SimTime at, const NetworkPacket& packet) {
+    report(station, network_event_t::DROPPED, packet, at);
+  };
+  MacPort mac;
+  mac.transmit = [this, &station](SimTime at, const Frame& frame) {
+    station.modem.send(steady_, whole_microsecond_from(at), frame.destination, frame.bytes);
+  };
+  mac.deliver = [&station](SimTime at, const Frame& frame) { station.router->take(frame, at); };
+  mac.drop = [&station, drop = router.drop](SimTime at, const Frame& frame) {
+    if (const auto packet = station.router->packet_in(frame)) drop(at, *packet);
+  };
+  mac.draw = [this, &station] { return draw("network-backoff", station, station.draws++); };
+  station.mac = make_mac(std::move(mac), i, config.members.size());
+  const std::int32_t own_id = station.member.vehicle_id;
+  station.router = rules_.router == RouterKind::kStatic
+                       ? make_static_router(std::move(router), own_id, id_of(config, station.member.via))
+                       : make_flooding_router(std::move(router), own_id, rules_, seed_);
+}
+
+std::unique_ptr<Mac> NetworkNode::make_mac(MacPort port, std::size_t i, std::size_t count) const {
+  switch (rules_.mac) {
+    case MacKind::kSlottedAloha:
+      return make_slotted_aloha(std::move(port), rules_);
+    case MacKind::kTdma:
+      return make_tdma(std::move(port), rules_, static_cast<std::int64_t>(i),
+                       static_cast<std::int64_t>(count));
+    case MacKind::kCsma:
+      return make_csma(std::move(port), rules_);
+    case MacKind::kMaca:
+      return make_maca(std::move(port), rules_);
+    case MacKind::kNone:
+    case MacKind::kAloha:
+      break;
+  }
+  return make_aloha(std::move(port), rules_);
+}
+
+double NetworkNode::draw(std::string_view purpose, const Station& station, std::uint64_t which) const {
+  return uniform_at({.seed = seed_,
+                     .purpose = purpose_of(purpose),
+                     .who = static_cast<std::uint32_t>(station.member.vehicle_id),
+                     .which = which});
+}
+
+// The time between two packets has the distribution function 1 - exp(-t / interval).
+SimTime NetworkNode::offer_after(const Station& station, SimTime before) const {
+  const double u = draw("network-offer", station, station.offered);
+  return whole_microsecond_from(before +
+                                SimDuration::from_seconds(-rules_.interval.seconds() * elementary::log(u)));
+}
+
+bus::Due NetworkNode::on_due() const {
+  bus::Due due{.sim = reports_.empty() ? next_listen_ : SimTime::at_once()};
+  for (const auto& station : stations_) {
+    due.sim = std::min({due.sim, station->next_offer, station->router->next(), station->mac->next()});
+    due.steady = std::min(due.steady, station->modem.next_resend());
+  }
+  return due;
+}
+
+void NetworkNode::on_step(const bus::Now& now) {
+  steady_ = now.steady;
+  const bool tells_modems = now.sim_known && now.sim >= next_listen_;
+  if (tells_modems) next_listen_ = now.sim + kListenPeriod;
+  for (const auto& station : stations_) {
+    if (tells_modems)
+      station->modem.listen(now.sim, {.promiscuous = rules_.mac == MacKind::kMaca,
+                                      .events = true,
+                                      .carrier_threshold_db = rules_.carrier_threshold_db});
+    if (now.sim_known) {
+      offer_due(*station, now.sim);
+      station->router->step(now.sim);
+      station->mac->step(now.sim);
+    }
+    station->modem.resend(now.steady);
+  }
+  publish_reports();
+}
+
+void NetworkNode::offer_due(Station& station, SimTime now) {
+  while (station.next_offer <= now) {
+    const NetworkPacket packet{
+        station.member.vehicle_id, station.destination, station.offered++, station.next_offer.to_utime(), 0,
+        rules_.data_bytes};
+    report(station, network_event_t::OFFERED, packet, station.next_offer);
+    station.router->offer(packet, station.next_offer);
+    station.next_offer = offer_after(station, station.next_offer);
+  }
+}
+
+void NetworkNode::report(Station& station, std::int8_t event, const NetworkPacket& packet, SimTime at) {
+  network_event_t message{};
+  message.utime = at.to_utime();
+  message.session = bus().identity().session;
+  message.sequence = station.events++;
+  message.network_event = event;
+  message.origin_id = packet.origin;
+  message.destination_id = packet.destination;
+  message.packet_number = packet.number;
+  message.offered_utime = packet.offered_utime;
+  message.hop_count = packet.hops;
+  message.data_bytes = packet.data_bytes;
+  reports_.emplace_back(station.member.vehicle, message);
+  ++(event == network_event_t::OFFERED     ? offered_
+     : event == network_event_t::DELIVERED ? delivered_
+                                           : dropped_);
+}
+
+void NetworkNode::publish_reports() {
+  for (const auto& [vehicle, message] : reports_)
+    bus().publish(bus::channels::kNetworkEvent.of(vehicle), message);
+  reports_.clear();
+}
+
+std::string NetworkNode::status_text() const {
+  return "offered " + std::to_string(offered_) + ", delivered " + std::to_string(delivered_) + ", dropped " +
+         std::to_string(dropped_);
+}
+
+}  // namespace halocline::networks

@@ -1,0 +1,68 @@
+// Runs the example protocols for the vehicles of a scenario, on top of the modem library: each offers packets at random instants, a router
+// says to whom they go, a MAC when they are transmitted.
+//
+// Packets are offered as a Poisson process: the time between two is exponentially distributed, drawn from seed, vehicle and number. What
+// becomes of them is published as NETWORK_EVENT. The modems are told to report events, and for MACA to be promiscuous (LISTEN).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bus/node_identity.h"
+#include "bus/runtime/node.h"
+#include "clients/examples/networks/mac.h"
+#include "clients/examples/networks/network_config.h"
+#include "clients/examples/networks/network_packet.h"
+#include "clients/examples/networks/router.h"
+#include "clients/modem/modem_client.h"
+#include "core/sim_time.h"
+
+namespace halocline::networks {
+
+class NetworkNode : public bus::Node {
+ public:
+  // `seed`: of all draws. Throws InvalidArgument for a vehicle that the scenario lacks, and without a MAC.
+  NetworkNode(lcm::LCM& lcm, bus::NodeIdentity identity, const NetworkConfig& config, std::uint64_t seed);
+
+ protected:
+  bus::Due on_due() const override;
+  void on_step(const bus::Now& now) override;
+  std::string status_text() const override;
+
+ private:
+  struct Station {
+    NetworkMember member;
+    std::int32_t destination = 0;
+    clients::ModemClient modem;
+    std::unique_ptr<Mac> mac = {};
+    std::unique_ptr<Router> router = {};
+    SimTime next_offer = {};
+    std::uint32_t offered = 0;
+    std::uint64_t draws = 0;
+    std::int64_t events = 0;
+    std::int64_t sent = -1;  // packet_sequence of the latest SEND
+  };
+
+  void add_station(const NetworkConfig& config, std::size_t i);
+  void make_protocols(Station& station, const NetworkConfig& config, std::size_t i);
+  std::unique_ptr<Mac> make_mac(MacPort port, std::size_t i, std::size_t count) const;
+  double draw(std::string_view purpose, const Station& station, std::uint64_t which) const;
+  SimTime offer_after(const Station& station, SimTime before) const;
+  void offer_due(Station& station, SimTime now);
+  void report(Station& station, std::int8_t event, const NetworkPacket& packet, SimTime at);
+  void publish_reports();
+
+  NetworkRules rules_;
+  std::uint64_t seed_;
+  std::vector<std::unique_ptr<Station>> stations_;
+  std::vector<std::pair<std::string, network_event_t>> reports_;  // by vehicle, for the next step
+  SimTime next_listen_;
+  SimTime steady_;  // of the step
+  std::int64_t offered_ = 0, delivered_ = 0, dropped_ = 0;
+};
+
+}  // namespace halocline::networks

@@ -1,0 +1,50 @@
+// Routing: to which neighbours a packet goes on its way.
+//
+// Values in, values out, as a MAC (mac.h), which transmits what a router hands down.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "clients/examples/networks/network_config.h"
+#include "clients/examples/networks/network_packet.h"
+#include "core/sim_time.h"
+
+namespace halocline::networks {
+
+// What a router calls.
+struct RouterPort {
+  std::function<void(SimTime at, Frame)> hand_down;  // to the MAC
+  std::function<void(SimTime at, const NetworkPacket&)> deliver;
+  std::function<void(SimTime at, const NetworkPacket&)> drop;
+};
+
+class Router {
+ public:
+  explicit Router(RouterPort port) : port_(std::move(port)) {}
+  virtual ~Router() = default;
+  Router(const Router&) = delete;
+  Router& operator=(const Router&) = delete;
+
+  // A packet of this vehicle's own.
+  virtual void offer(const NetworkPacket& packet, SimTime now) = 0;
+  // A frame that the MAC received for this vehicle, or for all.
+  virtual void take(const Frame& frame, SimTime at) = 0;
+  // The packet in a frame of this router's; empty for what is none.
+  virtual std::optional<NetworkPacket> packet_in(const Frame& frame) const = 0;
+  virtual SimTime next() const { return SimTime::never(); }
+  virtual void step(SimTime /*now*/) {}
+
+ protected:
+  RouterPort port_;
+};
+
+// Of the vehicle `own_id`; `next_hop`: the neighbour that all packets go to; 0: they go to their destinations directly.
+std::unique_ptr<Router> make_static_router(RouterPort port, std::int32_t own_id, std::int32_t next_hop);
+std::unique_ptr<Router> make_flooding_router(RouterPort port, std::int32_t own_id, const NetworkRules& rules,
+                                             std::uint64_t seed);
+
+}  // namespace halocline::networks

@@ -1,0 +1,45 @@
+// MACs whose frames leave at the begin of a slot: slotted ALOHA (Roberts 1975) in any slot, TDMA in the vehicle's own.
+//
+// Slots begin at multiples of `slot`, by the vehicles' clocks. Slotted ALOHA has S = G exp(-G) where all sound takes the same time to
+// the receiver; different distances bring it down to pure ALOHA unless slots are longer by the greatest difference (Syed, Ye,
+// Heidemann and Krishnamachari 2008). TDMA's slots never collide when they are longer by the greatest travel time.
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "clients/examples/networks/mac.h"
+#include "core/sim_time.h"
+
+namespace halocline::networks {
+namespace {
+
+class SlottedMac : public Mac {
+ public:
+  // The slots whose number is `index` modulo `count` are its own.
+  SlottedMac(MacPort port, const NetworkRules& rules, std::int64_t index, std::int64_t count)
+      : Mac(std::move(port), rules), index_(index), count_(count) {}
+
+ protected:
+  SimTime first_try(SimTime now) const override {
+    const std::int64_t slot = rules_.slot.nanoseconds();
+    std::int64_t number = (now.nanoseconds() + slot - 1) / slot;
+    number += ((index_ - number) % count_ + count_) % count_;
+    return SimTime::from_nanoseconds(number * slot);
+  }
+
+ private:
+  std::int64_t index_, count_;
+};
+
+}  // namespace
+
+std::unique_ptr<Mac> make_slotted_aloha(MacPort port, const NetworkRules& rules) {
+  return std::make_unique<SlottedMac>(std::move(port), rules, 0, 1);
+}
+
+std::unique_ptr<Mac> make_tdma(MacPort port, const NetworkRules& rules, std::int64_t index,
+                               std::int64_t count) {
+  return std::make_unique<SlottedMac>(std::move(port), rules, index, count);
+}
+
+}  // namespace halocline::networks
