@@ -93,7 +93,8 @@ class ProfileFolds {
 // `coarseness` (above 0) times as far apart as those of fan_angles().
 std::vector<double> even_angles(double limit, double coarseness);
 // Launch angles above -steepest and up to `steepest`, rising, rad: even_angles() and those just on both sides of the angles
-// at which rays graze a knot of the water on their first leg, but of a section's.
+// at which rays graze a knot of the water on their first leg; of a section, one where
+// the gradient jumps by 0.01 1/s or more.
 std::vector<double> fan_angles(const ArcTracer& tracer, double steepest);
 
 // Takes the launch angles out within which rays nowhere go faster than the core's speed, and puts those of its edges in.
