@@ -10,7 +10,7 @@
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/shipped/shipped_model.h"
-#include "vehicle_sim/dynamics/floats.h"
+#include "vehicle_sim/dynamics/submergence.h"
 #include "vehicle_sim/dynamics/waves.h"
 #include "vehicle_sim/fleet.h"
 
