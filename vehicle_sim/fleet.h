@@ -19,6 +19,7 @@
 #include "ocean/ocean_field.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
+#include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/dynamics/waves.h"
 #include "vehicle_sim/faults.h"

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/check.h"
+#include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/sensor_config.h"
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <type_traits>
 
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {

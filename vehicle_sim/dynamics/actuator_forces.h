@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/dynamics/body_axes.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"

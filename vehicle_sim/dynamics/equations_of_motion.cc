@@ -6,7 +6,6 @@
 
 #include "core/elementary.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
-#include "vehicle_sim/dynamics/floats.h"
 #include "vehicle_sim/dynamics/hull_forces.h"
 #include "vehicle_sim/dynamics/submergence.h"
 

@@ -5,6 +5,7 @@
 
 #include "core/elementary.h"
 #include "core/frames.h"
+#include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 
 namespace halocline::vehicle_sim {

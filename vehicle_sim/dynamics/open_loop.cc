@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "vehicle_sim/dynamics/actuators.h"
 
 namespace halocline::vehicle_sim {
 namespace {

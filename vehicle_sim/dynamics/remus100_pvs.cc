@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "core/units.h"
+#include "vehicle_sim/dynamics/actuators.h"
 
 namespace halocline::vehicle_sim {
 namespace {

@@ -1,5 +1,6 @@
 #include "vehicle_sim/dynamics/submergence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,24 @@ constexpr int kSections = 16;
 double share_of_disc(double depth_m, double radius_m) {
   if (radius_m <= 0) return depth_m > 0 ? 1 : 0;
   return submerged_share_of_circle(depth_m / radius_m);
+}
+
+constexpr int kColumns = 8;
+// Of points on a circle of radius 1: cos and sin of multiples of 45 degrees.
+constexpr double kHalf = std::numbers::sqrt2 / 2;
+constexpr double kCircle[kColumns][2] = {{1, 0},  {kHalf, kHalf},   {0, 1},  {-kHalf, kHalf},
+                                         {-1, 0}, {-kHalf, -kHalf}, {0, -1}, {kHalf, -kHalf}};
+constexpr double kRamp = 0.02;  // of the height: a bottom that dips in so far is wet
+constexpr double kMinUpright =
+    0.05;  // cosine of the tilt, about 87 degrees: beyond, the hull lies on its side
+
+// Wet length of a column from its bottom up, 0 to its height. A point at r of the body frame lies below the surface by
+// f(r) = (down - slope) . r - surface_below_co; along the column, r = bottom - s z, f falls by (down - slope).z a metre.
+double wet_length(double bottom_below_m, double upright, double height_m) {
+  if (upright > kMinUpright) return std::clamp(bottom_below_m / upright, 0.0, height_m);
+  if (upright < -kMinUpright)  // keel up: what is near the deck is wet
+    return height_m - std::clamp(bottom_below_m / upright, 0.0, height_m);
+  return bottom_below_m > 0 ? height_m : 0;
 }
 
 }  // namespace
@@ -48,6 +67,30 @@ Submergence submergence(const ModelParameters& model, const VehicleState& state,
   const double stern_depth = depth + model.stern_planes.x_m * down_along_x;
   return {wet_sum / weight_sum, share_of_disc(stern_depth, model.propeller.diameter_m / 2),
           wet_sum > 0 ? wet_moment / wet_sum : 0};
+}
+
+// V = sum a_i l_i, and its moment sum a_i l_i (bottom_i - l_i / 2 z); a_i = pi L B / 4 / 8. The columns at 1/sqrt(2) of the half
+// axes have the ellipse's second moments, A L^2 / 16 and A B^2 / 16.
+WetFloats wet_floats(const std::vector<Float>& floats, double surface_below_co_m, const Axes& down,
+                     const Axes& slope) {
+  const Axes below = down - slope;
+  WetFloats wet;
+  double total_area = 0, wet_area = 0;
+  for (const Float& f : floats) {
+    const double area = std::numbers::pi / 4 * f.length_m * f.beam_m / kColumns;
+    for (const auto& [x, y] : kCircle) {
+      const Axes bottom = Axes(f.bottom_m) + Axes(kHalf * x * f.length_m / 2, kHalf * y * f.beam_m / 2, 0);
+      const double bottom_below = dot(below, bottom) - surface_below_co_m;
+      const double length = wet_length(bottom_below, below.z, f.height_m);
+      const double middle = below.z < 0 ? f.height_m - length / 2 : length / 2;
+      wet.volume_m3 += area * length;
+      wet.moment_m4 = wet.moment_m4 + area * length * (bottom - Axes(0, 0, middle));
+      total_area += area;
+      wet_area += area * std::min(length / (kRamp * f.height_m), 1.0);
+    }
+  }
+  wet.bottom_share = total_area > 0 ? wet_area / total_area : 0;
+  return wet;
 }
 
 }  // namespace halocline::vehicle_sim

@@ -1,5 +1,6 @@
 #include "vehicle_sim/dynamics/torpedo.h"
 
+#include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/dynamics/remus100_pvs.h"
 
 namespace halocline::vehicle_sim {

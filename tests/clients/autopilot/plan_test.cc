@@ -159,8 +159,8 @@ TEST(Plan, AltitudeOfABehaviourReachesItsSetPoints) {
 TEST(Plan, NothingToDoIsRefused) { EXPECT_THROW(make_plan({}, {}), InvalidArgument); }
 
 TEST(Plan, WaitingStopsForItsDurationAndThenComesUp) {
-  const Plan plan =
-      make_plan({.waypoints = {}, .at_end = AtEnd::kSurface}, {{.kind = BehaviourKind::kWait, .duration_s = 60}});
+  const Plan plan = make_plan({.waypoints = {}, .at_end = AtEnd::kSurface},
+                              {{.kind = BehaviourKind::kWait, .duration_s = 60}});
   const Vec3 here(1, 2, 30);
   PlanProgress progress = advance(plan, begin(here, 0), here, 59);
   SetPoints points = set_points(plan, progress, here);

@@ -15,6 +15,7 @@
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
+#include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/dynamics/body_axes.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/hull_forces.h"

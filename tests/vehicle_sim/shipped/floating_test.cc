@@ -1,4 +1,5 @@
 // Hulls that pierce the surface: hydrostatics, free heave, and motion in waves against closed forms.
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -7,10 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/shipped/shipped_model.h"
-#include "vehicle_sim/dynamics/floats.h"
+#include "vehicle_sim/dynamics/body_axes.h"
+#include "vehicle_sim/dynamics/submergence.h"
 #include "vehicle_sim/dynamics/waves.h"
 #include "vehicle_sim/fleet.h"
 
