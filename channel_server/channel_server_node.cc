@@ -99,7 +99,8 @@ bus::Due ChannelServerNode::on_due() const {
 
 // Between ticks it publishes what packets come to and answers; other servers receive only the answers of that.
 SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
-  for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kModemEvent, channels::kLinkReply}) {
+  for (const bus::Family& family :
+       {channels::kReceipt, channels::kReceive, channels::kModemEvent, channels::kLinkReply}) {
     if (matters(family.of("any"))) return SimTime::at_once();
   }
   for (const std::string_view channel : {channels::kOutcome, channels::kEnvironment, channels::kRayQuery}) {

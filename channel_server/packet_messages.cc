@@ -209,7 +209,8 @@ std::string identity_of(const packet_outcome_t& m) {
 std::string identity_of(const modem_event_t& m) { return joined({m.event_ns, m.modem_event}); }
 
 std::string identity_of(const modem_reply_t& m) {
-  return joined({m.answering_id, m.asking_id, m.packet_kind, m.send_session, m.packet_sequence, m.answer_start_ns});
+  return joined(
+      {m.answering_id, m.asking_id, m.packet_kind, m.send_session, m.packet_sequence, m.answer_start_ns});
 }
 
 }  // namespace halocline::channel_server

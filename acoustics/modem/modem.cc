@@ -20,7 +20,8 @@ void validate(const FrameLayout& layout) {
   require_in_range(layout.frame_bytes, 0, kMaxPayloadBytes, "frame", "bytes");
   require_in_range(layout.max_frames, layout.frame_bytes > 0 ? 1 : 0, kMaxFrames, "frames of a packet");
   require_in_range(layout.mini_packet_bits, 0, kMaxBits, "mini-packet", "bits");
-  require_in_range(layout.application_bits, 0, layout.header_bits, "application's part of the header", "bits");
+  require_in_range(layout.application_bits, 0, layout.header_bits, "application's part of the header",
+                   "bits");
 }
 
 void validate_hopping(const Modem& modem) {

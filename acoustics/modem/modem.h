@@ -30,10 +30,10 @@ inline constexpr std::int32_t kMaxPayloadBytes = 32'768;
 
 // How a packet is put together. A frame is sent whole, however few of its bytes are used.
 struct FrameLayout {
-  std::int32_t header_bits = 0;  // a coded block before the payload that has to be right as well
-  std::int32_t tail_bits = 0;    // that end the code, after every coded block; carry nothing
-  std::int32_t frame_bytes = 0;  // 0: the payload is sent as it is, in no frames
-  std::int32_t max_frames = 0;   // in one packet, at most kMaxFrames; read only with frame_bytes above 0
+  std::int32_t header_bits = 0;       // a coded block before the payload that has to be right as well
+  std::int32_t tail_bits = 0;         // that end the code, after every coded block; carry nothing
+  std::int32_t frame_bytes = 0;       // 0: the payload is sent as it is, in no frames
+  std::int32_t max_frames = 0;        // in one packet, at most kMaxFrames; read only with frame_bytes above 0
   std::int32_t mini_packet_bits = 0;  // of a mini-packet, all of it; 0: the modem has none
   std::int32_t application_bits = 0;  // of the header, free for applications (JANUS: 34); 0: none
   bool operator==(const FrameLayout&) const = default;

@@ -19,7 +19,8 @@ inline constexpr std::size_t kMaxFrames = 32;
 
 struct PacketFormat {
   std::int64_t header_bits = 0;
-  std::vector<std::int64_t> frame_bits;  // before coding; at least one frame, of 0 bits in a packet without payload
+  std::vector<std::int64_t>
+      frame_bits;  // before coding; at least one frame, of 0 bits in a packet without payload
 
   std::int64_t information_bits() const;
   // Information bits of the coded blocks: header and frames that hold any.

@@ -254,12 +254,13 @@ VehicleModem load_modem(const std::string& profile, const std::string& folder) {
   }
   static const std::map<std::string, VehicleModem> built_in = [] {
     std::map<std::string, VehicleModem> known;
-    for (const ModemText& text : built_in_modem_texts()) known.emplace(text.name, parse_modem(text.toml, text.name));
+    for (const ModemText& text : built_in_modem_texts())
+      known.emplace(text.name, parse_modem(text.toml, text.name));
     return known;
   }();
   const auto known = built_in.find(profile);
-  require(known != built_in.end(), "unknown modem profile '" + profile + "'; there are " +
-                                       names_for_errors() + "or a file .toml");
+  require(known != built_in.end(),
+          "unknown modem profile '" + profile + "'; there are " + names_for_errors() + "or a file .toml");
   return known->second;
 }
 

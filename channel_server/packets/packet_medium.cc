@@ -255,8 +255,28 @@ void PacketMedium::begin_reception(Flight& flight, const std::optional<LinkEnd>&
   const SimTime arrival = flight.arrival();
   auto& budget = flight.reception.budget;
   // The reception holds for a place within a decimetre.
-  if (flight.acquired) receiver.acquire({flight.packet, signal.begin, signal.end}, signal.preamble_end);
-  flight.stage = Flight::Stage::kBits;
+  const auto place = fleet_.prediction(flight.receiver_id, arrival, at);
+  if (place) budget.range_m = (place->position_ned_m - flight.packet->departure_ned_m).norm();
+  budget.noise_level = noise_.level(flight.packet->modem.band(), propagation_.environment(arrival).noise);
+  const Decibels noise = budget.noise_level - flight.modem.directivity_index;
+  budget.snr = budget.received_level - noise - band_loss(flight.packet->modem, flight.modem);
+  flight.receiver_absent = !fleet_.is_present(place);
+  flight.large_scale = large_scale_of(flight, rule_.fading, rule_.seed);
+  flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
+  flight.draws = draws_of(rule_.seed, *flight.packet, flight.identity, flight.receiver_id);
+  flight.sounds_at = &state_of(flight.receiver_id);
+  flight.sounds_at->open(audible_packet(flight));
+  watch_.judge_carrier_at(flight.receiver_id, at);
+  flight.stage = Flight::Stage::kPreamble;
+  const SimTime preamble_end = std::max(flight.signal.preamble_end, at);
+  flights_.add(preamble_end, flight);
+}
+
+void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
+  ReceiverState& receiver = *flight.sounds_at;
+  const ReceivedSignal& signal = flight.signal;
+  const bool is_impossible = outcome_before_acquisition(flight) != OutcomeKind::kReceived ||
+                             is_shifted_too_far(flight) ||
                              fleet_.sleeps_during(flight.receiver_id, signal.begin, signal.preamble_end) ||
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);

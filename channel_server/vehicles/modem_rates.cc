@@ -31,8 +31,8 @@ RateSet rates_in_vehicle(const RateSet& rates, const Modem& profile, const Modem
   if (rates.all().empty()) return {};
   std::vector<ModemRate> composed(rates.all().begin(), rates.all().end());
   for (ModemRate& rate : composed) {
-    rate.modem = same_family(rate.modem, profile) ? of_same_family(rate.modem, own)
-                                                  : of_other_family(rate.modem, own);
+    rate.modem =
+        same_family(rate.modem, profile) ? of_same_family(rate.modem, own) : of_other_family(rate.modem, own);
   }
   return RateSet(std::move(composed));
 }

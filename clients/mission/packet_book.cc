@@ -7,6 +7,10 @@ namespace halocline::clients {
 namespace {
 
 constexpr std::int64_t kRounding_us = 1;  // of instants in microseconds
+// What a SEND may hold; a receipt does not say which.
+constexpr std::int8_t kSentKinds[] = {modem_receive_t::DATA, modem_receive_t::PING,
+                                      modem_receive_t::MINI_PACKET, modem_receive_t::JANUS,
+                                      modem_receive_t::JANUS_CARGO};
 
 bool is_same(SimTime a, SimTime b) { return std::abs(a.to_utime() - b.to_utime()) <= kRounding_us; }
 
@@ -79,11 +83,11 @@ void PacketBook::add(const modem_receipt_t& receipt, std::int32_t source_id) {
   };
   PacketRecord* packet = nullptr;
   PacketName name{source_id, 0, receipt.send_session, receipt.packet_sequence};
-  for (const std::int8_t kind : {modem_receive_t::DATA, modem_receive_t::PING}) {
+  for (const std::int8_t kind : kSentKinds) {
     name.kind = kind;
     if (packet == nullptr) packet = newest(name, is_open);
   }
-  for (const std::int8_t kind : {modem_receive_t::DATA, modem_receive_t::PING}) {
+  for (const std::int8_t kind : kSentKinds) {
     name.kind = kind;
     if (packet == nullptr && newest(name, is_repetition) != nullptr) return;
   }

@@ -35,8 +35,12 @@ std::string disturbance(const packet_outcome_t& o, const std::string& others) {
 }
 
 std::string survival(const packet_outcome_t& o) {
-  return fmt::format("SINR {:.1f} dB; {} of such packets survive, the draw was {:.3f}", o.sinr_db,
-                     percent(o.success_probability), o.success_draw);
+  const std::string chance =
+      fmt::format("SINR {:.1f} dB; {} of such packets survive", o.sinr_db, percent(o.success_probability));
+  // Of several frames each has a draw of its own.
+  if (o.num_frames > 1)
+    return fmt::format("{}; {} of {} frames were right", chance, o.num_frames_good, o.num_frames);
+  return fmt::format("{}, the draw was {:.3f}", chance, o.success_draw);
 }
 
 std::string acquisition(const packet_outcome_t& o) {
@@ -65,7 +69,9 @@ constexpr std::array<std::pair<std::string_view, const char*>, 11> kHelps{{
     {"acquisition",
      "The receiver detects so many of such preambles; a random number below the probability is a detection."},
     {"success",
-     "So many of such packets have all bits right; a random number below the probability is one of them."},
+     "So many of such packets have a frame with all bits right; of one frame, a random number below the "
+     "probability is one of "
+     "them."},
     {"outcome", "What became of the packet."},
 }};
 
@@ -184,8 +190,11 @@ std::vector<LadderStep> ladder(const packet_outcome_t& o) {
         o.acquisition_draw, o.acquisition_draw < o.acquisition_probability);
   }
   if (o.success_probability > 0)
-    add("success", "all bits right: probability, draw", o.success_probability, "", o.success_draw,
-        o.success_draw < o.success_probability);
+    add("success",
+        o.num_frames > 1 ? "a frame right: probability, draw of the first"
+                         : "all bits right: probability, draw",
+        o.success_probability, "", o.success_draw,
+        o.num_frames > 1 ? o.num_frames_good > 0 : o.success_draw < o.success_probability);
   steps.push_back({"outcome",
                    outcome_name(number_of(o)),
                    {},

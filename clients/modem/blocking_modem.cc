@@ -1,6 +1,7 @@
 #include "clients/modem/blocking_modem.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <poll.h>
 
@@ -33,7 +34,7 @@ std::optional<SimTime> BlockingModem::sim_now(SimDuration timeout) {
 
 std::int64_t BlockingModem::send_at(SimTime start, std::int32_t destination,
                                     std::span<const std::uint8_t> payload, SendOptions options) {
-  return client_.send(bus::steady_now(), start, destination, payload, options);
+  return client_.send(bus::steady_now(), start, destination, payload, std::move(options));
 }
 
 std::optional<std::int64_t> BlockingModem::send(std::int32_t destination,
@@ -48,6 +49,17 @@ std::optional<double> BlockingModem::ping(std::int32_t destination, SimDuration 
   std::optional<double> two_way_s;
   wait(timeout, [&] { return (two_way_s = client_.take_ping_reply(*sequence)).has_value(); });
   return two_way_s;
+}
+
+std::optional<std::uint32_t> BlockingModem::send_acknowledged(std::int32_t destination,
+                                                              std::span<const std::uint8_t> payload,
+                                                              SimDuration timeout, SendOptions options) {
+  options.wants_ack = true;
+  const auto sequence = send(destination, payload, std::move(options));
+  if (!sequence) return std::nullopt;
+  std::optional<std::uint32_t> frames_good;
+  wait(timeout, [&] { return (frames_good = client_.take_ack(*sequence)).has_value(); });
+  return frames_good;
 }
 
 std::optional<modem_receipt_t> BlockingModem::wait_receipt(std::int64_t packet_sequence,

@@ -40,6 +40,12 @@ class BlockingModem {
   // arrive meanwhile wait for wait_receive().
   [[nodiscard]] std::optional<double> ping(std::int32_t destination, SimDuration timeout);
 
+  // Sends a packet that wants an acknowledgement and waits for it: bit i is 1 where frame i was right; empty after `timeout`.
+  // Other packets that arrive meanwhile wait for wait_receive().
+  [[nodiscard]] std::optional<std::uint32_t> send_acknowledged(std::int32_t destination,
+                                                               std::span<const std::uint8_t> payload,
+                                                               SimDuration timeout, SendOptions options = {});
+
   // Waits for the packet's receipt, repeating the SEND meanwhile; empty after `timeout`.
   [[nodiscard]] std::optional<modem_receipt_t> wait_receipt(std::int64_t packet_sequence,
                                                             SimDuration timeout);

@@ -1,13 +1,19 @@
 #include "clients/modem/modem_client.h"
 
 #include <algorithm>
+#include <bit>
+#include <string>
+#include <utility>
 
+#include "bus/message_checks.h"
 #include "core/check.h"
 #include "core/names.h"
 
 namespace halocline::clients {
-namespace {
-constexpr std::size_t kLongestPayload = 32768;  // modem_send_t
+
+bool is_whole(const modem_receive_t& packet) {
+  return packet.num_frames == 0 ||
+         std::popcount(static_cast<std::uint64_t>(packet.frames_good)) == packet.num_frames;
 }
 
 ModemClient::ModemClient(bus::Bus& bus, ModemAddress address, ResendPolicy policy, bus::Wakeup wakeup)
@@ -46,22 +52,27 @@ void ModemClient::listen(SimTime from, const ListenOptions& options) {
 
 std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t destination,
                                std::span<const std::uint8_t> payload, SendOptions options) {
-  require(options.kind == modem_send_t::DATA || options.kind == modem_send_t::PING,
-          "a packet is DATA or a PING");
-  require(options.kind != modem_send_t::PING || destination != kBroadcastId, "a PING goes to one vehicle");
-  require(destination >= kBroadcastId, "a destination is a vehicle's id, or 0 for all");
-  require(payload.size() <= kLongestPayload, "a payload holds at most 32768 bytes");
-  ++changes_;
   modem_send_t message{};
   message.utime = start.to_utime();
   message.session = address_.session;
-  message.packet_sequence = next_sequence_++;
+  message.packet_sequence = next_sequence_;
   message.source_id = address_.vehicle_id;
   message.destination_id = destination;
   message.packet_kind = options.kind;
   message.stamped = options.stamped ? 1 : 0;
+  message.wants_ack = options.wants_ack ? 1 : 0;
+  message.sets_rate = options.rate_number ? 1 : 0;
+  message.rate_number = options.rate_number.value_or(0);
+  message.sets_source_level = options.source_level_db ? 1 : 0;
+  message.source_level_db = options.source_level_db.value_or(0);
+  message.frame_bytes = std::move(options.frame_bytes);
+  message.num_frames = static_cast<std::int32_t>(message.frame_bytes.size());
   message.payload_size = static_cast<std::int32_t>(payload.size());
   message.payload.assign(payload.begin(), payload.end());
+  const std::string problem = bus::problem_in(message);
+  require(problem.empty(), "no packet of this modem: " + problem);
+  ++next_sequence_;
+  ++changes_;
   // Kept before it is published: on memq the receipt may be dispatched before publish() returns to the node.
   pending_[message.packet_sequence] = {message, steady + policy_.interval, steady + policy_.give_up_after};
   ++counters_.sent;
@@ -82,16 +93,30 @@ std::optional<modem_receive_t> ModemClient::take_received() {
   return packet;
 }
 
-std::optional<double> ModemClient::take_ping_reply(std::int64_t packet_sequence) {
-  const auto reply = std::find_if(waiting_.begin(), waiting_.end(), [&](const modem_receive_t& packet) {
-    return packet.packet_kind == modem_receive_t::PING_REPLY && packet.send_session == address_.session &&
+std::optional<modem_receive_t> ModemClient::take_answer(std::int64_t packet_sequence, std::int8_t kind) {
+  const auto found = std::find_if(waiting_.begin(), waiting_.end(), [&](const modem_receive_t& packet) {
+    return packet.packet_kind == kind && packet.send_session == address_.session &&
            packet.packet_sequence == packet_sequence;
   });
-  if (reply == waiting_.end()) return std::nullopt;
+  if (found == waiting_.end()) return std::nullopt;
   ++changes_;
-  const double two_way_s = reply->two_way_travel_time_s;
-  waiting_.erase(reply);
-  return two_way_s;
+  modem_receive_t answer = std::move(*found);
+  waiting_.erase(found);
+  return answer;
+}
+
+std::optional<double> ModemClient::take_ping_reply(std::int64_t packet_sequence) {
+  const auto reply = take_answer(packet_sequence, modem_receive_t::PING_REPLY);
+  return reply ? std::optional(reply->two_way_travel_time_s) : std::nullopt;
+}
+
+std::optional<std::uint32_t> ModemClient::take_ack(std::int64_t packet_sequence) {
+  const auto ack = take_answer(packet_sequence, modem_receive_t::ACK);
+  if (!ack) return std::nullopt;
+  std::uint32_t frames_good = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(ack->payload.size(), 4); ++i)
+    frames_good |= static_cast<std::uint32_t>(ack->payload[i]) << 8 * i;
+  return frames_good;
 }
 
 void ModemClient::resend(SimTime steady) {
@@ -148,6 +173,7 @@ void ModemClient::take_packet(const modem_receive_t& packet) {
     return;
   }
   ++counters_.received;
+  if (packet.packet_kind == modem_receive_t::ACK) ++counters_.acknowledged;
   if (receive_handler_) return receive_handler_(packet);
   waiting_.push_back(packet);
   if (waiting_.size() > kMaxWaiting) {

@@ -28,6 +28,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "bus/bus.h"
 #include "bus/subscription.h"
@@ -45,8 +46,14 @@ struct ModemAddress {
 
 // How a packet is sent.
 struct SendOptions {
-  std::int8_t kind = modem_send_t::DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY
-  bool stamped = true;  // carries the instant of its departure: the receiver computes the delay
+  std::int8_t kind =
+      modem_send_t::DATA;  // or PING: to one vehicle, whose modem answers with a PING_REPLY; MINI_PACKET ...
+  bool stamped = true;     // carries the instant of its departure: the receiver computes the delay
+  bool wants_ack = false;  // to one vehicle, whose modem answers with an ACK; not for a PING
+  std::optional<std::int32_t> rate_number = {};  // of a rate of the modem, 0..255; none: its own
+  std::optional<double> source_level_db = {};    // dB re 1 uPa at 1 m, 0..250; none: the modem's own
+  std::vector<std::int32_t> frame_bytes =
+      {};  // of each frame of DATA, together the payload; none: as the modem does
 };
 
 // How the modem listens; the defaults are those of [modem].
@@ -59,6 +66,9 @@ struct ListenOptions {
       6;  // carrier is sensed where the sound of others exceeds the noise by this, 0..100
 };
 
+// Whether every frame of a packet was right: otherwise some of its payload is zeros.
+bool is_whole(const modem_receive_t& packet);
+
 // When to repeat a SEND that was not answered; steady time.
 struct ResendPolicy {
   SimDuration interval = SimDuration::from_milliseconds(200);   // above 0
@@ -66,14 +76,15 @@ struct ResendPolicy {
 };
 
 struct ModemCounters {
-  std::int64_t sent = 0;        // packets given to send()
-  std::int64_t resent = 0;      // repetitions of a SEND
-  std::int64_t accepted = 0;    // receipts, those of queued packets among them
-  std::int64_t refused = 0;     // receipts
-  std::int64_t unanswered = 0;  // given up
-  std::int64_t received = 0;    // packets that arrived, each once
-  std::int64_t duplicates = 0;  // RECEIVEs that came again
-  std::int64_t discarded = 0;   // arrived, but not taken before kMaxWaiting others came
+  std::int64_t sent = 0;          // packets given to send()
+  std::int64_t resent = 0;        // repetitions of a SEND
+  std::int64_t accepted = 0;      // receipts, those of queued packets among them
+  std::int64_t refused = 0;       // receipts
+  std::int64_t unanswered = 0;    // given up
+  std::int64_t received = 0;      // packets that arrived, each once, answers of modems among them
+  std::int64_t acknowledged = 0;  // own packets whose acknowledgement arrived
+  std::int64_t duplicates = 0;    // RECEIVEs that came again
+  std::int64_t discarded = 0;     // arrived, but not taken before kMaxWaiting others came
 };
 
 class ModemClient {
@@ -105,7 +116,7 @@ class ModemClient {
 
   // Publishes a SEND that starts at `start` (simulation time) and returns its packet_sequence.
   // `destination`: a vehicle's id, or kBroadcastId. `payload`: 0 to 32768 bytes; a modem's own limit shows in
-  // the receipt. Throws InvalidArgument otherwise, and for a PING to all.
+  // the receipt. Throws InvalidArgument otherwise, and for options that contradict each other.
   std::int64_t send(SimTime steady, SimTime start, std::int32_t destination,
                     std::span<const std::uint8_t> payload, SendOptions options = {});
   // A PING without payload. What comes back, if it does, is a RECEIVE of kind PING_REPLY with this
@@ -123,6 +134,9 @@ class ModemClient {
 
   // The two-way travel time of the waiting answer to this ping, s, which is taken; empty while none waits.
   std::optional<double> take_ping_reply(std::int64_t packet_sequence);
+
+  // Of the waiting acknowledgement of this packet, which is taken: bit i is 1 where frame i was right. Empty while none waits.
+  std::optional<std::uint32_t> take_ack(std::int64_t packet_sequence);
 
   // Repeats what has waited for its receipt for the policy's interval.
   void resend(SimTime steady);
@@ -146,6 +160,8 @@ class ModemClient {
   // Session, source, kind, sequence: a PING_REPLY has session and sequence of its ping.
   using PacketName = std::tuple<std::int64_t, std::int32_t, std::int8_t, std::int64_t>;
 
+  // Takes the waiting answer of that kind to a packet of ours.
+  std::optional<modem_receive_t> take_answer(std::int64_t packet_sequence, std::int8_t kind);
   void take_receipt(const modem_receipt_t& receipt);
   void take_packet(const modem_receive_t& packet);
   [[nodiscard]] bool is_new(const PacketName& packet);

@@ -1,6 +1,7 @@
 #include "clients/traffic/traffic_config.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "core/check.h"
@@ -12,6 +13,38 @@ using bus::ConfigVisitor;
 
 constexpr std::string_view kAll = "all";
 
+// Kinds by name, and the bytes that a packet has beside payload_bytes, or in its place.
+struct Kind {
+  std::int8_t kind;
+  const char* name;
+  std::size_t own_bytes;
+  bool has_payload;
+};
+constexpr std::array<Kind, 5> kKinds{{{modem_send_t::DATA, "data", 0, true},
+                                      {modem_send_t::PING, "ping", 0, false},
+                                      {modem_send_t::MINI_PACKET, "mini-packet", 2, false},
+                                      {modem_send_t::JANUS, "janus", 5, false},
+                                      {modem_send_t::JANUS_CARGO, "janus-cargo", 5, true}}};
+
+const Kind& kind_of(std::int8_t kind) {
+  const auto found =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& k) { return k.kind == kind; });
+  ensure(found != kKinds.end(), "traffic of a kind that only modems make");
+  return *found;
+}
+
+void visit_kind(ConfigVisitor& v, VehicleTraffic& t) {
+  std::string name = kind_of(t.kind).name;
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+  v.text("kind", name, names, "of its packets; all but data only with hops = 1");
+  for (const Kind& kind : kKinds) {
+    if (name == kind.name) t.kind = kind.kind;
+  }
+  bus::integer_as(v, "rate", t.rate, {-1, 255, "", "number of a rate of its modem; -1: the modem's own"});
+  v.boolean("ack", t.ack, "the destination's modem acknowledges each packet by itself");
+}
+
 void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   double period_s = t.period.seconds(), start_s = t.start.seconds();
   v.number("period_s", period_s, {0, 1e6, "s", "simulated time between packets; 0: none are sent"});
@@ -20,6 +53,7 @@ void visit_traffic(ConfigVisitor& v, VehicleTraffic& t) {
   t.start = SimTime::from_seconds(start_s);
   v.text("destination", t.destination, {}, "name of a vehicle, or all");
   bus::integer_as(v, "payload_bytes", t.payload_bytes, {0, 32768, "", "bytes of each packet"});
+  visit_kind(v, t);
   v.boolean("relay", t.relay.passes_on, "pass on packets of others that have transmissions left");
   bus::integer_as(v, "hops", t.relay.hops,
                   {1, RelayPacket::kMostHops, "",
@@ -48,7 +82,15 @@ const VehicleTraffic* find(const TrafficConfig& config, const std::string& name)
 void check_destination(ConfigVisitor& v, const TrafficConfig& config, const VehicleTraffic& traffic) {
   if (!v.given("traffic")) return;
   v.section("traffic", "", [&](ConfigVisitor& section) {
-    if (traffic.destination == kAll) return;
+    const bool is_ping = traffic.kind == modem_send_t::PING;
+    if (traffic.is_relayed() && traffic.kind != modem_send_t::DATA)
+      section.problem("kind", "allowed with hops above 1 is data");
+    if (traffic.ack && (traffic.destination == kAll || traffic.is_relayed() || is_ping))
+      section.problem("ack", "allowed is false, or one destination, hops = 1 and no ping");
+    if (traffic.destination == kAll) {
+      if (is_ping) section.problem("destination", "a ping goes to one vehicle");
+      return;
+    }
     if (traffic.destination == traffic.vehicle)
       section.problem("destination", "a vehicle does not send to itself; allowed is another vehicle, or all");
     else if (find(config, traffic.destination) == nullptr)
@@ -57,6 +99,12 @@ void check_destination(ConfigVisitor& v, const TrafficConfig& config, const Vehi
 }
 
 }  // namespace
+
+std::size_t VehicleTraffic::packet_bytes() const {
+  const Kind& of = kind_of(kind);
+  const std::size_t bytes = of.has_payload ? static_cast<std::size_t>(payload_bytes) : 0;
+  return of.own_bytes + bytes + (is_relayed() ? RelayPacket::kHeaderBytes : 0);
+}
 
 void visit(ConfigVisitor& v, TrafficConfig& config) {
   v.list(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "bus/messages.h"
 #include "clients/traffic/relay.h"
 #include "clients/traffic/relay_packet.h"
 #include "core/names.h"
@@ -22,14 +23,15 @@ struct VehicleTraffic {
   SimDuration period;  // between packets; 0: none are sent
   SimTime start;       // of the first packet
   std::string destination = "all";
-  std::int32_t payload_bytes = 32;
-  RelayRules relay = {};  // with hops above 1 its packets are passed on
+  std::int32_t payload_bytes = 32;  // of data, and of JANUS's cargo; the other kinds have their own sizes
+  std::int8_t kind = modem_send_t::DATA;
+  std::int32_t rate = -1;  // number of a rate of the modem; -1: its own
+  bool ack = false;        // the receiver's modem acknowledges
+  RelayRules relay = {};   // with hops above 1 its packets are passed on
 
   bool is_relayed() const { return relay.hops > 1; }
   // Of a packet as the modem has it.
-  std::size_t packet_bytes() const {
-    return static_cast<std::size_t>(payload_bytes) + (is_relayed() ? RelayPacket::kHeaderBytes : 0);
-  }
+  std::size_t packet_bytes() const;
 };
 
 struct TrafficConfig {

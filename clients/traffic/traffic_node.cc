@@ -33,6 +33,19 @@ std::vector<std::uint8_t> traffic_payload(std::int64_t number, std::int32_t size
   return payload;
 }
 
+std::vector<std::uint8_t> payload_of(const VehicleTraffic& traffic, std::int64_t number) {
+  constexpr std::uint64_t kMiniBits = 13, kJanusBits = 34;
+  const auto size = static_cast<std::int32_t>(traffic.packet_bytes());
+  std::vector<std::uint8_t> payload = traffic_payload(number, size);
+  if (traffic.kind == modem_send_t::DATA || traffic.kind == modem_send_t::PING) return payload;
+  const bool is_mini = traffic.kind == modem_send_t::MINI_PACKET;
+  std::uint64_t bits =
+      static_cast<std::uint64_t>(number) & ((1ull << (is_mini ? kMiniBits : kJanusBits)) - 1);
+  for (std::size_t byte = is_mini ? 2 : 5; byte-- > 0; bits >>= 8)  // the high byte first
+    payload[byte] = static_cast<std::uint8_t>(bits & 0xff);
+  return payload;
+}
+
 TrafficNode::TrafficNode(lcm::LCM& lcm, bus::NodeIdentity identity, const TrafficConfig& config)
     : Node(lcm, std::move(identity)), uses_relays_(config.uses_relays()) {
   for (const VehicleTraffic& traffic : config.vehicles) add_sender(config, traffic);
@@ -58,7 +71,8 @@ void TrafficNode::on_packet(Sender& sender, const modem_receive_t& packet) {
   bus().log().debug("packet-received", "vehicle=" + sender.traffic.vehicle +
                                            " source=" + std::to_string(packet.source_id) +
                                            " packet=" + std::to_string(packet.packet_sequence));
-  if (uses_relays_) sender.relay.take(packet.payload, SimTime::from_utime(packet.utime));
+  if (uses_relays_ && is_whole(packet) && packet.packet_kind == modem_receive_t::DATA)
+    sender.relay.take(packet.payload, SimTime::from_utime(packet.utime));
 }
 
 void TrafficNode::on_receipt(Sender& sender, const modem_receipt_t& receipt) {
@@ -108,13 +122,18 @@ void TrafficNode::send_due(Sender& sender, const bus::Now& now) {
     return sender.relay.originate(sender.destination, traffic_payload(number, traffic.payload_bytes), latest);
   }
   const auto number = sender.modem.counters().sent;
-  sender.modem.send(now.steady, latest, sender.destination, traffic_payload(number, traffic.payload_bytes));
+  SendOptions options{.kind = traffic.kind, .wants_ack = traffic.ack};
+  if (traffic.rate >= 0) options.rate_number = traffic.rate;
+  sender.modem.send(now.steady, latest, sender.destination, payload_of(traffic, number), std::move(options));
 }
 
 void TrafficNode::transmit_due(Sender& sender, const bus::Now& now) {
   while (const auto transmission = sender.relay.transmit_due(now.sim)) {
     const SimTime start = now.sim - transmission->at < kPromptly ? transmission->at : now.sim;
-    sender.relay.on_sent(sender.modem.send(now.steady, start, kBroadcastId, transmission->bytes));
+    SendOptions options;
+    if (sender.traffic.rate >= 0) options.rate_number = sender.traffic.rate;
+    sender.relay.on_sent(
+        sender.modem.send(now.steady, start, kBroadcastId, transmission->bytes, std::move(options)));
   }
 }
 
@@ -137,9 +156,11 @@ std::string TrafficNode::status_text() const {
     sum.accepted += counters.accepted;
     sum.refused += counters.refused;
     sum.received += counters.received;
+    sum.acknowledged += counters.acknowledged;
   }
   return "sent " + std::to_string(sum.sent) + ", accepted " + std::to_string(sum.accepted) + ", refused " +
-         std::to_string(sum.refused) + ", received " + std::to_string(sum.received) + relay_text();
+         std::to_string(sum.refused) + ", received " + std::to_string(sum.received) +
+         (sum.acknowledged > 0 ? ", acknowledged " + std::to_string(sum.acknowledged) : "") + relay_text();
 }
 
 std::string TrafficNode::relay_text() const {

@@ -24,6 +24,8 @@ namespace halocline::clients {
 
 // The payload of a packet: `size` bytes determined by its number.
 std::vector<std::uint8_t> traffic_payload(std::int64_t number, std::int32_t size);
+// Of a packet of this kind: a mini-packet and JANUS's application data hold the lowest bits of the number.
+std::vector<std::uint8_t> payload_of(const VehicleTraffic& traffic, std::int64_t number);
 
 class TrafficNode : public bus::Node {
  public:

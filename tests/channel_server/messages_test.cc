@@ -66,8 +66,16 @@ PacketOutcome some_outcome() {
   SendRequest request = testing::request_of(3, 10, 44, 5);
   request.destination_id = 4;
   request.stamped = true;
-  end.packet = std::make_shared<const Packet>(
-      Packet{request, at_s(10.5), {for_s(0.05), for_s(0.01), 40}, odd_modem().modem, {1, 2, 3}, {}, {}, 3, {0, {40}}, {5}});
+  end.packet = std::make_shared<const Packet>(Packet{request,
+                                                     at_s(10.5),
+                                                     {for_s(0.05), for_s(0.01), 40},
+                                                     odd_modem().modem,
+                                                     {1, 2, 3},
+                                                     {},
+                                                     {},
+                                                     3,
+                                                     {0, {40}},
+                                                     {5}});
   end.receiver_id = 4;
   end.receiver = "v4";
   end.travel_time_s = 1.25;

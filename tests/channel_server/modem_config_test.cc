@@ -85,8 +85,9 @@ TEST(ModemConfig, EveryPhysicalParameterOfAProfileCanBeChanged) {
 // Rates of the same waveform have the vehicle's band and family, and their own framing; those of another keep their band.
 TEST(ModemConfig, TheRatesOfAProfileTakeTheVehiclesNumbers) {
   const auto modem =
-      read("[modem]\nprofile = \"micromodem-psk-1\"\nsource_level_db = 150\ncenter_frequency_hz = 10000\n"
-           "family = \"psk-of-our-own\"\n")
+      read(
+          "[modem]\nprofile = \"micromodem-psk-1\"\nsource_level_db = 150\ncenter_frequency_hz = 10000\n"
+          "family = \"psk-of-our-own\"\n")
           .modem;
   ASSERT_EQ(modem.rates.all().size(), 6u);
   const ModemRate& fsk = modem.rates.all()[0];
@@ -106,7 +107,8 @@ TEST(ModemConfig, TheRatesOfAProfileTakeTheVehiclesNumbers) {
 TEST(ModemConfig, RatesAreFilesBesideAFileOrKnownByName) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "rates";
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "slow.toml") << "family = \"mine\"\nbit_rate_bps = 10\nrates = \"fast.toml janus\"\n";
+  std::ofstream(folder / "slow.toml")
+      << "family = \"mine\"\nbit_rate_bps = 10\nrates = \"fast.toml janus\"\n";
   std::ofstream(folder / "fast.toml") << "family = \"mine\"\nbit_rate_bps = 1000\nrate_number = 7\n";
   std::ofstream(folder / "wrong.toml") << "rates = \"fast.toml fast.toml\"\n";
   std::ofstream(folder / "lost.toml") << "rates = \"semaphore\"\n";

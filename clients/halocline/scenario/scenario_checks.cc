@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "acoustics/modem/modem.h"
+#include "bus/messages.h"
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/packets/packet.h"
+#include "channel_server/packets/packet_framing.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "clients/autopilot/autopilot_config.h"
@@ -51,18 +54,38 @@ struct PacketSource {
   std::string section, size_key;
   SimDuration period;
   std::size_t payload_bytes;
+  std::int8_t kind = modem_send_t::DATA;
+  std::int32_t rate = -1;
 };
+
+channel_server::Framing framing_of(const PacketSource& source, const channel_server::VehicleModem& modem) {
+  channel_server::SendRequest request;
+  request.payload.resize(source.payload_bytes);
+  request.kind = static_cast<channel_server::PacketKind>(source.kind);
+  if (source.rate >= 0) request.rate_number = source.rate;
+  return channel_server::framing_of(modem, request);
+}
 
 void check_packets(std::size_t i, const PacketSource& source, const channel_server::VehicleModem& modem,
                    bus::ConfigFile& file) {
   if (source.period <= SimDuration()) return;
-  const std::size_t most = channel_server::largest_payload_bytes(modem);
+  const channel_server::Framing framing = framing_of(source, modem);
   const std::string bytes = std::to_string(source.payload_bytes);
-  if (source.payload_bytes > most)
+  using channel_server::SendResult;
+  if (framing.problem == SendResult::kNoRate)
+    return file.refuse(key_of(i, source.section + ".rate"), std::to_string(source.rate),
+                       "allowed is -1, or the number of a rate of this vehicle's modem");
+  if (framing.problem == SendResult::kNoKind)
+    return file.refuse(key_of(i, source.section + ".kind"), std::to_string(source.kind),
+                       "this vehicle's modem has no packets of this kind, or not at this rate");
+  if (framing.problem != SendResult::kAccepted) {
+    const std::size_t most = channel_server::largest_payload_bytes(modem);
     return file.refuse(key_of(i, source.section + source.size_key), bytes,
                        "its packets have " + bytes +
-                           " bytes; allowed with this vehicle's modem are at most " + std::to_string(most));
-  const double duration_s = packet_timing(modem.modem, source.payload_bytes).duration.seconds();
+                           " bytes; allowed with this vehicle's modem are at most " +
+                           (source.rate < 0 ? std::to_string(most) : "those of the rate"));
+  }
+  const double duration_s = framing.timing.duration.seconds();
   if (duration_s <= source.period.seconds()) return;
   file.warn(key_of(i, source.section + ".period_s"), format_number(source.period.seconds()),
             "a packet of " + bytes + " bytes lasts " + format_number(rounded_down(duration_s)) +
@@ -73,7 +96,9 @@ void check_modems(const ScenarioConfig& config, bus::ConfigFile& file) {
   for (std::size_t i = 0; i < config.scenario.vehicles.size(); ++i) {
     const channel_server::VehicleModem& modem = modem_of(config, i);
     const VehicleTraffic& traffic = config.traffic.vehicles.at(i);
-    check_packets(i, {"traffic", ".payload_bytes", traffic.period, traffic.packet_bytes()}, modem, file);
+    check_packets(
+        i, {"traffic", ".payload_bytes", traffic.period, traffic.packet_bytes(), traffic.kind, traffic.rate},
+        modem, file);
     check_packets(
         i, {"mission.broadcast", ".period_s", config.autopilot.vehicles.at(i).broadcast.period, kReportBytes},
         modem, file);

@@ -15,7 +15,8 @@ namespace {
 using nlohmann::json;
 
 const char* kind_name(std::int8_t kind) {
-  constexpr const char* kNames[] = {"data", "ping", "ping_reply", "ack", "mini_packet", "janus", "janus_cargo"};
+  constexpr const char* kNames[] = {"data",        "ping",  "ping_reply", "ack",
+                                    "mini_packet", "janus", "janus_cargo"};
   return kind >= 0 && kind < static_cast<int>(std::size(kNames)) ? kNames[kind] : "data";
 }
 

@@ -177,7 +177,8 @@ TEST(ModemProfile, JanusBaselineAndCargoLastAsPublished) {
 // Of a published table of durations on the water: 1, 8, 16 and 29 bytes. The line of 976 bit/s runs below it at the long end.
 TEST(ModemProfile, InstantMessagesOfS2cLastAsPublished) {
   const Modem modem = modem_of("s2c-im");
-  const std::vector<std::pair<std::size_t, double>> published{{1, 0.172}, {8, 0.238}, {16, 0.328}, {29, 0.468}};
+  const std::vector<std::pair<std::size_t, double>> published{
+      {1, 0.172}, {8, 0.238}, {16, 0.328}, {29, 0.468}};
   for (const auto& [bytes, duration_s] : published)
     EXPECT_NEAR(packet_timing(modem, bytes).duration.seconds() / duration_s, 0.93, 0.08) << bytes;
   EXPECT_EQ(max_payload_bytes(modem), static_cast<std::size_t>(kMaxPayloadBytes));
@@ -219,12 +220,9 @@ TEST(ModemProfile, MicromodemPacketsHoldTheFramesOfTheirType) {
     Modem modem;
     std::size_t frame, most;
   };
-  const Type types[] = {{modem_of("micromodem-fsk"), 32, 32},
-                        {modem_of("micromodem-psk-1"), 64, 192},
-                        {modem_of("micromodem-psk-2"), 64, 192},
-                        {modem_of("micromodem-psk-3"), 256, 512},
-                        {modem_of("micromodem-psk-4"), 256, 512},
-                        {modem_of("micromodem-psk-5"), 256, 2048},
+  const Type types[] = {{modem_of("micromodem-fsk"), 32, 32},     {modem_of("micromodem-psk-1"), 64, 192},
+                        {modem_of("micromodem-psk-2"), 64, 192},  {modem_of("micromodem-psk-3"), 256, 512},
+                        {modem_of("micromodem-psk-4"), 256, 512}, {modem_of("micromodem-psk-5"), 256, 2048},
                         {modem_of("micromodem-psk-6"), 32, 192}};
   for (const Type& type : types) {
     EXPECT_EQ(max_payload_bytes(type.modem), type.most);

@@ -1,4 +1,6 @@
 // How packets are divided, and how long they last.
+#include "acoustics/modem/packet_format.h"
+
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/modem.h"
-#include "acoustics/modem/packet_format.h"
 #include "core/check.h"
 #include "core/sim_time.h"
 

@@ -95,6 +95,20 @@ TEST(PacketBook, TheAnswerToAPingIsAPacketOfItsOwn) {
   EXPECT_FALSE(book.all()[1].sent);
 }
 
+TEST(PacketBook, AMiniPacketItsReceiptAndItsAcknowledgementAreTwoPackets) {
+  PacketBook book;
+  modem_send_t mini = send(1, 4, 10 * kSecond, 2);
+  mini.packet_kind = modem_send_t::MINI_PACKET;
+  book.add(mini, 1);
+  book.add(receipt(4, 10 * kSecond), 1);
+  packet_outcome_t back = outcome(2, 1, 4, 13 * kSecond);
+  back.packet_kind = modem_receive_t::ACK;
+  book.add(back);
+  ASSERT_EQ(book.all().size(), 2u);
+  EXPECT_EQ(book.all()[0].receipt, modem_receipt_t::ACCEPTED);
+  EXPECT_EQ(book.all()[1].name.kind, modem_receive_t::ACK);
+}
+
 TEST(PacketBook, ARefusedPacketDepartsNever) {
   PacketBook book;
   book.add(send(1, 0, 10 * kSecond), 1);

@@ -1,5 +1,6 @@
 #include "clients/modem/modem_client.h"
 
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -108,6 +109,69 @@ TEST_F(ModemClientTest, APingReplyHoldsTheTwoWayTravelTime) {
   EXPECT_EQ(modem_.take_ping_reply(ping), 1.5);
   EXPECT_FALSE(modem_.take_ping_reply(ping));
   EXPECT_TRUE(modem_.take_received());  // the other packet still waits
+}
+
+TEST_F(ModemClientTest, OptionsAreTheFieldsOfTheSend) {
+  modem_.send(at_ms(0), at_ms(0), 7, std::vector<std::uint8_t>{1, 2, 3},
+              {.wants_ack = true, .rate_number = 5, .source_level_db = 170.0, .frame_bytes = {1, 2}});
+  modem_.send(at_ms(0), at_ms(0), 7, std::vector<std::uint8_t>{1}, {.kind = modem_send_t::MINI_PACKET});
+  drain();
+  const modem_send_t& with = server_.sends.at(0);
+  EXPECT_EQ(with.wants_ack, 1);
+  EXPECT_EQ(with.sets_rate, 1);
+  EXPECT_EQ(with.rate_number, 5);
+  EXPECT_EQ(with.sets_source_level, 1);
+  EXPECT_EQ(with.source_level_db, 170);
+  EXPECT_THAT(with.frame_bytes, ElementsAre(1, 2));
+  const modem_send_t& without = server_.sends.at(1);
+  EXPECT_EQ(without.packet_kind, modem_send_t::MINI_PACKET);
+  EXPECT_EQ(without.wants_ack, 0);
+  EXPECT_EQ(without.sets_rate, 0);
+  EXPECT_EQ(without.sets_source_level, 0);
+  EXPECT_EQ(without.num_frames, 0);
+}
+
+TEST_F(ModemClientTest, OptionsThatContradictEachOtherAreRefusedAndUseNoNumber) {
+  const std::vector<std::uint8_t> payload{1, 2, 3};
+  const auto send_with = [&](std::int32_t to, SendOptions options) {
+    return modem_.send(at_ms(0), at_ms(0), to, payload, std::move(options));
+  };
+  EXPECT_THROW(send_with(kBroadcastId, {.wants_ack = true}), InvalidArgument);
+  EXPECT_THROW(send_with(7, {.kind = modem_send_t::ACK}), InvalidArgument);
+  EXPECT_THROW(send_with(7, {.rate_number = 256}), InvalidArgument);
+  EXPECT_THROW(send_with(7, {.source_level_db = 300.0}), InvalidArgument);
+  EXPECT_THROW(send_with(7, {.frame_bytes = {1, 1}}), InvalidArgument);
+  EXPECT_EQ(send_with(7, {}), 0);
+}
+
+TEST_F(ModemClientTest, AnAcknowledgementSaysWhichFramesWereRight) {
+  const std::int64_t packet =
+      modem_.send(at_ms(0), at_ms(0), 7, std::vector<std::uint8_t>{1, 2, 3}, {.wants_ack = true});
+  drain();
+  EXPECT_FALSE(modem_.take_ack(packet));
+  modem_receive_t ack{};
+  ack.send_session = 42;
+  ack.packet_sequence = packet;
+  ack.source_id = 7;
+  ack.destination_id = ack.receiver_id = 3;
+  ack.packet_kind = modem_receive_t::ACK;
+  ack.payload_size = 2;
+  ack.payload = {0b101, 1};
+  bus_.publish(bus::channels::kReceive.of("auv-1"), ack);
+  drain();
+  EXPECT_EQ(modem_.counters().acknowledged, 1);
+  EXPECT_FALSE(modem_.take_ack(packet + 1));
+  EXPECT_EQ(modem_.take_ack(packet), 0b1'0000'0101u);
+  EXPECT_FALSE(modem_.take_ack(packet));
+}
+
+TEST(ModemPacket, IsWholeWhenEveryFrameWasRight) {
+  modem_receive_t packet{};
+  packet.num_frames = 3;
+  packet.frames_good = 0b101;
+  EXPECT_FALSE(is_whole(packet));
+  packet.frames_good = 0b111;
+  EXPECT_TRUE(is_whole(packet));
 }
 
 TEST_F(ModemClientTest, APingToAllIsRefused) {

@@ -1,6 +1,7 @@
 #include "clients/traffic/traffic_node.h"
 
 #include <algorithm>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -108,6 +109,46 @@ payload_bytes = 64
   EXPECT_EQ(config.vehicles[0].period, SimDuration::from_seconds(5));
   EXPECT_EQ(config.vehicles[0].start, SimTime::from_seconds(1.5));
   EXPECT_EQ(destination_id(config, config.vehicles[0]), kBroadcastId);
+}
+
+std::string errors_of_traffic(const std::string& keys) {
+  TrafficConfig config;
+  auto file = bus::ConfigFile::parse(
+      "[[vehicle]]\nname = \"a\"\nid = 1\n[vehicle.traffic]\n" + keys + "[[vehicle]]\nname = \"b\"\nid = 2\n",
+      "test.toml");
+  file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
+  try {
+    file.check(/*whole_file=*/true);
+  } catch (const InvalidArgument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Traffic, KindAndAcknowledgementFitTheDestination) {
+  using ::testing::HasSubstr;
+  EXPECT_EQ(errors_of_traffic("destination = \"b\"\nack = true\nrate = 3\n"), "");
+  EXPECT_EQ(errors_of_traffic("destination = \"b\"\nkind = \"ping\"\n"), "");
+  EXPECT_THAT(errors_of_traffic("ack = true\n"), HasSubstr("ack"));
+  EXPECT_THAT(errors_of_traffic("kind = \"ping\"\n"), HasSubstr("destination"));
+  EXPECT_THAT(errors_of_traffic("destination = \"b\"\nkind = \"ping\"\nack = true\n"), HasSubstr("ack"));
+  EXPECT_THAT(errors_of_traffic("hops = 2\nkind = \"janus\"\n"), HasSubstr("kind"));
+  EXPECT_THAT(errors_of_traffic("kind = \"ack\"\n"), HasSubstr("mini-packet"));
+}
+
+// The lowest 13 bits of the number in 2 bytes, and its lowest 34 in 5 before the cargo.
+TEST(Traffic, PayloadsOfBitsFitTheirKind) {
+  VehicleTraffic traffic;
+  traffic.kind = modem_send_t::MINI_PACKET;
+  EXPECT_THAT(payload_of(traffic, 0x7abc), ElementsAre(0x1a, 0xbc));
+  traffic.kind = modem_send_t::JANUS;
+  EXPECT_THAT(payload_of(traffic, 0x7abc), ElementsAre(0, 0, 0, 0x7a, 0xbc));
+  traffic.kind = modem_send_t::JANUS_CARGO;
+  traffic.payload_bytes = 8;
+  EXPECT_EQ(payload_of(traffic, 3).size(), 13u);
+  EXPECT_EQ(payload_of(traffic, 3)[4], 3);
+  traffic.kind = modem_send_t::PING;
+  EXPECT_TRUE(payload_of(traffic, 3).empty());
 }
 
 TEST_F(TrafficNodeTest, KilledItRepeatsWhatHasNoReceiptAndGoesOnWithItsNumbers) {
