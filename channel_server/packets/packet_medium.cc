@@ -265,20 +265,11 @@ void PacketMedium::begin_reception(Flight& flight, const std::optional<LinkEnd>&
   flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
   flight.draws = draws_of(rule_.seed, *flight.packet, flight.identity, flight.receiver_id);
   flight.sounds_at = &state_of(flight.receiver_id);
-  flight.sounds_at->open(sound_of(flight));
+  flight.sounds_at->open(disturbing_sound(flight, reach_));
   watch_.judge_carrier_at(flight.receiver_id, at);
   flight.stage = Flight::Stage::kPreamble;
   const SimTime preamble_end = std::max(flight.signal.preamble_end, at);
   flights_.add(preamble_end, flight);
-}
-
-// Too weak to disturb, it may be acquired all the same.
-AudiblePacket PacketMedium::sound_of(const Flight& flight) const {
-  AudiblePacket audible = audible_packet(flight);
-  double power = 0;
-  for (const AudiblePath& path : audible.paths) power += path.power;
-  if (reach_ != nullptr && !reach_->disturbs(power, flight.signal.noise)) audible.paths.clear();
-  return audible;
 }
 
 void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {

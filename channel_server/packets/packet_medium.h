@@ -139,7 +139,6 @@ class PacketMedium {
   // Of the first flight; false: it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
   void begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
-  AudiblePacket sound_of(const Flight& flight) const;
   void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   ReceiverState& state_of(VehicleId id);
