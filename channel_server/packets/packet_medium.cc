@@ -268,8 +268,7 @@ void PacketMedium::begin_reception(Flight& flight, const std::optional<LinkEnd>&
   flight.sounds_at->open(disturbing_sound(flight, reach_));
   watch_.judge_carrier_at(flight.receiver_id, at);
   flight.stage = Flight::Stage::kPreamble;
-  const SimTime preamble_end = std::max(flight.signal.preamble_end, at);
-  flights_.add(preamble_end, flight);
+  flights_.add(std::max(flight.signal.preamble_end, at), flight);
 }
 
 void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
@@ -294,8 +293,7 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
     watch_.detect(flight, events);
   }
   flight.stage = Flight::Stage::kBits;
-  const SimTime last_bit = std::max(signal.end, at);
-  flights_.add(last_bit, flight);
+  flights_.add(std::max(signal.end, at), flight);
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
