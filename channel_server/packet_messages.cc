@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "core/units.h"
+
 namespace halocline::channel_server {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "acoustics/modem/modem.h"
 #include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/vehicles/modem_schedule.h"

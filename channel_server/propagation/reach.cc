@@ -10,6 +10,7 @@
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/sea/noise.h"
+#include "channel_server/vehicles/modem_rates.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
 #include "core/elementary.h"
