@@ -37,7 +37,14 @@ double detection_threshold(int pieces, double false_alarm) {
 double detection_probability(int pieces, double false_alarm, PowerRatio energy_over_noise_density) {
   const double h = energy_over_noise_density.value;
   require(h >= 0, "an energy over a noise density must not be negative or NaN");
-  const double threshold = detection_threshold(pieces, false_alarm);
+  // Callers ask for many energies of one detector: its threshold costs far more than the rest.
+  thread_local int known_pieces = 0;
+  thread_local double known_false_alarm = 0, threshold = 0;
+  if (known_pieces != pieces || known_false_alarm != false_alarm) {
+    threshold = detection_threshold(pieces, false_alarm);
+    known_pieces = pieces;
+    known_false_alarm = false_alarm;
+  }
   // Marcum 1960: P_detect = Q_M(sqrt(2 h), sqrt(2 T)) = 1 - sum_{n>=M} e^-T T^n / n! P(Poisson(h) <= n - M).
   // Terms beyond the mean by 12 deviations and more (Chernoff: below 1e-20) add nothing.
   const int last = static_cast<int>(threshold + 12 * std::sqrt(threshold) + 60) + pieces;

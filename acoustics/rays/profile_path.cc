@@ -76,7 +76,6 @@ std::vector<RayPoint> straight_way(double bottom_m, const RayLink& link, const A
 std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const RayLink& link,
                                                 const Arrival& path) {
   constexpr double kLonger = 1.5;
-  const double bottom = sea.profile.depth_at(0);
   RayLink far = link;
   far.range_m *= kLonger;
   if (!sea.profile.is_flat_until(far.range_m)) return std::nullopt;
@@ -101,7 +100,7 @@ std::optional<std::vector<RayPoint>> scaled_way(const ProfiledSea& sea, const Ra
       }
     }
     if (b.depth_m < kTouched) ++surface;
-    if (b.depth_m > bottom - kTouched) ++bottoms;
+    if (b.depth_m > sea.profile.depth_at(0) - kTouched) ++bottoms;
   }
   if (end == 0) return std::nullopt;
   way.resize(end + 1);

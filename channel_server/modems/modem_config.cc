@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <sstream>
 #include <utility>
 
@@ -166,6 +167,14 @@ VehicleModem read_modem(bus::ConfigFile& file, const std::string& profile, std::
   return m;
 }
 
+// Throws InvalidArgument for a profile that is not built in.
+std::string built_in_text(const std::string& profile) {
+  for (const ModemText& text : built_in_modem_texts())
+    if (profile == text.name) return text.toml;
+  throw InvalidArgument("unknown modem profile '" + profile + "'; there are " + names_for_errors() +
+                        "or a file .toml");
+}
+
 // One profile without its rates.
 VehicleModem one_rate(const std::string& profile, const std::string& folder) {
   std::string of_itself;
@@ -173,13 +182,8 @@ VehicleModem one_rate(const std::string& profile, const std::string& folder) {
     auto file = bus::ConfigFile::load((std::filesystem::path(folder) / profile).string());
     return read_modem(file, profile, of_itself);
   }
-  for (const ModemText& text : built_in_modem_texts()) {
-    if (profile != text.name) continue;
-    auto file = bus::ConfigFile::parse(text.toml, profile);
-    return read_modem(file, profile, of_itself);
-  }
-  throw InvalidArgument("unknown modem profile '" + profile + "'; there are " + names_for_errors() +
-                        "or a file .toml");
+  auto file = bus::ConfigFile::parse(built_in_text(profile), profile);
+  return read_modem(file, profile, of_itself);
 }
 
 // The profile in `file`, whose rates lie in `folder` where they are files. A rate of its own number is itself.
@@ -253,16 +257,12 @@ VehicleModem load_modem(const std::string& profile, const std::string& folder) {
     auto file = bus::ConfigFile::load(path.string());
     return with_rates(file, profile, path.parent_path().string());
   }
-  static const std::map<std::string, VehicleModem> built_in = [] {
-    std::map<std::string, VehicleModem> known;
-    for (const ModemText& text : built_in_modem_texts())
-      known.emplace(text.name, parse_modem(text.toml, text.name));
-    return known;
-  }();
-  const auto known = built_in.find(profile);
-  require(known != built_in.end(),
-          "unknown modem profile '" + profile + "'; there are " + names_for_errors() + "or a file .toml");
-  return known->second;
+  // Each is parsed when it is first asked for.
+  static std::map<std::string, VehicleModem> known;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  if (const auto found = known.find(profile); found != known.end()) return found->second;
+  return known.emplace(profile, parse_modem(built_in_text(profile), profile)).first->second;
 }
 
 VehicleModem parse_modem(const std::string& text, const std::string& name_for_errors) {

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "acoustics/link/link_budget.h"
@@ -184,32 +183,6 @@ struct PacketOutcome {
   double arrival_azimuth_rad = 0;    // towards where the sound came from, from north by east, -pi..pi
   double arrival_elevation_rad = 0;  // likewise, from the horizontal, positive up
   DecisionStatistics statistics;
-};
-
-// In the order of modem_event_t.
-enum class ModemEventKind {
-  kTransmissionBegan,
-  kTransmissionEnded,
-  kPacketDetected,  // at the end of its preamble
-  kPacketEnded,     // the last bit of one detected
-  kCarrierBegan,
-  kCarrierEnded,
-};
-
-// What a modem does or notices (modem_watch.h).
-struct ModemEvent {
-  std::string vehicle;
-  ModemEventKind kind = ModemEventKind::kTransmissionBegan;
-  std::int64_t session = 0, packet_sequence = 0;  // of an own transmission
-  Decibels level = {};  // of the packet or carrier, dB re 1 uPa; 0 of an own transmission
-  Decibels sinr = {};   // of a packet that ended
-  OutcomeKind outcome = OutcomeKind::kReceived;  // likewise
-};
-
-struct MediumEvent {
-  SimTime at;                                                         // exactly when it happened
-  std::variant<Receipt, PacketOutcome, ModemReply, ModemEvent> what;  // answers only for other shards
-  bool late = false;  // the medium had been advanced beyond `at` before it could know of this
 };
 
 }  // namespace halocline::channel_server

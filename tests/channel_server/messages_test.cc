@@ -17,6 +17,7 @@
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packet_messages.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/terrain_rays.h"
@@ -286,35 +287,6 @@ TEST(ChannelServerMessages, WhoOverhearsAnAnswerDoesNotKnowWhenTheQuestionLeft) 
   EXPECT_EQ(to_receive(end, at_s(11.3)).two_way_travel_time_s, 2.5);
   end.receiver_id += 1;
   EXPECT_EQ(to_receive(end, at_s(11.3)).two_way_travel_time_s, 0);
-}
-
-TEST(ChannelServerMessages, AModemEventHoldsItsExactInstant) {
-  ModemEvent event{"auv1", ModemEventKind::kPacketEnded};
-  event.level = Decibels{110.5};
-  event.sinr = Decibels{7.25};
-  event.outcome = OutcomeKind::kCollided;
-  const modem_event_t message = to_message(event, SimTime::from_nanoseconds(1'234'567'891));
-  EXPECT_EQ(bus::problem_in(message), "");
-  EXPECT_EQ(message.event_ns, 1'234'567'891);
-  EXPECT_EQ(message.utime, 1'234'568);
-  EXPECT_EQ(message.modem_event, modem_event_t::PACKET_ENDED);
-  EXPECT_EQ(message.level_db, 110.5);
-  EXPECT_EQ(message.sinr_db, 7.25);
-  EXPECT_EQ(message.packet_outcome, packet_outcome_t::COLLIDED);
-}
-
-TEST(ChannelServerMessages, AListenKeepsHowTheModemReceives) {
-  modem_listen_t message{};
-  message.asleep = message.promiscuous = message.events = 1;
-  message.wake_utime = 5'000'000;
-  message.carrier_threshold_db = 12;
-  const Listening listening = to_listening(message);
-  EXPECT_TRUE(listening.is_asleep(at_s(4.9)));
-  EXPECT_FALSE(listening.is_asleep(at_s(5)));
-  EXPECT_TRUE(listening.promiscuous && listening.events);
-  EXPECT_EQ(listening.carrier_threshold.value, 12);
-  message.wake_utime = 0;
-  EXPECT_TRUE(to_listening(message).is_asleep(at_s(1e6))) << "until another LISTEN";
 }
 
 TEST(ChannelServerMessages, AReceivedPacketCarriesItsPayload) {

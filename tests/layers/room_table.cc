@@ -28,7 +28,7 @@ const std::vector<Room>& rooms() {
        {"Eigen/"},
        "a receiver makes of paths what its modem can, and knows no vehicles"},
       {"acoustics/link",
-       {"core", "acoustics/math", "acoustics/sea", "acoustics/modem", "acoustics/rays"},
+       {"core", "ocean", "acoustics/math", "acoustics/sea", "acoustics/modem", "acoustics/rays"},
        {},
        "a link joins sea, rays and modems, and knows no vehicles"},
       {"bathymetry/terrain", {"core"}, {}, "the terrain is a function of position alone"},

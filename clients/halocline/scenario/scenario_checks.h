@@ -10,6 +10,10 @@
 // terrain or whose tracks the ground cuts.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <string>
+
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "bathymetry/terrain/terrain.h"
 #include "bus/config/config.h"
@@ -17,8 +21,19 @@
 
 namespace halocline::clients {
 
+// A key of the scenario's vehicle of that index.
+inline std::string key_of(std::size_t vehicle, const std::string& key) {
+  return "vehicle." + std::to_string(vehicle) + "." + key;
+}
+
+// To hundredths: what is allowed, for a person.
+inline double rounded_down(double value) { return std::floor(100 * value) / 100; }
+
 // Vehicles, names and the profile.
 void check_water(const ScenarioConfig& config, bus::ConfigFile& file);
+
+// Pilots, of what the models have (pilot_checks.cc).
+void check_pilots(const ScenarioConfig& config, bus::ConfigFile& file);
 
 // Pilots and traffic, as far as no terrain is needed.
 void check_missions(const ScenarioConfig& config, bus::ConfigFile& file);

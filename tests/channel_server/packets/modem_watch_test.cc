@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/sim_time.h"
