@@ -15,7 +15,7 @@ namespace {
 using vehicle_sim::ActuatorValues;
 using vehicle_sim::VehicleState;
 
-constexpr double kLongestStep_s = 0.01, kFarAhead_m = 1e5, kSecondsPerMinute = 60;
+constexpr double kLongestStep_s = 0.01, kFarAhead_m = 1e5, kRpmPerHz = 60;
 
 // The pilot of one trial, heading north at z = 0.
 class TrialPilot {
@@ -35,7 +35,7 @@ class TrialPilot {
                                  s.velocity_body[4], s.velocity_body[5]};
     const auto rpm = hover_command(config_.hover_gains, point, measured, dt_s, hover_integrals_);
     ActuatorValues values;
-    for (std::size_t i = 0; i < rpm.size(); ++i) values.thruster_hz[i] = rpm[i] / kSecondsPerMinute;
+    for (std::size_t i = 0; i < rpm.size(); ++i) values.thruster_hz[i] = rpm[i] / kRpmPerHz;
     return values;
   }
 
@@ -44,7 +44,7 @@ class TrialPilot {
     const Measured measured{s.position_ned_m.z(), euler.yaw,          euler.pitch,
                             s.velocity_body[4],   s.velocity_body[5], s.velocity_body[0]};
     const ActuatorCommand c = command(config_.gains, {.speed_mps = speed_mps_}, measured, dt_s, integrals_);
-    return {c.rudder_rad, c.stern_plane_rad, c.propeller_rpm / kSecondsPerMinute, {}};
+    return {c.rudder_rad, c.stern_plane_rad, c.propeller_rpm / kRpmPerHz, {}};
   }
 
   const PilotConfig& config_;
