@@ -82,7 +82,8 @@ SimTime Inbox::due() const {
 SimTime Inbox::next_answerable() const {
   SimTime next = SimTime::never();
   for (const auto& [vehicle, send] : inputs_.sends) {
-    if (send.packet_kind == modem_send_t::PING || send.wants_ack) next = std::min(next, SimTime::from_utime(send.utime));
+    if (send.packet_kind == modem_send_t::PING || send.wants_ack)
+      next = std::min(next, SimTime::from_utime(send.utime));
   }
   return next;
 }

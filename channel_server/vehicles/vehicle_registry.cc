@@ -61,8 +61,8 @@ VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, Ve
     forget_announced(announced);
   }
   const auto place = vehicles_.begin() + static_cast<std::ptrdiff_t>(place_of(id));
-  return **vehicles_.insert(place,
-                            std::make_unique<Vehicle>(Vehicle{id, std::string(name), {}, std::move(schedules)}));
+  return **vehicles_.insert(
+      place, std::make_unique<Vehicle>(Vehicle{id, std::string(name), {}, std::move(schedules)}));
 }
 
 VehicleRegistry::Schedules VehicleRegistry::configured(std::string_view name) const {
