@@ -133,7 +133,7 @@ ConfiguredModems make_modems(const ChannelServerConfig& config) {
 
 LinkPredictor make_predictor(const ServerRules& rules) {
   LinkPredictor::Rule rule{static_cast<std::size_t>(rules.predicted_payload_bytes), rules.medium.fading, {}};
-  for (const std::string& name : built_in_modems()) rule.profiles.push_back(load_modem(name).modem);
+  for (const std::string& name : built_in_modems()) rule.profiles.push_back(built_in_modem(name));
   return LinkPredictor(std::move(rule));
 }
 

@@ -175,15 +175,23 @@ std::string built_in_text(const std::string& profile) {
                         "or a file .toml");
 }
 
-// One profile without its rates.
-VehicleModem one_rate(const std::string& profile, const std::string& folder) {
-  std::string of_itself;
-  if (profile.ends_with(".toml")) {
-    auto file = bus::ConfigFile::load((std::filesystem::path(folder) / profile).string());
-    return read_modem(file, profile, of_itself);
-  }
+// A profile by name without the rates that it names; each is parsed when it is first asked for.
+const VehicleModem& built_in_rate(const std::string& profile) {
+  static std::map<std::string, VehicleModem> known;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  if (const auto found = known.find(profile); found != known.end()) return found->second;
   auto file = bus::ConfigFile::parse(built_in_text(profile), profile);
-  return read_modem(file, profile, of_itself);
+  std::string names;
+  return known.emplace(profile, read_modem(file, profile, names)).first->second;
+}
+
+// The same of a name, or of a file.
+VehicleModem one_rate(const std::string& profile, const std::string& folder) {
+  if (!profile.ends_with(".toml")) return built_in_rate(profile);
+  auto file = bus::ConfigFile::load((std::filesystem::path(folder) / profile).string());
+  std::string names;
+  return read_modem(file, profile, names);
 }
 
 // The profile in `file`, whose rates lie in `folder` where they are files. A rate of its own number is itself.
@@ -257,13 +265,10 @@ VehicleModem load_modem(const std::string& profile, const std::string& folder) {
     auto file = bus::ConfigFile::load(path.string());
     return with_rates(file, profile, path.parent_path().string());
   }
-  // Each is parsed when it is first asked for.
-  static std::map<std::string, VehicleModem> known;
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  if (const auto found = known.find(profile); found != known.end()) return found->second;
-  return known.emplace(profile, parse_modem(built_in_text(profile), profile)).first->second;
+  return parse_modem(built_in_text(profile), profile);
 }
+
+acoustics::Modem built_in_modem(const std::string& profile) { return built_in_rate(profile).modem; }
 
 VehicleModem parse_modem(const std::string& text, const std::string& name_for_errors) {
   auto file = bus::ConfigFile::parse(text, name_for_errors);

@@ -36,6 +36,9 @@ const std::vector<std::string>& built_in_modems();
 // bus::ConfigErrors with what is wrong in the file, InvalidArgument for a name that is none.
 VehicleModem load_modem(const std::string& profile, const std::string& folder = ".");
 
+// What one of built_in_modems() transmits by itself, without the other rates that it names: cheaper.
+acoustics::Modem built_in_modem(const std::string& profile);
+
 // The same from text; `name_for_errors` stands for the file and is the profile's name.
 VehicleModem parse_modem(const std::string& text, const std::string& name_for_errors);
 

@@ -89,6 +89,7 @@ SimTime PacketMedium::next_answerable() const {
   flights_.visit([&](SimTime at, const Flight& flight) {
     if (wants_answer(flight.packet->request)) next = std::min(next, at);
   });
+  may_be_answered_ = next != SimTime::never();
   return next;
 }
 
@@ -326,7 +327,6 @@ ReceiverState& PacketMedium::state_of(VehicleId id) {
 }
 
 void PacketMedium::forget_before(SimTime time) {
-  may_be_answered_ = next_answerable() != SimTime::never();
   register_.forget_before(time);
   watch_.forget_before(time);
   answered_.erase(answered_.begin(), answered_.lower_bound({time, {}, {}, {}, {}}));

@@ -162,7 +162,7 @@ class PacketMedium {
   std::vector<MediumEvent> events_;
   SimTime advanced_to_ = SimTime::at_once();
   bool waiting_ = false;
-  bool may_be_answered_ = false;  // any of departures and flights
+  mutable bool may_be_answered_ = false;  // false: none of departures and flights
 };
 
 }  // namespace halocline::channel_server

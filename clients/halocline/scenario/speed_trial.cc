@@ -15,7 +15,7 @@ namespace {
 using vehicle_sim::ActuatorValues;
 using vehicle_sim::VehicleState;
 
-constexpr double kLongestStep_s = 0.01, kFarAhead_m = 1e5, kRpmPerHz = 60;
+constexpr double kLongestStep_s = 0.02, kFarAhead_m = 1e5, kRpmPerHz = 60;
 
 // The pilot of one trial, heading north at z = 0.
 class TrialPilot {
