@@ -202,7 +202,8 @@ TEST(ModemProfile, AMiniPacketIsShorterThanAnyOther) {
 TEST(ModemProfile, AModemHasTheOtherRatesOfItsDevice) {
   const auto numbers_of = [](const std::string& profile) {
     std::vector<std::int32_t> numbers;
-    for (const auto& rate : load_modem(profile).rates.all()) numbers.push_back(rate.number);
+    const channel_server::VehicleModem modem = load_modem(profile);
+    for (const auto& rate : modem.rates.all()) numbers.push_back(rate.number);
     return numbers;
   };
   EXPECT_EQ(load_modem("micromodem-psk-4").rate_number, 4);
@@ -211,7 +212,8 @@ TEST(ModemProfile, AModemHasTheOtherRatesOfItsDevice) {
   EXPECT_THAT(numbers_of("unet-control"), ::testing::ElementsAre(2));
   EXPECT_THAT(numbers_of("s2c-burst"), ::testing::ElementsAre(0));
   for (const std::string& name : built_in_modems()) {
-    for (const auto& rate : load_modem(name).rates.all()) EXPECT_NO_THROW(validate(rate.modem)) << name;
+    const channel_server::VehicleModem modem = load_modem(name);
+    for (const auto& rate : modem.rates.all()) EXPECT_NO_THROW(validate(rate.modem)) << name;
   }
 }
 
