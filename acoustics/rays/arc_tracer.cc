@@ -15,7 +15,6 @@ namespace halocline::acoustics {
 namespace {
 
 constexpr double kOffBoundary = 1e-6;          // m, as in acoustics/rays/layered_path.cc
-constexpr std::size_t kUsualEvents = 48;       // of one ray: its history rarely has to grow
 constexpr std::uint64_t kTurnsFrom = 100'000;  // numbers of turns follow those of facets
 constexpr int kMaxSteps = 200'000;             // crossings of layers: a guard, never met
 
@@ -168,13 +167,7 @@ void ArcTracer::arrive(const State& s, TracedRay& ray) const {
 }
 
 ArcTracer::State ArcTracer::start(double theta, TracedRay& ray) const {
-  ray.theta = theta;
-  ray.arrived = false;
-  ray.factor = 1;
-  ray.family = 0;
-  ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
-  ray.events.clear();
-  ray.events.reserve(kUsualEvents);
+  ray.begin(theta);
   const double sine = elementary::sin(theta), xi = elementary::cos(theta) / source_speed_,
                p = 1 / source_speed_;
   State s{{0, source_depth_, sine, xi, source_speed_, 1 / xi, source_layer_, source_facet_}, 0, p, 0, p};

@@ -58,12 +58,7 @@ struct SectionTracer::Step {
 };
 
 SectionTracer::State SectionTracer::start(double theta, TracedRay& ray) const {
-  ray.theta = theta;
-  ray.arrived = false;
-  ray.factor = 1;
-  ray.family = 0;
-  ray.surface_bounces = ray.bottom_bounces = ray.upper_turns = ray.lower_turns = ray.caustics = 0;
-  ray.events.clear();
+  ray.begin(theta);
   const auto [sine, cosine] = elementary::sin_cos(theta);
   State s{0,
           ends_.source_depth_m,

@@ -11,8 +11,19 @@ namespace {
 
 constexpr double kGiveUpFactor = 0.25;  // of the least factor
 constexpr std::size_t kFactorSteps = 64;
+constexpr std::size_t kReservedEvents = 48;  // of one ray: its history rarely has to grow
 
 }  // namespace
+
+void TracedRay::begin(double launch_theta) {
+  theta = launch_theta;
+  arrived = false;
+  factor = 1;
+  family = 0;
+  surface_bounces = bottom_bounces = upper_turns = lower_turns = caustics = 0;
+  events.clear();
+  events.reserve(kReservedEvents);
+}
 
 BounceLosses::BounceLosses(const ProfiledSea& sea, double deepest_speed_mps)
     : options_(sea.options),

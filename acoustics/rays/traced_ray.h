@@ -47,6 +47,9 @@ struct TracedRay {
   int surface_bounces = 0, bottom_bounces = 0, upper_turns = 0, lower_turns = 0, caustics = 0;
   std::uint64_t family = 0;  // rays of the same events that turned in the same layers share it: arrivals.h
   std::vector<EventCode> events;
+
+  // Launched at `launch_theta`, with nothing behind it; what lies at the receiver's range stays until it is there.
+  void begin(double launch_theta);
 };
 
 // A point on a ray's way, m: horizontal range from the source, depth below the surface.

@@ -175,15 +175,29 @@ std::string built_in_text(const std::string& profile) {
                         "or a file .toml");
 }
 
-// A profile by name without the rates that it names; each is parsed when it is first asked for.
+// Built-in modems by name, each made when it is first asked for. Calls may overlap between threads.
+class KnownModems {
+ public:
+  template <class Make>
+  const VehicleModem& of(const std::string& name, Make&& make) {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = modems_.find(name); found != modems_.end()) return found->second;
+    return modems_.emplace(name, make()).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, VehicleModem> modems_;
+};
+
+// A profile by name without the rates that it names.
 const VehicleModem& built_in_rate(const std::string& profile) {
-  static std::map<std::string, VehicleModem> known;
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  if (const auto found = known.find(profile); found != known.end()) return found->second;
-  auto file = bus::ConfigFile::parse(built_in_text(profile), profile);
-  std::string names;
-  return known.emplace(profile, read_modem(file, profile, names)).first->second;
+  static KnownModems known;
+  return known.of(profile, [&] {
+    auto file = bus::ConfigFile::parse(built_in_text(profile), profile);
+    std::string names;
+    return read_modem(file, profile, names);
+  });
 }
 
 // The same of a name, or of a file.
@@ -265,7 +279,8 @@ VehicleModem load_modem(const std::string& profile, const std::string& folder) {
     auto file = bus::ConfigFile::load(path.string());
     return with_rates(file, profile, path.parent_path().string());
   }
-  return parse_modem(built_in_text(profile), profile);
+  static KnownModems known;
+  return known.of(profile, [&] { return parse_modem(built_in_text(profile), profile); });
 }
 
 acoustics::Modem built_in_modem(const std::string& profile) { return built_in_rate(profile).modem; }
