@@ -8,6 +8,7 @@
 
 #include "bus/bus.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -20,15 +21,18 @@ struct StepInputs {
   ByVehicle<vehicle_state_t> states;
   ByVehicle<modem_config_t> modems;
   ByVehicle<modem_send_t> sends;
+  ByVehicle<vehicle_gps_t> fixes;
+  ByVehicle<vehicle_battery_t> batteries;
+  ByVehicle<vehicle_sensors_t> sensors;
   std::vector<environment_change_t> changes;
   std::vector<ping_answer_t> ping_answers;  // of other shards
 };
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards PING_ANSWER. The bus must
-  // outlive it.
-  Inbox(bus::Bus& bus, const Shard& shard);
+  // Subscribes to STATE, MODEM, SEND, SET_ENVIRONMENT, LINK_QUERY, of several shards PING_ANSWER, and what the equipment
+  // needs: GPS, BATTERY, SENSORS. The bus must outlive it.
+  Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipment);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
 
@@ -43,6 +47,7 @@ class Inbox {
   void forget_after(SimTime latest);
 
  private:
+  void subscribe_equipment(const VehicleEquipment& equipment);
   template <class Message>
   void keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehicle, const Message& message,
             const bus::Family& family);

@@ -22,11 +22,13 @@ int main(int argc, char** argv) {
   program.stage = halocline::bus::Stage::kChannel;
   program.interface =
       "subscribes: STATE.<vehicle>, MODEM.<vehicle>, SEND.<vehicle>, LINK_QUERY, SET_ENVIRONMENT,\n"
+      "            GPS.<vehicle> (of vehicles with a clock), BATTERY.<vehicle> (with a battery),\n"
+      "            SENSORS.<vehicle> (whose propeller makes noise),\n"
       "            PING_ANSWER, FOUND_PATHS.<itself> (of other shards),\n"
       "            RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
       "publishes:  LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, OUTCOME, ENVIRONMENT, SCENARIO,\n"
       "            LINK_REPLY.<client>, RAY_QUERY, PING_ANSWER and FOUND_PATHS.<shard> (as a shard),\n"
-      "            STATUS.<name>";
+      "            MODEM_ENERGY.<vehicle> (of vehicles with a battery), STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   std::string share, journal;
   program.options = {

@@ -17,6 +17,7 @@ PingAnswer to_answer(const ping_answer_t& message);
 
 modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);
 packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at);
+modem_energy_t to_message(const EnergyUse& use, SimTime at);
 // Only for an outcome whose packet is to be delivered.
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 
@@ -25,6 +26,7 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 std::string identity_of(const modem_receipt_t& message);
 std::string identity_of(const modem_receive_t& message);
 std::string identity_of(const packet_outcome_t& message);
+std::string identity_of(const modem_energy_t& message);
 std::string identity_of(const ping_answer_t& message);
 
 }  // namespace halocline::channel_server

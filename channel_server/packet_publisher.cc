@@ -16,6 +16,9 @@ void PacketPublisher::publish(const MediumEvent& event) {
   } else if (const auto* answer = std::get_if<PingAnswer>(&event.what)) {
     const ping_answer_t message = to_message(*answer, event.at);
     journal_.publish_once(std::string(channels::kPingAnswer), message, identity_of(message));
+  } else if (const auto* use = std::get_if<EnergyUse>(&event.what)) {
+    const modem_energy_t message = to_message(*use, event.at);
+    journal_.publish_once(channels::kModemEnergy.of(use->vehicle), message, identity_of(message));
   } else {
     publish(std::get<PacketOutcome>(event.what), event.at, event.late);
   }

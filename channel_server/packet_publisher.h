@@ -1,4 +1,4 @@
-// Publishes what happens to packets: RECEIPT, RECEIVE, OUTCOME, and PING_ANSWER for other shards. Each is published
+// Publishes what happens to packets: RECEIPT, RECEIVE, OUTCOME, MODEM_ENERGY, and PING_ANSWER for other shards. Each is published
 // once in all incarnations of the server; what was due while it was away counts as late.
 #pragma once
 

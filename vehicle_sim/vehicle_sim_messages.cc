@@ -4,6 +4,7 @@
 #include <array>
 #include <type_traits>
 
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
@@ -201,6 +202,21 @@ vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad) {
   m.angle_deviation_rad = deviation_rad;
   m.travel_time_known = fix.travel_time_s ? 1 : 0;
   m.one_way_travel_time_s = fix.travel_time_s.value_or(0);
+  return m;
+}
+
+vehicle_battery_t to_battery_message(SimTime when, std::int32_t vehicle_id, const Battery& battery,
+                                     bool has_power) {
+  vehicle_battery_t m{};
+  m.utime = when.to_utime();
+  m.vehicle_id = vehicle_id;
+  m.battery_empty = has_power ? 0 : 1;
+  m.capacity_j = battery.capacity_j();
+  m.energy_left_j = battery.left_j();
+  m.hotel_energy_j = battery.hotel_j();
+  m.shaft_energy_j = battery.shaft_j();
+  m.transmit_energy_j = battery.transmit_j();
+  m.receive_energy_j = battery.receive_j();
   return m;
 }
 

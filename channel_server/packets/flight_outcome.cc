@@ -28,12 +28,25 @@ bool is_for(const SendRequest& request, VehicleId receiver) {
   return request.destination_id == receiver || request.destination_id == kBroadcastId;
 }
 
-// Of a ping's answer: what its sender measures, less what both ends know of packets and turnaround.
-double two_way_travel_time_s(const Flight& answer) {
+// What a vehicle's clock gains from one instant to another, s.
+double gain_s(const VehicleClocks& clocks, VehicleId id, SimTime from, SimTime to) {
+  return clocks.error_s(id, to) - clocks.error_s(id, from);
+}
+
+// Of a ping's answer: what the ping's sender measures by its clock, less what both ends know of packets and turnaround.
+double two_way_travel_time_s(const Flight& answer, const VehicleClocks& clocks) {
   const Packet& ping = *answer.packet->answers;
   const SimDuration waited =
       answer.packet->departure - ping.departure - ping.timing.duration - kPingTurnaround;
-  return waited.seconds() + answer.travel_time_s;
+  return waited.seconds() + answer.travel_time_s +
+         gain_s(clocks, answer.receiver_id, ping.departure, answer.arrival());
+}
+
+// The receiver's clock at the arrival, less the sender's at the departure.
+double one_way_travel_time_s(const Flight& flight, const VehicleClocks& clocks) {
+  const Packet& packet = *flight.packet;
+  return flight.travel_time_s + clocks.error_s(flight.receiver_id, flight.arrival()) -
+         clocks.error_s(packet.request.source_id, packet.departure);
 }
 
 // A time of arrival as the receiver's modem gives it: with its error, in steps of its quantum.
@@ -73,7 +86,7 @@ bool is_shifted_too_far(const Flight& flight) {
   return !flight.signal.fades && std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
 }
 
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind) {
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleClocks& clocks) {
   PacketOutcome outcome;
   outcome.kind = kind;
   outcome.packet = flight.packet;
@@ -82,8 +95,13 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind) {
   outcome.deliver =
       outcome.kind == OutcomeKind::kReceived && is_for(flight.packet->request, flight.receiver_id);
   outcome.travel_time_s = flight.travel_time_s;
-  outcome.measured_travel_time_s = measured(flight, flight.travel_time_s);
-  if (flight.packet->answers) outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight));
+  outcome.departure_stamp =
+      flight.packet->departure +
+      SimDuration::from_seconds(clocks.error_s(flight.packet->request.source_id, flight.packet->departure));
+  outcome.measured_travel_time_s = measured(flight, one_way_travel_time_s(flight, clocks));
+  if (flight.packet->answers) {
+    outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight, clocks));
+  }
   outcome.budget = flight.reception.budget;
   outcome.cutoff = flight.modem.min_receivable_level;
   outcome.propagation = flight.reception.used;
@@ -105,7 +123,8 @@ PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) 
   return outcome;
 }
 
-PingAnswer answer_of(const Flight& flight, SimTime at) {
+// The clock that gains g over the turnaround makes it g shorter (to the first order in its drift).
+PingAnswer answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks) {
   const Packet& ping = *flight.packet;
   SendRequest answer;
   answer.vehicle = flight.receiver;
@@ -114,7 +133,9 @@ PingAnswer answer_of(const Flight& flight, SimTime at) {
   answer.session = ping.request.session;
   answer.packet_sequence = ping.request.packet_sequence;
   const SimTime measured_arrival = flight.arrival() + SimDuration::from_seconds(flight.timing_error_s);
-  answer.start = std::max(measured_arrival + ping.timing.duration + kPingTurnaround, at);
+  const SimTime due = measured_arrival + ping.timing.duration + kPingTurnaround;
+  const double gained_s = gain_s(clocks, flight.receiver_id, measured_arrival, due);
+  answer.start = std::max(due - SimDuration::from_seconds(gained_s), at);
   answer.kind = PacketKind::kPingReply;
   answer.stamped = false;
   return {answer, ping.departure, ping.timing.duration};

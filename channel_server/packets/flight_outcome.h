@@ -3,6 +3,7 @@
 
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/vehicle_clocks.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -13,11 +14,11 @@ OutcomeKind outcome_before_acquisition(const Flight& flight);
 bool is_shifted_too_far(const Flight& flight);
 
 // The record of a flight that ended as `kind`.
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind);
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleClocks& clocks);
 // Of a packet that does not get as far as `range_m`, at several receivers: kOutOfReach. Levels are kSilence, nothing else was
 // computed.
 PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m);
-// Of a ping that was received by `at`: its addressee's modem answers.
-PingAnswer answer_of(const Flight& flight, SimTime at);
+// Of a ping that was received by `at`: its addressee's modem answers, a turnaround later by its clock.
+PingAnswer answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks);
 
 }  // namespace halocline::channel_server

@@ -29,6 +29,13 @@ Flight& FlightQueue::take_first() {
   return *first.flight;
 }
 
+SimTime FlightQueue::next_ping() const {
+  SimTime next = SimTime::never();
+  for (const Entry& entry : entries_)
+    if (entry.flight->packet->request.kind == PacketKind::kPing) next = std::min(next, entry.at);
+  return next;
+}
+
 Flight& FlightQueue::make_flight() {
   if (ended_.empty()) return flights_.emplace_back();
   Flight* flight = ended_.back();

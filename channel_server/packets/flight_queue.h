@@ -20,6 +20,8 @@ class FlightQueue {
   std::size_t size() const { return entries_.size(); }
   // Of the first, only while not empty.
   SimTime next_event() const { return entries_.front().at; }
+  // The earliest event of a ping; never() without one.
+  SimTime next_ping() const;
   const Flight& first() const { return *entries_.front().flight; }
   // Removes it: to be added again, or to be ended.
   Flight& take_first();

@@ -61,6 +61,7 @@ enum class SendResult {
   kTooEarly,        // the start lies too far in the future
   kQueued,          // accepted; it starts when those before it have ended
   kQueueFull,       // the modem queues, and too many wait already
+  kNoModem,         // the vehicle carries none, or its battery is empty
 };
 
 struct Receipt {
@@ -79,7 +80,8 @@ struct PacketName {
   PacketKind kind = PacketKind::kData;
   VehicleId destination_id = 0;
   SimTime departure;
-  std::int64_t session = 0;  // last: sessions differ from run to run, and decide nothing but ties of all else
+  std::int64_t session = 0;  // sessions differ from run to run, and decide nothing but ties of all else
+  bool is_noise = false;     // no packet: the noise of vehicle source_id
 
   auto operator<=>(const PacketName&) const = default;
 };
@@ -93,10 +95,12 @@ struct Packet {
   Vec3 departure_ned_m = Vec3::Zero();  // where the first bit left
   Vec3 velocity_ned_mps = Vec3::Zero();
   std::shared_ptr<const Packet> answers = {};  // of a kPingReply: the ping
+  bool is_noise = false;                       // no packet: what a vehicle sounds like (vehicle_sounds.h)
+  double energy_j = 0;                         // that it takes from the sender's battery; 0 without one
 
   PacketName name() const {
     return {request.source_id, request.packet_sequence, request.kind, request.destination_id,
-            departure,         request.session};
+            departure,         request.session,         is_noise};
   }
   LinkEnd link_end() const { return {request.source_id, departure_ned_m, velocity_ned_mps, &modem}; }
 };
@@ -120,6 +124,7 @@ enum class OutcomeKind {
   kTooWeak,       // [4] no path: the bounces leave too little of every ray
   kTooSteep,      // [4] no path: every ray that arrives is launched more steeply than is searched
   kOutOfReach,    // [0] so far away at the departure that its sound cannot matter (propagation/reach.h)
+  kNoPower,       // [1] the receiver's battery was empty at the first bit or at the last
 };
 
 // What the outcome was decided by.
@@ -142,9 +147,10 @@ struct PacketOutcome {
   OutcomeKind kind = OutcomeKind::kReceived;
   bool deliver = false;      // received, and addressed to this receiver or to all
   double travel_time_s = 0;  // of the first significant path
-  double measured_travel_time_s =
-      0;  // as the receiver's modem measures it: with noise, in steps of its time quantum
-  double two_way_travel_time_s = 0;  // likewise, of a kPingReply: out and back; else 0
+  SimTime departure_stamp;   // the departure by the sender's clock
+  // As the receiver's modem measures it: with noise, in steps of its time quantum, by its own clock less the stamp.
+  double measured_travel_time_s = 0;
+  double two_way_travel_time_s = 0;  // likewise by its own clock, of a kPingReply: out and back; else 0
   acoustics::LinkBudget budget;      // from the sender at departure to the receiver at arrival
   Decibels cutoff;                   // the receiver's, dB re 1 uPa
   PropagationUsed propagation = PropagationUsed::kStraight;
@@ -154,12 +160,23 @@ struct PacketOutcome {
   double arrival_azimuth_rad = 0;    // towards where the sound came from, from north by east, -pi..pi
   double arrival_elevation_rad = 0;  // likewise, from the horizontal, positive up
   DecisionStatistics statistics;
+  double receive_energy_j =
+      0;  // that the packet took from the receiver's battery; 0 unless acquired, and without one
+};
+
+// What one packet takes from a vehicle's battery: of its sender whole at the departure, of a receiver that acquired it, whatever
+// became of it, at its end.
+struct EnergyUse {
+  std::string vehicle;
+  bool is_transmission = true;
+  double energy_j = 0;
+  PacketName packet;
 };
 
 struct MediumEvent {
   SimTime at;         // exactly when it happened
   bool late = false;  // the medium had been advanced beyond `at` before it could know of this
-  std::variant<Receipt, PacketOutcome, PingAnswer> what;  // answers only for other shards
+  std::variant<Receipt, PacketOutcome, PingAnswer, EnergyUse> what;  // answers only for other shards
 };
 
 }  // namespace halocline::channel_server

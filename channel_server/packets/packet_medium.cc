@@ -6,6 +6,7 @@
 
 #include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
+#include "channel_server/packets/send_decision.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
 #include "core/frames.h"
@@ -24,9 +25,15 @@ constexpr int kMaxSolutions = 64;
 
 PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagation, MediumRule rule,
                            ReachModel* reach, ForEach for_each)
-    : fleet_(fleet), propagation_(propagation), rule_(rule), reach_(reach), for_each_(std::move(for_each)) {
+    : fleet_(fleet),
+      propagation_(propagation),
+      rule_(rule),
+      reach_(reach),
+      for_each_(std::move(for_each)),
+      sounds_(fleet, propagation, reach, rule.fading, rule.noise, rule.seed) {
   require(rule.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
   require(rule.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
+  validate(rule.noise);
 }
 
 std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
@@ -80,9 +87,7 @@ SimTime PacketMedium::next_ping() const {
   if (!may_have_pings_) return next;
   for (const auto& [key, departure] : departures_)
     if (departure.request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
-  for (const auto& [key, flight] : flights_)
-    if (flight->packet->request.kind == PacketKind::kPing) next = std::min(next, std::get<0>(key));
-  return next;
+  return std::min(next, flights_.next_ping());
 }
 
 std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
@@ -109,7 +114,12 @@ bool PacketMedium::must_be_put_off(const Departure& departure) const {
 }
 
 void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events) {
-  if (departure.queued) return launch(at_its_departure(*departure.queued), events);
+  if (departure.queued) {
+    const PacketPointer packet = at_its_departure(*departure.queued, fleet_);
+    // The battery may have run out while it waited: then it is never sent.
+    if (power().has_power(packet->request.source_id, packet->departure)) launch(packet, events);
+    return;
+  }
   if (must_be_put_off(departure)) {
     departure.is_put_off = true;
     const SimTime later = departure.request.start + fleet_.rule().state_lag;
@@ -122,14 +132,15 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   // A payload beyond the largest is refused, so its duration is of no consequence.
   const auto timing =
       packet_timing(modem.modem, std::min(request.payload.size(), largest_payload_bytes(modem)));
-  const Decision decision = decide(request, timing.duration);
+  const SendDecision decision = decide_send(request, timing.duration, fleet_, register_);
   const bool accepted = decision.result == SendResult::kAccepted || decision.result == SendResult::kQueued;
   if (accepted) {
     register_.occupy(request.vehicle, decision.start, timing.duration);
     const auto place = fleet_.placement(request.source_id, request.start, request.start);
-    const auto packet = std::make_shared<const Packet>(Packet{request, decision.start, timing, modem.modem,
-                                                              place->position_ned_m, place->velocity_ned_mps,
-                                                              departure.answers});
+    const auto packet = std::make_shared<const Packet>(
+        Packet{request, decision.start, timing, modem.modem, place->position_ned_m, place->velocity_ned_mps,
+               departure.answers, false,
+               power().transmit_energy_j(request.source_id, modem.modem, timing.duration)});
     if (decision.result == SendResult::kAccepted) {
       launch(packet, events);
     } else {
@@ -147,37 +158,15 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   events.push_back({request.start, request.start < advanced_to_, std::move(receipt)});
 }
 
-PacketMedium::Decision PacketMedium::decide(const SendRequest& request, SimDuration duration) const {
-  const auto id = fleet_.id_of(request.vehicle);
-  const SimTime start = request.start;
-  if (!id || !fleet_.placement(*id, start, start)) return {SendResult::kUnknownVehicle, start};
-  if (*id != request.source_id) return {SendResult::kWrongSource, start};
-  const VehicleModem& modem = fleet_.modem(request.vehicle, start);
-  if (request.payload.size() > largest_payload_bytes(modem)) return {SendResult::kTooLarge, start};
-  if (!register_.is_busy(request.vehicle, start, duration)) return {SendResult::kAccepted, start};
-  if (modem.when_busy == WhenBusy::kRefuse || request.kind == PacketKind::kPingReply) {
-    return {SendResult::kBusy, start};
-  }
-  if (register_.waiting_at(request.vehicle, start) >= kMaxQueued) return {SendResult::kQueueFull, start};
-  return {SendResult::kQueued, register_.free_from(request.vehicle, start)};
-}
-
-// Where the sender is by then, or was when the packet was accepted should it be forgotten since.
-PacketPointer PacketMedium::at_its_departure(const Packet& queued) const {
-  Packet packet = queued;
-  if (const auto place = fleet_.prediction(packet.request.source_id, packet.departure, packet.departure)) {
-    packet.departure_ned_m = place->position_ned_m;
-    packet.velocity_ned_mps = place->velocity_ned_mps;
-  }
-  return std::make_shared<const Packet>(std::move(packet));
-}
-
 // Everybody knows the states of all, so the shard of the sender counts those out of reach.
 void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>& events) {
   const SimTime departure = packet->departure;
   const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
   const bool is_served = rule_.shard.serves(source);
   if (is_served) state_of(source).transmit({packet, departure, departure + packet->timing.duration});
+  if (is_served && power().battery_of(source) != nullptr)
+    events.push_back({departure, departure < advanced_to_,
+                      EnergyUse{packet->request.vehicle, true, packet->energy_j, packet->name()}});
   place_all(fleet_, departure, present_);
   const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present_)
                                            : acoustics::kGreatestBoundedRange;
@@ -221,7 +210,10 @@ bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events)
   if (first.stage == Flight::Stage::kTravelling) {
     const auto end = next_end(first, at, fleet_, propagation_);
     if (!is_solvable(first, end, propagation_)) return false;
-    begin_reception(flights_.take_first(), end, at);
+    arrive(flights_.take_first(), end, at);
+  } else if (first.stage == Flight::Stage::kSolved) {
+    if (!sounds_.are_ready(first, at)) return false;
+    begin_reception(flights_.take_first(), at);
   } else if (first.stage == Flight::Stage::kPreamble) {
     end_preamble(flights_.take_first(), at);
   } else {
@@ -232,23 +224,30 @@ bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events)
   return true;
 }
 
-void PacketMedium::begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at) {
+void PacketMedium::arrive(Flight& flight, const std::optional<LinkEnd>& end, SimTime at) {
   solve_arrival(flight, end, at, fleet_, propagation_);
   const SimTime first_sound = flight.first_sound();
   if (first_sound > at + kSolvedInTime && flight.solutions < kMaxSolutions) {
     return flights_.add(first_sound, flight);
   }
+  if (!sounds_.any()) return begin_reception(flight, at);
+  flight.stage = Flight::Stage::kSolved;
+  flights_.add(at, flight);
+}
+
+void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   const SimTime arrival = flight.arrival();
   auto& budget = flight.reception.budget;
   // The reception holds for a place within a decimetre.
   const auto place = fleet_.prediction(flight.receiver_id, arrival, at);
   if (place) budget.range_m = (place->position_ned_m - flight.packet->departure_ned_m).norm();
-  budget.noise_level = noise_.level(flight.packet->modem.band(), propagation_.environment(arrival).noise);
+  sounds_.set_noise(flight, at);
   const Decibels noise = budget.noise_level - flight.modem.directivity_index;
   budget.snr = budget.received_level - noise - band_loss(flight.packet->modem, flight.modem);
   flight.receiver_absent = !fleet_.is_present(place);
   flight.large_scale = large_scale_of(flight, rule_.fading, rule_.seed);
   flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
+  if (rule_.noise.has_bursts()) add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
   flight.draws = draws_of(rule_.seed, flight.identity, flight.receiver_id);
   flight.sounds_at = &state_of(flight.receiver_id);
   flight.sounds_at->open(audible_packet(flight));
@@ -261,12 +260,13 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at) {
   ReceiverState& receiver = *flight.sounds_at;
   const ReceivedSignal& signal = flight.signal;
   const bool is_impossible = outcome_before_acquisition(flight) != OutcomeKind::kReceived ||
+                             !power().has_power(flight.receiver_id, signal.begin) ||
                              is_shifted_too_far(flight) ||
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight.followed) {
     evaluate_signal(flight, rule_.fading, rule_.seed);
-    const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.preamble_end);
+    const auto others = interferers_of(flight, receiver, signal.begin, signal.preamble_end);
     flight.acquired = acquires(signal, others, flight.draws, flight.statistics);
     if (flight.acquired && signal.fades) {
       const double draw = timing_draw_of(rule_.seed, flight.identity, flight.receiver_id);
@@ -286,6 +286,9 @@ OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
   statistics.success_draw = flight.draws.success;
   flight.receiver_absent = flight.receiver_absent || !fleet_.placement(flight.receiver_id, at, at);
   const OutcomeKind before = outcome_before_acquisition(flight);
+  const bool has_power = power().has_power(flight.receiver_id, signal.begin) &&
+                         power().has_power(flight.receiver_id, signal.end);
+  if (!has_power && before != OutcomeKind::kReceiverGone) return OutcomeKind::kNoPower;
   if (before != OutcomeKind::kReceived) return before;
   const ReceiverState& receiver = *flight.sounds_at;
   for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
@@ -297,17 +300,23 @@ OutcomeKind PacketMedium::decide_outcome(Flight& flight, SimTime at) {
     statistics.colliders.push_back(flight.followed->name());
     return OutcomeKind::kCollided;
   }
-  const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
+  const auto others = interferers_of(flight, receiver, signal.begin, signal.end);
   return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
   const OutcomeKind kind = decide_outcome(flight, at);
-  PacketOutcome outcome = outcome_of(flight, kind);
+  PacketOutcome outcome = outcome_of(flight, kind, fleet_.equipment().clocks);
+  const PowerOf* battery = flight.acquired ? power().battery_of(flight.receiver_id) : nullptr;
+  if (battery != nullptr) {
+    outcome.receive_energy_j = battery->receiving_w * (flight.signal.end - flight.signal.begin).seconds();
+    events.push_back({at, at < advanced_to_,
+                      EnergyUse{flight.receiver, false, outcome.receive_energy_j, flight.packet->name()}});
+  }
   const bool is_answered = outcome.deliver && flight.packet->request.kind == PacketKind::kPing;
   events.push_back({at, at < advanced_to_, std::move(outcome)});
   if (is_answered) {
-    const PingAnswer answer = answer_of(flight, at);
+    const PingAnswer answer = answer_of(flight, at, fleet_.equipment().clocks);
     add_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, false, answer});
   }

@@ -28,6 +28,7 @@ struct VehicleModem {
   std::int32_t max_payload_bytes = 4096;  // of one packet, 0..32 768; the modem's own limit holds as well
   WhenBusy when_busy = WhenBusy::kRefuse;
   std::string profile = kGenericProfile;  // where the numbers come from: a name, or the path of a file
+  bool fitted = true;                     // false: the vehicle carries no modem at all
   bool operator==(const VehicleModem&) const = default;
 };
 

@@ -11,9 +11,9 @@
 
 namespace halocline::clients {
 
-inline constexpr std::size_t kOutcomes = 15;       // packet_outcome_t.RECEIVED to OUT_OF_REACH
-inline constexpr std::size_t kReceiptResults = 9;  // modem_receipt_t.ACCEPTED to REFUSED_QUEUE_FULL
-inline constexpr std::size_t kPropagations = 3;    // packet_outcome_t.STRAIGHT to STRAIGHT_WITHOUT_BOTTOM
+inline constexpr std::size_t kOutcomes = 16;        // packet_outcome_t.RECEIVED to NO_POWER
+inline constexpr std::size_t kReceiptResults = 10;  // modem_receipt_t.ACCEPTED to REFUSED_NO_MODEM
+inline constexpr std::size_t kPropagations = 3;     // packet_outcome_t.STRAIGHT to STRAIGHT_WITHOUT_BOTTOM
 using OutcomeCounts = std::array<std::int64_t, kOutcomes>;          // by packet_outcome_t.outcome
 using PropagationCounts = std::array<std::int64_t, kPropagations>;  // by packet_outcome_t.propagation_used
 

@@ -6,6 +6,7 @@
 
 #include "bus/message_checks.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/sensors/sensor_errors.h"
 
 namespace halocline::vehicle_sim {
@@ -33,7 +34,8 @@ TEST(VehicleSimMessages, AStateSurvivesTheRoundTrip) {
 }
 
 TEST(VehicleSimMessages, ACommandSurvivesTheRoundTrip) {
-  const TimedCommand command{kWhen, {0.1, -0.2, 25, {10, -20, 30, -40}, 2e-4, -0.03, DropWeightState::kReleased}};
+  const TimedCommand command{kWhen,
+                             {0.1, -0.2, 25, {10, -20, 30, -40}, 2e-4, -0.03, DropWeightState::kReleased}};
   const vehicle_command_t message = to_command_message(command);
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.propeller_rpm, 1500);

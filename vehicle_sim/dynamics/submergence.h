@@ -7,6 +7,7 @@
 // the change of added mass. Hulls with floats are not this: floats.h.
 #pragma once
 
+#include "core/frames.h"
 #include "vehicle_sim/dynamics/vehicle_model.h"
 #include "vehicle_sim/dynamics/vehicle_state.h"
 

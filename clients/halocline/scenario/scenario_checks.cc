@@ -16,6 +16,7 @@
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation.h"
+#include "clients/autopilot/plan.h"
 #include "clients/halocline/scenario/speed_trial.h"
 #include "clients/localiser/localiser_config.h"
 #include "clients/traffic/traffic_config.h"

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/autopilot/guidance.h"
+#include "core/frames.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"

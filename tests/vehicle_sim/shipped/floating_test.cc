@@ -1,4 +1,5 @@
 // Hulls that pierce the surface: hydrostatics, free heave, and motion in waves against closed forms.
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -7,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/shipped/shipped_model.h"

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "core/frames.h"
 #include "core/units.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/shipped/shipped_model.h"
 #include "vehicle_sim/dynamics/actuator_forces.h"
+#include "vehicle_sim/dynamics/body_axes.h"
 #include "vehicle_sim/dynamics/hull_forces.h"
 
 namespace halocline::vehicle_sim {

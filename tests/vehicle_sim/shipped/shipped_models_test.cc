@@ -8,11 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "core/archive.h"
 #include "core/random.h"
 #include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
 #include "tests/vehicle_sim/shipped/shipped_model.h"
 #include "tests/vehicle_sim/world/grounds.h"
+#include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/fleet.h"
 
