@@ -43,7 +43,8 @@ struct ReachRule {
   bool by_level = true;      // false: everybody reaches everybody
   Decibels below_noise{30};  // 0..200
   acoustics::FadingModel fading = {};
-  double table_range_m = 0;  // the range of reception is no more than that; 0: by level alone
+  double noise_spread_db = 0;  // standard deviation of the noise; three of them count as quieter
+  double table_range_m = 0;    // the range of reception is no more than that; 0: by level alone
 };
 
 // Sound that left before is not under way any more: it has gone 180 km.
