@@ -195,6 +195,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(OutcomeKind::kOutOfReach), packet_outcome_t::OUT_OF_REACH);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kAsleep), packet_outcome_t::ASLEEP);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kExtraLoss), packet_outcome_t::EXTRA_LOSS);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kNoPower), packet_outcome_t::NO_POWER);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionBegan), modem_event_t::TRANSMISSION_BEGAN);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionEnded), modem_event_t::TRANSMISSION_ENDED);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kPacketDetected), modem_event_t::PACKET_DETECTED);
@@ -213,6 +214,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_send_t::PING);
   EXPECT_EQ(static_cast<int>(SendResult::kNoRate), modem_receipt_t::REFUSED_NO_RATE);
   EXPECT_EQ(static_cast<int>(SendResult::kNoKind), modem_receipt_t::REFUSED_NO_KIND);
+  EXPECT_EQ(static_cast<int>(SendResult::kNoModem), modem_receipt_t::REFUSED_NO_MODEM);
   EXPECT_EQ(static_cast<int>(PacketKind::kAck), modem_receive_t::ACK);
   EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_send_t::MINI_PACKET);
   EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_receive_t::MINI_PACKET);
