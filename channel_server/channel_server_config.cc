@@ -116,6 +116,8 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
               "level: links over which sound cannot matter are left out (docs/packets.md); none: none is");
   v.number("reach_below_noise_db", r.reach.below_noise.value,
            {0, 200, "dB", "reach: how far below the noise sound disturbs nobody"});
+  v.number("reach_acquired_once_in", r.reach.acquired_once_in,
+           {10, 1e5, "packets", "reach: a preamble that is acquired no more often is not noticed"});
   v.number("table_range_m", r.reach.table_range_m,
            {0, 4e7, "m", "link tables: peers further away have no row; 0: only those who cannot be heard"});
   visit_count(v, "bottom_points", r.bottom_points,

@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "core/units.h"
+
 namespace halocline::channel_server {
 namespace {
 
@@ -31,7 +33,7 @@ Message common_fields(const PacketOutcome& outcome, SimTime at) {
   message.duration_s = outcome.packet->timing.duration.seconds();
   message.noise_level_db = outcome.budget.noise_level.value;
   message.num_frames = static_cast<std::int32_t>(outcome.packet->frame_bytes.size());
-  message.frames_good = outcome.statistics.frames_good;
+  message.frames_good = outcome.kind == OutcomeKind::kReceived ? outcome.statistics.frames_good : 0;
   return message;
 }
 
@@ -141,7 +143,7 @@ packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at) {
   auto message = common_fields<packet_outcome_t>(outcome, at);
   message.outcome = static_cast<std::int8_t>(outcome.kind);
   message.num_receivers = static_cast<std::int32_t>(outcome.receivers);
-  message.num_frames_good = std::popcount(outcome.statistics.frames_good);
+  message.num_frames_good = std::popcount(static_cast<std::uint64_t>(message.frames_good));
   message.range_m = outcome.budget.range_m;
   message.transmission_loss_db = outcome.budget.transmission_loss.value;
   message.cutoff_level_db = outcome.cutoff.value;

@@ -30,7 +30,7 @@ template <typename Chance>
 double most_over_fading(const FadingModel& model, double mean_sinr, Chance chance) {
   if (!model.enabled) return chance(mean_sinr);
   if (!(model.large_scale_db > 0)) return most_over_rayleigh_fading(mean_sinr, chance);
-  constexpr double kStep = 0.25, kMost = 4;  // standard deviations; what is beyond (3e-5) counts as certain
+  constexpr double kStep = 0.25, kMost = 5;  // standard deviations; what is beyond (3e-7) counts as certain
   const double deviation = std::numbers::ln10 / 10 * model.large_scale_db;
   double most = 1 - normal_probability(kMost), below = 0;
   for (double z = -kMost + kStep; z <= kMost; z += kStep) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 
 #include "acoustics/rays/profile_path.h"
 #include "core/elementary.h"
@@ -10,11 +12,11 @@
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kCoarseness = 3;    // windows over those of a search's fan
-constexpr double kLeastSine = 0.02;  // where a ray turns its density is bounded by this
-constexpr double kKeptShare = 0.99;  // of the power
-constexpr double kFarAway = 10;      // depths
-constexpr double kWeak = 0.25;       // of the power of what is diffuse
+constexpr double kCoarseness = 3;        // windows over those of a search's fan
+constexpr double kLeastSine = 0.02;      // where a ray turns its density is bounded by this
+constexpr double kKeptShare = 0.99;      // of the power
+constexpr double kFarAway = 10;          // depths
+constexpr int kEnds = 12, kBottoms = 5;  // depths of ends and of bottoms at which the least loss is sought
 
 double sine_at(double xi, double speed) { return std::sqrt(std::max(1 - xi * xi * speed * speed, 0.0)); }
 
@@ -48,6 +50,10 @@ double add_leg(const RayWater& water, double xi, double depth_m, double limit_m,
     if (down ? layer + 1 < water.layers() : layer > 0) layer += down ? 1 : -1;
   }
   return z;
+}
+
+double weak_power(const RayOptions& options) {
+  return kWeakShare * options.diffuse_below_pressure * options.diffuse_below_pressure;
 }
 
 double power_of(const Arrival& path) { return path.received_pressure() * path.received_pressure(); }
@@ -109,9 +115,7 @@ void keep_most(std::vector<Arrival>& windows) {
                    [](const Arrival& a, const Arrival& b) { return a.delay_s < b.delay_s; });
 }
 
-}  // namespace
-
-std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link) {
+std::vector<Arrival> all_windows(const MixedSea& sea, const RayLink& link) {
   const std::vector<double> edges = even_angles(sea.options.max_launch_angle_rad, kCoarseness);
   std::vector<Arrival> windows;
   for (std::size_t i = 1; i < edges.size(); ++i) {
@@ -120,20 +124,87 @@ std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link) {
     window->identity = diffuse_identity(window->launch_angle_rad, i);
     windows.push_back(*window);
   }
+  return windows;
+}
+
+}  // namespace
+
+std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link) {
+  std::vector<Arrival> windows = all_windows(sea, link);
   keep_most(windows);
   return windows;
 }
 
+bool may_be_weak(const RayWater& water, const RayOptions& options, const RayLink& link) {
+  const double r = link.range_m, absorption_db = r * water.absorption_db_per_m(link.source_depth_m);
+  const double direct = elementary::exp10(-absorption_db / 10) / (r * r);
+  return options.diffuse_below_db > 0 && direct <= weak_power(options);
+}
+
 std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link) {
-  const double pressure = sea.options.diffuse_below_pressure, r = link.range_m;
-  if (sea.options.diffuse_below_db <= 0 || r < kFarAway * sea.depth_m) return std::nullopt;
-  const double absorption_db = r * sea.water.absorption_db_per_m(link.source_depth_m);
-  const double direct = elementary::exp10(-absorption_db / 10) / (r * r), weak = kWeak * pressure * pressure;
-  if (direct > weak) return std::nullopt;
+  if (link.range_m < kFarAway * sea.depth_m || !may_be_weak(sea.water, sea.options, link))
+    return std::nullopt;
   std::vector<Arrival> windows = mixed_arrivals(sea, link);
   double power = 0;
   for (const Arrival& window : windows) power += power_of(window);
-  return windows.empty() || power > weak ? std::nullopt : std::optional(std::move(windows));
+  return windows.empty() || power > weak_power(sea.options) ? std::nullopt
+                                                            : std::optional(std::move(windows));
+}
+
+// All that a window loses grows with the range, so what it loses in a metre tells all.
+LeastMixedLoss::LeastMixedLoss(const MixedSea& sea, const Depths& depths, Decibels gain)
+    : shortest_m_(kFarAway * depths.greatest_m),
+      least_absorption_db_per_m_(std::numeric_limits<double>::infinity()),
+      gain_(gain) {
+  constexpr double kMetre = 1, kNepersPerDb = std::numbers::ln10 / 10;
+  const double growth = elementary::exp(elementary::log(depths.greatest_m / depths.least_m) / (kBottoms - 1));
+  double depth_m = depths.least_m;
+  for (int bottom = 0; bottom < kBottoms; ++bottom, depth_m *= growth) {
+    const MixedSea here{sea.water, depth_m, sea.bottom, sea.surface, sea.options};
+    const double step_m = std::min(depths.deepest_end_m, depth_m) / kEnds;
+    for (int i = 0; i < kEnds; ++i) {
+      least_absorption_db_per_m_ =
+          std::min(least_absorption_db_per_m_, sea.water.absorption_db_per_m(i * step_m));
+      for (int j = 0; j <= i; ++j) {
+        links_.emplace_back();
+        for (const Arrival& one : all_windows(here, {(i + 0.5) * step_m, (j + 0.5) * step_m, kMetre})) {
+          const double boundaries_db = one.surface_loss_db + one.bottom_loss_db;
+          if (!(one.amplitude > 0)) continue;
+          links_.back().push_back({one.amplitude * one.amplitude * elementary::exp10(boundaries_db / 10),
+                                   kNepersPerDb * (one.absorption_db + boundaries_db)});
+        }
+      }
+    }
+  }
+}
+
+Decibels LeastMixedLoss::at(double range_m) const {
+  double most = 0;
+  for (const std::vector<Window>& link : links_) {
+    double power = 0;
+    for (const Window& window : link)
+      power += window.power_m * elementary::exp(-window.nepers_per_m * range_m);
+    most = std::max(most, power / range_m);
+  }
+  return most > 0 ? -to_decibels(PowerRatio{most}) - gain_
+                  : Decibels{std::numeric_limits<double>::infinity()};
+}
+
+double LeastMixedLoss::range_of(Decibels loss, Decibels weak_loss) const {
+  constexpr double kBeyondAll = std::numeric_limits<double>::infinity(), kFurthest = 1e7;
+  if (loss < weak_loss) return kBeyondAll;
+  const auto matters = [&](double range_m) {
+    const double direct_db = 20 * elementary::log10(range_m) + least_absorption_db_per_m_ * range_m;
+    return at(range_m) <= loss || direct_db <= weak_loss.value;
+  };
+  if (!matters(shortest_m_)) return shortest_m_;
+  double low = shortest_m_, high = std::max(kFurthest, shortest_m_);
+  if (matters(high)) return kBeyondAll;
+  while (high > low * (1 + 1e-4)) {
+    const double middle = std::sqrt(low * high);
+    (matters(middle) ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace halocline::acoustics

@@ -16,6 +16,7 @@
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "acoustics/sea/ray_water.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 
@@ -33,6 +34,41 @@ std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link);
 
 // The same of a link that is weak: more than 10 depths long, all of it, and a direct path alone, 6 dB below
 // RayOptions::diffuse_below_pressure. Empty for others.
+inline constexpr double kWeakShare = 0.25;  // of that pressure's power
 std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link);
+// Whether it is weak over some bottom: its direct path alone is.
+bool may_be_weak(const RayWater& water, const RayOptions& options, const RayLink& link);
+
+// The least that weak links lose, wherever their ends and their bottom lie: a bound by which those that cannot matter are
+// recognised before anything of them is computed.
+//
+// The energy of mixed rays is greatest at some depths of both ends and of the bottom, among kEnds and kBottoms of each, evenly
+// spread (0.3 dB less than between them in a summer's thermocline). A weak link over an uneven bottom has that energy. Over an
+// even one its rays are traced: `gain` is what they may have beside the mean (least_loss.h).
+class LeastMixedLoss {
+ public:
+  struct Depths {
+    double least_m, greatest_m;  // of the water between the ends, mean; above 0, rising
+    double deepest_end_m;        // above 0
+  };
+  // Makes 2 ms of work. `depth_m` of the sea is not used.
+  LeastMixedLoss(const MixedSea& sea, const Depths& depths, Decibels gain);
+
+  // At `range_m` > 0; it rises with range.
+  Decibels at(double range_m) const;
+  // All links that are longer lose more than `loss`, where links with less energy than `weak_loss` leaves are weak. Infinite where
+  // less is asked for.
+  double range_of(Decibels loss, Decibels weak_loss) const;
+
+ private:
+  // The power of a window over the range r is power_m / r exp(-nepers_per_m r).
+  struct Window {
+    double power_m, nepers_per_m;
+  };
+  double shortest_m_;                 // no weak link is shorter
+  double least_absorption_db_per_m_;  // where an end may be
+  Decibels gain_;
+  std::vector<std::vector<Window>> links_;
+};
 
 }  // namespace halocline::acoustics

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::acoustics {
 namespace {

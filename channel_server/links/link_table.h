@@ -9,6 +9,7 @@
 
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
+#include "acoustics/modem/modem.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/shard.h"

@@ -9,6 +9,7 @@
 
 #include "acoustics/modem/beam_pattern.h"
 #include "channel_server/modems/built_in_modems.h"
+#include "channel_server/vehicles/modem_rates.h"
 #include "core/check.h"
 #include "core/names.h"
 

@@ -147,6 +147,14 @@ AudiblePacket audible_packet(const Flight& flight) {
   return audible;
 }
 
+AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach) {
+  AudiblePacket audible = audible_packet(flight);
+  double power = 0;
+  for (const AudiblePath& path : audible.paths) power += path.power;
+  if (reach != nullptr && !reach->disturbs(power, flight.signal.noise)) audible.paths.clear();
+  return audible;
+}
+
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed) {
   return acoustics::LinkFading(fading, fading_link(flight, seed)).large_scale(flight.lock());
 }

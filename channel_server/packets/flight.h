@@ -26,6 +26,7 @@
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/propagation/propagation.h"
+#include "channel_server/propagation/reach.h"
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
@@ -90,6 +91,8 @@ bool is_solvable(const Flight& flight, const std::optional<LinkEnd>& end, Propag
 
 // All paths of a flight that has arrived, as the receiver gets them, with the link's large-scale fading.
 AudiblePacket audible_packet(const Flight& flight);
+// The same, without paths where they are too weak to disturb; such a packet may be acquired all the same. Without `reach` all disturb.
+AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach);
 // The packet's times at the receiver; `noise` in uPa^2 over the packet's band, less the receiver's directivity.
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading);
 // Sets signal and echoes over those times. Of no path: they stay empty.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/packets/vehicle_sounds.h"

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "channel_server/vehicles/modem_rates.h"
+
 namespace halocline::channel_server {
 namespace {
 

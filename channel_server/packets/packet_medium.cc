@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "acoustics/modem/modem.h"
 #include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/packets/send_decision.h"
@@ -261,11 +262,10 @@ void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   if (rule_.noise.has_bursts()) add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
   flight.draws = draws_of(rule_.seed, *flight.packet, flight.identity, flight.receiver_id);
   flight.sounds_at = &state_of(flight.receiver_id);
-  flight.sounds_at->open(audible_packet(flight));
+  flight.sounds_at->open(disturbing_sound(flight, reach_));
   watch_.judge_carrier_at(flight.receiver_id, at);
   flight.stage = Flight::Stage::kPreamble;
-  const SimTime preamble_end = std::max(flight.signal.preamble_end, at);
-  flights_.add(preamble_end, flight);
+  flights_.add(std::max(flight.signal.preamble_end, at), flight);
 }
 
 void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {
@@ -291,8 +291,7 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
     watch_.detect(flight, events);
   }
   flight.stage = Flight::Stage::kBits;
-  const SimTime last_bit = std::max(signal.end, at);
-  flights_.add(last_bit, flight);
+  flights_.add(std::max(signal.end, at), flight);
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {

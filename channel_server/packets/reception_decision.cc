@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "acoustics/modem/modem.h"
+#include "acoustics/modem/packet_format.h"
 #include "acoustics/reception/decoding.h"
 #include "core/random.h"
 

@@ -234,7 +234,7 @@ void LinkSearches::find_own(const std::vector<Task>& tasks, const ForEach& for_e
 
 LinkSearches::Paths LinkSearches::search(const Task& task) const {
   const PathQuery& query = task.query;
-  if (!query.given) {
+  if (!query.given && may_be_weak(model_, *task.water, query)) {
     const auto [north, east, last_north, last_east] = query.places;
     const auto z_m = seabed_->places_between({north, east, 0}, {last_north, last_east, 0});
     if (!z_m) return nullptr;

@@ -125,6 +125,10 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
   return found;
 }
 
+bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {
+  return acoustics::may_be_weak(water, options_of(model, query), query.link);
+}
+
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
                                              const acoustics::Environment& environment,
                                              const PathQuery& query, std::span<const double> seabed_z_m) {

@@ -116,6 +116,9 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
                                              const acoustics::Environment& environment,
                                              const PathQuery& query, std::span<const double> seabed_z_m);
 
+// Whether that may be found, before its bottom is looked at.
+bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query);
+
 // Bounces that a link's paths may have: 0.6 of range over mean depth (above 0), 60 at least and 10 000 at most. A path that
 // drops by the depth D from one bounce to the next meets the boundaries r tan(angle) / D times over the range r, so these are
 // all up to 31 degrees, the critical angle of medium sand; steeper ones lose several dB at each bounce.

@@ -25,6 +25,7 @@
 #include "acoustics/link/least_loss.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
+#include "acoustics/link/mixed_link.h"
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -105,6 +106,13 @@ struct Reception {
   std::shared_ptr<const acoustics::MeasuredChannel> measured = {};
 };
 
+// What is known of links so weak that only their energy is computed: all whose energy lies this far below the noise over the
+// transmitter's band, less the receiver's directivity.
+struct WeakLinks {
+  acoustics::LeastMixedLoss loss;
+  Decibels below_noise;
+};
+
 // Index of the first path within kSignificantBelowStrongest of the strongest; `paths` by delay, not empty.
 std::size_t first_significant(const std::vector<SoundPath>& paths);
 // Of paths by delay: from the first significant to the last significant; 0 of one path or none.
@@ -171,6 +179,11 @@ class Propagation {
   // empty: levels have no bound by range.
   virtual std::optional<acoustics::LeastLoss> least_loss(SimTime /*at*/, double /*frequency_hz*/,
                                                          double /*deepest_end_m*/) const {
+    return std::nullopt;
+  }
+  // Empty where weak links are computed as others, or the depth of the water is not known.
+  virtual std::optional<WeakLinks> weak_links(SimTime /*at*/, double /*frequency_hz*/,
+                                              double /*deepest_end_m*/) const {
     return std::nullopt;
   }
   // The water at `at`; valid until the next change.

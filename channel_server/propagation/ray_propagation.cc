@@ -11,10 +11,12 @@
 #include "acoustics/link/field_section.h"
 #include "acoustics/link/link_budget.h"
 #include "acoustics/link/link_kernel.h"
+#include "acoustics/link/mixed_link.h"
 #include "acoustics/link/received_field.h"
 #include "acoustics/rays/arc_tracer.h"
 #include "acoustics/reception/guard_window.h"
 #include "acoustics/sea/bottom_profile.h"
+#include "acoustics/sea/ray_water.h"
 #include "channel_server/propagation/link_tracks.h"
 #include "channel_server/propagation/path_search.h"
 #include "channel_server/propagation/ray_tracks.h"
@@ -97,6 +99,21 @@ std::optional<acoustics::LeastLoss> RayPropagation::least_loss(SimTime at, doubl
   const Decibels gain = gain_beyond_powers(model_, waters_->at(at));
   return acoustics::LeastLoss::of_rays(waters_->at(at), frequency_hz, deepest_end_m, gain,
                                        {model_.least_depth_m, model_.greatest_depth_m, model_.bottom});
+}
+
+std::optional<WeakLinks> RayPropagation::weak_links(SimTime at, double frequency_hz,
+                                                    double deepest_end_m) const {
+  const acoustics::Environment& environment = waters_->at(at);
+  if (!(model_.options.diffuse_below_db > 0) || !(model_.least_depth_m > 0) || environment.field)
+    return std::nullopt;
+  const acoustics::RayWater water = ray_water(environment, frequency_hz, model_.speed_tolerance_mps);
+  acoustics::RayOptions options = model_.options;
+  options.frequency_hz = frequency_hz;
+  const acoustics::MixedSea sea{
+      water, model_.least_depth_m, model_.bottom, {model_.surface, environment.noise.wind_mps}, options};
+  const Decibels gain = acoustics::kFocusingGain + gain_beyond_powers(model_, environment);
+  return WeakLinks{{sea, {model_.least_depth_m, model_.greatest_depth_m, deepest_end_m}, gain},
+                   model_.diffuse_below_noise - to_decibels(PowerRatio{acoustics::kWeakShare})};
 }
 
 Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,

@@ -106,6 +106,7 @@ class RayPropagation : public Propagation {
   }
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override;
+  std::optional<WeakLinks> weak_links(SimTime at, double frequency_hz, double deepest_end_m) const override;
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }
 
   std::int64_t searches() const { return searches_.searches(); }  // of paths, since the start

@@ -10,6 +10,7 @@
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/sea/noise.h"
+#include "channel_server/vehicles/modem_rates.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
 #include "core/elementary.h"
@@ -18,9 +19,7 @@
 namespace halocline::channel_server {
 namespace {
 
-constexpr std::size_t kMaxRanges = 4096;
-constexpr double kNegligibleProbability = 1e-5;
-constexpr double kLargeScaleDeviations = 3;
+constexpr std::size_t kMaxRanges = 4096, kMaxModems = 256;
 // Depths are rounded up to these times a power of two, m: the reach of a crowd does not change whenever one dives.
 constexpr double kDepthUnit = 25;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -36,11 +35,11 @@ double least_noise_density(const acoustics::Band& band, const acoustics::NoiseSo
 }
 
 // The mean ratio below which a preamble is as good as never acquired, dB; -infinity of none.
-double unnoticed_sinr_db(const acoustics::Modem& modem, bool fades) {
+double unnoticed_sinr_db(const acoustics::Modem& modem, const ReachRule& rule) {
   if (modem.preamble == SimDuration()) return kNever;
   const auto acquired = [&](double sinr) { return acoustics::acquisition_probability(modem, {sinr}); };
-  return acoustics::least_mean_db(kNegligibleProbability, [&](double mean_sinr) {
-    return fades ? acoustics::most_over_rayleigh_fading(mean_sinr, acquired) : acquired(mean_sinr);
+  return acoustics::least_mean_db(1 / rule.acquired_once_in, [&](double mean_sinr) {
+    return acoustics::most_over_fading(rule.fading, mean_sinr, acquired);
   });
 }
 
@@ -51,6 +50,16 @@ bool may_receive(const acoustics::Modem& sender, const acoustics::Modem& receive
 // Over the sender's band.
 Decibels noise_at(const acoustics::Modem& sender, const acoustics::Modem& receiver, PowerRatio density) {
   return to_decibels({density.value * sender.bandwidth_hz}) - receiver.directivity_index;
+}
+
+Decibels least_level(const ReachRule& rule, const acoustics::Modem& sender, const acoustics::Modem& receiver,
+                     PowerRatio noise_density, double unnoticed_db) {
+  constexpr double kNoiseDeviations = 3;
+  const Decibels noise =
+      noise_at(sender, receiver, noise_density) - Decibels{kNoiseDeviations * rule.noise_spread_db};
+  const Decibels disturbs = noise - rule.below_noise;
+  if (!may_receive(sender, receiver)) return disturbs;
+  return std::min(disturbs, std::max(noise + Decibels{unnoticed_db}, receiver.min_receivable_level));
 }
 
 Decibels least_beam_loss(const acoustics::Modem& modem) {
@@ -66,15 +75,7 @@ Decibels least_beam_loss(const acoustics::Modem& modem) {
 
 Decibels least_level_that_matters(const ReachRule& rule, const acoustics::Modem& sender,
                                   const acoustics::Modem& receiver, PowerRatio noise_density) {
-  const bool fades = rule.fading.enabled;
-  const Decibels fading{fades ? kLargeScaleDeviations * rule.fading.large_scale_db : 0};
-  constexpr double kNoiseDeviations = 3;
-  const Decibels noise =
-      noise_at(sender, receiver, noise_density) - Decibels{kNoiseDeviations * rule.noise_spread_db};
-  const Decibels disturbs = noise - rule.below_noise;
-  if (!may_receive(sender, receiver)) return disturbs;
-  const Decibels acquired = noise - fading + Decibels{unnoticed_sinr_db(sender, fades)};
-  return std::min(disturbs, std::max(acquired, receiver.min_receivable_level));
+  return least_level(rule, sender, receiver, noise_density, unnoticed_sinr_db(sender, rule));
 }
 
 // It is met no later than after range / (c - v), and no nearer than range - v range / (c - v).
@@ -86,8 +87,13 @@ bool stays_beyond(double reach_m, double range_m, double speed_mps) {
 
 ReachModel::ReachModel(std::shared_ptr<const EnvironmentTimeline> waters, const Propagation& propagation,
                        const ReachRule& rule)
-    : waters_(std::move(waters)), propagation_(propagation), rule_(rule), ranges_(kMaxRanges) {
+    : waters_(std::move(waters)),
+      propagation_(propagation),
+      rule_(rule),
+      ranges_(kMaxRanges),
+      unnoticed_(kMaxModems) {
   require_in_range(rule.below_noise.value, 0, 200, "level below the noise that disturbs nobody", "dB");
+  require_in_range(rule.acquired_once_in, 10, 1e5, "packets of which one is acquired unnoticed", "");
   require_in_range(rule.table_range_m, 0, acoustics::kGreatestBoundedRange, "range of link tables", "m");
 }
 
@@ -145,8 +151,10 @@ double ReachModel::reach_m(SimTime at, const acoustics::Modem& sender, const Cro
        change = waters_->next_change_after(change)) {
     density = std::min(density, least_noise_density(sender.band(), waters_->at(change).noise));
   }
+  const double unnoticed_db =
+      unnoticed_.find_or_make(key_of(sender), [&] { return unnoticed_sinr_db(sender, rule_); });
   const auto beyond_m = [&](const acoustics::Modem& receiver) {
-    return range_m(at, sender, receiver, least_level_that_matters(rule_, sender, receiver, {density}),
+    return range_m(at, sender, receiver, least_level(rule_, sender, receiver, {density}, unnoticed_db),
                    crowd.deepest_m);
   };
   double reach_m = beyond_m(sender);
@@ -172,7 +180,13 @@ double ReachModel::range_m(SimTime at, const acoustics::Modem& sender, const aco
   return ranges_.find_or_make(key, [&] {
     const auto loss = propagation_.least_loss(at, sender.centre_frequency_hz, deepest_m);
     if (!loss) return acoustics::kGreatestBoundedRange;
-    return loss->range_of(sender.source_level - least_beam_loss(sender) - least_beam_loss(receiver) - least);
+    const Decibels most = sender.source_level - least_beam_loss(sender) - least_beam_loss(receiver) - least;
+    const double range_m = loss->range_of(most);
+    const auto weak = propagation_.weak_links(at, sender.centre_frequency_hz, deepest_m);
+    if (!weak) return range_m;
+    const PowerRatio density{least_noise_density(sender.band(), waters_->at(at).noise)};
+    const Decibels weak_level = noise_at(sender, receiver, density) - weak->below_noise;
+    return std::min(range_m, weak->loss.range_of(most, sender.source_level - weak_level));
   });
 }
 

@@ -6,12 +6,12 @@
 //   ratio, and 0.04 dB where large-scale fading raises it by three standard deviations of 3 dB:
 //     least noise density over the sender's band * its bandwidth - directivity index - below_noise
 // - what a receiver of the same family and with a common band notices: the greater of its cut-off level, and the level at which
-//   the preamble is acquired with a probability of 1e-5, the power of the preamble exponentially distributed where it fades. A
+//   the preamble is acquired once in `acquired_once_in` (100 000) packets over all fading (acoustics/fading/fading_bounds.h). A
 //   packet without a preamble is always acquired: then the cut-off alone counts. One that is not acquired is neither
 //   received nor followed.
 // The sender's reach is the range at which source level + both beams at their best - least loss (acoustics/link/least_loss.h)
-// falls below the lower of them; of all modems in use (its own is among them) the greatest. What is noticed takes
-// large-scale fading at three standard deviations.
+// falls below the lower of them; of all modems in use (its own is among them) the greatest. Where links are so weak there that
+// only their energy is computed (Propagation::weak_links), the least loss is that of their energy.
 //
 // Noise: the least of the waters known to hold within kLongestFlight from then on. Modems: those carried then, or announced
 // to be carried within that time. Left out: changes of water and modems that are announced after the departure.
@@ -40,8 +40,9 @@
 namespace halocline::channel_server {
 
 struct ReachRule {
-  bool by_level = true;      // false: everybody reaches everybody
-  Decibels below_noise{30};  // 0..200
+  bool by_level = true;           // false: everybody reaches everybody
+  Decibels below_noise{30};       // 0..200
+  double acquired_once_in = 1e5;  // packets, 10..1e5: what is acquired less often is not noticed
   acoustics::FadingModel fading = {};
   double noise_spread_db = 0;  // standard deviation of the noise; three of them count as quieter
   double table_range_m = 0;    // the range of reception is no more than that; 0: by level alone
@@ -70,6 +71,10 @@ class ReachModel {
   // range, which contains everybody, without a rule and where the propagation states no bound.
   double reach_m(SimTime at, const acoustics::Modem& sender, const VehicleRegistry& registry,
                  const std::vector<PlacedVehicle>& vehicles);
+  // Whether sound of this power where the noise has that one, over the same band, may disturb.
+  bool disturbs(double power, double noise) const {
+    return !rule_.by_level || power >= noise * to_power_ratio(-rule_.below_noise).value;
+  }
   // The mean ratio, dB, below which no packet of this modem is received.
   using LeastRatio = std::function<double(const acoustics::Modem&)>;
   // The ranges of reception of each of them, in their order; m, as reach_m().
@@ -101,6 +106,7 @@ class ReachModel {
   const Propagation& propagation_;
   ReachRule rule_;
   LruCache<Key, double> ranges_;
+  LruCache<ModemKey, double> unnoticed_;  // ratios, dB
 };
 
 }  // namespace halocline::channel_server

@@ -79,12 +79,6 @@ class SeabedMap::Reader {
     tile_ = found == map_.tiles_.end() ? nullptr : &found->second;
     return tile_;
   }
-  double point(std::int64_t north, std::int64_t east) {
-    const Tile* tile = tile_at(north, east);
-    if (tile == nullptr || !tile->answered) return kUnknown;
-    return tile
-        ->z_m[static_cast<std::size_t>((north - kSide * index_.north) * kSide + east - kSide * index_.east)];
-  }
   double seabed(const Line& line, int sample) {
     const double way = sample * line.spacing_m;
     const double north = (line.north_m + way * line.along_north) / map_.rule_.spacing_m,
@@ -100,8 +94,25 @@ class SeabedMap::Reader {
     read_ = true;
     cell_north_ = n;
     cell_east_ = e;
-    for (int i = 0; i < kReach; ++i) {
-      for (int j = 0; j < kReach; ++j) cell_[i][j] = point(n - kReachBefore + i, e - kReachBefore + j);
+    // They lie in two tiles each way at most.
+    static_assert(kReach <= kSide);
+    const std::int64_t north = n - kReachBefore, east = e - kReachBefore;
+    const int i_next = std::min(static_cast<int>(kSide * (tile_of(north) + 1) - north), kReach),
+              j_next = std::min(static_cast<int>(kSide * (tile_of(east) + 1) - east), kReach);
+    read_part(north, east, 0, i_next, 0, j_next);
+    read_part(north, east, 0, i_next, j_next, kReach);
+    read_part(north, east, i_next, kReach, 0, j_next);
+    read_part(north, east, i_next, kReach, j_next, kReach);
+  }
+  // Of the cell whose first depth is that of the point (n, e), those that lie in one tile.
+  void read_part(std::int64_t n, std::int64_t e, int first_i, int end_i, int first_j, int end_j) {
+    if (first_i == end_i || first_j == end_j) return;
+    const Tile* tile = tile_at(n + first_i, e + first_j);
+    const bool known = tile != nullptr && tile->answered;
+    const std::int64_t origin = (n - kSide * index_.north) * kSide + e - kSide * index_.east;
+    for (int i = first_i; i < end_i; ++i) {
+      for (int j = first_j; j < end_j; ++j)
+        cell_[i][j] = known ? tile->z_m[static_cast<std::size_t>(origin + i * kSide + j)] : kUnknown;
     }
   }
   // At `u` of the way north and `v` of the way east of point (n, e).

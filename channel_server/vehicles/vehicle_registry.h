@@ -60,7 +60,7 @@ class VehicleRegistry {
   void visit_present(SimTime instant, Visit&& visit) const {
     for (const auto& vehicle : vehicles_) {
       const auto place = vehicle->states.at(instant, instant, rule_);
-      if (is_present(place)) visit(vehicle->id, *place, vehicle->modems.at(instant));
+      if (is_present(place)) visit(vehicle->id, *place, vehicle->announced.modems.at(instant));
     }
   }
   // Where the vehicle is at `instant` as decided at `decided_at`; empty when unknown or its state is too old.

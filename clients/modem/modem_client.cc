@@ -173,7 +173,8 @@ void ModemClient::take_packet(const modem_receive_t& packet) {
     return;
   }
   ++counters_.received;
-  if (packet.packet_kind == modem_receive_t::ACK) ++counters_.acknowledged;
+  if (packet.packet_kind == modem_receive_t::ACK && packet.destination_id == address_.vehicle_id)
+    ++counters_.acknowledged;  // and none overheard
   if (receive_handler_) return receive_handler_(packet);
   waiting_.push_back(packet);
   if (waiting_.size() > kMaxWaiting) {

@@ -60,12 +60,13 @@ payload_bytes = 32
 # Along rays the bottom and the surface scatter.
 SOURCE_LEVEL_DB = {"straight": 132.0, "rays": 145.0}
 # Along rays: how deep the water is, which bounds how far sound gets; energy for what lies below the noise; packets and tables share
-# searches, one a second for two vehicles.
+# searches, one a second for two vehicles. What a receiver would acquire once in 1000 packets is left out.
 RAYS = """least_depth_m = 75.0
 greatest_depth_m = 250.0
 diffuse_below_noise_db = 0.0
 reuse_for_packets = true"""
 SERVER = """reach_below_noise_db = 20.0
+reach_acquired_once_in = 1000.0
 table_range_m = {table_range_m}
 row_reuse_distance_m = 25.0
 max_searches_per_tick = {searches}"""

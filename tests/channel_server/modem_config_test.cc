@@ -10,6 +10,7 @@
 #include "acoustics/modem/error_model.h"
 #include "acoustics/modem/modem.h"
 #include "channel_server/channel_server_config.h"
+#include "channel_server/vehicles/modem_rates.h"
 #include "core/check.h"
 #include "tests/channel_server/channel_fixtures.h"
 #include "tests/channel_server/read_config.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 #include "acoustics/rays/eigenray.h"
 #include "acoustics/sea/boundary_reflection.h"
 #include "core/random.h"
+#include "core/units.h"
 #include "tests/acoustics/rays/layered_waters.h"
 #include "tests/acoustics/rays/ray_reference.h"
 
@@ -104,6 +106,53 @@ TEST(WeakLink, IsLongAndSixDecibelsBelowThePressure) {
   EXPECT_TRUE(weak(1, {40, 70, 1501}));
   sea.options.diffuse_below_db = 0;  // every path is wanted
   EXPECT_FALSE(weak(1, link));
+}
+
+class LeastMixed : public ::testing::Test {
+ protected:
+  RaySea sea_ = sea_of(kRoughWater, BottomProfile::flat(150));
+  double loss_db(double depth_m, const RayLink& link) const {
+    return -decibels(
+        power_of(mixed_arrivals({sea_.water, depth_m, sea_.bottom, sea_.surface, sea_.options}, link)));
+  }
+  LeastMixedLoss least(Decibels gain) const {
+    return {{sea_.water, 150, sea_.bottom, sea_.surface, sea_.options}, {80, 250, 100}, gain};
+  }
+};
+
+// Without the hundredth of the power that links leave out, and with what lies between the depths tried.
+TEST_F(LeastMixed, NoLinkLosesLess) {
+  const LeastMixedLoss bound = least(Decibels{0});
+  double nearest_db = 1e9;
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const auto draw = [&](std::uint64_t which) {
+      return uniform_at({.seed = 4, .purpose = purpose_of("mixed"), .who = i, .which = which});
+    };
+    const double depth = 80 + 170 * draw(0), deepest = std::min(depth, 100.0);
+    const RayLink link{deepest * draw(1), deepest * draw(2), 2500 + 10'000 * draw(3)};
+    const double excess_db = loss_db(depth, link) - bound.at(link.range_m).value;
+    EXPECT_GT(excess_db, -0.3) << depth << ' ' << link.source_depth_m << ' ' << link.receiver_depth_m;
+    nearest_db = std::min(nearest_db, excess_db);
+  }
+  EXPECT_LT(nearest_db, tolerance(2));  // no idle bound
+}
+
+TEST_F(LeastMixed, GainIsTakenOff) {
+  EXPECT_NEAR((least(Decibels{0}).at(4000) - least(Decibels{6}).at(4000)).value, 6, 1e-9);
+}
+
+TEST_F(LeastMixed, TheRangeOfALossIsWhereItIsReached) {
+  const LeastMixedLoss bound = least(Decibels{0});
+  const Decibels weak{20};
+  for (const double range_m : {3000.0, 6000.0, 12'000.0})
+    EXPECT_NEAR(bound.range_of(bound.at(range_m), weak), range_m, 2e-4 * range_m);
+}
+
+TEST_F(LeastMixed, HoldsForWeakLinksAlone) {
+  const LeastMixedLoss bound = least(Decibels{0});
+  const Decibels loss = bound.at(6000);
+  EXPECT_EQ(bound.range_of(loss, loss + Decibels{0.1}), std::numeric_limits<double>::infinity());
+  EXPECT_GE(bound.range_of(Decibels{1}, Decibels{0}), 10 * 250);  // shorter links have their rays
 }
 
 }  // namespace

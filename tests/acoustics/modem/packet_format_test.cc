@@ -10,6 +10,7 @@
 #include "acoustics/modem/modem.h"
 #include "core/check.h"
 #include "core/sim_time.h"
+#include "core/units.h"
 
 namespace halocline::acoustics {
 namespace {

@@ -126,6 +126,27 @@ TEST(LeastLoss, OfRaysBoundsTheLevelsOfARoughChannel) {
   }
 }
 
+// A preamble counts less the more seldom it may be acquired; what disturbs is the same.
+TEST_F(Reach, IsShorterTheMoreOftenAPreambleMayBeMissed) {
+  const acoustics::FadingModel fading{.enabled = true};
+  const ReachRule usual{.below_noise = Decibels{0}, .fading = fading};
+  modem_.min_receivable_level = Decibels{-200};  // the preamble decides
+  const auto level = [&](ReachRule rule) { return least_level_that_matters(rule, modem_, modem_, {1}); };
+  ReachRule careless = usual;
+  careless.acquired_once_in = 1000;
+  EXPECT_GT(level(careless), level(usual));
+  EXPECT_LT(reach_m(modem_, careless), reach_m(modem_, usual));
+}
+
+TEST_F(Reach, DisturbsDownToItsLevelBelowTheNoise) {
+  const StraightPropagation propagation(waters_);
+  const ReachModel by_level(waters_, propagation, {.below_noise = Decibels{20}}),
+      none(waters_, propagation, {.by_level = false});
+  EXPECT_TRUE(by_level.disturbs(0.0101, 1));
+  EXPECT_FALSE(by_level.disturbs(0.0099, 1));
+  EXPECT_TRUE(none.disturbs(1e-12, 1));
+}
+
 TEST_F(Reach, AtItsEndTheLevelIsTheLeastThatMatters) {
   const double reach = reach_m(modem_);
   const double level_db =

@@ -47,10 +47,13 @@ double draw(std::uint64_t place, std::uint32_t what, double low, double high) {
   return low + (high - low) * uniform_at({.seed = 57, .who = what, .which = place});
 }
 
+enum class Bound { kLeastLoss, kLeastLossOfKnownDepths, kEnergyOfWeakLinks };
+
 class LevelBound : public ::testing::TestWithParam<Sea> {
  protected:
-  // Level over its bound, dB, at each place where anything arrives.
-  std::vector<double> excesses(bool depths_are_known) const {
+  // Level over its bound, dB, at each place where anything arrives; of weak links, at each that is long and weak.
+  std::vector<double> excesses(Bound bound) const {
+    const bool depths_are_known = bound != Bound::kLeastLoss;
     const Sea& sea = GetParam();
     ChannelServerConfig config;
     config.propagation.sediment = sea.sediment;
@@ -67,6 +70,7 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
     acoustics::Modem modem;
     modem.centre_frequency_hz = sea.frequency_hz;
     modem.bandwidth_hz = sea.frequency_hz / 5;
+    if (bound == Bound::kEnergyOfWeakLinks) modem.source_level = Decibels{110};
     std::vector<double> excesses;
     for (std::uint64_t place = 0; place < kPlaces; ++place) {
       const double range_m = elementary::exp10(draw(place, 1, 2, elementary::log10(sea.greatest_range_m)));
@@ -89,25 +93,43 @@ class LevelBound : public ::testing::TestWithParam<Sea> {
       const Reception reception =
           propagation.reception(at_s(1), {1, from, Vec3::Zero(), &modem}, {2, to, Vec3::Zero(), &modem});
       if (reception.paths.empty()) continue;
-      const auto least =
-          propagation.least_loss(at_s(1), modem.centre_frequency_hz, std::max(from.z(), to.z()));
-      excesses.push_back(
-          (reception.budget.received_level - (modem.source_level - least->at(reception.budget.range_m)))
-              .value);
+      const double deepest_m = std::max(from.z(), to.z());
+      const Decibels level = reception.budget.received_level;
+      if (bound != Bound::kEnergyOfWeakLinks) {
+        const auto least = propagation.least_loss(at_s(1), modem.centre_frequency_hz, deepest_m);
+        excesses.push_back((level - (modem.source_level - least->at(reception.budget.range_m))).value);
+        continue;
+      }
+      const auto weak = propagation.weak_links(at_s(1), modem.centre_frequency_hz, deepest_m);
+      const bool is_long = range_m >= 10 * config.propagation.greatest_depth_m;
+      if (is_long && level < reception.budget.noise_level - weak->below_noise)
+        excesses.push_back((level - (modem.source_level - weak->loss.at(reception.budget.range_m))).value);
     }
     return excesses;
   }
 };
 
 TEST_P(LevelBound, HoldsAtRandomPlaces) {
-  for (const bool depths_are_known : {false, true}) {
-    const std::vector<double> all = excesses(depths_are_known);
+  for (const Bound bound : {Bound::kLeastLoss, Bound::kLeastLossOfKnownDepths}) {
+    const bool depths_are_known = bound != Bound::kLeastLoss;
+    const std::vector<double> all = excesses(bound);
     ASSERT_GT(all.size(), kPlaces / 10);
     const double greatest = *std::max_element(all.begin(), all.end());
     RecordProperty(depths_are_known ? "greatest_excess_known_db" : "greatest_excess_db",
                    fmt::format("{:.1f}", greatest));
     EXPECT_LT(greatest, 0) << (depths_are_known ? "depths are known" : "");
   }
+}
+
+// Weak links in deep water are longer than those drawn.
+TEST_P(LevelBound, OfWeakLinksHoldsAtRandomPlaces) {
+  const std::vector<double> all = excesses(Bound::kEnergyOfWeakLinks);
+  if (GetParam().bottom_m <= 100 && GetParam().waves_m == 0) {
+    ASSERT_GT(all.size(), 4u);
+  }
+  for (const double excess : all) EXPECT_LT(excess, 0);
+  if (!all.empty())
+    RecordProperty("greatest_excess_db", fmt::format("{:.1f}", *std::max_element(all.begin(), all.end())));
 }
 
 INSTANTIATE_TEST_SUITE_P(
