@@ -10,6 +10,7 @@
 #include "bus/channels.h"
 #include "channel_server/link_messages.h"
 #include "channel_server/links/link_table.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/scenario_messages.h"

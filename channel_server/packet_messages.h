@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bus/messages.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "core/sim_time.h"
 

@@ -6,6 +6,7 @@
 
 #include "bus/bus.h"
 #include "bus/runtime/crash_journal.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "core/sim_time.h"
 

@@ -117,8 +117,9 @@ OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fl
   return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
 }
 
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleClocks& clocks,
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEquipment& equipment,
                          bool promiscuous) {
+  const VehicleClocks& clocks = equipment.clocks;
   PacketOutcome outcome;
   outcome.kind = kind;
   outcome.packet = flight.packet;
@@ -142,6 +143,8 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleCl
   outcome.doppler_factor = flight.doppler_factor();
   set_direction(flight, outcome);
   outcome.statistics = flight.statistics;
+  if (const PowerOf* battery = flight.acquired ? equipment.power.battery_of(flight.receiver_id) : nullptr)
+    outcome.receive_energy_j = battery->receiving_w * (flight.signal.end - flight.signal.begin).seconds();
   return outcome;
 }
 
@@ -153,6 +156,17 @@ PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) 
   outcome.budget.received_level = kSilence;
   outcome.budget.transmission_loss = packet->modem.source_level - kSilence;
   return outcome;
+}
+
+void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events) {
+  if (power.battery_of(packet.request.source_id) == nullptr) return;
+  events.push_back({packet.departure, EnergyUse{packet.request.vehicle, true, packet.energy_j, packet.name()}});
+}
+
+void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,
+                   std::vector<MediumEvent>& events) {
+  if (!flight.acquired || power.battery_of(flight.receiver_id) == nullptr) return;
+  events.push_back({at, EnergyUse{flight.receiver, false, outcome.receive_energy_j, flight.packet->name()}});
 }
 
 bool asks_for_answer(const PacketOutcome& outcome) {

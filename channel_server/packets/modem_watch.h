@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "channel_server/packets/flight.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/vehicle_sounds.h"

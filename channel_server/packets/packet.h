@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "acoustics/link/link_budget.h"
@@ -192,42 +191,6 @@ struct PacketOutcome {
   DecisionStatistics statistics;
   double receive_energy_j =
       0;  // that the packet took from the receiver's battery; 0 unless acquired, and without one
-};
-
-// What one packet takes from a vehicle's battery: of its sender whole at the departure, of a receiver that acquired it, whatever
-// became of it, at its end.
-struct EnergyUse {
-  std::string vehicle;
-  bool is_transmission = true;
-  double energy_j = 0;
-  PacketName packet;
-};
-
-// In the order of modem_event_t.
-enum class ModemEventKind {
-  kTransmissionBegan,
-  kTransmissionEnded,
-  kPacketDetected,  // at the end of its preamble
-  kPacketEnded,     // the last bit of one detected
-  kCarrierBegan,
-  kCarrierEnded,
-};
-
-// What a modem does or notices (modem_watch.h).
-struct ModemEvent {
-  std::string vehicle;
-  ModemEventKind kind = ModemEventKind::kTransmissionBegan;
-  std::int64_t session = 0, packet_sequence = 0;  // of an own transmission
-  Decibels level = {};  // of the packet or carrier, dB re 1 uPa; 0 of an own transmission
-  Decibels sinr = {};   // of a packet that ended
-  OutcomeKind outcome = OutcomeKind::kReceived;  // likewise
-};
-
-struct MediumEvent {
-  SimTime at;  // exactly when it happened
-  // Answers only for other shards.
-  std::variant<Receipt, PacketOutcome, ModemReply, ModemEvent, EnergyUse> what;
-  bool late = false;  // the medium had been advanced beyond `at` before it could know of this
 };
 
 }  // namespace halocline::channel_server

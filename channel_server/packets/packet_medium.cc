@@ -175,9 +175,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   if (is_served) {
     state_of(source).transmit({packet, departure, departure + packet->timing.duration});
     watch_.begin_transmission(*packet, events);
-    if (power().battery_of(source) != nullptr)
-      events.push_back(
-          {departure, EnergyUse{packet->request.vehicle, true, packet->energy_j, packet->name()}});
+    add_sending(*packet, power(), events);
   }
   place_all(fleet_, departure, present_);
   const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present_)
@@ -301,20 +299,15 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
     kind = OutcomeKind::kExtraLoss;
     flight.statistics.frames_good = 0;
   }
-  const VehicleClocks& clocks = fleet_.equipment().clocks;
+  const VehicleEquipment& equipment = fleet_.equipment();
   PacketOutcome outcome =
-      outcome_of(flight, kind, clocks, fleet_.listening(flight.receiver_id, at).promiscuous);
-  const PowerOf* battery = flight.acquired ? power().battery_of(flight.receiver_id) : nullptr;
-  if (battery != nullptr) {
-    outcome.receive_energy_j = battery->receiving_w * (flight.signal.end - flight.signal.begin).seconds();
-    events.push_back(
-        {at, EnergyUse{flight.receiver, false, outcome.receive_energy_j, flight.packet->name()}});
-  }
+      outcome_of(flight, kind, equipment, fleet_.listening(flight.receiver_id, at).promiscuous);
+  add_receiving(flight, outcome, at, equipment.power, events);
   const bool is_answered = asks_for_answer(outcome);
   ModemWatch::end(flight, at, kind, events);
   events.push_back({at, std::move(outcome)});
   if (is_answered) {
-    const ModemReply answer = answer_of(flight, at, clocks);
+    const ModemReply answer = answer_of(flight, at, equipment.clocks);
     add_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, answer});
   }

@@ -54,6 +54,7 @@
 #include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/flight_queue.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/modem_watch.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_framing.h"

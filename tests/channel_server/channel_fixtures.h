@@ -9,6 +9,7 @@
 
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/propagation.h"

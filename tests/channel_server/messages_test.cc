@@ -17,6 +17,7 @@
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packet_messages.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/terrain_rays.h"

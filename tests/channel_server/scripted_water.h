@@ -20,6 +20,7 @@
 #include "acoustics/modem/bit_error.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/propagation.h"

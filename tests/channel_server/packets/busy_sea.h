@@ -17,6 +17,7 @@
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
 #include "channel_server/propagation/propagation.h"
