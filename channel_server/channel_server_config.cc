@@ -1,17 +1,24 @@
 #include "channel_server/channel_server_config.h"
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "acoustics/noise/noise_spectrum.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/vehicle_power.h"
 #include "core/check.h"
 
 namespace halocline::channel_server {
 namespace {
+
+// Of a vehicle's noise; our choice, where a scenario gives no other.
+constexpr double kReferenceRpm = 1500, kReferenceMps = 2;
 
 // LCM carries more, but a table a minute is no table and 50 Hz of a large fleet is a flood.
 constexpr double kMinLinkRateHz = 1.0 / 60, kMaxLinkRateHz = 50;
@@ -21,10 +28,71 @@ void visit_count(bus::ConfigVisitor& v, std::string_view key, Count& value, cons
   bus::integer_as(v, key, value, rule);
 }
 
+void visit_clock(bus::ConfigVisitor& v, ClockSettings& clock) {
+  double drift_ppm = clock.drift * 1e6;
+  v.number("offset_s", clock.offset_s, {-1e5, 1e5, "s", "how far it is ahead at time 0"});
+  v.number("drift_ppm", drift_ppm, {-1000, 1000, "ppm", "how fast it gains: 1 ppm is 3.6 ms an hour"});
+  clock.drift = drift_ppm * 1e-6;
+  v.number("random_walk_s_per_sqrt_s", clock.random_walk,
+           {0, 1e-3, "s/sqrt(s)", "random walk of its reading: after t seconds this times sqrt(t)"});
+  v.boolean("set_by_gps", clock.is_set_by_gps, "each GPS fix of the vehicle sets it");
+  v.number("gps_residual_s", clock.gps_residual_s,
+           {0, 1, "s", "standard deviation of its error when GPS has set it"});
+}
+
+void visit_noise_variation(bus::ConfigVisitor& v, acoustics::NoiseVariation& n) {
+  v.number("noise_spread_db", n.spread_db,
+           {0, 30, "dB", "standard deviation of the noise about these; 0: none"});
+  v.number("noise_spread_s", n.spread_time_s, {0.1, 1e6, "s", "its correlation time"});
+  v.number("impulse_exponent", n.burst_exponent,
+           {0, 2, "", "of impulsive, alpha-stable noise, 0.5 to 2; 0: there is none"});
+  v.number("impulse_level_db", n.burst_level.value,
+           {-100, 100, "dB", "impulsive noise: its scale over the noise"});
+  bus::seconds(v, "impulse_s", n.burst, {0.001, 60, "s", "impulsive noise: how long a burst lasts"});
+  bus::report_refusal(v, "impulse_exponent", [&] { validate(n); });
+}
+
+void visit_vehicle_noise(bus::ConfigVisitor& v, NoiseOf& noise) {
+  std::vector<double> frequencies_khz, levels_db = noise.at_1m.levels_db();
+  for (const double f : noise.at_1m.frequencies_hz()) frequencies_khz.push_back(f / 1000);
+  v.numbers("frequency_khz", frequencies_khz, {0.001, 1000, "kHz", "of level_db, rising"});
+  v.numbers("level_db", levels_db,
+            {-200, 300, "dB re 1 uPa^2/Hz at 1 m",
+             "of its noise at the reference; linear between, constant beyond"});
+  bus::choice(v, "varies_with", noise.driver, {"propeller", "speed", "nothing"},
+              "60 log10 of the turn rate or speed over ground to the reference; nothing: always as loud");
+  double turns_per_min = noise.driver == NoiseDriver::kPropeller ? noise.reference * 60 : kReferenceRpm;
+  double speed_mps = noise.driver == NoiseDriver::kSpeed ? noise.reference : kReferenceMps;
+  v.number("reference_rpm", turns_per_min,
+           {1, 1e5, "rpm", "varies_with = propeller: of its fastest propeller"});
+  v.number("reference_mps", speed_mps, {0.01, 100, "m/s", "varies_with = speed: over ground"});
+  noise.reference = noise.driver == NoiseDriver::kPropeller ? turns_per_min / 60 : speed_mps;
+  v.number("own_loss_db", noise.own_loss.value, {0, 200, "dB", "from 1 m to its own hydrophone"});
+  bus::report_refusal(v, "level_db", [&] {
+    std::vector<double> frequencies_hz;
+    for (const double f : frequencies_khz) frequencies_hz.push_back(f * 1000);
+    noise.at_1m = acoustics::NoiseSpectrum(std::move(frequencies_hz), std::move(levels_db));
+  });
+}
+
 void visit_vehicle(bus::ConfigVisitor& v, ChannelServerConfig::OfVehicle& vehicle,
                    const VehicleModem& standard) {
   v.shared_with_others();
   v.text("name", vehicle.name, {}, "channel suffix");
+  if (v.writing() ? vehicle.clock.has_value() : v.given("clock")) {
+    ClockSettings clock = vehicle.clock.value_or(ClockSettings());
+    v.section("clock", "By which it stamps packets; without this it has simulation time",
+              [&](bus::ConfigVisitor& section) { visit_clock(section, clock); });
+    vehicle.clock = clock;
+  }
+  if (v.writing() ? vehicle.noise.has_value() : v.given("noise")) {
+    NoiseOf noise = vehicle.noise.value_or(NoiseOf());
+    v.section("noise", "That it makes; without this it is silent",
+              [&](bus::ConfigVisitor& section) { visit_vehicle_noise(section, noise); });
+    vehicle.noise = noise;
+  }
+  v.boolean("has_modem", vehicle.carries_modem,
+            "false: a ship or a jammer, which sends and receives nothing");
   vehicle.has_modem = v.given("modem");
   if (!vehicle.has_modem) return;
   if (vehicle.modem == VehicleModem()) vehicle.modem = standard;
@@ -102,6 +170,29 @@ void visit_extra_loss(bus::ConfigVisitor& v, ExtraLoss& loss) {
 
 }  // namespace
 
+void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& e) {
+  v.number("wind_mps", e.noise.wind_mps, {0, 60, "m/s", "wind 10 m above the sea: noise"});
+  v.number("shipping", e.noise.shipping, {0, 1, "", "shipping activity: noise"});
+  v.number("rain_mm_per_h", e.noise.rain_mm_per_h, {0, 500, "mm/h", "rain on the sea: noise"});
+  v.text("noise_file", e.noise_file, {},
+         "CSV of t_s, frequency_khz, level_db: the noise instead of wind, shipping and rain; empty: none");
+  if (!e.noise_file.empty()) bus::require_readable(v, "noise_file", e.noise_file);
+  visit_noise_variation(v, e.noise_variation);
+}
+
+std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config,
+                                                  const std::string& folder) {
+  if (config.noise_file.empty()) return {};
+  return acoustics::read_noise_table((std::filesystem::path(folder) / config.noise_file).string());
+}
+
+acoustics::NoiseSources noise_sources(const EnvironmentConfig& config, const std::string& folder) {
+  acoustics::NoiseSources sources = config.noise;
+  const auto table = noise_table(config, folder);
+  if (!table.empty()) sources.table = table.front().spectrum;
+  return sources;
+}
+
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config) {
   visit_water(v, config);
   v.section("modem", "The modem of every vehicle without one of its own",
@@ -124,11 +215,36 @@ ConfiguredModems make_modems(const ChannelServerConfig& config) {
   validate(config.modem.modem);
   ConfiguredModems modems{config.modem, {}};
   for (const auto& vehicle : config.vehicles) {
-    if (!vehicle.has_modem) continue;
-    validate(vehicle.modem.modem);
-    modems.of_vehicle.emplace(vehicle.name, vehicle.modem);
+    if (!vehicle.has_modem && vehicle.carries_modem) continue;
+    VehicleModem modem = vehicle.has_modem ? vehicle.modem : config.modem;
+    modem.fitted = vehicle.carries_modem;
+    validate(modem.modem);
+    modems.of_vehicle.emplace(vehicle.name, std::move(modem));
   }
   return modems;
+}
+
+VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Scenario& scenario) {
+  std::vector<ClockOf> clocks;
+  std::vector<NoiseOf> noise;
+  for (const auto& vehicle : config.vehicles) {
+    const bus::VehicleEntry* entry = scenario.find(vehicle.name);
+    if (entry == nullptr) continue;
+    if (vehicle.clock) clocks.push_back({vehicle.name, entry->id, *vehicle.clock});
+    if (vehicle.noise) {
+      noise.push_back(*vehicle.noise);
+      noise.back().vehicle = vehicle.name;
+      noise.back().id = entry->id;
+    }
+  }
+  std::vector<PowerOf> batteries;
+  for (const bus::VehicleEntry& vehicle : scenario.vehicles) {
+    const auto& b = vehicle.battery;
+    if (b) batteries.push_back({vehicle.name, vehicle.id, b->transmit_efficiency, b->receiving_w});
+  }
+  const SimDuration lag = config.rules.position.state_lag;
+  return {VehicleClocks(clocks, scenario.seed, lag), VehiclePower(std::move(batteries), lag),
+          VehicleNoise(std::move(noise), lag)};
 }
 
 LinkPredictor make_predictor(const ServerRules& rules) {

@@ -1,5 +1,5 @@
 // What the channel server reads of a scenario file: [environment], [propagation], [[environment_change]], [modem],
-// [vehicle.modem] and [channel_server].
+// [vehicle.modem], [vehicle.clock], [vehicle.noise] and [channel_server].
 //
 // The structs are SI; every key's unit and range is in the .cc, where it is visited, and in --example.
 #pragma once
@@ -11,6 +11,8 @@
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/reverberation.h"
+#include "acoustics/noise/noise_table_reader.h"
+#include "acoustics/noise/noise_variation.h"
 #include "acoustics/rays/arrivals.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/noise.h"
@@ -28,6 +30,9 @@
 #include "channel_server/replay_config.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_clocks.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
+#include "channel_server/vehicles/vehicle_noise.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
@@ -64,6 +69,8 @@ struct EnvironmentConfig {
   std::string sound_speed_model = "mackenzie";
   std::string absorption_model = "francois-garrison";
   acoustics::NoiseSources noise{.wind_mps = 5};
+  std::string noise_file;  // instead of these; relative to the scenario
+  acoustics::NoiseVariation noise_variation;
   double spreading_exponent = 1.5;
   double ph = 8.0;
 };
@@ -95,6 +102,7 @@ struct ChangeConfig {
   double at_s = 0;
   std::optional<double> wind_mps, shipping, sea_surface_z_m;
   std::optional<ProfileConfig> profile;
+  std::optional<double> rain_mm_per_h = {};
 };
 
 // How the server works; defaults as in the headers of its parts.
@@ -122,6 +130,9 @@ struct ChannelServerConfig {
     std::string name;
     bool has_modem = false;
     VehicleModem modem;
+    bool carries_modem = true;  // false: a ship, a jammer
+    std::optional<ClockSettings> clock;
+    std::optional<NoiseOf> noise;
   };
   EnvironmentConfig environment;
   PropagationConfig propagation;
@@ -134,6 +145,13 @@ struct ChannelServerConfig {
 void visit(bus::ConfigVisitor& v, ChannelServerConfig& config);
 // Its part that is about the water: [environment], [propagation] and [[environment_change]] (water_config.cc).
 void visit_water(bus::ConfigVisitor& v, ChannelServerConfig& config);
+
+// The keys of [environment] about noise.
+void visit_noise(bus::ConfigVisitor& v, EnvironmentConfig& config);
+// Its noise_file, relative to `folder`; empty without one. Throws InvalidArgument as acoustics::read_noise_table.
+std::vector<acoustics::TimedSpectrum> noise_table(const EnvironmentConfig& config, const std::string& folder);
+// The sources at the start, with the first of these.
+acoustics::NoiseSources noise_sources(const EnvironmentConfig& config, const std::string& folder);
 
 // The water of a scenario whose file lies in `folder`. Throws InvalidArgument when a profile cannot be read or
 // is impossible.
@@ -152,6 +170,9 @@ acoustics::SoundSpeedProfile make_profile(const EnvironmentConfig& config, const
 RayModel make_rays(const ChannelServerConfig& config);
 
 ConfiguredModems make_modems(const ChannelServerConfig& config);
+
+// Of the vehicles that have some.
+VehicleEquipment make_equipment(const ChannelServerConfig& config, const bus::Scenario& scenario);
 
 // What link tables predict of packets, with the profiles of models/modems.
 LinkPredictor make_predictor(const ServerRules& rules);

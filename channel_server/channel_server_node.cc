@@ -52,12 +52,12 @@ SimTime on_grid_from(SimTime now, SimDuration period) {
 
 ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
                                      const ConfiguredModems& modems, const ServerRules& rules,
-                                     std::vector<scenario_info_t> scenario)
+                                     std::vector<scenario_info_t> scenario, VehicleEquipment equipment)
     : Node(lcm, std::move(identity)),
       rules_(rules),
       pool_(rules.threads),
       water_(std::move(water)),
-      vehicles_(rules.position, modems),
+      vehicles_(rules.position, modems, std::move(equipment)),
       reach_(water_.waters, *water_.propagation, rules.reach),
       medium_(vehicles_, *water_.propagation, rules.medium, &reach_, pool_.sharing_out()),
       predictor_(make_predictor(rules)),
@@ -68,7 +68,7 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
                {rules.bottom_points, rules.ray_queries.answer_deadline}),
       publisher_(bus()),
       journal_(bus(), publisher_),
-      inbox_(bus(), rules.medium.shard),
+      inbox_(bus(), rules.medium.shard, vehicles_.equipment()),
       seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points),
       exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline, hash_of(scenario)),
       packets_(bus(), journal_),
@@ -314,9 +314,12 @@ std::unique_ptr<ChannelServerNode> make_channel_server(lcm::LCM& lcm, const bus:
   ServerRules rules = config.rules;
   rules.medium.seed = scenario.seed;
   rules.medium.fading = rules.reach.fading = config.propagation.fading;
+  rules.medium.noise = config.environment.noise_variation;
+  rules.reach.noise_spread_db = config.environment.noise_variation.spread_db;
   const ConfiguredModems modems = make_modems(config);
   return std::make_unique<ChannelServerNode>(lcm, identity, make_water_model(config, scenario, folder),
-                                             modems, rules, to_messages(scenario, modems));
+                                             modems, rules, to_messages(scenario, modems),
+                                             make_equipment(config, scenario));
 }
 
 }  // namespace halocline::channel_server

@@ -37,6 +37,7 @@
 #include "channel_server/server_recovery.h"
 #include "channel_server/shards/shard_exchange.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "channel_server/water_model.h"
 #include "core/sim_time.h"
@@ -48,7 +49,7 @@ class ChannelServerNode : public bus::Node {
   // `scenario`: what SCENARIO is to hold (scenario_messages.h); empty: it is not published.
   ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, WaterModel water,
                     const ConfiguredModems& modems, const ServerRules& rules,
-                    std::vector<scenario_info_t> scenario = {});
+                    std::vector<scenario_info_t> scenario = {}, VehicleEquipment equipment = {});
 
   // Keeps a journal at `path`, and resumes what an earlier incarnation left there. Once, before anything is
   // dispatched; not in lockstep, where the conductor replays. Throws InvalidArgument when it cannot be written.

@@ -6,6 +6,7 @@
 #include "bus/channels.h"
 #include "bus/subscription.h"
 #include "channel_server/links/link_query_service.h"
+#include "channel_server/vehicles/vehicle_noise.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -18,7 +19,8 @@ constexpr std::size_t kMaxChanges = 100;
 
 }  // namespace
 
-Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
+Inbox::Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipment) : bus_(bus) {
+  subscribe_equipment(equipment);
   bus_.subscribe<vehicle_state_t>(
       channels::kState,
       [this](std::string_view vehicle, const vehicle_state_t& m) {
@@ -60,6 +62,34 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard) : bus_(bus) {
   });
 }
 
+void Inbox::subscribe_equipment(const VehicleEquipment& equipment) {
+  if (equipment.clocks.need_fixes()) {
+    bus_.subscribe<vehicle_gps_t>(
+        channels::kGps,
+        [this](std::string_view vehicle, const vehicle_gps_t& m) {
+          keep(inputs_.fixes, vehicle, m, channels::kGps);
+        },
+        bus::Wakeup::kStoreOnly);
+  }
+  for (const auto& [id, source] : equipment.noise.sources()) {
+    if (source.driver != NoiseDriver::kPropeller) continue;
+    bus_.subscribe<vehicle_sensors_t>(
+        channels::kSensors.of(source.vehicle),
+        [this, vehicle = source.vehicle](const vehicle_sensors_t& m) {
+          keep(inputs_.sensors, vehicle, m, channels::kSensors);
+        },
+        bus::Wakeup::kStoreOnly);
+  }
+  if (equipment.power.has_batteries()) {
+    bus_.subscribe<vehicle_battery_t>(
+        channels::kBattery,
+        [this](std::string_view vehicle, const vehicle_battery_t& m) {
+          keep(inputs_.batteries, vehicle, m, channels::kBattery);
+        },
+        bus::Wakeup::kStoreOnly);
+  }
+}
+
 template <class Message>
 void Inbox::keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehicle, const Message& message,
                  const bus::Family& family) {
@@ -95,6 +125,9 @@ void Inbox::forget_after(SimTime latest) {
   std::erase_if(inputs_.modems, is_later);
   std::erase_if(inputs_.listens, is_later);
   std::erase_if(inputs_.sends, is_later);
+  std::erase_if(inputs_.fixes, is_later);
+  std::erase_if(inputs_.batteries, is_later);
+  std::erase_if(inputs_.sensors, is_later);
   std::erase_if(inputs_.changes, [&](const environment_change_t& change) { return change.utime > utime; });
   inputs_.modem_replies.clear();
 }

@@ -8,6 +8,7 @@
 
 #include "bus/bus.h"
 #include "channel_server/vehicles/shard.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -21,15 +22,18 @@ struct StepInputs {
   ByVehicle<modem_config_t> modems;
   ByVehicle<modem_listen_t> listens;
   ByVehicle<modem_send_t> sends;
+  ByVehicle<vehicle_gps_t> fixes;
+  ByVehicle<vehicle_battery_t> batteries;
+  ByVehicle<vehicle_sensors_t> sensors;
   std::vector<environment_change_t> changes;
   std::vector<modem_reply_t> modem_replies;  // of other shards
 };
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, and of several shards MODEM_REPLY. The bus
-  // must outlive it.
-  Inbox(bus::Bus& bus, const Shard& shard);
+  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, of several shards MODEM_REPLY, and what the
+  // equipment needs: GPS, BATTERY, SENSORS. The bus must outlive it.
+  Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipment);
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
 
@@ -44,6 +48,7 @@ class Inbox {
   void forget_after(SimTime latest);
 
  private:
+  void subscribe_equipment(const VehicleEquipment& equipment);
   template <class Message>
   void keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehicle, const Message& message,
             const bus::Family& family);

@@ -7,6 +7,7 @@
 #include "bus/channels.h"
 #include "channel_server/packet_messages.h"
 #include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/world_messages.h"
 #include "core/check.h"
 
@@ -27,6 +28,13 @@ SimTime InputProcessor::apply(StepInputs inputs, SimTime now) {
   apply_states(std::move(inputs.states), now);
   apply_modems(inputs.modems, now);
   apply_listens(inputs.listens, now);
+  VehicleEquipment& equipment = vehicles_.equipment();
+  for (const auto& [vehicle, fix] : inputs.fixes)
+    equipment.clocks.add_fix(vehicle, SimTime::from_utime(fix.utime));
+  for (const auto& [vehicle, report] : inputs.batteries)
+    equipment.power.add_report(vehicle, SimTime::from_utime(report.utime), report.battery_empty != 0);
+  for (const auto& [vehicle, sensors] : inputs.sensors)
+    equipment.noise.add_rate(vehicle, SimTime::from_utime(sensors.utime), turn_rate_hz(sensors));
   const SimTime changed_from = apply_changes(inputs.changes, now);
   apply_sends(std::move(inputs.sends), now);
   for (const modem_reply_t& message : inputs.modem_replies) medium_.add_answer(to_answer(message));

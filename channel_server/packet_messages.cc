@@ -43,6 +43,7 @@ packet_name_t to_message(const PacketName& name) {
   message.packet_kind = static_cast<std::int8_t>(name.kind);
   message.send_session = name.session;
   message.packet_sequence = name.packet_sequence;
+  message.is_noise = name.is_noise ? 1 : 0;
   return message;
 }
 
@@ -152,6 +153,18 @@ packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at) {
   message.arrival_azimuth_rad = outcome.arrival_azimuth_rad;
   message.arrival_elevation_rad = outcome.arrival_elevation_rad;
   set_statistics(outcome.statistics, message);
+  message.transmit_energy_j = outcome.packet->energy_j;
+  message.receive_energy_j = outcome.receive_energy_j;
+  message.payload_bytes = static_cast<std::int32_t>(outcome.packet->request.payload.size());
+  return message;
+}
+
+modem_energy_t to_message(const EnergyUse& use, SimTime at) {
+  modem_energy_t message{};
+  message.utime = at.to_utime();
+  message.energy_cause = use.is_transmission ? modem_energy_t::TRANSMIT : modem_energy_t::RECEIVE;
+  message.energy_j = use.energy_j;
+  message.packet = to_message(use.packet);
   return message;
 }
 
@@ -172,18 +185,14 @@ modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   const SendRequest& request = outcome.packet->request;
   auto message = common_fields<modem_receive_t>(outcome, at);
   message.stamped = request.stamped ? 1 : 0;
-  if (!request.stamped) {
-    message.departure_utime = 0;
-    message.travel_time_s = 0;
-  } else {
-    message.travel_time_s = outcome.measured_travel_time_s;
-  }
+  message.departure_utime = request.stamped ? outcome.departure_stamp.to_utime() : 0;
+  message.travel_time_s = request.stamped ? outcome.measured_travel_time_s : 0;
   // Who overhears an answer does not know when the question left.
   if (request.destination_id == outcome.receiver_id)
     message.two_way_travel_time_s = outcome.two_way_travel_time_s;
   message.wants_ack = request.wants_ack && request.destination_id == outcome.receiver_id ? 1 : 0;
   message.arrival_utime =
-      (outcome.packet->departure + SimDuration::from_seconds(outcome.measured_travel_time_s)).to_utime();
+      (outcome.departure_stamp + SimDuration::from_seconds(outcome.measured_travel_time_s)).to_utime();
   const PowerRatio sinr = to_power_ratio(outcome.statistics.sinr);
   message.snr_out_db = to_decibels(bit_energy(outcome.packet->modem, sinr)).value;
   message.mse_db = to_decibels(acoustics::least_mean_square_error(sinr)).value;
@@ -209,6 +218,11 @@ std::string identity_of(const packet_outcome_t& m) {
 }
 
 std::string identity_of(const modem_event_t& m) { return joined({m.event_ns, m.modem_event}); }
+
+std::string identity_of(const modem_energy_t& m) {
+  return joined({m.energy_cause, m.packet.source_id, m.packet.send_session, m.packet.packet_sequence,
+                 m.packet.packet_kind, m.packet.send_session == 0 ? m.utime : 0});
+}
 
 std::string identity_of(const modem_reply_t& m) {
   return joined(

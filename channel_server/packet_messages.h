@@ -19,6 +19,7 @@ ModemReply to_answer(const modem_reply_t& message);
 modem_receipt_t to_message(const Receipt& receipt, SimTime answered_at);
 packet_outcome_t to_outcome(const PacketOutcome& outcome, SimTime at);
 modem_event_t to_message(const ModemEvent& event, SimTime at);
+modem_energy_t to_message(const EnergyUse& use, SimTime at);
 // Only for an outcome whose packet is to be delivered.
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at);
 
@@ -29,5 +30,6 @@ std::string identity_of(const modem_receive_t& message);
 std::string identity_of(const packet_outcome_t& message);
 std::string identity_of(const modem_reply_t& message);
 std::string identity_of(const modem_event_t& message);
+std::string identity_of(const modem_energy_t& message);
 
 }  // namespace halocline::channel_server

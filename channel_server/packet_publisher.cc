@@ -19,6 +19,9 @@ void PacketPublisher::publish(const MediumEvent& event) {
   } else if (const auto* noticed = std::get_if<ModemEvent>(&event.what)) {
     const modem_event_t message = to_message(*noticed, event.at);
     journal_.publish_once(channels::kModemEvent.of(noticed->vehicle), message, identity_of(message));
+  } else if (const auto* use = std::get_if<EnergyUse>(&event.what)) {
+    const modem_energy_t message = to_message(*use, event.at);
+    journal_.publish_once(channels::kModemEnergy.of(use->vehicle), message, identity_of(message));
   } else {
     publish(std::get<PacketOutcome>(event.what), event.at, event.late);
   }

@@ -18,6 +18,7 @@ constexpr SimDuration kJournalled = SimDuration::from_milliseconds(60'000);
 bool is_input(std::string_view channel) {
   const auto in = [&](const bus::Family& family) { return channel.starts_with(family.prefix); };
   return in(channels::kState) || in(channels::kModem) || in(channels::kListen) || in(channels::kSend) ||
+         in(channels::kGps) || in(channels::kBattery) || in(channels::kSensors) ||
          channel == channels::kSetEnvironment || channel == channels::kModemReply;
 }
 
@@ -28,7 +29,7 @@ ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const s
   journal_.open({path,
                  kJournalled,
                  is_input,
-                 {channels::kModem, channels::kListen},
+                 {channels::kModem, channels::kListen, channels::kGps, channels::kBattery, channels::kSensors},
                  {std::string(channels::kSetEnvironment)}});
   journal_.replay_inputs([this](SimTime at) { steps_.push_back({at, inbox_.take_inputs()}); });
 }

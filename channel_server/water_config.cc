@@ -101,8 +101,7 @@ void visit_environment(bus::ConfigVisitor& v, EnvironmentConfig& e) {
          "formula of sound speed");
   v.text("absorption_model", e.absorption_model, bus::names_of(acoustics::kAbsorptionModels),
          "formula of absorption");
-  v.number("wind_mps", e.noise.wind_mps, {0, 60, "m/s", "wind 10 m above the sea: noise"});
-  v.number("shipping", e.noise.shipping, {0, 1, "", "shipping activity: noise"});
+  visit_noise(v, e);
   v.number("spreading_exponent", e.spreading_exponent,
            {1, 2, "", "1 cylindrical, 1.5 practical, 2 spherical spreading"});
   v.number("acidity_ph", e.ph, {7, 9, "", "pH of the water: absorption"});
@@ -228,6 +227,7 @@ void visit_change(bus::ConfigVisitor& v, ChangeConfig& c) {
   v.number("at_s", c.at_s, {0, 1e9, "s", "simulation time from which it holds"});
   visit_optional(v, "wind_mps", c.wind_mps, {0, 60, "m/s", "as in [environment]"});
   visit_optional(v, "shipping", c.shipping, {0, 1, "", "as in [environment]"});
+  visit_optional(v, "rain_mm_per_h", c.rain_mm_per_h, {0, 500, "mm/h", "as in [environment]"});
   visit_optional(v, "sea_surface_z_m", c.sea_surface_z_m, {-100, 100, "m", "z of the surface"});
   if (v.writing() ? !c.profile.has_value() : !v.given("profile")) return;
   ProfileConfig profile = c.profile.value_or(ProfileConfig());
@@ -301,7 +301,7 @@ acoustics::Environment make_environment(const EnvironmentConfig& config, const b
   require(absorption.has_value(), "no absorption model is called " + config.absorption_model);
   acoustics::Environment environment;
   environment.profile = make_profile(config, scenario, folder);
-  environment.noise = config.noise;
+  environment.noise = noise_sources(config, folder);
   environment.spreading_exponent = config.spreading_exponent;
   environment.absorption_model = *absorption;
   environment.ph = config.ph;

@@ -18,13 +18,18 @@ namespace halocline::channel_server {
 void schedule_changes(const ChannelServerConfig& config, const bus::Scenario& scenario,
                       const std::string& folder, EnvironmentTimeline& timeline) {
   for (const ChangeConfig& c : config.changes) {
-    EnvironmentChange change{c.wind_mps, c.shipping, c.sea_surface_z_m, {}};
+    EnvironmentChange change{c.wind_mps, c.shipping, c.sea_surface_z_m, {}, c.rain_mm_per_h};
     if (c.profile) {
       EnvironmentConfig water = config.environment;
       water.profile = *c.profile;
       change.profile = make_profile(water, scenario, folder);
     }
     timeline.schedule(SimTime::from_seconds(c.at_s), change);
+  }
+  for (const auto& [from, spectrum] : noise_table(config.environment, folder)) {
+    EnvironmentChange change;
+    change.noise_table = spectrum;
+    timeline.schedule(from, change);
   }
 }
 

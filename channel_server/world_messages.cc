@@ -1,5 +1,7 @@
 #include "channel_server/world_messages.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -137,6 +139,12 @@ modem_config_t to_message(const VehicleModem& modem, SimTime from) {
   return message;
 }
 
+double turn_rate_hz(const vehicle_sensors_t& sensors) {
+  double fastest_rpm = std::abs(sensors.shaft_rpm);
+  for (const double rpm : sensors.thruster_rpm) fastest_rpm = std::max(fastest_rpm, std::abs(rpm));
+  return fastest_rpm / 60;
+}
+
 environment_t to_message(const acoustics::Environment& environment, const WaterDescription& description,
                          SimTime from, const std::string& terrain_version) {
   environment_t message{};
@@ -151,6 +159,8 @@ environment_t to_message(const acoustics::Environment& environment, const WaterD
   message.num_layers = static_cast<std::int32_t>(message.layer_depth_m.size());
   message.wind_speed_mps = environment.noise.wind_mps;
   message.shipping_activity = environment.noise.shipping;
+  message.rain_mm_per_h = environment.noise.rain_mm_per_h;
+  message.noise_from_table = environment.noise.table ? 1 : 0;
   message.acidity_ph = environment.ph;
   message.sea_surface_z_m = environment.sea_surface_z_m;
   message.spreading_exponent = environment.spreading_exponent;
@@ -172,6 +182,7 @@ EnvironmentChange to_change(const environment_change_t& message, const acoustics
   EnvironmentChange change;
   if (message.sets_wind != 0) change.wind_mps = message.wind_speed_mps;
   if (message.sets_shipping != 0) change.shipping = message.shipping_activity;
+  if (message.sets_rain != 0) change.rain_mm_per_h = message.rain_mm_per_h;
   if (message.sets_sea_surface != 0) change.sea_surface_z_m = message.sea_surface_z_m;
   if (message.profile_set != environment_change_t::PROFILE_UNCHANGED) {
     change.profile = profile_in(message, before);

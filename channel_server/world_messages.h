@@ -30,6 +30,9 @@ struct WaterDescription {
 
 // The profile at the depths of its rows (of more than 2000, every second, third, ...); of a formula, every
 // 100 m down to 5000 m.
+// Of the fastest of its propeller and thrusters, turns a second.
+double turn_rate_hz(const vehicle_sensors_t& sensors);
+
 environment_t to_message(const acoustics::Environment& environment, const WaterDescription& description,
                          SimTime from, const std::string& terrain_version);
 

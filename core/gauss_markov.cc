@@ -19,7 +19,7 @@ constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 // sigma^2 (1 - c^2) / (1 + c^2) (Rasmussen and Williams 2006, appendix B, conditioned on both ends).
 GaussMarkovProcess::GaussMarkovProcess(double deviation, double correlation_time_s,
                                        const DrawAddress& address)
-    : deviation_(deviation), address_(address) {
+    : deviation_(deviation), is_zero_(deviation == 0), address_(address) {
   require_in_range(deviation, 0, 1e9, "standard deviation");
   require_in_range(correlation_time_s, 0.1, 1e6, "correlation time", "s");
   for (int i = 0; i < kHalvings; ++i) {
@@ -30,6 +30,20 @@ GaussMarkovProcess::GaussMarkovProcess(double deviation, double correlation_time
          deviation * std::sqrt(-elementary::expm1(-2 * half_s / correlation_time_s) / (1 + c * c))});
   }
   last_correlation_ = elementary::exp(-static_cast<double>(kLast) / 1000 / correlation_time_s);
+  last_deviation_ = deviation * std::sqrt(1 - last_correlation_ * last_correlation_);
+}
+
+GaussMarkovProcess GaussMarkovProcess::random_walk(double step_per_sqrt_s, const DrawAddress& address) {
+  require_in_range(step_per_sqrt_s, 0, 1e9, "step of a random walk", "1/sqrt(s)");
+  GaussMarkovProcess walk(address);
+  walk.is_zero_ = step_per_sqrt_s == 0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double half_s = static_cast<double>(kLast >> (i + 1)) / 1000;
+    walk.middles_.push_back({0.5, step_per_sqrt_s * std::sqrt(half_s / 2)});
+  }
+  walk.last_correlation_ = 1;
+  walk.last_deviation_ = step_per_sqrt_s * std::sqrt(static_cast<double>(kLast) / 1000);
+  return walk;
 }
 
 double GaussMarkovProcess::draw(std::int64_t millisecond) const {
@@ -43,8 +57,8 @@ double GaussMarkovProcess::draw(std::int64_t millisecond) const {
 double GaussMarkovProcess::at_millisecond(std::int64_t k, Cursor& cursor) const {
   auto& path = cursor.path_;
   if (path.empty()) {
-    const double first = deviation_ * draw(0), c = last_correlation_;
-    path.push_back({0, kLast, first, c * first + deviation_ * std::sqrt(1 - c * c) * draw(kLast)});
+    const double first = deviation_ * draw(0);
+    path.push_back({0, kLast, first, last_correlation_ * first + last_deviation_ * draw(kLast)});
   }
   while (path.size() > 1 && (k < path.back().from || k > path.back().to)) path.pop_back();
   while (k != path.back().from && k != path.back().to) {
@@ -59,7 +73,7 @@ double GaussMarkovProcess::at_millisecond(std::int64_t k, Cursor& cursor) const 
 }
 
 double GaussMarkovProcess::at(SimTime time, Cursor& cursor) const {
-  if (deviation_ == 0) return 0;
+  if (is_zero_) return 0;
   const std::int64_t ns = std::clamp<std::int64_t>(time.nanoseconds(), 0, kLast * kNanosecondsPerMillisecond);
   const std::int64_t k = ns / kNanosecondsPerMillisecond, rest = ns % kNanosecondsPerMillisecond;
   const double value = at_millisecond(k, cursor);

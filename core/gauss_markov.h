@@ -7,7 +7,8 @@
 // half the interval and c = exp(-h / T), mean (a + b) c / (1 + c^2), variance sigma^2 (1 - c^2) / (1 + c^2)
 // (Rasmussen and Williams 2006, appendix B). Each draw is addressed by the millisecond it stands for
 // (core/random.h). On whole milliseconds the process is exact in distribution; between them it is
-// interpolated linearly, so its derivative exists. Pure; a Cursor keeps what was drawn last so that
+// interpolated linearly, so its derivative exists. random_walk() is its limit of a long correlation time that starts from 0:
+// a Wiener process, whose middles have mean (a + b) / 2 and variance s^2 h / 2. Pure; a Cursor keeps what was drawn last so that
 // neighbouring instants cost two draws instead of 37; results do not depend on it.
 #pragma once
 
@@ -24,6 +25,9 @@ class GaussMarkovProcess {
   // `deviation` (any unit) 0 or above; `correlation_time_s` 0.1 to 1e6. `address.which` is not used.
   GaussMarkovProcess(double deviation, double correlation_time_s, const DrawAddress& address);
 
+  // x(0) = 0, of which the standard deviation after t seconds is step sqrt(t): `step_per_sqrt_s` 0 or above.
+  static GaussMarkovProcess random_walk(double step_per_sqrt_s, const DrawAddress& address);
+
   class Cursor;
 
   // The value at `time` (before 0: that at 0).
@@ -35,11 +39,13 @@ class GaussMarkovProcess {
   struct Middle {
     double weight, deviation;  // of the mean of both ends, of the draw
   };
+  explicit GaussMarkovProcess(const DrawAddress& address) : address_(address) {}
   double draw(std::int64_t millisecond) const;
   double at_millisecond(std::int64_t k, Cursor& cursor) const;
 
-  double deviation_;
-  double last_correlation_;  // between both ends
+  double deviation_ = 0;                              // at 0
+  double last_correlation_ = 0, last_deviation_ = 0;  // of the end, given the start
+  bool is_zero_ = false;
   DrawAddress address_;
   std::vector<Middle> middles_;  // by the depth of the halving, widest first
 };

@@ -29,10 +29,27 @@ void VehicleFaults::take(const Fault& fault, const ActuatorValues& now) {
     case FaultKind::kDeadSensor:
       dead_.at(static_cast<std::size_t>(fault.sensor)) = !fault.mended;
       return;
+    case FaultKind::kEmptyBattery:
+      has_power_ = fault.mended;
+      left_at_ = now;
+      return;
   }
 }
 
+VehicleFaults::Dead VehicleFaults::dead_sensors() const {
+  if (has_power_) return dead_;
+  Dead all;
+  all.fill(true);
+  return all;
+}
+
 ActuatorValues VehicleFaults::obeyed(ActuatorValues command) const {
+  if (!has_power_) {  // what does not turn stays where it was
+    ActuatorValues still = left_at_;
+    still.propeller_hz = 0;
+    still.thruster_hz = {};
+    return still;
+  }
   command.rudder_rad = rudder_rad_.value_or(command.rudder_rad);
   command.stern_planes_rad = stern_planes_rad_.value_or(command.stern_planes_rad);
   return command;
@@ -58,7 +75,10 @@ ModelParameters VehicleFaults::broken(ModelParameters sound) const {
       dry_kg * water_kg_ / all_kg * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
   sound.center_of_gravity_m += water_kg_ / all_kg * r;
   sound.mass_kg = all_kg;
-  if (lost_propeller_) sound.propeller.thrust_share = sound.propeller.torque_share = 0;
+  if (lost_propeller_) {
+    sound.propeller.thrust_share = sound.propeller.torque_share = 0;
+    sound.propeller.torque_at_rest = sound.propeller.torque_at_max = 0;
+  }
   return sound;
 }
 

@@ -6,7 +6,8 @@
 // (ModelParameters::leak_offset_m from the dry centre of gravity, by default there; no sloshing), and adds
 // its mass and inertia to the vehicle's and no buoyancy: off the centre of gravity it trims the hull. What
 // comes in moves with the vehicle already: the momentum it takes up is left out. A negative rate pumps out.
-// Dead sensor: it measures nothing. Each fault ends when it is mended; the water of a leak stays in.
+// Dead sensor: it measures nothing. Empty battery: propeller and thrusters stop, all else stays where it is, no sensor measures
+// anything. Each fault ends when it is mended; the water of a leak stays in.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@
 namespace halocline::vehicle_sim {
 
 // In the order of vehicle_fault_t.
-enum class FaultKind { kStuckRudder, kStuckSternPlanes, kLostPropeller, kLeak, kDeadSensor };
+enum class FaultKind { kStuckRudder, kStuckSternPlanes, kLostPropeller, kLeak, kDeadSensor, kEmptyBattery };
 
 struct Fault {
   SimTime from = {};  // holds from the first physics step at or after this
@@ -42,7 +43,8 @@ class VehicleFaults {
   // What the actuators do with a command.
   ActuatorValues obeyed(ActuatorValues command) const;
 
-  const Dead& dead_sensors() const { return dead_; }
+  Dead dead_sensors() const;
+  bool has_power() const { return has_power_; }
 
   // Lets `seconds` of water in or out; `water_density_kg_m3` above 0.
   void leak(double seconds, double water_density_kg_m3);
@@ -57,7 +59,8 @@ class VehicleFaults {
 
  private:
   std::optional<double> rudder_rad_, stern_planes_rad_;  // where they are stuck
-  bool lost_propeller_ = false;
+  ActuatorValues left_at_;                               // where the actuators were; read without power
+  bool lost_propeller_ = false, has_power_ = true;
   double leak_rate_kg_s_ = 0, leak_volume_m3_ = 0, water_kg_ = 0;
   Dead dead_ = {};
 };

@@ -27,6 +27,7 @@ Fleet::Fleet(const FleetSettings& settings, std::vector<FleetMember> members,
     commands_.emplace_back(settings.command_timeout, safe);
     obeyed_.push_back(safe);
     world_index_.push_back(world_.size());
+    if (member.battery) batteries_.emplace_back(world_index_.size() - 1, *member.battery);
     if (!member.model) continue;
     world_.add(member.model, member.start);
     if (member.model->parameters().drop_weight.mass_kg > 0) weighted_.push_back(i);
@@ -87,6 +88,7 @@ void Fleet::take_due_faults() {
     const auto& [member, fault] = waiting_faults_[due];
     const std::size_t index = world_index_[member];
     faults_[member].take(fault, moves(member) ? world_.state(index).actuators : ActuatorValues{});
+    if (fault.kind == FaultKind::kEmptyBattery) power_changes_.push_back({time_, member, fault.mended});
     if (!moves(member)) continue;
     set_broken_model(member);
     const auto place = std::lower_bound(leaking_.begin(), leaking_.end(), member);
@@ -132,6 +134,39 @@ void Fleet::fill_leaks() {
     halfway.leak(settings_.step.seconds() / 2, sound.water_density_kg_m3);
     world_.set_model(world_index_[member], std::make_shared<const Model>(halfway.broken(sound)));
     faults.leak(settings_.step.seconds(), sound.water_density_kg_m3);
+  }
+}
+
+const Battery* Fleet::battery(std::size_t index) const {
+  for (const auto& [member, battery] : batteries_) {
+    if (member == index) return &battery;
+  }
+  return nullptr;
+}
+
+void Fleet::spend_on_packet(std::size_t index, SimTime at, PacketEnergy cause, double energy_j) {
+  for (auto& [member, battery] : batteries_) {
+    if (member == index) battery.add_packet(at, cause, energy_j);
+  }
+}
+
+void Fleet::spend_energy() {
+  for (auto& [member, battery] : batteries_) {
+    const bool turns = moves(member) && faults_[member].has_power() && !has_diverged(member);
+    double shaft_w = 0;
+    if (turns) {
+      const VehicleState& state = world_.state(world_index_[member]);
+      shaft_w = shaft_power_w(model_of(member), state, water_at(member, state.position_ned_m));
+    }
+    battery.spend(time_ + settings_.step, settings_.step.seconds(), shaft_w);
+  }
+}
+
+void Fleet::end_power() {
+  for (const auto& [member, battery] : batteries_) {
+    if (!battery.is_empty() || !faults_[member].has_power()) continue;
+    const bool is_taken = apply_fault(member, {.from = time_, .kind = FaultKind::kEmptyBattery});
+    ensure(is_taken, "an empty battery is a fault that waits for nothing");
   }
 }
 
@@ -198,6 +233,7 @@ void Fleet::archive(Archive& a) {
   world_.archive(a);
   archive_currents(a);
   a(time_, obeyed_, faults_, waiting_faults_, leaking_);
+  for (auto& [member, battery] : batteries_) a(battery);
   if (!a.is_loading()) return;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (moves(i)) set_broken_model(i);
@@ -231,10 +267,12 @@ void Fleet::advance(SimTime until) {
       world_.set_command(world_index_[i], obeyed_[i]);
     }
     fill_leaks();
+    spend_energy();
     world_.step(settings_.step.seconds());
     time_ = time_ + settings_.step;
     drop_weights();
     take_due_faults();
+    end_power();
     if (take_due_current() || water_varies()) move_water();
   }
 }

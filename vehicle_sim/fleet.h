@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/archive.h"
@@ -23,6 +24,7 @@
 #include "vehicle_sim/dynamics/vehicle_state.h"
 #include "vehicle_sim/dynamics/waves.h"
 #include "vehicle_sim/faults.h"
+#include "vehicle_sim/power/battery.h"
 #include "vehicle_sim/sensors/sensors.h"
 #include "vehicle_sim/world/seabed.h"
 #include "vehicle_sim/world/vehicle_world.h"
@@ -32,8 +34,16 @@ namespace halocline::vehicle_sim {
 // One vehicle at the start.
 struct FleetMember {
   std::string name;
-  std::shared_ptr<const Model> model;  // null: fixed, its pose never changes
-  VehicleState start;                  // velocity over ground; zero for a fixed one
+  std::shared_ptr<const Model> model;           // null: fixed, its pose never changes
+  VehicleState start;                           // velocity over ground; zero for a fixed one
+  std::optional<BatterySettings> battery = {};  // none: it has all the energy it needs
+};
+
+// The power of a vehicle went with the charge of its battery, or came back.
+struct PowerChange {
+  SimTime at;
+  std::size_t member = 0;
+  bool has_power = false;
 };
 
 // A rope from a member that moves to another member, or to a fixed point.
@@ -82,6 +92,13 @@ class Fleet {
   [[nodiscard]] bool apply_fault(std::size_t index, const Fault& fault);
   const VehicleFaults& faults(std::size_t index) const { return faults_[index]; }
 
+  // Null without a battery.
+  const Battery* battery(std::size_t index) const;
+  // A packet takes energy from the battery at `at`; without a battery of no effect.
+  void spend_on_packet(std::size_t index, SimTime at, PacketEnergy cause, double energy_j);
+  // Since the last call.
+  std::vector<PowerChange> take_power_changes() { return std::exchange(power_changes_, {}); }
+
   // All that changes as time goes on. Loads into a fleet made of the same settings and members.
   void archive(Archive& a);
 
@@ -121,7 +138,9 @@ class Fleet {
   void take_due_faults();
   void archive_currents(Archive& a);
   void set_broken_model(std::size_t member);
-  void fill_leaks();  // over the step from time() on
+  void fill_leaks();    // over the step from time() on
+  void spend_energy();  // over the step from time() on
+  void end_power();     // of those whose battery is empty at time()
   const Model& model_of(std::size_t index) const { return world_.model(world_index_[index]); }
   ModelParameters sound_parameters(
       std::size_t member) const;  // without faults, and without a weight that is released
@@ -147,9 +166,11 @@ class Fleet {
   std::vector<CurrentChange> current_changes_;  // ascending in time
   WaveField waves_;
   std::vector<VehicleFaults> faults_;
-  std::vector<FaultOf> waiting_faults_;  // ascending in time
-  std::vector<std::size_t> leaking_;     // members that leak or have leaked, ascending
-  std::vector<std::size_t> weighted_;    // members that have a weight to drop, ascending
+  std::vector<FaultOf> waiting_faults_;                     // ascending in time
+  std::vector<std::size_t> leaking_;                        // members that leak or have leaked, ascending
+  std::vector<std::size_t> weighted_;                       // members that have a weight to drop, ascending
+  std::vector<std::pair<std::size_t, Battery>> batteries_;  // by member, ascending
+  std::vector<PowerChange> power_changes_;
 };
 
 }  // namespace halocline::vehicle_sim

@@ -98,8 +98,10 @@ void visit_fault(ConfigVisitor& v, FaultEntry& entry) {
   Fault& f = entry.fault;
   double at_s = (f.from - SimTime()).seconds(), until_s = (entry.until - SimTime()).seconds();
   v.text("vehicle", entry.vehicle, {}, "name of one that the vehicle simulator moves or holds");
-  bus::choice(v, "kind", f.kind,
-              {"stuck-rudder", "stuck-stern-planes", "lost-propeller", "leak", "dead-sensor"}, "what breaks");
+  bus::choice(
+      v, "kind", f.kind,
+      {"stuck-rudder", "stuck-stern-planes", "lost-propeller", "leak", "dead-sensor", "empty-battery"},
+      "what breaks");
   v.number("at_s", at_s, {0, 1e7, "s", "simulation time from which it holds"});
   v.number("until_s", until_s, {0, 1e7, "s", "simulation time at which it is mended; 0: never"});
   if (until_s > 0 && until_s <= at_s) v.problem("until_s", "allowed is 0, or a time after at_s");

@@ -98,7 +98,7 @@ void SensorStation::measure(const Fleet& fleet, std::size_t i, bool all_due, std
   const bool dvl_due = is_due(t.dvl, when, s.dvl.period), gps_due = is_due(t.gps, when, s.gps.period),
              sonar_due = is_due(t.sonar, when, s.sonar.period);
   if (fleet.has_diverged(i)) return;
-  const SensorSuite::Dead& dead = fleet.faults(i).dead_sensors();
+  const SensorSuite::Dead dead = fleet.faults(i).dead_sensors();
   const auto works = [&](SensorKind kind) { return !dead[static_cast<std::size_t>(kind)]; };
   const VehicleState state = fleet.state_at(i, when);
   if (all_due) {

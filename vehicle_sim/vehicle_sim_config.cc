@@ -15,6 +15,7 @@
 #include "vehicle_sim/model_config.h"
 #include "vehicle_sim/model_library.h"
 #include "vehicle_sim/moving_ocean.h"
+#include "vehicle_sim/power/battery.h"
 
 namespace halocline::vehicle_sim {
 namespace {
@@ -290,8 +291,8 @@ std::vector<FleetMember> members_of(const bus::Scenario& scenario, const Vehicle
     Vec3 current_there = current.everywhere(SimTime(), config.step).velocity_mps + current.at_depth(depth);
     if (ocean)
       current_there += ocean->current_ned_mps({entry.start_ned_m.x(), entry.start_ned_m.y(), depth}, 0);
-    members.push_back(
-        {entry.name, is_fixed ? nullptr : models.at(entry.model), start_of(entry, current_there)});
+    members.push_back({entry.name, is_fixed ? nullptr : models.at(entry.model),
+                       start_of(entry, current_there), to_settings(entry.battery)});
   }
   return members;
 }
@@ -333,6 +334,9 @@ std::vector<std::pair<std::size_t, Fault>> faults_of(const std::vector<FleetMemb
   std::vector<std::pair<std::size_t, Fault>> faults;
   for (const FaultEntry& entry : config.faults) {
     const std::size_t member = member_named(members, entry.vehicle, "fault");
+    require(
+        entry.fault.kind != FaultKind::kEmptyBattery || members[member].battery,
+        "fault: \"" + entry.vehicle + "\" has no battery that could be empty; give it a [vehicle.battery]");
     faults.emplace_back(member, entry.fault);
     if (entry.until <= entry.fault.from) continue;
     Fault end = entry.fault;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "vehicle_sim/dynamics/waves.h"
 #include "vehicle_sim/faults.h"
 #include "vehicle_sim/fleet.h"
+#include "vehicle_sim/power/battery.h"
 #include "vehicle_sim/sensor_config.h"
 #include "vehicle_sim/sensor_station.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
@@ -89,6 +91,11 @@ struct VehicleSimConfig {
 // Sections [vehicle_sim], [vehicle_sim.current], [vehicle_sim.waves], [sensors], [vehicle.sensors],
 // [[tether]] and [[fault]]; also reports each [[vehicle]] whose model is none.
 void visit(bus::ConfigVisitor& v, VehicleSimConfig& config);
+
+inline std::optional<BatterySettings> to_settings(const std::optional<bus::VehicleBattery>& b) {
+  if (!b) return std::nullopt;
+  return BatterySettings{b->capacity_j, b->hotel_w + b->listening_w, b->shaft_efficiency};
+}
 
 // The vehicles of the scenario that the simulator moves or holds ("external" ones are not its own). A vehicle starts
 // level, with its speed through the water (waves left aside). Throws InvalidArgument where the model is unknown,

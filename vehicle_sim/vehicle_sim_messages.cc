@@ -205,6 +205,21 @@ vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad) {
   return m;
 }
 
+vehicle_battery_t to_battery_message(SimTime when, std::int32_t vehicle_id, const Battery& battery,
+                                     bool has_power) {
+  vehicle_battery_t m{};
+  m.utime = when.to_utime();
+  m.vehicle_id = vehicle_id;
+  m.battery_empty = has_power ? 0 : 1;
+  m.capacity_j = battery.capacity_j();
+  m.energy_left_j = battery.left_j();
+  m.hotel_energy_j = battery.hotel_j();
+  m.shaft_energy_j = battery.shaft_j();
+  m.transmit_energy_j = battery.transmit_j();
+  m.receive_energy_j = battery.receive_j();
+  return m;
+}
+
 vehicle_fault_t to_fault_message(const Fault& fault, bool from_scenario) {
   vehicle_fault_t m{};
   m.utime = fault.from.to_utime();

@@ -14,6 +14,7 @@
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/currents.h"
 #include "vehicle_sim/faults.h"
+#include "vehicle_sim/power/battery.h"
 #include "vehicle_sim/sensor_station.h"
 #include "vehicle_sim/sensors/doppler_log.h"
 #include "vehicle_sim/sensors/sensor_settings.h"
@@ -39,6 +40,9 @@ vehicle_gps_t to_gps_message(SimTime when, const GpsFix& fix, double deviation_m
 // `echoes`: one for each of the sonar's rays.
 vehicle_sonar_t to_sonar_message(SimTime when, const SonarSettings& sonar, const std::vector<Echo>& echoes);
 vehicle_usbl_t to_usbl_message(const UsblFix& fix, double deviation_rad);
+
+vehicle_battery_t to_battery_message(SimTime when, std::int32_t vehicle_id, const Battery& battery,
+                                     bool has_power);
 
 vehicle_fault_t to_fault_message(const Fault& fault, bool from_scenario);
 Fault from_message(const vehicle_fault_t& message);

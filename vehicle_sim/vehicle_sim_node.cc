@@ -21,6 +21,7 @@ namespace {
 // late, and does not publish it: it is out of date, and the bus would lose the burst.
 constexpr SimDuration kLongestHalt = SimDuration::from_milliseconds(2000);
 constexpr SimDuration kLongestArrear = SimDuration::from_milliseconds(2000);
+constexpr SimDuration kBatteryPeriod = SimDuration::from_milliseconds(1000);
 constexpr std::size_t kMaxBeams = 4096;  // a message, by the service's contract
 
 SimTime first_on_grid(SimTime from, SimDuration period) {
@@ -74,6 +75,16 @@ void VehicleSimNode::subscribe_vehicle(std::size_t i) {
       [this, i](const vehicle_command_t& m) { on_command(i, m); }, bus::Wakeup::kStoreOnly);
   bus().subscribe<vehicle_fault_t>(bus::channels::kFault.of(members_[i].name),
                                    [this, i](const vehicle_fault_t& m) { on_fault(i, m); });
+  if (!members_[i].battery) return;
+  next_battery_ = SimTime();
+  bus().subscribe<modem_energy_t>(
+      bus::channels::kModemEnergy.of(members_[i].name),
+      [this, i](const modem_energy_t& m) {
+        if (!fleet_) return;
+        fleet_->spend_on_packet(i, SimTime::from_utime(m.utime), static_cast<PacketEnergy>(m.energy_cause),
+                                m.energy_j);
+      },
+      bus::Wakeup::kStoreOnly);
 }
 
 // OUTCOME has the true direction of an arrival; the fix is the vehicle's own measurement of it.
@@ -94,7 +105,7 @@ void VehicleSimNode::subscribe_arrays() {
 
 bus::Due VehicleSimNode::on_due() const {
   if (echoes_.has_complete()) return {.sim = SimTime::at_once()};
-  return {.sim = std::min({next_state_, station_.next(), next_fault()}), .steady = echoes_.next_deadline()};
+  return {.sim = std::min(next_sample(), next_fault()), .steady = echoes_.next_deadline()};
 }
 
 void VehicleSimNode::make_fleet(SimTime start) {
@@ -112,6 +123,7 @@ void VehicleSimNode::begin(SimTime now) {
   faults_published_ = 0;
   next_state_ = first_on_grid(start, config_.state_period);
   published_.assign(members_.size(), {});
+  if (next_battery_ != SimTime::never()) next_battery_ = first_on_grid(start, kBatteryPeriod);
   station_.begin(start);
   std::fill(reported_diverged_.begin(), reported_diverged_.end(), false);
 }
@@ -125,7 +137,7 @@ void VehicleSimNode::on_archive(Archive& a) {
     make_fleet(SimTime());
     last_step_ = SimTime() - kLongestHalt * 2;  // the step to come is the first after a halt
   }
-  a(*fleet_, station_, next_state_, published_, faults_published_);
+  a(*fleet_, station_, next_state_, next_battery_, published_, faults_published_);
   for (auto& [vehicle, array] : arrays_) a(array);
 }
 
@@ -139,9 +151,9 @@ void VehicleSimNode::on_step(const bus::Now& now) {
   if (now.sim_known) {
     if (!fleet_) begin(now.sim);
     const bool was_halted = now.steady - last_step_ > kLongestHalt;
-    for (SimTime next = std::min(next_state_, station_.next()); next <= now.sim;
-         next = std::min(next_state_, station_.next())) {
+    for (SimTime next = next_sample(); next <= now.sim; next = next_sample()) {
       fleet_->advance(next);
+      publish_batteries(next);
       const bool too_late = was_halted && now.sim - next > kLongestArrear;
       if (too_late) ++bus().counters().late;
       note_poses(next);
@@ -166,6 +178,30 @@ void VehicleSimNode::publish_states(SimTime when) {
     if (!published_[i].take(config_.states, config_.state_period, when, state)) continue;
     publish(bus::channels::kState, i, to_state_message(when, ids_[i], state));
   }
+}
+
+SimTime VehicleSimNode::next_sample() const {
+  return std::min({next_state_, station_.next(), next_battery_});
+}
+
+// When the power of one changes, and once a second.
+void VehicleSimNode::publish_batteries(SimTime when) {
+  for (const PowerChange& change : fleet_->take_power_changes()) {
+    publish_battery(change.at, change.member);
+    if (change.has_power || !fleet_->battery(change.member)->is_empty()) continue;  // a fault of others
+    const Fault fault{.from = change.at, .kind = FaultKind::kEmptyBattery};
+    publish(bus::channels::kFault, change.member, to_fault_message(fault, /*from_scenario=*/true));
+  }
+  if (next_battery_ != when) return;
+  next_battery_ = next_on_grid(when, kBatteryPeriod);
+  for (std::size_t i = 0; i < members_.size(); ++i) publish_battery(when, i);
+}
+
+void VehicleSimNode::publish_battery(SimTime when, std::size_t i) {
+  const Battery* battery = fleet_->battery(i);
+  if (battery == nullptr) return;
+  publish(bus::channels::kBattery, i,
+          to_battery_message(when, ids_[i], *battery, fleet_->faults(i).has_power()));
 }
 
 SimTime VehicleSimNode::next_fault() const {
@@ -245,6 +281,8 @@ void VehicleSimNode::on_command(std::size_t vehicle, const vehicle_command_t& me
 
 void VehicleSimNode::on_fault(std::size_t vehicle, const vehicle_fault_t& message) {
   if (!fleet_ || message.from_scenario) return;
+  if (message.fault_kind == vehicle_fault_t::EMPTY_BATTERY && !members_[vehicle].battery)
+    return bus().refuse(bus::channels::kFault.of(members_[vehicle].name), "the vehicle has no battery");
   if (!fleet_->apply_fault(vehicle, from_message(message)))
     bus().refuse(bus::channels::kFault.of(members_[vehicle].name), "too many faults wait for their time");
 }

@@ -4,7 +4,8 @@
 // array OUTCOME and RECEIVE.<vehicle>. Publishes STATE.<vehicle>, SENSORS.<vehicle> and DVL, GPS, SONAR.<vehicle> at
 // multiples of their periods since time 0, stamped with that instant, STATE only at those that need one
 // (state_selection.h); USBL.<vehicle> when a packet was received;
-// FAULT.<vehicle> when a fault of the scenario begins or ends; and RAY_QUERY for the seabed below. A measurement waits for its
+// FAULT.<vehicle> when a fault of the scenario begins or ends, or a battery is empty; BATTERY.<vehicle> once a second of vehicles
+// with a battery, from which packets take what MODEM_ENERGY.<vehicle> states; and RAY_QUERY for the seabed below. A measurement waits for its
 // echoes until the service answers or the time-out (echo_timeout, steady time) ends; then they are unavailable.
 //
 // A node that is started into a running simulation puts its vehicles where they start, at that time. One that was
@@ -61,6 +62,9 @@ class VehicleSimNode : public bus::Node {
   void subscribe_arrays();
   void publish_states(SimTime when);
   SimTime next_fault() const;
+  SimTime next_sample() const;
+  void publish_batteries(SimTime when);
+  void publish_battery(SimTime when, std::size_t vehicle);
   void publish_faults(SimTime until);
   void measure_all(SimTime steady);
   void note_poses(SimTime when);
@@ -87,6 +91,7 @@ class VehicleSimNode : public bus::Node {
   SensorStation station_;
   std::map<std::size_t, UsblFixAssembler> arrays_;  // of the vehicles that have one
   SimTime next_state_;
+  SimTime next_battery_ = SimTime::never();  // of those that have one
   std::vector<StateSelection> published_;
   SimTime last_step_;  // steady
   PendingEchoes echoes_;

@@ -14,6 +14,7 @@ namespace halocline::acoustics {
 void validate(const Environment& environment) {
   require_in_range(environment.noise.shipping, 0, 1, "shipping activity");
   require_in_range(environment.noise.wind_mps, 0, 60, "wind speed", "m/s");
+  require_in_range(environment.noise.rain_mm_per_h, 0, 500, "rain", "mm/h");
   require_in_range(environment.spreading_exponent, 1, 2, "spreading exponent");
   require_in_range(environment.ph, 7, 9, "pH");
   require_in_range(environment.latitude_rad, -std::numbers::pi / 2, std::numbers::pi / 2, "latitude", "rad");

@@ -1,11 +1,23 @@
 #include "acoustics/sea/noise.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "acoustics/math/frequency_band.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
+namespace {
+
+constexpr Decibels kNoRain{-300};
+
+// f in kHz.
+Decibels rain_level(double f, double rain_mm_per_h) {
+  if (rain_mm_per_h <= 0) return kNoRain;
+  return {42.4 + 15.4 * elementary::log10(rain_mm_per_h) - 10 * elementary::log10(1 + (f / 15) * (f / 15))};
+}
+
+}  // namespace
 
 NoiseComponents noise_components(double frequency_hz, const NoiseSources& sources) {
   // Coates 1990 as in Stojanovic 2006 (WUWNet); f in kHz, s shipping, w wind; dB re 1 uPa^2/Hz:
@@ -17,14 +29,30 @@ NoiseComponents noise_components(double frequency_hz, const NoiseSources& source
   n.shipping = {40 + 20 * (sources.shipping - 0.5) + 26 * log_f - 60 * elementary::log10(f + 0.03)};
   n.wind = {50 + 7.5 * std::sqrt(sources.wind_mps) + 20 * log_f - 40 * elementary::log10(f + 0.4)};
   n.thermal = {-15 + 20 * log_f};
+  n.rain = rain_level(f, sources.rain_mm_per_h);
   n.total_power = to_power_ratio(n.turbulence) + to_power_ratio(n.shipping) + to_power_ratio(n.wind) +
                   to_power_ratio(n.thermal);
+  if (sources.rain_mm_per_h > 0) n.total_power = n.total_power + to_power_ratio(n.rain);
+  if (sources.table) n.total_power = to_power_ratio(sources.table->level(frequency_hz));
   n.total = to_decibels(n.total_power);
   return n;
 }
 
 PowerRatio noise_power_density(double frequency_hz, const NoiseSources& sources) {
   return noise_components(frequency_hz, sources).total_power;
+}
+
+// Each component rises or falls with frequency, or has one maximum: its least value is at an end of the band.
+PowerRatio least_noise_power_density(double low_hz, double high_hz, const NoiseSources& sources) {
+  if (sources.table) return to_power_ratio(sources.table->least_level(low_hz, high_hz));
+  const NoiseComponents low = noise_components(low_hz, sources), high = noise_components(high_hz, sources);
+  double density = 0;
+  for (const auto component : {&NoiseComponents::turbulence, &NoiseComponents::shipping,
+                               &NoiseComponents::wind, &NoiseComponents::thermal}) {
+    density += to_power_ratio(std::min(low.*component, high.*component)).value;
+  }
+  if (sources.rain_mm_per_h > 0) density += to_power_ratio(std::min(low.rain, high.rain)).value;
+  return {density};
 }
 
 PowerRatio noise_power_over_band(double low_hz, double high_hz, const NoiseSources& sources) {

@@ -10,6 +10,19 @@ namespace {
 
 constexpr double kLongestRunS = 3.2e7;  // a year
 
+void visit_battery(ConfigVisitor& v, VehicleBattery& battery) {
+  double capacity_wh = battery.capacity_j / 3600;
+  v.number("capacity_wh", capacity_wh, {0, 1e8, "Wh", "energy when full"});
+  battery.capacity_j = capacity_wh * 3600;
+  v.number("hotel_w", battery.hotel_w, {0, 1e6, "W", "of all that is always on, but the modem"});
+  v.number("listening_w", battery.listening_w, {0, 1e6, "W", "of the modem, always"});
+  v.number("receiving_w", battery.receiving_w, {0, 1e6, "W", "more, while the modem follows a packet"});
+  v.number("transmit_efficiency", battery.transmit_efficiency,
+           {0.001, 1, "", "of amplifier and transducer: acoustic over electric power"});
+  v.number("shaft_efficiency", battery.shaft_efficiency,
+           {0.001, 1, "", "of motor and gear: power of the shafts over electric power"});
+}
+
 void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   v.shared_with_others();
   v.text("name", vehicle.name, {}, "channel suffix; " + std::string(kNameRule));
@@ -23,6 +36,11 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   degrees(v, "heading_deg", vehicle.heading_rad,
           {-360, 360, "deg", "heading at the start, clockwise from north"});
   v.number("speed_mps", vehicle.speed_mps, {-5, 5, "m/s", "speed at the start, forward through the water"});
+  if (v.writing() ? !vehicle.battery.has_value() : !v.given("battery")) return;
+  VehicleBattery battery = vehicle.battery.value_or(VehicleBattery());
+  v.section("battery", "What it lives on; without this it has all the energy it needs",
+            [&](ConfigVisitor& section) { visit_battery(section, battery); });
+  vehicle.battery = battery;
 }
 
 void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {

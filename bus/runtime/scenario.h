@@ -2,14 +2,15 @@
 //
 // A scenario is one TOML file. Each program reads this part and the sections of its own; `halocline run`
 // reads all, so that it finds every error at once. Sections and their owners:
-//   [scenario] [time] [ocean] [[vehicle]]    this file
+//   [scenario] [time] [ocean] [[vehicle]] [vehicle.battery]    this file
 //   [terrain]                          bathymetry/bathymetry_config.h
-//   [environment] [modem] [channel_server], [vehicle.modem]    channel_server/channel_server_config.h
+//   [environment] [modem] [channel_server], [vehicle.modem] [vehicle.clock] [vehicle.noise]    channel_server/channel_server_config.h
 //   [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]    vehicle_sim/vehicle_sim_config.h
 //   [vehicle.mission] [vehicle.traffic] [vehicle.localiser]    clients/
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,18 @@
 
 namespace halocline::bus {
 
+// What a vehicle lives on: the vehicle simulator keeps the account, the channel server says what packets take.
+struct VehicleBattery {
+  double capacity_j = 3.6e6;  // when full; 1 kWh is that of a REMUS 100
+  double hotel_w = 20;        // of all that is always on, but the modem; our choice
+  double listening_w = 0.2;   // of the modem, always; that of a Micromodem (Freitag et al. 2005)
+  double receiving_w =
+      2;  // more, while the modem follows a packet; a Micromodem's floating-point coprocessor
+  double transmit_efficiency = 0.5;  // of amplifier and transducer: acoustic over electric power; our choice
+  double shaft_efficiency = 0.7;     // of motor and gear: power of the shaft over electric power; our choice
+  bool operator==(const VehicleBattery&) const = default;
+};
+
 // One vehicle, as all programs know it.
 struct VehicleEntry {
   std::string name;     // channel suffix, is_valid_name; unique
@@ -27,9 +40,10 @@ struct VehicleEntry {
   // What moves it: a model of the vehicle simulator by name or as a file (docs/vehicles.md), "fixed" (the vehicle
   // simulator publishes a pose that never changes), or "external" (a process that is not ours).
   std::string model = "torpedo";
-  Vec3 start_ned_m = Vec3::Zero();  // world NED, metres
-  double heading_rad = 0;           // at the start, clockwise from north
-  double speed_mps = 0;             // at the start, forward through the water
+  Vec3 start_ned_m = Vec3::Zero();             // world NED, metres
+  double heading_rad = 0;                      // at the start, clockwise from north
+  double speed_mps = 0;                        // at the start, forward through the water
+  std::optional<VehicleBattery> battery = {};  // none: it has all the energy it needs
 };
 
 // The ocean as fields of place and time, from a file (ocean/ocean_field_reader.h).

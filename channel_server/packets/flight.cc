@@ -162,7 +162,7 @@ double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading) {
   const double factor = flight.doppler_factor();
   const bool fades = fading.enabled || flight.reception.measured;
-  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fades, {}};
+  ReceivedSignal signal{flight.packet, noise, flight.lock(), {}, {}, fades, {}, {}};
   signal.preamble_end = signal.begin + shrunk(flight.packet->timing.preamble, factor);
   signal.end = signal.begin + shrunk(flight.packet->timing.duration, factor);
   return signal;

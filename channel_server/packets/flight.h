@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
@@ -35,7 +36,8 @@
 namespace halocline::channel_server {
 
 struct Flight {
-  enum class Stage { kTravelling, kPreamble, kBits };
+  // kSolved: the sound is there, what vehicles sound like is not known yet.
+  enum class Stage { kTravelling, kSolved, kPreamble, kBits };
 
   PacketPointer packet;
   std::uint64_t identity = 0;  // of the packet, for draws
@@ -56,6 +58,7 @@ struct Flight {
   // Once it has arrived.
   ReceiverState* sounds_at = nullptr;  // which it is open at until it ends
   bool receiver_absent = false;        // at the first significant path: its state is older than the time-out
+  std::vector<NoiseSound> noise;       // of other vehicles, during the packet
   double large_scale = 1;              // of the pressures, by the link's large-scale fading
   ReceivedSignal signal;
   PacketDraws draws = {};

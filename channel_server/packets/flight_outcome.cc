@@ -5,8 +5,10 @@
 #include <cstdint>
 
 #include "channel_server/packets/reception_decision.h"
+#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_power.h"
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "core/names.h"
@@ -30,12 +32,25 @@ bool is_for(const SendRequest& request, VehicleId receiver) {
   return request.destination_id == receiver || request.destination_id == kBroadcastId;
 }
 
-// Of an answer: what the one that asked measures, less what both ends know of packets and turnaround.
-double two_way_travel_time_s(const Flight& answer) {
+// What a vehicle's clock gains from one instant to another, s.
+double gain_s(const VehicleClocks& clocks, VehicleId id, SimTime from, SimTime to) {
+  return clocks.error_s(id, to) - clocks.error_s(id, from);
+}
+
+// Of an answer: what the one that asked measures by its clock, less what both ends know of packets and turnaround.
+double two_way_travel_time_s(const Flight& answer, const VehicleClocks& clocks) {
   const Packet& asked = *answer.packet->answers;
   const SimDuration waited =
       answer.packet->departure - asked.departure - asked.timing.duration - kReplyTurnaround;
-  return waited.seconds() + answer.travel_time_s;
+  return waited.seconds() + answer.travel_time_s +
+         gain_s(clocks, answer.receiver_id, asked.departure, answer.arrival());
+}
+
+// The receiver's clock at the arrival, less the sender's at the departure.
+double one_way_travel_time_s(const Flight& flight, const VehicleClocks& clocks) {
+  const Packet& packet = *flight.packet;
+  return flight.travel_time_s + clocks.error_s(flight.receiver_id, flight.arrival()) -
+         clocks.error_s(packet.request.source_id, packet.departure);
 }
 
 // A time of arrival as the receiver's modem gives it: with its error, in steps of its quantum.
@@ -83,6 +98,10 @@ OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fl
   statistics.success_draw = flight.draws.success;
   flight.receiver_absent = flight.receiver_absent || !fleet.placement(flight.receiver_id, at, at);
   const OutcomeKind before = outcome_before_acquisition(flight);
+  const VehiclePower& power = fleet.equipment().power;
+  const bool has_power =
+      power.has_power(flight.receiver_id, signal.begin) && power.has_power(flight.receiver_id, signal.end);
+  if (!has_power && before != OutcomeKind::kReceiverGone) return OutcomeKind::kNoPower;
   if (before != OutcomeKind::kReceived) return before;
   if (fleet.sleeps_during(flight.receiver_id, signal.begin, signal.end)) return OutcomeKind::kAsleep;
   for (const PacketPointer& own : receiver.transmitted_during(signal.begin, signal.end)) {
@@ -94,11 +113,13 @@ OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fl
     statistics.colliders.push_back(flight.followed->name());
     return OutcomeKind::kCollided;
   }
-  const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.end);
+  const auto others = interferers_of(flight, receiver, signal.begin, signal.end);
   return decide_reception(signal, others, flight.draws, flight.acquired, statistics);
 }
 
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, bool promiscuous) {
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEquipment& equipment,
+                         bool promiscuous) {
+  const VehicleClocks& clocks = equipment.clocks;
   PacketOutcome outcome;
   outcome.kind = kind;
   outcome.packet = flight.packet;
@@ -107,8 +128,13 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, bool promiscuou
   outcome.deliver = outcome.kind == OutcomeKind::kReceived &&
                     (promiscuous || is_for(flight.packet->request, flight.receiver_id));
   outcome.travel_time_s = flight.travel_time_s;
-  outcome.measured_travel_time_s = measured(flight, flight.travel_time_s);
-  if (flight.packet->answers) outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight));
+  outcome.departure_stamp =
+      flight.packet->departure +
+      SimDuration::from_seconds(clocks.error_s(flight.packet->request.source_id, flight.packet->departure));
+  outcome.measured_travel_time_s = measured(flight, one_way_travel_time_s(flight, clocks));
+  if (flight.packet->answers) {
+    outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight, clocks));
+  }
   outcome.budget = flight.reception.budget;
   outcome.cutoff = flight.modem.min_receivable_level;
   outcome.propagation = flight.reception.used;
@@ -117,6 +143,8 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, bool promiscuou
   outcome.doppler_factor = flight.doppler_factor();
   set_direction(flight, outcome);
   outcome.statistics = flight.statistics;
+  if (const PowerOf* battery = flight.acquired ? equipment.power.battery_of(flight.receiver_id) : nullptr)
+    outcome.receive_energy_j = battery->receiving_w * (flight.signal.end - flight.signal.begin).seconds();
   return outcome;
 }
 
@@ -130,12 +158,24 @@ PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) 
   return outcome;
 }
 
+void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events) {
+  if (power.battery_of(packet.request.source_id) == nullptr) return;
+  events.push_back({packet.departure, EnergyUse{packet.request.vehicle, true, packet.energy_j, packet.name()}});
+}
+
+void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,
+                   std::vector<MediumEvent>& events) {
+  if (!flight.acquired || power.battery_of(flight.receiver_id) == nullptr) return;
+  events.push_back({at, EnergyUse{flight.receiver, false, outcome.receive_energy_j, flight.packet->name()}});
+}
+
 bool asks_for_answer(const PacketOutcome& outcome) {
   const SendRequest& request = outcome.packet->request;
   return outcome.deliver && request.destination_id == outcome.receiver_id && wants_answer(request);
 }
 
-ModemReply answer_of(const Flight& flight, SimTime at) {
+// The clock that gains g over the turnaround makes it g shorter (to the first order in its drift).
+ModemReply answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks) {
   const Packet& asked = *flight.packet;
   SendRequest answer;
   answer.vehicle = flight.receiver;
@@ -144,7 +184,9 @@ ModemReply answer_of(const Flight& flight, SimTime at) {
   answer.session = asked.request.session;
   answer.packet_sequence = asked.request.packet_sequence;
   const SimTime measured_arrival = flight.arrival() + SimDuration::from_seconds(flight.timing_error_s);
-  answer.start = std::max(measured_arrival + asked.timing.duration + kReplyTurnaround, at);
+  const SimTime due = measured_arrival + asked.timing.duration + kReplyTurnaround;
+  const double gained_s = gain_s(clocks, flight.receiver_id, measured_arrival, due);
+  answer.start = std::max(due - SimDuration::from_seconds(gained_s), at);
   answer.kind = asked.request.kind == PacketKind::kPing ? PacketKind::kPingReply : PacketKind::kAck;
   if (answer.kind == PacketKind::kAck) {
     for (std::size_t frame = 0; frame < asked.frame_bytes.size(); frame += 8)

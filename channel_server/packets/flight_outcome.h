@@ -1,10 +1,16 @@
 // The record of a flight at its end, and what decides it before noise and other sounds do.
 #pragma once
 
+#include <vector>
+
 #include "channel_server/packets/flight.h"
+#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
+#include "channel_server/vehicles/vehicle_clocks.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_power.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
 
@@ -20,13 +26,18 @@ OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fl
                            const ReceiverState& receiver);
 
 // The record of a flight that ended as `kind`; `promiscuous`: the receiver takes packets for others, too.
-PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, bool promiscuous = false);
+PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEquipment& equipment,
+                         bool promiscuous = false);
 // Of a packet that does not get as far as `range_m`, at several receivers: kOutOfReach. Levels are kSilence, nothing else was
 // computed.
 PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m);
+// What a packet took from the battery of its sender, and of its receiver by its end; nothing without one.
+void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events);
+void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,
+                   std::vector<MediumEvent>& events);
 // Whether the receiver's modem answers by itself: a ping, or a packet that wants an acknowledgement, received by its addressee.
 bool asks_for_answer(const PacketOutcome& outcome);
-// The answer to a packet that was received by `at`.
-ModemReply answer_of(const Flight& flight, SimTime at);
+// The answer to a packet that was received by `at`: it leaves a turnaround later by the receiver's clock.
+ModemReply answer_of(const Flight& flight, SimTime at, const VehicleClocks& clocks);
 
 }  // namespace halocline::channel_server

@@ -1,16 +1,24 @@
-// What happens in the medium: receipts, outcomes, answers of modems, and what modems notice.
+// What happens in the medium: to packets, at modems and to batteries.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <variant>
 
-#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
+
+// What one packet takes from a vehicle's battery: of its sender whole at the departure, of a receiver that acquired it, whatever
+// became of it, at its end.
+struct EnergyUse {
+  std::string vehicle;
+  bool is_transmission = true;
+  double energy_j = 0;
+  PacketName packet;
+};
 
 // In the order of modem_event_t.
 enum class ModemEventKind {
@@ -33,8 +41,9 @@ struct ModemEvent {
 };
 
 struct MediumEvent {
-  SimTime at;                                                         // exactly when it happened
-  std::variant<Receipt, PacketOutcome, ModemReply, ModemEvent> what;  // answers only for other shards
+  SimTime at;  // exactly when it happened
+  // Answers only for other shards.
+  std::variant<Receipt, PacketOutcome, ModemReply, ModemEvent, EnergyUse> what;
   bool late = false;  // the medium had been advanced beyond `at` before it could know of this
 };
 

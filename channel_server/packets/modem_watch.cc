@@ -62,8 +62,7 @@ void ModemWatch::judge_carrier(const ReceiverState& heard, std::vector<MediumEve
   const SimTime from = carrier.changed == SimTime::at_once() ? at : carrier.changed + kCarrierHold;
   if (from > at) return judge_carrier_at(id, from);
   const acoustics::Modem& modem = fleet_.modem(id, at).modem;
-  const Decibels noise =
-      noise_.level(modem.band(), propagation_.environment(at).noise) - modem.directivity_index;
+  const Decibels noise = sounds_.noise_level(id, modem.band(), at, at) - modem.directivity_index;
   const double threshold = to_power_ratio(noise + listening.carrier_threshold).value;
   const PowerCrossing crossing = heard.next_crossing(at, modem.band(), threshold, !carrier.sensed);
   if (crossing.at > at) return judge_carrier_at(id, crossing.at);

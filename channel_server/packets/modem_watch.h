@@ -21,10 +21,9 @@
 
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/medium_event.h"
-#include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
-#include "channel_server/propagation/propagation.h"
+#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/sim_time.h"
@@ -36,8 +35,7 @@ class ModemWatch {
   static constexpr SimDuration kCarrierHold = SimDuration::from_milliseconds(10);
 
   // All must outlive it.
-  ModemWatch(const VehicleRegistry& fleet, const Propagation& propagation, NoiseLevelCache& noise)
-      : fleet_(fleet), propagation_(propagation), noise_(noise) {}
+  ModemWatch(const VehicleRegistry& fleet, VehicleSounds& sounds) : fleet_(fleet), sounds_(sounds) {}
 
   // A packet leaves now.
   void begin_transmission(const Packet& packet, std::vector<MediumEvent>& events);
@@ -70,8 +68,7 @@ class ModemWatch {
   void change(VehicleId id, Carrier& carrier, SimTime at, double power, std::vector<MediumEvent>& events);
 
   const VehicleRegistry& fleet_;
-  const Propagation& propagation_;
-  NoiseLevelCache& noise_;
+  VehicleSounds& sounds_;
   std::map<std::pair<SimTime, VehicleId>, ModemEvent> ends_;
   std::map<VehicleId, Carrier> carriers_;
   std::set<std::pair<SimTime, VehicleId>> due_;  // to judge once too often changes nothing

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "acoustics/link/capacity.h"
 #include "acoustics/math/frequency_band.h"
+#include "acoustics/noise/noise_spectrum.h"
 #include "acoustics/sea/noise.h"
 #include "core/lru_cache.h"
 #include "core/units.h"
@@ -20,7 +22,8 @@ class NoiseLevelCache {
   Decibels level(const acoustics::Band& band, const acoustics::NoiseSources& sources);
 
  private:
-  using Key = std::array<double, 4>;  // low and high end of the band, Hz; shipping; wind, m/s
+  // Low and high end of the band, Hz; shipping; wind, m/s; rain, mm/h. A table is as old as its sea, which outlives it.
+  using Key = std::pair<std::array<double, 5>, const acoustics::NoiseSpectrum*>;
   LruCache<Key, Decibels> levels_{kMaxKept};
   // What was asked for last, which is what most packets ask for.
   Key last_ = {};

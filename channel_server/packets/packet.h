@@ -83,6 +83,7 @@ enum class SendResult {
   kQueueFull,       // the modem queues, and too many wait already
   kNoRate,          // the modem has no rate of that number
   kNoKind,          // the modem has no packets of that kind, or not at that rate
+  kNoModem,         // the vehicle carries none, or its battery is empty
 };
 
 struct Receipt {
@@ -101,7 +102,8 @@ struct PacketName {
   PacketKind kind = PacketKind::kData;
   VehicleId destination_id = 0;
   SimTime departure;
-  std::int64_t session = 0;  // last: sessions differ from run to run, and decide nothing but ties of all else
+  std::int64_t session = 0;  // sessions differ from run to run, and decide nothing but ties of all else
+  bool is_noise = false;     // no packet: the noise of vehicle source_id
 
   auto operator<=>(const PacketName&) const = default;
 };
@@ -118,10 +120,12 @@ struct Packet {
   std::int32_t rate_number = 0;
   acoustics::PacketFormat format = {};
   std::vector<std::int32_t> frame_bytes = {};  // of the payload in each frame of the format
+  bool is_noise = false;                       // no packet: what a vehicle sounds like (vehicle_sounds.h)
+  double energy_j = 0;                         // that it takes from the sender's battery; 0 without one
 
   PacketName name() const {
     return {request.source_id, request.packet_sequence, request.kind, request.destination_id,
-            departure,         request.session};
+            departure,         request.session,         is_noise};
   }
   LinkEnd link_end() const { return {request.source_id, departure_ned_m, velocity_ned_mps, &modem}; }
 };
@@ -147,6 +151,7 @@ enum class OutcomeKind {
   kOutOfReach,    // [0] so far away at the departure that its sound cannot matter (propagation/reach.h)
   kAsleep,        // [6] the receiver's modem slept at some instant of the packet
   kExtraLoss,     // [12] none of the others, but lost on purpose (extra_loss.h)
+  kNoPower,       // [1] the receiver's battery was empty at the first bit or at the last
 };
 
 // What the outcome was decided by.
@@ -171,9 +176,10 @@ struct PacketOutcome {
   bool deliver =
       false;  // received, and addressed to this receiver or to all, or this receiver is promiscuous
   double travel_time_s = 0;  // of the first significant path
-  double measured_travel_time_s =
-      0;  // as the receiver's modem measures it: with noise, in steps of its time quantum
-  double two_way_travel_time_s = 0;  // likewise, of an answer: out and back; else 0
+  SimTime departure_stamp;   // the departure by the sender's clock
+  // As the receiver's modem measures it: with noise, in steps of its time quantum, by its own clock less the stamp.
+  double measured_travel_time_s = 0;
+  double two_way_travel_time_s = 0;  // likewise by its own clock, of an answer: out and back; else 0
   acoustics::LinkBudget budget;      // from the sender at departure to the receiver at arrival
   Decibels cutoff;                   // the receiver's, dB re 1 uPa
   PropagationUsed propagation = PropagationUsed::kStraight;
@@ -183,6 +189,7 @@ struct PacketOutcome {
   double arrival_azimuth_rad = 0;    // towards where the sound came from, from north by east, -pi..pi
   double arrival_elevation_rad = 0;  // likewise, from the horizontal, positive up
   DecisionStatistics statistics;
+  double receive_energy_j = 0;  // taken from the receiver's battery; 0 unless acquired, and without one
 };
 
 }  // namespace halocline::channel_server

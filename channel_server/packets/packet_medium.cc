@@ -7,6 +7,7 @@
 #include "acoustics/modem/modem.h"
 #include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
+#include "channel_server/packets/send_decision.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/check.h"
 #include "core/frames.h"
@@ -30,9 +31,11 @@ PacketMedium::PacketMedium(const VehicleRegistry& fleet, Propagation& propagatio
       rule_(std::move(rule)),
       reach_(reach),
       for_each_(std::move(for_each)),
-      watch_(fleet, propagation, noise_) {
+      sounds_(fleet, propagation, reach, rule_.fading, rule_.noise, rule_.seed),
+      watch_(fleet, sounds_) {
   require(rule_.max_lateness >= SimDuration(), "the greatest lateness must not be negative");
   require(rule_.max_earliness >= SimDuration(), "the greatest earliness must not be negative");
+  validate(rule_.noise);
 }
 
 std::optional<Receipt> PacketMedium::transmit(const SendRequest& request, SimTime now) {
@@ -122,7 +125,12 @@ bool PacketMedium::must_be_put_off(const Departure& departure) const {
 }
 
 void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events) {
-  if (departure.queued) return launch(at_its_departure(*departure.queued), events);
+  if (departure.queued) {
+    const PacketPointer packet = at_its_departure(*departure.queued, fleet_);
+    // The battery may have run out while it waited: then it is never sent.
+    if (power().has_power(packet->request.source_id, packet->departure)) launch(packet, events);
+    return;
+  }
   if (must_be_put_off(departure)) {
     departure.is_put_off = true;
     const SimTime later = departure.request.start + fleet_.rule().state_lag;
@@ -133,15 +141,16 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   if (departure.is_put_off) request.start = asked.start + fleet_.rule().state_lag;
   Framing framing = framing_of(fleet_.modem(request.vehicle, request.start), request);
   const acoustics::PacketTiming timing = framing.timing;
-  const Decision decision = decide(request, framing);
+  const SendDecision decision = decide_send(request, framing, fleet_, register_);
   const bool accepted = decision.result == SendResult::kAccepted || decision.result == SendResult::kQueued;
   if (accepted) {
     register_.occupy(request.vehicle, decision.start, timing.duration);
     const auto place = fleet_.placement(request.source_id, request.start, request.start);
     const auto packet = std::make_shared<const Packet>(
-        Packet{request, decision.start, timing, std::move(framing.modem), place->position_ned_m,
+        Packet{request, decision.start, timing, framing.modem, place->position_ned_m,
                place->velocity_ned_mps, departure.answers, framing.rate_number, std::move(framing.format),
-               std::move(framing.frame_bytes)});
+               std::move(framing.frame_bytes), false,
+               power().transmit_energy_j(request.source_id, framing.modem, timing.duration)});
     if (decision.result == SendResult::kAccepted) {
       launch(packet, events);
     } else {
@@ -159,32 +168,6 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   events.push_back({request.start, std::move(receipt)});
 }
 
-PacketMedium::Decision PacketMedium::decide(const SendRequest& request, const Framing& framing) const {
-  const auto id = fleet_.id_of(request.vehicle);
-  const SimTime start = request.start;
-  if (!id || !fleet_.placement(*id, start, start)) return {SendResult::kUnknownVehicle, start};
-  if (*id != request.source_id) return {SendResult::kWrongSource, start};
-  const VehicleModem& modem = fleet_.modem(request.vehicle, start);
-  if (framing.problem != SendResult::kAccepted) return {framing.problem, start};
-  if (!register_.is_busy(request.vehicle, start, framing.timing.duration))
-    return {SendResult::kAccepted, start};
-  if (modem.when_busy == WhenBusy::kRefuse || is_answer(request.kind)) {
-    return {SendResult::kBusy, start};
-  }
-  if (register_.waiting_at(request.vehicle, start) >= kMaxQueued) return {SendResult::kQueueFull, start};
-  return {SendResult::kQueued, register_.free_from(request.vehicle, start)};
-}
-
-// Where the sender is by then, or was when the packet was accepted should it be forgotten since.
-PacketPointer PacketMedium::at_its_departure(const Packet& queued) const {
-  Packet packet = queued;
-  if (const auto place = fleet_.prediction(packet.request.source_id, packet.departure, packet.departure)) {
-    packet.departure_ned_m = place->position_ned_m;
-    packet.velocity_ned_mps = place->velocity_ned_mps;
-  }
-  return std::make_shared<const Packet>(std::move(packet));
-}
-
 // Everybody knows the states of all, so the shard of the sender counts those out of reach.
 void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>& events) {
   const SimTime departure = packet->departure;
@@ -193,6 +176,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   if (is_served) {
     state_of(source).transmit({packet, departure, departure + packet->timing.duration});
     watch_.begin_transmission(*packet, events);
+    add_sending(*packet, power(), events);
   }
   place_all(fleet_, departure, present_);
   const double reach_m = reach_ != nullptr ? reach_->reach_m(departure, packet->modem, fleet_, present_)
@@ -237,7 +221,10 @@ bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events)
   if (first.stage == Flight::Stage::kTravelling) {
     const auto end = next_end(first, at, fleet_, propagation_);
     if (!is_solvable(first, end, propagation_)) return false;
-    begin_reception(flights_.take_first(), end, at);
+    arrive(flights_.take_first(), end, at);
+  } else if (first.stage == Flight::Stage::kSolved) {
+    if (!sounds_.are_ready(first, at)) return false;
+    begin_reception(flights_.take_first(), at);
   } else if (first.stage == Flight::Stage::kPreamble) {
     end_preamble(flights_.take_first(), at, events);
   } else {
@@ -248,23 +235,30 @@ bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events)
   return true;
 }
 
-void PacketMedium::begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at) {
+void PacketMedium::arrive(Flight& flight, const std::optional<LinkEnd>& end, SimTime at) {
   solve_arrival(flight, end, at, fleet_, propagation_);
   const SimTime first_sound = flight.first_sound();
   if (first_sound > at + kSolvedInTime && flight.solutions < kMaxSolutions) {
     return flights_.add(first_sound, flight);
   }
+  if (!sounds_.any()) return begin_reception(flight, at);
+  flight.stage = Flight::Stage::kSolved;
+  flights_.add(at, flight);
+}
+
+void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   const SimTime arrival = flight.arrival();
   auto& budget = flight.reception.budget;
   // The reception holds for a place within a decimetre.
   const auto place = fleet_.prediction(flight.receiver_id, arrival, at);
   if (place) budget.range_m = (place->position_ned_m - flight.packet->departure_ned_m).norm();
-  budget.noise_level = noise_.level(flight.packet->modem.band(), propagation_.environment(arrival).noise);
+  sounds_.set_noise(flight, at);
   const Decibels noise = budget.noise_level - flight.modem.directivity_index;
   budget.snr = budget.received_level - noise - band_loss(flight.packet->modem, flight.modem);
   flight.receiver_absent = !fleet_.is_present(place);
   flight.large_scale = large_scale_of(flight, rule_.fading, rule_.seed);
   flight.signal = received_signal(flight, to_power_ratio(noise).value, rule_.fading);
+  if (rule_.noise.has_bursts()) add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
   flight.draws = draws_of(rule_.seed, *flight.packet, flight.identity, flight.receiver_id);
   flight.sounds_at = &state_of(flight.receiver_id);
   flight.sounds_at->open(disturbing_sound(flight, reach_));
@@ -277,13 +271,14 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
   ReceiverState& receiver = *flight.sounds_at;
   const ReceivedSignal& signal = flight.signal;
   const bool is_impossible = outcome_before_acquisition(flight) != OutcomeKind::kReceived ||
+                             !power().has_power(flight.receiver_id, signal.begin) ||
                              is_shifted_too_far(flight) ||
                              fleet_.sleeps_during(flight.receiver_id, signal.begin, signal.preamble_end) ||
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight.followed) {
     evaluate_signal(flight, rule_.fading, rule_.seed);
-    const auto others = receiver.interferers_of(*flight.packet, signal.begin, signal.preamble_end);
+    const auto others = interferers_of(flight, receiver, signal.begin, signal.preamble_end);
     flight.acquired = acquires(signal, others, flight.draws, flight.statistics);
     if (flight.acquired && signal.fades) {
       const double draw = timing_draw_of(rule_.seed, flight.identity, flight.receiver_id);
@@ -305,12 +300,15 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
     kind = OutcomeKind::kExtraLoss;
     flight.statistics.frames_good = 0;
   }
-  PacketOutcome outcome = outcome_of(flight, kind, fleet_.listening(flight.receiver_id, at).promiscuous);
+  const VehicleEquipment& equipment = fleet_.equipment();
+  PacketOutcome outcome =
+      outcome_of(flight, kind, equipment, fleet_.listening(flight.receiver_id, at).promiscuous);
+  add_receiving(flight, outcome, at, equipment.power, events);
   const bool is_answered = asks_for_answer(outcome);
   ModemWatch::end(flight, at, kind, events);
   events.push_back({at, std::move(outcome)});
   if (is_answered) {
-    const ModemReply answer = answer_of(flight, at);
+    const ModemReply answer = answer_of(flight, at, equipment.clocks);
     add_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, answer});
   }

@@ -29,6 +29,10 @@
 // Error. A receiver that turns towards the sound while it travels is met late by 2 v / c of the travel time at
 // most (a few ms); a decision at that receiver within this gap does not know of the sound yet.
 //
+// Energy. A vehicle with a battery (vehicles/vehicle_power.h) spends transmit_power_w over the duration of what it sends, and its
+// receiving power while it follows a packet it acquired; each gives an EnergyUse. Without power a modem sends, answers and
+// acquires nothing, and what waits in its queue is never sent; what it had begun to send goes on to its end.
+//
 // Shards. A medium that shares the water with others (rule.shard) gets all states and requests, decides all
 // of them, and follows packets only to the receivers it serves. Only a modem's own answer depends on what another
 // shard's vehicle received; it leaves kReplyTurnaround after that, and add_answer() passes it on meanwhile.
@@ -46,20 +50,24 @@
 #include <vector>
 
 #include "acoustics/fading/path_fading.h"
+#include "acoustics/noise/noise_variation.h"
 #include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/flight_queue.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/modem_watch.h"
-#include "channel_server/packets/noise_level_cache.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_framing.h"
 #include "channel_server/packets/receiver_state.h"
+#include "channel_server/packets/send_decision.h"
 #include "channel_server/packets/send_register.h"
+#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/propagation/reach.h"
+#include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/shard.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "channel_server/vehicles/vehicle_power.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/for_each.h"
 #include "core/sim_time.h"
@@ -71,13 +79,14 @@ struct MediumRule {
   SimDuration max_earliness = SimDuration::from_milliseconds(60'000);  // of a request; 0 and up
   std::uint64_t seed = 1;                                              // of all draws
   acoustics::FadingModel fading = {};                                  // of every link
+  acoustics::NoiseVariation noise = {};                                // of the sea's
   Shard shard = {};  // of several media of one water, each with all requests
   std::vector<ExtraLoss> extra_loss = {};
 };
 
 class PacketMedium {
  public:
-  static constexpr std::size_t kMaxQueued = 16;  // at one modem
+  static constexpr std::size_t kMaxQueued = kMaxQueuedSends;
 
   // All must outlive the medium; `for_each` shares out what the paths of one packet cost; the owner adds the states to the registry before advance_to. Without `reach` everybody
   // is within reach.
@@ -125,21 +134,17 @@ class PacketMedium {
   // Events at one instant happen in the order of the rest of the key.
   using DepartureKey =
       std::tuple<SimTime, std::string, PacketKind, std::int64_t, VehicleId, bool, std::int64_t>;
-  struct Decision {
-    SendResult result;
-    SimTime start;
-  };
 
   void add_departure(SimTime at, Departure departure);
   void depart(Departure departure, std::vector<MediumEvent>& events);
   [[nodiscard]] bool must_be_put_off(const Departure& departure) const;
-  Decision decide(const SendRequest& request, const Framing& framing) const;
+  const VehiclePower& power() const { return fleet_.equipment().power; }
   void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
-  PacketPointer at_its_departure(const Packet& queued) const;
 
   // Of the first flight; false: it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
-  void begin_reception(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
+  void arrive(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
+  void begin_reception(Flight& flight, SimTime at);
   void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   ReceiverState& state_of(VehicleId id);
@@ -149,8 +154,8 @@ class PacketMedium {
   MediumRule rule_;
   ReachModel* reach_;
   ForEach for_each_;
+  VehicleSounds sounds_;
   SendRegister register_;
-  NoiseLevelCache noise_;
   ModemWatch watch_;
   std::map<DepartureKey, Departure> departures_;
   FlightQueue flights_;

@@ -27,6 +27,12 @@ struct AudiblePacket {
   std::vector<AudiblePath> paths;
 };
 
+// The noise of a vehicle, over the band of the packet it disturbs.
+struct NoiseSound {
+  PacketPointer source;
+  double power = 0;  // uPa^2
+};
+
 // A packet during an interval: a transmission of its own, or one that the receiver follows.
 struct PacketInterval {
   PacketPointer packet;

@@ -91,7 +91,8 @@ SignalMeans means_of(const ReceivedSignal& signal, SimTime begin, SimTime end) {
 PowerRatio mean_sinr(const ReceivedSignal& signal, const std::vector<Interference>& others, SimTime begin,
                      SimTime end) {
   const SignalMeans means = means_of(signal, begin, end);
-  return {means.signal / (signal.noise + means.echoes + mean_power(others, begin, end))};
+  return {means.signal / (signal.noise + means.echoes + mean_power(others, begin, end) +
+                          mean_power(signal.bursts, begin, end))};
 }
 
 // Adds what falls into [begin, end), `whole_s` long, to the block's decoder.
@@ -113,6 +114,11 @@ void add_cells(const ReceivedSignal& signal, const PowerSteps& others, SimTime b
   }
 }
 
+std::vector<Interference> with_bursts(std::vector<Interference> others, const ReceivedSignal& signal) {
+  others.insert(others.end(), signal.bursts.begin(), signal.bursts.end());
+  return others;
+}
+
 // The chances of a packet's blocks, one after the other.
 class BlockChances {
  public:
@@ -120,7 +126,7 @@ class BlockChances {
       : signal_(signal),
         all_bits_(static_cast<double>(signal.packet->timing.information_bits)),
         bits_s_((signal.end - signal.preamble_end).seconds()),
-        steps_(others, signal.preamble_end, signal.end) {}
+        steps_(with_bursts(others, signal), signal.preamble_end, signal.end) {}
 
   // Of the next block being right.
   double next(std::int64_t bits) {
@@ -247,6 +253,19 @@ double timing_error_s(const ReceivedSignal& signal, const Interferers& others, d
   return standard_normal / (2 * std::numbers::pi * (bandwidth_hz / std::sqrt(12)) * std::sqrt(2 * energy));
 }
 
+void add_bursts(const acoustics::NoiseVariation& variation, std::uint64_t seed, VehicleId receiver,
+                ReceivedSignal& signal) {
+  const SimDuration period = variation.burst;
+  const double g = signal.noise * to_power_ratio(variation.burst_level).value;
+  for (SimTime begin = next_on_grid(signal.begin, period) - period; begin < signal.end;
+       begin = begin + period) {
+    const std::int64_t number = (begin - SimTime()).nanoseconds() / period.nanoseconds();
+    const double power =
+        acoustics::burst_power(variation.burst_exponent, seed, static_cast<std::uint32_t>(receiver), number);
+    signal.bursts.push_back({begin, begin + period, g * power});
+  }
+}
+
 std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interferers& others) {
   std::vector<std::vector<Interference>> of_packet(others.packets.size());
   for (const Interference& path : others.paths) of_packet[path.source].push_back(path);
@@ -274,7 +293,8 @@ OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& ot
                              const PacketDraws& draws, bool acquired, DecisionStatistics& statistics) {
   const SignalMeans means = means_of(signal, signal.preamble_end, signal.end);
   statistics.interference =
-      level_of(means.echoes + mean_power(others.paths, signal.preamble_end, signal.end));
+      level_of(means.echoes + mean_power(others.paths, signal.preamble_end, signal.end) +
+               mean_power(signal.bursts, signal.preamble_end, signal.end));
   statistics.sinr = level_of(mean_sinr(signal, others.paths, signal.preamble_end, signal.end).value);
   statistics.colliders = colliders_of(signal, others);
   if (acquired) {

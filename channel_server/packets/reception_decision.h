@@ -7,7 +7,7 @@
 //      power within the guard window, which fades;
 //   N  the noise over the band, less the receiver's directivity;
 //   I  besides its echoes all paths of all other packets, each during its own interval, with the large-scale fading of
-//      its link.
+//      its link; the noise of other vehicles (vehicle_sounds.h), and bursts of the sea's (acoustics/noise/noise_variation.h).
 //   acquired  when draw 1 < acquisition_probability(modem, mean S / (N + mean I)), means over the preamble: a correlator
 //             gathers what sounds during the whole of it;
 //   header    right when draw 2 < P_header, 1 without one
@@ -29,6 +29,7 @@
 #include <optional>
 #include <vector>
 
+#include "acoustics/noise/noise_variation.h"
 #include "acoustics/reception/signal_history.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
@@ -50,6 +51,7 @@ struct ReceivedSignal {
   double noise = 0;
   SimTime begin, preamble_end, end;  // of the guard window's first path
   bool fades = false;
+  std::vector<Interference> bursts;  // of the ambient noise, beyond `noise`; `source` is not used
   acoustics::SignalHistory history;
   // As if the receiver corrected every Doppler shift; only where it does not.
   std::optional<acoustics::SignalHistory> without_shift = {};
@@ -81,6 +83,11 @@ double success_probability(const ReceivedSignal& signal, const std::vector<Inter
 //   sigma = 1 / (2 pi (B / sqrt(12)) sqrt(2 E/N)),  E/N = T B SINR over the preamble (over all of it without one)
 // (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, section 3.11). 0 without fading.
 double timing_error_s(const ReceivedSignal& signal, const Interferers& others, double standard_normal);
+
+// Adds the bursts of the sea's noise at the receiver that fall into the packet, each g A over its part of it, with g above `noise` by
+// the stated level. Bursts are counted from time 0.
+void add_bursts(const acoustics::NoiseVariation& variation, std::uint64_t seed, VehicleId receiver,
+                ReceivedSignal& signal);
 
 // Loudest first, then by name; kMaxColliders at most.
 std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interferers& others);

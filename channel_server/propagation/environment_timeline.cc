@@ -13,6 +13,8 @@ acoustics::Environment changed(acoustics::Environment environment, const Environ
   environment.noise.wind_mps = change.wind_mps.value_or(environment.noise.wind_mps);
   environment.noise.shipping = change.shipping.value_or(environment.noise.shipping);
   environment.sea_surface_z_m = change.sea_surface_z_m.value_or(environment.sea_surface_z_m);
+  environment.noise.rain_mm_per_h = change.rain_mm_per_h.value_or(environment.noise.rain_mm_per_h);
+  if (change.noise_table) environment.noise.table = change.noise_table;
   if (change.profile) {
     environment.profile = *change.profile;
     environment.field = {};

@@ -16,10 +16,12 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "acoustics/noise/noise_spectrum.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/sim_time.h"
@@ -30,6 +32,8 @@ namespace halocline::channel_server {
 struct EnvironmentChange {
   std::optional<double> wind_mps, shipping, sea_surface_z_m;  // ranges as in acoustics/sea/environment.h
   std::optional<acoustics::SoundSpeedProfile> profile;
+  std::optional<double> rain_mm_per_h;
+  std::shared_ptr<const acoustics::NoiseSpectrum> noise_table = nullptr;
 };
 
 class EnvironmentTimeline {

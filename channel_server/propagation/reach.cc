@@ -30,16 +30,8 @@ double rounded_up(double depth_m) {
   return rounded;
 }
 
-// Each component rises or falls with frequency, or has one maximum: its least value is at an end of the band.
 double least_noise_density(const acoustics::Band& band, const acoustics::NoiseSources& sources) {
-  const auto low = acoustics::noise_components(std::max(band.low_hz, 1.0), sources);
-  const auto high = acoustics::noise_components(band.high_hz, sources);
-  double density = 0;
-  for (const auto component : {&acoustics::NoiseComponents::turbulence, &acoustics::NoiseComponents::shipping,
-                               &acoustics::NoiseComponents::wind, &acoustics::NoiseComponents::thermal}) {
-    density += to_power_ratio(std::min(low.*component, high.*component)).value;
-  }
-  return density;
+  return acoustics::least_noise_power_density(std::max(band.low_hz, 1.0), band.high_hz, sources).value;
 }
 
 // The mean ratio below which a preamble is as good as never acquired, dB; -infinity of none.
@@ -62,7 +54,10 @@ Decibels noise_at(const acoustics::Modem& sender, const acoustics::Modem& receiv
 
 Decibels least_level(const ReachRule& rule, const acoustics::Modem& sender, const acoustics::Modem& receiver,
                      PowerRatio noise_density, double unnoticed_db) {
-  const Decibels noise = noise_at(sender, receiver, noise_density), disturbs = noise - rule.below_noise;
+  constexpr double kNoiseDeviations = 3;
+  const Decibels noise =
+      noise_at(sender, receiver, noise_density) - Decibels{kNoiseDeviations * rule.noise_spread_db};
+  const Decibels disturbs = noise - rule.below_noise;
   if (!may_receive(sender, receiver)) return disturbs;
   return std::min(disturbs, std::max(noise + Decibels{unnoticed_db}, receiver.min_receivable_level));
 }

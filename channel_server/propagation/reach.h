@@ -44,7 +44,8 @@ struct ReachRule {
   Decibels below_noise{30};       // 0..200
   double acquired_once_in = 1e5;  // packets, 10..1e5: what is acquired less often is not noticed
   acoustics::FadingModel fading = {};
-  double table_range_m = 0;  // the range of reception is no more than that; 0: by level alone
+  double noise_spread_db = 0;  // standard deviation of the noise; three of them count as quieter
+  double table_range_m = 0;    // the range of reception is no more than that; 0: by level alone
 };
 
 // Sound that left before is not under way any more: it has gone 180 km.

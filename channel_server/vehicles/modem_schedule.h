@@ -50,6 +50,7 @@ struct VehicleModem {
   std::int32_t rate_number = 0;           // of the modem's own rate, 0..255
   RateSet rates = {};                     // the other rates that it sends and receives, by number
   Listening listening = {};               // at the start; then as the vehicle announces
+  bool fitted = true;                     // false: the vehicle carries no modem at all
   bool operator==(const VehicleModem&) const = default;
 };
 

@@ -12,8 +12,8 @@ const VehicleModem& ConfiguredModems::of(std::string_view vehicle) const {
   return own == of_vehicle.end() ? standard : own->second;
 }
 
-VehicleRegistry::VehicleRegistry(PositionRule rule, ConfiguredModems modems)
-    : rule_(rule), modems_(std::move(modems)) {
+VehicleRegistry::VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment)
+    : rule_(rule), modems_(std::move(modems)), equipment_(std::move(equipment)) {
   require(rule.state_lag >= SimDuration(), "state_lag must not be negative");
   require(rule.state_timeout > SimDuration(), "state_timeout must be positive");
 }
@@ -157,6 +157,7 @@ bool VehicleRegistry::sleeps_during(VehicleId id, SimTime from, SimTime to) cons
 }
 
 void VehicleRegistry::forget_before(SimTime time) {
+  equipment_.forget_before(time);
   const auto has_gone = [&](const auto& vehicle) { return vehicle->states.latest() < time; };
   for (const auto& vehicle : vehicles_) {
     if (has_gone(vehicle)) {
@@ -176,6 +177,7 @@ void VehicleRegistry::forget_before(SimTime time) {
 }
 
 void VehicleRegistry::clear() {
+  equipment_.clear();
   vehicles_.clear();
   ids_.clear();
   announced_.clear();
@@ -192,7 +194,7 @@ void place_all(const VehicleRegistry& fleet, SimTime instant, std::vector<Placed
   placed.clear();
   placed.reserve(fleet.size());
   fleet.visit_present(instant, [&](VehicleId id, const Placement& place, const VehicleModem& modem) {
-    placed.push_back({id, place, &modem});
+    if (modem.fitted) placed.push_back({id, place, &modem});
   });
 }
 

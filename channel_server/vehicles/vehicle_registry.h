@@ -1,4 +1,4 @@
-// The vehicles of a run: their names, ids, states and modems, and which of them are present at an instant.
+// The vehicles of a run: their names, ids, states, modems and equipment, and which of them are present at an instant.
 //
 // A vehicle is present at instant t when its position at t, decided at t, is known from a state no older than
 // the time-out (state_history.h). One id belongs to one name: the first that claims it keeps it until that vehicle
@@ -24,6 +24,7 @@
 
 #include "channel_server/vehicles/modem_schedule.h"
 #include "channel_server/vehicles/state_history.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/sim_time.h"
 
@@ -42,7 +43,7 @@ class VehicleRegistry {
   static constexpr std::size_t kMaxVehicles = 4096;
   static constexpr std::size_t kMaxAnnounced = 2 * kMaxVehicles;  // modems of vehicles without a state
 
-  VehicleRegistry(PositionRule rule, ConfiguredModems modems);
+  VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment = {});
 
   // Empty when taken (a repetition is); else why not.
   [[nodiscard]] std::string add_state(std::string_view name, VehicleId id, const StampedState& state);
@@ -96,6 +97,9 @@ class VehicleRegistry {
                                              [&](const VehicleModem& modem, SimTime) { visit(modem); });
   }
 
+  const VehicleEquipment& equipment() const { return equipment_; }
+  VehicleEquipment& equipment() { return equipment_; }
+
   // Forgets vehicles without a state since `time`, modems of vehicles without any state received before it, and
   // states and modems that no later instant needs.
   void forget_before(SimTime time);
@@ -133,6 +137,7 @@ class VehicleRegistry {
 
   PositionRule rule_;
   ConfiguredModems modems_;
+  VehicleEquipment equipment_;
   std::vector<std::unique_ptr<Vehicle>> vehicles_;  // by id
   std::map<std::string, VehicleId, std::less<>> ids_;
   std::map<std::string, Announced, std::less<>> announced_;
@@ -147,7 +152,7 @@ struct PlacedVehicle {
   const VehicleModem* modem = nullptr;  // valid until the registry is changed
 };
 
-// All present at `instant`, by id.
+// All present at `instant` that carry a modem, by id.
 std::vector<PlacedVehicle> place_all(const VehicleRegistry& fleet, SimTime instant);
 // The same into `placed`, whatever it held.
 void place_all(const VehicleRegistry& fleet, SimTime instant, std::vector<PlacedVehicle>& placed);

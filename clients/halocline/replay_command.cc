@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -110,12 +111,22 @@ RunOutcome run_replay(const ReplayOptions& options, const ScenarioConfig& config
   return run_embedded(nodes.nodes(), run);
 }
 
+// Sensors and batteries only where something goes by them: other replays are as they were.
+Played played_in(const ScenarioConfig& config) {
+  const auto& equipped = config.channel_server.vehicles;
+  const auto& vehicles = config.scenario.vehicles;
+  const bool goes_by_them =
+      std::any_of(equipped.begin(), equipped.end(), [](const auto& v) { return v.clock || v.noise; }) ||
+      std::any_of(vehicles.begin(), vehicles.end(), [](const auto& v) { return v.battery.has_value(); });
+  return goes_by_them ? Played::kWithEquipment : Played::kStatesAndPackets;
+}
+
 int replay(const ReplayOptions& options) {
   bus::set_log_level(bus::log_level_from_name(options.quiet ? "error" : "warning"));
   LogReader log(options.logs);
   const ScenarioConfig config = config_of(options);
   const RunFiles files = files_of(options, config, log);
-  Recording recording = read_recording(log, config.scenario);
+  Recording recording = read_recording(log, config.scenario, played_in(config));
   report_damage(std::cerr, log);
   if (!options.quiet) print_repairs(std::cerr, recording);
   require(!recording.events.empty(), options.logs.front() + " holds no states and no transmissions");

@@ -27,6 +27,17 @@ void visit_ranging(ConfigVisitor& v, VehicleLocaliser& l) {
            {0, 0.1, "", "relative error of the mean sound speed, standard deviation"});
 }
 
+void visit_clock_rules(ConfigVisitor& v, EstimatorRules& r) {
+  v.number("clock_offset_sigma_s", r.clock_offset_sigma_s,
+           {0, 1e5, "s", "standard deviation of its clock's offset at the start; 0: its clock is right"});
+  double drift_ppm = r.clock_drift_sigma * 1e6;
+  v.number("clock_drift_sigma_ppm", drift_ppm, {0, 1000, "ppm", "and of its drift"});
+  r.clock_drift_sigma = drift_ppm * 1e-6;
+  v.number("clock_walk_s_per_sqrt_s", r.clock_walk_s_per_sqrt_s,
+           {0, 1e-3, "s/sqrt(s)", "random walk of the offset"});
+  v.number("clock_gps_sigma_s", r.clock_gps_sigma_s, {0, 1, "s", "of the offset after a GPS fix"});
+}
+
 void visit_rules(ConfigVisitor& v, EstimatorRules& r) {
   v.number("drift_m_per_sqrt_s", r.drift_m_per_sqrt_s,
            {1e-4, 100, "m/sqrt(s)", "error of dead reckoning: after t seconds this times sqrt(t)"});
@@ -39,6 +50,7 @@ void visit_rules(ConfigVisitor& v, EstimatorRules& r) {
   v.number("depth_sigma_m", r.depth_sigma_m, {0, 100, "m", "error of the measured depth"});
   v.number("gate", r.gate,
            {1, 100, "", "ranges farther off than this many standard deviations are outliers"});
+  visit_clock_rules(v, r);
 }
 
 void visit_vehicle(ConfigVisitor& v, VehicleLocaliser& vehicle) {

@@ -1,5 +1,7 @@
 #include "clients/localiser/localiser_messages.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/dead_reckoning.h"
@@ -29,16 +31,22 @@ Vec3 true_position(const vehicle_state_t& state, SimTime at) {
 }
 
 void set_estimate(position_estimate_t& message, const PositionEstimate& estimate, double z_ned_m,
-                  double depth_sigma_m) {
+                  const EstimatorRules& rules) {
   message.estimate_status =
       estimate.hypotheses > 1 ? position_estimate_t::AMBIGUOUS : position_estimate_t::UNIQUE;
   Eigen::Map<Vec3>(message.position_ned_m) << estimate.position_ne_m, z_ned_m;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   covariance.topLeftCorner<2, 2>() = estimate.position_covariance_m2;
-  covariance(2, 2) = depth_sigma_m * depth_sigma_m;
+  covariance(2, 2) = rules.depth_sigma_m * rules.depth_sigma_m;
   Eigen::Map<Eigen::Matrix3d>(message.covariance_ned_m2) = covariance;  // symmetric: rows are columns
   Eigen::Map<Vec3>(message.current_ned_mps) << estimate.current_ne_mps, 0;
   message.likelihood = estimate.weight;
+  if (!rules.estimate_clock()) return;
+  message.clock_estimated = 1;
+  message.clock_offset_s = estimate.clock[0];
+  message.clock_drift = estimate.clock[1];
+  message.clock_offset_deviation_s = std::sqrt(std::max(estimate.clock_covariance(0, 0), 0.0));
+  message.clock_drift_deviation = std::sqrt(std::max(estimate.clock_covariance(1, 1), 0.0));
 }
 
 }  // namespace halocline::clients

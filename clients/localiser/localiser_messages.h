@@ -18,8 +18,8 @@ acoustics::SoundSpeedProfile to_profile(const environment_t& environment);
 // The position in STATE, extrapolated to `at` by its velocity.
 Vec3 true_position(const vehicle_state_t& state, SimTime at);
 
-// The fields of the estimate, of a vehicle at this z; depth errs by depth_sigma_m.
+// The fields of the estimate, of a vehicle at this z.
 void set_estimate(position_estimate_t& message, const PositionEstimate& estimate, double z_ned_m,
-                  double depth_sigma_m);
+                  const EstimatorRules& rules);
 
 }  // namespace halocline::clients

@@ -75,6 +75,10 @@ void LocaliserNode::add_vehicle(const LocaliserConfig& config, const VehicleLoca
   bus().subscribe<vehicle_state_t>(
       bus::channels::kState.of(settings.vehicle),
       [vehicle](const vehicle_state_t& state) { vehicle->states.push_back(state); }, bus::Wakeup::kStoreOnly);
+  if (!settings.rules.estimate_clock()) return;
+  bus().subscribe<vehicle_gps_t>(
+      bus::channels::kGps.of(settings.vehicle),
+      [vehicle](const vehicle_gps_t& fix) { vehicle->fixes.push_back(fix); }, bus::Wakeup::kStoreOnly);
 }
 
 void LocaliserNode::take_environment(const environment_t& message) {
@@ -120,6 +124,11 @@ void LocaliserNode::estimate(Vehicle& vehicle, SimTime at) {
   take_until(vehicle.sensors, known,
              [&](const vehicle_sensors_t& sensors) { vehicle.estimator.move(to_motion(sensors)); });
   take_until(vehicle.states, known, [&](const vehicle_state_t& state) { vehicle.truth = state; });
+  take_until(vehicle.fixes, known, [&](const vehicle_gps_t& fix) {
+    take_until(vehicle.packets, SimTime::from_utime(fix.utime),
+               [&](const modem_receive_t& packet) { take_packet(vehicle, packet); });
+    vehicle.estimator.set_clock();
+  });
   take_until(vehicle.packets, known, [&](const modem_receive_t& packet) { take_packet(vehicle, packet); });
   position_estimate_t message = message_of(vehicle, at);
   message.sequence = vehicle.last.session == 0 ? 0 : vehicle.last.sequence + 1;
@@ -141,6 +150,15 @@ void LocaliserNode::take_packet(Vehicle& vehicle, const modem_receive_t& packet)
                                  " verdict=" + kWords.at(static_cast<std::size_t>(verdict)));
 }
 
+// By the vehicle's clock, less its estimated offset: its other measurements are stamped with simulation time.
+SimTime LocaliserNode::arrival_of(const Vehicle& vehicle, const modem_receive_t& packet) {
+  const SimTime shown =
+      SimTime::from_utime(packet.departure_utime) + SimDuration::from_seconds(packet.travel_time_s);
+  return vehicle.config.rules.estimate_clock()
+             ? shown - SimDuration::from_seconds(vehicle.last.clock_offset_s)
+             : shown;
+}
+
 std::optional<RangeMeasurement> LocaliserNode::range_of(const Vehicle& vehicle,
                                                         const modem_receive_t& packet) const {
   const auto beacon = std::find_if(vehicle.beacons.begin(), vehicle.beacons.end(),
@@ -157,7 +175,7 @@ std::optional<RangeMeasurement> LocaliserNode::range_of(const Vehicle& vehicle,
                           channel_server::kReplyTurnaround};
   } else if (vehicle.config.use_stamps && packet.stamped) {
     travel_s = packet.travel_time_s;
-    range.at = {SimTime::from_utime(packet.departure_utime) + SimDuration::from_seconds(travel_s)};
+    range.at = {std::min(arrival_of(vehicle, packet), SimTime::from_utime(packet.utime))};
   } else {
     return std::nullopt;
   }
@@ -167,6 +185,7 @@ std::optional<RangeMeasurement> LocaliserNode::range_of(const Vehicle& vehicle,
   const double speed_mps =
       water_->profile.mean_sound_speed_mps(range.beacon_m.z(), track.depth_m(range.at.back()));
   range.length_m = travel_s * speed_mps;
+  if (range.at.size() == 1) range.per_clock_m_s = speed_mps;
   range.sigma_m = elementary::hypot(vehicle.config.timing_sigma_s * speed_mps,
                                     vehicle.config.sound_speed_sigma * range.length_m);
   return range;
@@ -182,7 +201,7 @@ position_estimate_t LocaliserNode::message_of(const Vehicle& vehicle, SimTime at
   const auto found = water_ ? vehicle.estimator.estimate(at) : std::nullopt;
   if (found) {
     set_estimate(message, *found, vehicle.estimator.dead_reckoning().depth_m(at) + water_->sea_surface_z_m,
-                 vehicle.config.rules.depth_sigma_m);
+                 vehicle.config.rules);
   }
   constexpr SimDuration kFresh = SimDuration::from_milliseconds(5000);
   message.truth_known = vehicle.truth && at - SimTime::from_utime(vehicle.truth->utime) <= kFresh;
@@ -216,6 +235,7 @@ void LocaliserNode::on_restart(const bus::Now& now) {
     vehicle->sensors.clear();
     vehicle->states.clear();
     vehicle->packets.clear();
+    vehicle->fixes.clear();
     vehicle->truth.reset();
     vehicle->used = vehicle->refused = 0;
     vehicle->next_ping = next_ping_at(vehicle->config, now.sim);
@@ -229,7 +249,7 @@ void LocaliserNode::on_archive(Archive& a) {
 }
 
 void LocaliserNode::Vehicle::archive(Archive& a) {
-  a(modem, estimator, sensors, states, packets, truth, last, pings, used, refused, next_ping);
+  a(modem, estimator, sensors, states, packets, fixes, truth, last, pings, used, refused, next_ping);
 }
 
 std::string LocaliserNode::status_text() const {

@@ -58,9 +58,10 @@ class LocaliserNode : public bus::Node {
     std::vector<Beacon> beacons;
     ModemClient modem;
     PositionEstimator estimator;
-    std::deque<vehicle_sensors_t> sensors;  // received, not used yet; likewise the next two
+    std::deque<vehicle_sensors_t> sensors;  // received, not used yet; likewise the next three
     std::deque<vehicle_state_t> states;
     std::deque<modem_receive_t> packets;
+    std::deque<vehicle_gps_t> fixes;
     std::optional<vehicle_state_t> truth;
     position_estimate_t last{};  // published
     std::int64_t pings = 0, used = 0, refused = 0;
@@ -74,6 +75,7 @@ class LocaliserNode : public bus::Node {
   void ping(Vehicle& vehicle, const bus::Now& now);
   void estimate(Vehicle& vehicle, SimTime at);
   void take_packet(Vehicle& vehicle, const modem_receive_t& packet);
+  static SimTime arrival_of(const Vehicle& vehicle, const modem_receive_t& packet);
   std::optional<RangeMeasurement> range_of(const Vehicle& vehicle, const modem_receive_t& packet) const;
   position_estimate_t message_of(const Vehicle& vehicle, SimTime at) const;
   void report(const Vehicle& vehicle, const position_estimate_t& message);

@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   program.stage = halocline::bus::Stage::kClients;
   program.keeps_state = true;
   program.interface =
-      "receives:  CLOCK, ENVIRONMENT, SENSORS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>;\n"
+      "receives:  CLOCK, ENVIRONMENT, SENSORS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>,\n"
+      "           GPS.<vehicle> (where its clock is estimated);\n"
       "           STATE.<vehicle>, to compute the error\n"
       "publishes: SEND.<vehicle>, ESTIMATE.<vehicle>, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };

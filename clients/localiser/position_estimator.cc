@@ -27,11 +27,12 @@ double gaussian(double normalised_square, double variance) {
 }  // namespace
 
 PositionEstimator::PositionEstimator(EstimatorRules rules, std::optional<StatedStart> start)
-    : rules_(rules), start_(start) {
+    : rules_(rules), start_(start), clock_sigma_s_(rules.clock_offset_sigma_s) {
   for (const double value : {rules.drift_m_per_sqrt_s, rules.current_sigma_mps, rules.gate})
     require(std::isfinite(value) && value > 0, "a rule of the position estimator must be a number above 0");
-  for (const double value :
-       {rules.current_walk_mps_per_sqrt_s, rules.slip_m_per_sqrt_rad, rules.depth_sigma_m})
+  for (const double value : {rules.current_walk_mps_per_sqrt_s, rules.slip_m_per_sqrt_rad,
+                             rules.depth_sigma_m, rules.clock_offset_sigma_s, rules.clock_drift_sigma,
+                             rules.clock_walk_s_per_sqrt_s, rules.clock_gps_sigma_s})
     require(std::isfinite(value) && value >= 0, "a rule of the position estimator must be a number from 0");
   require(!start || start->sigma_m > 0, "a stated start needs a standard deviation above 0");
 }
@@ -40,15 +41,36 @@ void PositionEstimator::move(const OwnMotion& motion) {
   const bool first = track_.empty();
   track_.take(motion);
   if (first && start_) {
-    Hypothesis stated{State::Zero(), Covariance::Zero(), 1.0};
-    stated.mean.head<2>() = start_->position_ne_m;
-    const double position = start_->sigma_m * start_->sigma_m;
-    const double current = rules_.current_sigma_mps * rules_.current_sigma_mps;
-    stated.covariance.diagonal() << position, position, current, current;
-    hypotheses_.push_back(stated);
+    hypotheses_.push_back(hypothesis_at(start_->position_ne_m, start_->sigma_m, 1.0));
   }
   for (Hypothesis& hypothesis : hypotheses_) hypothesis = carried_on(hypothesis, track_.last());
   now_ = std::max(now_, track_.last());
+}
+
+PositionEstimator::Hypothesis PositionEstimator::hypothesis_at(const Vec2& position_ne_m, double sigma_m,
+                                                               double weight) const {
+  Hypothesis start{State::Zero(), Covariance::Zero(), weight};
+  start.mean.head<2>() = position_ne_m;
+  const double position = sigma_m * sigma_m, current = rules_.current_sigma_mps * rules_.current_sigma_mps;
+  start.covariance.diagonal() << position, position, current, current;
+  if (rules_.estimate_clock()) {
+    start.clock_covariance.diagonal() << clock_sigma_s_ * clock_sigma_s_,
+        rules_.clock_drift_sigma * rules_.clock_drift_sigma;
+  }
+  return start;
+}
+
+void PositionEstimator::set_clock() {
+  if (!rules_.estimate_clock()) return;
+  clock_sigma_s_ = rules_.clock_gps_sigma_s;
+  waiting_.clear();
+  for (Hypothesis& hypothesis : hypotheses_) {
+    hypothesis.clock[0] = 0;
+    hypothesis.cross.col(0).setZero();
+    hypothesis.clock_covariance.row(0).setZero();
+    hypothesis.clock_covariance.col(0).setZero();
+    hypothesis.clock_covariance(0, 0) = clock_sigma_s_ * clock_sigma_s_;
+  }
 }
 
 PositionEstimator::Hypothesis PositionEstimator::carried_on(const Hypothesis& from, SimTime at) const {
@@ -65,12 +87,19 @@ PositionEstimator::Hypothesis PositionEstimator::carried_on(const Hypothesis& fr
   const double walk = rules_.current_walk_mps_per_sqrt_s * rules_.current_walk_mps_per_sqrt_s * seconds;
   to.covariance = step * from.covariance * step.transpose();
   to.covariance.diagonal() += State(drift, drift, walk, walk);
+  Eigen::Matrix2d clock_step = Eigen::Matrix2d::Identity();
+  clock_step(0, 1) = seconds;
+  to.clock = clock_step * from.clock;
+  to.cross = step * from.cross * clock_step.transpose();
+  to.clock_covariance = clock_step * from.clock_covariance * clock_step.transpose();
+  to.clock_covariance(0, 0) += rules_.clock_walk_s_per_sqrt_s * rules_.clock_walk_s_per_sqrt_s * seconds;
   return to;
 }
 
-PositionEstimator::Expected PositionEstimator::expected(const State& state,
+PositionEstimator::Expected PositionEstimator::expected(const Hypothesis& hypothesis,
                                                         const RangeMeasurement& range) const {
-  Expected sum{0, State::Zero(), 0};
+  const State& state = hypothesis.mean;
+  Expected sum{0, State::Zero(), 0, Clock::Zero()};
   for (const SimTime at : range.at) {
     const double back_s = (now_ - at).seconds();
     const Vec2 place =
@@ -82,39 +111,50 @@ PositionEstimator::Expected PositionEstimator::expected(const State& state,
     sum.gradient.head<2>() += direction;
     sum.gradient.tail<2>() -= back_s * direction;
     sum.per_depth += from_beacon.z() / length;
+    sum.clock_gradient += range.per_clock_m_s * Clock(1, -back_s);
   }
+  sum.length_m += sum.clock_gradient.dot(hypothesis.clock);
   return sum;
+}
+
+double PositionEstimator::variance(const Hypothesis& hypothesis, const Expected& there,
+                                   const RangeMeasurement& range) const {
+  const double depth = there.per_depth * rules_.depth_sigma_m;
+  const Clock& k = there.clock_gradient;
+  return there.gradient.dot(hypothesis.covariance * there.gradient) + range.sigma_m * range.sigma_m +
+         depth * depth +
+         (2 * there.gradient.dot(hypothesis.cross * k) + k.dot(hypothesis.clock_covariance * k));
 }
 
 // Gauss-Newton for the state that is most likely by what was expected and by the range.
 void PositionEstimator::update(Hypothesis& hypothesis, const RangeMeasurement& range) const {
   const Hypothesis before = hypothesis;
-  State gain = State::Zero();
-  Expected there{};
   for (int i = 0; i < kIterations; ++i) {
-    there = expected(hypothesis.mean, range);
-    const double depth = there.per_depth * rules_.depth_sigma_m;
-    const double variance = there.gradient.dot(before.covariance * there.gradient) +
-                            range.sigma_m * range.sigma_m + depth * depth;
-    gain = before.covariance * there.gradient / variance;
-    const double off = range.length_m - there.length_m - there.gradient.dot(before.mean - hypothesis.mean);
+    const Expected there = expected(hypothesis, range);
+    const double v = variance(before, there, range);
+    const State gain = (before.covariance * there.gradient + before.cross * there.clock_gradient) / v;
+    const Clock clock_gain =
+        (before.cross.transpose() * there.gradient + before.clock_covariance * there.clock_gradient) / v;
+    const double off = range.length_m - there.length_m - there.gradient.dot(before.mean - hypothesis.mean) -
+                       there.clock_gradient.dot(before.clock - hypothesis.clock);
     hypothesis.mean = before.mean + gain * off;
-    hypothesis.covariance = before.covariance - variance * gain * gain.transpose();
+    hypothesis.covariance = before.covariance - v * gain * gain.transpose();
+    hypothesis.clock = before.clock + clock_gain * off;
+    hypothesis.cross = before.cross - v * gain * clock_gain.transpose();
+    hypothesis.clock_covariance = before.clock_covariance - v * clock_gain * clock_gain.transpose();
   }
   hypothesis.covariance = (0.5 * (hypothesis.covariance + hypothesis.covariance.transpose())).eval();
 }
 
 // Whether the range moved the hypothesis.
 bool PositionEstimator::weigh(Hypothesis& hypothesis, const RangeMeasurement& range) const {
-  const Expected there = expected(hypothesis.mean, range);
-  const double depth = there.per_depth * rules_.depth_sigma_m;
-  const double variance = there.gradient.dot(hypothesis.covariance * there.gradient) +
-                          range.sigma_m * range.sigma_m + depth * depth;
+  const Expected there = expected(hypothesis, range);
+  const double v = variance(hypothesis, there, range);
   const double off = range.length_m - there.length_m;
-  const double normalised = off * off / variance;
+  const double normalised = off * off / v;
   const bool fits = normalised <= rules_.gate * rules_.gate;
   hypothesis.weight *=
-      kOutlierShare * kOutlierDensityPerM + (fits ? (1 - kOutlierShare) * gaussian(normalised, variance) : 0);
+      kOutlierShare * kOutlierDensityPerM + (fits ? (1 - kOutlierShare) * gaussian(normalised, v) : 0);
   if (fits) update(hypothesis, range);
   return fits;
 }
@@ -199,11 +239,9 @@ void PositionEstimator::add_crossings(const RangeMeasurement& one, const RangeMe
   if (across_square <= 0 || std::sqrt(across_square) * apart < kMinSine * a.radius * b.radius) return;
   const Vec2 unit = line / apart;
   for (const double side : {-1.0, 1.0}) {
-    Hypothesis start{State::Zero(), Covariance::Zero(), 0.5};
-    start.mean.head<2>() =
+    const Vec2 crossing =
         a.centre + along * unit + side * std::sqrt(across_square) * Vec2(-unit.y(), unit.x());
-    const double current = rules_.current_sigma_mps * rules_.current_sigma_mps;
-    start.covariance.diagonal() << kUnknownM * kUnknownM, kUnknownM * kUnknownM, current, current;
+    Hypothesis start = hypothesis_at(crossing, kUnknownM, 0.5);
     update(start, one);
     update(start, other);
     hypotheses_.push_back(start);
@@ -213,8 +251,9 @@ void PositionEstimator::add_crossings(const RangeMeasurement& one, const RangeMe
 std::optional<PositionEstimate> PositionEstimator::estimate(SimTime at) const {
   if (hypotheses_.empty()) return std::nullopt;
   const Hypothesis best = carried_on(hypotheses_.front(), at);
-  return PositionEstimate{best.mean.head<2>(), best.mean.tail<2>(), best.covariance.topLeftCorner<2, 2>(),
-                          best.weight, static_cast<int>(hypotheses_.size())};
+  return PositionEstimate{
+      best.mean.head<2>(),   best.mean.tail<2>(), best.covariance.topLeftCorner<2, 2>(), best.clock,
+      best.clock_covariance, best.weight,         static_cast<int>(hypotheses_.size())};
 }
 
 }  // namespace halocline::clients

@@ -85,8 +85,10 @@ const char* help_of(std::string_view step) {
 
 std::string colliders_text(const packet_outcome_t& outcome, const VehicleName& name) {
   std::string text;
-  for (const packet_name_t& packet : outcome.colliders)
-    text += fmt::format("{}{}:{}", text.empty() ? "" : " ", name(packet.source_id), packet.packet_sequence);
+  for (const packet_name_t& packet : outcome.colliders) {
+    const std::string which = packet.is_noise ? "noise" : std::to_string(packet.packet_sequence);
+    text += fmt::format("{}{}:{}", text.empty() ? "" : " ", name(packet.source_id), which);
+  }
   return text;
 }
 
@@ -110,6 +112,8 @@ std::string deciding_reason(const packet_outcome_t& o, const VehicleName& name) 
       return "no path: every ray is launched more steeply than is searched";
     case packet_outcome_t::OUT_OF_REACH:
       return fmt::format("{:.0f} m away, where its sound is too weak to matter", o.range_m);
+    case packet_outcome_t::NO_POWER:
+      return "the receiver's battery was empty";
     case packet_outcome_t::OUT_OF_BAND:
       return "the bands of the two modems do not overlap";
     case packet_outcome_t::FOREIGN:
@@ -159,6 +163,8 @@ std::string refusal(std::int8_t receipt_result) {
       return "Not transmitted: the modem has no such rate.";
     case modem_receipt_t::REFUSED_NO_KIND:
       return "Not transmitted: the modem has no packets of this kind at this rate.";
+    case modem_receipt_t::REFUSED_NO_MODEM:
+      return "Not transmitted: the vehicle has no modem, or no power.";
     default:
       return "";
   }

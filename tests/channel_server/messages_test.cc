@@ -80,6 +80,7 @@ PacketOutcome some_outcome() {
   end.receiver_id = 4;
   end.receiver = "v4";
   end.travel_time_s = 1.25;
+  end.departure_stamp = at_s(10.5000625);
   end.measured_travel_time_s = 1.3125;
   end.cutoff = {70};
   end.budget = acoustics::link_budget({}, {}, {}, {0, 0, 5}, {900, 0, 5});
@@ -195,6 +196,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(OutcomeKind::kOutOfReach), packet_outcome_t::OUT_OF_REACH);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kAsleep), packet_outcome_t::ASLEEP);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kExtraLoss), packet_outcome_t::EXTRA_LOSS);
+  EXPECT_EQ(static_cast<int>(OutcomeKind::kNoPower), packet_outcome_t::NO_POWER);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionBegan), modem_event_t::TRANSMISSION_BEGAN);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kTransmissionEnded), modem_event_t::TRANSMISSION_ENDED);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kPacketDetected), modem_event_t::PACKET_DETECTED);
@@ -213,6 +215,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(PacketKind::kPing), modem_send_t::PING);
   EXPECT_EQ(static_cast<int>(SendResult::kNoRate), modem_receipt_t::REFUSED_NO_RATE);
   EXPECT_EQ(static_cast<int>(SendResult::kNoKind), modem_receipt_t::REFUSED_NO_KIND);
+  EXPECT_EQ(static_cast<int>(SendResult::kNoModem), modem_receipt_t::REFUSED_NO_MODEM);
   EXPECT_EQ(static_cast<int>(PacketKind::kAck), modem_receive_t::ACK);
   EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_send_t::MINI_PACKET);
   EXPECT_EQ(static_cast<int>(PacketKind::kMiniPacket), modem_receive_t::MINI_PACKET);
@@ -269,7 +272,7 @@ TEST(ChannelServerMessages, AnOutcomeHoldsWhatDecidedIt) {
 
 TEST(ChannelServerMessages, AReceiverCannotKnowWhenAPacketWithoutAStampLeft) {
   PacketOutcome end = some_outcome();
-  EXPECT_EQ(to_receive(end, at_s(11.3)).departure_utime, 10'500'000);
+  EXPECT_EQ(to_receive(end, at_s(11.3)).departure_utime, 10'500'063) << "by the sender's clock";
   EXPECT_EQ(to_receive(end, at_s(11.3)).travel_time_s, 1.3125) << "as measured";
   Packet silent = *end.packet;
   silent.request.stamped = false;

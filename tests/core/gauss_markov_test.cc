@@ -106,5 +106,33 @@ TEST(GaussMarkov, ImpossibleSettingsAreRefused) {
   EXPECT_THROW(GaussMarkovProcess(1, 0, {}), InvalidArgument);
 }
 
+// Over 2000 walks the relative standard error of a variance is sqrt(2 / 2000); bounds at 4 of them.
+TEST(RandomWalk, StartsFromZeroAndItsIncrementsAreIndependentAndGrowWithTheRootOfTime) {
+  constexpr int kWalks = 2000;
+  constexpr double kStep = 0.2;
+  double first = 0, second = 0, joint = 0;
+  for (int i = 0; i < kWalks; ++i) {
+    const auto walk = GaussMarkovProcess::random_walk(
+        kStep, {.seed = static_cast<std::uint64_t>(i), .purpose = purpose_of("test")});
+    EXPECT_EQ(walk.at(at_ms(0)), 0);
+    const double a = walk.at(at_ms(777'000)), b = walk.at(at_ms(5'000'000)) - a;
+    first += a * a / (kStep * kStep * 777) / kWalks;
+    second += b * b / (kStep * kStep * 4223) / kWalks;
+    joint += a * b / (kStep * kStep * std::sqrt(777.0 * 4223)) / kWalks;
+  }
+  const double bound = 4 * std::sqrt(2.0 / kWalks);
+  EXPECT_NEAR(first, 1, bound);
+  EXPECT_NEAR(second, 1, bound);
+  EXPECT_NEAR(joint, 0, 4 / std::sqrt(kWalks));
+}
+
+TEST(RandomWalk, TheValueAtAnInstantDependsOnNoOrder) {
+  const auto walk = GaussMarkovProcess::random_walk(1, {.seed = 4, .purpose = purpose_of("test")});
+  GaussMarkovProcess::Cursor cursor;
+  for (const int ms : {5000, 1, 3'600'000, 4999, 77})
+    EXPECT_EQ(walk.at(at_ms(ms), cursor), walk.at(at_ms(ms)));
+  EXPECT_EQ(GaussMarkovProcess::random_walk(0, {}).at(at_ms(10)), 0);
+}
+
 }  // namespace
 }  // namespace halocline

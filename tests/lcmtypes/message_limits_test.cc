@@ -109,6 +109,7 @@ Accept current(void (*set)(CurrentSettings&, double)) {
 const std::vector<ModelledField>& changeable_water() {
   static const std::vector<ModelledField> fields{
       {"wind_speed_mps", environment([](Environment& e, double value) { e.noise.wind_mps = value; })},
+      {"rain_mm_per_h", environment([](Environment& e, double value) { e.noise.rain_mm_per_h = value; })},
       {"shipping_activity", environment([](Environment& e, double value) { e.noise.shipping = value; })},
       {"sea_surface_z_m", environment([](Environment& e, double value) { e.sea_surface_z_m = value; })},
       {"layer_depth_m",

@@ -6,7 +6,9 @@
 // and hull.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/elementary.h"
 #include "vehicle_sim/dynamics/actuators.h"
@@ -56,27 +58,47 @@ inline BodyForce stern_planes_force(const FinPair& fins, double density, const B
   return {f.along, 0, f.across, 0, -fins.x_m * f.across, 0};
 }
 
-// The thrust on the hull and the part of the shaft's torque that turns it, with the shares of Thruster applied.
+// K_T n^2 and K_Q n^2, with the sign of the turn rate n: thrust is rho D^4, the shaft's torque rho D^5 times as much.
+struct ThrusterLoad {
+  double thrust = 0, torque = 0;
+};
+
 // `nu_r` as above; `speed_mps` for ThrusterInflow::kSpeed, 0 or above, over ground or relative by the model's
 // CurrentTreatment. `turn_rate_hz` of any sign.
-inline BodyForce thruster_force(const Thruster& t, double density, const BodyVelocity& nu_r, double speed_mps,
-                                double turn_rate_hz) {
+inline ThrusterLoad thruster_load(const Thruster& t, const BodyVelocity& nu_r, double speed_mps,
+                                  double turn_rate_hz) {
   const double n = turn_rate_hz, d = t.diameter_m;
-  const Axes direction = t.direction, position = t.position_m;
   double thrust = t.thrust_at_rest * std::abs(n) * n, torque = t.torque_at_rest * std::abs(n) * n;
   if (n < 0) thrust *= t.astern_ratio;
   const bool is_axial = t.inflow == ThrusterInflow::kAxial;
   if (is_axial || n > 0) {
     // K(J) n^2 = K0 n^2 + (Kmax - K0) / Jmax * (V_a / D) |n|
     const double along_shaft =
-        is_axial ? dot(direction, nu_r.linear() + cross(nu_r.angular(), position)) : speed_mps;
+        is_axial ? dot(Axes(t.direction), nu_r.linear() + cross(nu_r.angular(), Axes(t.position_m)))
+                 : speed_mps;
     const double inflow = d > 0 ? t.advance_speed_ratio * along_shaft / d * std::abs(n) / t.advance_max : 0;
     thrust += (t.thrust_at_max - t.thrust_at_rest) * inflow;
     torque += (t.torque_at_max - t.torque_at_rest) * inflow;
   }
-  const double d4 = d * d * d * d;
-  const Axes push = t.thrust_share * density * d4 * thrust * direction;
-  return {push, cross(position, push) + t.torque_share * density * d4 * d * torque * direction};
+  return {thrust, torque};
+}
+
+// The thrust on the hull and the part of the shaft's torque that turns it, with the shares of Thruster applied.
+inline BodyForce thruster_force(const Thruster& t, double density, const BodyVelocity& nu_r, double speed_mps,
+                                double turn_rate_hz) {
+  const Axes direction = t.direction, position = t.position_m;
+  const ThrusterLoad load = thruster_load(t, nu_r, speed_mps, turn_rate_hz);
+  const double d = t.diameter_m, d4 = d * d * d * d;
+  const Axes push = t.thrust_share * density * d4 * load.thrust * direction;
+  return {push, cross(position, push) + t.torque_share * density * d4 * d * load.torque * direction};
+}
+
+// Power that the shaft takes, W: 2 pi n Q; 0 where the water drives it.
+inline double shaft_power_w(const Thruster& t, double density, const BodyVelocity& nu_r, double speed_mps,
+                            double turn_rate_hz) {
+  const double d = t.diameter_m, d5 = d * d * d * d * d;
+  const double torque_nm = density * d5 * thruster_load(t, nu_r, speed_mps, turn_rate_hz).torque;
+  return std::max(2 * std::numbers::pi * turn_rate_hz * torque_nm, 0.0);
 }
 
 // The command held to the limits of the actuators. `command` finite.

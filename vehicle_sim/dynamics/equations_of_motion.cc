@@ -116,6 +116,12 @@ BodyForce floats_force(const Model& model, const WetFloats& wet, const WorldAxes
   return buoyancy + BodyForce(excess_kg * rate, cross(excess_moment, rate));
 }
 
+// Of the flow at the propeller, as its thrust counts it.
+double inflow_speed_mps(const ModelParameters& p, const Numbers& state, const RelativeFlow& flow) {
+  return p.current_treatment == CurrentTreatment::kUpstream ? length(state.velocity.linear())
+                                                            : flow.speed_mps;
+}
+
 BodyForce hull_force(const ModelParameters& p, const RelativeFlow& flow) {
   const double rho = p.water_density_kg_m3;
   BodyForce force = damping_force(p.damping, flow.nu_r, flow.speed_mps) +
@@ -128,11 +134,10 @@ BodyForce hull_force(const ModelParameters& p, const RelativeFlow& flow) {
 
 BodyForce stern_force(const ModelParameters& p, const Numbers& state, const RelativeFlow& flow) {
   const double rho = p.water_density_kg_m3;
-  const double inflow_speed =
-      p.current_treatment == CurrentTreatment::kUpstream ? length(state.velocity.linear()) : flow.speed_mps;
   return rudder_force(p.rudder, rho, flow.nu_r, state.actuators.rudder_rad) +
          stern_planes_force(p.stern_planes, rho, flow.nu_r, state.actuators.stern_planes_rad) +
-         thruster_force(p.propeller, rho, flow.nu_r, inflow_speed, state.actuators.propeller_hz);
+         thruster_force(p.propeller, rho, flow.nu_r, inflow_speed_mps(p, state, flow),
+                        state.actuators.propeller_hz);
 }
 
 // -g(eta) = ((W - B) d, (W r_g - B r_b) x d) (Fossen 2021, section 4.1): weight at CG, buoyancy at CB; `down` = d is the
@@ -234,6 +239,21 @@ Water after(const Water& water, double seconds) {
 RelativeFlow relative_flow(const Model& model, const VehicleState& state, const Water& water) {
   const Numbers s = to_numbers(state);
   return relative_flow(model, s.velocity, world_axes(s.orientation), water);
+}
+
+double shaft_power_w(const Model& model, const VehicleState& state, const Water& water) {
+  const ModelParameters& p = model.parameters();
+  const Numbers s = to_numbers(state);
+  const RelativeFlow flow = relative_flow(model, state, water);
+  const double wet = p.floats.empty() ? 0 : wet_floats(p, s, world_axes(s.orientation), water).bottom_share;
+  const Submergence under = p.floats.empty() ? submergence(p, s, water) : Submergence{wet, wet, 0};
+  double power_w = under.stern * shaft_power_w(p.propeller, p.water_density_kg_m3, flow.nu_r,
+                                               inflow_speed_mps(p, s, flow), s.actuators.propeller_hz);
+  for (std::size_t i = 0; i < p.thrusters.size(); ++i) {
+    power_w += under.hull * shaft_power_w(p.thrusters[i], p.water_density_kg_m3, flow.nu_r, flow.speed_mps,
+                                          s.actuators.thruster_hz[i]);
+  }
+  return power_w;
 }
 
 Vec6 acceleration(const Model& model, const VehicleState& state, const Water& water) {

@@ -49,6 +49,9 @@ StateRate rate_of_change(const Model& model, const VehicleState& state, const Ac
 VehicleState rk4_step(const Model& model, const VehicleState& state, const ActuatorValues& command,
                       const Water& water, double step_s);
 
+// Mechanical power of propeller and thrusters, W, from the state's actuators.
+double shaft_power_w(const Model& model, const VehicleState& state, const Water& water);
+
 // Kinetic energy 1/2 nu' M nu plus potential energy of weight and buoyancy, joules; zero at rest at z = 0,
 // level, with CO, CG and CB at one depth. For a vehicle under water. Without actuators and current it never
 // grows.

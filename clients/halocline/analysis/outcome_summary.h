@@ -52,9 +52,9 @@ class OutcomeSummary : public OutcomeLedger {
 
 OutcomeSummary summary_of(LogReader& log, std::int64_t window_us);
 
-// As text: outcomes, propagations, pairs, windows, each with counts and shares.
+// As text: outcomes, propagations, pairs, windows, each with counts and shares; where vehicles have batteries, energy (energy_cost.h).
 void print(std::ostream& out, const OutcomeSummary& summary);
-// One object: "by_outcome", "by_propagation", "pairs", "windows".
+// One object: "by_outcome", "by_propagation", "pairs", "windows", and "energy" where vehicles have batteries.
 std::string to_json(const OutcomeSummary& summary);
 // One row a pair and outcome that occurred: sender, receiver, outcome, packets.
 void print_csv(std::ostream& out, const OutcomeSummary& summary);

@@ -8,6 +8,7 @@
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
+#include "clients/halocline/analysis/energy_cost.h"
 #include "clients/halocline/analysis/outcome_summary.h"
 #include "clients/halocline/plot/plot.h"
 #include "clients/mission/outcome_ledger.h"
@@ -56,6 +57,34 @@ nlohmann::ordered_json to_json(const OutcomeCounts& counts) {
   return json;
 }
 
+void print_energy(std::ostream& out, const OutcomeSummary& summary) {
+  const EnergyCosts costs = energy_costs(summary.outcomes());
+  if (costs.empty()) return;
+  fmt::print(out, "\n{:<26}{:>9}{:>10}{:>9}{:>14}{:>14}{:>10}\n", "energy: from, up to m", "packets",
+             "received", "bytes", "transmit, J", "receive, J", "J/byte");
+  for (const auto& [key, cost] : costs) {
+    fmt::print(out, "{:<26}{:>9}{:>10}{:>9}{:>14.3f}{:>14.3f}{:>10}\n",
+               fmt::format("{}, {:.0f}", summary.name(key.first), key.second), cost.packets, cost.received,
+               cost.bytes, cost.transmit_j, cost.receive_j,
+               cost.bytes > 0 ? fmt::format("{:.4f}", cost.per_byte_j()) : "-");
+  }
+}
+
+nlohmann::ordered_json to_json(const EnergyCosts& costs, const OutcomeSummary& summary) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const auto& [key, cost] : costs) {
+    json.push_back({{"from", summary.name(key.first)},
+                    {"up_to_m", key.second},
+                    {"packets", cost.packets},
+                    {"received", cost.received},
+                    {"bytes", cost.bytes},
+                    {"transmit_j", cost.transmit_j},
+                    {"receive_j", cost.receive_j}});
+    if (cost.bytes > 0) json.back()["joules_per_byte"] = cost.per_byte_j();
+  }
+  return json;
+}
+
 }  // namespace
 
 void print(std::ostream& out, const OutcomeSummary& summary) {
@@ -81,6 +110,7 @@ void print(std::ostream& out, const OutcomeSummary& summary) {
   print_heading(out, "departure from, s", outcomes);
   for (const auto& [start, counts] : summary.by_window())
     print_row(out, fmt::format("{:.3f}", in_seconds(start)), counts, outcomes);
+  print_energy(out, summary);
 }
 
 std::string to_json(const OutcomeSummary& summary) {
@@ -105,6 +135,8 @@ std::string to_json(const OutcomeSummary& summary) {
     json["windows"].push_back(
         {{"from_s", in_seconds(start)}, {"outcomes", sum(counts)}, {"by_outcome", to_json(counts)}});
   }
+  if (const EnergyCosts costs = energy_costs(summary.outcomes()); !costs.empty())
+    json["energy"] = to_json(costs, summary);
   return json.dump(2);
 }
 
@@ -124,7 +156,7 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
          "received_level_db,cutoff_level_db,noise_level_db,snr_db,interference_level_db,sinr_db,doppler_"
          "factor,"
          "num_paths,delay_spread_s,acquisition_probability,acquisition_draw,success_probability,success_draw,"
-         "propagation,colliders,receivers\n";
+         "propagation,colliders,receivers,payload_bytes,transmit_energy_j,receive_energy_j\n";
   for (const packet_outcome_t& o : summary.outcomes()) {
     fmt::print(out, "{:.3f},{:.3f},{},{},{},{},{}", in_seconds(o.departure_utime), in_seconds(o.utime),
                summary.name(o.source_id), summary.name(o.receiver_id),
@@ -139,7 +171,8 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
     }
     out << ',' << propagation_name(static_cast<std::size_t>(o.propagation_used)) << ','
         << colliders_text(o, [&](std::int32_t id) { return summary.name(id); }) << ',' << o.num_receivers
-        << '\n';
+        << ',' << o.payload_bytes << ',' << format_number(o.transmit_energy_j) << ','
+        << format_number(o.receive_energy_j) << '\n';
   }
 }
 

@@ -23,6 +23,11 @@ inline constexpr bool kIsPlayed =
     std::is_same_v<Message, modem_config_t> || std::is_same_v<Message, modem_listen_t> ||
     std::is_same_v<Message, environment_change_t>;
 
+template <class Message>
+inline constexpr bool kIsEquipment =
+    std::is_same_v<Message, vehicle_gps_t> || std::is_same_v<Message, vehicle_battery_t> ||
+    std::is_same_v<Message, vehicle_sensors_t>;
+
 // Of STATE.auv-1: auv-1.
 std::string vehicle_of(const std::string& channel) { return channel.substr(channel.find('.') + 1); }
 
@@ -49,8 +54,9 @@ std::int32_t* id_in(Recording::Event& event) {
 
 // Collects what a log holds.
 struct Collector {
-  explicit Collector(Recording& into) : recording(into) {}
+  Collector(Recording& into, Played played) : recording(into), what(played) {}
   Recording& recording;
+  Played what;
   std::vector<Logged> logged;
   std::vector<std::int64_t> stamps;  // of all events
   std::int64_t clocks = 0, clocks_at_stamp = 0, last_clock = 0;
@@ -71,6 +77,12 @@ struct Collector {
         ++clocks;
         clocks_at_stamp += message.utime == event.stamp_us ? 1 : 0;
         last_clock = std::max(last_clock, message.utime);
+      }
+      if constexpr (kIsEquipment<Message>) {
+        if (what == Played::kWithEquipment) {
+          logged.push_back({stamps.size() - 1, {SimTime(), event.channel, message}});
+          return;
+        }
       }
     }
     ++recording.ignored;
@@ -195,9 +207,9 @@ void fill_ids(const bus::Scenario& scenario, Recording& recording) {
 
 }  // namespace
 
-Recording read_recording(LogReader& log, const bus::Scenario& scenario) {
+Recording read_recording(LogReader& log, const bus::Scenario& scenario, Played what) {
   Recording recording;
-  Collector collected(recording);
+  Collector collected(recording, what);
   collected.read(log);
   recording.stamped_with_simulation_time =
       is_stamped_with_simulation_time(collected.clocks, collected.clocks_at_stamp);

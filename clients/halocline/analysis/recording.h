@@ -1,6 +1,8 @@
 // The messages of a recorded log that are replayed: states, transmissions, modems and changes of the environment, each
 // at its time.
 //
+// With `what` kWithEquipment also GPS, BATTERY and SENSORS, by which the clocks, batteries and propellers of vehicles go.
+//
 // Answers in the log (LINKS, RECEIPT, OUTCOME, ...) are not replayed. Times depend on the recorder:
 //
 // - A lockstep run stamps its log with simulation time: messages are played at their stamps, in their order. A stamp
@@ -35,7 +37,9 @@ struct Recording {
   struct Event {
     SimTime at;
     std::string channel;
-    std::variant<vehicle_state_t, modem_send_t, modem_config_t, modem_listen_t, environment_change_t> message;
+    std::variant<vehicle_state_t, modem_send_t, modem_config_t, modem_listen_t, environment_change_t, vehicle_gps_t,
+                 vehicle_battery_t, vehicle_sensors_t>
+        message;
   };
   std::vector<Event> events;  // by time; of one time, in the log's order
   SimTime end;                // of the run, as far as the log shows
@@ -49,8 +53,11 @@ struct Recording {
   std::vector<std::pair<std::string, std::int32_t>> ids_given;  // by vehicle
 };
 
+enum class Played { kStatesAndPackets, kWithEquipment };
+
 // `scenario` gives ids to vehicles whose messages have none.
-Recording read_recording(LogReader& log, const bus::Scenario& scenario = {});
+Recording read_recording(LogReader& log, const bus::Scenario& scenario = {},
+                         Played what = Played::kStatesAndPackets);
 
 // A line for each thing that had to be filled in or moved; none for a log of our own.
 void print_repairs(std::ostream& out, const Recording& recording);

@@ -46,6 +46,7 @@ void resolve(ScenarioConfig& config) {
   for (auto& vehicle : config.scenario.vehicles) make_absolute(vehicle.model, config.folder);
   for (auto& nested : config.terrain.nested) make_absolute(nested.raster.path, config.folder);
   resolve(config.channel_server.environment.profile, config);
+  make_absolute(config.channel_server.environment.noise_file, config.folder);
   for (auto& change : config.channel_server.changes) {
     if (change.profile) resolve(*change.profile, config);
   }
@@ -119,12 +120,15 @@ std::string commented_toml() {
   config.scenario.vehicles.resize(1);
   config.scenario.vehicles[0].name = "auv-1";
   config.scenario.vehicles[0].id = 1;
+  config.scenario.vehicles[0].battery.emplace();
   config.channel_server.vehicles.resize(1);
   config.channel_server.rules.medium.extra_loss.resize(1);
+  config.channel_server.vehicles[0].clock.emplace();
+  config.channel_server.vehicles[0].noise.emplace();
   config.vehicle_sim.tethers.resize(1);
   config.vehicle_sim.faults.resize(1);
   config.vehicle_sim.faults[0].fault.angle_rad = 0;
-  config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig()}};
+  config.channel_server.changes = {{600, 8, 0.3, 0, channel_server::ProfileConfig(), 10}};
   config.autopilot.vehicles.resize(1);
   config.autopilot.vehicles[0].behaviours.resize(1);
   config.traffic.vehicles.resize(1);

@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 const Vec3 kWest(0, 0, 50), kEast(0, 1000, 50);
-constexpr double kDepthM = 30;
+constexpr double kDepthM = 30, kSoundMps = 1500;
 
 // A vehicle that moves by the estimator's model: by its speed and heading, a constant current and a random walk,
 // all drawn from what the rules state.
@@ -37,11 +37,16 @@ struct Voyage {
 struct End {
   std::optional<PositionEstimate> estimate;
   Vec2 truth = Vec2::Zero(), current = Vec2::Zero();
+  Eigen::Vector2d clock = Eigen::Vector2d::Zero();  // true offset and drift
   int outliers = 0, used = 0;
   double error_m() const { return (estimate->position_ne_m - truth).norm(); }
   double normalised_square() const {
     const Vec2 error = estimate->position_ne_m - truth;
     return error.dot(estimate->position_covariance_m2.inverse() * error);
+  }
+  double normalised_square_of_clock() const {
+    const Eigen::Vector2d error = estimate->clock - clock;
+    return error.dot(estimate->clock_covariance.inverse() * error);
   }
 };
 
@@ -63,6 +68,10 @@ class Sailing {
   explicit Sailing(const Voyage& voyage)
       : v_(voyage), draws_(voyage.number), estimator_(voyage.rules, stated_start()), truth_(voyage.start) {
     current_ = draws_.pair(v_.rules.current_sigma_mps);
+    if (v_.rules.estimate_clock()) {
+      clock_[0] = v_.rules.clock_offset_sigma_s * draws_.next();
+      clock_[1] = v_.rules.clock_drift_sigma * draws_.next();
+    }
   }
 
   End sail() {
@@ -79,6 +88,7 @@ class Sailing {
     end_.estimate = estimator_.estimate(SimTime::from_seconds(v_.seconds));
     end_.truth = truth_;
     end_.current = current_;
+    end_.clock = clock_;
     return end_;
   }
 
@@ -96,6 +106,8 @@ class Sailing {
               draws_.pair(v_.rules.drift_m_per_sqrt_s * std::sqrt(dt)) +
               draws_.pair(v_.rules.slip_m_per_sqrt_rad * std::sqrt(turned_rad));
     current_ += draws_.pair(v_.rules.current_walk_mps_per_sqrt_s * std::sqrt(dt));
+    if (!v_.rules.estimate_clock()) return;
+    clock_[0] += clock_[1] * dt + v_.rules.clock_walk_s_per_sqrt_s * std::sqrt(dt) * draws_.next();
   }
   double way(int i, const Vec3& beacon) const {
     const Vec2& p = trace_.at(static_cast<std::size_t>(i));
@@ -110,6 +122,9 @@ class Sailing {
     if (v_.two_way) {
       range.at.push_back(SimTime::from_seconds(i * dt));
       range.length_m += way(i, range.beacon_m);
+    } else if (v_.rules.estimate_clock()) {
+      range.per_clock_m_s = kSoundMps;
+      range.length_m += kSoundMps * clock_[0];
     }
     range.sigma_m = v_.range_sigma_m;
     range.length_m += v_.range_sigma_m * draws_.next() + v_.blunder_m(ranges_);
@@ -123,6 +138,7 @@ class Sailing {
   Draws draws_;
   PositionEstimator estimator_;
   Vec2 truth_, current_ = Vec2::Zero();
+  Eigen::Vector2d clock_ = Eigen::Vector2d::Zero();
   std::vector<Vec2> trace_;
   int ranges_ = 0;
   End end_;
@@ -154,6 +170,49 @@ TEST(PositionEstimator, ErrorMatchesItsCovarianceFromAStatedStart) { expect_hone
 
 TEST(PositionEstimator, ErrorMatchesItsCovarianceWithPings) {
   expect_honest({.start_sigma_m = 10, .range_sigma_m = 2, .two_way = true});
+}
+
+// Normalised squared errors of position and of clock are chi-squared with two degrees of freedom each, as above.
+TEST(PositionEstimator, ErrorsOfPositionAndClockMatchTheirCovariancesWithOneWayRanges) {
+  constexpr int kVoyages = 400;
+  Voyage voyage{.start_sigma_m = 10,
+                .seconds = 600,
+                .rules = {.current_sigma_mps = 0.1,
+                          .clock_offset_sigma_s = 0.02,
+                          .clock_drift_sigma = 1e-5,
+                          .clock_walk_s_per_sqrt_s = 1e-6}};
+  double position = 0, clock = 0;
+  for (int n = 0; n < kVoyages; ++n) {
+    voyage.number = static_cast<std::uint64_t>(n);
+    const End end = sail(voyage);
+    ASSERT_TRUE(end.estimate.has_value()) << n;
+    position += end.normalised_square() / kVoyages;
+    clock += end.normalised_square_of_clock() / kVoyages;
+    // Of 30 m of offset at the start less than a third is left.
+    EXPECT_LT(kSoundMps * std::sqrt(end.estimate->clock_covariance(0, 0)), 10.0) << n;
+  }
+  EXPECT_NEAR(position, 2.0, 4 * std::sqrt(4.0 / kVoyages));
+  EXPECT_NEAR(clock, 2.0, 4 * std::sqrt(4.0 / kVoyages));
+}
+
+// The sum of two ways does not depend on the clock.
+TEST(PositionEstimator, PingsTellNothingOfTheClock) {
+  const Voyage voyage{.start_sigma_m = 10, .two_way = true, .rules = {.clock_offset_sigma_s = 0.02}};
+  const End end = sail(voyage);
+  // The drift of 1e-6 has added its part over 300 s.
+  EXPECT_NEAR(std::sqrt(end.estimate->clock_covariance(0, 0)), std::hypot(0.02, 300e-6), 1e-9);
+  EXPECT_EQ(end.estimate->clock[0], 0);
+}
+
+TEST(PositionEstimator, AClockThatGpsHasSetIsKnownToItsResidual) {
+  PositionEstimator estimator({.clock_offset_sigma_s = 1, .clock_gps_sigma_s = 1e-6},
+                              StatedStart{{0, 0}, 10});
+  estimator.move({SimTime(), 0, 0, 0, 50});
+  EXPECT_EQ(estimator.estimate(SimTime())->clock_covariance(0, 0), 1);
+  estimator.set_clock();
+  EXPECT_NEAR(estimator.estimate(SimTime())->clock_covariance(0, 0), 1e-12, 1e-18);
+  // The drift, of 1e-6, goes on: 1 us after a second.
+  EXPECT_NEAR(estimator.estimate(SimTime::from_seconds(1))->clock_covariance(0, 0), 2e-12, 1e-17);
 }
 
 // No start is stated: of the two mirror images of the start the motion has to choose.

@@ -1,0 +1,41 @@
+#include "acoustics/noise/noise_variation.h"
+
+#include <numbers>
+
+#include "core/check.h"
+#include "core/elementary.h"
+#include "core/gauss_markov.h"
+#include "core/random.h"
+
+namespace halocline::acoustics {
+
+void validate(const NoiseVariation& v) {
+  require_in_range(v.spread_db, 0, 30, "spread of the noise", "dB");
+  require_in_range(v.spread_time_s, 0.1, 1e6, "correlation time of the noise", "s");
+  require(v.burst_exponent == 0 || (v.burst_exponent >= 0.5 && v.burst_exponent <= 2),
+          "the exponent of impulsive noise is 0 (none), or 0.5 to 2");
+  require_in_range(v.burst_level.value, -100, 100, "level of impulsive noise", "dB");
+  require_in_range(v.burst.seconds(), 1e-3, 60, "duration of a burst of noise", "s");
+}
+
+Decibels noise_offset(const NoiseVariation& variation, std::uint64_t seed, SimTime at) {
+  if (variation.spread_db == 0) return {0};
+  const DrawAddress address{.seed = seed, .purpose = purpose_of("noise-spread")};
+  return {GaussMarkovProcess(variation.spread_db, variation.spread_time_s, address).at(at)};
+}
+
+double burst_power(double exponent, std::uint64_t seed, std::uint32_t receiver, std::int64_t burst) {
+  constexpr std::uint32_t kAngle = purpose_of("noise-burst-angle"), kSize = purpose_of("noise-burst-size");
+  const auto draw = [&](std::uint32_t purpose) {
+    return uniform_at(
+        {.seed = seed, .purpose = purpose, .who = receiver, .which = static_cast<std::uint64_t>(burst)});
+  };
+  const double a = exponent / 2;
+  if (a >= 1) return 1;
+  const double u = std::numbers::pi * draw(kAngle), w = -elementary::log(draw(kSize));
+  const auto log_sin = [](double angle) { return elementary::log(elementary::sin(angle)); };
+  return elementary::exp(log_sin(a * u) - log_sin(u) / a +
+                         (1 - a) / a * (log_sin((1 - a) * u) - elementary::log(w)));
+}
+
+}  // namespace halocline::acoustics

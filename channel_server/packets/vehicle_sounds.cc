@@ -1,0 +1,131 @@
+#include "channel_server/packets/vehicle_sounds.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "acoustics/fading/link_fading.h"
+#include "acoustics/link/least_loss.h"
+#include "core/frames.h"
+#include "core/units.h"
+
+namespace halocline::channel_server {
+namespace {
+
+// The sound of no modem: nobody receives it.
+constexpr const char* kNoiseFamily = "vehicle-noise";
+
+LinkEnd receiver_end(const Flight& flight) {
+  return {flight.receiver_id, flight.place.position_ned_m, flight.place.velocity_ned_mps, &flight.modem};
+}
+
+}  // namespace
+
+double VehicleSounds::speed_of(const NoiseOf& noise, SimTime at, SimTime decided_at) const {
+  if (noise.driver == NoiseDriver::kPropeller)
+    return fleet_.equipment().noise.rate_at(noise.id, at, decided_at);
+  const auto place = fleet_.placement(noise.id, at, decided_at);
+  return place ? place->velocity_ned_mps.norm() : 0;
+}
+
+double VehicleSounds::own_power(VehicleId receiver, const acoustics::Band& band, SimTime at,
+                                SimTime decided_at) const {
+  const auto& sources = fleet_.equipment().noise.sources();
+  const auto own = sources.find(receiver);
+  if (own == sources.end()) return 0;
+  return to_power_ratio(-own->second.own_loss).value *
+         noise_power_at_1m(own->second, speed_of(own->second, at, decided_at), band.low_hz, band.high_hz);
+}
+
+// Null where the vehicle is nowhere, or silent.
+PacketPointer VehicleSounds::sound_of(const NoiseOf& noise, const Flight& flight, SimTime decided_at) const {
+  const SimTime arrival = flight.arrival();
+  const auto now = fleet_.placement(noise.id, arrival, decided_at);
+  if (!now) return nullptr;
+  const Vec3& to = flight.place.position_ned_m;
+  const double speed_mps = sound_speed_at(propagation_.environment(arrival), to);
+  const SimTime left = arrival - SimDuration::from_seconds((now->position_ned_m - to).norm() / speed_mps);
+  const auto place = fleet_.placement(noise.id, left, decided_at);
+  const acoustics::Band band = flight.packet->modem.band();
+  const double power = noise_power_at_1m(noise, speed_of(noise, left, decided_at), band.low_hz, band.high_hz);
+  if (!place || power <= 0) return nullptr;
+  Packet sound;
+  sound.request.vehicle = noise.vehicle;
+  sound.request.source_id = noise.id;
+  sound.is_noise = true;
+  sound.departure = left;
+  sound.departure_ned_m = place->position_ned_m;
+  sound.velocity_ned_mps = place->velocity_ned_mps;
+  sound.modem.family = kNoiseFamily;
+  sound.modem.centre_frequency_hz = band.centre_hz();
+  sound.modem.bandwidth_hz = band.width_hz();
+  sound.modem.source_level = to_decibels({power});
+  return std::make_shared<const Packet>(std::move(sound));
+}
+
+std::vector<PacketPointer> VehicleSounds::sounds_within_reach(const Flight& flight, SimTime decided_at) {
+  std::vector<PlacedVehicle> present;
+  if (reach_ != nullptr) present = place_all(fleet_, flight.arrival());
+  std::vector<PacketPointer> sounds;
+  for (const auto& [id, noise] : fleet_.equipment().noise.sources()) {
+    if (id == flight.receiver_id) continue;
+    PacketPointer sound = sound_of(noise, flight, decided_at);
+    if (!sound) continue;
+    const double range_m = (sound->departure_ned_m - flight.place.position_ned_m).norm();
+    const double reach_m = reach_ == nullptr
+                               ? acoustics::kGreatestBoundedRange
+                               : reach_->reach_m(sound->departure, sound->modem, fleet_, present);
+    if (range_m <= reach_m) sounds.push_back(std::move(sound));
+  }
+  return sounds;
+}
+
+bool VehicleSounds::are_ready(const Flight& flight, SimTime decided_at) {
+  bool ready = true;  // of all of them, so that all are requested at once
+  for (const PacketPointer& sound : sounds_within_reach(flight, decided_at)) {
+    ready =
+        propagation_.is_ready_for_packet(sound->departure, sound->link_end(), receiver_end(flight)) && ready;
+  }
+  return ready;
+}
+
+std::vector<NoiseSound> VehicleSounds::others(const Flight& flight, SimTime decided_at) {
+  std::vector<NoiseSound> heard;
+  for (PacketPointer& sound : sounds_within_reach(flight, decided_at)) {
+    const Reception reception =
+        propagation_.reception_without_capacity(sound->departure, sound->link_end(), receiver_end(flight));
+    if (reception.paths.empty()) continue;
+    const VehicleId from = sound->request.source_id, to = flight.receiver_id;
+    const acoustics::FadingLink link{seed_, static_cast<std::uint32_t>(std::min(from, to)),
+                                     static_cast<std::uint32_t>(std::max(from, to)), from > to};
+    const double large_scale = acoustics::LinkFading(fading_, link).large_scale(flight.lock());
+    heard.push_back({std::move(sound),
+                     to_power_ratio(reception.budget.received_level).value * large_scale * large_scale});
+  }
+  return heard;
+}
+
+Decibels VehicleSounds::noise_level(VehicleId receiver, const acoustics::Band& band, SimTime at,
+                                    SimTime decided_at) {
+  Decibels level = ambient_.level(band, propagation_.environment(at).noise);
+  if (variation_.spread_db > 0) level = level + noise_offset(variation_, seed_, at);
+  const double own = own_power(receiver, band, at, decided_at);
+  return own > 0 ? to_decibels({to_power_ratio(level).value + own}) : level;
+}
+
+void VehicleSounds::set_noise(Flight& flight, SimTime decided_at) {
+  flight.reception.budget.noise_level =
+      noise_level(flight.receiver_id, flight.packet->modem.band(), flight.arrival(), decided_at);
+  if (any()) flight.noise = others(flight, decided_at);
+}
+
+Interferers interferers_of(const Flight& flight, const ReceiverState& receiver, SimTime begin, SimTime end) {
+  Interferers others = receiver.interferers_of(*flight.packet, begin, end);
+  for (const NoiseSound& sound : flight.noise) {
+    others.paths.push_back({flight.signal.begin, flight.signal.end, sound.power, others.packets.size()});
+    others.packets.push_back(sound.source);
+  }
+  return others;
+}
+
+}  // namespace halocline::channel_server

@@ -1,0 +1,58 @@
+#include "channel_server/vehicles/vehicle_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "core/check.h"
+
+namespace halocline::channel_server {
+
+VehicleNoise::VehicleNoise(std::vector<NoiseOf> sources, SimDuration lag) : lag_(lag) {
+  for (NoiseOf& source : sources) {
+    require(std::isfinite(source.reference) && source.reference > 0,
+            "the reference speed of a vehicle's noise must be above 0");
+    require_in_range(source.own_loss.value, 0, 200, "loss of own noise", "dB");
+    sources_.emplace(source.id, std::move(source));
+  }
+}
+
+bool VehicleNoise::needs_rates() const {
+  return std::any_of(sources_.begin(), sources_.end(),
+                     [](const auto& entry) { return entry.second.driver == NoiseDriver::kPropeller; });
+}
+
+void VehicleNoise::add_rate(std::string_view vehicle, SimTime at, double turns_per_s) {
+  for (const auto& [id, source] : sources_) {
+    if (source.vehicle != vehicle) continue;
+    auto& rates = rates_[id];
+    rates.insert_or_assign(at, std::abs(turns_per_s));
+    if (rates.size() > kMaxRates) rates.erase(rates.begin());
+  }
+}
+
+double VehicleNoise::rate_at(VehicleId id, SimTime at, SimTime decided_at) const {
+  const auto known = rates_.find(id);
+  if (known == rates_.end()) return 0;
+  const auto later = known->second.upper_bound(std::min(at, decided_at - lag_));
+  return later == known->second.begin() ? 0 : std::prev(later)->second;
+}
+
+void VehicleNoise::forget_before(SimTime time) {
+  for (auto& [id, rates] : rates_) {
+    const auto later = rates.upper_bound(time - lag_);
+    if (later != rates.begin()) rates.erase(rates.begin(), std::prev(later));
+  }
+}
+
+void VehicleNoise::clear() { rates_.clear(); }
+
+// 10^((60 log10 r) / 10) = r^6.
+double noise_power_at_1m(const NoiseOf& noise, double speed, double low_hz, double high_hz) {
+  const double ratio = noise.driver == NoiseDriver::kNone ? 1 : std::abs(speed) / noise.reference;
+  const double cube = ratio * ratio * ratio;
+  return cube * cube * noise.at_1m.power_over_band(low_hz, high_hz).value;
+}
+
+}  // namespace halocline::channel_server

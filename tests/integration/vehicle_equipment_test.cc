@@ -1,0 +1,141 @@
+// Clocks, batteries and noise of vehicles in a whole run: the ranging scenario with some of each.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bus/bus.h"
+#include "tests/integration/embedded_fixture.h"
+
+namespace halocline::clients {
+namespace {
+
+class VehicleEquipmentTest : public testing::EmbeddedTest {
+ protected:
+  std::string run_with(const std::vector<std::string>& overrides, const std::string& name = "equipment") {
+    return run(load("ranging", overrides), name);
+  }
+  template <class Message>
+  static std::vector<Message> all_of(const std::string& log, const std::string& channel) {
+    std::vector<Message> found;
+    for (auto& [on, message] : messages_in<Message>(log)) {
+      if (on == channel) found.push_back(message);
+    }
+    return found;
+  }
+};
+
+// What the ledger says of each packet, and what the battery says of itself.
+TEST_F(VehicleEquipmentTest, TheEnergyOfAllCausesIsWhatTheBatteryHasLost) {
+  const std::string log = run_with({"scenario.duration_s=90", "vehicle.2.battery.capacity_wh=500"});
+  const auto reports = all_of<vehicle_battery_t>(log, "BATTERY.auv-1");
+  ASSERT_EQ(reports.size(), 91u);
+  const vehicle_battery_t& last = reports.back();
+  double transmit_j = 0, receive_j = 0;
+  for (const modem_energy_t& use : all_of<modem_energy_t>(log, "MODEM_ENERGY.auv-1")) {
+    if (use.utime + 100'000 > last.utime) continue;  // counted a tenth of a second later
+    (use.energy_cause == modem_energy_t::TRANSMIT ? transmit_j : receive_j) += use.energy_j;
+  }
+  EXPECT_GT(transmit_j, 0);
+  EXPECT_GT(receive_j, 0);
+  EXPECT_NEAR(last.transmit_energy_j, transmit_j, 1e-9 * transmit_j);
+  EXPECT_NEAR(last.receive_energy_j, receive_j, 1e-9 * receive_j);
+  const double lost_j = last.capacity_j - last.energy_left_j;
+  const double hotel_j = 20.2 * 90;
+  EXPECT_NEAR(last.hotel_energy_j, hotel_j, 1e-9 * hotel_j);
+  EXPECT_NEAR(last.hotel_energy_j + last.shaft_energy_j + transmit_j + receive_j, lost_j, 1e-9 * lost_j);
+  EXPECT_GT(last.shaft_energy_j, 0);
+
+  double by_outcomes_j = 0;
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int8_t>> counted;
+  for (const packet_outcome_t& o : all_of<packet_outcome_t>(log, "OUTCOME")) {
+    if (o.source_id == 3 && o.departure_utime + 100'000 <= last.utime &&
+        counted.insert({o.send_session, o.packet_sequence, o.packet_kind}).second)
+      by_outcomes_j += o.transmit_energy_j;
+    if (o.source_id != 3) EXPECT_EQ(o.transmit_energy_j, 0);
+  }
+  EXPECT_LE(by_outcomes_j, transmit_j * (1 + 1e-9));
+  EXPECT_GT(by_outcomes_j, 0.9 * transmit_j);  // but for packets still under way
+}
+
+TEST_F(VehicleEquipmentTest, AnEmptyBatteryEndsTheVehicleAndItsModem) {
+  // 20 W of hotel and the shaft take 0.2 Wh within 36 s.
+  const std::string log = run_with({"scenario.duration_s=60", "vehicle.2.battery.capacity_wh=0.2"});
+  const auto faults = all_of<vehicle_fault_t>(log, "FAULT.auv-1");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].fault_kind, vehicle_fault_t::EMPTY_BATTERY);
+  EXPECT_TRUE(all_of<vehicle_battery_t>(log, "BATTERY.auv-1").back().battery_empty);
+  const auto receipts = all_of<modem_receipt_t>(log, "RECEIPT.auv-1");
+  EXPECT_EQ(receipts.front().receipt_result, modem_receipt_t::ACCEPTED);
+  EXPECT_EQ(receipts.back().receipt_result, modem_receipt_t::REFUSED_NO_MODEM);
+  const auto states = all_of<vehicle_state_t>(log, "STATE.auv-1");
+  const auto speed = [](const vehicle_state_t& s) {
+    return std::hypot(s.velocity_ned_mps[0], s.velocity_ned_mps[1]);
+  };
+  EXPECT_LT(speed(states.back()), 0.7 * speed(states[100]));
+}
+
+// The vehicle's clock is 3 ms ahead, 4.5 m of range: the localiser finds it, and its place, by one-way ranges.
+TEST_F(VehicleEquipmentTest, TheLocaliserFindsItsClockByStampedPackets) {
+  std::vector<std::string> one_way{"scenario.duration_s=240",
+                                   "vehicle.2.localiser.ping_period_s=0",
+                                   "vehicle.2.localiser.use_stamps=true",
+                                   "vehicle.2.localiser.start_sigma_m=10",
+                                   "vehicle.2.localiser.clock_offset_sigma_s=0.01",
+                                   "vehicle.2.localiser.clock_drift_sigma_ppm=2",
+                                   "vehicle.2.clock.offset_s=0.003",
+                                   "vehicle.2.clock.drift_ppm=1"};
+  for (const std::string beacon : {"0", "1"}) {
+    one_way.push_back("vehicle." + beacon + ".traffic.period_s=10");
+    one_way.push_back("vehicle." + beacon + ".traffic.payload_bytes=1");
+    one_way.push_back("vehicle." + beacon + ".traffic.start_s=" + (beacon == "0" ? "2" : "7"));
+  }
+  const auto estimates = all_of<position_estimate_t>(run_with(one_way), "ESTIMATE.auv-1");
+  ASSERT_EQ(estimates.size(), 241u);
+  const position_estimate_t& last = estimates.back();
+  ASSERT_TRUE(last.clock_estimated);
+  const double truth_s = 0.003 + 1e-6 * 240;
+  EXPECT_LT(last.clock_offset_deviation_s, 0.005);  // half of what was stated at the start
+  EXPECT_NEAR(last.clock_offset_s, truth_s, 4 * last.clock_offset_deviation_s);
+  EXPECT_LT(std::hypot(last.error_ned_m[0], last.error_ned_m[1]), 3);
+}
+
+TEST_F(VehicleEquipmentTest, WithAllOfItTheBytesAreTheSameWithShardsAndThreads) {
+  std::vector<std::string> all{"scenario.duration_s=40",
+                               "environment.noise_spread_db=3",
+                               "environment.impulse_exponent=1.7",
+                               "environment.rain_mm_per_h=5",
+                               "vehicle.2.battery.capacity_wh=0.2",
+                               "vehicle.2.clock.drift_ppm=5",
+                               "vehicle.2.clock.random_walk_s_per_sqrt_s=1e-6",
+                               "vehicle.2.noise.varies_with=\"propeller\"",
+                               "vehicle.1.noise.varies_with=\"nothing\"",
+                               "vehicle.0.traffic.period_s=5"};
+  const auto outcomes = [&](const std::vector<std::string>& more, const std::string& name) {
+    std::vector<std::string> overrides = all;
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const std::string log = run_with(overrides, name);
+    std::vector<std::tuple<std::int64_t, std::int32_t, std::int32_t, std::int8_t, double, double>> rows;
+    for (const packet_outcome_t& o : all_of<packet_outcome_t>(log, "OUTCOME"))
+      rows.emplace_back(o.utime, o.source_id, o.receiver_id, o.outcome, o.sinr_db, o.noise_level_db);
+    for (const modem_receive_t& r : all_of<modem_receive_t>(log, "RECEIVE.auv-1"))
+      rows.emplace_back(r.utime, r.source_id, r.receiver_id, 0, r.travel_time_s, r.two_way_travel_time_s);
+    for (const vehicle_battery_t& b : all_of<vehicle_battery_t>(log, "BATTERY.auv-1"))
+      rows.emplace_back(b.utime, 0, 0, b.battery_empty, b.energy_left_j, b.receive_energy_j);
+    std::sort(rows.begin(), rows.end());
+    return rows;
+  };
+  const auto alone = outcomes({}, "alone");
+  EXPECT_GT(alone.size(), 60u);
+  EXPECT_EQ(alone, outcomes({"channel_server.shards=3", "channel_server.threads=2", "vehicle_sim.threads=2"},
+                            "shards"));
+}
+
+}  // namespace
+}  // namespace halocline::clients
