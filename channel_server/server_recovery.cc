@@ -26,11 +26,12 @@ bool is_input(std::string_view channel) {
 
 ServerRecovery::ServerRecovery(bus::CrashJournal& journal, Inbox& inbox, const std::string& path)
     : journal_(journal), inbox_(inbox) {
-  journal_.open({path,
-                 kJournalled,
-                 is_input,
-                 {channels::kModem, channels::kListen, channels::kGps, channels::kBattery, channels::kSensors},
-                 {std::string(channels::kSetEnvironment)}});
+  journal_.open(
+      {path,
+       kJournalled,
+       is_input,
+       {channels::kModem, channels::kListen, channels::kGps, channels::kBattery, channels::kSensors},
+       {std::string(channels::kSetEnvironment)}});
   journal_.replay_inputs([this](SimTime at) { steps_.push_back({at, inbox_.take_inputs()}); });
 }
 

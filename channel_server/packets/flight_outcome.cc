@@ -160,7 +160,8 @@ PacketOutcome outcome_out_of_reach(const PacketPointer& packet, double range_m) 
 
 void add_sending(const Packet& packet, const VehiclePower& power, std::vector<MediumEvent>& events) {
   if (power.battery_of(packet.request.source_id) == nullptr) return;
-  events.push_back({packet.departure, EnergyUse{packet.request.vehicle, true, packet.energy_j, packet.name()}});
+  events.push_back(
+      {packet.departure, EnergyUse{packet.request.vehicle, true, packet.energy_j, packet.name()}});
 }
 
 void add_receiving(const Flight& flight, const PacketOutcome& outcome, SimTime at, const VehiclePower& power,

@@ -9,6 +9,7 @@
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/packets/send_decision.h"
 #include "channel_server/vehicles/modem_schedule.h"
+#include "channel_server/vehicles/vehicle_equipment.h"
 #include "core/check.h"
 #include "core/frames.h"
 #include "core/names.h"
@@ -146,11 +147,10 @@ void PacketMedium::depart(Departure departure, std::vector<MediumEvent>& events)
   if (accepted) {
     register_.occupy(request.vehicle, decision.start, timing.duration);
     const auto place = fleet_.placement(request.source_id, request.start, request.start);
-    const auto packet = std::make_shared<const Packet>(
-        Packet{request, decision.start, timing, framing.modem, place->position_ned_m,
-               place->velocity_ned_mps, departure.answers, framing.rate_number, std::move(framing.format),
-               std::move(framing.frame_bytes), false,
-               power().transmit_energy_j(request.source_id, framing.modem, timing.duration)});
+    const auto packet = std::make_shared<const Packet>(Packet{
+        request, decision.start, timing, framing.modem, place->position_ned_m, place->velocity_ned_mps,
+        departure.answers, framing.rate_number, std::move(framing.format), std::move(framing.frame_bytes),
+        false, power().transmit_energy_j(request.source_id, framing.modem, timing.duration)});
     if (decision.result == SendResult::kAccepted) {
       launch(packet, events);
     } else {

@@ -10,6 +10,7 @@
 #include "core/sim_time.h"
 #include "tests/support/at_ms.h"
 #include "tests/support/tolerance.h"
+#include "vehicle_sim/dynamics/actuators.h"
 #include "vehicle_sim/dynamics/command_schedule.h"
 #include "vehicle_sim/dynamics/equations_of_motion.h"
 #include "vehicle_sim/dynamics/torpedo.h"

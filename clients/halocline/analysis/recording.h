@@ -37,8 +37,8 @@ struct Recording {
   struct Event {
     SimTime at;
     std::string channel;
-    std::variant<vehicle_state_t, modem_send_t, modem_config_t, modem_listen_t, environment_change_t, vehicle_gps_t,
-                 vehicle_battery_t, vehicle_sensors_t>
+    std::variant<vehicle_state_t, modem_send_t, modem_config_t, modem_listen_t, environment_change_t,
+                 vehicle_gps_t, vehicle_battery_t, vehicle_sensors_t>
         message;
   };
   std::vector<Event> events;  // by time; of one time, in the log's order

@@ -29,7 +29,10 @@ class ExtraLossTest : public testing::ScriptedWater {
   // Outcomes at `receiver` of packets of 1 sent at 10, 11, ... s, by their number.
   std::vector<OutcomeKind> outcomes_with(const std::vector<ExtraLoss>& rules, VehicleId receiver, int packets,
                                          std::uint64_t seed = 1) {
-    PacketMedium lossy{fleet, water, {for_s(10), for_s(200), seed, {}, {}, rules}};
+    PacketMedium lossy{
+        fleet,
+        water,
+        {.max_lateness = for_s(10), .max_earliness = for_s(200), .seed = seed, .extra_loss = rules}};
     for (int i = 0; i < packets; ++i) {
       EXPECT_FALSE(lossy.transmit(testing::request_of(1, 10 + 0.05 * i, i, 1), SimTime()));
     }

@@ -1,5 +1,4 @@
 // What modems report and how they listen: events, carrier, sleep, packets for others.
-#include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/modem_watch.h"
 
 #include <cstdint>

@@ -1,6 +1,5 @@
 // Several media of one water, each following packets only to the receivers it serves: together they publish what
 // one publishes.
-#include "channel_server/packets/medium_event.h"
 #include "channel_server/vehicles/shard.h"
 
 #include <algorithm>
