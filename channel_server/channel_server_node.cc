@@ -60,8 +60,10 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       vehicles_(rules.position, modems, std::move(equipment)),
       reach_(water_.waters, *water_.propagation, rules.reach),
       medium_(vehicles_, *water_.propagation, rules.medium, &reach_, pool_.sharing_out()),
+      sounds_(vehicles_, *water_.propagation, &reach_, rules.medium.fading, rules.medium.noise,
+              rules.medium.seed),
       predictor_(make_predictor(rules)),
-      kept_rows_(rules.row_reuse_distance_m),
+      kept_rows_(sounds_.differ() ? 0 : rules.row_reuse_distance_m),
       echoes_(rules.echo_reuse_distance_m),
       rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, predictor_, echoes_, rays_,
@@ -72,7 +74,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       seabed_(bus(), {rays_, queries_, echoes_, *water_.seabed, *water_.propagation}, rules.bottom_points),
       exchange_(bus(), publisher_, rules.medium.shard, rules.ray_queries.answer_deadline, hash_of(scenario)),
       packets_(bus(), journal_),
-      tables_(publisher_, bus().log(), {vehicles_, *water_.propagation, predictor_, echoes_, kept_rows_},
+      tables_(publisher_, bus().log(),
+              {vehicles_, *water_.propagation, predictor_, echoes_, kept_rows_, sounds_},
               pool_.sharing_out()),
       processor_(bus(), vehicles_, *water_.waters, *water_.propagation, medium_, packets_),
       scenario_(std::move(scenario)),
@@ -194,7 +197,9 @@ bool ChannelServerNode::prepare(Tables& tables, SimTime steady) {
   Propagation& propagation = *water_.propagation;
   const SimTime tick = tables.tick;
   const std::vector<EndPair> links = tables.rows.to_compute();
-  if (!propagation.are_ready(tick, links)) return false;
+  const bool is_noise_ready =
+      tables_.is_noise_ready(tick, links);  // asked first, so that all is requested at once
+  if (!propagation.are_ready(tick, links) || !is_noise_ready) return false;
   if (propagation.plans_ticks())
     propagation.begin_tick(tick, table_rows(tables.present, tables.ranges_m).links);
   if (shares_searches_) {

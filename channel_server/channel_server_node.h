@@ -32,6 +32,7 @@
 #include "channel_server/links/ray_query_client.h"
 #include "channel_server/packet_publisher.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/seabed_client.h"
 #include "channel_server/server_recovery.h"
@@ -96,6 +97,7 @@ class ChannelServerNode : public bus::Node {
   VehicleRegistry vehicles_;
   ReachModel reach_;
   PacketMedium medium_;
+  VehicleSounds sounds_;  // in tables
   LinkPredictor predictor_;
   KeptRows kept_rows_;
   MultipathCache echoes_;

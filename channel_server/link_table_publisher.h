@@ -13,6 +13,7 @@
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/multipath_cache.h"
+#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/vehicle_registry.h"
 #include "core/for_each.h"
@@ -29,10 +30,13 @@ class LinkTablePublisher {
     LinkPredictor& predictor;
     MultipathCache& echoes;
     KeptRows& kept;
+    VehicleSounds& sounds;
   };
   LinkTablePublisher(bus::NumberedPublisher& publisher, bus::EventLog& log, Models models, ForEach for_each)
       : publisher_(publisher), log_(log), models_(models), for_each_(std::move(for_each)) {}
 
+  // Whether all is known of the noise of vehicles that publish() needs for the links to compute.
+  bool is_noise_ready(SimTime tick, const std::vector<EndPair>& links);
   // `vehicles`: those present at `tick`; the rows of those that this server serves, carried on or ready to be computed.
   void publish(SimTime tick, const std::vector<PlacedVehicle>& vehicles, const TableRows& rows);
 

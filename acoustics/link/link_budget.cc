@@ -28,6 +28,14 @@ double within_water(double depth_m) { return std::clamp(depth_m, 0.0, kDeepestWa
 
 }  // namespace
 
+void set_noise_level(LinkBudget& link, Decibels level) {
+  const Decibels more = level - link.noise_level;
+  link.noise_level = level;
+  link.noise_spectrum_level = link.noise_spectrum_level + more;
+  link.snr = link.snr - more;
+  link.snr_narrowband = link.snr_narrowband - more;
+}
+
 double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m) {
   const Vec3 way = to_ned_m - from_ned_m;
   return elementary::atan2(way.z(), elementary::hypot(way.x(), way.y()));

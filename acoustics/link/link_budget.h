@@ -44,6 +44,9 @@ struct LinkBudget {
   bool receivable = false;  // of one family, bands overlap, received level >= the cut-off
 };
 
+// Another noise over the band, whose spectrum has the same shape: both ratios and the spectrum level move with it. Capacity stays.
+void set_noise_level(LinkBudget& link, Decibels level);
+
 // Angle of the straight line from one point to another below the horizontal, -pi/2..pi/2; 0 between equal points.
 double angle_down_rad(const Vec3& from_ned_m, const Vec3& to_ned_m);
 

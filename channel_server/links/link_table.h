@@ -85,15 +85,19 @@ struct TableRows {
 TableRows table_rows(const std::vector<PlacedVehicle>& vehicles, const std::vector<double>& ranges_m = {},
                      Shard shard = {});
 
+// The noise at the receiver of a link over the transmitter's band, dB re 1 uPa.
+using NoiseFunction = std::function<Decibels(const EndPair& link)>;
 using MultipathFunction =
     std::function<Multipath(const PlacedVehicle& transmitter, const PlacedVehicle& receiver)>;
 
 // One table a transmitter, of links whose sound leaves at `instant`; a vehicle alone has an empty one. The propagation is ready
 // for the links of `rows` to compute; all are of `vehicles`. `multipath` is called where paths are straight by choice: rays hold the
-// echoes of the bottom. `kept`, unless null, takes what is computed.
+// echoes of the bottom. `kept`, unless null, takes what is computed. `noise`, unless empty, replaces the ambient noise of levels
+// and forecasts (capacity stays that of ambient noise).
 std::vector<LinkTable> link_tables(SimTime instant, const std::vector<PlacedVehicle>& vehicles,
                                    const TableRows& rows, Propagation& propagation, LinkPredictor& predictor,
                                    const MultipathFunction& multipath,
-                                   const ForEach& for_each = one_after_the_other, KeptRows* kept = nullptr);
+                                   const ForEach& for_each = one_after_the_other, KeptRows* kept = nullptr,
+                                   const NoiseFunction& noise = {});
 
 }  // namespace halocline::channel_server

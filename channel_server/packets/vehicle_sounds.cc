@@ -15,8 +15,11 @@ namespace {
 // The sound of no modem: nobody receives it.
 constexpr const char* kNoiseFamily = "vehicle-noise";
 
-LinkEnd receiver_end(const Flight& flight) {
-  return {flight.receiver_id, flight.place.position_ned_m, flight.place.velocity_ned_mps, &flight.modem};
+Hearing hearing_of(const Flight& flight, SimTime decided_at) {
+  return {{flight.receiver_id, flight.place.position_ned_m, flight.place.velocity_ned_mps, &flight.modem},
+          flight.packet->modem.band(),
+          flight.arrival(),
+          decided_at};
 }
 
 }  // namespace
@@ -38,15 +41,14 @@ double VehicleSounds::own_power(VehicleId receiver, const acoustics::Band& band,
 }
 
 // Null where the vehicle is nowhere, or silent.
-PacketPointer VehicleSounds::sound_of(const NoiseOf& noise, const Flight& flight, SimTime decided_at) const {
-  const SimTime arrival = flight.arrival();
-  const auto now = fleet_.placement(noise.id, arrival, decided_at);
+PacketPointer VehicleSounds::sound_of(const NoiseOf& noise, const Hearing& hearing) const {
+  const auto& [receiver, band, at, decided_at] = hearing;
+  const auto now = fleet_.placement(noise.id, at, decided_at);
   if (!now) return nullptr;
-  const Vec3& to = flight.place.position_ned_m;
-  const double speed_mps = sound_speed_at(propagation_.environment(arrival), to);
-  const SimTime left = arrival - SimDuration::from_seconds((now->position_ned_m - to).norm() / speed_mps);
+  const Vec3& to = receiver.position_ned_m;
+  const double speed_mps = sound_speed_at(propagation_.environment(at), to);
+  const SimTime left = at - SimDuration::from_seconds((now->position_ned_m - to).norm() / speed_mps);
   const auto place = fleet_.placement(noise.id, left, decided_at);
-  const acoustics::Band band = flight.packet->modem.band();
   const double power = noise_power_at_1m(noise, speed_of(noise, left, decided_at), band.low_hz, band.high_hz);
   if (!place || power <= 0) return nullptr;
   Packet sound;
@@ -63,15 +65,15 @@ PacketPointer VehicleSounds::sound_of(const NoiseOf& noise, const Flight& flight
   return std::make_shared<const Packet>(std::move(sound));
 }
 
-std::vector<PacketPointer> VehicleSounds::sounds_within_reach(const Flight& flight, SimTime decided_at) {
+std::vector<PacketPointer> VehicleSounds::sounds_within_reach(const Hearing& hearing) {
   std::vector<PlacedVehicle> present;
-  if (reach_ != nullptr) present = place_all(fleet_, flight.arrival());
+  if (reach_ != nullptr) present = place_all(fleet_, hearing.at);
   std::vector<PacketPointer> sounds;
   for (const auto& [id, noise] : fleet_.equipment().noise.sources()) {
-    if (id == flight.receiver_id) continue;
-    PacketPointer sound = sound_of(noise, flight, decided_at);
+    if (id == hearing.receiver.id) continue;
+    PacketPointer sound = sound_of(noise, hearing);
     if (!sound) continue;
-    const double range_m = (sound->departure_ned_m - flight.place.position_ned_m).norm();
+    const double range_m = (sound->departure_ned_m - hearing.receiver.position_ned_m).norm();
     const double reach_m = reach_ == nullptr
                                ? acoustics::kGreatestBoundedRange
                                : reach_->reach_m(sound->departure, sound->modem, fleet_, present);
@@ -80,27 +82,25 @@ std::vector<PacketPointer> VehicleSounds::sounds_within_reach(const Flight& flig
   return sounds;
 }
 
-bool VehicleSounds::are_ready(const Flight& flight, SimTime decided_at) {
+bool VehicleSounds::is_ready(const Hearing& hearing) {
   bool ready = true;  // of all of them, so that all are requested at once
-  for (const PacketPointer& sound : sounds_within_reach(flight, decided_at)) {
-    ready =
-        propagation_.is_ready_for_packet(sound->departure, sound->link_end(), receiver_end(flight)) && ready;
+  for (const PacketPointer& sound : sounds_within_reach(hearing)) {
+    ready = propagation_.is_ready_for_packet(sound->departure, sound->link_end(), hearing.receiver) && ready;
   }
   return ready;
 }
 
-std::vector<NoiseSound> VehicleSounds::others(const Flight& flight, SimTime decided_at) {
+bool VehicleSounds::are_ready(const Flight& flight, SimTime decided_at) {
+  return is_ready(hearing_of(flight, decided_at));
+}
+
+std::vector<NoiseSound> VehicleSounds::others(const Hearing& hearing) {
   std::vector<NoiseSound> heard;
-  for (PacketPointer& sound : sounds_within_reach(flight, decided_at)) {
+  for (PacketPointer& sound : sounds_within_reach(hearing)) {
     const Reception reception =
-        propagation_.reception_without_capacity(sound->departure, sound->link_end(), receiver_end(flight));
+        propagation_.reception_without_capacity(sound->departure, sound->link_end(), hearing.receiver);
     if (reception.paths.empty()) continue;
-    const VehicleId from = sound->request.source_id, to = flight.receiver_id;
-    const acoustics::FadingLink link{seed_, static_cast<std::uint32_t>(std::min(from, to)),
-                                     static_cast<std::uint32_t>(std::max(from, to)), from > to};
-    const double large_scale = acoustics::LinkFading(fading_, link).large_scale(flight.lock());
-    heard.push_back({std::move(sound),
-                     to_power_ratio(reception.budget.received_level).value * large_scale * large_scale});
+    heard.push_back({std::move(sound), to_power_ratio(reception.budget.received_level).value});
   }
   return heard;
 }
@@ -113,10 +113,25 @@ Decibels VehicleSounds::noise_level(VehicleId receiver, const acoustics::Band& b
   return own > 0 ? to_decibels({to_power_ratio(level).value + own}) : level;
 }
 
+Decibels VehicleSounds::mean_level(const Hearing& hearing) {
+  const Decibels own = noise_level(hearing.receiver.id, hearing.band, hearing.at, hearing.decided_at);
+  double power = 0;
+  for (const NoiseSound& sound : others(hearing)) power += sound.power;
+  return power > 0 ? to_decibels({to_power_ratio(own).value + power}) : own;
+}
+
 void VehicleSounds::set_noise(Flight& flight, SimTime decided_at) {
   flight.reception.budget.noise_level =
       noise_level(flight.receiver_id, flight.packet->modem.band(), flight.arrival(), decided_at);
-  if (any()) flight.noise = others(flight, decided_at);
+  if (!any()) return;
+  flight.noise = others(hearing_of(flight, decided_at));
+  for (NoiseSound& sound : flight.noise) {
+    const VehicleId from = sound.source->request.source_id, to = flight.receiver_id;
+    const acoustics::FadingLink link{seed_, static_cast<std::uint32_t>(std::min(from, to)),
+                                     static_cast<std::uint32_t>(std::max(from, to)), from > to};
+    const double large_scale = acoustics::LinkFading(fading_, link).large_scale(flight.lock());
+    sound.power *= large_scale * large_scale;
+  }
 }
 
 Interferers interferers_of(const Flight& flight, const ReceiverState& receiver, SimTime begin, SimTime end) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -110,7 +111,7 @@ TEST_F(VehicleEquipmentTest, OneWayRangesToThreeBeaconsTellThePlaceAndTheClock) 
 // Of the packets on the 1400 m between two beacons: while the ship is within 900 m of the receiver, and while she is not.
 TEST_F(VehicleEquipmentTest, AShipThatCrossesCostsPacketsWhileSheIsNear) {
   constexpr std::int32_t kShip = 5;
-  const std::string log = run(load("ship_crossing", {}), "ship");
+  const std::string log = run(load("ship_crossing", {"channel_server.predicted_payload_bytes=1"}), "ship");
   const auto track = all_of<vehicle_state_t>(log, "STATE.ship");
   const auto distance_m = [&](const Vec3& from, std::int64_t utime) {
     const auto at = std::lower_bound(track.begin(), track.end(), utime,
@@ -119,7 +120,16 @@ TEST_F(VehicleEquipmentTest, AShipThatCrossesCostsPacketsWhileSheIsNear) {
             from)
         .norm();
   };
+  // Delivery from west to east and back, by the second.
+  std::map<std::pair<std::int64_t, std::int32_t>, double> predicted;
+  for (const std::string name : {"west", "east"}) {
+    for (const link_table_t& table : all_of<link_table_t>(log, "LINKS." + name)) {
+      for (const link_t& row : table.peers)
+        predicted[{table.utime, row.receiver_id}] = row.delivery_probability;
+    }
+  }
   int near = 0, lost_near = 0, far = 0, lost_far = 0, by_ship = 0;
+  double expected_near = 0, expected_far = 0;
   for (const packet_outcome_t& o : all_of<packet_outcome_t>(log, "OUTCOME")) {
     EXPECT_NE(o.receiver_id, kShip);
     const bool is_lost = o.outcome == packet_outcome_t::COLLIDED;
@@ -129,14 +139,18 @@ TEST_F(VehicleEquipmentTest, AShipThatCrossesCostsPacketsWhileSheIsNear) {
             ? 1
             : 0;
     if (o.source_id > 2 || o.receiver_id > 2) continue;
-    const bool is_near = distance_m(Vec3(0, o.receiver_id == 1 ? -700 : 700, 60), o.utime) < 900;
+    const bool is_near = distance_m(Vec3(0, o.receiver_id == 1 ? -700 : 700, 52), o.utime) < 900;
     (is_near ? near : far) += 1;
     (is_near ? lost_near : lost_far) += is_lost ? 1 : 0;
+    (is_near ? expected_near : expected_far) +=
+        1 - predicted[{o.departure_utime / 1'000'000 * 1'000'000, o.receiver_id}];
   }
   ASSERT_GT(near, 40);
   ASSERT_GT(far, 40);
   EXPECT_GT(by_ship, 20);
   EXPECT_GT(lost_near * far, 3 * lost_far * near);
+  EXPECT_NEAR(expected_near, lost_near, 0.15 * near);
+  EXPECT_NEAR(expected_far, lost_far, 0.1 * far);
 }
 
 TEST_F(VehicleEquipmentTest, WithAllOfItTheBytesAreTheSameWithShardsAndThreads) {

@@ -70,6 +70,23 @@ TEST_F(LinkTableTest, RowsHoldTheForecastOfTheirPaths) {
   EXPECT_EQ(forecast.best_rate_bps, by_hand.best_rate_bps);
 }
 
+// 7 dB more: both ratios fall by them, and what is delivered is that of a link that is weaker by them.
+TEST_F(LinkTableTest, AnotherNoiseMovesRatiosAndForecasts) {
+  EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
+  EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {1500, 0, 50})), "");
+  const auto placed = place_all(fleet_, at_s(1));
+  const LinkRow ambient = tables_at(1)[0].rows[0];
+  const auto louder = [&](const EndPair&) { return ambient.budget.noise_level + Decibels{7}; };
+  const LinkRow row = link_tables(at_s(1), placed, table_rows(placed), propagation_, predictor_,
+                                  kUnknownMultipath, one_after_the_other, nullptr, louder)[0]
+                          .rows[0];
+  EXPECT_NEAR((ambient.budget.snr - row.budget.snr).value, 7, tolerance(1e-9));
+  EXPECT_NEAR((ambient.budget.snr_narrowband - row.budget.snr_narrowband).value, 7, tolerance(1e-9));
+  EXPECT_NEAR(ambient.forecast.sinr_db - row.forecast.sinr_db, 7, tolerance(1e-9));
+  EXPECT_EQ(ambient.budget.received_level, row.budget.received_level);
+  EXPECT_EQ(ambient.budget.capacity_bps, row.budget.capacity_bps);
+}
+
 TEST_F(LinkTableTest, ReceiversBeyondATransmittersRangeAreCounted) {
   EXPECT_EQ(fleet_.add_state("v1", 1, state_at(0, {0, 0, 50})), "");
   EXPECT_EQ(fleet_.add_state("v2", 2, state_at(0, {500, 0, 50})), "");

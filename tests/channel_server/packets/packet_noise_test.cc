@@ -6,11 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "acoustics/modem/modem.h"
 #include "acoustics/noise/noise_spectrum.h"
 #include "acoustics/noise/noise_variation.h"
 #include "acoustics/sea/noise.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/packet_medium.h"
+#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/reach.h"
 #include "channel_server/propagation/straight_propagation.h"
@@ -151,6 +153,30 @@ TEST(ShipNoise, FollowsItsSpeedOverGround) {
   const double at_reference = Sea({ship(110, NoiseDriver::kSpeed, 2)}).send().statistics.interference.value;
   const double at_half = Sea({ship(110, NoiseDriver::kSpeed, 4)}).send().statistics.interference.value;
   EXPECT_NEAR(at_reference - at_half, 60 * std::log10(2), tolerance(1e-9));
+}
+
+// Of three parts, each by its formula.
+TEST(ShipNoise, InTablesAddsItsMeanToTheAmbientAndTheOwn) {
+  Sea sea({propeller_of(2, 60), ship(110)});
+  sea.turn(2, 20);
+  VehicleSounds sounds(sea.fleet, sea.propagation, nullptr, {}, {}, 1);
+  ASSERT_TRUE(sounds.differ());
+  const acoustics::Modem& modem = testing::quick_modem().modem;
+  const auto here = sea.fleet.placement(2, at_s(10), at_s(10));
+  ASSERT_TRUE(here);
+  const Hearing hearing{
+      {2, here->position_ned_m, here->velocity_ned_mps, &modem}, modem.band(), at_s(10), at_s(10)};
+  EXPECT_TRUE(sounds.is_ready(hearing));
+  // The ship is 303 m away and makes 2 m/s across that line: by the time that sound takes, 0.2 s, its range changes by 3 mm.
+  acoustics::Modem noise = modem;
+  noise.source_level = Decibels{110 + 10 * std::log10(5000.0)};
+  const double loss_db =
+      sea.propagation.reception(at_s(10), {3, Vec3(770, 300, 5), Vec3::Zero(), &noise}, hearing.receiver)
+          .budget.transmission_loss.value;
+  const double by_parts =
+      ambient_power() + 5000 * 1e5 + power_of(Decibels{noise.source_level.value - loss_db});
+  EXPECT_NEAR((sounds.mean_level(hearing) - to_decibels({by_parts})).value, 0, tolerance(0.02));
+  EXPECT_GT(by_parts, 1.5 * (ambient_power() + 5000 * 1e5));
 }
 
 TEST(ShipNoise, BeyondItsReachIsNotHeard) {
