@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -13,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/bus.h"
+#include "clients/halocline/analysis/simulation_output.h"
 #include "core/frames.h"
 #include "tests/integration/embedded_fixture.h"
 
@@ -153,35 +156,27 @@ TEST_F(VehicleEquipmentTest, AShipThatCrossesCostsPacketsWhileSheIsNear) {
   EXPECT_NEAR(expected_far, lost_far, 0.1 * far);
 }
 
-TEST_F(VehicleEquipmentTest, WithAllOfItTheBytesAreTheSameWithShardsAndThreads) {
-  std::vector<std::string> all{"scenario.duration_s=40",
-                               "environment.noise_spread_db=3",
-                               "environment.impulse_exponent=1.7",
-                               "environment.rain_mm_per_h=5",
-                               "vehicle.2.battery.capacity_wh=0.2",
-                               "vehicle.2.clock.drift_ppm=5",
-                               "vehicle.2.clock.random_walk_s_per_sqrt_s=1e-6",
-                               "vehicle.2.noise.varies_with=\"propeller\"",
-                               "vehicle.1.noise.varies_with=\"nothing\"",
-                               "vehicle.0.traffic.period_s=5"};
-  const auto outcomes = [&](const std::vector<std::string>& more, const std::string& name) {
+TEST_F(VehicleEquipmentTest, WithAllOfItTheOutputIsTheSameWithShardsBlocksAndThreads) {
+  const std::vector<std::string> all{
+      "scenario.duration_s=60",     "environment.impulse_exponent=1.7",  "environment.rain_mm_per_h=5",
+      "modem.events=true",          "vehicle.3.battery.capacity_wh=0.5", "vehicle.3.traffic.period_s=15",
+      "vehicle.3.traffic.start_s=6"};
+  const auto output = [&](const std::vector<std::string>& more, const std::string& name) {
     std::vector<std::string> overrides = all;
     overrides.insert(overrides.end(), more.begin(), more.end());
-    const std::string log = run_with(overrides, name);
-    std::vector<std::tuple<std::int64_t, std::int32_t, std::int32_t, std::int8_t, double, double>> rows;
-    for (const packet_outcome_t& o : all_of<packet_outcome_t>(log, "OUTCOME"))
-      rows.emplace_back(o.utime, o.source_id, o.receiver_id, o.outcome, o.sinr_db, o.noise_level_db);
-    for (const modem_receive_t& r : all_of<modem_receive_t>(log, "RECEIVE.auv-1"))
-      rows.emplace_back(r.utime, r.source_id, r.receiver_id, 0, r.travel_time_s, r.two_way_travel_time_s);
-    for (const vehicle_battery_t& b : all_of<vehicle_battery_t>(log, "BATTERY.auv-1"))
-      rows.emplace_back(b.utime, 0, 0, b.battery_empty, b.energy_left_j, b.receive_energy_j);
-    std::sort(rows.begin(), rows.end());
-    return rows;
+    LogReader log(run(load("ship_crossing", overrides), name));
+    const std::string path = log_path(name + "-output");
+    EXPECT_GT(write_simulation_output(log, path), 1000);
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
   };
-  const auto alone = outcomes({}, "alone");
-  EXPECT_GT(alone.size(), 60u);
-  EXPECT_EQ(alone, outcomes({"channel_server.shards=3", "channel_server.threads=2", "vehicle_sim.threads=2"},
-                            "shards"));
+  const std::string alone = output({}, "alone");
+  for (const std::string channel : {"MODEM_ENERGY.auv-1", "MODEM_EVENT.east", "BATTERY.auv-1", "FAULT.auv-1"})
+    EXPECT_NE(alone.find(channel), std::string::npos) << channel;
+  EXPECT_TRUE(
+      alone ==
+      output({"channel_server.shards=3", "channel_server.threads=2", "vehicle_sim.threads=2"}, "shards"));
+  EXPECT_TRUE(alone == output({"vehicle_sim.blocks=3"}, "blocks"));
 }
 
 }  // namespace
