@@ -37,6 +37,7 @@ void add_sweep_command(CLI::App& app, int& exit_code);
 void add_vehicle_command(CLI::App& app, int& exit_code);
 void add_config_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
+void add_waveform_command(CLI::App& app, int& exit_code);
 void add_completion_command(CLI::App& app, int& exit_code);
 
 // Bash code that completes the command line of `app`; for `eval "$(halocline completion bash)"`.

@@ -1,0 +1,94 @@
+#include "acoustics/waveform/analytic_signal.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "acoustics/waveform/kaiser_window.h"
+#include "core/check.h"
+#include "core/elementary.h"
+
+namespace halocline::acoustics {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int kHilbertHalf = 255;   // taps to either side
+constexpr double kHilbertBeta = 8;  // 81 dB
+constexpr int kSincHalf = 16;       // taps to either side
+constexpr double kSincBeta = 9;     // 90 dB
+constexpr int kPhases = 2048;       // of the sinc between two samples, linear between them
+
+// Of odd distances 1, 3, ...; the even ones are 0.
+std::vector<double> hilbert_taps() {
+  std::vector<double> taps;
+  for (int k = 1; k <= kHilbertHalf; k += 2)
+    taps.push_back(2 / (pi * k) * kaiser_window(k / (kHilbertHalf + 1.0), kHilbertBeta));
+  return taps;
+}
+
+using SincRow =
+    std::array<double, 2 * kSincHalf>;  // at distances phase - kSincHalf + 1 ... phase + kSincHalf
+
+double windowed_sinc(double x) {
+  const double sinc = x == 0 ? 1 : elementary::sin(pi * x) / (pi * x);
+  return sinc * kaiser_window(x / kSincHalf, kSincBeta);
+}
+
+const std::vector<SincRow>& sinc_rows() {
+  static const std::vector<SincRow> rows = [] {
+    std::vector<SincRow> table(kPhases + 1);
+    for (int p = 0; p <= kPhases; ++p) {
+      for (int i = 0; i < 2 * kSincHalf; ++i) {
+        table[static_cast<std::size_t>(p)][static_cast<std::size_t>(i)] =
+            windowed_sinc(static_cast<double>(p) / kPhases + kSincHalf - 1 - i);
+      }
+    }
+    return table;
+  }();
+  return rows;
+}
+
+}  // namespace
+
+AnalyticSignal::AnalyticSignal(double rate_hz, const std::vector<double>& samples) : rate_hz_(rate_hz) {
+  require(std::isfinite(rate_hz) && rate_hz > 0, "the sampling rate of a signal must be above 0");
+  for (const double x : samples) require(std::isfinite(x), "the samples of a signal must be finite");
+  const std::vector<double> taps = hilbert_taps();
+  const auto count = static_cast<std::ptrdiff_t>(samples.size());
+  const auto sample = [&](std::ptrdiff_t i) {
+    return i < 0 || i >= count ? 0.0 : samples[static_cast<std::size_t>(i)];
+  };
+  samples_.resize(samples.size());
+  for (std::ptrdiff_t n = 0; n < count; ++n) {
+    double turned = 0;
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+      const auto k = static_cast<std::ptrdiff_t>(2 * i + 1);
+      turned += taps[i] * (sample(n - k) - sample(n + k));
+    }
+    samples_[static_cast<std::size_t>(n)] = {samples[static_cast<std::size_t>(n)], turned};
+  }
+}
+
+std::complex<double> AnalyticSignal::at(double time_s) const {
+  const double place = time_s * rate_hz_;
+  if (!(place > -kSincHalf) || !(place < static_cast<double>(samples_.size()) + kSincHalf)) return 0;
+  const double whole = std::floor(place), phase = (place - whole) * kPhases;
+  const auto row = static_cast<std::size_t>(phase);
+  const double share = phase - static_cast<double>(row);
+  const SincRow &low = sinc_rows()[row], &high = sinc_rows()[std::min<std::size_t>(row + 1, kPhases)];
+  const auto first = static_cast<std::ptrdiff_t>(whole) - kSincHalf + 1;
+  const auto begin = std::max<std::ptrdiff_t>(0, -first);
+  const auto end =
+      std::min<std::ptrdiff_t>(2 * kSincHalf, static_cast<std::ptrdiff_t>(samples_.size()) - first);
+  std::complex<double> sum = 0;
+  for (std::ptrdiff_t i = begin; i < end; ++i) {
+    const auto tap = static_cast<std::size_t>(i);
+    sum += (low[tap] + share * (high[tap] - low[tap])) * samples_[static_cast<std::size_t>(first + i)];
+  }
+  return sum;
+}
+
+}  // namespace halocline::acoustics

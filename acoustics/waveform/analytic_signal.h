@@ -1,0 +1,28 @@
+// A sampled signal without its negative frequencies, at any instant: what a path turns in phase and delays by any time.
+//
+//   x_a(t) = x(t) + j (h * x)(t),  h the Hilbert transformer, taps 2 / (pi k) at odd k
+// Between samples by a sinc of 32 taps; both filters are cut by a Kaiser window. From 0.01 to 0.4 of the sampling rate the errors
+// of amplitude are below 1e-4. The signal is 0 before its first and after its last sample.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+namespace halocline::acoustics {
+
+class AnalyticSignal {
+ public:
+  // Throws InvalidArgument unless the rate is above 0 and all samples are finite.
+  AnalyticSignal(double rate_hz, const std::vector<double>& samples);
+
+  double rate_hz() const { return rate_hz_; }
+  double duration_s() const { return static_cast<double>(samples_.size()) / rate_hz_; }
+  // `time_s` after the first sample.
+  std::complex<double> at(double time_s) const;
+
+ private:
+  double rate_hz_;
+  std::vector<std::complex<double>> samples_;
+};
+
+}  // namespace halocline::acoustics

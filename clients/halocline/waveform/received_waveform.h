@@ -1,0 +1,49 @@
+// What a hydrophone of a scenario records while others transmit waveforms.
+//
+// Each sender's sound goes along the paths of its link to the receiver, as packets' does: searched for every kFrame of its
+// departure, with the ends where a recorded run had them, the receiver when the sound arrives; with their phases and their fading
+// (acoustics/fading/link_fading.h) at the arrival of the first; delayed, turned and summed by acoustics/waveform/moving_link.h. To
+// that comes the ambient noise of the water, its slow variation and its bursts (acoustics/noise/noise_variation.h), shaped over
+// the whole band of the samples. All draws are those of the scenario's seed: the same file every time.
+//
+// Levels. A sine of amplitude 1 in a sender's samples has the source level (rms, dB re 1 uPa at 1 m). Received pressure p becomes
+// the sample 10^(sensitivity / 20) p, p in uPa: at -190 dB re 1/uPa a sine of amplitude 1 has 187 dB re 1 uPa.
+// Left out: the noise of vehicles, absorption over the band (that of the modem's centre holds), a path's own echoes beyond those
+// that the scenario's model of propagation finds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "acoustics/waveform/moving_link.h"
+#include "clients/halocline/analysis/recording.h"
+#include "clients/halocline/scenario/composition.h"
+#include "core/sim_time.h"
+#include "core/units.h"
+
+namespace halocline::clients {
+
+struct SentWaveform {
+  std::string vehicle;
+  acoustics::Samples sound;  // begin_s: simulation time at which the first leaves, 0 and up
+  Decibels source_level;     // of a sine of amplitude 1, dB re 1 uPa at 1 m
+};
+
+struct WaveformRules {
+  std::string receiver;        // a vehicle
+  double begin_s = 0;          // simulation time of the first sample recorded
+  double tail_s = 0.5;         // recorded after the last sound has arrived
+  Decibels sensitivity{-190};  // dB re 1/uPa
+  bool has_noise = true;
+};
+
+inline constexpr SimDuration kFrame = SimDuration::from_milliseconds(20);
+
+// The run of the scenario's vehicles until `end`, in memory.
+Recording record_run(const ScenarioConfig& config, SimTime end);
+
+// Of one rate. Throws InvalidArgument where senders' rates differ, a vehicle is not of the scenario, or has no state.
+acoustics::Samples received_waveform(const ScenarioConfig& config, const Recording& run,
+                                     const std::vector<SentWaveform>& sent, const WaveformRules& rules);
+
+}  // namespace halocline::clients

@@ -1,0 +1,39 @@
+#include "clients/halocline/waveform/vehicle_track.h"
+
+#include <iterator>
+#include <variant>
+
+#include "bus/channels.h"
+#include "core/check.h"
+
+namespace halocline::clients {
+
+VehicleTrack::VehicleTrack(const Recording& recording, const std::string& vehicle) {
+  const std::string channel = bus::channels::kState.of(vehicle);
+  for (const Recording::Event& event : recording.events) {
+    const auto* state = std::get_if<vehicle_state_t>(&event.message);
+    if (state == nullptr || event.channel != channel) continue;
+    places_[event.at] = {Eigen::Map<const Vec3>(state->position_ned_m),
+                         Eigen::Map<const Vec3>(state->velocity_ned_mps)};
+  }
+  require(!places_.empty(), "the run holds no state of '" + vehicle + "'");
+}
+
+// Cubic Hermite interpolation; its derivative is the velocity.
+VehicleTrack::Place VehicleTrack::at(SimTime time) const {
+  const auto after = places_.upper_bound(time);
+  if (after == places_.begin() || after == places_.end()) {
+    const auto& [since, place] = after == places_.end() ? *std::prev(after) : *after;
+    return {place.position_ned_m + (time - since).seconds() * place.velocity_ned_mps, place.velocity_ned_mps};
+  }
+  const auto& [begin, a] = *std::prev(after);
+  const auto& [end, b] = *after;
+  const double h = (end - begin).seconds(), u = (time - begin).seconds() / h;
+  const double v = 1 - u;
+  return {v * v * (1 + 2 * u) * a.position_ned_m + u * v * v * h * a.velocity_ned_mps +
+              u * u * (3 - 2 * u) * b.position_ned_m - u * u * v * h * b.velocity_ned_mps,
+          6 * u * v / h * (b.position_ned_m - a.position_ned_m) + v * (1 - 3 * u) * a.velocity_ned_mps +
+              u * (3 * u - 2) * b.velocity_ned_mps};
+}
+
+}  // namespace halocline::clients
