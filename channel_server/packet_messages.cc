@@ -178,6 +178,10 @@ modem_event_t to_message(const ModemEvent& event, SimTime at) {
   message.level_db = event.level.value;
   message.sinr_db = event.sinr.value;
   message.packet_outcome = static_cast<std::int8_t>(event.outcome);
+  message.source_id = event.source_id;
+  message.destination_id = event.destination_id;
+  message.packet_duration_s = event.packet_duration.seconds();
+  message.packet_end_utime = event.packet_end.to_utime();
   return message;
 }
 

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "channel_server/packets/packet.h"
+#include "channel_server/vehicles/vehicle_id.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -28,6 +29,7 @@ enum class ModemEventKind {
   kPacketEnded,     // the last bit of one detected
   kCarrierBegan,
   kCarrierEnded,
+  kHeaderReceived,  // of one detected: whose it is, and for whom
 };
 
 // What a modem does or notices (modem_watch.h).
@@ -38,6 +40,10 @@ struct ModemEvent {
   Decibels level = {};  // of the packet or carrier, dB re 1 uPa; 0 of an own transmission
   Decibels sinr = {};   // of a packet that ended
   OutcomeKind outcome = OutcomeKind::kReceived;  // likewise
+  // Of a header that was received, or a packet that was.
+  VehicleId source_id = 0, destination_id = 0;
+  SimDuration packet_duration = {};  // as sent
+  SimTime packet_end = {};           // of its last bit at the receiver
 };
 
 struct MediumEvent {

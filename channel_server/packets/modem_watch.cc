@@ -3,10 +3,23 @@
 #include <algorithm>
 
 #include "acoustics/modem/modem.h"
+#include "channel_server/packets/reception_decision.h"
+#include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/vehicles/modem_schedule.h"
 #include "core/units.h"
 
 namespace halocline::channel_server {
+namespace {
+
+// What the modem knows once it has the packet's header.
+void set_header(const Flight& flight, ModemEvent& event) {
+  event.source_id = flight.packet->request.source_id;
+  event.destination_id = flight.packet->request.destination_id;
+  event.packet_duration = flight.packet->timing.duration;
+  event.packet_end = flight.signal.end;
+}
+
+}  // namespace
 
 void ModemWatch::begin_transmission(const Packet& packet, std::vector<MediumEvent>& events) {
   const SendRequest& request = packet.request;
@@ -20,18 +33,40 @@ void ModemWatch::begin_transmission(const Packet& packet, std::vector<MediumEven
   ends_.emplace(std::pair(packet.departure + packet.timing.duration, request.source_id), std::move(event));
 }
 
-void ModemWatch::end_transmission(std::vector<MediumEvent>& events) {
-  auto end = ends_.extract(ends_.begin());
-  events.push_back({end.key().first, std::move(end.mapped())});
+void ModemWatch::end_transmission_or_header(std::vector<MediumEvent>& events) {
+  if (next_of(ends_) <= next_of(headers_)) {
+    auto end = ends_.extract(ends_.begin());
+    events.push_back({end.key().first, std::move(end.mapped())});
+    return;
+  }
+  const auto header = headers_.extract(headers_.begin());
+  const SimTime at = header.key().first;
+  const Flight& flight = *header.mapped();
+  if (!has_header(flight, at)) return;
+  ModemEvent event{flight.receiver, ModemEventKind::kHeaderReceived};
+  event.level = flight.reception.budget.received_level;
+  set_header(flight, event);
+  events.push_back({at, std::move(event)});
 }
 
-void ModemWatch::detect(Flight& flight, std::vector<MediumEvent>& events) const {
+bool ModemWatch::has_header(const Flight& flight, SimTime end) const {
+  const ReceivedSignal& signal = flight.signal;
+  const ReceiverState& receiver = *flight.sounds_at;
+  return fleet_.equipment().power.has_power(flight.receiver_id, end) &&
+         !fleet_.sleeps_during(flight.receiver_id, signal.begin, end) &&
+         receiver.transmitted_during(signal.begin, end).empty() &&
+         is_header_right(signal, interferers_of(flight, receiver, signal.begin, end), flight.draws);
+}
+
+void ModemWatch::detect(Flight& flight, std::vector<MediumEvent>& events) {
   const SimTime at = flight.signal.preamble_end;
   flight.reports = fleet_.listening(flight.receiver_id, at).events;
   if (!flight.reports) return;
   ModemEvent event{flight.receiver, ModemEventKind::kPacketDetected};
   event.level = flight.reception.budget.received_level;
   events.push_back({at, std::move(event)});
+  if (flight.packet->format.header_bits > 0)
+    headers_.insert_or_assign({header_end(flight.signal), flight.receiver_id}, &flight);
 }
 
 void ModemWatch::end(const Flight& flight, SimTime at, OutcomeKind outcome,
@@ -41,6 +76,7 @@ void ModemWatch::end(const Flight& flight, SimTime at, OutcomeKind outcome,
   event.level = flight.reception.budget.received_level;
   event.sinr = flight.statistics.sinr;
   event.outcome = outcome;
+  if (outcome == OutcomeKind::kReceived) set_header(flight, event);
   events.push_back({at, std::move(event)});
 }
 
@@ -89,6 +125,7 @@ void ModemWatch::forget_before(SimTime time) {
 
 void ModemWatch::clear() {
   ends_.clear();
+  headers_.clear();
   carriers_.clear();
   due_.clear();
 }

@@ -9,10 +9,11 @@
 // at which sound last began or ended.
 //
 // Each TRANSMISSION_ENDED, PACKET_ENDED and CARRIER_ENDED follows its beginning, even where the modem reports no more by then. Bounded:
-// two events for a transmission, two for a packet followed (one at a time), 100 changes of carrier a second. Not
+// two events for a transmission, three for a packet followed (one at a time), 100 changes of carrier a second. Not
 // thread-safe.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -39,12 +40,12 @@ class ModemWatch {
 
   // A packet leaves now.
   void begin_transmission(const Packet& packet, std::vector<MediumEvent>& events);
-  // When the next transmission that was reported ends; never() without one.
-  SimTime next_end() const { return ends_.empty() ? SimTime::never() : ends_.begin()->first.first; }
-  void end_transmission(std::vector<MediumEvent>& events);
+  // When the next transmission that was reported ends, or the next header of a packet that was; never() without one.
+  SimTime next_end() const { return std::min(next_of(ends_), next_of(headers_)); }
+  void end_transmission_or_header(std::vector<MediumEvent>& events);
 
   // The receiver of a flight has acquired its packet, at the end of the preamble.
-  void detect(Flight& flight, std::vector<MediumEvent>& events) const;
+  void detect(Flight& flight, std::vector<MediumEvent>& events);
   // The last bit of a packet, detected or not.
   static void end(const Flight& flight, SimTime at, OutcomeKind outcome, std::vector<MediumEvent>& events);
 
@@ -65,11 +66,20 @@ class ModemWatch {
     bool sensed = false;
     SimTime changed = SimTime::at_once();
   };
+  template <class Value>
+  using ByEnd = std::map<std::pair<SimTime, VehicleId>, Value>;
+  template <class Value>
+  static SimTime next_of(const ByEnd<Value>& ends) {
+    return ends.empty() ? SimTime::never() : ends.begin()->first.first;
+  }
+  // Whether the header of a packet that was detected is right, at its last bit.
+  bool has_header(const Flight& flight, SimTime end) const;
   void change(VehicleId id, Carrier& carrier, SimTime at, double power, std::vector<MediumEvent>& events);
 
   const VehicleRegistry& fleet_;
   VehicleSounds& sounds_;
-  std::map<std::pair<SimTime, VehicleId>, ModemEvent> ends_;
+  ByEnd<ModemEvent> ends_;        // of transmissions
+  ByEnd<const Flight*> headers_;  // of packets that are followed, until their headers end
   std::map<VehicleId, Carrier> carriers_;
   std::set<std::pair<SimTime, VehicleId>> due_;  // to judge once too often changes nothing
 };

@@ -103,7 +103,7 @@ std::vector<MediumEvent> PacketMedium::advance_to(SimTime time) {
   SimTime reached = time;
   for (SimTime next = next_event(); next <= time && next != SimTime::never(); next = next_event()) {
     if (watch_.next_end() == next) {
-      watch_.end_transmission(events_);
+      watch_.end_transmission_or_header(events_);
     } else if (!departures_.empty() && std::get<0>(departures_.begin()->first) == next) {
       depart(departures_.extract(departures_.begin()).mapped(), events_);
     } else if (flights_.empty() || flights_.next_event() != next) {

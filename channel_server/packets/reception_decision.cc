@@ -119,14 +119,18 @@ std::vector<Interference> with_bursts(std::vector<Interference> others, const Re
   return others;
 }
 
+// At which an information bit of the packet begins; they lie evenly.
+SimTime instant_of(const ReceivedSignal& signal, std::int64_t bit) {
+  const double bits_s = (signal.end - signal.preamble_end).seconds();
+  const auto all_bits = static_cast<double>(signal.packet->timing.information_bits);
+  return signal.preamble_end + SimDuration::from_seconds(bits_s * static_cast<double>(bit) / all_bits);
+}
+
 // The chances of a packet's blocks, one after the other.
 class BlockChances {
  public:
   BlockChances(const ReceivedSignal& signal, const std::vector<Interference>& others)
-      : signal_(signal),
-        all_bits_(static_cast<double>(signal.packet->timing.information_bits)),
-        bits_s_((signal.end - signal.preamble_end).seconds()),
-        steps_(with_bursts(others, signal), signal.preamble_end, signal.end) {}
+      : signal_(signal), steps_(with_bursts(others, signal), signal.preamble_end, signal.end) {}
 
   // Of the next block being right.
   double next(std::int64_t bits) {
@@ -138,12 +142,9 @@ class BlockChances {
   }
 
  private:
-  SimTime time_of(std::int64_t bit) const {
-    return signal_.preamble_end + SimDuration::from_seconds(bits_s_ * static_cast<double>(bit) / all_bits_);
-  }
+  SimTime time_of(std::int64_t bit) const { return instant_of(signal_, bit); }
 
   const ReceivedSignal& signal_;
-  double all_bits_, bits_s_;
   PowerSteps steps_;
   std::int64_t before_ = 0;
 };
@@ -287,6 +288,14 @@ bool acquires(const ReceivedSignal& signal, const Interferers& others, const Pac
               DecisionStatistics& statistics) {
   statistics.acquisition_probability = acquisition_probability(signal, others.paths);
   return draws.acquisition < statistics.acquisition_probability;
+}
+
+SimTime header_end(const ReceivedSignal& signal) {
+  return instant_of(signal, signal.packet->format.header_bits);
+}
+
+bool is_header_right(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws) {
+  return draws.success < BlockChances(signal, others.paths).next(signal.packet->format.header_bits);
 }
 
 OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& others,

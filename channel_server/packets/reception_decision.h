@@ -95,6 +95,9 @@ std::vector<PacketName> colliders_of(const ReceivedSignal& signal, const Interfe
 // At the end of the preamble: sets the probability, and returns whether the packet is acquired.
 bool acquires(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws,
               DecisionStatistics& statistics);
+// The header's last bit, and whether it is right by then: the same decision as at the last bit.
+SimTime header_end(const ReceivedSignal& signal);
+bool is_header_right(const ReceivedSignal& signal, const Interferers& others, const PacketDraws& draws);
 // At the last bit: sets the rest. kReceived, kCollided, kNotAcquired or kBitErrors.
 OutcomeKind decide_reception(const ReceivedSignal& signal, const Interferers& others,
                              const PacketDraws& draws, bool acquired, DecisionStatistics& statistics);

@@ -21,6 +21,10 @@ TEST(ChannelServerMessages, AModemEventHoldsItsExactInstant) {
   event.level = Decibels{110.5};
   event.sinr = Decibels{7.25};
   event.outcome = OutcomeKind::kCollided;
+  event.source_id = 3;
+  event.destination_id = 4;
+  event.packet_duration = testing::for_s(1.25);
+  event.packet_end = at_s(2.5);
   const modem_event_t message = to_message(event, SimTime::from_nanoseconds(1'234'567'891));
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.event_ns, 1'234'567'891);
@@ -29,6 +33,10 @@ TEST(ChannelServerMessages, AModemEventHoldsItsExactInstant) {
   EXPECT_EQ(message.level_db, 110.5);
   EXPECT_EQ(message.sinr_db, 7.25);
   EXPECT_EQ(message.packet_outcome, packet_outcome_t::COLLIDED);
+  EXPECT_EQ(message.source_id, 3);
+  EXPECT_EQ(message.destination_id, 4);
+  EXPECT_EQ(message.packet_duration_s, 1.25);
+  EXPECT_EQ(message.packet_end_utime, 2'500'000);
 }
 
 TEST(ChannelServerMessages, AListenKeepsHowTheModemReceives) {

@@ -203,6 +203,7 @@ TEST(ChannelServerMessages, EnumerationsAreThoseOfTheBus) {
   EXPECT_EQ(static_cast<int>(ModemEventKind::kPacketEnded), modem_event_t::PACKET_ENDED);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kCarrierBegan), modem_event_t::CARRIER_BEGAN);
   EXPECT_EQ(static_cast<int>(ModemEventKind::kCarrierEnded), modem_event_t::CARRIER_ENDED);
+  EXPECT_EQ(static_cast<int>(ModemEventKind::kHeaderReceived), modem_event_t::HEADER_RECEIVED);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kBitErrors), packet_outcome_t::BIT_ERRORS);
   EXPECT_EQ(static_cast<int>(OutcomeKind::kNotAcquired), packet_outcome_t::NOT_ACQUIRED);
   EXPECT_EQ(static_cast<int>(PropagationUsed::kStraight), packet_outcome_t::STRAIGHT);

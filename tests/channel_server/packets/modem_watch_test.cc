@@ -85,6 +85,70 @@ TEST_F(ModemWatchTest, APacketIsDetectedAtTheEndOfItsPreambleAndEndsWithItsLastB
   }
 }
 
+// A preamble and a header of a quarter of a second each, then 100 bytes in a second.
+class HeaderTest : public ModemWatchTest {
+ protected:
+  HeaderTest() {
+    change_modem({1, 2}, [](acoustics::Modem& modem) {
+      modem.packet_overhead = modem.preamble = for_s(0.25);
+      modem.layout.header_bits = 200;
+    });
+    change_modem({3}, [](acoustics::Modem&) {});
+  }
+  std::vector<ModemEvent> of_kind(Kind kind) const {
+    std::vector<ModemEvent> found;
+    for (const ModemEvent& event : events_of(2))
+      if (event.kind == kind) found.push_back(event);
+    return found;
+  }
+};
+
+TEST_F(HeaderTest, SaysWhosePacketItIsBeforeItsEnd) {
+  send(1, 10, 0, 100);
+  run();
+  EXPECT_THAT(noticed_by(2),
+              ElementsAre(Noticed{Kind::kCarrierBegan, at_s(11)}, Noticed{Kind::kPacketDetected, at_s(11.25)},
+                          Noticed{Kind::kHeaderReceived, at_s(11.5)}, Noticed{Kind::kPacketEnded, at_s(12.5)},
+                          Noticed{Kind::kCarrierEnded, at_s(12.5)}));
+  for (const Kind kind : {Kind::kHeaderReceived, Kind::kPacketEnded}) {
+    const ModemEvent event = of_kind(kind).at(0);
+    EXPECT_EQ(event.source_id, 1);
+    EXPECT_EQ(event.destination_id, end_of(1, 0, 2).packet->request.destination_id);
+    EXPECT_EQ(event.packet_duration, for_s(1.5));
+    EXPECT_EQ(event.packet_end, at_s(12.5));
+  }
+}
+
+// The other packet sounds at 2 from 11.75 to 12.25: after the header.
+TEST_F(HeaderTest, OutlivesALossOfTheRest) {
+  water.set(3, 2, {path(0.5, 140)});
+  send(1, 10, 0, 100);
+  send(3, 11.25, 1, 50);
+  run();
+  ASSERT_EQ(end_of(1, 0, 2).kind, OutcomeKind::kCollided);
+  EXPECT_EQ(of_kind(Kind::kHeaderReceived).size(), 1u);
+  EXPECT_EQ(of_kind(Kind::kPacketEnded).at(0).source_id, 0);
+}
+
+// From 11.3 to 11.4: within the header.
+TEST_F(HeaderTest, IsNotReceivedWhereItIsHit) {
+  water.set(3, 2, {path(0.5, 140)});
+  send(1, 10, 0, 100);
+  send(3, 10.8, 1, 10);
+  run();
+  ASSERT_EQ(end_of(1, 0, 2).kind, OutcomeKind::kCollided);
+  EXPECT_EQ(of_kind(Kind::kPacketDetected).size(), 1u);
+  EXPECT_EQ(of_kind(Kind::kHeaderReceived).size(), 0u);
+}
+
+TEST_F(HeaderTest, IsNotReceivedByAModemThatTransmits) {
+  send(1, 10, 0, 100);
+  send(2, 11.3, 1, 1);
+  run();
+  ASSERT_EQ(end_of(1, 0, 2).kind, OutcomeKind::kHalfDuplex);
+  EXPECT_EQ(of_kind(Kind::kHeaderReceived).size(), 0u);
+}
+
 TEST_F(ModemWatchTest, OwnTransmissionsBeginAndEndAtTheirInstants) {
   send(2, 10, 5, 100);
   run();
