@@ -25,6 +25,10 @@ BlockingModem::BlockingModem(lcm::LCM& lcm, const ModemAddress& address, ResendP
       time_(lcm, address.vehicle),
       client_(bus_, address, policy) {
   bus_.enable_repair();
+  client_.on_event([this](const modem_event_t& event) {
+    events_.push_back(event);
+    if (events_.size() > ModemClient::kMaxWaiting) events_.pop_front();
+  });
 }
 
 std::optional<SimTime> BlockingModem::sim_now(SimDuration timeout) {
@@ -72,6 +76,20 @@ std::optional<modem_receive_t> BlockingModem::wait_receive(SimDuration timeout) 
   std::optional<modem_receive_t> packet;
   wait(timeout, [&] { return (packet = client_.take_received()).has_value(); });
   return packet;
+}
+
+bool BlockingModem::listen(const ListenOptions& options) {
+  const auto now = sim_now(kLongestWaitForClock);
+  if (now) client_.listen(*now, options);
+  return now.has_value();
+}
+
+std::optional<modem_event_t> BlockingModem::wait_event(SimDuration timeout) {
+  wait(timeout, [this] { return !events_.empty(); });
+  if (events_.empty()) return std::nullopt;
+  const modem_event_t event = events_.front();
+  events_.pop_front();
+  return event;
 }
 
 void BlockingModem::wait(SimDuration timeout, const std::function<bool()>& done) {

@@ -5,12 +5,14 @@
 //   const auto sequence = modem.send(kBroadcastId, payload);
 //   if (sequence && modem.wait_receipt(*sequence, SimDuration::from_seconds(2))) { ... }
 //   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) { ... }
+//   if (modem.listen({.events = true})) { const auto event = modem.wait_event(SimDuration::from_seconds(60)); ... }
 //
 // Time-outs are of steady (wall) time. While a call waits, everything on the LCM is dispatched, so other
 // subscriptions made on it are served too. Not thread-safe; the LCM must outlive the modem.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -52,6 +54,12 @@ class BlockingModem {
   // Waits for a packet to arrive; empty after `timeout`. A timeout of 0 takes what is there.
   [[nodiscard]] std::optional<modem_receive_t> wait_receive(SimDuration timeout);
 
+  // How the modem listens from now on (ModemClient::listen): with `events`, wait_event() has what it reports. False where there is no
+  // CLOCK within a second: nothing was published. Throws as ModemClient::listen.
+  bool listen(const ListenOptions& options);
+  // Waits for an event of the modem; empty after `timeout`. The oldest of more than ModemClient::kMaxWaiting are forgotten.
+  [[nodiscard]] std::optional<modem_event_t> wait_event(SimDuration timeout);
+
   const ModemClient& client() const { return client_; }
 
  private:
@@ -62,6 +70,7 @@ class BlockingModem {
   bus::Bus bus_;
   bus::ConductorTime time_;
   ModemClient client_;
+  std::deque<modem_event_t> events_;  // not taken yet
 };
 
 }  // namespace halocline::clients

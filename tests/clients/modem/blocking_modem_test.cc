@@ -57,6 +57,35 @@ TEST_F(BlockingModemTest, WaitReceiveReturnsWhatArrivesAndNothingOtherwise) {
   EXPECT_EQ(packet->packet_sequence, 5);
 }
 
+TEST_F(BlockingModemTest, ListenTellsTheModemToReportFromNowOn) {
+  std::vector<modem_listen_t> told;
+  peer_.subscribe<modem_listen_t>(bus::channels::kListen.of("auv-1"),
+                                  [&](const modem_listen_t& listen) { told.push_back(listen); });
+  EXPECT_FALSE(modem_.listen({.events = true})) << "without a CLOCK";
+  publish_clock(60'000'000);
+  ASSERT_TRUE(modem_.listen({.events = true, .carrier_threshold_db = 10}));
+  EXPECT_FALSE(modem_.wait_event(kShort));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_GE(told[0].utime, 60'000'000);
+  EXPECT_TRUE(told[0].events);
+  EXPECT_EQ(told[0].carrier_threshold_db, 10);
+}
+
+TEST_F(BlockingModemTest, WaitEventReturnsEventsInTheirOrder) {
+  modem_event_t event{};
+  for (const auto kind : {modem_event_t::PACKET_DETECTED, modem_event_t::PACKET_ENDED}) {
+    event.modem_event = kind;
+    ++event.utime;
+    server_.bus().publish(bus::channels::kModemEvent.of("auv-1"), event);
+  }
+  for (const auto kind : {modem_event_t::PACKET_DETECTED, modem_event_t::PACKET_ENDED}) {
+    const auto found = modem_.wait_event(kPlenty);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->modem_event, kind);
+  }
+  EXPECT_FALSE(modem_.wait_event(kShort));
+}
+
 TEST_F(BlockingModemTest, SendWithoutATimeStartsAtTheConductorsTime) {
   publish_clock(60'000'000);
   ASSERT_TRUE(modem_.send(kBroadcastId, payload_));

@@ -30,6 +30,10 @@ const std::vector<std::uint8_t> payload{1, 2, 3};
   while (const auto packet = modem.wait_receive(SimDuration::from_seconds(60))) {
     ++answers;
   }
+  if (modem.listen({.events = true})) {
+    const auto event = modem.wait_event(SimDuration::from_seconds(60));
+    answers += event.has_value();
+  }
   return answers;
 }
 
