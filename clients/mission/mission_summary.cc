@@ -37,9 +37,9 @@ std::pair<double, double> depths_m(const MissionVehicle& vehicle) {
 
 std::string way(const MissionVehicle& vehicle) {
   const auto [least_m, greatest_m] = depths_m(vehicle);
-  if (vehicle.is_at_rest()) return fmt::format("stayed at {:.0f} m of depth", least_m);
-  std::string text =
-      fmt::format("went {}, {:.0f} to {:.0f} m deep", distance(vehicle.distance_m()), least_m, greatest_m);
+  if (vehicle.is_at_rest()) return fmt::format("stayed at {:.0f} m of depth", whole_number(least_m));
+  std::string text = fmt::format("went {}, {:.0f} to {:.0f} m deep", distance(vehicle.distance_m()),
+                                 whole_number(least_m), whole_number(greatest_m));
   if (!vehicle.plans.empty()) text += "; " + progress_text(vehicle.plans.back().value);
   return text;
 }

@@ -1,6 +1,7 @@
 #include "clients/mission/plan_texts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -90,5 +91,7 @@ std::string progress_text(const vehicle_plan_t& plan) {
   return plan.at_end == vehicle_plan_t::STOP ? "has done its plan and stopped"
                                              : "has done its plan and holds";
 }
+
+double whole_number(double value) { return std::round(value) + 0.0; }
 
 }  // namespace halocline::clients

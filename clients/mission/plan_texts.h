@@ -1,4 +1,4 @@
-// What an autopilot does and how far its plan has come, in words.
+// What an autopilot does and how far its plan has come, in words; whole numbers in texts.
 #pragma once
 
 #include <cstdint>
@@ -18,5 +18,8 @@ std::string activity_text(const autopilot_status_t& status, const vehicle_plan_t
 
 // How far the plan has come: "steers for waypoint 3 of 4", "has done its plan and holds".
 std::string progress_text(const vehicle_plan_t& plan);
+
+// Rounded for a text without decimals: what rounds to 0 from below is 0 without a sign, so no "-0 m".
+double whole_number(double value);
 
 }  // namespace halocline::clients

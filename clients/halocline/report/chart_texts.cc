@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "clients/mission/plan_texts.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
@@ -27,7 +28,8 @@ std::string distance_text(double metres) {
 }
 
 std::string place_text(const Vec3& ned_m) {
-  return fmt::format("{:.0f} m north, {:.0f} m east, {:.0f} m deep", ned_m.x(), ned_m.y(), ned_m.z());
+  return fmt::format("{:.0f} m north, {:.0f} m east, {:.0f} m deep", whole_number(ned_m.x()),
+                     whole_number(ned_m.y()), whole_number(ned_m.z()));
 }
 
 std::string packet_title(const packet_outcome_t& o, const VehicleName& name) {

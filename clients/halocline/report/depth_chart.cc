@@ -12,6 +12,7 @@
 #include "clients/halocline/report/svg.h"
 #include "clients/halocline/report/vehicle_style.h"
 #include "clients/mission/mission_vehicle.h"
+#include "clients/mission/plan_texts.h"
 #include "clients/mission/timed_series.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"
@@ -150,8 +151,8 @@ class DepthStrip {
     picture_.overlay +=
         swatch(&vehicle_, 11, 17) +
         fmt::format(R"(<text x="28" y="22" class="lane">{}</text>)", escaped_xml(vehicle_.name)) +
-        fmt::format(R"(<text x="0" y="40" class="tick">{:.0f} to {:.0f} m deep</text>)", shallowest(points),
-                    deepest(points));
+        fmt::format(R"(<text x="0" y="40" class="tick">{:.0f} to {:.0f} m deep</text>)",
+                    whole_number(shallowest(points)), whole_number(deepest(points)));
     if (least_seabed_m_ <= greatest_seabed_m_)
       picture_.overlay += fmt::format(R"(<text x="0" y="57" class="tick">seabed {:.0f} to {:.0f} m</text>)",
                                       least_seabed_m_, greatest_seabed_m_);

@@ -155,5 +155,13 @@ TEST(MissionSummary, StatesWhoWentWhereAndHowFarItsPlanCame) {
   EXPECT_EQ(rows[1].text, "none");
 }
 
+// A hull at the surface lies a little above or below it.
+TEST(MissionSummary, ADepthThatRoundsToZeroHasNoSign) {
+  MissionStore store;
+  add(store, "STATE.auv-1", state(1, 0, 0, 0, -0.3));
+  add(store, "STATE.auv-1", state(1, kSecond, 300, 400, 80.6));
+  EXPECT_EQ(mission_summary(store)[0].text, "went 500 m, 0 to 81 m deep");
+}
+
 }  // namespace
 }  // namespace halocline::clients
