@@ -40,7 +40,7 @@ class Mac {
   void offer(Frame frame, SimTime now);
   // The modem received this, for whomever where it is promiscuous.
   virtual void on_packet(const modem_receive_t& packet, std::int32_t own_id);
-  void on_event(const modem_event_t& event);
+  virtual void on_event(const modem_event_t& event);
   // The modem refused what was transmitted last.
   virtual void on_refused(SimTime now);
 
@@ -66,12 +66,19 @@ class Mac {
   bool carrier_ = false;  // the sound of others is sensed
 };
 
+// How long sound takes from one vehicle to another, by their ids.
+using TravelTimes = std::function<SimDuration(std::int32_t from, std::int32_t to)>;
+
 // `index` of `count` vehicles that share the slots.
 std::unique_ptr<Mac> make_aloha(MacPort port, const NetworkRules& rules);
+std::unique_ptr<Mac> make_aloha_ca(MacPort port, const NetworkRules& rules, std::int32_t own_id,
+                                   TravelTimes travel);
 std::unique_ptr<Mac> make_slotted_aloha(MacPort port, const NetworkRules& rules);
 std::unique_ptr<Mac> make_tdma(MacPort port, const NetworkRules& rules, std::int64_t index,
                                std::int64_t count);
 std::unique_ptr<Mac> make_csma(MacPort port, const NetworkRules& rules);
 std::unique_ptr<Mac> make_maca(MacPort port, const NetworkRules& rules);
+std::unique_ptr<Mac> make_dacap(MacPort port, const NetworkRules& rules);
+std::unique_ptr<Mac> make_t_lohi(MacPort port, const NetworkRules& rules);
 
 }  // namespace halocline::networks

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
 
 namespace halocline::networks {
 
-enum class MacKind { kNone, kAloha, kSlottedAloha, kTdma, kCsma, kMaca };
+enum class MacKind { kNone, kAloha, kSlottedAloha, kTdma, kCsma, kMaca, kAlohaCa, kDacap, kTLohi };
 enum class RouterKind { kStatic, kFlooding };
 
 struct NetworkRules {
@@ -18,19 +19,26 @@ struct NetworkRules {
   RouterKind router = RouterKind::kStatic;
   SimDuration interval = SimDuration::from_seconds(60);  // mean, of the packets that a vehicle offers
   std::int32_t data_bytes = 32;
-  SimDuration slot = SimDuration::from_seconds(1);        // slotted ALOHA, TDMA
-  SimDuration backoff = SimDuration::from_seconds(10);    // mean; CSMA, MACA
-  int tries = 1;                                          // likewise
-  double carrier_threshold_db = 6;                        // likewise
-  SimDuration handshake = SimDuration::from_seconds(5);   // MACA
-  SimDuration exchange = SimDuration::from_seconds(10);   // MACA
-  int hops = 4;                                           // flooding
-  SimDuration relay_wait = SimDuration::from_seconds(2);  // flooding
+  SimDuration slot = SimDuration::from_seconds(1);                // slotted ALOHA, TDMA
+  SimDuration backoff = SimDuration::from_seconds(10);            // mean; CSMA, MACA, ALOHA-CA, DACAP
+  int tries = 1;                                                  // likewise
+  double carrier_threshold_db = 6;                                // CSMA, MACA, DACAP, T-Lohi
+  SimDuration handshake = SimDuration::from_seconds(5);           // MACA, DACAP
+  SimDuration exchange = SimDuration::from_seconds(10);           // MACA, DACAP
+  SimDuration packet = SimDuration::from_seconds(1);              // ALOHA-CA, DACAP
+  SimDuration longest_travel = SimDuration::from_seconds(1);      // DACAP
+  SimDuration shortest_handshake = SimDuration::from_seconds(2);  // DACAP
+  SimDuration tolerance = SimDuration::from_seconds(1.1);         // DACAP
+  SimDuration contention = SimDuration::from_seconds(2.2);        // T-Lohi
+  double sound_speed_mps = 1500;                                  // ALOHA-CA
+  int hops = 4;                                                   // flooding
+  SimDuration relay_wait = SimDuration::from_seconds(2);          // flooding
 };
 
 struct NetworkMember {
   std::string vehicle;
   std::int32_t vehicle_id = 0;
+  Vec3 start_ned_m = Vec3::Zero();
   std::string destination;  // of what it offers: a vehicle, or "all"; empty: it offers nothing
   std::string via;          // static routing: the neighbour that all packets go to; empty: their destination
 };

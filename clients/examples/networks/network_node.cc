@@ -26,6 +26,7 @@ NetworkNode::NetworkNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Networ
     : Node(lcm, std::move(identity)), rules_(config.rules), seed_(seed) {
   require(rules_.mac != MacKind::kNone,
           "network.mac is none; allowed is a protocol where a network is to run");
+  for (const NetworkMember& member : config.members) starts_[member.vehicle_id] = member.start_ned_m;
   for (std::size_t i = 0; i < config.members.size(); ++i) add_station(config, i);
 }
 
@@ -85,11 +86,29 @@ std::unique_ptr<Mac> NetworkNode::make_mac(MacPort port, std::size_t i, std::siz
       return make_csma(std::move(port), rules_);
     case MacKind::kMaca:
       return make_maca(std::move(port), rules_);
+    case MacKind::kAlohaCa:
+      return make_aloha_ca(std::move(port), rules_, stations_.back()->member.vehicle_id,
+                           [this](std::int32_t from, std::int32_t to) { return travel_time(from, to); });
+    case MacKind::kDacap:
+      return make_dacap(std::move(port), rules_);
+    case MacKind::kTLohi:
+      return make_t_lohi(std::move(port), rules_);
     case MacKind::kNone:
     case MacKind::kAloha:
       break;
   }
   return make_aloha(std::move(port), rules_);
+}
+
+// ALOHA-CA overhears headers alone, which are events.
+bool NetworkNode::overhears_packets() const {
+  return rules_.mac == MacKind::kMaca || rules_.mac == MacKind::kDacap || rules_.mac == MacKind::kTLohi;
+}
+
+SimDuration NetworkNode::travel_time(std::int32_t from, std::int32_t to) const {
+  const auto a = starts_.find(from), b = starts_.find(to);
+  if (a == starts_.end() || b == starts_.end()) return {};  // none of this network's
+  return SimDuration::from_seconds((a->second - b->second).norm() / rules_.sound_speed_mps);
 }
 
 double NetworkNode::draw(std::string_view purpose, const Station& station, std::uint64_t which) const {
@@ -121,7 +140,7 @@ void NetworkNode::on_step(const bus::Now& now) {
   if (tells_modems) next_listen_ = now.sim + kListenPeriod;
   for (const auto& station : stations_) {
     if (tells_modems)
-      station->modem.listen(now.sim, {.promiscuous = rules_.mac == MacKind::kMaca,
+      station->modem.listen(now.sim, {.promiscuous = overhears_packets(),
                                       .events = true,
                                       .carrier_threshold_db = rules_.carrier_threshold_db});
     if (now.sim_known) {

@@ -2,10 +2,12 @@
 // says to whom they go, a MAC when they are transmitted.
 //
 // Packets are offered as a Poisson process: the time between two is exponentially distributed, drawn from seed, vehicle and number. What
-// becomes of them is published as NETWORK_EVENT. The modems are told to report events, and for MACA to be promiscuous (LISTEN).
+// becomes of them is published as NETWORK_EVENT. The modems are told to report events, and to be promiscuous where the MAC overhears
+// packets of others (LISTEN).
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,6 +21,7 @@
 #include "clients/examples/networks/network_packet.h"
 #include "clients/examples/networks/router.h"
 #include "clients/modem/modem_client.h"
+#include "core/frames.h"
 #include "core/sim_time.h"
 
 namespace halocline::networks {
@@ -50,6 +53,8 @@ class NetworkNode : public bus::Node {
   void add_station(const NetworkConfig& config, std::size_t i);
   void make_protocols(Station& station, const NetworkConfig& config, std::size_t i);
   std::unique_ptr<Mac> make_mac(MacPort port, std::size_t i, std::size_t count) const;
+  bool overhears_packets() const;
+  SimDuration travel_time(std::int32_t from, std::int32_t to) const;  // by the places at the start
   double draw(std::string_view purpose, const Station& station, std::uint64_t which) const;
   SimTime offer_after(const Station& station, SimTime before) const;
   void offer_due(Station& station, SimTime now);
@@ -58,6 +63,7 @@ class NetworkNode : public bus::Node {
 
   NetworkRules rules_;
   std::uint64_t seed_;
+  std::map<std::int32_t, Vec3> starts_;  // by vehicle
   std::vector<std::unique_ptr<Station>> stations_;
   std::vector<std::pair<std::string, network_event_t>> reports_;  // by vehicle, for the next step
   SimTime next_listen_;

@@ -22,6 +22,12 @@ Integer take(std::span<const std::uint8_t>& bytes) {
 
 }  // namespace
 
+Frame marked(std::uint8_t kind, const Frame& frame) {
+  Frame whole{frame.destination, {kind}};
+  whole.bytes.insert(whole.bytes.end(), frame.bytes.begin(), frame.bytes.end());
+  return whole;
+}
+
 std::vector<std::uint8_t> encode(const NetworkPacket& packet) {
   std::vector<std::uint8_t> bytes;
   put(packet.origin, bytes);

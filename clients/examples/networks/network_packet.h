@@ -22,6 +22,9 @@ struct Frame {
   std::vector<std::uint8_t> bytes;
 };
 
+// The same behind a first byte that tells a protocol's packets apart.
+Frame marked(std::uint8_t kind, const Frame& frame);
+
 struct NetworkPacket {
   static constexpr std::size_t kHeaderBytes = 21;
 

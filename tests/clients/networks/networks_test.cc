@@ -144,7 +144,7 @@ TEST(Maca, APacketTakesThreeOfModemsAndTheirTravelTimes) {
 // A source, a relay and a sink in line; the sink does not receive the source.
 std::string line(const std::string& network, const std::string& via) {
   return fmt::format(testing::kWater, fmt::arg("duration", 2000.0), fmt::arg("seed", 1),
-                     fmt::arg("modem", "")) +
+                     fmt::arg("modem", testing::kModem)) +
          "[network]\nmac = \"aloha\"\ninterval_s = 40.0\n" + network +
          "\n[[extra_loss]]\nfrom = \"source\"\nto = \"sink\"\nshare = 1.0\n" + vehicle("sink", 1, 0, 0) +
          vehicle("relay", 2, 500, 0) +

@@ -27,23 +27,28 @@
 
 namespace halocline::networks::testing {
 
+inline constexpr const char* kModem = "bit_rate_bps = 1000.0\nmax_payload_bytes = 32768\n";
+
 struct Ring {
   std::string mac = "aloha", settings;  // of [network], besides
   int stations = 50;
-  double radius_m = 75;  // 0.05 s to the hub, 0.1 s from side to side
-  double packet_s = 1;   // the hub's packets have this duration
-  double load = 0.5;     // packets offered in a packet's duration, by all stations together
-  int packets = 4000;    // offered in all, on average
-  std::string modem;     // keys of [modem], besides
+  double radius_m = 75;        // 0.05 s to the hub, 0.1 s from side to side
+  double packet_s = 1;         // the hub's packets have this duration
+  double load = 0.5;           // packets offered in a packet's duration, by all stations together
+  int packets = 4000;          // offered in all, on average
+  std::string modem = kModem;  // keys of [modem], besides
   std::uint64_t seed = 1;
   double nearest_m = 0;  // above 0: stations lie from here to radius_m, not all at radius_m
 };
+
+// Requests and tones are no longer, data are.
+inline constexpr double kLongestControl_s = 0.1;
 
 // What a run came to.
 struct Results {
   std::int64_t offered = 0, sent = 0, delivered = 0, dropped = 0;
   double duration_s = 0, packet_s = 0;
-  std::map<int, std::int64_t> outcomes;  // at the hub, of what was for it
+  std::map<int, std::int64_t> outcomes;  // at the hub, of data for it
   std::vector<double> delays_s;
   std::vector<int> hops;
 
@@ -72,8 +77,6 @@ fading = "none"
 [modem]
 center_frequency_hz = 5000.0
 bandwidth_hz = 1000.0
-bit_rate_bps = 1000.0
-max_payload_bytes = 32768
 error_model = "bfsk"
 {modem}
 [channel_server]
@@ -144,7 +147,8 @@ inline Results run_text(const std::string& text) {
     } else if (channel == bus::channels::kOutcome) {
       packet_outcome_t m;
       ASSERT_EQ(bus::decode(bytes, m), "");
-      if (m.receiver_id == 1 && m.destination_id == 1) ++results.outcomes[m.outcome];
+      if (m.receiver_id == 1 && m.destination_id == 1 && m.duration_s > kLongestControl_s)
+        ++results.outcomes[m.outcome];
     }
   });
   runner.run_until(SimTime() + config.scenario.duration);
