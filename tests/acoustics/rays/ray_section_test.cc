@@ -178,57 +178,6 @@ PiecewiseWater pieces_of(const Nodes& nodes) {
   return water;
 }
 
-// The ray of a path as Runge and Kutta find it: launched so that it comes to the receiver's depth, after as many bounces.
-std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
-  double angle = path.launch_angle_rad;
-  for (int i = 0; i < 12; ++i) {
-    constexpr double kStep = 1e-6;
-    const RungeKuttaRay ray = tracer.trace(link.source_depth_m, link.range_m, angle),
-                        beside = tracer.trace(link.source_depth_m, link.range_m, angle + kStep);
-    if (!ray.arrived || !beside.arrived) return std::nullopt;
-    const double off = ray.z - link.receiver_depth_m;
-    if (std::abs(off) < 1e-7) return angle;
-    angle -= off * kStep / (beside.z - ray.z);
-  }
-  return std::nullopt;
-}
-
-struct Compared {
-  double delay_s = 0, decibels = 0;
-  bool caustics_alike = true;
-};
-
-// Caustics are where two neighbouring rays cross.
-int caustics_between(const RungeKuttaRay& a, const RungeKuttaRay& b) {
-  int caustics = 0;
-  double before = 0;
-  for (std::size_t i = 0; i < std::min(a.depths.size(), b.depths.size()); ++i) {
-    if (a.bounces_then[i] != b.bounces_then[i]) continue;
-    const double apart = (b.depths[i] - a.depths[i]) * (a.bounces_then[i] % 2 == 0 ? 1 : -1);
-    if (before * apart < 0) ++caustics;
-    before = apart;
-  }
-  return caustics;
-}
-
-std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
-  constexpr double kApart = 2e-6, kStation = 40;
-  const auto angle = launch_of(tracer, link, path);
-  if (!angle) return std::nullopt;
-  const auto traced = [&](double at) {
-    return tracer.trace(link.source_depth_m, link.range_m, at, kStation);
-  };
-  const RungeKuttaRay ray = traced(*angle), low = traced(*angle - kApart / 2),
-                      high = traced(*angle + kApart / 2);
-  if (ray.surface != path.surface_bounces || ray.bottom != path.bottom_bounces) return std::nullopt;
-  const double tube = std::abs(high.z - low.z) / kApart * std::cos(ray.angle);
-  const RungeKuttaRay start = tracer.trace(link.source_depth_m, 1e-3, *angle);
-  const double amplitude =
-      ray.bottom_magnitude * std::sqrt(ray.c * std::cos(*angle) / (start.c * link.range_m * tube));
-  return Compared{std::abs(path.delay_s - ray.tau), std::abs(20 * std::log10(path.amplitude / amplitude)),
-                  caustics_between(low, high) == path.caustics};
-}
-
 // Through a front, over a bottom that slopes: all paths within 30 dB of the strongest. Of rays that all but graze a boundary
 // some do not come to the receiver when they are launched a nanoradian off; they are not compared.
 TEST(RaySection, RandomLinksThroughAFrontAgreeWithRungeKutta) {

@@ -76,6 +76,55 @@ RungeKuttaRay RungeKuttaTracer::trace(double source_m, double range_m, double an
   return ray;
 }
 
+std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
+  double angle = path.launch_angle_rad;
+  for (int i = 0; i < 12; ++i) {
+    constexpr double kStep = 1e-6;
+    const RungeKuttaRay ray = tracer.trace(link.source_depth_m, link.range_m, angle),
+                        beside = tracer.trace(link.source_depth_m, link.range_m, angle + kStep);
+    if (!ray.arrived || !beside.arrived) return std::nullopt;
+    const double off = ray.z - link.receiver_depth_m;
+    if (std::abs(off) < 1e-7) return angle;
+    angle -= off * kStep / (beside.z - ray.z);
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+// Caustics are where two neighbouring rays cross.
+int caustics_between(const RungeKuttaRay& a, const RungeKuttaRay& b) {
+  int caustics = 0;
+  double before = 0;
+  for (std::size_t i = 0; i < std::min(a.depths.size(), b.depths.size()); ++i) {
+    if (a.bounces_then[i] != b.bounces_then[i]) continue;
+    const double apart = (b.depths[i] - a.depths[i]) * (a.bounces_then[i] % 2 == 0 ? 1 : -1);
+    if (before * apart < 0) ++caustics;
+    before = apart;
+  }
+  return caustics;
+}
+
+}  // namespace
+
+std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path) {
+  constexpr double kApart = 2e-6, kStation = 40;
+  const auto angle = launch_of(tracer, link, path);
+  if (!angle) return std::nullopt;
+  const auto traced = [&](double at) {
+    return tracer.trace(link.source_depth_m, link.range_m, at, kStation);
+  };
+  const RungeKuttaRay ray = traced(*angle), low = traced(*angle - kApart / 2),
+                      high = traced(*angle + kApart / 2);
+  if (ray.surface != path.surface_bounces || ray.bottom != path.bottom_bounces) return std::nullopt;
+  const double tube = std::abs(high.z - low.z) / kApart * std::cos(ray.angle);
+  const RungeKuttaRay start = tracer.trace(link.source_depth_m, 1e-3, *angle);
+  const double amplitude =
+      ray.bottom_magnitude * std::sqrt(ray.c * std::cos(*angle) / (start.c * link.range_m * tube));
+  return Compared{std::abs(path.delay_s - ray.tau), std::abs(20 * std::log10(path.amplitude / amplitude)),
+                  caustics_between(low, high) == path.caustics, *angle};
+}
+
 SpeedThere front_speed(double front_m, double width_m, double r, double z) {
   constexpr double kTilt = 4;  // m of range a metre of depth
   const double x = (r - front_m - kTilt * z) / width_m, t = std::tanh(x), warm = 0.5 * (1 - t);

@@ -8,8 +8,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "acoustics/rays/arrivals.h"
+#include "acoustics/rays/eigenray.h"
 
 namespace halocline::acoustics {
 
@@ -59,6 +63,18 @@ class RungeKuttaTracer {
   std::function<double(double, double)> magnitude_;
   double step_;
 };
+
+// How far a path is off the ray of the same bounces that comes to the receiver.
+struct Compared {
+  double delay_s = 0, decibels = 0;
+  bool caustics_alike = true;
+  double launch_angle_rad = 0;  // of that ray
+};
+
+// The launch angle of the ray that comes to the receiver, sought from the path's own on; empty where there is none.
+std::optional<double> launch_of(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path);
+// Levels without absorption. Empty where there is no such ray.
+std::optional<Compared> compare(const RungeKuttaTracer& tracer, const RayLink& link, const Arrival& path);
 
 // A front: cold above and on the far side, c = 1485 + 18 e^(-z / 45) + 12 W(r - tilt z) e^(-z / 120), W from 1 to 0 about the
 // range `front_m` within some `width_m`.
