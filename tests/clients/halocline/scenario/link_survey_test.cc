@@ -3,15 +3,18 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "acoustics/modem/beam_pattern.h"
 #include "acoustics/modem/modem.h"
+#include "acoustics/sea/environment.h"
 #include "bathymetry/rasters/terrain_recipe.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/propagation.h"
 #include "clients/halocline/arrivals/arrival_output.h"
+#include "clients/halocline/scenario/composition.h"
 #include "core/check.h"
 #include "tests/support/tolerance.h"
 
@@ -216,6 +219,36 @@ TEST(LinkSurvey, NotesFormulasBeyondTheRangeTheyWerePublishedFor) {
   config.channel_server.environment.ph = 8.6;
   ASSERT_EQ(notes().size(), 1u);
   EXPECT_NE(notes().front().find("a pH of 8.6"), std::string::npos);
+}
+
+// Between the warm and the cold side of scenarios/front.toml, with the ocean's water or with that of the profile.
+LinkSurvey across_the_front(const ScenarioConfig& config) {
+  return survey_link(config, link_end(config, "warm"), link_end(config, "cold"));
+}
+ScenarioConfig front(const std::string& model, const std::string& carries_sound) {
+  return load_scenario(HALOCLINE_SOURCE_DIR "/scenarios/front.toml",
+                       {"propagation.model=\"" + model + "\"", "ocean.carries_sound=" + carries_sound});
+}
+
+TEST(LinkSurvey, TheStraightPathGoesThroughTheOceansField) {
+  const ScenarioConfig config = front("straight", "true");
+  const auto sea = make_environment(config.channel_server.environment, config.scenario, config.folder);
+  const Vec3 from = link_end(config, "warm").position_ned_m,
+             way = link_end(config, "cold").position_ned_m - from;
+  constexpr int kPieces = 5000;
+  double delay_s = 0;
+  for (int i = 0; i < kPieces; ++i)
+    delay_s += way.norm() / kPieces / sound_speed_at(sea, from + (i + 0.5) / kPieces * way);
+  // The water is that of the middle of the first span of time, 300 s on: the front has moved by 12 m.
+  EXPECT_NEAR(across_the_front(config).reception.budget.delay_s / delay_s, 1, tolerance(1e-4));
+}
+
+TEST(LinkSurvey, RaysGoThroughTheOceansField) {
+  const LinkSurvey there = across_the_front(front("rays", "true")),
+                   without = across_the_front(front("rays", "false"));
+  EXPECT_GT(std::abs(there.reception.budget.delay_s - without.reception.budget.delay_s), 0.005);
+  ASSERT_FALSE(there.arrivals.arrivals.paths.empty());
+  EXPECT_LE(there.arrivals.arrivals.paths.front().delay_s, there.reception.budget.delay_s + 1e-9);
 }
 
 }  // namespace
