@@ -143,6 +143,12 @@ std::string sentence(const packet_outcome_t& outcome, const VehicleName& name) {
          deciding_reason(outcome, name) + ".";
 }
 
+const char* packet_kind_name(std::int8_t packet_kind) {
+  constexpr std::array kNames{"data", "ping", "ping_reply", "ack", "mini_packet", "janus", "janus_cargo"};
+  const auto kind = static_cast<std::size_t>(packet_kind);
+  return kind < kNames.size() ? kNames[kind] : kNames[0];
+}
+
 std::string refusal(std::int8_t receipt_result) {
   switch (receipt_result) {
     case modem_receipt_t::REFUSED_BUSY:

@@ -23,6 +23,9 @@ std::string deciding_reason(const packet_outcome_t& outcome, const VehicleName& 
 // "Lost at auv-3: too quiet: 95.2 dB arrived of the 100.0 dB that its modem needs."
 std::string sentence(const packet_outcome_t& outcome, const VehicleName& name);
 
+// "data", "ping", "ping_reply", "ack", "mini_packet", "janus", "janus_cargo"; what is none of them counts as data.
+const char* packet_kind_name(std::int8_t packet_kind);
+
 // Why a SEND was not transmitted, by the result of its receipt; empty where it was.
 std::string refusal(std::int8_t receipt_result);
 

@@ -11,7 +11,7 @@ final class OutcomeTable extends AbstractTableModel implements Refreshed {
   private static final String[] KINDS = {"data", "ping", "reply", "ack", "mini", "janus", "cargo"};  // of modem_receive_t
   private static final String[] COLUMNS = {
       "decided, s", "packet", "to", "kind", "outcome", "cause", "range, m", "level, dB", "noise, dB",
-      "SNR, dB", "SINR, dB", "acquired", "draw", "bits right", "draw"};
+      "SNR, dB", "SINR, dB", "acquired", "draw", "bits right", "draw", "rate", "frames right", "frames"};
 
   private final OutcomeStore store;
   private final LinkStore vehicles;
@@ -78,7 +78,10 @@ final class OutcomeTable extends AbstractTableModel implements Refreshed {
       case 11: return outcome.acquisition_probability;
       case 12: return outcome.acquisition_draw;
       case 13: return outcome.success_probability;
-      default: return outcome.success_draw;
+      case 14: return outcome.success_draw;
+      case 15: return (double) outcome.rate_number;
+      case 16: return (double) outcome.num_frames_good;
+      default: return (double) outcome.num_frames;
     }
   }
 }

@@ -156,7 +156,8 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
          "received_level_db,cutoff_level_db,noise_level_db,snr_db,interference_level_db,sinr_db,doppler_"
          "factor,"
          "num_paths,delay_spread_s,acquisition_probability,acquisition_draw,success_probability,success_draw,"
-         "propagation,colliders,receivers,payload_bytes,transmit_energy_j,receive_energy_j\n";
+         "propagation,colliders,receivers,payload_bytes,transmit_energy_j,receive_energy_j,"
+         "packet_kind,rate_number,duration_s,num_frames,num_frames_good\n";
   for (const packet_outcome_t& o : summary.outcomes()) {
     fmt::print(out, "{:.3f},{:.3f},{},{},{},{},{}", in_seconds(o.departure_utime), in_seconds(o.utime),
                summary.name(o.source_id), summary.name(o.receiver_id),
@@ -172,7 +173,8 @@ void print_outcomes_csv(std::ostream& out, const OutcomeSummary& summary) {
     out << ',' << propagation_name(static_cast<std::size_t>(o.propagation_used)) << ','
         << colliders_text(o, [&](std::int32_t id) { return summary.name(id); }) << ',' << o.num_receivers
         << ',' << o.payload_bytes << ',' << format_number(o.transmit_energy_j) << ','
-        << format_number(o.receive_energy_j) << '\n';
+        << format_number(o.receive_energy_j) << ',' << packet_kind_name(o.packet_kind) << ',' << o.rate_number
+        << ',' << format_number(o.duration_s) << ',' << o.num_frames << ',' << o.num_frames_good << '\n';
   }
 }
 

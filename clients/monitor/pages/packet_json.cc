@@ -7,18 +7,13 @@
 
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/packet_book.h"
+#include "clients/mission/packet_reasons.h"
 #include "core/frames.h"
 
 namespace halocline::monitor {
 namespace {
 
 using nlohmann::json;
-
-const char* kind_name(std::int8_t kind) {
-  constexpr const char* kNames[] = {"data",        "ping",  "ping_reply", "ack",
-                                    "mini_packet", "janus", "janus_cargo"};
-  return kind >= 0 && kind < static_cast<int>(std::size(kNames)) ? kNames[kind] : "data";
-}
 
 const char* result_name(const clients::PacketRecord& packet) {
   constexpr const char* kNames[] = {"accepted",
@@ -104,7 +99,7 @@ json packet_json(const clients::MissionStore& mission, const clients::PacketReco
   json shown = {{"key", packet_key(packet)},
                 {"source", index_of(mission, packet.name.source_id)},
                 {"destination", index_of(mission, packet.destination_id)},
-                {"kind", kind_name(packet.name.kind)},
+                {"kind", clients::packet_kind_name(packet.name.kind)},
                 {"bytes", packet.payload_bytes < 0 ? json() : json(packet.payload_bytes)},
                 {"depart_s", packet.at().seconds()},
                 {"duration_s", refused ? 0 : packet.duration_s},

@@ -118,6 +118,11 @@ TEST_F(OutcomeSummaryTest, EachOutcomeIsARowWithTheCollidersThatDecidedIt) {
   lost.num_colliders = 1;
   lost.colliders = {other};
   lost.interference_level_db = 91.5;
+  lost.packet_kind = modem_receive_t::MINI_PACKET;
+  lost.rate_number = 4;
+  lost.duration_s = 0.875;
+  lost.num_frames = 3;
+  lost.num_frames_good = 2;
   add(lost);
   std::stringstream csv;
   print_outcomes_csv(csv, summary());
@@ -126,7 +131,13 @@ TEST_F(OutcomeSummaryTest, EachOutcomeIsARowWithTheCollidersThatDecidedIt) {
   ASSERT_TRUE(errors.empty());
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_EQ(table.rows[0].cells[*table.column("colliders")], "3:8");
-  EXPECT_EQ(table.rows[0].cells[*table.column("interference_level_db")], "91.5");
+  for (const auto& [column, value] : {std::pair("interference_level_db", "91.5"),
+                                      {"packet_kind", "mini_packet"},
+                                      {"rate_number", "4"},
+                                      {"duration_s", "0.875"},
+                                      {"num_frames", "3"},
+                                      {"num_frames_good", "2"}})
+    EXPECT_EQ(table.rows[0].cells[*table.column(column)], value) << column;
 }
 
 TEST_F(OutcomeSummaryTest, ThePrintedTableNamesEveryOutcomeThatOccurred) {
