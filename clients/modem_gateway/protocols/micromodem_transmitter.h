@@ -1,0 +1,93 @@
+// The sending side of a Micromodem: data cycles, and what it writes of each transmission.
+//
+// A cycle asks its host for its frames one by one (CADRQ), then sends them as one packet, at rate 0 after a cycle packet. Of every
+// transmission: CATXP when its sound begins, CATXF when it ends, then CAXST. Data that does not come in time ends the cycle
+// (CAERR,...,DATA_TIMEOUT).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/messages.h"
+#include "clients/modem_gateway/protocols/micromodem_receptions.h"
+#include "clients/modem_gateway/protocols/micromodem_reports.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+
+class MicromodemTransmitter {
+ public:
+  // Of the modem that it is part of.
+  struct Modem {
+    std::function<void(const std::string& body)> say;  // to all hosts
+    std::function<ReporterState()> state;
+    std::function<SimTime()> start;  // of the next transmission
+    std::function<bool()> reports_statistics;
+    std::function<std::int32_t()> own_address;
+  };
+  enum class Kind { kData, kCycle, kMini, kPing, kNewPing, kFlexible };
+  struct Transmission {
+    Kind packet = Kind::kData;
+    std::int32_t to = 0;           // vehicle
+    std::int64_t destination = 0;  // its address
+    std::vector<std::uint8_t> payload = {};
+  };
+
+  MicromodemTransmitter(ProtocolPort& port, Modem modem) : port_(port), modem_(std::move(modem)) {}
+
+  // Whether a cycle gathers its data or waits to be sent.
+  bool is_busy() const { return cycle_.has_value(); }
+  // A cycle whose data this modem's host is asked for; with a cycle packet before it where told.
+  void begin(const MicromodemCycle& cycle, std::int32_t to, bool has_cycle_packet);
+  // Whether a frame of that size is awaited.
+  bool wants_data(std::size_t bytes) const;
+  // The next frame, which is wanted; an empty one ends the data.
+  void take_data(const std::vector<std::uint8_t>& bytes, bool wants_ack);
+
+  // One packet, from the modem's next start on.
+  void send(Transmission transmission, clients::SendOptions options);
+  bool is_new_ping(std::int64_t packet_sequence) const;
+
+  void on_receipt(const modem_receipt_t& receipt);
+  SimTime next() const;
+  // `data_timeout_s`: setting DTO.
+  void step(std::int64_t data_timeout_s);
+
+ private:
+  struct Cycle {
+    MicromodemCycle wanted;
+    std::int32_t to = 0;
+    bool has_cycle_packet = false;
+    std::vector<std::uint8_t> payload;
+    std::vector<std::int32_t> frame_bytes;
+    bool wants_ack = false;
+    bool is_complete = false;
+    SimTime asked;  // for the next frame
+  };
+  struct OnItsWay {
+    Transmission transmission;
+    TransmissionReport report;
+    SimTime begins = SimTime::never(), ends = SimTime::never(), forgotten = SimTime::never();
+    bool is_accepted = false;
+  };
+
+  void ask_for_data();
+  void complete();
+  void send_data(SimTime start);
+  void send_at(SimTime start, Transmission transmission, clients::SendOptions options);
+  bool advance(OnItsWay& sent);
+
+  ProtocolPort& port_;
+  Modem modem_;
+  std::optional<Cycle> cycle_;
+  std::int64_t data_timeout_s_ = 5;
+  std::map<std::int64_t, OnItsWay> sent_;
+};
+
+}  // namespace halocline::modem_gateway
