@@ -129,7 +129,7 @@ const std::vector<Room>& rooms() {
        "a protocol is pure: bytes and messages in and out, no socket and no clock"},
       {"clients/modem_gateway",
        {"core", "bus", "bus/config", "bus/runtime", "clients/modem", "clients/modem_gateway/protocols"},
-       {"lcm/", "fmt/"},
+       {"lcm/", "fmt/", "pty.h", "termios.h"},
        "a gateway knows modems by their messages, and no simulator"},
       {"clients/mission",
        {"core", "bus", "bus/logs/channel_types.h"},

@@ -35,11 +35,11 @@ void MicromodemTransmitter::begin(const MicromodemCycle& cycle, std::int32_t to,
 
 void MicromodemTransmitter::ask_for_data() {
   const MicromodemCycle& wanted = cycle_->wanted;
-  cycle_->asked = port_.now();
-  modem_.say(fmt::format("CADRQ,{},{},{},{},{},{}", modem_.state().clock.hhmmss(port_.now()), wanted.source,
-                         wanted.destination, wanted.wants_ack,
-                         micromodem_rate(static_cast<int>(wanted.rate)).frame_bytes,
-                         cycle_->frame_bytes.size() + 1));
+  cycle_->asked = core_.now();
+  core_.say_all(fmt::format("CADRQ,{},{},{},{},{},{}", core_.clock().hhmmss(core_.now()), wanted.source,
+                            wanted.destination, wanted.wants_ack,
+                            micromodem_rate(static_cast<int>(wanted.rate)).frame_bytes,
+                            cycle_->frame_bytes.size() + 1));
 }
 
 bool MicromodemTransmitter::wants_data(std::size_t bytes) const {
@@ -61,7 +61,7 @@ void MicromodemTransmitter::take_data(const std::vector<std::uint8_t>& bytes, bo
 void MicromodemTransmitter::complete() {
   cycle_->is_complete = true;
   if (cycle_->frame_bytes.empty()) return cycle_.reset();
-  if (!cycle_->has_cycle_packet) return send_data(modem_.start());
+  if (!cycle_->has_cycle_packet) return send_data(core_.start_of_transmission());
   MicromodemCycle announced = cycle_->wanted;
   announced.frames = static_cast<std::int64_t>(cycle_->frame_bytes.size());
   send({Kind::kCycle, cycle_->to, announced.destination, cycle_packet(announced, false)},
@@ -77,20 +77,21 @@ void MicromodemTransmitter::send_data(SimTime start) {
 }
 
 void MicromodemTransmitter::send(Transmission transmission, clients::SendOptions options) {
-  send_at(modem_.start(), std::move(transmission), std::move(options));
+  send_at(core_.start_of_transmission(), std::move(transmission), std::move(options));
 }
 
 void MicromodemTransmitter::send_at(SimTime start, Transmission transmission, clients::SendOptions options) {
   OnItsWay sent;
   sent.report.rate = options.rate_number.value_or(0);
-  sent.report.source = modem_.own_address();
+  sent.report.source = core_.own_address();
   sent.report.destination = static_cast<std::int32_t>(transmission.destination);
   sent.report.wants_ack = options.wants_ack;
   sent.report.frames_expected = sent.report.frames_sent =
       std::max<int>(1, static_cast<int>(options.frame_bytes.size()));
   sent.report.type = type_of(transmission.packet, sent.report.rate);
   sent.report.bytes = static_cast<int>(transmission.payload.size());
-  const std::int64_t sequence = port_.send(start, transmission.to, transmission.payload, std::move(options));
+  const std::int64_t sequence =
+      core_.port().send(start, transmission.to, transmission.payload, std::move(options));
   sent.transmission = std::move(transmission);
   sent.forgotten = start + kRemembered;
   sent_[sequence] = std::move(sent);
@@ -107,34 +108,34 @@ void MicromodemTransmitter::on_receipt(const modem_receipt_t& receipt) {
   OnItsWay& sent = found->second;
   sent.is_accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
                      receipt.receipt_result == modem_receipt_t::QUEUED;
-  sent.begins = sent.is_accepted ? SimTime::from_utime(receipt.start_utime) : port_.now();
+  sent.begins = sent.is_accepted ? SimTime::from_utime(receipt.start_utime) : core_.now();
   sent.ends = sent.begins + SimDuration::from_seconds(receipt.duration_s);
   if (!sent.is_accepted) {
     sent.report.mode = TransmissionReport::Mode::kInhibited;
     sent.report.frames_sent = 0;
-    port_.note("send-refused", "result=" + std::to_string(receipt.receipt_result));
+    core_.port().note("send-refused", "result=" + std::to_string(receipt.receipt_result));
   }
   const bool announces = sent.transmission.packet == Kind::kCycle && cycle_ && cycle_->is_complete;
   if (announces && sent.is_accepted) send_data(sent.ends + kGap);
   if (announces && !sent.is_accepted) cycle_.reset();
 }
 
+SimTime MicromodemTransmitter::data_due() const {
+  if (!cycle_ || cycle_->is_complete) return SimTime::never();
+  const std::int64_t timeout_s = std::clamp<std::int64_t>(core_.settings().number("DTO"), 1, 3600);
+  return cycle_->asked + SimDuration::from_milliseconds(1000) * timeout_s;
+}
+
 SimTime MicromodemTransmitter::next() const {
-  SimTime next = SimTime::never();
-  if (cycle_ && !cycle_->is_complete)
-    next = cycle_->asked + SimDuration::from_milliseconds(1000) * data_timeout_s_;
+  SimTime next = data_due();
   for (const auto& [sequence, sent] : sent_) next = std::min({next, sent.begins, sent.ends, sent.forgotten});
   return next;
 }
 
-void MicromodemTransmitter::step(std::int64_t data_timeout_s) {
-  data_timeout_s_ = std::clamp<std::int64_t>(data_timeout_s, 1, 3600);
-  const SimTime until = cycle_ && !cycle_->is_complete
-                            ? cycle_->asked + SimDuration::from_milliseconds(1000) * data_timeout_s_
-                            : SimTime::never();
-  if (port_.now() >= until) {
-    modem_.say(fmt::format("CAERR,{},DATA_TIMEOUT,{}", modem_.state().clock.hhmmss(port_.now()),
-                           cycle_->frame_bytes.size() + 1));
+void MicromodemTransmitter::step() {
+  if (core_.now() >= data_due()) {
+    core_.say_all(fmt::format("CAERR,{},DATA_TIMEOUT,{}", core_.clock().hhmmss(core_.now()),
+                              cycle_->frame_bytes.size() + 1));
     cycle_.reset();
   }
   for (auto it = sent_.begin(); it != sent_.end();)
@@ -143,15 +144,15 @@ void MicromodemTransmitter::step(std::int64_t data_timeout_s) {
 
 // Writes what has happened to it by now; false when it may be forgotten.
 bool MicromodemTransmitter::advance(OnItsWay& sent) {
-  const SimTime now = port_.now();
+  const SimTime now = core_.now();
   if (now >= sent.begins) {
     sent.report.at = std::exchange(sent.begins, SimTime::never());
-    if (sent.is_accepted) modem_.say(fmt::format("CATXP,{}", sent.report.bytes));
+    if (sent.is_accepted) core_.say_all(fmt::format("CATXP,{}", sent.report.bytes));
   }
   if (now >= sent.ends) {
     sent.ends = SimTime::never();
-    if (sent.is_accepted) modem_.say(fmt::format("CATXF,{}", sent.report.bytes));
-    if (modem_.reports_statistics()) modem_.say(caxst(modem_.state(), sent.report));
+    if (sent.is_accepted) core_.say_all(fmt::format("CATXF,{}", sent.report.bytes));
+    if (core_.reports_transmissions()) core_.say_all(caxst(core_.state(), sent.report));
   }
   return now < sent.forgotten;
 }

@@ -7,30 +7,21 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "bus/messages.h"
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/micromodem_core.h"
 #include "clients/modem_gateway/protocols/micromodem_receptions.h"
 #include "clients/modem_gateway/protocols/micromodem_reports.h"
-#include "clients/modem_gateway/protocols/protocol.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 
 class MicromodemTransmitter {
  public:
-  // Of the modem that it is part of.
-  struct Modem {
-    std::function<void(const std::string& body)> say;  // to all hosts
-    std::function<ReporterState()> state;
-    std::function<SimTime()> start;  // of the next transmission
-    std::function<bool()> reports_statistics;
-    std::function<std::int32_t()> own_address;
-  };
   enum class Kind { kData, kCycle, kMini, kPing, kNewPing, kFlexible };
   struct Transmission {
     Kind packet = Kind::kData;
@@ -39,7 +30,8 @@ class MicromodemTransmitter {
     std::vector<std::uint8_t> payload = {};
   };
 
-  MicromodemTransmitter(ProtocolPort& port, Modem modem) : port_(port), modem_(std::move(modem)) {}
+  // `core` must outlive it.
+  explicit MicromodemTransmitter(MicromodemCore& core) : core_(core) {}
 
   // Whether a cycle gathers its data or waits to be sent.
   bool is_busy() const { return cycle_.has_value(); }
@@ -56,8 +48,7 @@ class MicromodemTransmitter {
 
   void on_receipt(const modem_receipt_t& receipt);
   SimTime next() const;
-  // `data_timeout_s`: setting DTO.
-  void step(std::int64_t data_timeout_s);
+  void step();
 
  private:
   struct Cycle {
@@ -77,16 +68,16 @@ class MicromodemTransmitter {
     bool is_accepted = false;
   };
 
+  // When the cycle is given up for want of data; never() without one.
+  SimTime data_due() const;
   void ask_for_data();
   void complete();
   void send_data(SimTime start);
   void send_at(SimTime start, Transmission transmission, clients::SendOptions options);
   bool advance(OnItsWay& sent);
 
-  ProtocolPort& port_;
-  Modem modem_;
+  MicromodemCore& core_;
   std::optional<Cycle> cycle_;
-  std::int64_t data_timeout_s_ = 5;
   std::map<std::int64_t, OnItsWay> sent_;
 };
 

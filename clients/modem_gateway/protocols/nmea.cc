@@ -2,9 +2,13 @@
 
 #include <array>
 
-#include "clients/modem_gateway/protocols/fields.h"
-
 namespace halocline::modem_gateway {
+
+std::string NmeaSentence::all_fields() const {
+  std::string text;
+  for (const std::string_view each : fields) text += "," + std::string(each);
+  return text;
+}
 
 std::uint8_t nmea_checksum(std::string_view body) {
   std::uint8_t sum = 0;
