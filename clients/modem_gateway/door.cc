@@ -34,9 +34,18 @@ SimTime whole_microsecond_from(SimTime time) {
 
 }  // namespace
 
-Door::Door(bus::Bus& bus, const DoorConfig& config, AddressBook& addresses, Writer writer, Trace trace)
-    : bus_(bus), writer_(std::move(writer)), trace_(std::move(trace)), modem_(bus, address_of(bus, config)) {
-  protocol_ = make_protocol(config.kind, {*this, addresses, config.vehicle_id, DoorOptions(config.options)});
+Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway, AddressBook& addresses,
+           Writer writer, Trace trace)
+    : bus_(bus),
+      writer_(std::move(writer)),
+      trace_(std::move(trace)),
+      modem_(bus, address_of(bus, config)),
+      vehicles_(gateway.vehicles),
+      client_name_("door-" +
+                   std::to_string(static_cast<std::uint64_t>(modem_.address().session) % 1'000'000'000'000)) {
+  protocol_ = make_protocol(
+      config.kind, {*this, addresses, config.vehicle_id, DoorOptions(config.options), gateway.vehicles,
+                    gateway.origin_latitude_deg, gateway.origin_longitude_deg});
   listens_ = protocol_->listening();
   next_listen_ = listens_ ? SimTime() : SimTime::never();
   modem_.on_receipt([this](const modem_receipt_t& receipt) { happenings_.emplace_back(receipt); });
@@ -47,9 +56,33 @@ Door::Door(bus::Bus& bus, const DoorConfig& config, AddressBook& addresses, Writ
   bus.subscribe<vehicle_sensors_t>(
       bus::channels::kSensors.of(config.vehicle), [this](const vehicle_sensors_t& s) { sensors_ = s; },
       bus::Wakeup::kStoreOnly);
+  bus.subscribe<vehicle_battery_t>(
+      bus::channels::kBattery.of(config.vehicle), [this](const vehicle_battery_t& b) { battery_ = b; },
+      bus::Wakeup::kStoreOnly);
+  bus.subscribe<link_reply_t>(bus::channels::kLinkReply.of(client_name_), [this](const link_reply_t& reply) {
+    if (reply.request_id == queries_) happenings_.emplace_back(reply);
+  });
   bus.subscribe<vehicle_state_t>(
       bus::channels::kState.of(config.vehicle), [this](const vehicle_state_t& s) { state_ = s; },
       bus::Wakeup::kStoreOnly);
+}
+
+bool Door::ask_paths(std::int32_t from_vehicle) {
+  const auto from = std::find_if(vehicles_.begin(), vehicles_.end(),
+                                 [&](const NamedVehicle& vehicle) { return vehicle.id == from_vehicle; });
+  if (from == vehicles_.end()) return false;
+  link_query_t query{};
+  query.utime = now_.sim.to_utime();
+  query.client_name = client_name_;
+  query.request_id = ++queries_;
+  query.wants_paths = 1;
+  query.num_links = 1;
+  query.transmitters.resize(1);
+  query.receivers.resize(1);
+  query.transmitters[0].vehicle_name = from->name;
+  query.receivers[0].vehicle_name = vehicle();
+  bus_.publish(bus::channels::kLinkQuery, query);
+  return true;
 }
 
 void Door::store(const packet_outcome_t& outcome) {
@@ -81,6 +114,8 @@ void Door::hand_over(const Happening& happening) {
     protocol_->on_packet(*packet);
   } else if (const auto* bearing = std::get_if<vehicle_usbl_t>(&happening)) {
     protocol_->on_bearing(*bearing);
+  } else if (const auto* paths = std::get_if<link_reply_t>(&happening)) {
+    protocol_->on_paths(*paths);
   } else if (const auto* event = std::get_if<modem_event_t>(&happening)) {
     protocol_->on_event(*event);
     const bool is_loss = event->modem_event == modem_event_t::PACKET_ENDED &&

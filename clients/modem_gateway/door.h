@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "bus/bus.h"
 #include "bus/runtime/node.h"
@@ -32,7 +33,8 @@ class Door : private ProtocolPort {
   using Trace = std::function<void(char direction, std::string_view text)>;
 
   // Subscribes on the bus. Throws InvalidArgument for a configuration that makes no door.
-  Door(bus::Bus& bus, const DoorConfig& config, AddressBook& addresses, Writer writer, Trace trace);
+  Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway, AddressBook& addresses,
+       Writer writer, Trace trace);
 
   const std::string& vehicle() const { return modem_.address().vehicle; }
   std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }
@@ -56,8 +58,8 @@ class Door : private ProtocolPort {
   std::int64_t losses() const { return losses_; }
 
  private:
-  using Happening =
-      std::variant<modem_receipt_t, modem_receive_t, modem_event_t, packet_outcome_t, vehicle_usbl_t>;
+  using Happening = std::variant<modem_receipt_t, modem_receive_t, modem_event_t, packet_outcome_t,
+                                 vehicle_usbl_t, link_reply_t>;
 
   SimTime now() const override { return now_.sim; }
   void write(ClientId client, std::string_view bytes) override;
@@ -66,6 +68,8 @@ class Door : private ProtocolPort {
   bool is_own(std::int64_t send_session) const override { return send_session == modem_.address().session; }
   const vehicle_sensors_t* sensors() const override { return sensors_ ? &*sensors_ : nullptr; }
   const vehicle_state_t* state() const override { return state_ ? &*state_ : nullptr; }
+  const vehicle_battery_t* battery() const override { return battery_ ? &*battery_ : nullptr; }
+  bool ask_paths(std::int32_t from_vehicle) override;
   void note(std::string_view event, std::string_view details) override;
 
   void trace(char direction, std::string_view text) const {
@@ -87,6 +91,10 @@ class Door : private ProtocolPort {
   std::deque<packet_outcome_t> lost_outcomes_;  // whose event has not come, if one comes
   std::optional<vehicle_sensors_t> sensors_;
   std::optional<vehicle_state_t> state_;
+  std::optional<vehicle_battery_t> battery_;
+  std::vector<NamedVehicle> vehicles_;
+  std::string client_name_;  // of queries
+  std::int64_t queries_ = 0;
   std::int64_t losses_ = 0;
 };
 

@@ -28,6 +28,8 @@ class NoPort : public ProtocolPort {
   bool is_own(std::int64_t) const override { return false; }
   const vehicle_sensors_t* sensors() const override { return nullptr; }
   const vehicle_state_t* state() const override { return nullptr; }
+  const vehicle_battery_t* battery() const override { return nullptr; }
+  bool ask_paths(std::int32_t) override { return false; }
   void note(std::string_view, std::string_view) override {}
 };
 
@@ -39,9 +41,7 @@ void check_options(const DoorConfig& door) {
 
 void check_addresses(const GatewayConfig& config, const DoorConfig& door) {
   AddressBook book;
-  std::vector<NamedVehicle> vehicles;
-  for (const auto& vehicle : config.vehicles) vehicles.push_back({vehicle.name, vehicle.id});
-  assign_addresses(book, door.addresses, vehicles);
+  assign_addresses(book, door.addresses, config.vehicles);
 }
 
 std::int32_t id_of(const GatewayConfig& config, const std::string& name) {

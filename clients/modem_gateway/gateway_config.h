@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bus/config/config.h"
+#include "clients/modem_gateway/protocols/address_book.h"
 
 namespace halocline::modem_gateway {
 
@@ -34,12 +35,11 @@ struct DoorConfig {
 };
 
 struct GatewayConfig {
-  struct Vehicle {
-    std::string name;
-    std::int32_t id = 0;
-  };
-  std::vector<Vehicle> vehicles;  // of the scenario
+  std::vector<NamedVehicle> vehicles;  // of the scenario
   std::vector<DoorConfig> doors;
+  // Not among its keys: of the scenario, for the caller to fill in.
+  double rate = 1;                                           // simulated seconds per wall second
+  double origin_latitude_deg = 0, origin_longitude_deg = 0;  // of the world frame
 };
 
 void visit(bus::ConfigVisitor& v, GatewayConfig& config);

@@ -14,6 +14,8 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
       look_period_(look_period),
       next_look_(look_period == SimDuration() ? SimTime::never() : SimTime()) {
   if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
+  if (config.rate != 1)
+    bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
   for (const DoorConfig& door : config.doors) add_door(config, door);
   const bool wants_outcomes =
       std::any_of(doors_.begin(), doors_.end(), [](const auto& door) { return door->wants_outcomes(); });
@@ -23,10 +25,8 @@ GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const Gatewa
 }
 
 void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door) {
-  std::vector<NamedVehicle> vehicles;
-  for (const auto& vehicle : config.vehicles) vehicles.push_back({vehicle.name, vehicle.id});
   AddressBook& addresses = addresses_[door.kind];
-  assign_addresses(addresses, door.addresses, vehicles);
+  assign_addresses(addresses, door.addresses, config.vehicles);
   const std::size_t number = connections_.add(door.place);
   Door::Trace trace;
   if (trace_) {
@@ -35,7 +35,7 @@ void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door) 
     };
   }
   doors_.push_back(std::make_unique<Door>(
-      bus(), door, addresses,
+      bus(), door, config, addresses,
       [this, number](ClientId client, std::string_view bytes) { connections_.write(number, client, bytes); },
       std::move(trace)));
   bus().log().info("door", "vehicle=" + door.vehicle + " kind=" + door.kind + " place=" + place_of(number));

@@ -32,6 +32,9 @@ int main(int argc, char** argv) {
       {.name = "--trace", .help = "file of all that passes through the doors; -: stderr", .value = &trace}};
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {
+    config.rate = context.scenario.rate;
+    config.origin_latitude_deg = context.scenario.origin_latitude_deg;
+    config.origin_longitude_deg = context.scenario.origin_longitude_deg;
     for (const std::string& door : doors) add_door(config, door);
     return std::make_unique<GatewayNode>(context.lcm, context.identity, config,
                                          context.in_lockstep ? GatewayNode::kLockstepPeriod : SimDuration(),

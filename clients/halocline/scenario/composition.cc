@@ -171,9 +171,7 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
     if (config.network.rules.mac != networks::MacKind::kNone)
       add<networks::NetworkNode>(bus::Stage::kTraffic, "network", config.network, config.scenario.seed);
     add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
-    if (!config.gateway.doors.empty())
-      add<modem_gateway::GatewayNode>(bus::Stage::kClients, "modem-gateway", config.gateway,
-                                      modem_gateway::GatewayNode::kLockstepPeriod);
+    add_gateway(config);
   }
   add_channel_servers(config);
 }
@@ -185,6 +183,15 @@ void Composition::add_vehicle_sims(const ScenarioConfig& config) {
     const auto [scenario, own] = part_of_block(config.scenario, all);
     add<vehicle_sim::VehicleSimNode>(bus::Stage::kVehicles, node_name_of(all.block), scenario, own, seabed);
   }
+}
+
+void Composition::add_gateway(const ScenarioConfig& config) {
+  if (config.gateway.doors.empty()) return;
+  modem_gateway::GatewayConfig gateway = config.gateway;
+  gateway.origin_latitude_deg = config.scenario.origin_latitude_deg;
+  gateway.origin_longitude_deg = config.scenario.origin_longitude_deg;
+  add<modem_gateway::GatewayNode>(bus::Stage::kClients, "modem-gateway", gateway,
+                                  modem_gateway::GatewayNode::kLockstepPeriod);
 }
 
 void Composition::add_channel_servers(const ScenarioConfig& config) {

@@ -90,6 +90,7 @@ class Composition {
   template <class NodeType, class... Arguments>
   void add(bus::Stage stage, const std::string& name, Arguments&&... arguments);
   void add_vehicle_sims(const ScenarioConfig& config);
+  void add_gateway(const ScenarioConfig& config);
   void add_channel_servers(const ScenarioConfig& config);
 
   lcm::LCM& lcm_;

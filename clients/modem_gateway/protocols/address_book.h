@@ -8,13 +8,14 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace halocline::modem_gateway {
 
 struct NamedVehicle {
-  std::string_view name;
+  std::string name;
   std::int32_t id = 0;
 };
 

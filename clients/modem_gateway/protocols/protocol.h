@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "bus/messages.h"
 #include "clients/modem/modem_client.h"
@@ -23,6 +25,11 @@ namespace halocline::modem_gateway {
 // A host that is connected to a door; each connection has a number of its own, from 1.
 using ClientId = std::int64_t;
 inline constexpr ClientId kAllClients = 0;
+
+// A packet without a receipt by then was never sent.
+inline constexpr SimDuration kReceiptWithin = SimDuration::from_milliseconds(15'000);
+// The channel server refuses transmissions that are further ahead than ten seconds.
+inline constexpr SimDuration kMaxAhead = SimDuration::from_milliseconds(9000);
 
 // What a protocol may do, and look at.
 class ProtocolPort {
@@ -41,8 +48,11 @@ class ProtocolPort {
   virtual bool is_own(std::int64_t send_session) const = 0;
   // The latest measurement of the vehicle's sensors; null before the first.
   virtual const vehicle_sensors_t* sensors() const = 0;
-  // The latest state of the vehicle; null before the first.
+  // The latest state of the vehicle, and of its battery where it has one; null before the first.
   virtual const vehicle_state_t* state() const = 0;
+  virtual const vehicle_battery_t* battery() const = 0;
+  // Asks for the paths of sound from a vehicle to this one, as they are now: on_paths(). False for a vehicle that is not known.
+  virtual bool ask_paths(std::int32_t from_vehicle) = 0;
   // For a person who watches: what a host did that is no protocol of this modem.
   virtual void note(std::string_view event, std::string_view details) = 0;
 };
@@ -53,6 +63,16 @@ struct ProtocolContext {
   AddressBook& addresses;  // of all doors of this kind
   std::int32_t vehicle_id;
   DoorOptions options;
+  std::vector<NamedVehicle> vehicles = {};  // of the scenario
+  double origin_latitude_deg = 0, origin_longitude_deg = 0;
+
+  // The door's own; empty for a vehicle that is not among them.
+  std::string vehicle_name() const {
+    for (const NamedVehicle& vehicle : vehicles) {
+      if (vehicle.id == vehicle_id) return vehicle.name;
+    }
+    return "";
+  }
 };
 
 class Protocol {
@@ -77,6 +97,9 @@ class Protocol {
   virtual void on_loss(const packet_outcome_t& /*outcome*/) {}
   // The vehicle's USBL measured where a packet came from; after its on_packet().
   virtual void on_bearing(const vehicle_usbl_t& /*bearing*/) {}
+
+  // What ask_paths() led to.
+  virtual void on_paths(const link_reply_t& /*reply*/) {}
 
   // When step() is due by simulation time.
   virtual SimTime next() const { return SimTime::never(); }

@@ -13,7 +13,9 @@ struct Kind {
   const char* name;
   std::unique_ptr<Protocol> (*make)(ProtocolContext);
 };
-constexpr std::array kKinds{Kind{"micromodem", make_micromodem}, Kind{"nm3", make_nm3}};
+constexpr std::array kKinds{Kind{"ahoi", make_ahoi}, Kind{"evologics", make_evologics},
+                            Kind{"micromodem", make_micromodem}, Kind{"nm3", make_nm3},
+                            Kind{"unet", make_unet}};
 
 }  // namespace
 

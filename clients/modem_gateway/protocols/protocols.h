@@ -17,7 +17,10 @@ std::vector<std::string> protocol_kinds();
 std::unique_ptr<Protocol> make_protocol(std::string_view kind, ProtocolContext context);
 
 // One file each.
+std::unique_ptr<Protocol> make_ahoi(ProtocolContext context);
+std::unique_ptr<Protocol> make_evologics(ProtocolContext context);
 std::unique_ptr<Protocol> make_micromodem(ProtocolContext context);
 std::unique_ptr<Protocol> make_nm3(ProtocolContext context);
+std::unique_ptr<Protocol> make_unet(ProtocolContext context);
 
 }  // namespace halocline::modem_gateway

@@ -43,6 +43,11 @@ class FakePort : public ProtocolPort {
   bool is_own(std::int64_t send_session) const override { return send_session == kSession; }
   const vehicle_sensors_t* sensors() const override { return measured ? &*measured : nullptr; }
   const vehicle_state_t* state() const override { return place ? &*place : nullptr; }
+  const vehicle_battery_t* battery() const override { return charge ? &*charge : nullptr; }
+  bool ask_paths(std::int32_t from_vehicle) override {
+    paths_asked.push_back(from_vehicle);
+    return true;
+  }
   void note(std::string_view, std::string_view) override { ++notes; }
 
   // What was written since the last call.
@@ -57,6 +62,8 @@ class FakePort : public ProtocolPort {
   std::vector<Sent> sent;
   std::optional<vehicle_sensors_t> measured;
   std::optional<vehicle_state_t> place;
+  std::optional<vehicle_battery_t> charge;
+  std::vector<std::int32_t> paths_asked;
   int notes = 0;
 };
 

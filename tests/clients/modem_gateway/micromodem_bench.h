@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
-#include "clients/modem_gateway/protocols/nmea.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "tests/clients/modem_gateway/fake_port.h"
 
 namespace halocline::modem_gateway::testing {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "clients/modem_gateway/protocols/nmea.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "core/names.h"
 #include "tests/clients/modem_gateway/micromodem_bench.h"
 

@@ -78,8 +78,9 @@ TEST(Nm3, SendsWithAcknowledgementAndReportsItsTime) {
 
 TEST(Nm3, StartsATimedSendingAtTheCounter) {
   ProtocolBench bench("nm3");
-  EXPECT_EQ(bench.ask("$B02abT00002640000000\r\n"), "$B02\r\n");  // 110 s at 24 MHz
-  EXPECT_EQ(bench.port.sent.at(0).start, SimTime::from_seconds(110));
+  EXPECT_EQ(bench.ask("$B02abT00002568000000\r\n"), "$B02\r\n");  // 107 s at 24 MHz
+  EXPECT_EQ(bench.port.sent.at(0).start, SimTime::from_seconds(107));
+  EXPECT_EQ(bench.ask("$B02abT00009999999999\r\n"), "E\r\n");  // too far ahead
 }
 
 TEST(Nm3, ReportsBroadcastsWithTheirSourceAndOthersWithout) {

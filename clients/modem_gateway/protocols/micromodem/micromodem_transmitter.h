@@ -13,9 +13,9 @@
 
 #include "bus/messages.h"
 #include "clients/modem/modem_client.h"
-#include "clients/modem_gateway/protocols/micromodem_core.h"
-#include "clients/modem_gateway/protocols/micromodem_receptions.h"
-#include "clients/modem_gateway/protocols/micromodem_reports.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {

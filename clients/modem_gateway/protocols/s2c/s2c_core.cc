@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/s2c_core.h"
+#include "clients/modem_gateway/protocols/s2c/s2c_core.h"
 
 #include <utility>
 
@@ -17,7 +17,8 @@ std::vector<std::uint8_t> s2c_packet(const S2cPayload& payload) {
 S2cPayload s2c_payload(const modem_receive_t& packet) {
   if (packet.stamped || packet.payload.empty()) return {S2cKind::kPlain, 0, packet.payload};
   const std::uint8_t header = packet.payload.front();
-  return {static_cast<S2cKind>(header & 3), header >> 2 & 7, {packet.payload.begin() + 1, packet.payload.end()}};
+  return {
+      static_cast<S2cKind>(header & 3), header >> 2 & 7, {packet.payload.begin() + 1, packet.payload.end()}};
 }
 
 S2cCore::S2cCore(ProtocolContext& context, Tell tell)
@@ -31,7 +32,7 @@ S2cCore::S2cCore(ProtocolContext& context, Tell tell)
 // Those that change what the door does: !AM (highest address), !AR (remote address of the stream), !RC, !RI (tries after the first of
 // bursts and of instant messages), !RT (milliseconds to wait for an answer, beyond its own duration), !RP (promiscuous), @ZU, @ZX, @ZF.
 void S2cCore::reset_settings() {
-  settings_ = {{"!AM", 254}, {"!AR", 0}, {"!C", 0},  {"!CA", 1500}, {"!G", 0},  {"!KO", 0}, {"!L", 0},
+  settings_ = {{"!AM", 254}, {"!AR", 0}, {"!C", 0},  {"!CA", 1500}, {"!G", 0},     {"!KO", 0}, {"!L", 0},
                {"!LC", 0},   {"!RC", 3}, {"!RI", 1}, {"!RP", 0},    {"!RT", 4000}, {"!ZC", 0}, {"!ZI", 120},
                {"!ZP", 0},   {"!ZS", 0}, {"@ZF", 0}, {"@ZU", 0},    {"@ZX", 0}};
 }

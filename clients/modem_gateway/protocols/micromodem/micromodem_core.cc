@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/micromodem_core.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
 
 #include <algorithm>
 

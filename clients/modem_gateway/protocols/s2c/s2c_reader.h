@@ -14,11 +14,12 @@
 namespace halocline::modem_gateway {
 
 struct S2cCommand {
-  std::string name;                  // with its sign and without parameters: *SENDIM, !AL, ?CLOCK, &V, I, Z
-  std::string parameters;            // what follows it up to the end of the line: 12
-  std::vector<std::string> fields;   // of a command that sends: protocol id, length, destination, ... before its data
-  std::string data;                  // of a command that sends
-  bool is_well_formed = true;        // false: a line that is no command, or data of another length than stated
+  std::string name;        // with its sign and without parameters: *SENDIM, !AL, ?CLOCK, &V, I, Z
+  std::string parameters;  // what follows it up to the end of the line: 12
+  std::vector<std::string>
+      fields;        // of a command that sends: protocol id, length, destination, ... before its data
+  std::string data;  // of a command that sends
+  bool is_well_formed = true;  // false: a line that is no command, or data of another length than stated
 };
 
 class S2cReader {

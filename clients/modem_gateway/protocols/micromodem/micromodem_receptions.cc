@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/micromodem_receptions.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -17,7 +17,7 @@
 #include <string>
 
 #include "bus/messages.h"
-#include "clients/modem_gateway/protocols/modem_clock.h"
+#include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {

@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/nmea.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
 
 #include <array>
 

@@ -1,10 +1,8 @@
-#include "clients/modem_gateway/protocols/micromodem_lbl.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_lbl.h"
 
 namespace halocline::modem_gateway {
 namespace {
 
-// A ping that has no receipt by then was never sent.
-constexpr SimDuration kReceiptWithin = SimDuration::from_milliseconds(15'000);
 // Of the modem that answers a ping (docs/packets.md).
 constexpr SimDuration kTurnaround = SimDuration::from_milliseconds(100);
 

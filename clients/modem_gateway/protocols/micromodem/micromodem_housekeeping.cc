@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/micromodem_housekeeping.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_housekeeping.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
-#include "clients/modem_gateway/protocols/modem_clock.h"
+#include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
 
 namespace halocline::modem_gateway {
 namespace {

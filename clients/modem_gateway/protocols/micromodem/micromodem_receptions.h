@@ -11,7 +11,7 @@
 
 #include "bus/messages.h"
 #include "clients/modem_gateway/protocols/address_book.h"
-#include "clients/modem_gateway/protocols/micromodem_reports.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
 
 namespace halocline::modem_gateway {
 

@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/micromodem_reports.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
 
 #include <algorithm>
 #include <array>

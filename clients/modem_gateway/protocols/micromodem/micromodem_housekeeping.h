@@ -1,8 +1,8 @@
 // The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and those that are only echoed.
 #pragma once
 
-#include "clients/modem_gateway/protocols/micromodem_core.h"
-#include "clients/modem_gateway/protocols/nmea.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "core/sim_time.h"
 

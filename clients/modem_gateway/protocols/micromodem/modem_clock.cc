@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/modem_clock.h"
+#include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
 
 #include <chrono>
 #include <cstddef>

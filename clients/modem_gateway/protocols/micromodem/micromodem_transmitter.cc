@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/micromodem_transmitter.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_transmitter.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/s2c_reader.h"
+#include "clients/modem_gateway/protocols/s2c/s2c_reader.h"
 
 #include <algorithm>
 #include <array>

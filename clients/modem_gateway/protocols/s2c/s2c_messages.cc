@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/s2c_messages.h"
+#include "clients/modem_gateway/protocols/s2c/s2c_messages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,8 @@ constexpr double kSensitivity_db = 190, kGoodIntegrity = 100, kIntegrityPerDb = 
 
 std::int64_t microseconds(double seconds) { return std::llround(seconds * 1e6); }
 
-S2cQuality quality(const S2cCore& core, double duration_s, double level_db, double sinr_db, double doppler_factor) {
+S2cQuality quality(const S2cCore& core, double duration_s, double level_db, double sinr_db,
+                   double doppler_factor) {
   return {microseconds(duration_s), std::lround(level_db - kSensitivity_db),
           std::lround(std::clamp(kGoodIntegrity + kIntegrityPerDb * sinr_db, 0.0, 255.0)),
           static_cast<double>(core.setting("!CA")) * (doppler_factor - 1)};
@@ -30,17 +31,20 @@ std::string protocol_field(const S2cCore& core, const S2cPayload& payload) {
 std::string burst_message(const S2cCore& core, const modem_receive_t& packet, const S2cPayload& payload,
                           const S2cQuality& q) {
   const double bits = 8 * static_cast<double>(packet.payload.size());
-  return fmt::format("RECV,{}{},{},{},{:.0f},{},{},{},{:.4f},", protocol_field(core, payload), payload.bytes.size(),
-                     core.address_of(packet.source_id), core.address_of(packet.destination_id),
+  return fmt::format("RECV,{}{},{},{},{:.0f},{},{},{},{:.4f},", protocol_field(core, payload),
+                     payload.bytes.size(), core.address_of(packet.source_id),
+                     core.address_of(packet.destination_id),
                      packet.duration_s > 0 ? bits / packet.duration_s : 0, q.rssi, q.integrity,
                      microseconds(packet.travel_time_s), q.velocity_mps);
 }
 
 std::string instant_message(const S2cCore& core, const modem_receive_t& packet, const S2cPayload& payload,
                             const S2cQuality& q) {
-  const std::string head = fmt::format("{}{},{},{}", protocol_field(core, payload), payload.bytes.size(),
-                                       core.address_of(packet.source_id), core.address_of(packet.destination_id));
-  const std::string tail = fmt::format("{},{},{},{:.4f},", q.duration_us, q.rssi, q.integrity, q.velocity_mps);
+  const std::string head =
+      fmt::format("{}{},{},{}", protocol_field(core, payload), payload.bytes.size(),
+                  core.address_of(packet.source_id), core.address_of(packet.destination_id));
+  const std::string tail =
+      fmt::format("{},{},{},{:.4f},", q.duration_us, q.rssi, q.integrity, q.velocity_mps);
   switch (payload.kind) {
     case S2cKind::kSynchronous:
       return fmt::format("RECVIMS,{},{},{}", head,
@@ -95,7 +99,8 @@ std::string receive_failed(const S2cCore& core, const packet_outcome_t& loss) {
 
 S2cPosition position_message(const S2cCore& core, const S2cFix& fix) {
   const EulerAngles attitude = attitude_of(core.port());
-  const auto bearing = elementary::sin_cos(fix.bearing_rad), elevation = elementary::sin_cos(fix.elevation_rad);
+  const auto bearing = elementary::sin_cos(fix.bearing_rad),
+             elevation = elementary::sin_cos(fix.elevation_rad);
   const double x = elevation.cosine * bearing.sine, y = elevation.cosine * bearing.cosine, z = elevation.sine;
   const Vec3 ned = to_quaternion(attitude) * Vec3(y, x, -z);
   const double now_s = core.now().seconds(), measured_s = static_cast<double>(fix.measured_us) / 1e6;

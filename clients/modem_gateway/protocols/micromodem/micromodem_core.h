@@ -9,11 +9,11 @@
 
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"
-#include "clients/modem_gateway/protocols/micromodem_receptions.h"
-#include "clients/modem_gateway/protocols/micromodem_reports.h"
-#include "clients/modem_gateway/protocols/micromodem_settings.h"
-#include "clients/modem_gateway/protocols/modem_clock.h"
-#include "clients/modem_gateway/protocols/nmea.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_settings.h"
+#include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "core/sim_time.h"
 

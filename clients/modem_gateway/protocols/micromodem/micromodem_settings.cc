@@ -1,4 +1,4 @@
-#include "clients/modem_gateway/protocols/micromodem_settings.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_settings.h"
 
 #include <limits>
 

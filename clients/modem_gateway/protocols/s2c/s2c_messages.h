@@ -10,7 +10,7 @@
 #include <string>
 
 #include "bus/messages.h"
-#include "clients/modem_gateway/protocols/s2c_core.h"
+#include "clients/modem_gateway/protocols/s2c/s2c_core.h"
 
 namespace halocline::modem_gateway {
 
@@ -24,7 +24,7 @@ S2cQuality quality_of(const S2cCore& core, const packet_outcome_t& loss);
 
 // RECVIM, RECVIMS, RECVPBM or RECV, by rate and kind of the packet.
 std::string received_message(const S2cCore& core, const modem_receive_t& packet);
-std::string receive_end(const S2cCore& core, const modem_receive_t& packet);     // RECVEND
+std::string receive_end(const S2cCore& core, const modem_receive_t& packet);    // RECVEND
 std::string receive_failed(const S2cCore& core, const packet_outcome_t& loss);  // RECVFAILED
 
 // A position by the USBL: where a packet came from, and how far from there.
