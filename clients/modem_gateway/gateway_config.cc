@@ -52,6 +52,12 @@ std::int32_t id_of(const GatewayConfig& config, const std::string& name) {
   return found->id;
 }
 
+std::string kinds_text() {
+  std::string text;
+  for (const std::string& kind : protocol_kinds()) text += (text.empty() ? "" : ", ") + kind;
+  return text;
+}
+
 void visit_door(ConfigVisitor& v, DoorConfig& door) {
   v.text("vehicle", door.vehicle, {}, "name of the vehicle whose modem it is");
   v.text("kind", door.kind, protocol_kinds(), "whose protocol it speaks");
@@ -66,6 +72,7 @@ void visit_door(ConfigVisitor& v, DoorConfig& door) {
 void check_door(ConfigVisitor& v, const GatewayConfig& config, std::size_t i) {
   const DoorConfig& door = config.doors[i];
   bus::report_refusal(v, "vehicle", [&] { id_of(config, door.vehicle); });
+  if (door.kind.empty()) return v.problem("kind", "it must be given: one of " + kinds_text());
   bus::report_refusal(v, "options", [&] { check_options(door); });
   bus::report_refusal(v, "addresses", [&] { check_addresses(config, door); });
   for (std::size_t other = 0; other < i; ++other) {
@@ -117,12 +124,7 @@ void visit(ConfigVisitor& v, GatewayConfig& config) {
       });
   v.list(
       "door", "A front door: the modem of a vehicle as a real one (halocline-modem-gateway)",
-      config.doors.size(),
-      [&](std::size_t n) {
-        config.doors.resize(
-            n,
-            {.vehicle = {}, .kind = protocol_kinds().front(), .place = {}, .addresses = {}, .options = {}});
-      },
+      config.doors.size(), [&](std::size_t n) { config.doors.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_door(item, config.doors[i]); });
   if (v.writing()) return;
   // Once all names are known.

@@ -147,11 +147,11 @@ class Ahoi : public Protocol {
   void obey(ClientId client, const AhoiFrame& frame) {
     if (frame.type == kConfirmation) return;
     port_.write(client, encoded({address_of(vehicle_id_), kAll, kConfirmation, 0, frame.number, {}}));
-    if (frame.type > kAcknowledgement)
-      port_.write(client,
-                  encoded({address_of(vehicle_id_), kAll, frame.type, 0, frame.number, answer_to(frame)}));
-    else if (frame.type < kAcknowledgement)
-      send(frame);
+    if (frame.type < kAcknowledgement) return send(frame);
+    if (frame.type == kAcknowledgement) return;
+    AhoiFrame answer{0, kAll, frame.type, 0, frame.number, answer_to(frame)};
+    answer.source = address_of(vehicle_id_);  // which the command may have set
+    port_.write(client, encoded(answer));
   }
 
   void send(const AhoiFrame& frame) {

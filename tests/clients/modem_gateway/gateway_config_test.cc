@@ -58,16 +58,18 @@ TEST(GatewayConfig, EachMistakeIsNamedWithItsLineAndWhatIsAllowed) {
   const std::string errors = errors_of(R"(
 [[door]]
 vehicle = "nobody"
+kind = "nm3"
 place = "udp:1"
 options = "colour=red"
 addresses = "auv-1=x"
 )");
-  EXPECT_THAT(errors, HasSubstr("test.toml:11: door[0].place"));
+  EXPECT_THAT(errors, HasSubstr("test.toml:12: door[0].place"));
   EXPECT_THAT(errors, HasSubstr("name of a vehicle of the scenario"));
   EXPECT_THAT(errors, HasSubstr("allowed are tcp:PORT"));
   EXPECT_THAT(errors, HasSubstr("allowed are timestamps"));
   EXPECT_THAT(errors, HasSubstr("VEHICLE=ADDRESS"));
   EXPECT_THAT(errors_of("[[door]]\nvehicle = \"buoy\"\nkind = \"fax\"\n"), HasSubstr("nm3"));
+  EXPECT_THAT(errors_of("[[door]]\nvehicle = \"buoy\"\n"), HasSubstr("must be given"));
 }
 
 TEST(GatewayConfig, TwoDoorsHaveTwoPlaces) {

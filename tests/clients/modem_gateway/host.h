@@ -39,7 +39,8 @@ class Host {
   bool is_open() const { return is_open_; }
   // As much as the other side takes at once.
   void write(std::string_view bytes) const {
-    [[maybe_unused]] const auto written = ::write(file_.get(), bytes.data(), bytes.size());
+    if (send(file_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) return;
+    [[maybe_unused]] const auto written = ::write(file_.get(), bytes.data(), bytes.size());  // a serial line
   }
   // What there is by now.
   std::string read() {

@@ -50,7 +50,7 @@ struct UnetBench : ProtocolBench {
 };
 std::string clazz_of(const json& line) { return line["message"]["clazz"]; }
 const json& data_of(const json& line) { return line["message"]["data"]; }
-json bytes(std::string_view text) { return unet_bytes(as_bytes(text)); }
+json bytes(std::string_view text) { return unet_array(as_bytes(text)); }
 
 TEST(UnetJson, Base64IsThatOfRfc4648) {
   for (const auto& [text, encoded] :

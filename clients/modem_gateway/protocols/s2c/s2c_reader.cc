@@ -20,7 +20,7 @@ struct SendShape {
 constexpr std::array<SendShape, 4> kSendShapes{
     {{"AT*SENDIM", 3}, {"AT*SENDIMS", 3}, {"AT*SENDPBM", 2}, {"AT*SEND", 2}}};
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+bool is_letter(char c) { return c >= 'A' && c <= 'Z'; }
 
 // The head of a command that sends, where `text` has all of it.
 struct SendHead {

@@ -96,7 +96,7 @@ class Unet : public Protocol {
                   {{"type", type},
                    {"rxTime", arrival_us},
                    {"rssi", loss.received_level_db},
-                   {"data", unet_bytes(std::span<const std::uint8_t>())},
+                   {"data", unet_array(std::span<const std::uint8_t>())},
                    {"sender", "phy"}});
   }
 
@@ -293,7 +293,7 @@ class Unet : public Protocol {
                    {"to", address_of(packet.destination_id)},
                    {"protocol", has_header ? payload.front() : 0},
                    {"type", channel_of(packet.rate_number)},
-                   {"data", unet_bytes(payload.subspan(has_header ? 1 : 0))},
+                   {"data", unet_array(payload.subspan(has_header ? 1 : 0))},
                    {"rxTime", packet.arrival_utime},
                    {"rssi", packet.received_level_db},
                    {"snr", packet.snr_db},

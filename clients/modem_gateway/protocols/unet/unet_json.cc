@@ -55,7 +55,7 @@ std::optional<std::vector<std::uint8_t>> unet_bytes(const json& value) {
   return bytes;
 }
 
-json unet_bytes(std::span<const std::uint8_t> bytes) { return {{"clazz", "[B"}, {"data", base64_of(bytes)}}; }
+json unet_array(std::span<const std::uint8_t> bytes) { return {{"clazz", "[B"}, {"data", base64_of(bytes)}}; }
 
 std::string text_of(const json& object, const char* field, const std::string& otherwise) {
   const auto found = object.find(field);

@@ -20,7 +20,7 @@ std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text);
 // bytes for null.
 std::optional<std::vector<std::uint8_t>> unet_bytes(const nlohmann::json& value);
 // As it is sent.
-nlohmann::json unet_bytes(std::span<const std::uint8_t> bytes);
+nlohmann::json unet_array(std::span<const std::uint8_t> bytes);
 
 // A field of an object, where it has the type; otherwise the given value.
 std::string text_of(const nlohmann::json& object, const char* field, const std::string& otherwise = "");

@@ -27,7 +27,7 @@ after(() => {
 });
 
 test('agents and services are found', async () => {
-  const agents = (await one.agents()).map(String);
+  const agents = (await one.agents()).map((agent) => agent.getName());
   for (const name of ['node', 'phy', 'ranging', 'arp', 'uwlink']) assert.ok(agents.includes(name), name);
   const phy = await one.agentForService('org.arl.unet.Services.PHYSICAL');
   assert.equal(phy.getName(), 'phy');
