@@ -5,6 +5,8 @@
 
 #include "bus/channels.h"
 #include "bus/runtime/scenario.h"
+#include "bus/subscription.h"
+#include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 
 namespace halocline::modem_gateway {

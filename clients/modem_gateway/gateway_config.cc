@@ -1,14 +1,19 @@
 #include "clients/modem_gateway/gateway_config.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <arpa/inet.h>
 
+#include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bus/channels.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "core/check.h"
 
 namespace halocline::modem_gateway {

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,7 +24,9 @@
 #include <vector>
 
 #include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/names.h"
 

@@ -10,19 +10,26 @@
 // Received: #B00705hello (source), #U05hello (none). A command may end in T and 14 digits, within the same piece of bytes: send when
 // the counter of the modem, 24 MHz, has come so far. With the option `timestamps` what is received bears the counter at its arrival, T and
 // 10 digits.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -1,6 +1,7 @@
 // A protocol's port that records what the protocol does, and the modem's answers made by hand.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,8 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway::testing {
 

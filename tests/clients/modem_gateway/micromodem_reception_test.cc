@@ -1,4 +1,5 @@
 // The sentences of the Micromodem about what was received, and the commands of single packets.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "clients/modem_gateway/protocols/fields.h"
 #include "core/check.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 #include "tests/clients/modem_gateway/micromodem_bench.h"
 
 namespace halocline::modem_gateway {

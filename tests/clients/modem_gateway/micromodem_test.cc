@@ -1,4 +1,5 @@
 // The sentences of the Micromodem that hosts write, one by one: commands, settings, data cycles.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 #include "tests/clients/modem_gateway/micromodem_bench.h"
 
 namespace halocline::modem_gateway {

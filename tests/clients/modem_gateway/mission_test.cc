@@ -90,11 +90,11 @@ class DoorsOfAMission : public ::testing::Test {
   static void talk(std::size_t i, int second) {
     Conversation& host = *hosts[i];
     const std::string own = std::to_string(i + 1), other = std::to_string(i % 2 == 0 ? i + 2 : i);
-    if (i < 2 && second % 31 == static_cast<int>(15 * i))
+    if (i < 2 && second % 23 == static_cast<int>(11 * i))
       host.write("$CCCYC,0," + own + "," + other + ",1,1,3\r\n");
     if (i < 2 && second % 47 == static_cast<int>(11 + 9 * i))
       host.write("$CCMPC," + own + "," + other + "\r\n");
-    if (i < 2 && second % 53 == static_cast<int>(3 + 5 * i))
+    if (i < 2 && second % 37 == static_cast<int>(3 + 5 * i))
       host.write("$CCMUC," + own + "," + other + ",1ABC\r\n");
     if (i / 2 == 1 && second % 7 == static_cast<int>(i))
       host.write("AT*SENDIM,6," + other + ",ack,a+,b\r\n\n");

@@ -1,5 +1,7 @@
 // What protocols share: addresses, options, fields, lines.
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>

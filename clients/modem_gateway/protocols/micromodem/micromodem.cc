@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@
 
 #include <fmt/format.h>
 
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/line_reader.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
@@ -27,9 +30,11 @@
 #include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_transmitter.h"
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/check.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_settings.h"
 #include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
 
 namespace halocline::modem_gateway {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "bus/messages.h"
 #include "clients/modem_gateway/protocols/protocol.h"

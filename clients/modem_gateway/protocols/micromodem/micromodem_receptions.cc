@@ -8,6 +8,7 @@
 
 #include "clients/modem_gateway/protocols/fields.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -1,6 +1,7 @@
 #include "clients/modem_gateway/protocols/micromodem/micromodem_transmitter.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@
 
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_core.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_messages.h"
@@ -29,6 +31,7 @@
 #include "core/check.h"
 #include "core/elementary.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {

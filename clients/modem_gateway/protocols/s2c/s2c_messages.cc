@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "core/elementary.h"
 #include "core/frames.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {

@@ -1,9 +1,9 @@
 // What an EvoLogics modem writes of a reception, filled from the reception itself.
 //
-//   duration    of the packet, us
-//   rssi        received level less 190 dB: dB re 1 V behind a hydrophone and preamplifier of -190 dB re 1 V/uPa
-//   integrity   100 + 3 SINR in dB, 0 to 255; above 100 is good
-//   velocity    c (f_rx / f_tx - 1), m/s, c the setting !CA
+// - duration: of the packet, us
+// - rssi: received level less 190 dB: dB re 1 V behind a hydrophone and preamplifier of -190 dB re 1 V/uPa
+// - integrity: 100 + 3 SINR in dB, 0 to 255; above 100 is good
+// - velocity: c (f_rx / f_tx - 1), m/s, c the setting !CA
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "clients/modem_gateway/protocols/s2c/s2c_core.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_reader.h"

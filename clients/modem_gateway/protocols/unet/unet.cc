@@ -11,8 +11,10 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,13 +24,16 @@
 #include <nlohmann/json.hpp>
 
 #include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/fields.h"
 #include "clients/modem_gateway/protocols/line_reader.h"
+#include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "clients/modem_gateway/protocols/unet/unet_hosts.h"
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
 #include "clients/modem_gateway/protocols/unet/unet_parameters.h"
 #include "core/names.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {

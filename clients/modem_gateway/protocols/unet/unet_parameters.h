@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
 
