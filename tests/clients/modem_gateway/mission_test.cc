@@ -170,8 +170,8 @@ TEST_F(DoorsOfAMission, MicromodemsReportEachReceptionOnceAndEachLossOnce) {
 TEST_F(DoorsOfAMission, MicromodemsDeliverThreeFramesAndAcknowledgeThem) {
   EXPECT_GT(hosts[1]->count("$CARXD,1,2,1,3,000A0D2B2CFF"), 5u);
   EXPECT_GT(hosts[0]->count("$CAACK,2,1,3,1"), 5u);
-  EXPECT_GT(hosts[1]->count("$CAMUA,1,2,1ABC"), 3u);
-  EXPECT_GT(hosts[0]->count("$CAMPR,2,1,"), 3u);
+  EXPECT_GT(hosts[1]->count("$CAMUA,1,2,1ABC"), 1u);
+  EXPECT_GT(hosts[0]->count("$CAMPR,2,1,"), 1u);
 }
 
 // The clocks were set, pulses are whole seconds, and transmissions start on them. 1000 m are 0.66667 s.
