@@ -8,6 +8,7 @@
 #include "bus/subscription.h"
 #include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/protocols.h"
+#include "core/check.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -178,8 +179,13 @@ void Door::write(ClientId client, std::string_view bytes) {
 
 std::int64_t Door::send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                         clients::SendOptions options) {
-  return modem_.send(now_.steady, whole_microsecond_from(std::max(start, now_.sim)), destination, payload,
-                     std::move(options));
+  try {
+    return modem_.send(now_.steady, whole_microsecond_from(std::max(start, now_.sim)), destination, payload,
+                       std::move(options));
+  } catch (const InvalidArgument& problem) {
+    note("send-impossible", problem.what());
+    return kNotSent;
+  }
 }
 
 void Door::note(std::string_view event, std::string_view details) {

@@ -26,6 +26,8 @@ namespace halocline::modem_gateway {
 using ClientId = std::int64_t;
 inline constexpr ClientId kAllClients = 0;
 
+// In the place of a packet_sequence.
+inline constexpr std::int64_t kNotSent = -1;
 // A packet without a receipt by then was never sent.
 inline constexpr SimDuration kReceiptWithin = SimDuration::from_milliseconds(15'000);
 // The channel server refuses transmissions that are further ahead than ten seconds.
@@ -41,7 +43,7 @@ class ProtocolPort {
   // To one host, or to all that are connected. What does not fit into the buffer of a host that does not read is dropped whole.
   virtual void write(ClientId client, std::string_view bytes) = 0;
   // Sends a packet at `start`, or now where that has passed; returns its packet_sequence, which its receipt, events and answers bear.
-  // `payload` and `options`: as ModemClient::send, which throws InvalidArgument for what no modem sends.
+  // `payload` and `options`: as ModemClient::send. kNotSent, and no receipt, for what no modem sends.
   virtual std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                             clients::SendOptions options) = 0;
   // Whether (session, packet_sequence) names a packet of this door.

@@ -83,6 +83,15 @@ TEST_F(GatewayNodeTest, IsDueAtOnceWhenAHostHasWritten) {
       work_until([&] { node_.note_due_changed(); }, [&] { return node_.due().sim == SimTime::at_once(); }));
 }
 
+TEST_F(GatewayNodeTest, WhatNoModemSendsIsNotSentAndHarmsNothing) {
+  Host host(node_.place_of(0));
+  host.write("$P000$U00002ab$M00002ab");
+  EXPECT_EQ(read(host, 19), "$P000\r\n$U00002\r\nE\r\n");
+  host.write("$?");
+  EXPECT_EQ(read(host, 13), "#A001V52429\r\n");
+  for (const auto& send : server_.sends) EXPECT_NE(send.destination_id, 0);
+}
+
 TEST_F(GatewayNodeTest, HostsThatMisbehaveDisturbNobodyElse) {
   Host good(node_.place_of(1));
   Host garbage(node_.place_of(0)), half(node_.place_of(0)), deaf(node_.place_of(0));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <functional>
 #include <string>
@@ -39,7 +40,7 @@ class Host {
   bool is_open() const { return is_open_; }
   // As much as the other side takes at once.
   void write(std::string_view bytes) const {
-    if (send(file_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0) return;
+    if (send(file_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0 || errno != ENOTSOCK) return;
     [[maybe_unused]] const auto written = ::write(file_.get(), bytes.data(), bytes.size());  // a serial line
   }
   // What there is by now.

@@ -147,7 +147,7 @@ TEST(Micromodem, AnotherIsAskedForDataByACyclePacketAndAsksItsHost) {
   modem_receive_t request =
       sender.packet_from(5, 1, asker.port.sent[0].payload, modem_receive_t::MINI_PACKET);
   EXPECT_THAT(sender.hear(request),
-              ElementsAre("CARXP,0", "CACYC,1,2,3,1,1,3", StartsWith("CACST,"), "CADRQ,000140,2,3,1,64,1"));
+              ElementsAre("CARXP,0", "CACYC,0,2,3,1,1,3", StartsWith("CACST,"), "CADRQ,000140,2,3,1,64,1"));
 }
 
 TEST(Micromodem, ATransmissionStartsOnAWholeSecondWhereSynchronised) {
@@ -184,6 +184,13 @@ TEST(Micromodem, RangesToTranspondersOneAfterTheOther) {
   EXPECT_EQ(bench.port.sent.back().destination, 12);
   EXPECT_THAT(bench.hear(bench.answer_from(12, modem_receive_t::PING_REPLY, 0.25)),
               ElementsAre(StartsWith("SNTTA,,0.1250,,,")));
+}
+
+TEST(Micromodem, RangingToNobodyEndsWithItsTimeOut) {
+  Bench bench;
+  bench.say("CCPDT,1,1,0,0,1500,1,1,1,1");
+  EXPECT_THAT(bench.after(1.4), IsEmpty());
+  EXPECT_THAT(bench.after(0.2), ElementsAre("SNTTA,,,,,000141.50"));
 }
 
 TEST(Micromodem, EchoesTheRest) {

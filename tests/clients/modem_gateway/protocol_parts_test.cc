@@ -19,6 +19,7 @@ TEST(AddressBook, AVehicleHasItsIdUntilItIsGivenAnAddress) {
   AddressBook book;
   EXPECT_EQ(book.vehicle_of(3), 3);
   EXPECT_EQ(book.address_of(3), 3);
+  EXPECT_EQ(book.vehicle_of(0), AddressBook::kNobody);
   book.assign(3, 12);
   EXPECT_EQ(book.vehicle_of(12), 3);
   EXPECT_EQ(book.address_of(3), 12);

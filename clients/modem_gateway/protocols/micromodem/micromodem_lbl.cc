@@ -1,5 +1,7 @@
 #include "clients/modem_gateway/protocols/micromodem/micromodem_lbl.h"
 
+#include <algorithm>
+
 namespace halocline::modem_gateway {
 namespace {
 
@@ -12,7 +14,13 @@ void MicromodemLbl::start(const Asked& asked, SimDuration timeout) {
   asked_ = asked;
   times_ = {};
   timeout_ = timeout;
-  ask_from(0);
+  const bool asks =
+      std::any_of(asked.begin(), asked.end(), [](const auto& vehicle) { return vehicle.has_value(); });
+  if (asks) return ask_from(0);
+  // Nobody answers: done after the time-out.
+  place_ = kTransponders - 1;
+  sequence_ = kNotSent;
+  until_ = port_.now() + timeout;
 }
 
 void MicromodemLbl::ask_from(std::size_t place) {

@@ -122,7 +122,7 @@ std::optional<CyclePacket> cycle_in(const std::vector<std::uint8_t>& payload, st
   const unsigned bits = static_cast<unsigned>(payload[0]) << 8 | payload[1];
   CyclePacket packet;
   packet.asks_for_data = (bits >> 11 & 1) != 0;
-  packet.cycle = {packet.asks_for_data ? 1 : 0,
+  packet.cycle = {0,
                   packet.asks_for_data ? addressee : sender,
                   packet.asks_for_data ? std::int64_t{bits >> 7 & 15} : addressee,
                   bits >> 4 & 7,

@@ -107,6 +107,7 @@ void MicromodemTransmitter::on_receipt(const modem_receipt_t& receipt) {
   const auto found = sent_.find(receipt.packet_sequence);
   if (found == sent_.end()) return;
   OnItsWay& sent = found->second;
+  sent.has_receipt = true;
   sent.is_accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
                      receipt.receipt_result == modem_receipt_t::QUEUED;
   sent.begins = sent.is_accepted ? SimTime::from_utime(receipt.start_utime) : core_.now();
@@ -139,8 +140,16 @@ void MicromodemTransmitter::step() {
                               cycle_->frame_bytes.size() + 1));
     cycle_.reset();
   }
-  for (auto it = sent_.begin(); it != sent_.end();)
-    it = advance(it->second) ? std::next(it) : sent_.erase(it);
+  for (auto it = sent_.begin(); it != sent_.end();) {
+    if (advance(it->second)) {
+      ++it;
+      continue;
+    }
+    // A cycle packet that had no receipt: nothing came of the cycle.
+    const bool is_unanswered = it->second.transmission.packet == Kind::kCycle && !it->second.has_receipt;
+    if (is_unanswered && cycle_ && cycle_->is_complete) cycle_.reset();
+    it = sent_.erase(it);
+  }
 }
 
 // Writes what has happened to it by now; false when it may be forgotten.

@@ -65,7 +65,7 @@ class MicromodemTransmitter {
     Transmission transmission;
     TransmissionReport report;
     SimTime begins = SimTime::never(), ends = SimTime::never(), forgotten = SimTime::never();
-    bool is_accepted = false;
+    bool has_receipt = false, is_accepted = false;
   };
 
   // When the cycle is given up for want of data; never() without one.

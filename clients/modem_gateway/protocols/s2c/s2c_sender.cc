@@ -18,6 +18,8 @@ constexpr SimDuration kBusyWait = SimDuration::from_milliseconds(200);
 // The channel's turnaround and an acknowledgement of one byte (docs/packets.md; models/modems/s2c-im.toml), and a little more.
 constexpr SimDuration kAfterAck = SimDuration::from_milliseconds(100 + 173 + 27);
 constexpr std::size_t kMaxInstant = 64;
+// Longer than any packet: a burst of 1024 bytes takes 1.4 s.
+constexpr SimDuration kLongestPacket = SimDuration::from_milliseconds(5000);
 
 const char* name_of(S2cMessage::Type type) {
   switch (type) {
@@ -133,7 +135,7 @@ void S2cSender::begin(std::optional<OnItsWay>& place, S2cMessage message, SimTim
   place = OnItsWay{std::move(message), -1, core_.setting(is_burst ? "!RC" : "!RI"), start};
   OnItsWay& sent = *place;
   if (start >= core_.now() &&
-      (!is_receiving_ || is_burst || sent.message.payload.kind == S2cKind::kForced || start > core_.now()))
+      (!is_receiving() || is_burst || sent.message.payload.kind == S2cKind::kForced || start > core_.now()))
     return transmit(sent);
   // Told by step(), after the answer to the command.
   sent.until = core_.now();
@@ -204,8 +206,8 @@ void S2cSender::on_ack(const modem_receive_t& ack) {
 void S2cSender::note_propagation(double one_way_s) { propagation_us_ = std::llround(one_way_s * 1e6); }
 
 void S2cSender::on_event(const modem_event_t& event) {
-  if (event.modem_event == modem_event_t::PACKET_DETECTED) is_receiving_ = true;
-  if (event.modem_event == modem_event_t::PACKET_ENDED) is_receiving_ = false;
+  if (event.modem_event == modem_event_t::PACKET_DETECTED) receiving_until_ = core_.now() + kLongestPacket;
+  if (event.modem_event == modem_event_t::PACKET_ENDED) receiving_until_ = core_.now();
 }
 
 void S2cSender::on_acknowledged(const modem_receive_t& packet) {
@@ -231,7 +233,7 @@ void S2cSender::finish(std::optional<OnItsWay>& place, bool delivered) {
 void S2cSender::next_burst() {
   burst_due_ = SimTime::never();
   if (burst_ || bursts_.empty()) return;
-  if (is_receiving_ || instant_) {
+  if (is_receiving() || instant_) {
     burst_due_ = core_.now() + kBusyWait;
     return;
   }

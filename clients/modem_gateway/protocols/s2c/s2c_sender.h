@@ -64,6 +64,7 @@ class S2cSender {
     SimTime start, ends = SimTime::never(), until = SimTime::never();
   };
 
+  bool is_receiving() const { return core_.now() < receiving_until_; }
   void transmit(OnItsWay& sent);
   void begin(std::optional<OnItsWay>& place, S2cMessage message, SimTime start);
   std::optional<OnItsWay>* place_of(std::int64_t sequence);
@@ -79,7 +80,7 @@ class S2cSender {
   std::optional<S2cMessage> waiting_piggy_back_;
   std::deque<S2cMessage> bursts_;
   SimTime burst_due_ = SimTime::never();
-  bool is_receiving_ = false;
+  SimTime receiving_until_;  // of a packet that was detected, at the latest
   std::int64_t bursts_done_ = 0, propagation_us_ = 0;
   std::int32_t last_address_ = 0;
 };
