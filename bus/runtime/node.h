@@ -92,6 +92,9 @@ class Node {
   // due() keeps what it was until a message that may advance it, or a call of the runner; this says that something else has
   // changed it.
   void note_due_changed() { known_due_.reset(); }
+  // A file descriptor that is readable when the node has something to do besides messages and its due time; -1: none. A runner in real
+  // time watches it and calls note_due_changed().
+  virtual int ready_file() const { return -1; }
   // Rethrows what a handler threw; computes and publishes all that is due; then STATUS when a second has
   // passed.
   void step(const Now& now);

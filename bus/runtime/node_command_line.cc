@@ -50,6 +50,8 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   for (const ProgramOption& option : program.options) {
     if (option.flag != nullptr) {
       app.add_flag(option.name, *option.flag, option.help);
+    } else if (option.values != nullptr) {
+      app.add_option(option.name, *option.values, option.help)->take_all()->allow_extra_args(false);
     } else {
       app.add_option(option.name, *option.value, option.help);
     }

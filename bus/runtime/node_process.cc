@@ -1,6 +1,7 @@
 #include "bus/runtime/node_process.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -162,22 +163,22 @@ bool stop_requested() { return stop_signal_seen; }
 bool interrupt_requested() { return interrupt_seen; }
 
 // The signals are let in only while sleeping, so that none slips by between the check and the sleep.
-bool wait_for_bus(lcm::LCM& lcm, SimTime wake) {
+Readable wait_for_bus(lcm::LCM& lcm, SimTime wake, int other_file) {
   const SimDuration left = std::min(std::max(wake, steady_now()) - steady_now(), kLongestSleep);
-  pollfd bus{lcm.getFileno(), POLLIN, 0};
+  std::array<pollfd, 2> files{{{lcm.getFileno(), POLLIN, 0}, {other_file, POLLIN, 0}}};  // below 0: ignored
   sigset_t blocked, before;
   sigemptyset(&blocked);
   sigaddset(&blocked, SIGINT);
   sigaddset(&blocked, SIGTERM);
   sigprocmask(SIG_BLOCK, &blocked, &before);
   const timespec timeout{0, stop_requested() ? 0 : std::max<long>(left.nanoseconds(), 0)};
-  const bool has_something = ppoll(&bus, 1, &timeout, &before) > 0;
+  const bool any = ppoll(files.data(), files.size(), &timeout, &before) > 0;
   sigprocmask(SIG_SETMASK, &before, nullptr);
-  return has_something;
+  return {any && files[0].revents != 0, any && files[1].revents != 0};
 }
 
 void wait_and_dispatch(lcm::LCM& lcm, SimTime wake) {
-  if (!wait_for_bus(lcm, wake)) return;
+  if (!wait_for_bus(lcm, wake).bus) return;
   lcm.handle();
   pollfd bus{lcm.getFileno(), POLLIN, 0};
   for (int i = 1; i < kMaxMessagesPerTurn && poll(&bus, 1, 0) > 0; ++i) lcm.handle();
@@ -221,7 +222,9 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
   while (!should_stop()) {
     if (filter != nullptr) filter->follow(&node.receives(), time.receives());
     const SimTime wake = wake_time(node, time);
-    if (wait_for_bus(lcm, wake)) {
+    const Readable readable = wait_for_bus(lcm, wake, node.ready_file());
+    if (readable.other) node.note_due_changed();
+    if (readable.bus && !readable.other) {
       const SimTime steady = steady_now();
       sleep_for(std::min(batches.wait_at(steady), std::max(wake, steady) - steady));
     }

@@ -32,6 +32,7 @@ struct ProgramOption {
   // Of a text that stands for keys of the scenario: its settings ("section.key=value"). Throws InvalidArgument that
   // names what is allowed.
   std::function<std::vector<std::string>(const std::string& value)> settings = nullptr;
+  std::vector<std::string>* values = nullptr;  // of a text that may be given repeatedly
 };
 
 struct NodeProgram {
@@ -79,9 +80,13 @@ void catch_stop_signals();
 bool stop_requested();       // either came
 bool interrupt_requested();  // SIGINT came: Ctrl-C
 
-// Sleeps until the bus has something, `wake` (steady) has come, a stop signal, or a tenth of a second has passed.
-// Returns whether the bus has something.
-bool wait_for_bus(lcm::LCM& lcm, SimTime wake);
+// Sleeps until the bus has something or `other_file` is readable (-1: none), `wake` (steady) has come, a stop signal, or a tenth of a
+// second has passed. Returns what is readable.
+struct Readable {
+  bool bus = false;
+  bool other = false;
+};
+Readable wait_for_bus(lcm::LCM& lcm, SimTime wake, int other_file = -1);
 // Dispatches what the bus has delivered, up to a bound, so that a flood cannot keep a process from its work. Returns how many messages.
 int dispatch_waiting(lcm::LCM& lcm);
 

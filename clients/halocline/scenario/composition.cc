@@ -13,6 +13,7 @@
 #include "clients/examples/networks/network_node.h"
 #include "clients/halocline/scenario/scenario_checks.h"
 #include "clients/localiser/localiser_node.h"
+#include "clients/modem_gateway/gateway_node.h"
 #include "clients/traffic/traffic_node.h"
 #include "conductor/conductor_node.h"
 #include "core/check.h"
@@ -63,6 +64,7 @@ void visit(bus::ConfigVisitor& v, ScenarioConfig& config) {
   visit(v, config.traffic);
   visit(v, config.localiser);
   networks::visit(v, config.network);
+  modem_gateway::visit(v, config.gateway);
 }
 
 namespace {
@@ -134,6 +136,8 @@ std::string commented_toml() {
   config.traffic.vehicles.resize(1);
   config.localiser.vehicles.resize(1);
   config.network.members.resize(1);
+  config.gateway.doors.resize(1);
+  config.gateway.doors[0] = {"auv-1", 1, "nm3", modem_gateway::place_of("tcp:9600"), "", ""};
   return bus::to_toml([&](bus::ConfigVisitor& v) { visit(v, config); }, /*with_comments=*/true);
 }
 
@@ -167,6 +171,7 @@ Composition::Composition(lcm::LCM& lcm, const ScenarioConfig& config, Kind kind,
     if (config.network.rules.mac != networks::MacKind::kNone)
       add<networks::NetworkNode>(bus::Stage::kTraffic, "network", config.network, config.scenario.seed);
     add<LocaliserNode>(bus::Stage::kClients, "localiser", config.localiser);
+    add_gateway(config);
   }
   add_channel_servers(config);
 }
@@ -178,6 +183,15 @@ void Composition::add_vehicle_sims(const ScenarioConfig& config) {
     const auto [scenario, own] = part_of_block(config.scenario, all);
     add<vehicle_sim::VehicleSimNode>(bus::Stage::kVehicles, node_name_of(all.block), scenario, own, seabed);
   }
+}
+
+void Composition::add_gateway(const ScenarioConfig& config) {
+  if (config.gateway.doors.empty()) return;
+  modem_gateway::GatewayConfig gateway = config.gateway;
+  gateway.origin_latitude_deg = config.scenario.origin_latitude_deg;
+  gateway.origin_longitude_deg = config.scenario.origin_longitude_deg;
+  add<modem_gateway::GatewayNode>(bus::Stage::kClients, "modem-gateway", gateway,
+                                  modem_gateway::GatewayNode::kLockstepPeriod);
 }
 
 void Composition::add_channel_servers(const ScenarioConfig& config) {

@@ -20,6 +20,7 @@
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/examples/networks/network_config.h"
 #include "clients/localiser/localiser_config.h"
+#include "clients/modem_gateway/gateway_config.h"
 #include "clients/traffic/traffic_config.h"
 #include "vehicle_sim/vehicle_sim_config.h"
 
@@ -34,8 +35,9 @@ struct ScenarioConfig {
   AutopilotConfig autopilot;
   TrafficConfig traffic;
   LocaliserConfig localiser;
-  networks::NetworkConfig network;  // an example client; runs where it names a protocol
-  std::string folder = ".";         // where relative paths of the file start
+  networks::NetworkConfig network;       // an example client; runs where it names a protocol
+  modem_gateway::GatewayConfig gateway;  // runs where there are doors
+  std::string folder = ".";              // where relative paths of the file start
 };
 
 void visit(bus::ConfigVisitor& v, ScenarioConfig& config);
@@ -88,6 +90,7 @@ class Composition {
   template <class NodeType, class... Arguments>
   void add(bus::Stage stage, const std::string& name, Arguments&&... arguments);
   void add_vehicle_sims(const ScenarioConfig& config);
+  void add_gateway(const ScenarioConfig& config);
   void add_channel_servers(const ScenarioConfig& config);
 
   lcm::LCM& lcm_;

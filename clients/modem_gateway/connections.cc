@@ -1,0 +1,187 @@
+#include "clients/modem_gateway/connections.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include <poll.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "core/check.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+// Epoll's mark of a door; that of a host is its number.
+constexpr std::uint64_t kDoorMark = std::uint64_t{1} << 63;
+constexpr int kMaxEvents = 256;
+
+bool is_over(ssize_t result) {
+  return result == 0 || (result < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR);
+}
+
+}  // namespace
+
+Connections::Connections() : epoll_(epoll_create1(EPOLL_CLOEXEC)) { ensure(epoll_.get() >= 0, "no epoll"); }
+
+void Connections::watch(int operation, int fd, std::uint64_t mark, std::uint32_t events) const {
+  epoll_event event{};
+  event.events = events;
+  event.data.u64 = mark;
+  epoll_ctl(epoll_.get(), operation, fd, &event);
+}
+
+std::size_t Connections::add(const Place& place) {
+  Door door{place, place.is_tcp ? listen_tcp(place) : open_pty(place.path)};
+  if (place.is_tcp) {
+    watch(EPOLL_CTL_ADD, door.listening.get(), kDoorMark | doors_.size(), EPOLLIN);
+    door.place.port = port_of(door.listening);
+  } else {
+    door.is_waiting_pty = true;
+    next_look_ = SimTime();
+  }
+  doors_.push_back(std::move(door));
+  return doors_.size() - 1;
+}
+
+std::string Connections::place_of(std::size_t door) const { return doors_.at(door).place.text(); }
+
+int Connections::file_of(const Client& client) const {
+  return client.connection.get() >= 0 ? client.connection.get() : doors_[client.door].listening.get();
+}
+
+bool Connections::is_ready() const {
+  pollfd ready{epoll_.get(), POLLIN, 0};
+  return poll(&ready, 1, 0) > 0;
+}
+
+std::vector<Connections::Input> Connections::take(SimTime steady) {
+  std::vector<Input> inputs;
+  if (steady >= next_look_) look_at_ptys(steady, inputs);
+  std::array<epoll_event, kMaxEvents> events{};
+  const int count = epoll_wait(epoll_.get(), events.data(), kMaxEvents, 0);
+  for (int i = 0; i < count; ++i) {
+    const epoll_event& event = events[static_cast<std::size_t>(i)];
+    if ((event.data.u64 & kDoorMark) != 0)
+      accept_all(static_cast<std::size_t>(event.data.u64 & ~kDoorMark), inputs);
+    else
+      serve(static_cast<ClientId>(event.data.u64), event.events, inputs);
+  }
+  return inputs;
+}
+
+void Connections::accept_all(std::size_t door, std::vector<Input>& inputs) {
+  for (;;) {
+    File connection = accept_connection(doors_[door].listening);
+    if (connection.get() < 0) return;
+    if (doors_[door].num_clients < kMaxClients)
+      open(door, std::move(connection), inputs);
+    else
+      ++counters_.turned_away;  // closed at once
+  }
+}
+
+ClientId Connections::open(std::size_t door, File connection, std::vector<Input>& inputs) {
+  const ClientId id = ++last_;
+  Client& client = clients_[id] = {door, std::move(connection), {}};
+  watch(EPOLL_CTL_ADD, file_of(client), static_cast<std::uint64_t>(id), EPOLLIN);
+  ++doors_[door].num_clients;
+  ++counters_.opened;
+  inputs.push_back({door, id, Change::kOpened, {}});
+  return id;
+}
+
+void Connections::look_at_ptys(SimTime steady, std::vector<Input>& inputs) {
+  next_look_ = SimTime::never();
+  for (std::size_t i = 0; i < doors_.size(); ++i) {
+    Door& door = doors_[i];
+    if (!door.is_waiting_pty) continue;
+    if (is_pty_open(door.listening)) {
+      door.is_waiting_pty = false;
+      open(i, File(), inputs);
+    } else {
+      next_look_ = steady + kPtyPeriod;
+    }
+  }
+}
+
+void Connections::serve(ClientId id, std::uint32_t events, std::vector<Input>& inputs) {
+  const auto found = clients_.find(id);
+  if (found == clients_.end()) return;
+  Client& client = found->second;
+  bool is_gone = (events & EPOLLOUT) != 0 && !send_unsent(client);
+  if (!is_gone && (events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) {
+    std::string bytes(kMaxPiece, '\0');
+    const ssize_t size = read(file_of(client), bytes.data(), bytes.size());
+    is_gone = is_over(size);
+    if (size > 0) {
+      bytes.resize(static_cast<std::size_t>(size));
+      counters_.bytes_in += size;
+      inputs.push_back({client.door, id, Change::kBytes, std::move(bytes)});
+    }
+  }
+  if (is_gone) return close(id, inputs);
+  follow_room(id, client);
+}
+
+void Connections::close(ClientId id, std::vector<Input>& inputs) {
+  const auto found = clients_.find(id);
+  const std::size_t number = found->second.door;
+  Door& door = doors_[number];
+  watch(EPOLL_CTL_DEL, file_of(found->second), 0, 0);
+  if (!door.place.is_tcp) {
+    door.is_waiting_pty = true;
+    next_look_ = SimTime();
+  }
+  clients_.erase(found);
+  --door.num_clients;
+  inputs.push_back({number, id, Change::kClosed, {}});
+}
+
+void Connections::write(std::size_t door, ClientId client, std::string_view bytes) {
+  if (client != kAllClients) {
+    const auto found = clients_.find(client);
+    if (found != clients_.end()) write_to(client, found->second, bytes);
+    return;
+  }
+  for (auto& [id, each] : clients_) {
+    if (each.door == door) write_to(id, each, bytes);
+  }
+}
+
+void Connections::write_to(ClientId id, Client& client, std::string_view bytes) {
+  if (client.unsent.size() + bytes.size() > kMaxUnsent) {
+    ++counters_.writes_dropped;
+    return;
+  }
+  client.unsent += bytes;
+  send_unsent(client);  // one that is gone is noticed when it is read
+  follow_room(id, client);
+}
+
+// False when the host is gone.
+bool Connections::send_unsent(Client& client) {
+  while (!client.unsent.empty()) {
+    const bool is_socket = client.connection.get() >= 0;
+    const ssize_t size =
+        is_socket ? send(client.connection.get(), client.unsent.data(), client.unsent.size(), MSG_NOSIGNAL)
+                  : ::write(file_of(client), client.unsent.data(), client.unsent.size());
+    if (size <= 0) return !is_over(size);
+    counters_.bytes_out += size;
+    client.unsent.erase(0, static_cast<std::size_t>(size));
+  }
+  return true;
+}
+
+void Connections::follow_room(ClientId id, Client& client) {
+  const bool wants_room = !client.unsent.empty();
+  if (wants_room == client.watches_room) return;
+  client.watches_room = wants_room;
+  watch(EPOLL_CTL_MOD, file_of(client), static_cast<std::uint64_t>(id),
+        wants_room ? EPOLLIN | EPOLLOUT : EPOLLIN);
+}
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,195 @@
+#include "clients/modem_gateway/door.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bus/channels.h"
+#include "bus/runtime/scenario.h"
+#include "bus/subscription.h"
+#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/protocols.h"
+#include "core/check.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+// A server may be started later.
+constexpr SimDuration kListenPeriod = SimDuration::from_milliseconds(60'000);
+// Losses that wait for their other half, such as OUTCOMEs of packets that were never detected.
+constexpr std::size_t kMaxUnpaired = 64;
+
+template <class Message>
+void keep(std::deque<Message>& kept, const Message& message) {
+  kept.push_back(message);
+  if (kept.size() > kMaxUnpaired) kept.pop_front();
+}
+
+clients::ModemAddress address_of(const bus::Bus& bus, const DoorConfig& door) {
+  const auto entropy = static_cast<std::uint64_t>(bus.identity().session);
+  return {door.vehicle, door.vehicle_id,
+          bus::session_of(entropy, door.vehicle + "=" + door.kind + ":" + door.place.text())};
+}
+
+// Simulation time is exact to the microsecond on the bus: a packet is not to start before it was asked for.
+SimTime whole_microsecond_from(SimTime time) {
+  return SimTime::from_utime((time + SimDuration::from_nanoseconds(499)).to_utime());
+}
+
+}  // namespace
+
+Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway, AddressBook& addresses,
+           Writer writer, Trace trace)
+    : bus_(bus),
+      writer_(std::move(writer)),
+      trace_(std::move(trace)),
+      modem_(bus, address_of(bus, config)),
+      vehicles_(gateway.vehicles),
+      client_name_("door-" +
+                   std::to_string(static_cast<std::uint64_t>(modem_.address().session) % 1'000'000'000'000)) {
+  protocol_ = make_protocol(
+      config.kind, {*this, addresses, config.vehicle_id, DoorOptions(config.options), gateway.vehicles,
+                    gateway.origin_latitude_deg, gateway.origin_longitude_deg});
+  listens_ = protocol_->listening();
+  next_listen_ = listens_ ? SimTime() : SimTime::never();
+  modem_.on_receipt([this](const modem_receipt_t& receipt) { happenings_.emplace_back(receipt); });
+  modem_.on_receive([this](const modem_receive_t& packet) { happenings_.emplace_back(packet); });
+  if (listens_) modem_.on_event([this](const modem_event_t& event) { happenings_.emplace_back(event); });
+  bus.subscribe<vehicle_usbl_t>(bus::channels::kUsbl.of(config.vehicle),
+                                [this](const vehicle_usbl_t& bearing) { happenings_.emplace_back(bearing); });
+  bus.subscribe<vehicle_sensors_t>(
+      bus::channels::kSensors.of(config.vehicle), [this](const vehicle_sensors_t& s) { sensors_ = s; },
+      bus::Wakeup::kStoreOnly);
+  bus.subscribe<vehicle_battery_t>(
+      bus::channels::kBattery.of(config.vehicle), [this](const vehicle_battery_t& b) { battery_ = b; },
+      bus::Wakeup::kStoreOnly);
+  bus.subscribe<link_reply_t>(bus::channels::kLinkReply.of(client_name_), [this](const link_reply_t& reply) {
+    if (reply.request_id == queries_) happenings_.emplace_back(reply);
+  });
+  bus.subscribe<vehicle_state_t>(
+      bus::channels::kState.of(config.vehicle), [this](const vehicle_state_t& s) { state_ = s; },
+      bus::Wakeup::kStoreOnly);
+}
+
+bool Door::ask_paths(std::int32_t from_vehicle) {
+  const auto from = std::find_if(vehicles_.begin(), vehicles_.end(),
+                                 [&](const NamedVehicle& vehicle) { return vehicle.id == from_vehicle; });
+  if (from == vehicles_.end()) return false;
+  link_query_t query{};
+  query.utime = now_.sim.to_utime();
+  query.client_name = client_name_;
+  query.request_id = ++queries_;
+  query.wants_paths = 1;
+  query.num_links = 1;
+  query.transmitters.resize(1);
+  query.receivers.resize(1);
+  query.transmitters[0].vehicle_name = from->name;
+  query.receivers[0].vehicle_name = vehicle();
+  bus_.publish(bus::channels::kLinkQuery, query);
+  return true;
+}
+
+void Door::store(const packet_outcome_t& outcome) {
+  if (outcome.outcome != packet_outcome_t::RECEIVED) happenings_.emplace_back(outcome);
+}
+
+bus::Due Door::due() const {
+  if (!happenings_.empty()) return {.sim = SimTime::at_once()};
+  return {.sim = std::min(next_listen_, protocol_->next()), .steady = modem_.next_resend()};
+}
+
+void Door::begin_step(const bus::Now& now) {
+  now_ = now;
+  if (now.sim_known && now.sim >= next_listen_) {
+    modem_.listen(now.sim, *listens_);
+    next_listen_ = now.sim + kListenPeriod;
+  }
+  for (const Happening& happening : std::exchange(happenings_, {})) hand_over(happening);
+}
+
+void Door::hand_over(const Happening& happening) {
+  if (const auto* receipt = std::get_if<modem_receipt_t>(&happening)) {
+    trace('*', "receipt packet=" + std::to_string(receipt->packet_sequence) +
+                   " result=" + std::to_string(receipt->receipt_result));
+    protocol_->on_receipt(*receipt);
+  } else if (const auto* packet = std::get_if<modem_receive_t>(&happening)) {
+    trace('*', "received source=" + std::to_string(packet->source_id) +
+                   " packet=" + std::to_string(packet->packet_sequence));
+    protocol_->on_packet(*packet);
+  } else if (const auto* bearing = std::get_if<vehicle_usbl_t>(&happening)) {
+    protocol_->on_bearing(*bearing);
+  } else if (const auto* paths = std::get_if<link_reply_t>(&happening)) {
+    protocol_->on_paths(*paths);
+  } else if (const auto* event = std::get_if<modem_event_t>(&happening)) {
+    protocol_->on_event(*event);
+    const bool is_loss = event->modem_event == modem_event_t::PACKET_ENDED &&
+                         event->packet_outcome != packet_outcome_t::RECEIVED;
+    if (is_loss) keep(lost_events_, *event);
+    pair_losses();
+  } else {
+    keep(lost_outcomes_, std::get<packet_outcome_t>(happening));
+    pair_losses();
+  }
+}
+
+// An event and an outcome are of one packet where instant and cause agree: a modem follows one packet at a time.
+void Door::pair_losses() {
+  for (auto event = lost_events_.begin(); event != lost_events_.end();) {
+    const auto outcome =
+        std::find_if(lost_outcomes_.begin(), lost_outcomes_.end(), [&](const packet_outcome_t& o) {
+          return o.utime == event->utime && o.outcome == event->packet_outcome;
+        });
+    if (outcome == lost_outcomes_.end()) {
+      ++event;
+      continue;
+    }
+    ++losses_;
+    trace('*', "lost source=" + std::to_string(outcome->source_id) + " packet=" +
+                   std::to_string(outcome->packet_sequence) + " outcome=" + std::to_string(outcome->outcome));
+    protocol_->on_loss(*outcome);
+    lost_outcomes_.erase(outcome);
+    event = lost_events_.erase(event);
+  }
+}
+
+void Door::on_opened(ClientId client) { protocol_->on_opened(client); }
+
+void Door::on_bytes(ClientId client, std::string_view bytes) {
+  trace('<', bytes);
+  protocol_->on_bytes(client, bytes);
+}
+
+void Door::on_closed(ClientId client) { protocol_->on_closed(client); }
+
+void Door::end_step() {
+  if (now_.sim_known && now_.sim >= protocol_->next()) protocol_->step();
+  modem_.resend(now_.steady);
+}
+
+void Door::restart() {
+  happenings_.clear();
+  lost_events_.clear();
+  lost_outcomes_.clear();
+  next_listen_ = listens_ ? SimTime() : SimTime::never();
+}
+
+void Door::write(ClientId client, std::string_view bytes) {
+  trace('>', bytes);
+  writer_(client, bytes);
+}
+
+std::int64_t Door::send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
+                        clients::SendOptions options) {
+  try {
+    return modem_.send(now_.steady, whole_microsecond_from(std::max(start, now_.sim)), destination, payload,
+                       std::move(options));
+  } catch (const InvalidArgument& problem) {
+    note("send-impossible", problem.what());
+    return kNotSent;
+  }
+}
+
+void Door::note(std::string_view event, std::string_view details) {
+  bus_.log().info(event, "vehicle=" + vehicle() + " " + std::string(details));
+}
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,101 @@
+// One door: a modem of the simulation, its protocol, and what goes between them.
+//
+// Messages of the bus are stored when they come and handed to the protocol in the node's step, in their order. A packet that was detected
+// and lost is reported once its MODEM_EVENT and its OUTCOME, which the channel server publishes one after the other, have both come.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/runtime/node.h"
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/gateway_config.h"
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+
+class Door : private ProtocolPort {
+ public:
+  // To hosts of this door, by Connections.
+  using Writer = std::function<void(ClientId client, std::string_view bytes)>;
+  // Of everything that passes, for a person: `direction` is '<' from a host, '>' to it, '*' of the bus. May be empty.
+  using Trace = std::function<void(char direction, std::string_view text)>;
+
+  // Subscribes on the bus. Throws InvalidArgument for a configuration that makes no door.
+  Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway, AddressBook& addresses,
+       Writer writer, Trace trace);
+
+  const std::string& vehicle() const { return modem_.address().vehicle; }
+  std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }
+
+  // The outcome of a packet at this vehicle.
+  void store(const packet_outcome_t& outcome);
+  bool wants_outcomes() const { return listens_.has_value(); }
+
+  // In a step of the node, in this order: what came from the bus, what hosts did, and what is due.
+  void begin_step(const bus::Now& now);
+  void on_opened(ClientId client);
+  void on_bytes(ClientId client, std::string_view bytes);
+  void on_closed(ClientId client);
+  void end_step();
+
+  bus::Due due() const;
+  // Another run has begun: what was received of the old one is discarded.
+  void restart();
+
+  const clients::ModemCounters& counters() const { return modem_.counters(); }
+  std::int64_t losses() const { return losses_; }
+
+ private:
+  using Happening = std::variant<modem_receipt_t, modem_receive_t, modem_event_t, packet_outcome_t,
+                                 vehicle_usbl_t, link_reply_t>;
+
+  SimTime now() const override { return now_.sim; }
+  void write(ClientId client, std::string_view bytes) override;
+  std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
+                    clients::SendOptions options) override;
+  bool is_own(std::int64_t send_session) const override { return send_session == modem_.address().session; }
+  const vehicle_sensors_t* sensors() const override { return sensors_ ? &*sensors_ : nullptr; }
+  const vehicle_state_t* state() const override { return state_ ? &*state_ : nullptr; }
+  const vehicle_battery_t* battery() const override { return battery_ ? &*battery_ : nullptr; }
+  bool ask_paths(std::int32_t from_vehicle) override;
+  void note(std::string_view event, std::string_view details) override;
+
+  void trace(char direction, std::string_view text) const {
+    if (trace_) trace_(direction, text);
+  }
+  void hand_over(const Happening& happening);
+  void pair_losses();
+
+  bus::Bus& bus_;
+  Writer writer_;
+  Trace trace_;
+  clients::ModemClient modem_;
+  std::unique_ptr<Protocol> protocol_;
+  std::optional<clients::ListenOptions> listens_;
+  SimTime next_listen_;
+  bus::Now now_;
+  std::deque<Happening> happenings_;
+  std::deque<modem_event_t> lost_events_;       // whose outcome has not come
+  std::deque<packet_outcome_t> lost_outcomes_;  // whose event has not come, if one comes
+  std::optional<vehicle_sensors_t> sensors_;
+  std::optional<vehicle_state_t> state_;
+  std::optional<vehicle_battery_t> battery_;
+  std::vector<NamedVehicle> vehicles_;
+  std::string client_name_;  // of queries
+  std::int64_t queries_ = 0;
+  std::int64_t losses_ = 0;
+};
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,87 @@
+#include "clients/modem_gateway/endpoint.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "core/check.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+constexpr int kBacklog = 64;
+
+sockaddr* as_sockaddr(sockaddr_in& address) { return reinterpret_cast<sockaddr*>(&address); }
+
+void require_done(bool done, const std::string& what) { require(done, what + ": " + std::strerror(errno)); }
+
+}  // namespace
+
+File::~File() {
+  if (fd_ >= 0) close(fd_);
+}
+
+File listen_tcp(const Place& place) {
+  File socket_file(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const std::string what = "a door cannot listen at " + place.text();
+  require_done(socket_file.get() >= 0, what);
+  const int yes = 1;
+  setsockopt(socket_file.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(place.port);
+  inet_pton(AF_INET, place.host.c_str(), &address.sin_addr);
+  require_done(bind(socket_file.get(), as_sockaddr(address), sizeof address) == 0, what);
+  require_done(listen(socket_file.get(), kBacklog) == 0, what);
+  return socket_file;
+}
+
+std::uint16_t port_of(const File& listening) {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  getsockname(listening.get(), as_sockaddr(address), &size);
+  return ntohs(address.sin_port);
+}
+
+File accept_connection(const File& listening) {
+  File connection(accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  const int yes = 1;  // answers are short, and a host waits for each
+  if (connection.get() >= 0) setsockopt(connection.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  return connection;
+}
+
+File open_pty(const std::string& path) {
+  int ours = -1, theirs = -1;
+  std::array<char, 128> name{};
+  require_done(openpty(&ours, &theirs, name.data(), nullptr, nullptr) == 0, "no pseudo-terminal for " + path);
+  File pty(ours);
+  const File other(theirs);  // closed again: the terminal stays while ours is open
+  termios settings{};
+  tcgetattr(theirs, &settings);
+  cfmakeraw(&settings);
+  tcsetattr(theirs, TCSANOW, &settings);
+  fcntl(ours, F_SETFL, O_NONBLOCK);
+  fcntl(ours, F_SETFD, FD_CLOEXEC);
+  struct stat there {};
+  if (lstat(path.c_str(), &there) == 0 && S_ISLNK(there.st_mode)) unlink(path.c_str());
+  require_done(symlink(name.data(), path.c_str()) == 0, "a door cannot make the link " + path);
+  return pty;
+}
+
+bool is_pty_open(const File& pty) {
+  pollfd state{pty.get(), POLLIN, 0};
+  return poll(&state, 1, 0) >= 0 && (state.revents & POLLHUP) == 0;
+}
+
+}  // namespace halocline::modem_gateway

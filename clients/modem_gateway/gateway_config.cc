@@ -1,0 +1,159 @@
+#include "clients/modem_gateway/gateway_config.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include <arpa/inet.h>
+
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "clients/modem_gateway/protocols/protocols.h"
+#include "core/check.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+using bus::ConfigVisitor;
+
+constexpr std::string_view kTcp = "tcp:", kPty = "pty:";
+
+// A port to try options on: a protocol does nothing while it is made.
+class NoPort : public ProtocolPort {
+ public:
+  SimTime now() const override { return {}; }
+  void write(ClientId, std::string_view) override {}
+  std::int64_t send(SimTime, std::int32_t, std::span<const std::uint8_t>, clients::SendOptions) override {
+    return 0;
+  }
+  bool is_own(std::int64_t) const override { return false; }
+  const vehicle_sensors_t* sensors() const override { return nullptr; }
+  const vehicle_state_t* state() const override { return nullptr; }
+  const vehicle_battery_t* battery() const override { return nullptr; }
+  bool ask_paths(std::int32_t) override { return false; }
+  void note(std::string_view, std::string_view) override {}
+};
+
+void check_options(const DoorConfig& door) {
+  NoPort port;
+  AddressBook book;
+  make_protocol(door.kind, {port, book, door.vehicle_id, DoorOptions(door.options)});
+}
+
+void check_addresses(const GatewayConfig& config, const DoorConfig& door) {
+  AddressBook book;
+  assign_addresses(book, door.addresses, config.vehicles);
+}
+
+std::int32_t id_of(const GatewayConfig& config, const std::string& name) {
+  const auto found = std::find_if(config.vehicles.begin(), config.vehicles.end(),
+                                  [&](const auto& vehicle) { return vehicle.name == name; });
+  require(found != config.vehicles.end(),
+          "there is no vehicle '" + name + "'; allowed is the name of a vehicle of the scenario");
+  return found->id;
+}
+
+std::string kinds_text() {
+  std::string text;
+  for (const std::string& kind : protocol_kinds()) text += (text.empty() ? "" : ", ") + kind;
+  return text;
+}
+
+void visit_door(ConfigVisitor& v, DoorConfig& door) {
+  v.text("vehicle", door.vehicle, {}, "name of the vehicle whose modem it is");
+  v.text("kind", door.kind, protocol_kinds(), "whose protocol it speaks");
+  std::string place = door.place.text();
+  v.text("place", place, {}, "tcp:PORT on this host alone, tcp:ADDRESS:PORT, or pty:PATH of a serial line");
+  bus::report_refusal(v, "place", [&] { door.place = place_of(place); });
+  v.text("addresses", door.addresses, {},
+         "of modems of this kind: VEHICLE=ADDRESS with blanks between; others have the vehicle's id");
+  v.text("options", door.options, {}, "NAME=VALUE with blanks between (docs/modem_gateway.md)");
+}
+
+void check_door(ConfigVisitor& v, const GatewayConfig& config, std::size_t i) {
+  const DoorConfig& door = config.doors[i];
+  bus::report_refusal(v, "vehicle", [&] { id_of(config, door.vehicle); });
+  if (door.kind.empty()) return v.problem("kind", "it must be given: one of " + kinds_text());
+  bus::report_refusal(v, "options", [&] { check_options(door); });
+  bus::report_refusal(v, "addresses", [&] { check_addresses(config, door); });
+  for (std::size_t other = 0; other < i; ++other) {
+    if (config.doors[other].place == door.place && door.place.text() != "tcp:0")
+      v.problem("place", "another door has this place; allowed is one of its own");
+  }
+}
+
+}  // namespace
+
+std::string Place::text() const {
+  if (!is_tcp) return std::string(kPty) + path;
+  const std::string address = host == Place().host ? "" : host + ":";
+  return std::string(kTcp) + address + std::to_string(port);
+}
+
+Place place_of(std::string_view text) {
+  Place place;
+  std::string_view rest = text.substr(std::min(kTcp.size(), text.size()));
+  const bool is_pty = text.starts_with(kPty) && !rest.empty();
+  bool is_tcp = text.starts_with(kTcp);
+  if (is_pty) {
+    place.is_tcp = false;
+    place.path = rest;
+  } else if (is_tcp) {
+    if (const auto colon = rest.find(':'); colon != std::string_view::npos) {
+      place.host = rest.substr(0, colon);
+      rest.remove_prefix(colon + 1);
+    }
+    in_addr address{};
+    const auto port = integer_in(rest, 0, 65535);
+    is_tcp = port.has_value() && inet_pton(AF_INET, place.host.c_str(), &address) == 1;
+    if (is_tcp) place.port = static_cast<std::uint16_t>(*port);
+  }
+  require(is_pty || is_tcp,
+          "'" + std::string(text) +
+              "' is no place; allowed are tcp:PORT (0 to 65535), tcp:ADDRESS:PORT with an IPv4 "
+              "address, and pty:PATH");
+  return place;
+}
+
+void visit(ConfigVisitor& v, GatewayConfig& config) {
+  v.list(
+      "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) {
+        item.shared_with_others();
+        item.text("name", config.vehicles[i].name, {}, "");
+        bus::integer_as(item, "id", config.vehicles[i].id, {1, 2147483647, "", ""});
+      });
+  v.list(
+      "door", "A front door: the modem of a vehicle as a real one (halocline-modem-gateway)",
+      config.doors.size(), [&](std::size_t n) { config.doors.resize(n); },
+      [&](ConfigVisitor& item, std::size_t i) { visit_door(item, config.doors[i]); });
+  if (v.writing()) return;
+  // Once all names are known.
+  v.list(
+      "door", "", config.doors.size(), [](std::size_t) {},
+      [&](ConfigVisitor& item, std::size_t i) {
+        check_door(item, config, i);
+        for (const auto& vehicle : config.vehicles) {
+          if (vehicle.name == config.doors[i].vehicle) config.doors[i].vehicle_id = vehicle.id;
+        }
+      });
+}
+
+void add_door(GatewayConfig& config, std::string_view text) {
+  const auto equals = text.find('='), colon = text.find(':', equals);
+  require(equals != std::string_view::npos && colon != std::string_view::npos,
+          "--door '" + std::string(text) + "'; allowed is VEHICLE=KIND:PLACE, such as auv-1=nm3:tcp:9600");
+  DoorConfig door;
+  door.vehicle = text.substr(0, equals);
+  door.vehicle_id = id_of(config, door.vehicle);
+  door.kind = text.substr(equals + 1, colon - equals - 1);
+  door.place = place_of(text.substr(colon + 1));
+  check_options(door);
+  config.doors.push_back(std::move(door));
+}
+
+}  // namespace halocline::modem_gateway

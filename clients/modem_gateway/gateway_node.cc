@@ -1,0 +1,111 @@
+#include "clients/modem_gateway/gateway_node.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "bus/channels.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "core/check.h"
+
+namespace halocline::modem_gateway {
+GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config,
+                         SimDuration look_period, const std::string& trace_path)
+    : Node(lcm, std::move(identity)),
+      look_period_(look_period),
+      next_look_(look_period == SimDuration() ? SimTime::never() : SimTime()) {
+  if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
+  if (config.rate != 1)
+    bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
+  for (const DoorConfig& door : config.doors) add_door(config, door);
+  const bool wants_outcomes =
+      std::any_of(doors_.begin(), doors_.end(), [](const auto& door) { return door->wants_outcomes(); });
+  if (!wants_outcomes) return;
+  bus().subscribe<packet_outcome_t>(bus::channels::kOutcome,
+                                    [this](const packet_outcome_t& outcome) { take_outcome(outcome); });
+}
+
+void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door) {
+  AddressBook& addresses = addresses_[door.kind];
+  assign_addresses(addresses, door.addresses, config.vehicles);
+  const std::size_t number = connections_.add(door.place);
+  Door::Trace trace;
+  if (trace_) {
+    trace = [this, name = door.vehicle + " " + door.kind](char direction, std::string_view bytes) {
+      trace_->write(now_, name, direction, bytes);
+    };
+  }
+  doors_.push_back(std::make_unique<Door>(
+      bus(), door, config, addresses,
+      [this, number](ClientId client, std::string_view bytes) { connections_.write(number, client, bytes); },
+      std::move(trace)));
+  bus().log().info("door", "vehicle=" + door.vehicle + " kind=" + door.kind + " place=" + place_of(number));
+}
+
+void GatewayNode::take_outcome(const packet_outcome_t& outcome) {
+  for (const auto& door : doors_) {
+    if (door->vehicle_id() == outcome.receiver_id && door->wants_outcomes()) door->store(outcome);
+  }
+}
+
+bus::Due GatewayNode::on_due() const {
+  bus::Due due{.sim = next_look_};
+  const bool watches_files = look_period_ == SimDuration();
+  if (watches_files) {
+    due.steady = connections_.next_look();
+    if (connections_.is_ready()) due.sim = SimTime::at_once();
+  }
+  for (const auto& door : doors_) {
+    const bus::Due own = door->due();
+    due.sim = std::min(due.sim, own.sim);
+    due.steady = std::min(due.steady, own.steady);
+  }
+  return due;
+}
+
+void GatewayNode::on_step(const bus::Now& now) {
+  now_ = now.sim;
+  for (const auto& door : doors_) door->begin_step(now);
+  serve_hosts(now.steady);
+  for (const auto& door : doors_) door->end_step();
+  if (look_period_ > SimDuration() && now.sim >= next_look_) next_look_ = next_on_grid(now.sim, look_period_);
+}
+
+void GatewayNode::serve_hosts(SimTime steady) {
+  for (const Connections::Input& input : connections_.take(steady)) {
+    Door& door = *doors_[input.door];
+    switch (input.change) {
+      case Connections::Change::kOpened:
+        door.on_opened(input.client);
+        break;
+      case Connections::Change::kBytes:
+        door.on_bytes(input.client, input.bytes);
+        break;
+      case Connections::Change::kClosed:
+        door.on_closed(input.client);
+        break;
+    }
+  }
+}
+
+void GatewayNode::on_restart(const bus::Now& now) {
+  for (const auto& door : doors_) door->restart();
+  if (look_period_ > SimDuration()) next_look_ = now.sim;
+}
+
+std::string GatewayNode::status_text() const {
+  std::int64_t sent = 0, received = 0, lost = 0;
+  for (const auto& door : doors_) {
+    sent += door->counters().sent;
+    received += door->counters().received;
+    lost += door->losses();
+  }
+  const ConnectionCounters& hosts = connections_.counters();
+  return "doors " + std::to_string(doors_.size()) + ", hosts " + std::to_string(connections_.clients()) +
+         ", opened " + std::to_string(hosts.opened) + ", turned away " + std::to_string(hosts.turned_away) +
+         ", bytes in " + std::to_string(hosts.bytes_in) + ", out " + std::to_string(hosts.bytes_out) +
+         ", writes dropped " + std::to_string(hosts.writes_dropped) + ", sent " + std::to_string(sent) +
+         ", received " + std::to_string(received) + ", lost " + std::to_string(lost);
+}
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,44 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/config/config.h"
+#include "bus/runtime/node_process.h"
+#include "clients/modem_gateway/gateway_config.h"
+#include "clients/modem_gateway/gateway_node.h"
+#include "core/sim_time.h"
+
+using halocline::SimDuration;
+using halocline::bus::NodeProgram;
+using halocline::modem_gateway::GatewayNode;
+
+int main(int argc, char** argv) {
+  halocline::modem_gateway::GatewayConfig config;
+  std::vector<std::string> doors;
+  std::string trace;
+  NodeProgram program;
+  program.program = "halocline-modem-gateway";
+  program.purpose = "Lets hosts talk to simulated modems as to real ones, over TCP and serial lines.";
+  program.node_name = "modem-gateway";
+  program.interface =
+      "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>, OUTCOME, "
+      "USBL.<vehicle>,\n"
+      "           SENSORS.<vehicle>, STATE.<vehicle>\n"
+      "publishes: SEND.<vehicle>, LISTEN.<vehicle>, STATUS.<name>";
+  program.options = {
+      {.name = "--door",
+       .help = "one more door: VEHICLE=KIND:tcp:PORT or VEHICLE=KIND:pty:PATH (repeatable)",
+       .values = &doors},
+      {.name = "--trace", .help = "file of all that passes through the doors; -: stderr", .value = &trace}};
+  program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
+  program.make_node = [&](const NodeProgram::Context& context) {
+    config.rate = context.scenario.rate;
+    config.origin_latitude_deg = context.scenario.origin_latitude_deg;
+    config.origin_longitude_deg = context.scenario.origin_longitude_deg;
+    for (const std::string& door : doors) add_door(config, door);
+    return std::make_unique<GatewayNode>(context.lcm, context.identity, config,
+                                         context.in_lockstep ? GatewayNode::kLockstepPeriod : SimDuration(),
+                                         trace);
+  };
+  return halocline::bus::run_node_program(argc, argv, program);
+}

@@ -1,0 +1,73 @@
+#include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "clients/modem_gateway/protocols/fields.h"
+#include "core/check.h"
+#include "core/names.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+// The broadcast address of four bits, which software of the first generation uses.
+constexpr std::int32_t kOfFourBits = 15;
+
+}  // namespace
+
+MicromodemCore::MicromodemCore(ProtocolContext& context)
+    : port_(context.port),
+      addresses_(context.addresses),
+      vehicle_id_(context.vehicle_id),
+      clock_(context.options.take_flag("pps", true)) {
+  DoorOptions& options = context.options;
+  revision_ = options.take("revision", "2.0.31000");
+  const auto parts = fields_of(revision_, '.');
+  const bool is_revision = parts.size() >= 3 && parts.size() <= 4 &&
+                           std::all_of(parts.begin(), parts.end(), [](std::string_view part) {
+                             return integer_in(part, 0, 1'000'000'000).has_value();
+                           });
+  require(is_revision, "option revision is '" + revision_ +
+                           "'; allowed are three or four numbers, as 0.94.0.00 and 2.0.31000");
+  is_second_generation_ = parts[0] != "0" && parts[0] != "1";
+  broadcast_ = static_cast<std::int32_t>(options.take_number("broadcast", 0, 0, kHighestAddress));
+  has_newer_lines_ = options.take_flag("newer_lines", false);
+}
+
+std::int32_t MicromodemCore::vehicle_of(std::int64_t address) const {
+  const auto number = static_cast<std::int32_t>(address);
+  const bool is_all = number == broadcast_ || (number == kOfFourBits && !addresses_.is_given(number));
+  return is_all ? kBroadcastId : addresses_.vehicle_of(number);
+}
+
+ReporterState MicromodemCore::state() const {
+  return {clock_, is_second_generation_, static_cast<int>(settings_.number("AGN")),
+          static_cast<int>(settings_.number("FC0"))};
+}
+
+Listener MicromodemCore::listener() const {
+  return {state(), addresses_, broadcast_, settings_.is_on("RXP"), settings_.is_on("CST"), has_newer_lines_};
+}
+
+SimTime MicromodemCore::start_of_transmission() const {
+  return settings_.is_on("SNV") ? clock_.next_second(port_.now()) : port_.now();
+}
+
+void MicromodemCore::say_all(const std::vector<std::string>& bodies) const {
+  for (const std::string& body : bodies) say_all(body);
+}
+
+void MicromodemCore::refuse(ClientId client, NmeaError error, std::string_view text) const {
+  say(client, fmt::format("CAERR,{},NMEA,{},{}", clock_.hhmmss(now()), static_cast<int>(error), text));
+}
+
+void MicromodemCore::refuse_argument(ClientId client, const NmeaSentence& sentence) const {
+  refuse(client, NmeaError::kArgument, "bad argument of " + std::string(sentence.id));
+}
+
+void MicromodemCore::echo(ClientId client, const NmeaSentence& sentence, std::string_view talker) const {
+  say(client, std::string(talker) + std::string(sentence.id.substr(2)) + sentence.all_fields());
+}
+
+}  // namespace halocline::modem_gateway

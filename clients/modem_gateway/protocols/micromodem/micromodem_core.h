@@ -1,0 +1,71 @@
+// What all parts of a Micromodem share: its address, settings, clock and generation, and how it writes to hosts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/door_options.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_settings.h"
+#include "clients/modem_gateway/protocols/micromodem/modem_clock.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+
+// Numbers of CAERR,...,NMEA.
+enum class NmeaError { kChecksum = 1, kUnknown = 2, kArgument = 3, kBusy = 4 };
+
+class MicromodemCore {
+ public:
+  static constexpr std::int64_t kHighestAddress = 127;
+
+  // Takes the options revision, pps, broadcast and newer_lines.
+  explicit MicromodemCore(ProtocolContext& context);
+
+  ProtocolPort& port() const { return port_; }
+  SimTime now() const { return port_.now(); }
+  std::int32_t vehicle_id() const { return vehicle_id_; }
+  MicromodemSettings& settings() { return settings_; }
+  const MicromodemSettings& settings() const { return settings_; }
+  ModemClock& clock() { return clock_; }
+  const ModemClock& clock() const { return clock_; }
+  const std::string& revision() const { return revision_; }
+
+  std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
+  void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
+  // kBroadcastId for the addresses of all.
+  std::int32_t vehicle_of(std::int64_t address) const;
+  Listener listener() const;
+  ReporterState state() const;
+  // Of a transmission that is asked for now: on a whole second where the modem is synchronised.
+  SimTime start_of_transmission() const;
+  bool reports_transmissions() const { return is_second_generation_ || settings_.is_on("XST"); }
+
+  // A sentence to one host, or to all.
+  void say(ClientId client, const std::string& body) const { port_.write(client, nmea_line(body)); }
+  void say_all(const std::string& body) const { say(kAllClients, body); }
+  void say_all(const std::vector<std::string>& bodies) const;
+  void refuse(ClientId client, NmeaError error, std::string_view text) const;
+  void refuse_argument(ClientId client, const NmeaSentence& sentence) const;
+  // The same sentence from the modem: CA, or as it begins, and all fields.
+  void echo(ClientId client, const NmeaSentence& sentence, std::string_view talker = "CA") const;
+
+ private:
+  ProtocolPort& port_;
+  AddressBook& addresses_;
+  std::int32_t vehicle_id_;
+  MicromodemSettings settings_;
+  ModemClock clock_;
+  std::string revision_;
+  bool is_second_generation_ = true, has_newer_lines_ = false;
+  std::int32_t broadcast_ = 0;
+};
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,39 @@
+// The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and those that are only echoed.
+#pragma once
+
+#include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+
+class MicromodemHousekeeping {
+ public:
+  explicit MicromodemHousekeeping(MicromodemCore& core) : core_(core) {}
+
+  // False for a command that is none of these.
+  bool obey(ClientId client, const NmeaSentence& sentence);
+  // The noise over the band of the latest packet, dB re 1 uPa.
+  void note_noise(double level_db) { last_noise_db_ = level_db; }
+
+  SimTime next() const;
+  void step();
+
+ private:
+  void configure(ClientId client, const NmeaSentence& sentence);
+  void query(ClientId client, const NmeaSentence& sentence) const;
+  void sleep(ClientId client, const NmeaSentence& sentence);
+  void set_clock(ClientId client, const NmeaSentence& sentence);
+  void set_time(ClientId client, const NmeaSentence& sentence);
+  void query_time(ClientId client) const;
+  void query_noise(ClientId client, const NmeaSentence& sentence);
+  void report_noise();
+  void say_revision(const char* who) const;
+
+  MicromodemCore& core_;
+  SimTime next_revision_, reboots_ = SimTime::never(), noise_due_ = SimTime::never();
+  double last_noise_db_ = 0;
+};
+
+}  // namespace halocline::modem_gateway

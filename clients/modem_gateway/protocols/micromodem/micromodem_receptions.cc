@@ -1,0 +1,189 @@
+#include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "clients/modem_gateway/protocols/fields.h"
+#include "core/names.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+MicromodemPacket type_of(std::int8_t kind, int rate, bool is_flexible) {
+  switch (kind) {
+    case modem_receive_t::DATA:
+      return is_flexible ? MicromodemPacket::kFlexible
+             : rate == 0 ? MicromodemPacket::kFsk
+                         : MicromodemPacket::kPsk;
+    case modem_receive_t::JANUS:
+    case modem_receive_t::JANUS_CARGO:
+      return MicromodemPacket::kUnknown;
+    default:
+      return MicromodemPacket::kFskMini;
+  }
+}
+
+// CARXP: 0 frequency-shift, 1 phase-shift keying.
+void add_start(const Listener& listener, int rate, std::vector<std::string>& lines) {
+  if (listener.reports_start) lines.push_back(rate == 0 ? "CARXP,0" : "CARXP,1");
+}
+
+MicromodemCycle cycle_of(const Listener& listener, const modem_receive_t& packet) {
+  return {0,
+          listener.address(packet.source_id),
+          listener.address(packet.destination_id),
+          packet.rate_number,
+          packet.wants_ack,
+          packet.num_frames};
+}
+
+// Calls `on_frame(number from 0, whether it was right, bytes)` for each frame.
+template <class OnFrame>
+void for_each_frame(const modem_receive_t& packet, const OnFrame& on_frame) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < packet.frame_bytes.size(); ++i) {
+    const auto size = static_cast<std::size_t>(packet.frame_bytes[i]);
+    if (begin + size > packet.payload.size()) return;
+    const bool is_good = (static_cast<std::uint64_t>(packet.frames_good) >> i & 1) != 0;
+    on_frame(i, is_good, std::span(packet.payload).subspan(begin, size));
+    begin += size;
+  }
+}
+
+void add_data(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
+  const MicromodemCycle cycle = cycle_of(listener, packet);
+  if (packet.rate_number != 0)
+    lines.push_back("CACYC," + cycle.fields());  // at rate 0 its own packet came before
+  for_each_frame(packet, [&](std::size_t i, bool is_good, std::span<const std::uint8_t> bytes) {
+    lines.push_back(is_good ? fmt::format("CARXD,{},{},{},{},{}", cycle.source, cycle.destination,
+                                          cycle.wants_ack, i + 1, hex_of(bytes))
+                            : fmt::format("CAMSG,BAD_CRC,{}", i + 1));
+  });
+}
+
+void add_flexible(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
+  std::string data;
+  for_each_frame(packet, [&](std::size_t, bool is_good, std::span<const std::uint8_t> bytes) {
+    data += fmt::format("{}{};{};{}", data.empty() ? "" : ";", is_good ? 1 : 0, bytes.size(), hex_of(bytes));
+  });
+  const auto source = listener.address(packet.source_id),
+             destination = listener.address(packet.destination_id);
+  const int ack = packet.wants_ack;
+  lines.push_back(
+      listener.has_newer_lines
+          ? fmt::format("CARFP,{},0,{},{},{},{},0,0,,{},",
+                        listener.state.clock.iso(SimTime::from_utime(packet.arrival_utime)), source,
+                        destination, ack, packet.rate_number, data)
+          : fmt::format("CARDP,{},{},{},{},0,,{}", source, destination, packet.rate_number, ack, data));
+}
+
+void add_mini(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
+  const auto source = listener.address(packet.source_id),
+             destination = listener.address(packet.destination_id);
+  if (packet.stamped)
+    return lines.push_back(fmt::format("CAMUA,{},{},{}", source, destination, hex_of(packet.payload)));
+  if (const auto announced = cycle_in(packet.payload, source, destination))
+    lines.push_back("CACYC," + announced->cycle.fields());
+}
+
+void add_ping(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
+  const auto source = listener.address(packet.source_id),
+             destination = listener.address(packet.destination_id);
+  if (packet.destination_id != packet.receiver_id) return;
+  lines.push_back(packet.stamped
+                      ? fmt::format("CAMPA,{},{}", source, destination)
+                      : fmt::format("CACMA,{},PNG,{},{},{},0,0,,",
+                                    listener.state.clock.iso(SimTime::from_utime(packet.arrival_utime)),
+                                    source, destination, packet.rate_number));
+}
+
+}  // namespace
+
+std::string MicromodemCycle::fields() const {
+  return fmt::format("{},{},{},{},{},{}", command, source, destination, rate, wants_ack, frames);
+}
+
+std::vector<std::uint8_t> cycle_packet(const MicromodemCycle& cycle, bool asks_for_data) {
+  const auto other = static_cast<std::uint64_t>(asks_for_data ? cycle.destination : cycle.source);
+  const std::uint64_t bits = (asks_for_data ? 1u : 0u) << 11 | (other & 15) << 7 |
+                             static_cast<std::uint64_t>(cycle.rate & 7) << 4 |
+                             static_cast<std::uint64_t>(cycle.wants_ack & 1) << 3 |
+                             static_cast<std::uint64_t>((cycle.frames - 1) & 7);
+  return {static_cast<std::uint8_t>(bits >> 8), static_cast<std::uint8_t>(bits & 255)};
+}
+
+std::optional<CyclePacket> cycle_in(const std::vector<std::uint8_t>& payload, std::int64_t sender,
+                                    std::int64_t addressee) {
+  if (payload.size() != 2) return std::nullopt;
+  const unsigned bits = static_cast<unsigned>(payload[0]) << 8 | payload[1];
+  CyclePacket packet;
+  packet.asks_for_data = (bits >> 11 & 1) != 0;
+  packet.cycle = {0,
+                  packet.asks_for_data ? addressee : sender,
+                  packet.asks_for_data ? std::int64_t{bits >> 7 & 15} : addressee,
+                  bits >> 4 & 7,
+                  bits >> 3 & 1,
+                  (bits & 7) + 1};
+  return packet.cycle.rate < kMicromodemRates ? std::optional(packet) : std::nullopt;
+}
+
+std::int32_t Listener::address(std::int32_t vehicle_id) const {
+  return vehicle_id == kBroadcastId ? broadcast : addresses.address_of(vehicle_id).value_or(vehicle_id);
+}
+
+void add_statistics(const Listener& listener, const modem_receive_t& packet,
+                    std::vector<std::string>& lines) {
+  if (!listener.reports_statistics) return;
+  ReceptionReport report = report_of(packet);
+  report.source = listener.address(packet.source_id);
+  report.destination = listener.address(packet.destination_id);
+  report.type = type_of(packet.packet_kind, packet.rate_number, !packet.stamped);
+  if (report.num_bad > 0 && packet.rate_number != 0) report.psk_error = 3;
+  lines.push_back(cacst(listener.state, report));
+}
+
+std::vector<std::string> lines_of(const Listener& listener, const modem_receive_t& packet) {
+  std::vector<std::string> lines;
+  add_start(listener, packet.rate_number, lines);
+  if (packet.packet_kind == modem_receive_t::PING) add_ping(listener, packet, lines);
+  if (packet.packet_kind == modem_receive_t::MINI_PACKET) add_mini(listener, packet, lines);
+  if (packet.packet_kind == modem_receive_t::DATA && packet.stamped) add_data(listener, packet, lines);
+  if (packet.packet_kind == modem_receive_t::DATA && !packet.stamped) add_flexible(listener, packet, lines);
+  add_statistics(listener, packet, lines);
+  return lines;
+}
+
+std::vector<std::string> lines_of_ack(const Listener& listener, const modem_receive_t& ack) {
+  std::vector<std::string> lines;
+  add_start(listener, ack.rate_number, lines);
+  for (std::size_t i = 0; i < 8 * ack.payload.size(); ++i) {
+    if ((ack.payload[i / 8] >> i % 8 & 1) == 0) continue;
+    lines.push_back(fmt::format("CAACK,{},{},{},1", listener.address(ack.source_id),
+                                listener.address(ack.destination_id), i + 1));
+  }
+  add_statistics(listener, ack, lines);
+  return lines;
+}
+
+std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss) {
+  std::vector<std::string> lines;
+  ReceptionReport report = report_of(loss);
+  report.source = listener.address(loss.source_id);
+  report.destination = listener.address(loss.destination_id);
+  report.type = type_of(loss.packet_kind, loss.rate_number, false);
+  add_start(listener, loss.rate_number, lines);
+  const bool broke_off = report.mode == ReceptionReport::Mode::kTimeOut;
+  if (broke_off) lines.push_back(fmt::format("CAMSG,PACKET_TIMEOUT,{}", loss.num_frames));
+  const bool has_frames = loss.packet_kind == modem_receive_t::DATA;
+  for (int i = 1; has_frames && !broke_off && i <= loss.num_frames; ++i)
+    lines.push_back(fmt::format("CAMSG,BAD_CRC,{}", i));
+  if (loss.rate_number != 0) report.psk_error = broke_off ? 5 : 3;
+  if (listener.reports_statistics) lines.push_back(cacst(listener.state, report));
+  return lines;
+}
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,57 @@
+// The lines that a Micromodem writes when something was received, or lost after its detection.
+//
+// Packets on the bus have no kinds of their own for two of the Micromodem's: a mini-packet without a stamp is a cycle packet, which
+// announces data at rate 0 or asks another modem for data; a data packet without a stamp is a flexible one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/messages.h"
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
+
+namespace halocline::modem_gateway {
+
+// A data cycle: `source` sends `frames` frames to `destination` (addresses).
+struct MicromodemCycle {
+  std::int64_t command = 0, source = 0, destination = 0, rate = 0, wants_ack = 0, frames = 0;
+
+  std::string fields() const;  // command,source,destination,rate,ack,frames
+};
+
+// A cycle packet of 13 bits: whether it asks its receiver for data, the address that is not in the packet's own header (4 bits), rate (3),
+// acknowledgement (1), frames less one (3).
+std::vector<std::uint8_t> cycle_packet(const MicromodemCycle& cycle, bool asks_for_data);
+// `sender`, `addressee`: of the packet. None where it holds no cycle.
+struct CyclePacket {
+  MicromodemCycle cycle;
+  bool asks_for_data = false;
+};
+std::optional<CyclePacket> cycle_in(const std::vector<std::uint8_t>& payload, std::int64_t sender,
+                                    std::int64_t addressee);
+
+// Of the modem that receives.
+struct Listener {
+  ReporterState state;
+  const AddressBook& addresses;
+  std::int32_t broadcast;   // address that stands for all
+  bool reports_start;       // setting RXP
+  bool reports_statistics;  // setting CST
+  bool has_newer_lines;     // CARFP in the place of CARDP
+
+  std::int32_t address(std::int32_t vehicle_id) const;
+};
+
+// Bodies of sentences, in their order, for a packet that was received, whole or in part. An answer to an own packet is the door's.
+std::vector<std::string> lines_of(const Listener& listener, const modem_receive_t& packet);
+// Of an acknowledgement: the frames that it says were right.
+std::vector<std::string> lines_of_ack(const Listener& listener, const modem_receive_t& ack);
+// For a packet that was detected and lost.
+std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss);
+// CACST alone, where it is reported.
+void add_statistics(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines);
+
+}  // namespace halocline::modem_gateway

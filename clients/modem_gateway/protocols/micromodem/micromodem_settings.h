@@ -1,0 +1,29 @@
+// The settings of a Micromodem by name; what a host sets need not be known.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace halocline::modem_gateway {
+
+class MicromodemSettings {
+ public:
+  MicromodemSettings();
+
+  void reset() { *this = MicromodemSettings(); }
+  void set(std::string_view name, std::string_view value) { values_[std::string(name)] = std::string(value); }
+  // "0" for one that was never set and has no factory value.
+  std::string value(std::string_view name) const;
+  // As a whole number; 0 for another text.
+  std::int64_t number(std::string_view name) const;
+  bool is_on(std::string_view name) const { return number(name) != 0; }
+  const std::map<std::string, std::string, std::less<>>& all() const { return values_; }
+
+ private:
+  std::map<std::string, std::string, std::less<>> values_;
+};
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,266 @@
+// Nanomodem v3 (Newcastle University; sold as Delphis Succorfish): ASCII, commands framed by length, no line ends needed.
+//
+//   $?             #A007V52428        address, supply (units of 15 V / 65536)
+//   $A007          #A007              sets the address
+//   $P008          $P008, then #R008T12345 (one-way time, units of 31.25 us) or #TO
+//   $B05hello      $B05               broadcast
+//   $U00805hello   $U00805            to one
+//   $M00805hello   $M00805, then #R008T12345 or #TO within 4 s
+//   anything else  E
+// Received: #B00705hello (source), #U05hello (none). A command may end in T and 14 digits, within the same piece of bytes: send when
+// the counter of the modem, 24 MHz, has come so far. With the option `timestamps` what is received bears the counter at its arrival, T and
+// 10 digits.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "clients/modem/modem_client.h"
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "clients/modem_gateway/protocols/protocols.h"
+#include "core/names.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+constexpr std::size_t kAddressDigits = 3, kLengthDigits = 2, kTimeDigits = 14;
+constexpr std::int64_t kHighestAddress = 255, kMinBytes = 2, kMaxBytes = 64;
+constexpr double kTick_s = 31.25e-6, kSupply_v = 12, kSupplyScale_v = 15;
+constexpr SimDuration kAnswerWithin = SimDuration::from_milliseconds(4000);
+// Nanoseconds in three ticks of the 24 MHz counter.
+constexpr std::int64_t kThreeTicksNs = 125;
+
+// What a host asks for, complete.
+struct Command {
+  char letter = 0;
+  std::int32_t address = 0;
+  std::string data;
+  std::optional<SimTime> at;
+};
+
+// Which fields a command has: an address, then a length and so many bytes.
+struct Shape {
+  char letter;
+  bool has_address, has_data;
+};
+constexpr std::array<Shape, 6> kShapes{{{'?', false, false},
+                                        {'A', true, false},
+                                        {'P', true, false},
+                                        {'B', false, true},
+                                        {'U', true, true},
+                                        {'M', true, true}}};
+
+std::int64_t counter_at(SimTime time) { return time.nanoseconds() / kThreeTicksNs * 3; }
+
+// The bytes of one host, and the commands in them.
+class CommandReader {
+ public:
+  enum class Result { kCommand, kIncomplete, kWrong };
+
+  void append(std::string_view bytes) { buffer_ += bytes; }
+
+  // The next command; what is wrong is skipped up to the next line end or $.
+  Result take(Command& command) {
+    while (!buffer_.empty() && (buffer_[0] == '\r' || buffer_[0] == '\n')) buffer_.erase(0, 1);
+    if (buffer_.empty()) return Result::kIncomplete;
+    used_ = 0;
+    const Result result = read(command);
+    if (result == Result::kCommand) buffer_.erase(0, used_);
+    if (result == Result::kWrong) buffer_.erase(0, buffer_.find_first_of("\r\n$", 1));
+    return result;
+  }
+
+ private:
+  Result read(Command& command) {
+    if (buffer_[0] != '$') return Result::kWrong;
+    if (buffer_.size() < 2) return Result::kIncomplete;
+    for (const Shape& shape : kShapes) {
+      if (shape.letter != buffer_[1]) continue;
+      command.letter = shape.letter;
+      used_ = 2;
+      std::int64_t address = 0;
+      if (shape.has_address) {
+        const Result result = read_number(kAddressDigits, 0, kHighestAddress, address);
+        if (result != Result::kCommand) return result;
+      }
+      command.address = static_cast<std::int32_t>(address);
+      const Result result = shape.has_data ? read_data(command) : Result::kCommand;
+      return result == Result::kCommand ? read_time(command) : result;
+    }
+    return Result::kWrong;
+  }
+
+  Result read_number(std::size_t digits, std::int64_t lowest, std::int64_t highest, std::int64_t& value) {
+    const std::string_view text = std::string_view(buffer_).substr(used_, digits);
+    if (text.find_first_not_of("0123456789") != std::string_view::npos) return Result::kWrong;
+    if (text.size() < digits) return Result::kIncomplete;
+    const auto number = integer_in(text, lowest, highest);
+    if (!number) return Result::kWrong;
+    value = *number;
+    used_ += digits;
+    return Result::kCommand;
+  }
+
+  Result read_data(Command& command) {
+    std::int64_t size = 0;
+    const Result result = read_number(kLengthDigits, kMinBytes, kMaxBytes, size);
+    if (result != Result::kCommand) return result;
+    const auto bytes = static_cast<std::size_t>(size);
+    if (buffer_.size() < used_ + bytes) return Result::kIncomplete;
+    command.data = buffer_.substr(used_, bytes);
+    used_ += bytes;
+    return Result::kCommand;
+  }
+
+  Result read_time(Command& command) {
+    if (used_ >= buffer_.size() || buffer_[used_] != 'T') return Result::kCommand;
+    ++used_;
+    std::int64_t counter = 0;
+    const Result result = read_number(kTimeDigits, 0, INT64_MAX, counter);
+    if (result == Result::kCommand) command.at = SimTime::from_nanoseconds(counter / 3 * kThreeTicksNs);
+    return result;
+  }
+
+  std::string buffer_;  // shorter than the longest command
+  std::size_t used_ = 0;
+};
+
+class Nm3 : public Protocol {
+ public:
+  explicit Nm3(ProtocolContext context)
+      : port_(context.port), addresses_(context.addresses), vehicle_id_(context.vehicle_id) {
+    has_timestamps_ = context.options.take_flag("timestamps", false);
+    context.options.require_all_taken();
+  }
+
+  void on_bytes(ClientId client, std::string_view bytes) override {
+    CommandReader& reader = readers_[client];
+    reader.append(bytes);
+    for (;;) {
+      Command command;
+      const auto result = reader.take(command);
+      if (result == CommandReader::Result::kIncomplete) return;
+      const bool is_too_far = command.at && *command.at > port_.now() + kMaxAhead;
+      if (result == CommandReader::Result::kWrong || is_too_far) {
+        port_.write(client, "E\r\n");
+      } else {
+        obey(client, command);
+      }
+    }
+  }
+  void on_closed(ClientId client) override { readers_.erase(client); }
+
+  void on_packet(const modem_receive_t& packet) override {
+    switch (packet.packet_kind) {
+      case modem_receive_t::PING_REPLY:
+      case modem_receive_t::ACK:
+        if (waiting_ && port_.is_own(packet.send_session) && packet.packet_sequence == waiting_->sequence)
+          return report_range(packet);
+        return;
+      case modem_receive_t::DATA:
+        return report_data(packet);
+      default:
+        return;
+    }
+  }
+
+  SimTime next() const override { return waiting_ ? waiting_->until : SimTime::never(); }
+  void step() override {
+    if (!waiting_ || port_.now() < waiting_->until) return;
+    waiting_.reset();
+    port_.write(kAllClients, "#TO\r\n");
+  }
+
+ private:
+  // A ping or a packet with acknowledgement whose answer has not come.
+  struct Waiting {
+    std::int64_t sequence = 0;
+    std::int32_t address = 0;
+    SimTime until;
+  };
+
+  std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
+
+  void obey(ClientId client, const Command& command) {
+    switch (command.letter) {
+      case '?':
+        return port_.write(client, fmt::format("#A{:03}V{:05}\r\n", own_address(),
+                                               std::llround(kSupply_v / kSupplyScale_v * 65536)));
+      case 'A':
+        addresses_.assign(vehicle_id_, command.address);
+        return port_.write(client, fmt::format("#A{:03}\r\n", command.address));
+      case 'B':
+        port_.write(client, fmt::format("$B{:02}\r\n", command.data.size()));
+        return void(send(command, kBroadcastId, {}));
+      case 'U':
+        port_.write(client, fmt::format("$U{:03}{:02}\r\n", command.address, command.data.size()));
+        return void(send(command, addresses_.vehicle_of(command.address), {}));
+      default:
+        return ask(client, command);
+    }
+  }
+
+  // A ping, or a message with acknowledgement: one at a time.
+  void ask(ClientId client, const Command& command) {
+    const std::int32_t destination = addresses_.vehicle_of(command.address);
+    if (waiting_ || destination == vehicle_id_) return port_.write(client, "E\r\n");
+    const bool is_ping = command.letter == 'P';
+    port_.write(client, is_ping ? fmt::format("$P{:03}\r\n", command.address)
+                                : fmt::format("$M{:03}{:02}\r\n", command.address, command.data.size()));
+    const auto sequence = send(
+        command, destination,
+        is_ping ? clients::SendOptions{.kind = modem_send_t::PING} : clients::SendOptions{.wants_ack = true});
+    const SimTime start = std::max(port_.now(), command.at.value_or(SimTime()));
+    waiting_ = {sequence, command.address, start + kAnswerWithin};
+  }
+
+  std::int64_t send(const Command& command, std::int32_t destination, clients::SendOptions options) {
+    return port_.send(command.at.value_or(port_.now()), destination, as_bytes(command.data),
+                      std::move(options));
+  }
+
+  void report_range(const modem_receive_t& packet) {
+    const auto ticks = std::llround(packet.two_way_travel_time_s / 2 / kTick_s);
+    port_.write(kAllClients, fmt::format("#R{:03}T{:05}\r\n", waiting_->address, ticks));
+    waiting_.reset();
+  }
+
+  void report_data(const modem_receive_t& packet) {
+    if (packet.destination_id != kBroadcastId && packet.destination_id != vehicle_id_) return;
+    std::string line = packet.destination_id == kBroadcastId
+                           ? fmt::format("#B{:03}", addresses_.address_of(packet.source_id).value_or(0))
+                           : std::string("#U");
+    line += fmt::format("{:02}", packet.payload.size());
+    line += as_text(packet.payload);
+    constexpr std::int64_t kTenDigits = 10'000'000'000;
+    if (has_timestamps_)
+      line += fmt::format("T{:010}", counter_at(SimTime::from_utime(packet.arrival_utime)) % kTenDigits);
+    port_.write(kAllClients, line + "\r\n");
+  }
+
+  ProtocolPort& port_;
+  AddressBook& addresses_;
+  std::int32_t vehicle_id_;
+  bool has_timestamps_;
+  std::map<ClientId, CommandReader> readers_;
+  std::optional<Waiting> waiting_;
+};
+
+}  // namespace
+
+std::unique_ptr<Protocol> make_nm3(ProtocolContext context) {
+  return std::make_unique<Nm3>(std::move(context));
+}
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,37 @@
+#include "clients/modem_gateway/protocols/protocols.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/check.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+struct Kind {
+  const char* name;
+  std::unique_ptr<Protocol> (*make)(ProtocolContext);
+};
+constexpr std::array kKinds{Kind{"ahoi", make_ahoi}, Kind{"evologics", make_evologics},
+                            Kind{"micromodem", make_micromodem}, Kind{"nm3", make_nm3},
+                            Kind{"unet", make_unet}};
+
+}  // namespace
+
+std::vector<std::string> protocol_kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) names.emplace_back(kind.name);
+  return names;
+}
+
+std::unique_ptr<Protocol> make_protocol(std::string_view kind, ProtocolContext context) {
+  const auto found =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& k) { return k.name == kind; });
+  std::string names;
+  for (const Kind& k : kKinds) names += (names.empty() ? "" : ", ") + std::string(k.name);
+  require(found != kKinds.end(), "kind of door '" + std::string(kind) + "'; allowed are " + names);
+  return found->make(std::move(context));
+}
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,58 @@
+#include "clients/modem_gateway/protocols/s2c/s2c_core.h"
+
+#include <utility>
+
+#include "core/names.h"
+
+namespace halocline::modem_gateway {
+
+std::vector<std::uint8_t> s2c_packet(const S2cPayload& payload) {
+  std::vector<std::uint8_t> packet;
+  if (payload.has_header())
+    packet.push_back(static_cast<std::uint8_t>(static_cast<int>(payload.kind) | payload.protocol << 2));
+  packet.insert(packet.end(), payload.bytes.begin(), payload.bytes.end());
+  return packet;
+}
+
+S2cPayload s2c_payload(const modem_receive_t& packet) {
+  if (packet.stamped || packet.payload.empty()) return {S2cKind::kPlain, 0, packet.payload};
+  const std::uint8_t header = packet.payload.front();
+  return {
+      static_cast<S2cKind>(header & 3), header >> 2 & 7, {packet.payload.begin() + 1, packet.payload.end()}};
+}
+
+S2cCore::S2cCore(ProtocolContext& context, Tell tell)
+    : port_(context.port),
+      addresses_(context.addresses),
+      vehicle_id_(context.vehicle_id),
+      tell_(std::move(tell)) {
+  reset_settings();
+}
+
+// Those that change what the door does: !AM (highest address), !AR (remote address of the stream), !RC, !RI (tries after the first of
+// bursts and of instant messages), !RT (milliseconds to wait for an answer, beyond its own duration), !RP (promiscuous), @ZU, @ZX, @ZF.
+void S2cCore::reset_settings() {
+  settings_ = {{"!AM", 254}, {"!AR", 0}, {"!C", 0},  {"!CA", 1500}, {"!G", 0},     {"!KO", 0}, {"!L", 0},
+               {"!LC", 0},   {"!RC", 3}, {"!RI", 1}, {"!RP", 0},    {"!RT", 4000}, {"!ZC", 0}, {"!ZI", 120},
+               {"!ZP", 0},   {"!ZS", 0}, {"@ZF", 0}, {"@ZU", 0},    {"@ZX", 0}};
+}
+
+std::int32_t S2cCore::vehicle_of(std::int64_t address) const {
+  return address == kS2cBroadcast ? kBroadcastId : addresses_.vehicle_of(static_cast<std::int32_t>(address));
+}
+
+std::int32_t S2cCore::address_of(std::int32_t vehicle_id) const {
+  return vehicle_id == kBroadcastId ? kS2cBroadcast : addresses_.address_of(vehicle_id).value_or(vehicle_id);
+}
+
+std::int64_t S2cCore::setting(std::string_view name) const {
+  const auto found = settings_.find(name);
+  return found == settings_.end() ? 0 : found->second;
+}
+
+SimTime S2cCore::time_of(std::uint32_t clock) const {
+  const auto ahead = static_cast<std::int32_t>(clock - clock_us(now()));
+  return SimTime::from_utime(now().to_utime() + ahead);
+}
+
+}  // namespace halocline::modem_gateway

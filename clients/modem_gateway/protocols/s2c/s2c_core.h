@@ -1,0 +1,78 @@
+// What all parts of an EvoLogics modem share: settings, clock, addresses, and how it tells its hosts.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/messages.h"
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+
+// The kinds of the modem's packets. The bus knows data of two rates; a packet without a stamp begins with a byte of its own that holds
+// kind (2 bits) and protocol id (3): synchronous messages, piggy-back messages, forced ones, data of the burst stream, and all with
+// another protocol id than 0. Such packets carry a byte less.
+enum class S2cKind { kPlain = 0, kSynchronous = 1, kPiggyBack = 2, kForced = 3 };
+inline constexpr S2cKind kS2cStream = S2cKind::kSynchronous;  // of a burst
+
+struct S2cPayload {
+  S2cKind kind = S2cKind::kPlain;
+  int protocol = 0;
+  std::vector<std::uint8_t> bytes;
+
+  bool has_header() const { return kind != S2cKind::kPlain || protocol != 0; }
+};
+std::vector<std::uint8_t> s2c_packet(const S2cPayload& payload);
+S2cPayload s2c_payload(const modem_receive_t& packet);
+
+inline constexpr std::int32_t kS2cBroadcast = 255;
+inline constexpr std::int32_t kS2cImRate = 0, kS2cBurstRate = 1;
+
+class S2cCore {
+ public:
+  // A message to all hosts, each in its own mode.
+  using Tell = std::function<void(const std::string& body)>;
+
+  S2cCore(ProtocolContext& context, Tell tell);
+
+  ProtocolPort& port() const { return port_; }
+  SimTime now() const { return port_.now(); }
+  std::int32_t vehicle_id() const { return vehicle_id_; }
+  std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
+  void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
+  // Of vehicle and address, kBroadcastId and 255 standing for all.
+  std::int32_t vehicle_of(std::int64_t address) const;
+  std::int32_t address_of(std::int32_t vehicle_id) const;
+
+  // A setting by its sign and letters (!RI, @ZX).
+  std::int64_t setting(std::string_view name) const;
+  void set(std::string_view name, std::int64_t value) { settings_[std::string(name)] = value; }
+  const std::map<std::string, std::int64_t, std::less<>>& settings() const { return settings_; }
+  void reset_settings();
+
+  // The modem's clock: microseconds since the start of the simulation, 32 bits.
+  static std::uint32_t clock_us(SimTime time) { return static_cast<std::uint32_t>(time.to_utime()); }
+  // The instant nearest to now at which the clock shows that.
+  SimTime time_of(std::uint32_t clock_us) const;
+
+  void tell(const std::string& body) const { tell_(body); }
+  // The same where extended notifications are on (@ZX1).
+  void tell_more(const std::string& body) const {
+    if (setting("@ZX") != 0) tell_(body);
+  }
+
+ private:
+  ProtocolPort& port_;
+  AddressBook& addresses_;
+  std::int32_t vehicle_id_;
+  Tell tell_;
+  std::map<std::string, std::int64_t, std::less<>> settings_;
+};
+
+}  // namespace halocline::modem_gateway

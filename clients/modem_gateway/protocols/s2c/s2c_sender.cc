@@ -1,0 +1,282 @@
+#include "clients/modem_gateway/protocols/s2c/s2c_sender.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "clients/modem_gateway/protocols/fields.h"
+#include "core/names.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+// Until a burst that a busy modem refused is tried again.
+constexpr SimDuration kBusyWait = SimDuration::from_milliseconds(200);
+// The channel's turnaround and an acknowledgement of one byte (docs/packets.md; models/modems/s2c-im.toml), and a little more.
+constexpr SimDuration kAfterAck = SimDuration::from_milliseconds(100 + 173 + 27);
+constexpr std::size_t kMaxInstant = 64;
+// Longer than any packet: a burst of 1024 bytes takes 1.4 s.
+constexpr SimDuration kLongestPacket = SimDuration::from_milliseconds(5000);
+
+const char* name_of(S2cMessage::Type type) {
+  switch (type) {
+    case S2cMessage::Type::kSynchronous:
+      return "IMS";
+    case S2cMessage::Type::kPiggyBack:
+      return "PBM";
+    case S2cMessage::Type::kBurst:
+      return "BURST";
+    default:
+      return "IM";
+  }
+}
+
+const char* lower_name_of(S2cMessage::Type type) {
+  switch (type) {
+    case S2cMessage::Type::kSynchronous:
+      return "ims";
+    case S2cMessage::Type::kPiggyBack:
+      return "pbm";
+    case S2cMessage::Type::kBurst:
+      return "burst";
+    default:
+      return "im";
+  }
+}
+
+S2cMessage::Type type_of(const std::string& command) {
+  if (command == "*SENDIMS") return S2cMessage::Type::kSynchronous;
+  if (command == "*SENDPBM") return S2cMessage::Type::kPiggyBack;
+  return command == "*SEND" ? S2cMessage::Type::kBurst : S2cMessage::Type::kInstant;
+}
+
+// The flag of an instant message, the time of a synchronous one; "" where that is well.
+std::string take_last_field(const S2cCommand& command, S2cMessage& message) {
+  const std::string& last = command.fields.back();
+  switch (message.type) {
+    case S2cMessage::Type::kInstant:
+      if (last != "ack" && last != "noack" && last != "force") return "ERROR WRONG FORMAT";
+      message.wants_ack = last == "ack" && message.address != kS2cBroadcast;
+      if (last == "force") message.payload.kind = S2cKind::kForced;
+      return "";
+    case S2cMessage::Type::kSynchronous: {
+      message.payload.kind = S2cKind::kSynchronous;
+      if (last.empty()) return "";
+      const auto at = integer_in(last, 0, UINT32_MAX);
+      if (at) message.at_us = static_cast<std::uint32_t>(*at);
+      return at ? "" : "ERROR WRONG FORMAT";
+    }
+    case S2cMessage::Type::kPiggyBack:
+      message.payload.kind = S2cKind::kPiggyBack;
+      return "";
+    case S2cMessage::Type::kBurst:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+// [pP,]length,destination, then the flag of an instant message or the time of a synchronous one.
+std::string S2cSender::take(const S2cCommand& command) {
+  S2cMessage message;
+  message.type = type_of(command.name);
+  std::size_t at = 0;
+  if (command.fields[0].starts_with('p')) {
+    const auto protocol = integer_in(std::string_view(command.fields[at++]).substr(1), 0, 7);
+    if (!protocol) return "ERROR PROTOCOL ID";
+    message.payload.protocol = static_cast<int>(*protocol);
+  }
+  const auto address = integer_in(command.fields[at + 1], 1, kS2cBroadcast);
+  const bool is_reachable = address && *address != core_.own_address() &&
+                            (*address <= core_.setting("!AM") || *address == kS2cBroadcast);
+  if (!is_reachable) return "ERROR WRONG DESTINATION ADDRESS";
+  message.address = static_cast<std::int32_t>(*address);
+  message.payload.bytes = as_bytes(command.data);
+  message.wants_ack = message.type == S2cMessage::Type::kBurst && message.address != kS2cBroadcast;
+  const std::string problem = take_last_field(command, message);
+  return problem.empty() ? take(std::move(message)) : problem;
+}
+
+std::string S2cSender::take(S2cMessage message) {
+  if (message.type == S2cMessage::Type::kBurst) {
+    if (bursts_.size() >= kMaxBursts) return "ERROR BUFFER FULL";
+    bursts_.push_back(std::move(message));
+    if (!burst_) burst_due_ = std::min(burst_due_, core_.now());
+    return "OK";
+  }
+  if (s2c_packet(message.payload).size() > kMaxInstant) return "ERROR WRONG FORMAT";
+  if (message.type == S2cMessage::Type::kPiggyBack) {
+    if (waiting_piggy_back_) return "BUSY DELIVERING MESSAGE";
+    waiting_piggy_back_ = std::move(message);
+    return "OK";
+  }
+  if (instant_) return "BUSY DELIVERING MESSAGE";
+  const SimTime start = message.at_us ? core_.time_of(*message.at_us) : core_.now();
+  if (start > core_.now() + kMaxAhead) return "ERROR OUT OF RANGE";
+  begin(instant_, std::move(message), start);
+  return "OK";
+}
+
+void S2cSender::clear() {
+  bursts_.clear();
+  waiting_piggy_back_.reset();
+  instant_.reset();
+  burst_.reset();
+  piggy_back_.reset();
+  burst_due_ = SimTime::never();
+}
+
+void S2cSender::begin(std::optional<OnItsWay>& place, S2cMessage message, SimTime start) {
+  const bool is_burst = message.type == S2cMessage::Type::kBurst;
+  place = OnItsWay{std::move(message), -1, core_.setting(is_burst ? "!RC" : "!RI"), start};
+  OnItsWay& sent = *place;
+  if (start >= core_.now() &&
+      (!is_receiving() || is_burst || sent.message.payload.kind == S2cKind::kForced || start > core_.now()))
+    return transmit(sent);
+  // Told by step(), after the answer to the command.
+  sent.until = core_.now();
+}
+
+void S2cSender::transmit(OnItsWay& sent) {
+  const S2cMessage& message = sent.message;
+  const bool is_burst = message.type == S2cMessage::Type::kBurst;
+  const std::int32_t to = core_.vehicle_of(message.address);
+  sent.sequence = core_.port().send(sent.start, to, s2c_packet(message.payload),
+                                    {.stamped = !message.payload.has_header(),
+                                     .wants_ack = message.wants_ack && to != kBroadcastId,
+                                     .rate_number = is_burst ? kS2cBurstRate : kS2cImRate});
+  sent.ends = SimTime::never();
+  sent.until = std::max(sent.start, core_.now()) + kReceiptWithin;
+}
+
+std::optional<S2cSender::OnItsWay>* S2cSender::place_of(std::int64_t sequence) {
+  for (auto* place : {&instant_, &burst_, &piggy_back_}) {
+    if (*place && (*place)->sequence == sequence) return place;
+  }
+  return nullptr;
+}
+
+void S2cSender::on_receipt(const modem_receipt_t& receipt) {
+  auto* place = place_of(receipt.packet_sequence);
+  if (place == nullptr) return;
+  const bool accepted = receipt.receipt_result == modem_receipt_t::ACCEPTED ||
+                        receipt.receipt_result == modem_receipt_t::QUEUED;
+  if (accepted)
+    on_sent(**place, receipt);
+  else
+    on_refused(*place, receipt);
+}
+
+void S2cSender::on_sent(OnItsWay& sent, const modem_receipt_t& receipt) {
+  const auto duration_us = std::llround(receipt.duration_s * 1e6);
+  sent.start = SimTime::from_utime(receipt.start_utime);
+  sent.ends = sent.start + SimDuration::from_seconds(receipt.duration_s);
+  sent.until = SimTime::never();
+  core_.tell_more(fmt::format("SENDSTART,{},{},{},{}", sent.message.address, lower_name_of(sent.message.type),
+                              duration_us,
+                              std::max<std::int64_t>(0, receipt.start_utime - core_.now().to_utime())));
+}
+
+void S2cSender::on_refused(std::optional<OnItsWay>& place, const modem_receipt_t& receipt) {
+  const bool is_busy = receipt.receipt_result == modem_receipt_t::REFUSED_BUSY ||
+                       receipt.receipt_result == modem_receipt_t::REFUSED_QUEUE_FULL;
+  if (!is_busy) core_.port().note("send-refused", "result=" + std::to_string(receipt.receipt_result));
+  if (place->message.type != S2cMessage::Type::kBurst) {
+    core_.tell(fmt::format("CANCELED{},{}", name_of(place->message.type), place->message.address));
+    return place.reset();
+  }
+  if (!is_busy) return finish(place, false);
+  bursts_.push_front(std::move(place->message));
+  place.reset();
+  burst_due_ = core_.now() + kBusyWait;
+}
+
+void S2cSender::on_ack(const modem_receive_t& ack) {
+  auto* place = place_of(ack.packet_sequence);
+  const bool is_good = !ack.payload.empty() && (ack.payload[0] & 1) != 0;
+  if (place == nullptr || !is_good) return;
+  note_propagation(ack.two_way_travel_time_s / 2);
+  finish(*place, true);
+}
+
+void S2cSender::note_propagation(double one_way_s) { propagation_us_ = std::llround(one_way_s * 1e6); }
+
+void S2cSender::on_event(const modem_event_t& event) {
+  if (event.modem_event == modem_event_t::PACKET_DETECTED) receiving_until_ = core_.now() + kLongestPacket;
+  if (event.modem_event == modem_event_t::PACKET_ENDED) receiving_until_ = core_.now();
+}
+
+void S2cSender::on_acknowledged(const modem_receive_t& packet) {
+  const bool has_one = waiting_piggy_back_ && !piggy_back_ &&
+                       core_.vehicle_of(waiting_piggy_back_->address) == packet.source_id;
+  if (!has_one) return;
+  begin(piggy_back_, *std::exchange(waiting_piggy_back_, std::nullopt), core_.now() + kAfterAck);
+}
+
+// `delivered`: acknowledged, or sent where no acknowledgement is wanted.
+void S2cSender::finish(std::optional<OnItsWay>& place, bool delivered) {
+  const S2cMessage message = std::exchange(place, std::nullopt)->message;
+  last_address_ = message.address;
+  if (message.type == S2cMessage::Type::kBurst) {
+    core_.tell(fmt::format("{},{},{}", delivered ? "DELIVERED" : "FAILED", ++bursts_done_, message.address));
+    burst_due_ = bursts_.empty() ? SimTime::never() : core_.now();
+  } else if (message.wants_ack) {
+    core_.tell(
+        fmt::format("{}{},{}", delivered ? "DELIVERED" : "FAILED", name_of(message.type), message.address));
+  }
+}
+
+void S2cSender::next_burst() {
+  burst_due_ = SimTime::never();
+  if (burst_ || bursts_.empty()) return;
+  if (is_receiving() || instant_) {
+    burst_due_ = core_.now() + kBusyWait;
+    return;
+  }
+  S2cMessage message = std::move(bursts_.front());
+  bursts_.pop_front();
+  begin(burst_, std::move(message), core_.now());
+}
+
+SimTime S2cSender::next() const {
+  SimTime next = burst_due_;
+  for (const auto* place : {&instant_, &burst_, &piggy_back_}) {
+    if (*place) next = std::min({next, (*place)->ends, (*place)->until});
+  }
+  return next;
+}
+
+void S2cSender::step() {
+  for (auto* place : {&instant_, &burst_, &piggy_back_}) {
+    if (*place) step(*place);
+  }
+  if (core_.now() >= burst_due_) next_burst();
+}
+
+void S2cSender::step(std::optional<OnItsWay>& place) {
+  OnItsWay& sent = *place;
+  const SimTime now = core_.now();
+  const S2cMessage& message = sent.message;
+  if (now >= sent.ends) {
+    core_.tell_more(fmt::format(
+        "SENDEND,{},{},{},{}", message.address, lower_name_of(message.type), S2cCore::clock_us(sent.start),
+        (std::exchange(sent.ends, SimTime::never()) - sent.start).nanoseconds() / 1000));
+    if (!message.wants_ack) return finish(place, true);
+    sent.until = now + SimDuration::from_milliseconds(core_.setting("!RT"));
+  }
+  if (now < sent.until) return;
+  if (sent.sequence < 0) {  // was not begun: too late, or kept by a reception
+    core_.tell(fmt::format("{}{},{}", sent.start < now ? "EXPIRED" : "CANCELED", name_of(message.type),
+                           message.address));
+    return place.reset();
+  }
+  if (sent.tries_left-- <= 0 || !message.wants_ack) return finish(place, false);
+  sent.start = now;
+  transmit(sent);
+}
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,36 @@
+// The commands of an EvoLogics modem that set, ask and reset: !, @, ?, &, Z, I and the like.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "clients/modem_gateway/protocols/s2c/s2c_core.h"
+#include "clients/modem_gateway/protocols/s2c/s2c_reader.h"
+#include "clients/modem_gateway/protocols/s2c/s2c_sender.h"
+
+namespace halocline::modem_gateway {
+
+class S2cSettings {
+ public:
+  // Both must outlive it.
+  S2cSettings(S2cCore& core, S2cSender& sender) : core_(core), sender_(sender) {}
+
+  // The body of the answer; none for a command that is none of these.
+  std::optional<std::string> answer(const S2cCommand& command);
+  // The last position by the USBL, for ?UP.
+  void note_position(std::string position) { position_ = std::move(position); }
+
+ private:
+  std::string set(const S2cCommand& command);
+  std::optional<std::string> query(const std::string& name) const;
+  std::string all_settings() const;
+  std::string status() const;
+  double battery_v() const;
+
+  S2cCore& core_;
+  S2cSender& sender_;
+  std::string position_;
+};
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,147 @@
+#include "clients/modem_gateway/protocols/unet/unet_hosts.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace halocline::modem_gateway {
+namespace {
+
+using nlohmann::json;
+
+// As clients compare it, byte by byte.
+constexpr std::string_view kAlive = "{\"alive\": true}\n";
+constexpr std::size_t kMaxWants = 1000;
+
+struct Agent {
+  const char* name;
+  const char* type;
+};
+constexpr std::array<Agent, 5> kAgents{{{"node", "org.arl.unet.nodeinfo.NodeInfo"},
+                                        {"arp", "org.arl.unet.addr.AddressResolution"},
+                                        {"phy", "org.arl.unet.phy.Physical"},
+                                        {"ranging", "org.arl.unet.localization.Ranging"},
+                                        {"uwlink", "org.arl.unet.link.ECLink"}}};
+// Of several agents for one service the first serves where one is wanted.
+struct Service {
+  const char* name;
+  const char* agent;
+};
+constexpr std::array<Service, 7> kServices{{{"NODE_INFO", "node"},
+                                            {"ADDRESS_RESOLUTION", "arp"},
+                                            {"PHYSICAL", "phy"},
+                                            {"LINK", "uwlink"},
+                                            {"DATAGRAM", "uwlink"},
+                                            {"DATAGRAM", "phy"},
+                                            {"RANGING", "ranging"}}};
+constexpr std::string_view kServicePrefix = "org.arl.unet.Services.";
+
+std::vector<std::string> agents_for(const std::string& service) {
+  std::vector<std::string> agents;
+  for (const Service& each : kServices) {
+    if (service == std::string(kServicePrefix) + each.name || service == each.name)
+      agents.emplace_back(each.agent);
+  }
+  return agents;
+}
+
+bool is_agent(const std::string& name) {
+  for (const Agent& agent : kAgents) {
+    if (name == agent.name) return true;
+  }
+  return false;
+}
+
+json all_services() {
+  std::set<std::string> names;
+  for (const Service& service : kServices) names.insert(std::string(kServicePrefix) + service.name);
+  return names;
+}
+
+}  // namespace
+
+void UnetHosts::open(ClientId client) {
+  hosts_[client];
+  port_.write(client, kAlive);
+}
+
+void UnetHosts::take(ClientId client, std::string_view bytes) {
+  hosts_[client].reader.take(
+      bytes, [&](std::string_view line) { take_line(client, line); },
+      [&] { port_.note("line-too-long", "client=" + std::to_string(client)); });
+}
+
+void UnetHosts::take_line(ClientId client, std::string_view line) {
+  const json request = json::parse(line, nullptr, /*allow_exceptions=*/false);
+  if (!request.is_object()) return port_.note("no-json", "client=" + std::to_string(client));
+  if (text_of(request, "action") == "send") {
+    const auto message = request.contains("message") ? unet_request(request["message"]) : std::nullopt;
+    if (message && is_agent(message->recipient)) on_request_(*message);
+    return;
+  }
+  json answer = answer_to(hosts_[client], request);
+  if (answer.is_null()) return;
+  answer["inResponseTo"] = request["action"];
+  if (request.contains("id")) answer["id"] = request["id"];
+  port_.write(client, answer.dump() + "\n");
+}
+
+// Null where none is due.
+json UnetHosts::answer_to(Host& host, const json& request) {
+  const std::string action = text_of(request, "action");
+  if (action == "agents") {
+    json names = json::array(), types = json::array();
+    for (const Agent& agent : kAgents) names.push_back(agent.name), types.push_back(agent.type);
+    return {{"agentIDs", names}, {"agentTypes", types}};
+  }
+  if (action == "containsAgent") return {{"answer", is_agent(text_of(request, "agentID"))}};
+  if (action == "services") return {{"services", all_services()}};
+  const auto agents = agents_for(text_of(request, "service"));
+  if (action == "agentForService") return agents.empty() ? json::object() : json{{"agentID", agents.front()}};
+  if (action == "agentsForService") return {{"agentIDs", agents}};
+  if (action == "auth") return {{"auth", true}};
+  if (action != "wantsMessagesFor" || !request.contains("agentIDs") || !request["agentIDs"].is_array())
+    return nullptr;
+  host.wants.clear();
+  for (const json& name : request["agentIDs"]) {
+    if (name.is_string() && host.wants.size() < kMaxWants) host.wants.insert(name.get<std::string>());
+  }
+  return nullptr;
+}
+
+void UnetHosts::answer(const UnetRequest& request, json fields) {
+  const std::string clazz = text_of(fields, "clazz");
+  fields.erase("clazz");
+  reply(request, clazz, std::move(fields));
+}
+
+void UnetHosts::reply(const UnetRequest& request, const std::string& clazz, json fields) {
+  fields["inReplyTo"] = request.id;
+  fields["sender"] = request.recipient;
+  fields["recipient"] = request.sender;
+  publish(clazz, std::move(fields));
+}
+
+void UnetHosts::notify(const std::string& topic, const std::string& clazz, json fields) {
+  fields["recipient"] = topic;
+  publish(clazz, std::move(fields));
+}
+
+void UnetHosts::publish(const std::string& clazz, json data) {
+  if (!data.contains("perf")) data["perf"] = "INFORM";
+  data["msgID"] = fmt::format("halocline-{:016x}", ++messages_);
+  const std::string recipient = text_of(data, "recipient");
+  const std::string line =
+      json{{"action", "send"}, {"message", {{"clazz", clazz}, {"data", std::move(data)}}}, {"relay", false}}
+          .dump(-1, ' ', false, json::error_handler_t::replace) +
+      "\n";
+  for (const auto& [client, host] : hosts_) {
+    if (host.wants.empty() || host.wants.contains(recipient)) port_.write(client, line);
+  }
+}
+
+}  // namespace halocline::modem_gateway

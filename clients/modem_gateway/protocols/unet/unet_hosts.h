@@ -1,0 +1,55 @@
+// The hosts of a UnetStack gateway: requests of fjage answered by themselves (agents, services, subscriptions), messages to agents handed on,
+// messages to hosts that want them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "clients/modem_gateway/protocols/line_reader.h"
+#include "clients/modem_gateway/protocols/protocol.h"
+#include "clients/modem_gateway/protocols/unet/unet_json.h"
+
+namespace halocline::modem_gateway {
+
+class UnetHosts {
+ public:
+  using OnRequest = std::function<void(const UnetRequest&)>;
+
+  // `on_request`: a message to one of the agents.
+  UnetHosts(ProtocolPort& port, OnRequest on_request) : port_(port), on_request_(std::move(on_request)) {}
+
+  void open(ClientId client);
+  void close(ClientId client) { hosts_.erase(client); }
+  void take(ClientId client, std::string_view bytes);
+
+  // The answer of the agent to a request; fields with the class under "clazz".
+  void answer(const UnetRequest& request, nlohmann::json fields);
+  // A notification that belongs to a request, to whom it came from.
+  void reply(const UnetRequest& request, const std::string& clazz, nlohmann::json fields);
+  // A notification to a topic.
+  void notify(const std::string& topic, const std::string& clazz, nlohmann::json fields);
+
+ private:
+  struct Host {
+    LineReader reader;
+    std::set<std::string> wants;  // recipients whose messages it gets; empty: all
+  };
+
+  void take_line(ClientId client, std::string_view line);
+  nlohmann::json answer_to(Host& host, const nlohmann::json& request);
+  void publish(const std::string& clazz, nlohmann::json data);
+
+  ProtocolPort& port_;
+  OnRequest on_request_;
+  std::map<ClientId, Host> hosts_;
+  std::int64_t messages_ = 0;
+};
+
+}  // namespace halocline::modem_gateway

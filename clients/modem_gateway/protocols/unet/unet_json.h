@@ -1,0 +1,40 @@
+// Messages of fjage as JSON: envelopes, arrays of bytes, base 64.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace halocline::modem_gateway {
+
+std::string base64_of(std::span<const std::uint8_t> bytes);
+// None for a text that is no base 64.
+std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text);
+
+// An array of bytes as hosts send it: a list of numbers from -128 to 255, or {"clazz": "[B", "data": BASE64}. None for anything else; no
+// bytes for null.
+std::optional<std::vector<std::uint8_t>> unet_bytes(const nlohmann::json& value);
+// As it is sent.
+nlohmann::json unet_array(std::span<const std::uint8_t> bytes);
+
+// A field of an object, where it has the type; otherwise the given value.
+std::string text_of(const nlohmann::json& object, const char* field, const std::string& otherwise = "");
+std::int64_t integer_of(const nlohmann::json& object, const char* field, std::int64_t otherwise = 0);
+bool flag_of(const nlohmann::json& object, const char* field);
+
+// What a host sent to an agent.
+struct UnetRequest {
+  std::string type;  // the class, without its packages: DatagramReq
+  std::string clazz;
+  std::string id, sender, recipient;
+  nlohmann::json data;
+};
+// None for a message that is none.
+std::optional<UnetRequest> unet_request(const nlohmann::json& message);
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,30 @@
+// What passes through doors, a line each, for a person:
+//
+//   12.345678 auv-1 nm3 < $P002\r\n
+//   12.345678 auv-1 nm3 > $P002\r\n
+//
+// with the simulation time; bytes that cannot be printed as \xHH.
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway {
+
+std::string printable(std::string_view bytes);
+
+class TraceLog {
+ public:
+  // "-": stderr. Throws InvalidArgument for a file that cannot be written.
+  explicit TraceLog(const std::string& path);
+
+  void write(SimTime now, std::string_view door, char direction, std::string_view bytes);
+
+ private:
+  std::ofstream file_;  // not open: stderr
+};
+
+}  // namespace halocline::modem_gateway

@@ -1,0 +1,131 @@
+#include "clients/modem_gateway/connections.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bus/runtime/node_process.h"
+#include "core/check.h"
+#include "tests/clients/modem_gateway/host.h"
+#include "tests/support/working_folder.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+using testing::Host;
+using testing::work_until;
+using Change = Connections::Change;
+
+// Answers "<client bytes>" to everything.
+class Echo {
+ public:
+  std::size_t add(const std::string& place) { return connections.add(place_of(place)); }
+  void work() {
+    for (auto& input : connections.take(bus::steady_now())) {
+      if (input.change == Change::kOpened) ++opened;
+      if (input.change == Change::kClosed) ++closed;
+      if (input.change != Change::kBytes) continue;
+      received += input.bytes.size();
+      if (!is_silent) connections.write(input.door, input.client, "<" + input.bytes + ">");
+    }
+  }
+  // What `host` gets until that is `size` bytes.
+  std::string read(Host& host, std::size_t size) {
+    std::string text;
+    work_until([&] { work(), text += host.read(); }, [&] { return text.size() >= size; });
+    return text;
+  }
+
+  Connections connections;
+  int opened = 0, closed = 0;
+  std::size_t received = 0;
+  bool is_silent = false;
+};
+
+TEST(Connections, EachHostHasAConversationOfItsOwn) {
+  Echo echo;
+  const auto door = echo.add("tcp:0");
+  Host one(echo.connections.place_of(door)), two(echo.connections.place_of(door));
+  one.write("one");
+  two.write("two");
+  EXPECT_EQ(echo.read(one, 5), "<one>");
+  EXPECT_EQ(echo.read(two, 5), "<two>");
+  echo.connections.write(door, kAllClients, "all");
+  EXPECT_EQ(echo.read(one, 3), "all");
+  EXPECT_EQ(echo.read(two, 3), "all");
+  one.close();
+  EXPECT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.closed == 1; }));
+  two.write("x");
+  EXPECT_EQ(echo.read(two, 3), "<x>");
+}
+
+TEST(Connections, ASerialLineIsOpenedUsedClosedAndOpenedAgain) {
+  const halocline::testing::TemporaryFolder folder;
+  Echo echo;
+  const std::string place = "pty:modem";
+  echo.add(place);
+  for (int times = 1; times <= 2; ++times) {
+    {
+      Host host(place);
+      ASSERT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.opened == times; }));
+      host.write(std::string_view("a\r\n\x03\x04\xff", 6));  // nothing is changed, as on a raw line
+      EXPECT_EQ(echo.read(host, 8), std::string("<a\r\n\x03\x04\xff>"));
+    }
+    ASSERT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.closed == times; }));
+    echo.connections.write(0, kAllClients, "nobody reads this");
+  }
+}
+
+TEST(Connections, AHostThatNeverReadsLosesWholeWritesAndNobodyElseAny) {
+  Echo echo;
+  const auto door = echo.add("tcp:0"), other = echo.add("tcp:0");
+  const Host deaf(echo.connections.place_of(door));
+  Host host(echo.connections.place_of(other));
+  ASSERT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.opened == 2; }));
+  for (int i = 0; i < 20'000 && echo.connections.counters().writes_dropped == 0; ++i)
+    echo.connections.write(door, kAllClients, std::string(1024, 'x'));
+  EXPECT_GT(echo.connections.counters().writes_dropped, 0);
+  host.write("still here");
+  EXPECT_EQ(echo.read(host, 12), "<still here>");
+}
+
+TEST(Connections, TurnsAwayMoreHostsThanItHolds) {
+  Echo echo;
+  const auto door = echo.add("tcp:0");
+  std::vector<std::unique_ptr<Host>> hosts;
+  for (std::size_t i = 0; i < 500; ++i) {
+    hosts.push_back(std::make_unique<Host>(echo.connections.place_of(door)));
+    echo.work();
+  }
+  ASSERT_TRUE(
+      work_until([&] { echo.work(); }, [&] { return echo.connections.counters().turned_away == 500 - 32; }));
+  EXPECT_EQ(echo.connections.clients(), Connections::kMaxClients);
+  hosts[0]->write("first");
+  EXPECT_EQ(echo.read(*hosts[0], 7), "<first>");
+  hosts.clear();
+  EXPECT_TRUE(work_until([&] { echo.work(); }, [&] { return echo.connections.clients() == 0; }));
+}
+
+TEST(Connections, AFloodOfOneHostComesInPieces) {
+  Echo echo;
+  echo.is_silent = true;
+  const auto door = echo.add("tcp:0");
+  const Host host(echo.connections.place_of(door));
+  for (int i = 0; i < 64; ++i) {
+    host.write(std::string(16 * 1024, 'x'));
+    for (const auto& input : echo.connections.take(bus::steady_now()))
+      EXPECT_LE(input.bytes.size(), Connections::kMaxPiece);
+  }
+}
+
+TEST(Connections, APlaceThatIsTakenIsRefused) {
+  Connections connections;
+  const auto door = connections.add(place_of("tcp:0"));
+  EXPECT_THROW(connections.add(place_of(connections.place_of(door))), InvalidArgument);
+  EXPECT_THROW(connections.add(place_of("pty:/nowhere/at/all")), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace halocline::modem_gateway

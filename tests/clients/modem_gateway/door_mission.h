@@ -1,0 +1,109 @@
+// A scenario with doors in lockstep in this process, and hosts that talk to it between its instants.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <lcm/lcm-cpp.hpp>
+#include <unistd.h>
+
+#include "bus/bus.h"
+#include "bus/channels.h"
+#include "bus/event_log.h"
+#include "bus/message_codec.h"
+#include "bus/runtime/lockstep_runner.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/modem_gateway/gateway_node.h"
+#include "core/sim_time.h"
+
+namespace halocline::modem_gateway::testing {
+
+// Shallow straight water, still and isovelocity: travel times are ranges over 1500 m/s. A fifth of what would be received is lost.
+inline constexpr const char* kDoorWater = R"(
+[scenario]
+duration_s = 600
+[terrain]
+kind = "flat"
+[terrain.flat]
+depth_m = 200.0
+[environment]
+profile = "isovelocity"
+isovelocity_mps = 1500.0
+wind_mps = 5.0
+[propagation]
+model = "straight"
+[channel_server]
+link_rate_hz = 0.1
+[[extra_loss]]
+share = 0.2
+)";
+
+struct DoorVehicle {
+  std::string name;
+  int id;
+  std::string profile;
+  double north_m, east_m;
+  std::string kind;          // of its door; empty: none
+  std::string options = {};  // of the door
+  std::string more = {};     // keys of the vehicle, besides
+};
+
+class DoorMission {
+ public:
+  explicit DoorMission(const std::vector<DoorVehicle>& vehicles) {
+    bus::set_log_level(bus::LogLevel::kError);
+    const std::string path = ::testing::TempDir() + "halocline-doors-" + std::to_string(getpid()) + ".toml";
+    std::string text = kDoorWater, doors;
+    for (const DoorVehicle& v : vehicles) {
+      text += "[[vehicle]]\nname = \"" + v.name + "\"\nid = " + std::to_string(v.id) +
+              "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(v.north_m) + ", " +
+              std::to_string(v.east_m) + ", 60.0]\n" + v.more + "[vehicle.modem]\nprofile = \"" + v.profile +
+              "\"\n";
+      if (v.kind.empty()) continue;
+      doors += "[[door]]\nvehicle = \"" + v.name + "\"\nkind = \"" + v.kind +
+               "\"\nplace = \"tcp:0\"\noptions = \"" + v.options + "\"\n";
+    }
+    std::ofstream(path) << text << doors;
+    config_ = clients::load_scenario(path, {});
+    std::filesystem::remove(path);
+    nodes_ = std::make_unique<clients::Composition>(lcm_, config_, clients::Composition::kRun);
+    for (bus::Node* node : nodes_->nodes()) {
+      if (auto* gateway = dynamic_cast<GatewayNode*>(node)) gateway_ = gateway;
+    }
+    runner_ = std::make_unique<bus::LockstepRunner>(nodes_->nodes());
+    runner_->set_listener([this](SimTime, std::string_view channel, std::span<const std::uint8_t> message) {
+      if (channel == bus::channels::kOutcome) {
+        packet_outcome_t outcome{};
+        ASSERT_EQ(bus::decode(message, outcome), "");
+        outcomes.push_back(outcome);
+      } else if (channel.starts_with("MODEM_EVENT.")) {
+        events.emplace_back(std::string(channel.substr(12)), modem_event_t{});
+        ASSERT_EQ(bus::decode(message, events.back().second), "");
+      }
+    });
+  }
+
+  GatewayNode& gateway() { return *gateway_; }
+  SimTime now() const { return runner_->now(); }
+  void run_until(SimTime end) { runner_->run_until(end); }
+
+  std::vector<packet_outcome_t> outcomes;
+  std::vector<std::pair<std::string, modem_event_t>> events;  // with the vehicle
+
+ private:
+  clients::ScenarioConfig config_;
+  lcm::LCM lcm_{"memq://"};
+  std::unique_ptr<clients::Composition> nodes_;
+  GatewayNode* gateway_ = nullptr;
+  std::unique_ptr<bus::LockstepRunner> runner_;
+};
+
+}  // namespace halocline::modem_gateway::testing

@@ -1,0 +1,100 @@
+#include "clients/modem_gateway/gateway_config.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/config/config.h"
+#include "core/check.h"
+
+namespace halocline::modem_gateway {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr auto kVehicles = R"(
+[[vehicle]]
+name = "auv-1"
+id = 1
+[[vehicle]]
+name = "buoy"
+id = 9
+)";
+
+GatewayConfig read(const std::string& doors) {
+  auto file = bus::ConfigFile::parse(kVehicles + doors, "test.toml", {});
+  GatewayConfig config;
+  file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
+  file.check(/*whole_file=*/false);
+  return config;
+}
+
+std::string errors_of(const std::string& doors) {
+  try {
+    read(doors);
+  } catch (const bus::ConfigErrors& errors) {
+    return errors.what();
+  }
+  return "";
+}
+
+TEST(GatewayConfig, ADoorNamesVehicleKindAndPlace) {
+  const GatewayConfig config = read(R"(
+[[door]]
+vehicle = "buoy"
+kind = "nm3"
+place = "tcp:9600"
+addresses = "auv-1=7"
+options = "timestamps=yes"
+)");
+  ASSERT_EQ(config.doors.size(), 1u);
+  EXPECT_EQ(config.doors[0].vehicle_id, 9);
+  EXPECT_EQ(config.doors[0].place.port, 9600);
+  EXPECT_EQ(config.doors[0].place.host, "127.0.0.1");
+}
+
+TEST(GatewayConfig, EachMistakeIsNamedWithItsLineAndWhatIsAllowed) {
+  const std::string errors = errors_of(R"(
+[[door]]
+vehicle = "nobody"
+kind = "nm3"
+place = "udp:1"
+options = "colour=red"
+addresses = "auv-1=x"
+)");
+  EXPECT_THAT(errors, HasSubstr("test.toml:12: door[0].place"));
+  EXPECT_THAT(errors, HasSubstr("name of a vehicle of the scenario"));
+  EXPECT_THAT(errors, HasSubstr("allowed are tcp:PORT"));
+  EXPECT_THAT(errors, HasSubstr("allowed are timestamps"));
+  EXPECT_THAT(errors, HasSubstr("VEHICLE=ADDRESS"));
+  EXPECT_THAT(errors_of("[[door]]\nvehicle = \"buoy\"\nkind = \"fax\"\n"), HasSubstr("nm3"));
+  EXPECT_THAT(errors_of("[[door]]\nvehicle = \"buoy\"\n"), HasSubstr("must be given"));
+}
+
+TEST(GatewayConfig, TwoDoorsHaveTwoPlaces) {
+  const std::string door = "[[door]]\nvehicle = \"buoy\"\nkind = \"nm3\"\nplace = \"tcp:9600\"\n";
+  EXPECT_THAT(errors_of(door + door), HasSubstr("another door has this place"));
+}
+
+TEST(GatewayConfig, PlacesSurviveTheRoundTrip) {
+  for (const auto* text : {"tcp:9600", "tcp:0.0.0.0:9600", "pty:/tmp/modem"})
+    EXPECT_EQ(place_of(text).text(), text);
+  for (const auto* wrong : {"", "tcp:", "tcp:70000", "tcp:here:9600", "pty:", "9600"})
+    EXPECT_THROW(place_of(wrong), InvalidArgument) << wrong;
+}
+
+TEST(GatewayConfig, TheCommandLineAddsDoors) {
+  GatewayConfig config = read("");
+  add_door(config, "auv-1=nm3:tcp:9600");
+  add_door(config, "buoy=nm3:pty:/tmp/modem");
+  ASSERT_EQ(config.doors.size(), 2u);
+  EXPECT_EQ(config.doors[0].vehicle_id, 1);
+  EXPECT_EQ(config.doors[1].place.path, "/tmp/modem");
+  for (const auto* wrong :
+       {"auv-1", "auv-1=nm3", "auv-2=nm3:tcp:9600", "auv-1=fax:tcp:9600", "auv-1=nm3:tcp:x"})
+    EXPECT_THROW(add_door(config, wrong), InvalidArgument) << wrong;
+}
+
+}  // namespace
+}  // namespace halocline::modem_gateway

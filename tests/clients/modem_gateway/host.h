@@ -1,0 +1,70 @@
+// A host's side of a door: a TCP connection on loopback, or a file, that never waits longer than a few seconds.
+#pragma once
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "clients/modem_gateway/endpoint.h"
+
+namespace halocline::modem_gateway::testing {
+
+class Host {
+ public:
+  // To "tcp:PORT" or "pty:PATH".
+  explicit Host(const std::string& place_text) {
+    const Place place = place_of(place_text);
+    if (!place.is_tcp) {
+      file_ = File(open(place.path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+      return;
+    }
+    file_ = File(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(place.port);
+    inet_pton(AF_INET, place.host.c_str(), &address.sin_addr);
+    is_open_ = connect(file_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+    fcntl(file_.get(), F_SETFL, O_NONBLOCK);
+  }
+
+  bool is_open() const { return is_open_; }
+  // As much as the other side takes at once.
+  void write(std::string_view bytes) const {
+    if (send(file_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL) >= 0 || errno != ENOTSOCK) return;
+    [[maybe_unused]] const auto written = ::write(file_.get(), bytes.data(), bytes.size());  // a serial line
+  }
+  // What there is by now.
+  std::string read() {
+    std::array<char, 65536> bytes{};
+    const ssize_t size = ::read(file_.get(), bytes.data(), bytes.size());
+    if (size == 0) is_open_ = false;
+    return size > 0 ? std::string(bytes.data(), static_cast<std::size_t>(size)) : "";
+  }
+  void close() { file_ = File(); }
+
+ private:
+  File file_;
+  bool is_open_ = true;
+};
+
+// Calls `work` until `done`, or for five seconds; returns whether it was done.
+inline bool work_until(const std::function<void()>& work, const std::function<bool()>& done) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!done()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    work();
+  }
+  return true;
+}
+
+}  // namespace halocline::modem_gateway::testing
