@@ -197,6 +197,9 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
   v.number("diffuse_below_noise_db", p.diffuse_below_noise_db,
            {-100, 100, "dB", "rays: the same of paths this much below the noise"});
   v.number(
+      "weak_below_diffuse_db", p.weak_below_diffuse_db,
+      {-100, 100, "dB", "rays: the same of whole links this much weaker still, if longer than 10 depths"});
+  v.number(
       "speed_tolerance_mps", p.speed_tolerance_mps,
       {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});
   v.number("reuse_distance_m", p.reuse_distance_m,
@@ -335,6 +338,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.greatest_depth_m = p.greatest_depth_m;
   rays.reuse_for_packets = p.reuse_for_packets;
   rays.diffuse_below_noise = Decibels{p.diffuse_below_noise_db};
+  rays.weak_below_diffuse = Decibels{p.weak_below_diffuse_db};
   rays.max_searches_per_tick = config.rules.max_searches_per_tick;
   rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;
   using Solver = acoustics::RaySolver;

@@ -83,6 +83,8 @@ void validate(const RayModel& model) {
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.diffuse_below_noise.value, -100, 100, "level of diffuse sound below the noise",
                    "dB");
+  require_in_range(model.weak_below_diffuse.value, -100, 100, "level of weak links below diffuse sound",
+                   "dB");
   require_in_range(model.greatest_depth_m, 0, acoustics::kDeepestWater, "greatest depth of the water", "m");
   require_in_range(model.least_depth_m, 0, model.greatest_depth_m, "least depth of the water", "m");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
@@ -126,7 +128,7 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
 }
 
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {
-  return acoustics::may_be_weak(water, options_of(model, query), query.link);
+  return acoustics::may_be_weak(water, options_of(model, query), query.link, model.weak_below_diffuse);
 }
 
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
@@ -142,7 +144,7 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
   auto windows = acoustics::weak_arrivals(
       {along.water, depth_m, model.bottom, surface_of(model, environment), options_of(model, query)},
-      query.link);
+      query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
   auto found = std::make_shared<FoundPaths>();
   found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};

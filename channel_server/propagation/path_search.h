@@ -46,6 +46,9 @@ struct RayModel {
   // Over a rough bottom paths this much weaker than the noise over the transmitter's band, less the receiver's directivity, come
   // as energy alone (RayOptions::diffuse_below_pressure), -100..100. Not where options.diffuse_below_db is 0.
   Decibels diffuse_below_noise{5};
+  // The whole of a link of more than 10 depths that is this much weaker still comes as energy, -100..100: below 0, one whose paths
+  // together are stronger (acoustics/link/mixed_link.h).
+  Decibels weak_below_diffuse{6};
   // Of the water wherever sound goes, as far as it is known, m: for the range that sound reaches. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;         // of link tables, by search_budget.h; 0: as many as they need

@@ -113,7 +113,7 @@ std::optional<WeakLinks> RayPropagation::weak_links(SimTime at, double frequency
       water, model_.least_depth_m, model_.bottom, {model_.surface, environment.noise.wind_mps}, options};
   const Decibels gain = acoustics::kFocusingGain + gain_beyond_powers(model_, environment);
   return WeakLinks{{sea, {model_.least_depth_m, model_.greatest_depth_m, deepest_end_m}, gain},
-                   model_.diffuse_below_noise - to_decibels(PowerRatio{acoustics::kWeakShare})};
+                   model_.diffuse_below_noise + model_.weak_below_diffuse};
 }
 
 Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,
