@@ -22,6 +22,7 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
+#include "acoustics/sea/environment.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/reception_decision.h"
@@ -80,6 +81,10 @@ struct Flight {
 // Where the receiver is when the propagation is evaluated for it next, with what is known at `decided_at`; empty: nowhere.
 std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation);
+
+// Takes the reception at `end`, in the water of the departure. Before a flight is solved it may be given the reception at its first
+// next_end(), which solve_arrival() then does not ask for. Calls for different flights may overlap between threads.
+void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const acoustics::Environment& water);
 
 // Solves for travel time and reception, with what is known at `decided_at`; `end` is next_end() of the same. A receiver that
 // is forgotten keeps the last solution. Throws as Propagation::reception.

@@ -183,9 +183,8 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
                                            : acoustics::kGreatestBoundedRange;
   PacketOutcome others = outcome_out_of_reach(packet, reach_m);
   others.receivers = 0;
-  const bool is_costly = propagation_.uses_bottom();
   const std::uint64_t identity = identity_for_draws(*packet);
-  std::vector<EndPair> links;
+  std::vector<Flight*> begun;
   for (const PlacedVehicle& receiver : present_) {
     if (receiver.id == source) continue;
     const double range_m = (receiver.placement.position_ned_m - packet->departure_ned_m).norm();
@@ -204,16 +203,31 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
       flight.identity = identity;
       flight.receiver_id = receiver.id;
       flight.receiver = fleet_.name_of(receiver.id);
-      if (const auto end = is_costly ? next_end(flight, departure, fleet_, propagation_) : std::nullopt) {
-        links.push_back({packet->link_end(), *end});
-      }
+      begun.push_back(&flight);
       flights_.add(departure, flight);  // solved there
     }
   }
-  if (is_costly) propagation_.prepare_packet(departure, links, for_each_);
+  if (propagation_.uses_bottom()) evaluate_together(*packet, begun);
   if (is_served && others.receivers > 0) {
     events.push_back({departure, std::move(others)});
   }
+}
+
+// Where sound goes by rays that costs enough to be shared out.
+void PacketMedium::evaluate_together(const Packet& packet, const std::vector<Flight*>& begun) {
+  std::vector<EndPair> links;
+  std::vector<Flight*> flights;  // of these
+  for (Flight* flight : begun) {
+    const auto end = next_end(*flight, packet.departure, fleet_, propagation_);
+    if (!end) continue;
+    links.push_back({packet.link_end(), *end});
+    flights.push_back(flight);
+  }
+  auto receptions = propagation_.packet_receptions(packet.departure, links, for_each_);
+  const acoustics::Environment& water = propagation_.environment(packet.departure);
+  for_each_(links.size(), [&](std::size_t i) {
+    if (receptions[i]) evaluate(*flights[i], links[i].to, *std::move(receptions[i]), water);
+  });
 }
 
 bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events) {
