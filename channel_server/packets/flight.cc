@@ -172,6 +172,7 @@ ReceivedSignal received_signal(const Flight& flight, double noise, const acousti
 }
 
 void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed) {
+  flight.is_evaluated = true;
   if (flight.reception.paths.empty()) return;
   const auto& measured = flight.reception.measured;
   ReceivedSignal& signal = flight.signal;

@@ -62,6 +62,7 @@ struct Flight {
   std::vector<NoiseSound> noise;       // of other vehicles, during the packet
   double large_scale = 1;              // of the pressures, by the link's large-scale fading
   ReceivedSignal signal;
+  bool is_evaluated = false;  // the signal, by evaluate_signal()
   PacketDraws draws = {};
   std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before
   bool acquired = false;
@@ -100,7 +101,8 @@ AudiblePacket audible_packet(const Flight& flight);
 AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach);
 // The packet's times at the receiver; `noise` in uPa^2 over the packet's band, less the receiver's directivity.
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading);
-// Sets signal and echoes over those times. Of no path: they stay empty.
+// Sets signal and echoes over those times, as they have been known since the signal began. Of no path: they stay empty. Calls for
+// different flights may overlap between threads.
 void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
 // 10^(X/20) of the flight's link when it locks.
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);

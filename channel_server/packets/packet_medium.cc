@@ -20,6 +20,8 @@ namespace {
 
 // An arrival solved at an instant no further before it than this stands: the receiver moves by micrometres.
 constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
+// Signals of which most are asked for within this time are evaluated together.
+constexpr SimDuration kSoon = SimDuration::from_milliseconds(100);
 // Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
 constexpr int kMaxSolutions = 64;
 
@@ -291,7 +293,7 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight.followed) {
-    evaluate_signal(flight, rule_.fading, rule_.seed);
+    if (!flight.is_evaluated) evaluate_signals(flight, at);
     const auto others = interferers_of(flight, receiver, signal.begin, signal.preamble_end);
     flight.acquired = acquires(signal, others, flight.draws, flight.statistics);
     if (flight.acquired && signal.fades) {
@@ -305,6 +307,17 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
   }
   flight.stage = Flight::Stage::kBits;
   flights_.add(std::max(signal.end, at), flight);
+}
+
+// With those that are asked for soon, unless their receivers follow others by then.
+void PacketMedium::evaluate_signals(Flight& first, SimTime at) {
+  std::vector<Flight*> flights = flights_.due_by(at + kSoon, Flight::Stage::kPreamble);
+  std::erase_if(flights, [](const Flight* flight) {
+    return flight->is_evaluated || outcome_before_acquisition(*flight) != OutcomeKind::kReceived ||
+           is_shifted_too_far(*flight) || flight->sounds_at->followed_at(flight->signal.preamble_end);
+  });
+  flights.push_back(&first);
+  for_each_(flights.size(), [&](std::size_t i) { evaluate_signal(*flights[i], rule_.fading, rule_.seed); });
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {

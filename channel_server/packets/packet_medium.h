@@ -147,6 +147,7 @@ class PacketMedium {
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
   void arrive(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
   void begin_reception(Flight& flight, SimTime at);
+  void evaluate_signals(Flight& first, SimTime at);
   void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   ReceiverState& state_of(VehicleId id);
