@@ -1,12 +1,14 @@
 #include "channel_server/propagation/path_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "acoustics/link/mixed_link.h"
 #include "acoustics/rays/eigenray.h"
 #include "core/check.h"
+#include "core/hash.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -30,6 +32,13 @@ acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environ
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
 }  // namespace
+
+std::uint64_t PathQuery::hash_of_places() const {
+  std::array<double, 7> all{
+      places[0], places[1], places[2], places[3], link.source_depth_m, link.receiver_depth_m, link.range_m};
+  for (double& one : all) one += 0.0;  // of -0, too
+  return xxh3(std::bit_cast<std::array<std::uint8_t, sizeof all>>(all));
+}
 
 int bounces_for(double range_m, double depth_m) {
   constexpr double kLeast = 60, kMost = 10'000, kSlope = 0.6;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -63,7 +64,8 @@ using ProfileEnds = std::array<double, 4>;
 
 // The link runs from the profile's first end.
 struct PathQuery {
-  using Key = std::tuple<EnvironmentTimeline::WaterId, double, ProfileEnds, std::int64_t,
+  // Begins with a hash of the places.
+  using Key = std::tuple<std::uint64_t, EnvironmentTimeline::WaterId, double, ProfileEnds, std::int64_t,
                          const SeabedProfile*, double, double, double, double>;
 
   EnvironmentTimeline::WaterId water_id = 0;
@@ -76,16 +78,19 @@ struct PathQuery {
 
   // Equal for queries of the same answer.
   Key key() const {
-    return {water_id,
-            frequency_hz,
-            places,
-            seabed_version,
-            given.get(),
-            link.source_depth_m,
-            link.receiver_depth_m,
-            link.range_m,
-            diffuse_below_pressure};
+    return {hash_of_places(),    water_id,
+            frequency_hz,        places,
+            seabed_version,      given.get(),
+            link.source_depth_m, link.receiver_depth_m,
+            link.range_m,        diffuse_below_pressure};
   }
+
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const { return static_cast<std::size_t>(std::get<0>(key)); }
+  };
+
+ private:
+  std::uint64_t hash_of_places() const;
 };
 
 inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {
