@@ -10,6 +10,7 @@
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/reception/signal_history.h"
+#include "acoustics/sea/environment.h"
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "core/units.h"
@@ -46,6 +47,19 @@ Vec3 slowness_at(const Flight& flight, const acoustics::Environment& water) {
   const double angle = paths.empty() ? elementary::atan2(way.z(), elementary::hypot(way.x(), way.y()))
                                      : paths[first_significant(paths)].arrival_angle_rad;
   return acoustics::ray_direction(from, to, angle) / speed_mps;
+}
+
+// Takes the reception at `end`, in the water of the departure.
+void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const acoustics::Environment& water) {
+  ++flight.propagation_calls;
+  flight.modem = *end.modem;
+  flight.place = {end.position_ned_m, end.velocity_ned_mps, {}};
+  flight.reception = std::move(reception);
+  const auto& paths = flight.reception.paths;
+  flight.window = paths.empty() ? acoustics::GuardWindow() : best_window(paths, flight.modem);
+  flight.solved_delay_s =
+      paths.empty() ? flight.reception.budget.delay_s : paths[first_significant(paths)].delay_s;
+  flight.slowness_s_per_m = slowness_at(flight, water);
 }
 
 // How much later than in the reception, because the receiver has moved on.
@@ -99,16 +113,23 @@ std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const 
                  &receiving_modem(fleet.modem(flight.receiver_id, expected), flight.packet->modem)};
 }
 
-void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const acoustics::Environment& water) {
-  ++flight.propagation_calls;
-  flight.modem = *end.modem;
-  flight.place = {end.position_ned_m, end.velocity_ned_mps, {}};
-  flight.reception = std::move(reception);
-  const auto& paths = flight.reception.paths;
-  flight.window = paths.empty() ? acoustics::GuardWindow() : best_window(paths, flight.modem);
-  flight.solved_delay_s =
-      paths.empty() ? flight.reception.budget.delay_s : paths[first_significant(paths)].delay_s;
-  flight.slowness_s_per_m = slowness_at(flight, water);
+void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
+                       Propagation& propagation, const ForEach& for_each) {
+  if (begun.empty()) return;
+  const Packet& packet = *begun.front()->packet;
+  std::vector<EndPair> links;
+  std::vector<Flight*> flights;  // of these
+  for (Flight* flight : begun) {
+    const auto end = next_end(*flight, packet.departure, fleet, propagation);
+    if (!end) continue;
+    links.push_back({packet.link_end(), *end});
+    flights.push_back(flight);
+  }
+  auto receptions = propagation.packet_receptions(packet.departure, links, for_each);
+  const acoustics::Environment& water = propagation.environment(packet.departure);
+  for_each(links.size(), [&](std::size_t i) {
+    if (receptions[i]) evaluate(*flights[i], links[i].to, *std::move(receptions[i]), water);
+  });
 }
 
 void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,

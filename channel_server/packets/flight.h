@@ -22,7 +22,6 @@
 #include "acoustics/fading/path_fading.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/reception/guard_window.h"
-#include "acoustics/sea/environment.h"
 #include "channel_server/packets/packet.h"
 #include "channel_server/packets/receiver_state.h"
 #include "channel_server/packets/reception_decision.h"
@@ -31,6 +30,7 @@
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/for_each.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -83,9 +83,10 @@ struct Flight {
 std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation);
 
-// Takes the reception at `end`, in the water of the departure. Before a flight is solved it may be given the reception at its first
-// next_end(), which solve_arrival() then does not ask for. Calls for different flights may overlap between threads.
-void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const acoustics::Environment& water);
+// Gives flights of one packet, none of which was solved yet, the reception that solve_arrival() would ask for, where the
+// propagation is ready for it; that is shared out by `for_each`.
+void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
+                       Propagation& propagation, const ForEach& for_each);
 
 // Solves for travel time and reception, with what is known at `decided_at`; `end` is next_end() of the same. A receiver that
 // is forgotten keeps the last solution. Throws as Propagation::reception.

@@ -209,27 +209,10 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
       flights_.add(departure, flight);  // solved there
     }
   }
-  if (propagation_.uses_bottom()) evaluate_together(*packet, begun);
+  if (propagation_.uses_bottom()) evaluate_together(begun, fleet_, propagation_, for_each_);
   if (is_served && others.receivers > 0) {
     events.push_back({departure, std::move(others)});
   }
-}
-
-// Where sound goes by rays that costs enough to be shared out.
-void PacketMedium::evaluate_together(const Packet& packet, const std::vector<Flight*>& begun) {
-  std::vector<EndPair> links;
-  std::vector<Flight*> flights;  // of these
-  for (Flight* flight : begun) {
-    const auto end = next_end(*flight, packet.departure, fleet_, propagation_);
-    if (!end) continue;
-    links.push_back({packet.link_end(), *end});
-    flights.push_back(flight);
-  }
-  auto receptions = propagation_.packet_receptions(packet.departure, links, for_each_);
-  const acoustics::Environment& water = propagation_.environment(packet.departure);
-  for_each_(links.size(), [&](std::size_t i) {
-    if (receptions[i]) evaluate(*flights[i], links[i].to, *std::move(receptions[i]), water);
-  });
 }
 
 bool PacketMedium::on_flight_event(SimTime at, std::vector<MediumEvent>& events) {
@@ -293,7 +276,9 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight.followed) {
-    if (!flight.is_evaluated) evaluate_signals(flight, at);
+    if (!flight.is_evaluated)
+      evaluate_signals(flight, flights_.due_by(at + kSoon, Flight::Stage::kPreamble), rule_.fading,
+                       rule_.seed, for_each_);
     const auto others = interferers_of(flight, receiver, signal.begin, signal.preamble_end);
     flight.acquired = acquires(signal, others, flight.draws, flight.statistics);
     if (flight.acquired && signal.fades) {
@@ -307,17 +292,6 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
   }
   flight.stage = Flight::Stage::kBits;
   flights_.add(std::max(signal.end, at), flight);
-}
-
-// With those that are asked for soon, unless their receivers follow others by then.
-void PacketMedium::evaluate_signals(Flight& first, SimTime at) {
-  std::vector<Flight*> flights = flights_.due_by(at + kSoon, Flight::Stage::kPreamble);
-  std::erase_if(flights, [](const Flight* flight) {
-    return flight->is_evaluated || outcome_before_acquisition(*flight) != OutcomeKind::kReceived ||
-           is_shifted_too_far(*flight) || flight->sounds_at->followed_at(flight->signal.preamble_end);
-  });
-  flights.push_back(&first);
-  for_each_(flights.size(), [&](std::size_t i) { evaluate_signal(*flights[i], rule_.fading, rule_.seed); });
 }
 
 void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events) {

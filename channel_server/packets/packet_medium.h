@@ -140,14 +140,11 @@ class PacketMedium {
   [[nodiscard]] bool must_be_put_off(const Departure& departure) const;
   const VehiclePower& power() const { return fleet_.equipment().power; }
   void launch(const PacketPointer& packet, std::vector<MediumEvent>& events);
-  // Those flights of a packet that the propagation is ready for.
-  void evaluate_together(const Packet& packet, const std::vector<Flight*>& begun);
 
   // Of the first flight; false: it must wait for the propagation.
   bool on_flight_event(SimTime at, std::vector<MediumEvent>& events);
   void arrive(Flight& flight, const std::optional<LinkEnd>& end, SimTime at);
   void begin_reception(Flight& flight, SimTime at);
-  void evaluate_signals(Flight& first, SimTime at);
   void end_preamble(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   void end_packet(Flight& flight, SimTime at, std::vector<MediumEvent>& events);
   ReceiverState& state_of(VehicleId id);
