@@ -88,7 +88,7 @@ struct PropagationConfig {
   double min_amplitude_db = -160;
   double max_bounce_loss_db = 30;  // of all bounces of a path together
   double shadow_loss_db = 120;     // our choice; 0: none stated
-  double diffuse_below_noise_db = 5;
+  double diffuse_below_noise_db = 5, weak_below_diffuse_db = 6;
   double speed_tolerance_mps = 0.02, reuse_distance_m = 25;
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   bool reuse_for_packets = false, coherent = false;

@@ -196,14 +196,14 @@ void visit_propagation(bus::ConfigVisitor& v, PropagationConfig& p) {
            {0, 100, "dB", "rays: over a rough bottom weaker paths come as their power alone; 0: none"});
   v.number("diffuse_below_noise_db", p.diffuse_below_noise_db,
            {-100, 100, "dB", "rays: the same of paths this much below the noise"});
-  v.number(
-      "speed_tolerance_mps", p.speed_tolerance_mps,
-      {0, 1, "m/s", "rays: rows of the water within this of the line between their neighbours are left out"});
+  v.number("weak_below_diffuse_db", p.weak_below_diffuse_db,
+           {-100, 100, "dB", "rays: the same of links of 10 depths and more this much weaker still"});
+  v.number("speed_tolerance_mps", p.speed_tolerance_mps,
+           {0, 1, "m/s", "rays: water rows within this of the line between their neighbours are left out"});
   v.number("reuse_distance_m", p.reuse_distance_m,
            {0, 1000, "m", "rays, link tables: length of cells that share a search, a tenth high; 0: none"});
-  v.number(
-      "least_depth_m", p.least_depth_m,
-      {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere; the more, the shorter the reach"});
+  v.number("least_depth_m", p.least_depth_m,
+           {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere; more shortens the reach"});
   v.number("greatest_depth_m", p.greatest_depth_m,
            {0, acoustics::kDeepestWater, "m", "rays: of the water anywhere"});
   v.boolean("reuse_for_packets", p.reuse_for_packets, "rays: packets share these searches, too");
@@ -326,7 +326,6 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.options = p.options;
   rays.bounces_follow_range = p.options.max_bounces < 0;
   rays.options.max_bounces = std::max(p.options.max_bounces, 0);
-  rays.options.keep_steep_direct = true;
   rays.options.min_amplitude = elementary::exp10(p.min_amplitude_db / 20);
   rays.options.min_boundary_factor = elementary::exp10(-p.max_bounce_loss_db / 20);
   rays.speed_tolerance_mps = p.speed_tolerance_mps;
@@ -335,6 +334,7 @@ RayModel make_rays(const ChannelServerConfig& config) {
   rays.greatest_depth_m = p.greatest_depth_m;
   rays.reuse_for_packets = p.reuse_for_packets;
   rays.diffuse_below_noise = Decibels{p.diffuse_below_noise_db};
+  rays.weak_below_diffuse = Decibels{p.weak_below_diffuse_db};
   rays.max_searches_per_tick = config.rules.max_searches_per_tick;
   rays.profile_reuse_distance_m = config.rules.profile_reuse_distance_m;
   using Solver = acoustics::RaySolver;

@@ -4,20 +4,22 @@
 //   const Spectrum& spectrum = spectra.find_or_make(name, [&] { return compute_spectrum(name); });
 //
 // An entry is used when it is inserted and when it is found. Which entries are kept depends on the sequence of calls
-// alone, never on addresses. Both operations take O(log size). Keys are ordered by operator<; the cache owns keys
-// and values. What outlives an entry belongs in a shared_ptr value. Not thread-safe: finding an entry moves it.
+// alone, never on addresses. Both operations take O(log size), keys being ordered by operator<; with a Hash of keys, which have
+// operator== then, O(1). The cache owns keys and values. What outlives an entry belongs in a shared_ptr value. Not thread-safe: finding an entry moves it.
 #pragma once
 
 #include <cstddef>
 #include <list>
 #include <map>
+#include <type_traits>
+#include <unordered_map>
 #include <utility>
 
 #include "core/check.h"
 
 namespace halocline {
 
-template <class Key, class Value>
+template <class Key, class Value, class Hash = void>
 class LruCache {
  public:
   // Throws InvalidArgument when `capacity`, the greatest number of entries, is 0.
@@ -73,7 +75,8 @@ class LruCache {
   }
 
   std::size_t capacity_;
-  std::map<Key, Entry> entries_;
+  std::conditional_t<std::is_void_v<Hash>, std::map<Key, Entry>, std::unordered_map<Key, Entry, Hash>>
+      entries_;
   Order by_use_;
 };
 

@@ -52,8 +52,8 @@ double add_leg(const RayWater& water, double xi, double depth_m, double limit_m,
   return z;
 }
 
-double weak_power(const RayOptions& options) {
-  return kWeakShare * options.diffuse_below_pressure * options.diffuse_below_pressure;
+double weak_power(const RayOptions& options, Decibels below) {
+  return options.diffuse_below_pressure * options.diffuse_below_pressure * to_power_ratio(-below).value;
 }
 
 double power_of(const Arrival& path) { return path.received_pressure() * path.received_pressure(); }
@@ -135,20 +135,20 @@ std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link) {
   return windows;
 }
 
-bool may_be_weak(const RayWater& water, const RayOptions& options, const RayLink& link) {
+bool may_be_weak(const RayWater& water, const RayOptions& options, const RayLink& link, Decibels below) {
   const double r = link.range_m, absorption_db = r * water.absorption_db_per_m(link.source_depth_m);
   const double direct = elementary::exp10(-absorption_db / 10) / (r * r);
-  return options.diffuse_below_db > 0 && direct <= weak_power(options);
+  return options.diffuse_below_db > 0 && direct <= weak_power(options, below);
 }
 
-std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link) {
-  if (link.range_m < kFarAway * sea.depth_m || !may_be_weak(sea.water, sea.options, link))
+std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link, Decibels below) {
+  if (link.range_m < kFarAway * sea.depth_m || !may_be_weak(sea.water, sea.options, link, below))
     return std::nullopt;
   std::vector<Arrival> windows = mixed_arrivals(sea, link);
   double power = 0;
   for (const Arrival& window : windows) power += power_of(window);
-  return windows.empty() || power > weak_power(sea.options) ? std::nullopt
-                                                            : std::optional(std::move(windows));
+  return windows.empty() || power > weak_power(sea.options, below) ? std::nullopt
+                                                                   : std::optional(std::move(windows));
 }
 
 // All that a window loses grows with the range, so what it loses in a metre tells all.

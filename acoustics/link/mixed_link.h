@@ -32,12 +32,11 @@ struct MixedSea {
 // The windows that hold 99 % of the power, by delay; none where no ray that leaves the source comes to the receiver's depth.
 std::vector<Arrival> mixed_arrivals(const MixedSea& sea, const RayLink& link);
 
-// The same of a link that is weak: more than 10 depths long, all of it, and a direct path alone, 6 dB below
+// The same of a link that is weak: more than 10 depths long, all of it, and a direct path alone, `below` under
 // RayOptions::diffuse_below_pressure. Empty for others.
-inline constexpr double kWeakShare = 0.25;  // of that pressure's power
-std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link);
+std::optional<std::vector<Arrival>> weak_arrivals(const MixedSea& sea, const RayLink& link, Decibels below);
 // Whether it is weak over some bottom: its direct path alone is.
-bool may_be_weak(const RayWater& water, const RayOptions& options, const RayLink& link);
+bool may_be_weak(const RayWater& water, const RayOptions& options, const RayLink& link, Decibels below);
 
 // The least that weak links lose, wherever their ends and their bottom lie: a bound by which those that cannot matter are
 // recognised before anything of them is computed.

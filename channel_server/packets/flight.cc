@@ -10,6 +10,7 @@
 #include "acoustics/link/ray_doppler.h"
 #include "acoustics/math/frequency_band.h"
 #include "acoustics/reception/signal_history.h"
+#include "acoustics/sea/environment.h"
 #include "core/elementary.h"
 #include "core/frames.h"
 #include "core/units.h"
@@ -38,9 +39,9 @@ bool serves(const Flight& flight, const LinkEnd& end) {
 }
 
 // Along the first significant path, s/m; along the straight line without one.
-Vec3 slowness_at(const Flight& flight, Propagation& propagation) {
+Vec3 slowness_at(const Flight& flight, const acoustics::Environment& water) {
   const Vec3 &from = flight.packet->departure_ned_m, &to = flight.place.position_ned_m;
-  const double speed_mps = sound_speed_at(propagation.environment(flight.packet->departure), to);
+  const double speed_mps = sound_speed_at(water, to);
   const auto& paths = flight.reception.paths;
   const Vec3 way = to - from;
   const double angle = paths.empty() ? elementary::atan2(way.z(), elementary::hypot(way.x(), way.y()))
@@ -48,17 +49,17 @@ Vec3 slowness_at(const Flight& flight, Propagation& propagation) {
   return acoustics::ray_direction(from, to, angle) / speed_mps;
 }
 
-void evaluate(Flight& flight, const LinkEnd& end, Propagation& propagation) {
+// Takes the reception at `end`, in the water of the departure.
+void evaluate(Flight& flight, const LinkEnd& end, Reception reception, const acoustics::Environment& water) {
   ++flight.propagation_calls;
   flight.modem = *end.modem;
   flight.place = {end.position_ned_m, end.velocity_ned_mps, {}};
-  flight.reception =
-      propagation.reception_without_capacity(flight.packet->departure, flight.packet->link_end(), end);
+  flight.reception = std::move(reception);
   const auto& paths = flight.reception.paths;
   flight.window = paths.empty() ? acoustics::GuardWindow() : best_window(paths, flight.modem);
   flight.solved_delay_s =
       paths.empty() ? flight.reception.budget.delay_s : paths[first_significant(paths)].delay_s;
-  flight.slowness_s_per_m = slowness_at(flight, propagation);
+  flight.slowness_s_per_m = slowness_at(flight, water);
 }
 
 // How much later than in the reception, because the receiver has moved on.
@@ -79,7 +80,7 @@ acoustics::FadingLink fading_link(const Flight& flight, std::uint64_t seed) {
 // straight line to where the receiver is then.
 SimTime expected_arrival(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                          Propagation& propagation) {
-  if (flight.propagation_calls > 0) return flight.arrival();
+  if (flight.solutions > 0 && flight.propagation_calls > 0) return flight.arrival();
   const SimTime departure = flight.packet->departure;
   const auto place = fleet.prediction(flight.receiver_id, departure, decided_at);
   if (!place) return flight.arrival();
@@ -112,11 +113,34 @@ std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const 
                  &receiving_modem(fleet.modem(flight.receiver_id, expected), flight.packet->modem)};
 }
 
+void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
+                       Propagation& propagation, const ForEach& for_each) {
+  if (begun.empty()) return;
+  const Packet& packet = *begun.front()->packet;
+  std::vector<EndPair> links;
+  std::vector<Flight*> flights;  // of these
+  for (Flight* flight : begun) {
+    const auto end = next_end(*flight, packet.departure, fleet, propagation);
+    if (!end) continue;
+    links.push_back({packet.link_end(), *end});
+    flights.push_back(flight);
+  }
+  auto receptions = propagation.packet_receptions(packet.departure, links, for_each);
+  const acoustics::Environment& water = propagation.environment(packet.departure);
+  for_each(links.size(), [&](std::size_t i) {
+    if (receptions[i]) evaluate(*flights[i], links[i].to, *std::move(receptions[i]), water);
+  });
+}
+
 void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,
                    const VehicleRegistry& fleet, Propagation& propagation) {
   ++flight.solutions;
   if (!end) return;
-  if (!serves(flight, *end)) evaluate(flight, *end, propagation);
+  if (!serves(flight, *end)) {
+    const SimTime departure = flight.packet->departure;
+    evaluate(flight, *end, propagation.reception_without_capacity(departure, flight.packet->link_end(), *end),
+             propagation.environment(departure));
+  }
   const StateHistory& states = *fleet.states_of(flight.receiver_id);
   for (int round = 0; round < kMaxRounds; ++round) {
     const auto receiver = states.at(flight.arrival(), decided_at, fleet.rule());
@@ -169,6 +193,7 @@ ReceivedSignal received_signal(const Flight& flight, double noise, const acousti
 }
 
 void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed) {
+  flight.is_evaluated = true;
   if (flight.reception.paths.empty()) return;
   const auto& measured = flight.reception.measured;
   ReceivedSignal& signal = flight.signal;

@@ -30,6 +30,7 @@
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/for_each.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
@@ -61,6 +62,7 @@ struct Flight {
   std::vector<NoiseSound> noise;       // of other vehicles, during the packet
   double large_scale = 1;              // of the pressures, by the link's large-scale fading
   ReceivedSignal signal;
+  bool is_evaluated = false;  // the signal, by evaluate_signal()
   PacketDraws draws = {};
   std::shared_ptr<const Packet> followed;  // another packet, which the receiver has acquired before
   bool acquired = false;
@@ -81,6 +83,11 @@ struct Flight {
 std::optional<LinkEnd> next_end(const Flight& flight, SimTime decided_at, const VehicleRegistry& fleet,
                                 Propagation& propagation);
 
+// Gives flights of one packet, none of which was solved yet, the reception that solve_arrival() would ask for, where the
+// propagation is ready for it; that is shared out by `for_each`.
+void evaluate_together(const std::vector<Flight*>& begun, const VehicleRegistry& fleet,
+                       Propagation& propagation, const ForEach& for_each);
+
 // Solves for travel time and reception, with what is known at `decided_at`; `end` is next_end() of the same. A receiver that
 // is forgotten keeps the last solution. Throws as Propagation::reception.
 void solve_arrival(Flight& flight, const std::optional<LinkEnd>& end, SimTime decided_at,
@@ -95,7 +102,8 @@ AudiblePacket audible_packet(const Flight& flight);
 AudiblePacket disturbing_sound(const Flight& flight, const ReachModel* reach);
 // The packet's times at the receiver; `noise` in uPa^2 over the packet's band, less the receiver's directivity.
 ReceivedSignal received_signal(const Flight& flight, double noise, const acoustics::FadingModel& fading);
-// Sets signal and echoes over those times. Of no path: they stay empty.
+// Sets signal and echoes over those times, as they have been known since the signal began. Of no path: they stay empty. Calls for
+// different flights may overlap between threads.
 void evaluate_signal(Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);
 // 10^(X/20) of the flight's link when it locks.
 double large_scale_of(const Flight& flight, const acoustics::FadingModel& fading, std::uint64_t seed);

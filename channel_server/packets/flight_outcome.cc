@@ -90,6 +90,16 @@ bool is_shifted_too_far(const Flight& flight) {
   return !flight.signal.fades && std::abs(flight.doppler_factor() - 1) > flight.modem.doppler_tolerance;
 }
 
+void evaluate_signals(Flight& first, std::vector<Flight*> soon, const acoustics::FadingModel& fading,
+                      std::uint64_t seed, const ForEach& for_each) {
+  std::erase_if(soon, [](const Flight* flight) {
+    return flight->is_evaluated || outcome_before_acquisition(*flight) != OutcomeKind::kReceived ||
+           is_shifted_too_far(*flight) || flight->sounds_at->followed_at(flight->signal.preamble_end);
+  });
+  soon.push_back(&first);
+  for_each(soon.size(), [&](std::size_t i) { evaluate_signal(*soon[i], fading, seed); });
+}
+
 OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fleet,
                            const ReceiverState& receiver) {
   const ReceivedSignal& signal = flight.signal;

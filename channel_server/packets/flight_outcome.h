@@ -1,8 +1,10 @@
 // The record of a flight at its end, and what decides it before noise and other sounds do.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "acoustics/fading/path_fading.h"
 #include "channel_server/packets/flight.h"
 #include "channel_server/packets/medium_event.h"
 #include "channel_server/packets/packet.h"
@@ -12,6 +14,7 @@
 #include "channel_server/vehicles/vehicle_id.h"
 #include "channel_server/vehicles/vehicle_power.h"
 #include "channel_server/vehicles/vehicle_registry.h"
+#include "core/for_each.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -20,6 +23,11 @@ namespace halocline::channel_server {
 OutcomeKind outcome_before_acquisition(const Flight& flight);
 // A wall where nothing fades; with fading the shift costs signal (acoustics/reception/signal_history.h).
 bool is_shifted_too_far(const Flight& flight);
+
+// Evaluates the signal of `first`, and beside it those of `soon`, flights in their preambles, that will be asked for unless their
+// receivers acquire others before; shared out by `for_each`.
+void evaluate_signals(Flight& first, std::vector<Flight*> soon, const acoustics::FadingModel& fading,
+                      std::uint64_t seed, const ForEach& for_each);
 
 // At the last bit, at `at`: sets the rest of the statistics. `receiver`: what sounds there meanwhile.
 OutcomeKind decide_outcome(Flight& flight, SimTime at, const VehicleRegistry& fleet,

@@ -36,6 +36,13 @@ Flight& FlightQueue::make_flight() {
   return *flight;
 }
 
+std::vector<Flight*> FlightQueue::due_by(SimTime time, Flight::Stage stage) const {
+  std::vector<Flight*> due;
+  for (const Entry& entry : entries_)
+    if (entry.at <= time && entry.flight->stage == stage) due.push_back(entry.flight);
+  return due;
+}
+
 void FlightQueue::end(Flight& flight) {
   std::destroy_at(&flight);
   ended_.push_back(std::construct_at(&flight));

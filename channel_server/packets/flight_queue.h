@@ -35,6 +35,8 @@ class FlightQueue {
   void visit(Visit&& visit) const {
     for (const Entry& entry : entries_) visit(entry.at, *entry.flight);
   }
+  // The flights of one stage whose next event is at `time` or before, in no order.
+  std::vector<Flight*> due_by(SimTime time, Flight::Stage stage) const;
 
  private:
   struct Entry {

@@ -20,6 +20,8 @@ namespace {
 
 // An arrival solved at an instant no further before it than this stands: the receiver moves by micrometres.
 constexpr SimDuration kSolvedInTime = SimDuration::from_microseconds(1);
+// Signals of which most are asked for within this time are evaluated together.
+constexpr SimDuration kSoon = SimDuration::from_milliseconds(100);
 // Each solution a little later halves the rest at least; this many mean a receiver that runs from the sound.
 constexpr int kMaxSolutions = 64;
 
@@ -183,9 +185,8 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
                                            : acoustics::kGreatestBoundedRange;
   PacketOutcome others = outcome_out_of_reach(packet, reach_m);
   others.receivers = 0;
-  const bool is_costly = propagation_.uses_bottom();
   const std::uint64_t identity = identity_for_draws(*packet);
-  std::vector<EndPair> links;
+  std::vector<Flight*> begun;
   for (const PlacedVehicle& receiver : present_) {
     if (receiver.id == source) continue;
     const double range_m = (receiver.placement.position_ned_m - packet->departure_ned_m).norm();
@@ -204,13 +205,11 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
       flight.identity = identity;
       flight.receiver_id = receiver.id;
       flight.receiver = fleet_.name_of(receiver.id);
-      if (const auto end = is_costly ? next_end(flight, departure, fleet_, propagation_) : std::nullopt) {
-        links.push_back({packet->link_end(), *end});
-      }
+      begun.push_back(&flight);
       flights_.add(departure, flight);  // solved there
     }
   }
-  if (is_costly) propagation_.prepare_packet(departure, links, for_each_);
+  if (propagation_.uses_bottom()) evaluate_together(begun, fleet_, propagation_, for_each_);
   if (is_served && others.receivers > 0) {
     events.push_back({departure, std::move(others)});
   }
@@ -277,7 +276,9 @@ void PacketMedium::end_preamble(Flight& flight, SimTime at, std::vector<MediumEv
                              !receiver.transmitted_during(signal.begin, signal.preamble_end).empty();
   if (!is_impossible) flight.followed = receiver.followed_at(signal.preamble_end);
   if (!is_impossible && !flight.followed) {
-    evaluate_signal(flight, rule_.fading, rule_.seed);
+    if (!flight.is_evaluated)
+      evaluate_signals(flight, flights_.due_by(at + kSoon, Flight::Stage::kPreamble), rule_.fading,
+                       rule_.seed, for_each_);
     const auto others = interferers_of(flight, receiver, signal.begin, signal.preamble_end);
     flight.acquired = acquires(signal, others, flight.draws, flight.statistics);
     if (flight.acquired && signal.fades) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <unordered_map>
 
 #include "acoustics/rays/eigenray.h"
 #include "core/elementary.h"
@@ -191,8 +191,8 @@ LinkSearches::Paths LinkSearches::find(const Task& task) {
 // What is kept is read and written in turn; searches are shared out.
 std::vector<LinkSearches::Paths> LinkSearches::find_all(const std::vector<Task>& tasks,
                                                         const ForEach& for_each) {
-  std::vector<Paths> of_queries;                   // null where the bottom is not known
-  std::map<PathQuery::Key, std::size_t> place_of;  // of each query, among these
+  std::vector<Paths> of_queries;  // null where the bottom is not known
+  std::unordered_map<PathQuery::Key, std::size_t, PathQuery::KeyHash> place_of;  // of each query, among these
   struct Search {
     const Task* task;
     std::size_t place;

@@ -92,7 +92,7 @@ class LinkSearches {
   std::int64_t searches() const { return searches_; }  // since the start
 
  private:
-  using Cache = LruCache<PathQuery::Key, Paths>;
+  using Cache = LruCache<PathQuery::Key, Paths, PathQuery::KeyHash>;
 
   std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
   Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed);

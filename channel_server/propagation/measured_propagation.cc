@@ -36,6 +36,16 @@ Reception MeasuredPropagation::reception_without_capacity(SimTime at, const Link
                   acoustics::Capacity::kLeftOut);
 }
 
+std::vector<std::optional<Reception>> MeasuredPropagation::packet_receptions(
+    SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) {
+  std::vector<std::optional<Reception>> all = model_->packet_receptions(at, links, for_each);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto& [from, to] = links[i];
+    if (all[i]) all[i] = measured(at, from, to, *std::move(all[i]), acoustics::Capacity::kLeftOut);
+  }
+  return all;
+}
+
 std::vector<Reception> MeasuredPropagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                        const ForEach& for_each) {
   std::vector<Reception> all = model_->receptions(at, links, for_each);

@@ -57,9 +57,8 @@ class MeasuredPropagation : public Propagation {
 
   Reception reception(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
   Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override;
-  void prepare_packet(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override {
-    model_->prepare_packet(at, links, for_each);
-  }
+  std::vector<std::optional<Reception>> packet_receptions(SimTime at, const std::vector<EndPair>& links,
+                                                          const ForEach& for_each) override;
   bool share_searches(PathExchange& exchange) override { return model_->share_searches(exchange); }
   void prepare_tables(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override {
     model_->prepare_tables(at, links, for_each);

@@ -1,12 +1,14 @@
 #include "channel_server/propagation/path_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "acoustics/link/mixed_link.h"
 #include "acoustics/rays/eigenray.h"
 #include "core/check.h"
+#include "core/hash.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -30,6 +32,13 @@ acoustics::RaySurface surface_of(const RayModel& model, const acoustics::Environ
 double middle(double value, double cell) { return cell * (std::floor(value / cell) + 0.5); }
 
 }  // namespace
+
+std::uint64_t PathQuery::hash_of_places() const {
+  std::array<double, 7> all{
+      places[0], places[1], places[2], places[3], link.source_depth_m, link.receiver_depth_m, link.range_m};
+  for (double& one : all) one += 0.0;  // of -0, too
+  return xxh3(std::bit_cast<std::array<std::uint8_t, sizeof all>>(all));
+}
 
 int bounces_for(double range_m, double depth_m) {
   constexpr double kLeast = 60, kMost = 10'000, kSlope = 0.6;
@@ -83,6 +92,8 @@ void validate(const RayModel& model) {
   require_in_range(model.speed_tolerance_mps, 0, 1, "tolerance of sound speed for rays", "m/s");
   require_in_range(model.diffuse_below_noise.value, -100, 100, "level of diffuse sound below the noise",
                    "dB");
+  require_in_range(model.weak_below_diffuse.value, -100, 100, "level of weak links below diffuse sound",
+                   "dB");
   require_in_range(model.greatest_depth_m, 0, acoustics::kDeepestWater, "greatest depth of the water", "m");
   require_in_range(model.least_depth_m, 0, model.greatest_depth_m, "least depth of the water", "m");
   require_in_range(model.reuse_distance_m, 0, 1000, "distance of reuse of paths", "m");
@@ -126,7 +137,7 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
 }
 
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query) {
-  return acoustics::may_be_weak(water, options_of(model, query), query.link);
+  return acoustics::may_be_weak(water, options_of(model, query), query.link, model.weak_below_diffuse);
 }
 
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
@@ -142,7 +153,7 @@ std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoust
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
   auto windows = acoustics::weak_arrivals(
       {along.water, depth_m, model.bottom, surface_of(model, environment), options_of(model, query)},
-      query.link);
+      query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
   auto found = std::make_shared<FoundPaths>();
   found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};

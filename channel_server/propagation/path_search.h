@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -46,6 +47,9 @@ struct RayModel {
   // Over a rough bottom paths this much weaker than the noise over the transmitter's band, less the receiver's directivity, come
   // as energy alone (RayOptions::diffuse_below_pressure), -100..100. Not where options.diffuse_below_db is 0.
   Decibels diffuse_below_noise{5};
+  // The whole of a link of more than 10 depths that is this much weaker still comes as energy, -100..100: below 0, one whose paths
+  // together are stronger (acoustics/link/mixed_link.h).
+  Decibels weak_below_diffuse{6};
   // Of the water wherever sound goes, as far as it is known, m: for the range that sound reaches. 0..kDeepestWater, rising.
   double least_depth_m = 0, greatest_depth_m = acoustics::kDeepestWater;
   int max_searches_per_tick = 0;         // of link tables, by search_budget.h; 0: as many as they need
@@ -60,7 +64,8 @@ using ProfileEnds = std::array<double, 4>;
 
 // The link runs from the profile's first end.
 struct PathQuery {
-  using Key = std::tuple<EnvironmentTimeline::WaterId, double, ProfileEnds, std::int64_t,
+  // Begins with a hash of the places.
+  using Key = std::tuple<std::uint64_t, EnvironmentTimeline::WaterId, double, ProfileEnds, std::int64_t,
                          const SeabedProfile*, double, double, double, double>;
 
   EnvironmentTimeline::WaterId water_id = 0;
@@ -73,16 +78,19 @@ struct PathQuery {
 
   // Equal for queries of the same answer.
   Key key() const {
-    return {water_id,
-            frequency_hz,
-            places,
-            seabed_version,
-            given.get(),
-            link.source_depth_m,
-            link.receiver_depth_m,
-            link.range_m,
-            diffuse_below_pressure};
+    return {hash_of_places(),    water_id,
+            frequency_hz,        places,
+            seabed_version,      given.get(),
+            link.source_depth_m, link.receiver_depth_m,
+            link.range_m,        diffuse_below_pressure};
   }
+
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const { return static_cast<std::size_t>(std::get<0>(key)); }
+  };
+
+ private:
+  std::uint64_t hash_of_places() const;
 };
 
 inline bool is_of_one_sea(const PathQuery& a, const PathQuery& b) {

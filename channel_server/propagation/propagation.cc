@@ -77,6 +77,17 @@ LinkTracks Propagation::tracks(SimTime at, const LinkEnd& from, const LinkEnd& t
   return tracks;
 }
 
+std::vector<std::optional<Reception>> Propagation::packet_receptions(SimTime at,
+                                                                     const std::vector<EndPair>& links,
+                                                                     const ForEach& /*for_each*/) {
+  std::vector<std::optional<Reception>> receptions(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto& [from, to] = links[i];
+    if (is_ready_for_packet(at, from, to)) receptions[i] = reception_without_capacity(at, from, to);
+  }
+  return receptions;
+}
+
 std::vector<Reception> Propagation::receptions(SimTime at, const std::vector<EndPair>& links,
                                                const ForEach&) {
   std::vector<Reception> receptions;

@@ -134,10 +134,10 @@ class Propagation {
   virtual Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) {
     return reception(at, from, to);
   }
-  // The links of one packet, of which reception_without_capacity() will be asked: what that costs may be shared out now. It
-  // changes no result.
-  virtual void prepare_packet(SimTime /*at*/, const std::vector<EndPair>& /*links*/,
-                              const ForEach& /*for_each*/) {}
+  // reception_without_capacity() of each link of one packet for which it is ready, shared out by `for_each`; empty for others.
+  virtual std::vector<std::optional<Reception>> packet_receptions(SimTime at,
+                                                                  const std::vector<EndPair>& links,
+                                                                  const ForEach& for_each);
   // Whether begin_tick() is to be called before receptions(), once for each tick, with all links between all vehicles whoever
   // asks for them: an implementation that has time for some searches only plans which.
   virtual bool plans_ticks() const { return false; }

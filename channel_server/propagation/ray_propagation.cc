@@ -57,13 +57,28 @@ acoustics::Arrivals RayPropagation::arrivals_over(SimTime at, const LinkEnd& fro
   return all;
 }
 
-void RayPropagation::prepare_packet(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) {
-  std::vector<LinkSearches::Task> tasks;
-  for (const auto& [from, to] : links) {
-    LinkSearches::Task task = searches_.for_packet(at, from, to);
-    if (searches_.is_ready(task)) tasks.push_back(std::move(task));
+std::vector<std::optional<Reception>> RayPropagation::packet_receptions(SimTime at,
+                                                                        const std::vector<EndPair>& links,
+                                                                        const ForEach& for_each) {
+  std::vector<Task> tasks;
+  std::vector<std::size_t> places;  // of these, among the links
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    Task task = searches_.for_packet(at, links[i].from, links[i].to);
+    if (!searches_.is_ready(task)) continue;
+    tasks.push_back(std::move(task));
+    places.push_back(i);
   }
-  searches_.find_all(tasks, for_each);
+  const std::vector<LinkSearches::Paths> paths = searches_.find_all(tasks, for_each);
+  std::vector<std::optional<Reception>> receptions(links.size());
+  for_each(tasks.size(), [&](std::size_t i) {
+    if (paths[i]) receptions[places[i]] = answer(tasks[i], *paths[i], acoustics::Capacity::kLeftOut);
+  });
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (paths[i]) continue;
+    receptions[places[i]] = straight_instead(at, tasks[i].ends, PropagationUsed::kStraightWithoutBottom,
+                                             acoustics::Capacity::kLeftOut);
+  }
+  return receptions;
 }
 
 std::vector<LinkSearches::Task> RayPropagation::table_tasks(SimTime at, const std::vector<EndPair>& links) {
@@ -113,7 +128,7 @@ std::optional<WeakLinks> RayPropagation::weak_links(SimTime at, double frequency
       water, model_.least_depth_m, model_.bottom, {model_.surface, environment.noise.wind_mps}, options};
   const Decibels gain = acoustics::kFocusingGain + gain_beyond_powers(model_, environment);
   return WeakLinks{{sea, {model_.least_depth_m, model_.greatest_depth_m, deepest_end_m}, gain},
-                   model_.diffuse_below_noise - to_decibels(PowerRatio{acoustics::kWeakShare})};
+                   model_.diffuse_below_noise + model_.weak_below_diffuse};
 }
 
 Reception RayPropagation::straight_instead(SimTime at, const EndPair& ends, PropagationUsed used,

@@ -69,7 +69,8 @@ class RayPropagation : public Propagation {
   Reception reception_without_capacity(SimTime at, const LinkEnd& from, const LinkEnd& to) override {
     return along_rays(at, searches_.for_packet(at, from, to), acoustics::Capacity::kLeftOut);
   }
-  void prepare_packet(SimTime at, const std::vector<EndPair>& links, const ForEach& for_each) override;
+  std::vector<std::optional<Reception>> packet_receptions(SimTime at, const std::vector<EndPair>& links,
+                                                          const ForEach& for_each) override;
   bool plans_ticks() const override { return searches_.has_budget(); }
   void begin_tick(SimTime at, const std::vector<EndPair>& all) override { searches_.begin_tick(at, all); }
   bool share_searches(PathExchange& exchange) override {

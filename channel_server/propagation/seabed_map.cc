@@ -1,12 +1,14 @@
 #include "channel_server/propagation/seabed_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/check.h"
 #include "core/elementary.h"
+#include "core/hash.h"
 
 namespace halocline::channel_server {
 namespace {
@@ -198,8 +200,26 @@ std::optional<double> SeabedMap::seabed_z_m(const Vec3& place) const {
   return std::isnan(z_m) ? std::nullopt : std::optional(z_m);
 }
 
+std::size_t SeabedMap::EndsHash::operator()(const Ends& ends) const {
+  const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof(Ends)>>(ends);
+  return static_cast<std::size_t>(xxh3(bytes));
+}
+
+// Where many tiles are kept all lines note which of them are in use.
 bool SeabedMap::is_surveyed(const Vec3& from, const Vec3& to) {
-  const Line line = line_between(from, to);
+  if (tiles_.size() > kMaxTiles / 2) return look_up_tiles(line_between(from, to));
+  const Ends ends{from.x(), from.y(), to.x(), to.y()};
+  if (surveyed_.contains(ends)) return true;
+  if (auto earlier = surveyed_a_tick_ago_.extract(ends)) {
+    surveyed_.insert(std::move(earlier));
+    return true;
+  }
+  const bool surveyed = look_up_tiles(line_between(from, to));
+  if (surveyed) surveyed_.insert(ends);
+  return surveyed;
+}
+
+bool SeabedMap::look_up_tiles(const Line& line) {
   const auto tile_coordinate = [&](double at_m) {
     return static_cast<std::int64_t>(std::floor(at_m / rule_.spacing_m));
   };
@@ -259,7 +279,7 @@ SeabedMap::Tile& SeabedMap::keep(const TileIndex& tile) {
 
 template <class Predicate>
 void SeabedMap::forget_if(const Predicate& is_forgotten) {
-  std::erase_if(tiles_, [&](const auto& one) {
+  const auto forgotten = std::erase_if(tiles_, [&](const auto& one) {
     const auto& [index, tile] = one;
     const Place place = place_of(index);
     Block& block = blocks_[place.block];
@@ -267,6 +287,9 @@ void SeabedMap::forget_if(const Predicate& is_forgotten) {
     block.kept &= ~place.bit;
     return true;
   });
+  if (forgotten == 0) return;
+  surveyed_.clear();
+  surveyed_a_tick_ago_.clear();
 }
 
 void SeabedMap::store(const TileSurvey& answered) {
@@ -295,6 +318,7 @@ void SeabedMap::forget_unused() {
     return (one.second.kept | one.second.used | one.second.used_a_tick_ago) == 0;
   });
   for (auto& [index, block] : blocks_) block.used_a_tick_ago = std::exchange(block.used, 0);
+  surveyed_a_tick_ago_ = std::exchange(surveyed_, {});
 }
 
 void SeabedMap::clear() {
@@ -302,6 +326,8 @@ void SeabedMap::clear() {
   blocks_.clear();
   requested_.clear();
   queried_.clear();
+  surveyed_.clear();
+  surveyed_a_tick_ago_.clear();
   ++version_;
 }
 

@@ -27,6 +27,7 @@
 #include <set>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "channel_server/propagation/seabed_profile.h"
@@ -87,7 +88,8 @@ class SeabedMap {
                                                             const Vec3& to_ned_m) const;
   // z of the seabed at a place; empty where it is unknown.
   std::optional<double> seabed_z_m(const Vec3& place_ned_m) const;
-  // Whether every tile that between() needs is answered. Those that are not are requested.
+  // Whether every tile that between() needs is answered. Those that are not are requested. What was found so for the same two ends
+  // since the last tick but one is not looked up again while few tiles are kept.
   bool is_surveyed(const Vec3& from_ned_m, const Vec3& to_ned_m);
 
   // The tiles requested since the last call, by index.
@@ -120,6 +122,10 @@ class SeabedMap {
     TileIndex block;
     std::uint64_t bit;
   };
+  using Ends = std::array<double, 4>;  // of a line, north and east, m
+  struct EndsHash {
+    std::size_t operator()(const Ends& ends) const;
+  };
   struct TileHash {
     std::size_t operator()(const TileIndex& tile) const {
       return static_cast<std::size_t>(tile.north) * 0x9E3779B97F4A7C15u ^ static_cast<std::size_t>(tile.east);
@@ -133,6 +139,8 @@ class SeabedMap {
     int last = 0;  // the first sample at the other end or beyond
   };
   Line line_between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
+  // Notes that they are in use, and requests what is missing.
+  bool look_up_tiles(const Line& line);
   static Place place_of(const TileIndex& tile);
   Tile& keep(const TileIndex& tile);
   template <class Predicate>
@@ -143,6 +151,8 @@ class SeabedMap {
   std::unordered_map<TileIndex, Tile, TileHash> tiles_;    // looked up, never walked where it matters
   std::unordered_map<TileIndex, Block, TileHash> blocks_;  // likewise
   std::set<TileIndex> requested_, queried_;
+  std::unordered_set<Ends, EndsHash> surveyed_,
+      surveyed_a_tick_ago_;  // since the last tick, between the last two
   std::int64_t version_ = 0;
 };
 

@@ -59,11 +59,12 @@ payload_bytes = 32
 
 # Along rays the bottom and the surface scatter.
 SOURCE_LEVEL_DB = {"straight": 132.0, "rays": 145.0}
-# Along rays: how deep the water is, which bounds how far sound gets; energy for what lies below the noise; packets and tables share
-# searches, one a second for two vehicles. What a receiver would acquire once in 1000 packets is left out.
+# Along rays: how deep the water is, which bounds how far sound gets; energy for paths, and for whole long links, that lie below the
+# noise; packets and tables share searches, one a second for two vehicles. What a receiver would acquire once in 1000 packets is left out.
 RAYS = """least_depth_m = 75.0
 greatest_depth_m = 250.0
 diffuse_below_noise_db = 0.0
+weak_below_diffuse_db = 0.0
 reuse_for_packets = true"""
 SERVER = """reach_below_noise_db = 20.0
 reach_acquired_once_in = 1000.0

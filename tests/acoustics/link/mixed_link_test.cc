@@ -87,18 +87,20 @@ TEST(MixedLink, NothingComesToWhereNoRayDoes) {
   EXPECT_TRUE(mixed_arrivals(mixed, {50, 120, 20'000}).empty());
 }
 
-TEST(WeakLink, IsLongAndSixDecibelsBelowThePressure) {
+TEST(WeakLink, IsLongAndThatFarBelowThePressure) {
   RaySea sea = sea_of(kRoughWater, rough_bottom(1, 4000));
   sea.options = RayOptions{};
   const RayLink link{40, 70, 4000};
-  const auto weak = [&](double pressure, const RayLink& at) {
+  const auto weak = [&](double pressure, const RayLink& at, double below_db = 6) {
     sea.options.diffuse_below_pressure = pressure;
-    return weak_arrivals({sea.water, 150, sea.bottom, sea.surface, sea.options}, at);
+    return weak_arrivals({sea.water, 150, sea.bottom, sea.surface, sea.options}, at, Decibels{below_db});
   };
   EXPECT_FALSE(weak(0, link));
   const double level =
       std::sqrt(power_of(mixed_arrivals({sea.water, 150, sea.bottom, sea.surface, sea.options}, link)));
   EXPECT_FALSE(weak(1.99 * level, link));
+  EXPECT_FALSE(weak(0.70 * level, link, -3));
+  EXPECT_TRUE(weak(0.72 * level, link, -3));
   const auto windows = weak(2.01 * level, link);
   ASSERT_TRUE(windows);
   EXPECT_NEAR(std::sqrt(power_of(*windows)), level, 1e-12 * level);

@@ -120,20 +120,22 @@ TEST_F(RayReuseTest, PacketsShareTheSearchesOfTablesWhereTheyMay) {
   EXPECT_EQ(propagation.searches(), 1);
 }
 
-// What a packet's paths cost may be shared out beforehand.
-TEST_F(RayReuseTest, WhatIsPreparedForAPacketIsNotSearchedAgain) {
-  auto prepared = rays(bottoms_, kCellM), own = rays(bottoms_, kCellM);
+TEST_F(RayReuseTest, TheLinksOfAPacketTogetherAreAsOneByOne) {
+  auto together = rays(bottoms_, kCellM), own = rays(bottoms_, kCellM);
   std::vector<EndPair> links;
   for (int step = 0; step < 6; ++step)
     links.push_back(
         {end(1, first_), end(static_cast<VehicleId>(2 + step), second_ + Vec3(5.0 * step, 0, 0))});
-  prepared.prepare_packet(at_s(1), links, one_after_the_other);
-  EXPECT_EQ(prepared.searches(), 6);
-  for (const auto& [from, to] : links) {
-    EXPECT_EQ(prepared.reception_without_capacity(at_s(1), from, to).budget.received_level.value,
-              own.reception_without_capacity(at_s(1), from, to).budget.received_level.value);
+  const auto receptions = together.packet_receptions(at_s(1), links, one_after_the_other);
+  ASSERT_EQ(receptions.size(), links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Reception alone = own.reception_without_capacity(at_s(1), links[i].from, links[i].to);
+    ASSERT_TRUE(receptions[i]);
+    EXPECT_EQ(receptions[i]->budget.received_level.value, alone.budget.received_level.value);
+    EXPECT_EQ(receptions[i]->budget.delay_s, alone.budget.delay_s);
+    EXPECT_EQ(receptions[i]->paths.size(), alone.paths.size());
   }
-  EXPECT_EQ(prepared.searches(), 6);
+  EXPECT_EQ(together.searches(), 6);
 }
 
 // Whatever was computed before, in whatever order, in however many propagations.
