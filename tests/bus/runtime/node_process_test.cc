@@ -177,6 +177,15 @@ TEST(NodeCommandLine, PrintConfigShowsOverrides) {
               HasSubstr("gain = 3.0"));
 }
 
+TEST(NodeCommandLine, ANetworkThatCannotBeUsedHasAnExitCodeOfItsOwn) {
+  const std::string output = output_of({"/usr/bin/unshare", "-n", HALOCLINE_ECHO_PROGRAM}, kExitNetwork);
+  EXPECT_THAT(output, HasSubstr("scripts/isolated"));
+}
+
+TEST(NodeCommandLine, AFullStandardOutputIsAFailure) {
+  EXPECT_EQ(Process({"/bin/sh", "-c", HALOCLINE_ECHO_PROGRAM " --example >/dev/full"}).wait(), 1);
+}
+
 TEST(NodeCommandLine, EveryMistakeIsReportedWithExitCodeTwo) {
   EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--nonsense"}, 2), HasSubstr("--help"));
   EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "/nowhere.toml"}, 2), HasSubstr("cannot be read"));
