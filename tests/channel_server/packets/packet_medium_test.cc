@@ -298,7 +298,7 @@ TEST_F(PacketMediumTest, ARequestReceivedLateThatChangesNoOutcomeIsNotTooLate) {
   stay(3, {6000, 0, 50});
   EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 5), at_s(10)));
   medium_.advance_to(at_s(15));
-  EXPECT_FALSE(medium_.transmit(request_of(3, 14, 0, 5), at_s(15)));  // sounds at 2 from 16 s on
+  EXPECT_FALSE(medium_.transmit(request_of(3, 14.5, 0, 5), at_s(15)));  // sounds at 2 from 16.5 s on
   for (const PacketOutcome& outcome : outcomes_in(medium_.advance_to(at_s(25))))
     EXPECT_FALSE(outcome.is_too_late);
 }
