@@ -1,10 +1,11 @@
 #include "bus/bus.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -15,6 +16,8 @@
 
 namespace halocline::bus {
 namespace {
+
+constexpr std::string_view kAllChannels = ".*";
 
 // Messages a subscription may hold between two looks at the bus. LCM's default of 30 drops the newest of a
 // burst.
@@ -30,15 +33,6 @@ bool worth_a_report(std::int64_t count) {
 // What kind of refusal this is: the channel and the field, whatever value it held.
 std::string kind_of(std::string_view channel, std::string_view reason) {
   return std::string(channel) + " " + std::string(reason.substr(0, reason.find(" is ")));
-}
-
-// A channel as a terminal may show it: anyone can publish on a channel with control characters in its name.
-std::string printable(std::string_view text) {
-  std::string shown(text);
-  for (char& c : shown) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return shown;
 }
 
 }  // namespace
@@ -120,7 +114,7 @@ void Bus::refuse(std::string_view channel, std::string_view reason) {
   if (refusals_.size() >= kKindsKept && !refusals_.contains(kind)) return;
   const std::int64_t count = ++refusals_[kind];
   if (!worth_a_report(count)) return;
-  log_.warning("message-refused", "channel=" + printable(channel) + " count=" + std::to_string(count) +
+  log_.warning("message-refused", "channel=" + std::string(channel) + " count=" + std::to_string(count) +
                                       " reason=\"" + std::string(reason) + "\"");
 }
 
@@ -129,10 +123,30 @@ void Bus::publish_bytes(std::string_view channel, const void* data, std::size_t 
     outbox_(channel, data, size);
   } else {
     if (pace_) pace_->wait(size);
-    if (lcm_.publish(std::string(channel), data, static_cast<unsigned int>(size)) != 0)
-      throw std::runtime_error("LCM could not publish on " + std::string(channel));
+    send_unsent();
+    if (!unsent_.is_empty() || !send(std::string(channel), data, size)) {
+      if (unsent_.is_empty())
+        log_.warning("network-refuses",
+                     "channel=" + std::string(channel) + " reason=\"" + std::strerror(errno) + "\"");
+      unsent_.keep(steady_, channel, data, size);
+      ++counters_.unsent;
+    }
   }
   ++counters_.sent;
+}
+
+bool Bus::send(const std::string& channel, const void* data, std::size_t size) {
+  constexpr std::size_t kLongestChannel = 63;  // LCM's
+  require(channel.size() <= kLongestChannel, "channel " + printable(channel) + " is longer than LCM allows");
+  return lcm_.publish(channel, data, static_cast<unsigned int>(size)) == 0;
+}
+
+void Bus::send_unsent() {
+  if (unsent_.is_empty()) return;
+  unsent_.send(steady_, [this](const std::string& channel, const void* data, std::size_t size) {
+    return send(channel, data, size);
+  });
+  if (unsent_.is_empty()) log_.info("network-is-back", "unsent=" + std::to_string(counters_.unsent));
 }
 
 Bus::Subscription& Bus::add_subscription(const std::string& regular_expression, RawHandler handler,
@@ -171,6 +185,14 @@ void Bus::subscribe_channel(std::string_view channel, RawHandler handler, Wakeup
   group->shared->begin(lcm_, escaped(prefix) + ".*");
 }
 
+std::vector<std::size_t> Bus::subscribed_to(std::string_view channel) const {
+  return patterns_.matching(channel);
+}
+
+void Bus::subscribe_to_all(RawHandler handler) {
+  subscribe_raw(std::string(kAllChannels), std::move(handler), Wakeup::kMayAdvanceDue);
+}
+
 void Bus::deliver(std::string_view channel, std::span<const std::uint8_t> message) {
   is_repair_ = false;
   for (const Subscription* subscription : subscriptions_to(channel))
@@ -186,13 +208,25 @@ const std::vector<const Bus::Subscription*>& Bus::subscriptions_to(std::string_v
 }
 
 void Bus::restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
-                          std::vector<std::uint8_t> bytes) {
+                          Bytes bytes) {
   if (repair_) repair_->restore_history(channel, session, sequence, std::move(bytes));
+}
+
+bool Bus::is_rival(std::string_view channel, std::int64_t session) {
+  if (!repair_ || sessions_.on_message(steady_, channel, session)) return false;
+  refuse_rival(channel, session);
+  return true;
+}
+
+void Bus::refuse_rival(std::string_view channel, std::int64_t session) {
+  ++counters_.rivals;
+  refuse(channel, "session is " + std::to_string(session) +
+                      ", a rival's: another is publisher until it has been silent for 1 s");
 }
 
 bool Bus::is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence) {
   const auto arrival = flows_.on_message(steady_, channel, session, sequence, is_repair_);
-  counters_.gaps += arrival.newly_missing;
+  counters_.gaps = saturating_sum(counters_.gaps, arrival.newly_missing);
   counters_.repaired += arrival.fills_gap ? 1 : 0;
   if (!repair_ || !arrival.is_repeated) return false;
   ++counters_.duplicates;
@@ -203,28 +237,36 @@ void Bus::enable_repair() {
   if (repair_) return;
   repair_ = std::make_unique<FlowRepair>(identity_.name, identity_.session, flows_);
   pace_ = std::make_unique<PublicationPace>();
-  subscribe<repair_request_t>(channels::kRepairRequest,
-                              [this](const repair_request_t& request) { resend(request); });
+  subscribe<repair_request_t>(channels::kRepairRequest, [this](const repair_request_t& request) {
+    repair_->on_request(steady_, request);
+  });
   subscribe<flow_heartbeat_t>(
-      channels::kHeartbeat, [this](std::string_view, const flow_heartbeat_t& heartbeat) {
-        const auto decodes = [this](std::string_view channel) {
-          const auto matching = subscribed_to(channel);
-          return std::any_of(matching.begin(), matching.end(),
-                             [this](std::size_t i) { return subscribed_[i].expression != kAllChannels; });
-        };
-        counters_.gaps += repair_->on_heartbeat(steady_, heartbeat, decodes);
-      });
+      channels::kHeartbeat,
+      [this](std::string_view node, const flow_heartbeat_t& heartbeat) { on_heartbeat(node, heartbeat); });
 }
 
-void Bus::resend(const repair_request_t& request) {
-  for (const Bytes* message : repair_->answers_to(request)) {
-    publish_bytes(channels::kRepair.of(request.missing_channel), message->data(), message->size());
-  }
+void Bus::on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat) {
+  if (!sessions_.on_heartbeat(steady_, node, heartbeat.session))
+    return refuse_rival(channels::kHeartbeat.of(node), heartbeat.session);
+  const auto decodes = [this](std::string_view channel) {
+    const auto matching = subscribed_to(channel);
+    return std::any_of(matching.begin(), matching.end(),
+                       [this](std::size_t i) { return subscribed_[i].expression != kAllChannels; });
+  };
+  counters_.gaps = saturating_sum(counters_.gaps, repair_->on_heartbeat(steady_, heartbeat, decodes));
+}
+
+SimTime Bus::next_repair() const {
+  if (!repair_) return SimTime::never();
+  return std::min(repair_->next_due(), unsent_.next_due());
 }
 
 void Bus::repair(SimTime sim, SimTime steady, bool may_request) {
   steady_ = steady;
   if (!repair_) return;
+  send_unsent();
+  for (const FlowRepair::Answer& answer : repair_->take_answers(steady))
+    publish_bytes(channels::kRepair.of(answer.channel), answer.message->data(), answer.message->size());
   if (repair_->heartbeat_is_due(steady)) {
     publish(channels::kHeartbeat.of(identity_.name), repair_->take_heartbeat(sim, steady));
   }
@@ -235,16 +277,6 @@ void Bus::repair(SimTime sim, SimTime steady, bool may_request) {
   const std::int64_t lost = flows_.lost();
   if (lost > counters_.lost) log_.warning("messages-lost", "count=" + std::to_string(lost));
   counters_.lost = lost;
-}
-
-std::string escaped(std::string_view channel) {
-  constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";
-  std::string expression;
-  for (const char c : channel) {
-    if (kSpecial.find(c) != std::string_view::npos) expression += '\\';
-    expression += c;
-  }
-  return expression;
 }
 
 }  // namespace halocline::bus

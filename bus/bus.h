@@ -8,10 +8,11 @@
 //   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
 //   bus.publish(channels::kOutcome, outcome);
 //
-// One Bus belongs to one node; several may share an lcm::LCM (memq has one queue per LCM object, so nodes in
-// one process must share it). Not thread-safe. The lcm::LCM must outlive the Bus.
+// One Bus belongs to one node; several may share an lcm::LCM, and must with memq, of one queue per LCM object. Not thread-safe. The
+// lcm::LCM must outlive the Bus.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -32,8 +33,10 @@
 #include "bus/flow_watch.h"
 #include "bus/message_codec.h"
 #include "bus/node_identity.h"
-#include "bus/publication_pace.h"
+#include "bus/sending/publication_pace.h"
+#include "bus/sending/unsent_messages.h"
 #include "bus/sequence_number.h"
+#include "bus/session_watch.h"
 #include "bus/subscription.h"
 #include "core/names.h"
 #include "core/sim_time.h"
@@ -53,7 +56,7 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Encodes and publishes. Throws std::runtime_error when LCM refuses (a network without a route).
+  // Encodes and publishes. What the network refuses is counted, reported, and sent again by whatever is called next (unsent_messages.h).
   template <class Message>
   void publish(std::string_view channel, const Message& message);
 
@@ -68,17 +71,13 @@ class Bus {
   Outbox set_outbox(Outbox outbox) { return std::exchange(outbox_, std::move(outbox)); }
   // All subscriptions, in the order they were made, and the places of those that match a channel.
   const std::vector<Subscribed>& subscribed() const { return subscribed_; }
-  std::vector<std::size_t> subscribed_to(std::string_view channel) const {
-    return patterns_.matching(channel);
-  }
+  std::vector<std::size_t> subscribed_to(std::string_view channel) const;
   const Subscriptions& receives() const { return receives_; }
 
   // Messages as bytes, for bridges and recorders: nothing is decoded, nothing counted as received.
   using RawHandler = std::function<void(std::string_view channel, const void* data, std::size_t size)>;
   void publish_bytes(std::string_view channel, const void* data, std::size_t size);
-  void subscribe_to_all(RawHandler handler) {
-    subscribe_raw(std::string(kAllChannels), std::move(handler), Wakeup::kMayAdvanceDue);
-  }
+  void subscribe_to_all(RawHandler handler);
 
   // When LCM received the message that is being handled, wall time (Unix); the kernel's stamp over udpm.
   SimTime received_at() const { return received_at_; }
@@ -88,30 +87,25 @@ class Bus {
   // node (message_journal.h), whose gaps are then known, and repaired. Throws what a handler throws.
   void deliver(std::string_view channel, std::span<const std::uint8_t> message);
   // Takes what an earlier incarnation published into the history that answers repair requests. After enable_repair().
-  void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence,
-                       std::vector<std::uint8_t> bytes);
+  void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes bytes);
   // What can be repaired of what was published; null before enable_repair().
   const FlowRepair* flow_repair() const { return repair_.get(); }
-
   void rethrow_if_failed();  // once, what a handler threw while LCM was dispatching
-
-  // For a bus that loses datagrams: keeps what it publishes, requests what it misses, drops duplicates (flow_repair.h) and paces
+  // For a bus that loses datagrams: repairs what is lost, drops duplicates (flow_repair.h), refuses rivals (session_watch.h) and paces
   // bursts (publication_pace.h). Its runner calls set_steady() before LCM dispatches, and repair() by next_repair().
   void enable_repair();
   void set_steady(SimTime steady) { steady_ = steady; }
   void repair(SimTime sim, SimTime steady, bool may_request = true);
-  SimTime next_repair() const { return repair_ ? repair_->next_due() : SimTime::never(); }
+  SimTime next_repair() const;
   void forget_flows() { flows_.forget(); }  // another run has begun: sequences may start anew
   const NodeIdentity& identity() const { return identity_; }
   BusCounters& counters() { return counters_; }
   const BusCounters& counters() const { return counters_; }
   EventLog& log() { return log_; }
-
   // What a node itself finds impossible: counted and reported like what did not decode.
   void refuse(std::string_view channel, std::string_view reason);
 
  private:
-  static constexpr std::string_view kAllChannels = ".*";
   struct Subscription;
   struct ChannelGroup;
   // `regular_expression` matches channels; a repair on REPAIR.<channel> is handled as if received there.
@@ -121,16 +115,22 @@ class Bus {
   const std::vector<const Subscription*>& subscriptions_to(std::string_view channel);
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
+  bool is_rival(std::string_view channel, std::int64_t session);
+  void refuse_rival(std::string_view channel, std::int64_t session);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
-  void resend(const repair_request_t& request);
+  void on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat);
+  bool send(const std::string& channel, const void* data, std::size_t size);
+  void send_unsent();
 
   lcm::LCM& lcm_;
   NodeIdentity identity_;
   BusCounters counters_;
   EventLog log_;
   FlowWatch flows_;
+  SessionWatch sessions_;
   std::unique_ptr<FlowRepair> repair_;
   std::unique_ptr<PublicationPace> pace_;
+  UnsentMessages unsent_;
   SimTime steady_, received_at_;
   bool is_repair_ = false;  // the message being handled came on REPAIR.<channel>
   std::map<std::string, std::int64_t, std::less<>> refusals_;  // by kind, for rate-limited reports
@@ -144,8 +144,6 @@ class Bus {
   Outbox outbox_;
   RawHandler tap_;
 };
-
-std::string escaped(std::string_view channel);  // as a regular expression of LCM
 
 // ---- implementation of the templates
 
@@ -188,11 +186,13 @@ bool Bus::accept(std::string_view channel, const void* data, std::size_t size, M
     refuse(channel, problem);
     return false;
   }
-  ++counters_.received;
+  bool is_duplicate = false;
   if constexpr (IsOfFlow<Message>) {
-    const bool is_duplicate = is_repetition(channel, message.session, sequence_of(message));
-    if (is_duplicate && !IsPacketToSend<Message>) return false;
+    if (is_rival(channel, message.session)) return false;
+    is_duplicate = is_repetition(channel, message.session, sequence_of(message)) && !IsPacketToSend<Message>;
   }
+  ++counters_.received;
+  if (is_duplicate) return false;
   if (tap_) tap_(channel, data, size);
   return true;
 }

@@ -71,4 +71,14 @@ std::vector<std::size_t> ChannelPatterns::matching(std::string_view channel) con
   return places;
 }
 
+std::string escaped(std::string_view channel) {
+  constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";
+  std::string expression;
+  for (const char c : channel) {
+    if (kSpecial.find(c) != std::string_view::npos) expression += '\\';
+    expression += c;
+  }
+  return expression;
+}
+
 }  // namespace halocline::bus

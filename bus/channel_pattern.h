@@ -14,6 +14,9 @@
 
 namespace halocline::bus {
 
+// A channel as a regular expression of LCM.
+std::string escaped(std::string_view channel);
+
 class ChannelPattern {
  public:
   // Throws InvalidArgument for what is no regular expression.

@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/check.h"
+#include "core/names.h"
 
 namespace halocline::bus {
 namespace {
@@ -49,7 +50,7 @@ spdlog::level::level_enum to_spdlog(LogLevel level) {
 void write(LogLevel level, SimTime now, const std::string& node, std::string_view event,
            std::string_view details) {
   logger().log(to_spdlog(level), "t={:.3f} {} {}{}{}", now.seconds(), node, event, details.empty() ? "" : " ",
-               details);
+               printable(details));
 }
 
 }  // namespace

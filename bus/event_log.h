@@ -1,5 +1,6 @@
 // One line on stderr per event: simulation time, node, event, key=value. Nodes log, libraries do not.
 //
+// What a log line holds of others (a channel, a name) is made printable: nothing in it moves a terminal's cursor.
 // info is for a person who watches a run; per-packet detail is debug; what happens often is a counter in
 // STATUS.
 #pragma once

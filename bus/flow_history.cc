@@ -26,7 +26,7 @@ void FlowHistory::keep(std::string_view channel, std::int64_t session, std::int6
   kept.listed = 0;
   if (!kept.places.emplace(sequence, first_place_ + messages_.size()).second) return;
   bytes_ += message.size();
-  messages_.push_back({std::prev(flows_.end()), sequence, std::move(message)});
+  messages_.push_back({.flow = std::prev(flows_.end()), .sequence = sequence, .bytes = std::move(message)});
   while (bytes_ > max_bytes_ && messages_.size() > 1) forget_oldest_message();
 }
 
@@ -43,7 +43,7 @@ void FlowHistory::forget_oldest_flow() {
   for (const auto& [sequence, place] : oldest.places) {
     Message& message = messages_[place - first_place_];
     bytes_ -= message.bytes.size();
-    message = {flows_.end(), 0, {}};
+    message = {.flow = flows_.end(), .sequence = 0, .bytes = {}};
   }
   by_name_.erase(FlowName(oldest.flow.channel, oldest.flow.session));
   flows_.pop_front();
@@ -51,12 +51,38 @@ void FlowHistory::forget_oldest_flow() {
 
 const Bytes* FlowHistory::find(std::string_view channel, std::int64_t session, std::int64_t sequence) const {
   const auto flow = by_name_.find(FlowName(channel, session));
-  return flow == by_name_.end() ? nullptr : find(*flow->second, sequence);
+  const Message* message = flow == by_name_.end() ? nullptr : find(*flow->second, sequence);
+  return message == nullptr ? nullptr : &message->bytes;
 }
 
-const Bytes* FlowHistory::find(const Kept& kept, std::int64_t sequence) const {
+const FlowHistory::Message* FlowHistory::find(const Kept& kept, std::int64_t sequence) const {
   const auto place = kept.places.find(sequence);
-  return place == kept.places.end() ? nullptr : &messages_[place->second - first_place_].bytes;
+  return place == kept.places.end() ? nullptr : &messages_[place->second - first_place_];
+}
+
+FlowHistory::Message* FlowHistory::find_message(std::string_view channel, std::int64_t session,
+                                                std::int64_t sequence) {
+  const auto flow = by_name_.find(FlowName(channel, session));
+  if (flow == by_name_.end()) return nullptr;
+  const auto place = flow->second->places.find(sequence);
+  return place == flow->second->places.end() ? nullptr : &messages_[place->second - first_place_];
+}
+
+bool FlowHistory::want(std::string_view channel, std::int64_t session, std::int64_t sequence,
+                       SimTime steady) {
+  Message* message = find_message(channel, session, sequence);
+  if (message == nullptr || message->is_wanted || steady < message->answered + kAnswerInterval) return false;
+  message->is_wanted = true;
+  return true;
+}
+
+const Bytes* FlowHistory::answer(std::string_view channel, std::int64_t session, std::int64_t sequence,
+                                 SimTime steady) {
+  Message* message = find_message(channel, session, sequence);
+  if (message == nullptr) return nullptr;
+  message->is_wanted = false;
+  message->answered = steady;
+  return &message->bytes;
 }
 
 std::vector<FlowHistory::Flow> FlowHistory::take_listing() {
@@ -83,8 +109,8 @@ std::vector<FlowHistory::Flow> FlowHistory::take_listing() {
 std::vector<FlowHistory::LastMessage> FlowHistory::last_messages(std::uint64_t published) const {
   std::vector<LastMessage> all;
   for (auto kept = flows_.rbegin(); kept != flows_.rend() && kept->published > published; ++kept) {
-    const Bytes* message = find(*kept, kept->flow.last);
-    if (message != nullptr) all.push_back({&kept->flow, message});
+    const Message* message = find(*kept, kept->flow.last);
+    if (message != nullptr) all.push_back({&kept->flow, &message->bytes});
   }
   std::reverse(all.begin(), all.end());
   return all;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bus/message_codec.h"
+#include "core/sim_time.h"
 
 namespace halocline::bus {
 
@@ -23,6 +24,8 @@ class FlowHistory {
   static constexpr std::size_t kMaxFlows = 16'384;
   // Flows in one listing.
   static constexpr std::size_t kMaxListed = 500;
+  // A message is answered at most once in this: as long as its receivers wait before they request it again (flow_watch.h).
+  static constexpr SimDuration kAnswerInterval = SimDuration::from_milliseconds(40);
   // `max_bytes` of messages are kept, and the last message whatever its size.
   explicit FlowHistory(std::size_t max_bytes) : max_bytes_(max_bytes) {}
   FlowHistory(const FlowHistory&) = delete;
@@ -30,6 +33,11 @@ class FlowHistory {
 
   // A message of the flow (channel, session) was published. One with a number that is kept already changes nothing.
   void keep(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message);
+  // Whether a requested message is to be answered: it is kept, not wanted already, and was not answered within kAnswerInterval. It is
+  // wanted then.
+  bool want(std::string_view channel, std::int64_t session, std::int64_t sequence, SimTime steady);
+  // A message that was wanted and is answered now; null when it is not kept any more.
+  const Bytes* answer(std::string_view channel, std::int64_t session, std::int64_t sequence, SimTime steady);
   // The message, or null when it is not kept (any more).
   const Bytes* find(std::string_view channel, std::int64_t session, std::int64_t sequence) const;
 
@@ -65,6 +73,8 @@ class FlowHistory {
     Flows::iterator flow;  // end() of one that is forgotten
     std::int64_t sequence = 0;
     Bytes bytes;
+    SimTime answered = SimTime::at_once();  // steady
+    bool is_wanted = false;
   };
   using FlowName = std::pair<std::string_view, std::int64_t>;  // channel (of Kept), session
   struct HashOfName {
@@ -73,7 +83,8 @@ class FlowHistory {
     }
   };
   Kept& latest(std::string_view channel, std::int64_t session, std::int64_t sequence);
-  const Bytes* find(const Kept& kept, std::int64_t sequence) const;
+  const Message* find(const Kept& kept, std::int64_t sequence) const;
+  Message* find_message(std::string_view channel, std::int64_t session, std::int64_t sequence);
   void forget_oldest_message();
   void forget_oldest_flow();
 

@@ -1,5 +1,7 @@
 #include "bus/flow_repair.h"
 
+#include <algorithm>
+
 namespace halocline::bus {
 namespace {
 
@@ -8,17 +10,42 @@ constexpr SimDuration kOlderThanAll = SimDuration::from_milliseconds(100'000'000
 
 }  // namespace
 
-std::vector<const Bytes*> FlowRepair::answers_to(const repair_request_t& request) const {
-  std::vector<const Bytes*> answers;
-  std::size_t bytes = 0;
+void FlowRepair::on_request(SimTime steady, const repair_request_t& request) {
+  const std::string& channel = request.missing_channel;
   for (const std::int64_t sequence : request.missing_sequence) {
-    const auto* message = history_.find(request.missing_channel, request.publisher_session, sequence);
+    if (wanted_.size() >= kMaxWanted) return;
+    if (history_.want(channel, request.publisher_session, sequence, steady))
+      wanted_.push_back({channel, request.publisher_session, sequence});
+  }
+}
+
+std::vector<FlowRepair::Answer> FlowRepair::take_answers(SimTime steady) {
+  constexpr SimDuration kPause = SimDuration::from_milliseconds(5);  // gains one answer at least
+  static_assert(kAnswersPerS * kPause.seconds() >= 1);
+  std::vector<Answer> answers;
+  if (wanted_.empty() || steady < next_answer_) return answers;
+  const double passed_s = std::max((steady - filled_at_).seconds(), 0.0);
+  answers_ = std::min(answers_ + kAnswersPerS * passed_s, kMostAnswers);
+  filled_at_ = steady;
+  std::size_t bytes = 0;
+  for (; !wanted_.empty() && answers_ >= 1 && bytes < kMaxAnswerBytes; wanted_.pop_front()) {
+    Wanted& wanted = wanted_.front();
+    const Bytes* message = history_.answer(wanted.channel, wanted.session, wanted.sequence, steady);
     if (message == nullptr) continue;
     bytes += message->size();
-    if (bytes > kMaxAnswerBytes && !answers.empty()) break;
-    answers.push_back(message);
+    answers_ -= 1;
+    answers.push_back({std::move(wanted.channel), message});
   }
+  next_answer_ = answers_ < 1 ? steady + kPause : SimTime::at_once();
   return answers;
+}
+
+// Whether a heartbeat of this session came before, of another moment.
+bool FlowRepair::is_known(SimTime steady, std::int64_t session) {
+  constexpr std::size_t kMaxSessions = 4096;
+  if (first_heartbeats_.size() >= kMaxSessions) first_heartbeats_.clear();
+  const SimTime first = first_heartbeats_.emplace(session, steady).first->second;
+  return (steady - first) * 2 >= kHeartbeatPeriod;
 }
 
 flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
@@ -41,14 +68,15 @@ flow_heartbeat_t FlowRepair::take_heartbeat(SimTime sim, SimTime steady) {
 
 std::int64_t FlowRepair::on_heartbeat(SimTime steady, const flow_heartbeat_t& heartbeat,
                                       const std::function<bool(std::string_view)>& is_subscribed_to) {
+  const bool known = is_known(steady, heartbeat.session);
   const bool is_younger = SimDuration::from_microseconds(heartbeat.age_us) <= steady - began_;
   std::int64_t missing = 0;
   for (std::size_t i = 0; i < heartbeat.flow_channel.size(); ++i) {
     if (!is_subscribed_to(heartbeat.flow_channel[i])) continue;
     missing += watch_.on_last(steady, heartbeat.flow_channel[i], heartbeat.flow_session[i],
-                              heartbeat.flow_last_sequence[i], is_younger);
+                              heartbeat.flow_last_sequence[i], is_younger, known);
   }
-  if (heartbeat.num_flows == heartbeat.num_flows_kept) watch_.on_all_listed(heartbeat.session);
+  if (known && heartbeat.num_flows == heartbeat.num_flows_kept) watch_.on_all_listed(heartbeat.session);
   return missing;
 }
 

@@ -6,13 +6,20 @@
 // heartbeats, and requests what is missing (flow_watch.h) until it is received or given up.
 //
 // The gaps of a publisher without this library are counted, and stay.
+//
+// Requests cannot be turned against the bus. A message is answered at most once in 40 ms (flow_history.h), and answers fill a token bucket
+// (Turner 1986) that gains kAnswersPerMessage with each message published and kAnswersPerS with time: enough for several receivers
+// of a bus that loses every third datagram, and never more than a small multiple of what the node publishes anyway.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -27,8 +34,13 @@ class FlowRepair {
  public:
   static constexpr SimDuration kHeartbeatPeriod = SimDuration::from_milliseconds(250);
   static constexpr std::size_t kHistoryBytes = 16u << 20;
-  // Largest answer to one request; the receiver requests the rest again.
+  // Of the answers in one step, and 1 message at least.
   static constexpr std::size_t kMaxAnswerBytes = 256u << 10;
+
+  static constexpr double kAnswersPerMessage = 3, kAnswersPerS = 200, kLeastAnswers = 256,
+                          kMostAnswers = 8192;
+  // Requested messages that may wait for their answers; who requested more requests again.
+  static constexpr std::size_t kMaxWanted = 8192;
 
   // `name` and `session`: of the node whose Bus this is. `watch`: its gap detector, which must outlive this.
   FlowRepair(std::string name, std::int64_t session, FlowWatch& watch)
@@ -37,29 +49,45 @@ class FlowRepair {
   // ---- as a publisher
   void on_published(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     history_.keep(channel, session, sequence, std::move(message));
+    answers_ = std::min(answers_ + kAnswersPerMessage, kMostAnswers);
   }
   // The same by an earlier incarnation, whose flows this one continues: they are older than any receiver.
   void restore_history(std::string_view channel, std::int64_t session, std::int64_t sequence, Bytes message) {
     resumes_ = true;
     on_published(channel, session, sequence, std::move(message));
   }
-  // The requested messages that are still kept.
-  std::vector<const Bytes*> answers_to(const repair_request_t& request) const;
+  // Stores what is requested and kept.
+  void on_request(SimTime steady, const repair_request_t& request);
+  // What is to be published now, on REPAIR.<channel>; valid until the next call.
+  struct Answer {
+    std::string channel;
+    const Bytes* message = nullptr;
+  };
+  std::vector<Answer> take_answers(SimTime steady);
   const FlowHistory& history() const { return history_; }
   // take_heartbeat() schedules the next a period later.
   bool heartbeat_is_due(SimTime steady) const { return steady >= next_heartbeat_; }
   flow_heartbeat_t take_heartbeat(SimTime sim, SimTime steady);
 
   // ---- as a receiver
-  // Returns how many messages of the flows that `is_subscribed_to` selects are newly missing.
+  // Returns how many messages of the flows that `is_subscribed_to` selects are newly missing. Flows of which nothing was received are
+  // followed from the second heartbeat of a session on: a datagram by itself makes no flow.
   std::int64_t on_heartbeat(SimTime steady, const flow_heartbeat_t& heartbeat,
                             const std::function<bool(std::string_view channel)>& is_subscribed_to);
   std::vector<repair_request_t> take_requests(SimTime sim, SimTime steady);
 
-  // When a heartbeat or a request is due.
-  SimTime next_due() const { return std::min(next_heartbeat_, watch_.next_due()); }
+  // When a heartbeat, an answer or a request is due.
+  SimTime next_due() const {
+    return std::min({next_heartbeat_, watch_.next_due(), wanted_.empty() ? SimTime::never() : next_answer_});
+  }
 
  private:
+  struct Wanted {
+    std::string channel;
+    std::int64_t session = 0, sequence = 0;
+  };
+  bool is_known(SimTime steady, std::int64_t session);
+
   std::string name_;
   std::int64_t session_;
   FlowHistory history_;
@@ -68,6 +96,10 @@ class FlowRepair {
   SimTime began_;
   std::int64_t heartbeats_ = 0;
   bool resumes_ = false;
+  std::deque<Wanted> wanted_;
+  double answers_ = kLeastAnswers;  // the bucket at filled_at_
+  SimTime filled_at_, next_answer_ = SimTime::at_once();
+  std::unordered_map<std::int64_t, SimTime> first_heartbeats_;  // by session; bounded
 };
 
 }  // namespace halocline::bus

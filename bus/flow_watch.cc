@@ -6,13 +6,15 @@
 namespace halocline::bus {
 namespace {
 
+constexpr std::int64_t kGreatest = std::numeric_limits<std::int64_t>::max();
+
 constexpr std::int64_t kRepetitionReach = 64;
 constexpr SimDuration kRepetitionAge = SimDuration::from_milliseconds(1000);
 
 // Sequence numbers of a hostile publisher may lie further apart than an int64 holds: saturates.
 std::int64_t distance(std::int64_t from, std::int64_t to) {
   std::int64_t step = 0;
-  return __builtin_sub_overflow(to, from, &step) ? std::numeric_limits<std::int64_t>::max() : step;
+  return __builtin_sub_overflow(to, from, &step) ? kGreatest : step;
 }
 
 }  // namespace
@@ -31,7 +33,9 @@ FlowWatch::Publisher& FlowWatch::add(std::string_view channel, std::int64_t sess
   auto found = received_.find(channel);
   if (found == received_.end()) found = received_.emplace(std::string(channel), Publishers()).first;
   if (found->second.size() >= kSessionsKept) {
-    lost_ += static_cast<std::int64_t>(found->second.front().missing.size());
+    const std::size_t missing = found->second.front().missing.size();
+    lose(static_cast<std::int64_t>(missing));
+    num_missing_ -= missing;
     found->second.erase(found->second.begin());
   }
   // A flow that was not yet in its publisher's heartbeat is expected from sequence number 0.
@@ -48,29 +52,38 @@ FlowWatch::Publisher& FlowWatch::add(std::string_view channel, std::int64_t sess
 std::int64_t FlowWatch::note_missing(Publisher& publisher, SimTime steady, std::int64_t first,
                                      std::int64_t end) {
   const std::int64_t count = distance(first, end);
-  const auto kept = static_cast<std::int64_t>(kMaxMissing);
-  if (count > kept) lost_ += count == std::numeric_limits<std::int64_t>::max() ? kept : count - kept;
-  for (std::int64_t sequence = count > kept ? end - kept : first; sequence < end; ++sequence) {
+  const std::size_t most = publisher.is_heard ? kMaxMissingOfAll : kMaxMissingUnheard;
+  const std::size_t room = std::min(most - std::min(most, num_missing_), kMaxMissing);
+  const auto kept = std::min(count, static_cast<std::int64_t>(room));
+  lose(count - kept);
+  num_missing_ -= publisher.missing.size();
+  for (std::int64_t sequence = end - kept; sequence < end; ++sequence) {
     publisher.missing[sequence] = {steady + kReorderingDelay, steady + kGivenUpAfter, kFirstRetry};
   }
   while (publisher.missing.size() > kMaxMissing) {
     publisher.missing.erase(publisher.missing.begin());
-    ++lost_;
+    lose(1);
   }
+  num_missing_ += publisher.missing.size();
   if (count > 0) next_due_ = std::min(next_due_, steady + kReorderingDelay);
   return count;
 }
+
+void FlowWatch::lose(std::int64_t count) { lost_ = saturating_sum(lost_, count); }
 
 FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view channel,
                                                 std::int64_t session, std::int64_t sequence, bool is_repair) {
   if ((session == 0 && sequence == 0) || has_no_room_for(channel)) return {};
   Publisher* publisher = find(channel, session);
+  if (publisher != nullptr) publisher->is_heard = true;
   if (publisher != nullptr && publisher->missing.erase(sequence) > 0) {
+    --num_missing_;
     publisher->received_at = steady;
     return {.fills_gap = true};
   }
   if (is_repair) return {.is_repeated = true};
   if (publisher == nullptr) publisher = &add(channel, session, sequence);
+  publisher->is_heard = true;
   Classification result;
   if (sequence > publisher->last) {
     result.newly_missing = note_missing(*publisher, steady, publisher->last + 1, sequence);
@@ -89,11 +102,12 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
 }
 
 std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::int64_t session,
-                                std::int64_t last, bool from_its_start) {
+                                std::int64_t last, bool from_its_start, bool makes_flow) {
   if (last < 0 || last == std::numeric_limits<std::int64_t>::max())
     return 0;  // no sequence number of this library
   if (has_no_room_for(channel)) return 0;
   Publisher* publisher = find(channel, session);
+  if (publisher == nullptr && !makes_flow) return 0;
   if (publisher == nullptr) publisher = &add(channel, session, last + 1);
   std::int64_t newly_missing = 0;
   if (from_its_start && publisher->first > 0) {
@@ -101,7 +115,8 @@ std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::i
     publisher->first = 0;
   }
   if (last > publisher->last) {
-    newly_missing += note_missing(*publisher, steady, publisher->last + 1, last + 1);
+    newly_missing =
+        saturating_sum(newly_missing, note_missing(*publisher, steady, publisher->last + 1, last + 1));
     publisher->last = last;
   }
   return newly_missing;
@@ -120,8 +135,10 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
   next_due_ = SimTime::never();
   for (auto& [channel, publishers] : received_) {
     for (Publisher& publisher : publishers) {
-      lost_ += static_cast<std::int64_t>(std::erase_if(
-          publisher.missing, [&](const auto& entry) { return entry.second.given_up <= steady; }));
+      const std::size_t given_up = std::erase_if(
+          publisher.missing, [&](const auto& entry) { return entry.second.given_up <= steady; });
+      lose(static_cast<std::int64_t>(given_up));
+      num_missing_ -= given_up;
       Request request{channel, publisher.session, {}};
       for (auto& [sequence, missing] : publisher.missing) {
         if (missing.next_request <= steady && request.sequences.size() < kMaxPerRequest) {
@@ -142,6 +159,7 @@ std::vector<FlowWatch::Request> FlowWatch::take_due(SimTime steady) {
 void FlowWatch::forget() {
   received_.clear();
   listed_.clear();
+  num_missing_ = 0;
   next_due_ = SimTime::never();
 }
 

@@ -9,9 +9,11 @@
 // Pure: values in, values out; `steady` is the caller's steady time, never set back.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -23,6 +25,12 @@
 
 namespace halocline::bus {
 
+// a + b, both 0 or more, and the greatest number where that is more.
+constexpr std::int64_t saturating_sum(std::int64_t a, std::int64_t b) {
+  std::int64_t sum = 0;
+  return __builtin_add_overflow(a, b, &sum) ? std::numeric_limits<std::int64_t>::max() : sum;
+}
+
 class FlowWatch {
  public:
   // Delay of the first request for a missing message: reordered datagrams need no repair.
@@ -32,8 +40,9 @@ class FlowWatch {
   static constexpr SimDuration kLongestRetry = SimDuration::from_milliseconds(640);
   // After this a missing message is lost.
   static constexpr SimDuration kGivenUpAfter = SimDuration::from_milliseconds(10'000);
-  // Missing messages of one flow; beyond these the oldest count as lost.
-  static constexpr std::size_t kMaxMissing = 2000;
+  // Missing messages of one flow, beyond which the oldest count as lost; of all, and of flows of which nothing was received yet, beyond
+  // which the newest do.
+  static constexpr std::size_t kMaxMissing = 2000, kMaxMissingOfAll = 20'000, kMaxMissingUnheard = 5000;
   static constexpr std::size_t kMaxPerRequest = 200;
   // Channels beyond these are not watched: endless invented names must not exhaust memory.
   static constexpr std::size_t kMaxChannels = 20'000;
@@ -49,9 +58,10 @@ class FlowWatch {
                             std::int64_t sequence, bool is_repair = false);
 
   // A heartbeat announced `last` as the last sequence number of the flow. `from_its_start`: the receiver is older
-  // than the publisher, so it should have all from 0. Returns how many are newly missing.
+  // than the publisher, so it should have all from 0. `makes_flow`: it is followed although nothing of it was received yet.
+  // Returns how many are newly missing.
   std::int64_t on_last(SimTime steady, std::string_view channel, std::int64_t session, std::int64_t last,
-                       bool from_its_start = false);
+                       bool from_its_start = false, bool makes_flow = true);
   // A heartbeat listed all flows of a publisher (each in on_last): any other flow of it begins after now.
   void on_all_listed(std::int64_t session);
 
@@ -65,8 +75,10 @@ class FlowWatch {
   std::vector<Request> take_due(SimTime steady);
   // When take_due has something to do; never() while nothing is missing.
   SimTime next_due() const { return next_due_; }
-  // Messages given up since the start.
+  // Messages given up since the start; saturates.
   std::int64_t lost() const { return lost_; }
+  // Messages that are missing now.
+  std::size_t num_missing() const { return num_missing_; }
 
   // Another run has begun: its publishers may start their sequences anew.
   void forget();
@@ -80,6 +92,7 @@ class FlowWatch {
     std::int64_t session = 0;
     std::int64_t first = 0, last = -1;  // nothing before first is expected; last was received, or announced
     SimTime received_at;
+    bool is_heard = false;  // by more than a heartbeat
     std::map<std::int64_t, Missing> missing;
   };
   // Sessions kept per channel: the one silent for longest makes room, so that memory stays bounded.
@@ -91,12 +104,14 @@ class FlowWatch {
 
   Publisher* find(std::string_view channel, std::int64_t session);
   Publisher& add(std::string_view channel, std::int64_t session, std::int64_t first);
+  void lose(std::int64_t count);
   std::int64_t note_missing(Publisher& publisher, SimTime steady, std::int64_t first, std::int64_t end);
 
   std::unordered_map<std::string, Publishers, TextHash, std::equal_to<>> received_;  // by channel
   std::deque<std::int64_t> listed_;  // sessions whose flows a heartbeat has listed, the latest last
   SimTime next_due_ = SimTime::never();
   std::int64_t lost_ = 0;
+  std::size_t num_missing_ = 0;  // of all flows
 };
 
 }  // namespace halocline::bus

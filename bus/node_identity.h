@@ -22,6 +22,8 @@ struct BusCounters {
   std::int64_t received = 0;
   std::int64_t sent = 0;
   std::int64_t refused = 0;
+  std::int64_t unsent = 0;  // refused by the network, at first or for good
+  std::int64_t rivals = 0;  // of those refused: of a second publisher of a name, or of a second CLOCK
   std::int64_t gaps = 0;
   std::int64_t repaired = 0;
   std::int64_t lost = 0;

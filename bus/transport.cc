@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -12,6 +14,15 @@ namespace halocline::bus {
 namespace {
 
 constexpr int kReceiveBufferBytes = 4'194'304;
+
+// Whether udpm://GROUP:PORT names a group and a port; without them LCM has its own.
+bool names_a_group(const std::string& url) {
+  const std::size_t begin = std::string_view("udpm://").size(), end = std::min(url.find('?'), url.size());
+  if (end == begin) return true;
+  in_addr group{};
+  return inet_pton(AF_INET, url.substr(begin, url.rfind(':', end) - begin).c_str(), &group) == 1 &&
+         IN_MULTICAST(ntohl(group.s_addr)) && port_of(url);
+}
 
 bool starts_with(std::string_view text, std::string_view prefix) {
   return text.substr(0, prefix.size()) == prefix;
@@ -51,12 +62,14 @@ std::string next_port(const std::string& url) {
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url) {
   // tcpq without a server passes for good and aborts in handleTimeout; a file is read at the wall clock's
   // pace.
-  require(starts_with(url, "udpm://") || starts_with(url, "memq://"),
+  require((starts_with(url, "udpm://") && names_a_group(url)) || starts_with(url, "memq://"),
           "LCM URL is '" + url + "'; allowed are udpm://GROUP:PORT?ttl=N and memq://");
   auto lcm = std::make_unique<lcm::LCM>(url);
-  require(lcm->good(),
-          "LCM cannot open '" + url +
-              "'. For udpm the host needs a multicast route: scripts/isolated COMMAND gives one on loopback");
+  if (!lcm->good()) {
+    throw NetworkError(
+        "LCM cannot open '" + url +
+        "'. For udpm the host needs a multicast route: scripts/isolated COMMAND gives one on loopback");
+  }
   return lcm;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -27,8 +28,14 @@ std::string next_port(const std::string& url);
 // missing.
 std::string effective_url(const std::string& given);
 
-// Throws InvalidArgument for a URL that LCM cannot open (with what to do), or whose provider cannot carry a
-// simulation: allowed are udpm:// and memq://.
+// The network cannot be used; the text says what to do.
+class NetworkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws InvalidArgument for a URL whose provider cannot carry a simulation: allowed are udpm:// and memq://; NetworkError
+// where LCM cannot open it.
 std::unique_ptr<lcm::LCM> open_transport(const std::string& url);
 
 // A warning for the user when the kernel grants less receive buffer than requested; empty when it grants enough.

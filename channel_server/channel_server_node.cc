@@ -83,6 +83,10 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       next_environment_(kBeforeAll),
       next_scenario_(kBeforeAll),
       next_forgetting_(kBeforeAll) {
+  for (const scenario_info_t& part : scenario_) {
+    for (const scenario_vehicle_t& vehicle : part.vehicles)
+      vehicles_.reserve(vehicle.vehicle_name, vehicle.vehicle_id);
+  }
   if (rules.medium.shard.index != 0) scenario_.clear();
   shares_searches_ = !rules.medium.shard.is_alone() && water_.propagation->share_searches(exchange_);
 }

@@ -10,6 +10,16 @@ namespace halocline::channel_server {
 
 namespace channels = bus::channels;
 
+namespace {
+
+// Sender, session and number of a packet.
+std::string text_of(const SendRequest& request) {
+  return request.vehicle + "/" + std::to_string(request.session) + "/" +
+         std::to_string(request.packet_sequence);
+}
+
+}  // namespace
+
 void PacketPublisher::publish(const MediumEvent& event) {
   if (const auto* receipt = std::get_if<Receipt>(&event.what)) {
     publish(*receipt, event.at);
@@ -49,7 +59,12 @@ void PacketPublisher::publish(const PacketOutcome& outcome, SimTime at, bool lat
     published_late_ += is_new ? 1 : 0;
     late = is_new;
   }
-  if (late) ++bus_.counters().late;
+  if (is_new && outcome.is_too_late) {
+    bus_.log().warning("send-too-late",
+                       "packet=" + text_of(outcome.packet->request) + " receiver=" + outcome.receiver +
+                           " reason=\"an outcome that it would have changed was published before\"");
+  }
+  if (late || (is_new && outcome.is_too_late)) ++bus_.counters().late;
 }
 
 }  // namespace halocline::channel_server

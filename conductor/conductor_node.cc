@@ -1,7 +1,9 @@
 #include "conductor/conductor_node.h"
 
+#include <string>
 #include <utility>
 
+#include "bus/subscription.h"
 #include "core/check.h"
 
 namespace halocline::conductor {
@@ -10,6 +12,16 @@ ConductorNode::ConductorNode(lcm::LCM& lcm, bus::NodeIdentity identity, SimDurat
     : Node(lcm, std::move(identity)), period_(period), rate_(rate) {
   require(period > SimDuration(), "the clock period must be positive");
   require_in_range(rate, 0, 1e6, "clock rate");
+  if (rate == 0) return;  // nobody else is on its bus
+  bus().subscribe<sim_clock_t>(
+      bus::channels::kClock,
+      [this](const sim_clock_t& clock) {
+        if (clock.session == bus().identity().session) return;
+        ++bus().counters().rivals;
+        bus().refuse(bus::channels::kClock,
+                     "session is " + std::to_string(clock.session) + ", of a second conductor");
+      },
+      bus::Wakeup::kStoreOnly);
 }
 
 bus::Due ConductorNode::on_due() const { return {.sim = next_clock_}; }

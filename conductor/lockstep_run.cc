@@ -1,6 +1,7 @@
 #include "conductor/lockstep_run.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -110,7 +111,11 @@ class Run {
       publisher_.publish(bus::channels::kLockstepNotice, m);
     };
     outputs.record = [this](const JournalEntry& entry) {
-      if (journal_) journal_->append(entry);
+      if (!journal_ || journal_->append(entry)) return;
+      events_.error("journal-given-up",
+                    "reason=\"the disk refused it; the run cannot be continued after a kill\"");
+      journal_.reset();
+      std::remove(run_.journal_path.c_str());
     };
     outputs.publish = [this](const lockstep_message_t& m) { on_message(m); };
     outputs.report = [this](const std::string& event, const std::string& detail) {

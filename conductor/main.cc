@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       "lockstep run.";
   program.node_name = "conductor";
   program.interface =
-      "receives:  STATE.*, STATUS.* (while starting: to take up a running system's time)\n"
+      "receives:  STATE.*, STATUS.* (while starting: to take up a running system's time), CLOCK (of others)\n"
       "publishes: CLOCK, STATUS.<name>\n"
       "with --lockstep, on --sync-url: receives LOCKSTEP_JOIN, LOCKSTEP_ANSWER; publishes "
       "LOCKSTEP_GRANT[.<name>],\n"

@@ -1,11 +1,13 @@
 // Simulation time as the conductor makes it: the steady clock times a rate.
 //
 // A conductor that is started into a running system continues from the time that the system has coasted to: it
-// listens for a little more than the period of STATUS, then starts from the latest utime received, or from 0.
+// listens for a little more than the period of STATUS, then starts from the latest utime that another one confirms within a minute, or from 0. Where another conductor still
+// publishes CLOCK then, it does not start: the first stays.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "bus/bus.h"
 #include "bus/runtime/time_source.h"
@@ -22,19 +24,28 @@ class PacedTime : public bus::TimeSource {
   // `rate`: simulated seconds per second of steady time, above 0.
   PacedTime(lcm::LCM& lcm, double rate);
 
+  // Throws NetworkError where another conductor runs: two CLOCKs of one session have been received, the last within a second.
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   const bus::Subscriptions* receives() const override { return bus_ ? &bus_->receives() : nullptr; }
 
+  void on_clock(const sim_clock_t& clock);
   // A message of a running system with this utime was received at the steady time last set.
   void on_utime(std::int64_t utime);
 
  private:
+  SimTime latest_confirmed();
+
   std::optional<bus::Bus> bus_;  // until it runs
   double rate_;
   std::optional<SimTime> started_listening_;
-  SimTime zero_;  // simulation time at steady time 0, from the messages received so far
-  bool has_received_ = false;
+  SimTime zero_;                // simulation time at steady time 0
+  std::vector<SimTime> zeros_;  // by each message received so far
+  struct {
+    std::int64_t session = 0;
+    int count = 0;
+    SimTime received;
+  } other_;  // the last conductor heard
   bool running_ = false;
 };
 

@@ -1,15 +1,17 @@
 // Write-ahead journal of the conductor: the inputs of its sequencer in their order, from which a new incarnation
 // continues the run.
 //
-// A file of entries: magic number, kind, length, check sum, bytes (LCM-encoded messages). Each entry is handed to the
-// kernel in one write before anything that follows from it is sent, so a killed process loses nothing that anybody
-// acted upon; a machine that loses power may (no fsync). An entry that a kill cut short is removed.
+// A file of records (bus/files/journal_file.h) of LCM-encoded messages. Each entry is handed to the kernel before anything that follows from
+// it is sent, so a killed process loses nothing that anybody acted upon; a machine that loses power may (no fsync). An
+// entry that a kill cut short is removed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "bus/files/journal_file.h"
 #include "bus/lockstep/lockstep_wire.h"
 
 namespace halocline::conductor {
@@ -22,7 +24,7 @@ struct JournalEntry {
 };
 
 // All whole entries of the file, oldest first; empty when there is no file. The bytes behind the last whole one are
-// cut off the file, and counted. Throws std::runtime_error when the file cannot be cut.
+// cut off the file, and counted. Throws InvalidArgument for a file that is damaged before that, is none of ours, or that another process has.
 struct JournalContents {
   std::vector<JournalEntry> entries;
   std::size_t bytes_cut_off = 0;
@@ -31,18 +33,14 @@ JournalContents read_journal(const std::string& path);
 
 class Journal {
  public:
-  // Appends to the file, or creates it. Throws InvalidArgument when it cannot be written.
+  // Appends to the file, or creates it. Throws InvalidArgument when it cannot be written, is none of ours, or another process has it.
   explicit Journal(const std::string& path);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
-  // Throws std::runtime_error when it cannot be written whole.
-  void append(const JournalEntry& entry);
+  // False when the disk refuses it.
+  [[nodiscard]] bool append(const JournalEntry& entry);
 
  private:
-  std::string path_;
-  int file_ = -1;
+  bus::JournalFile file_;
 };
 
 }  // namespace halocline::conductor

@@ -85,6 +85,7 @@ bool LogReader::next(LoggedEvent& event) {
       event.data.assign(step.event.data.begin(), step.event.data.end());
       event.file = next_file_ - 1;
       event.offset = static_cast<std::int64_t>(step.event.offset);
+      flows_.count(event.channel, event.data);
       return true;
     }
     at_ = log_.size();
@@ -118,6 +119,7 @@ void report_damage(std::ostream& out, const LogReader& log) {
   if (all.size() > kMaxStretchesReported)
     out << "halocline: and " << all.size() - kMaxStretchesReported << " more such stretches; "
         << log.bytes_skipped() << " bytes in all were skipped\n";
+  report_flows(out, log.flows());
 }
 
 }  // namespace halocline::clients

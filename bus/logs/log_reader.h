@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/logs/log_flows.h"
 #include "bus/logs/log_scan.h"
 
 namespace halocline::clients {
@@ -49,9 +50,10 @@ class LogReader {
   const std::vector<BadStretch>& bad_stretches() const { return bad_; }
   std::int64_t bytes_skipped() const {
     return bytes_skipped_;
-  }                                              // that belonged to no event; cut events' apart
-  bool truncated() const { return truncated_; }  // a file ends within an event
-  std::int64_t bytes() const { return bytes_; }  // of the files begun so far
+  }                                                 // that belonged to no event; cut events' apart
+  bool truncated() const { return truncated_; }     // a file ends within an event
+  std::int64_t bytes() const { return bytes_; }     // of the files begun so far
+  const LogFlows& flows() const { return flows_; }  // of the events read so far
 
  private:
   [[nodiscard]] bool open_next_file();
@@ -62,6 +64,7 @@ class LogReader {
   std::shared_ptr<const std::uint8_t> mapping_;
   LogBytes log_;
   std::size_t at_ = 0;
+  LogFlows flows_;
   std::vector<BadStretch> bad_;
   std::int64_t bytes_skipped_ = 0, bytes_ = 0;
   bool truncated_ = false;
@@ -73,8 +76,8 @@ std::vector<std::string> series_of(const std::string& path);
 // "FILE, byte OFFSET".
 std::string place_of(const LogReader& log, const LoggedEvent& event);
 
-// Writes a line about each bad stretch that was met so far (the first twenty, and how many more); none when the log
-// was sound.
+// Writes a line about each bad stretch that was met so far (the first twenty, and how many more), and what the log lacks (log_flows.h);
+// none when the log was sound and whole.
 void report_damage(std::ostream& out, const LogReader& log);
 
 }  // namespace halocline::clients

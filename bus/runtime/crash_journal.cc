@@ -42,6 +42,8 @@ void CrashJournal::open(Rule rule) {
   kept_ = rule.kept;
   journal_ = std::make_unique<MessageJournal>(
       MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all});
+  if (const std::size_t bytes = journal_->bytes_damaged(); bytes > 0)
+    bus_.log().warning("journal-damaged", "file=" + rule.path + " bytes_left_out=" + std::to_string(bytes));
   for (JournalledMessage& entry : journal_->take_inherited()) {
     last_step_ = entry.at;
     const bool is_output = entry.kind == Kind::kOutput;
@@ -94,6 +96,8 @@ void CrashJournal::write_inputs(SimTime now) {
   step_ = now;
   if (!is_open()) return;
   journal_->write_inputs(now);
+  if (journal_->is_given_up() && !std::exchange(given_up_, true))
+    bus_.log().error("journal-given-up", "reason=\"the disk refused it; after a kill the node begins anew\"");
   if (now > published_forgotten_at_) published_.clear();
 }
 

@@ -136,7 +136,7 @@ class CrashJournal {
       published_;  // (channel, identity), while repetition threatens
   SimTime published_forgotten_at_ = SimTime::never();
   SimTime step_;
-  bool replays_ = false, recovers_ = false;
+  bool replays_ = false, recovers_ = false, given_up_ = false;
 };
 
 }  // namespace halocline::bus

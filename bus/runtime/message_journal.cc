@@ -1,89 +1,69 @@
 #include "bus/runtime/message_journal.h"
 
 #include <algorithm>
-#include <cerrno>
+#include <cstddef>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
+#include <exception>
+#include <filesystem>
 #include <utility>
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include "core/atomic_file.h"
-#include "core/check.h"
+#include "bus/message_codec.h"
 
 namespace halocline::bus {
 namespace {
 
 using Kind = JournalledMessage::Kind;
-using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::uint64_t kEntryWord = 0x484c4d31;  // "HLM1"
-constexpr std::size_t kHeadBytes = 25;            // word, kind, stamp, two lengths, check sum
-constexpr std::size_t kMaxKept = 1000;            // of keep_all
-constexpr std::size_t kMaxKeptLast = 16'384;      // channels of keep_last
+constexpr std::string_view kHeader = "HALOCLINE INPUT2";
+constexpr std::size_t kMaxKept = 1000;        // of keep_all
+constexpr std::size_t kMaxKeptLast = 16'384;  // channels of keep_last
+constexpr std::size_t kHeadBytes = 9;         // of a body: stamp, length of the channel
 
-void put(std::uint64_t value, int bytes, Bytes& to) {
-  for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8)
-    to.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-std::uint64_t get(const std::uint8_t* at, int bytes) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < bytes; ++i) value = value << 8 | at[i];
-  return value;
-}
-
-// FNV-1a, 32 bits.
-std::uint32_t check_sum(const std::uint8_t* at, std::size_t size) {
-  std::uint32_t sum = 0x811c9dc5u;
-  for (std::size_t i = 0; i < size; ++i) sum = (sum ^ at[i]) * 0x01000193u;
-  return sum;
-}
-
-void append(const JournalledMessage& entry, Bytes& to) {
-  Bytes body(entry.channel.begin(), entry.channel.end());
+// Body: stamp, length of the channel, channel, message.
+JournalFile::Record to_record(const JournalledMessage& entry) {
+  Bytes body;
+  const auto stamp = static_cast<std::uint64_t>(entry.at.nanoseconds());
+  append_uint32(static_cast<std::uint32_t>(stamp >> 32), body);
+  append_uint32(static_cast<std::uint32_t>(stamp), body);
+  body.push_back(static_cast<std::uint8_t>(entry.channel.size()));  // 63 at most in LCM
+  body.insert(body.end(), entry.channel.begin(), entry.channel.end());
   body.insert(body.end(), entry.bytes.begin(), entry.bytes.end());
-  put(kEntryWord, 4, to);
-  put(static_cast<std::uint64_t>(entry.kind), 1, to);
-  put(static_cast<std::uint64_t>(entry.at.nanoseconds()), 8, to);
-  put(entry.channel.size(), 4, to);
-  put(entry.bytes.size(), 4, to);
-  put(check_sum(body.data(), body.size()), 4, to);
-  to.insert(to.end(), body.begin(), body.end());
+  return {static_cast<std::uint8_t>(entry.kind), std::move(body)};
 }
 
-// The entry at `at`, which then points behind it; empty where no whole one is.
-std::optional<JournalledMessage> take_entry(const Bytes& file, std::size_t& at) {
-  if (file.size() - at < kHeadBytes || get(&file[at], 4) != kEntryWord) return std::nullopt;
-  const std::size_t channel = get(&file[at + 13], 4), size = channel + get(&file[at + 17], 4);
-  if (file.size() - at - kHeadBytes < size) return std::nullopt;
-  const std::uint8_t* body = file.data() + at + kHeadBytes;
-  if (check_sum(body, size) != get(&file[at + 21], 4)) return std::nullopt;
+std::optional<JournalledMessage> to_entry(const JournalFile::Record& record) {
+  const Bytes& body = record.body;
+  if (record.kind > static_cast<std::uint8_t>(Kind::kStep) || body.size() < kHeadBytes) return std::nullopt;
+  const std::size_t channel_bytes = body[8];
+  if (channel_bytes > body.size() - kHeadBytes) return std::nullopt;
   JournalledMessage entry;
-  entry.kind = static_cast<JournalledMessage::Kind>(file[at + 4]);
-  entry.at = SimTime::from_nanoseconds(static_cast<std::int64_t>(get(&file[at + 5], 8)));
-  entry.channel.assign(body, body + channel);
-  entry.bytes.assign(body + channel, body + size);
-  at += kHeadBytes + size;
+  entry.kind = static_cast<Kind>(record.kind);
+  const std::uint64_t stamp = std::uint64_t{uint32_at(body, 0)} << 32 | uint32_at(body, 4);
+  entry.at = SimTime::from_nanoseconds(static_cast<std::int64_t>(stamp));
+  const auto channel = body.begin() + kHeadBytes,
+             message = channel + static_cast<std::ptrdiff_t>(channel_bytes);
+  entry.channel.assign(channel, message);
+  entry.bytes.assign(message, body.end());
   return entry;
-}
-
-void read(const std::string& path, std::vector<JournalledMessage>& entries) {
-  std::ifstream in(path, std::ios::binary);
-  const Bytes file{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  std::size_t at = 0;
-  while (auto entry = take_entry(file, at)) entries.push_back(std::move(*entry));
 }
 
 }  // namespace
 
+void MessageJournal::read(JournalFile& file) {
+  const JournalFile::Contents contents = file.read();
+  bytes_damaged_ += contents.bytes_damaged + contents.bytes_cut;
+  for (const JournalFile::Record& record : contents.records) {
+    if (auto entry = to_entry(record)) inherited_.push_back(std::move(*entry));
+  }
+}
+
 MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
-  read(rule_.path + ".1", inherited_);
-  read(rule_.path, inherited_);
+  file_ = std::make_unique<JournalFile>(rule_.path, kHeader);
+  if (std::filesystem::exists(rule_.path + ".1")) {
+    JournalFile before(rule_.path + ".1", kHeader);
+    read(before);
+  }
+  read(*file_);
   const auto earlier = [](const auto& a, const auto& b) { return a.at < b.at; };
   std::stable_sort(inherited_.begin(), inherited_.end(), earlier);
   for (const JournalledMessage& entry : inherited_) carry(entry);
@@ -95,8 +75,6 @@ MessageJournal::MessageJournal(Rule rule) : rule_(std::move(rule)) {
   std::stable_sort(inherited_.begin(), inherited_.end(), earlier);
   begin_file(inherited_);
 }
-
-MessageJournal::~MessageJournal() { close(file_); }
 
 void MessageJournal::add_input(std::string_view channel, const void* data, std::size_t size) {
   const auto* bytes = static_cast<const std::uint8_t*>(data);
@@ -128,30 +106,37 @@ void MessageJournal::clear() {
   begin_file({});
 }
 
-// Written beside the old file first, so that a crash meanwhile leaves that.
+// Written beside the old file first, so that a kill meanwhile leaves that.
 void MessageJournal::begin_file(const std::vector<JournalledMessage>& entries) {
-  if (file_ >= 0) close(file_);
-  AtomicFile replacement(rule_.path);
-  file_ =
-      open(replacement.temporary_path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
-  require(file_ >= 0, "cannot write the journal " + rule_.path + ": " + std::strerror(errno));
+  const std::string unfinished = rule_.path + ".unfinished";
+  std::remove(unfinished.c_str());
+  file_ = std::make_unique<JournalFile>(unfinished, kHeader);
   file_begins_ = SimTime::never();
   write(entries);
-  replacement.commit();
+  if (file_ && std::rename(unfinished.c_str(), rule_.path.c_str()) != 0) give_up();
 }
 
 void MessageJournal::write(const std::vector<JournalledMessage>& entries) {
-  if (entries.empty()) return;
-  if (file_begins_ != SimTime::never() && entries.back().at - file_begins_ > rule_.kept) {
-    std::rename(rule_.path.c_str(), (rule_.path + ".1").c_str());
-    begin_file(carried());
-    file_begins_ = entries.back().at;
+  if (entries.empty() || !file_) return;
+  try {
+    if (file_begins_ != SimTime::never() && entries.back().at - file_begins_ > rule_.kept) {
+      std::rename(rule_.path.c_str(), (rule_.path + ".1").c_str());
+      begin_file(carried());
+      file_begins_ = entries.back().at;
+    }
+    if (file_begins_ == SimTime::never()) file_begins_ = entries.back().at;
+    std::vector<JournalFile::Record> records;
+    for (const JournalledMessage& entry : entries) records.push_back(to_record(entry));
+    if (file_ && !file_->append(records)) give_up();
+  } catch (const std::exception&) {
+    give_up();
   }
-  if (file_begins_ == SimTime::never()) file_begins_ = entries.back().at;
-  Bytes bytes;
-  for (const JournalledMessage& entry : entries) append(entry, bytes);
-  if (::write(file_, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
-    throw std::runtime_error("the journal " + rule_.path + " could not be written whole (disk full?)");
+}
+
+// A journal that lacks entries would let the next incarnation contradict what this one published.
+void MessageJournal::give_up() {
+  file_.reset();
+  for (const char* part : {"", ".1", ".unfinished"}) std::remove((rule_.path + part).c_str());
 }
 
 void MessageJournal::carry(const JournalledMessage& entry) {

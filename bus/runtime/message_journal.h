@@ -2,19 +2,21 @@
 // killed restores what was under way (crash_journal.h). A node whose state can be written whole keeps that instead
 // (state_journal.h).
 //
-// A file of entries: a word that begins each, its kind, stamp, lengths, a check sum, channel and message. What is
-// written is handed to the kernel before anything that follows from it is published, so a killed process loses
-// nothing that anybody acted upon; a machine that loses power may (nothing is forced to the disk). What a kill cut
-// off at the end is no entry.
+// A file of records (bus/files/journal_file.h). What is written is handed to the kernel before anything that follows from it is published, so
+// a killed process loses nothing that anybody acted upon; a machine that loses power may (nothing is forced to the disk). What a kill
+// cut off at the end is no entry, nor is one of which a bit changed. When the disk refuses an entry the journal is
+// given up and removed, and the node goes on without one.
 //
 // Bounded: once a file spans `kept` of simulation time, it becomes `path`.1 (in the place of the one before)
 // and another begins with what is carried over: the last input of each channel of `keep_last` (of 16 384 channels at
 // most), and the inputs on `keep_all` (the latest 1000). So at least `kept` is there, and twice that at most.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +24,7 @@
 #include <vector>
 
 #include "bus/channels.h"
+#include "bus/files/journal_file.h"
 #include "core/sim_time.h"
 
 namespace halocline::bus {
@@ -46,14 +49,19 @@ class MessageJournal {
     std::vector<Family> keep_last;
     std::vector<std::string> keep_all;  // channels
   };
-  // Reads what an earlier incarnation left at `rule.path`. Throws InvalidArgument when it cannot be written.
+  // Reads what an earlier incarnation left at `rule.path`. Throws InvalidArgument when it cannot be written, is another file, or another
+  // process has it.
   explicit MessageJournal(Rule rule);
-  ~MessageJournal();
   MessageJournal(const MessageJournal&) = delete;
   MessageJournal& operator=(const MessageJournal&) = delete;
 
   // What the earlier incarnation left, by time; moved out, once.
   std::vector<JournalledMessage> take_inherited() { return std::move(inherited_); }
+
+  // Bytes of the earlier incarnation's files that were no whole entry.
+  std::size_t bytes_damaged() const { return bytes_damaged_; }
+  // The disk refused an entry; nothing more is written.
+  bool is_given_up() const { return file_ == nullptr; }
 
   // Keeps a received message in memory until the step that takes it.
   void add_input(std::string_view channel, const void* data, std::size_t size);
@@ -65,6 +73,8 @@ class MessageJournal {
   void clear();
 
  private:
+  void read(JournalFile& file);
+  void give_up();
   void begin_file(const std::vector<JournalledMessage>& entries);
   void write(const std::vector<JournalledMessage>& entries);
   void carry(const JournalledMessage& entry);
@@ -72,7 +82,8 @@ class MessageJournal {
   std::vector<JournalledMessage> carried() const;
 
   Rule rule_;
-  int file_ = -1;
+  std::unique_ptr<JournalFile> file_;
+  std::size_t bytes_damaged_ = 0;
   SimTime file_begins_ = SimTime::never();
   std::optional<SimTime> idle_step_;
   std::vector<JournalledMessage> inherited_, inputs_;

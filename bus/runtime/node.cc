@@ -62,6 +62,8 @@ void Node::step(const Now& now) {
 
 void Node::keep_state_in(std::unique_ptr<StateJournal> journal) {
   journal_ = std::move(journal);
+  if (journal_->is_damaged())
+    bus_.log().warning("journal-damaged", "reason=\"no whole record, or of another configuration\"");
   if (journal_->inherited()) load(*journal_->inherited());
 }
 
@@ -122,7 +124,14 @@ void Node::write_journal(SimTime now) {
   saved_.begin_with_parts(is_whole);
   saved_(status_sequence_);
   on_archive(saved_);
-  journal_->write(bus_.identity().session, now, saved_, published.bytes());
+  const bool written = journal_->write(bus_.identity().session, now, saved_, published.bytes());
+  if (written == has_journal_) return;
+  has_journal_ = written;
+  if (written) {
+    bus_.log().info("journal-resumed");
+  } else {
+    bus_.log().error("journal-refused", "reason=\"the disk refused it; after a kill the node begins anew\"");
+  }
 }
 
 void Node::restart(const Now& now) {
@@ -131,6 +140,11 @@ void Node::restart(const Now& now) {
   bus_.forget_flows();
   on_restart(now);
   known_due_.reset();
+}
+
+void Node::count_refused_clocks(std::int64_t count) {
+  bus_.counters().refused += count;
+  bus_.counters().rivals += count;
 }
 
 void Node::stop(const Now& now) {
@@ -153,6 +167,8 @@ void Node::publish_status(const Now& now, const std::string& text) {
   status.messages_received = counters.received;
   status.messages_sent = counters.sent;
   status.messages_refused = counters.refused;
+  status.messages_unsent = counters.unsent;
+  status.rivals = counters.rivals;
   status.gaps = counters.gaps;
   status.repaired = counters.repaired;
   status.lost = counters.lost;

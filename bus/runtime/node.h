@@ -70,6 +70,8 @@ class Node {
     bus_.set_steady(steady);
     is_behind_ = is_behind;
   }
+  // So many CLOCKs of a second conductor, and leaps of the first without a witness, were refused since the last call.
+  void count_refused_clocks(std::int64_t count);
   Stage stage() const { return bus_.identity().stage; }
   // Its subscriptions, what it receives by them, and the destination of its messages, for a runner that delivers in LCM's
   // place (bus.h).
@@ -136,6 +138,7 @@ class Node {
   std::int64_t status_sequence_ = 0;
   bool is_behind_ = false;
   std::unique_ptr<StateJournal> journal_;
+  bool has_journal_ = true;              // the disk takes it
   Archive saved_;                        // what went to the journal last
   std::uint64_t published_saved_ = 0;    // messages whose flows are in the journal (FlowHistory::published)
   std::optional<SimTime> resumed_from_;  // until the first step

@@ -5,16 +5,19 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <exception>
 #include <string_view>
+#include <utility>
 
 #include <poll.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
 #include "bus/event_log.h"
+#include "bus/files/output_check.h"
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/message_batches.h"
 #include "bus/runtime/node_command_line.h"
@@ -85,6 +88,43 @@ SimTime wake_time(const Node& node, const TimeSource& time) {
   return due.sim == SimTime::at_once() ? due.sim : std::min(due.steady, time.steady_at(due.sim));
 }
 
+// The time of a node's steps. It catches up with its source by slices, between which the node handles messages and the process signals.
+class NodeTime {
+ public:
+  NodeTime(Node& node, TimeSource& source) : node_(node), source_(source) {}
+  const Now& now() const { return now_; }
+  bool is_behind() const { return is_behind_; }  // the next slice waits
+
+  void update() {
+    constexpr SimDuration kSlice = SimDuration::from_milliseconds(10'000);
+    now_.steady = steady_now();
+    const bool restarted = source_.restarted();
+    if (const auto known = source_.now(now_.steady)) {
+      const bool goes_on = now_.sim_known && !restarted;
+      const SimTime begin = goes_on ? std::max(now_.sim, std::min(node_.due().sim, *known)) : *known;
+      now_.sim = std::min(*known, begin + kSlice);
+      now_.sim_known = true;
+      is_behind_ = now_.sim < *known;
+    }
+    const std::int64_t refused = source_.num_refused();
+    node_.count_refused_clocks(refused - std::exchange(refused_, refused));
+    if (restarted) node_.restart(now_);
+  }
+
+  void step_if_due() {
+    const Due due = node_.due();
+    if (due.steady <= now_.steady || due.sim == SimTime::at_once() || (now_.sim_known && due.sim <= now_.sim))
+      node_.step(now_);
+  }
+
+ private:
+  Node& node_;
+  TimeSource& source_;
+  Now now_{SimTime(), steady_now(), false};
+  bool is_behind_ = false;
+  std::int64_t refused_ = 0;
+};
+
 std::unique_ptr<TimeSource> make_time_source(TimeSourceKind kind, lcm::LCM& lcm, const std::string& name) {
   switch (kind) {
     case TimeSourceKind::kConductor:
@@ -129,7 +169,7 @@ void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& 
   node->enable_repair();
   if (journal) node->keep_state_in(std::move(journal));
   log.info("started", "url=" + url);
-  ReceiveFilter filter(*lcm, url);
+  ReceiveFilter filter(*lcm, url, accepted_hosts(run.scenario.accept, url));
   run_node(*lcm, *node, *time, stop_requested, &filter);
 }
 
@@ -205,23 +245,13 @@ SimTime steady_now() {
 
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
               ReceiveFilter* filter) {
-  Now now{SimTime(), steady_now(), false};
-  const auto update_time = [&] {
-    now.steady = steady_now();
-    if (const auto known = time.now(now.steady)) {
-      now.sim = *known;
-      now.sim_known = true;
-    }
-  };
-  const auto is_due = [&](const Due& due) {
-    return due.steady <= now.steady || due.sim == SimTime::at_once() || (now.sim_known && due.sim <= now.sim);
-  };
+  NodeTime node_time(node, time);
   sleep_precisely();
   MessageBatches batches;
   bool is_behind = false;
   while (!should_stop()) {
     if (filter != nullptr) filter->follow(&node.receives(), time.receives());
-    const SimTime wake = wake_time(node, time);
+    const SimTime wake = node_time.is_behind() ? SimTime::at_once() : wake_time(node, time);
     const Readable readable = wait_for_bus(lcm, wake, node.ready_file());
     if (readable.other) node.note_due_changed();
     if (readable.bus && !readable.other) {
@@ -233,23 +263,28 @@ void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<b
     const int handled = dispatch_waiting(lcm);
     is_behind = handled == kMaxMessagesPerTurn;
     batches.note_handled(handled);
-    update_time();
-    if (time.restarted()) node.restart(now);
-    if (is_due(node.due())) node.step(now);
+    node_time.update();
+    node_time.step_if_due();
   }
   time.set_steady(steady_now(), wall_now());
   dispatch_until_silent(lcm);
-  update_time();
-  if (is_due(node.due())) node.step(now);
-  node.stop(now);
+  node_time.update();
+  node_time.step_if_due();
+  node.stop(node_time.now());
 }
 
 int run_node_program(int argc, char** argv, const NodeProgram& program) {
   try {
-    return run_checked(argc, argv, program);
+    const int exit_code = run_checked(argc, argv, program);
+    if (output_is_whole()) return exit_code;
+    std::fprintf(stderr, "%s: standard output could not be written\n", program.program.c_str());
+    return 1;
   } catch (const InvalidArgument& error) {
     std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
-    return 2;
+    return kExitConfiguration;
+  } catch (const NetworkError& error) {
+    std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
+    return kExitNetwork;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", program.program.c_str(), error.what());
     return 1;

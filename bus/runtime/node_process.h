@@ -3,7 +3,8 @@
 // Each program's main describes itself in a NodeProgram and calls run_node_program. SIGINT and SIGTERM end the loop:
 // messages that the bus has delivered are handled, the node takes its last step and publishes a final STATUS; exit code
 // 0. A node in the middle of a step that takes longer ends there, 0.9 s after the signal: what it holds on disk serves as after
-// SIGKILL. An error of the user (configuration, command line) prints one line per problem; exit code 2. Any other error: 1.
+// SIGKILL. An error of the user (configuration, command line) prints one line per problem; exit code 2. A network that cannot be used, or on which
+// another conductor runs: 69. Any other error: 1.
 #pragma once
 
 #include <functional>
@@ -67,10 +68,13 @@ struct NodeProgram {
   std::function<bool(const Context&)> run_otherwise = nullptr;
 };
 
+// As sysexits.h has it, EX_UNAVAILABLE.
+inline constexpr int kExitConfiguration = 2, kExitNetwork = 69;
+
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
 [[nodiscard]] int run_node_program(int argc, char** argv, const NodeProgram& program);
 
-// The loop alone. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource. `filter`: of `lcm`, on
+// The loop alone. A node that is far behind the time steps by slices of 10 s. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource. `filter`: of `lcm`, on
 // which nothing else is received then; null for none.
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
               ReceiveFilter* filter = nullptr);

@@ -2,16 +2,21 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <sstream>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <arpa/inet.h>
+#include <linux/if_packet.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 #include "bus/channel_pattern.h"
 #include "bus/channels.h"
 #include "bus/transport.h"
+#include "core/check.h"
 
 namespace halocline::bus {
 namespace {
@@ -77,9 +82,8 @@ int find_socket(std::uint16_t port) {
   return found.size() == 1 ? found[0] : -1;
 }
 
-}  // namespace
-
-std::vector<sock_filter> receive_program(const std::multiset<std::string>& expressions) {
+// Empty where every channel has to pass.
+std::vector<sock_filter> channel_program(const std::multiset<std::string>& expressions) {
   std::set<std::string> texts;
   for (const std::string& expression : expressions) {
     const ChannelPattern pattern(expression);
@@ -96,7 +100,73 @@ std::vector<sock_filter> receive_program(const std::multiset<std::string>& expre
   return program.size() <= kMaxInstructions ? program : std::vector<sock_filter>();
 }
 
-ReceiveFilter::ReceiveFilter(lcm::LCM& lcm, const std::string& url) {
+// Goes on behind itself for accepted hosts, and leaves out the others. Empty for any host.
+std::vector<sock_filter> host_program(const AcceptedHosts& hosts) {
+  constexpr std::uint32_t kPacketType = SKF_AD_OFF + SKF_AD_PKTTYPE, kInterface = SKF_AD_OFF + SKF_AD_IFINDEX;
+  constexpr std::uint32_t kSource = SKF_NET_OFF + 12;  // of the IP header
+  if (hosts.any) return {};
+  std::vector<sock_filter> program;
+  std::vector<std::size_t> ways_on;
+  const auto go_on_if = [&](std::uint32_t value) {
+    program.push_back(jump(BPF_JEQ, value, 0, 1));
+    ways_on.push_back(program.size());
+    program.push_back(statement(BPF_JMP | BPF_JA, 0));
+  };
+  program.push_back(statement(BPF_LD | BPF_W | BPF_ABS, kPacketType));
+  go_on_if(PACKET_LOOPBACK);  // multicast of this host's
+  program.push_back(statement(BPF_LD | BPF_W | BPF_ABS, kInterface));
+  go_on_if(if_nametoindex("lo"));
+  for (const AcceptedHosts::Range& range : hosts.ranges) {
+    program.push_back(statement(BPF_LD | BPF_W | BPF_ABS, kSource));
+    program.push_back(statement(BPF_ALU | BPF_AND | BPF_K, range.mask));
+    go_on_if(range.address & range.mask);
+  }
+  program.push_back(statement(BPF_RET | BPF_K, kLeaveOut));
+  for (const std::size_t way : ways_on) program[way].k = static_cast<std::uint32_t>(program.size() - way - 1);
+  return program;
+}
+
+// "10.0.3.7" or "10.0.3.0/24".
+AcceptedHosts::Range range_of(const std::string& word) {
+  constexpr std::size_t kMaxBits = 32;
+  const std::string trimmed = word.substr(0, word.find_last_not_of(' ') + 1);
+  const std::size_t slash = trimmed.find('/');
+  const std::string bits_text = slash == std::string::npos ? "32" : trimmed.substr(slash + 1);
+  in_addr address{};
+  const bool has_address = inet_pton(AF_INET, trimmed.substr(0, slash).c_str(), &address) == 1;
+  const bool has_bits = !bits_text.empty() && bits_text.size() <= 2 &&
+                        bits_text.find_first_not_of("0123456789") == std::string::npos;
+  const std::size_t bits = has_bits ? std::stoul(bits_text) : kMaxBits + 1;
+  require(has_address && bits <= kMaxBits, "'" + trimmed +
+                                               "' is no host; allowed are any, addresses as 10.0.3.7 and "
+                                               "ranges as 10.0.3.0/24, with commas between them");
+  const std::uint64_t ones = 0xffffffffu;
+  return {ntohl(address.s_addr), static_cast<std::uint32_t>(ones << (kMaxBits - bits))};
+}
+
+}  // namespace
+
+AcceptedHosts accepted_hosts(const std::string& text, const std::string& url) {
+  const std::size_t ttl = url.find("ttl=");  // 0 where it is not given
+  const bool leaves_host = ttl != std::string::npos && !url.substr(ttl).starts_with("ttl=0");
+  if (text == "any" || (text.empty() && leaves_host)) return {};
+  AcceptedHosts hosts{.any = false, .ranges = {}};
+  std::istringstream words(text);
+  for (std::string word; std::getline(words >> std::ws, word, ',');) hosts.ranges.push_back(range_of(word));
+  return hosts;
+}
+
+std::vector<sock_filter> receive_program(const std::multiset<std::string>& expressions,
+                                         const AcceptedHosts& hosts) {
+  std::vector<sock_filter> program = host_program(hosts);
+  const std::vector<sock_filter> channels = channel_program(expressions);
+  if (!program.empty() && channels.empty()) program.push_back(statement(BPF_RET | BPF_K, kPass));
+  program.insert(program.end(), channels.begin(), channels.end());
+  return program;
+}
+
+ReceiveFilter::ReceiveFilter(lcm::LCM& lcm, const std::string& url, AcceptedHosts hosts)
+    : hosts_(std::move(hosts)) {
   const auto port = port_of(url);
   if (!port || !url.starts_with("udpm://")) return;
   lcm.getFileno();  // begins to receive
@@ -118,7 +188,7 @@ void ReceiveFilter::follow(const Subscriptions* first, const Subscriptions* seco
 
 // Without a filter, or where the kernel refuses it, LCM itself discards what nobody wants.
 void ReceiveFilter::attach(const std::multiset<std::string>& expressions) {
-  std::vector<sock_filter> program = receive_program(expressions);
+  std::vector<sock_filter> program = receive_program(expressions, hosts_);
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
   const int none = 0;
   if (program.empty() || setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) != 0)

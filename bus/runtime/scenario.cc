@@ -1,7 +1,13 @@
 #include "bus/runtime/scenario.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <string>
 
+#include "bus/runtime/receive_filter.h"
+#include "core/limits.h"
 #include "core/names.h"
 #include "core/random.h"
 
@@ -43,6 +49,19 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   vehicle.battery = battery;
 }
 
+bool is_control(unsigned char c) { return c < ' ' || c == 0x7f; }
+
+// Names folders and files.
+bool is_valid_scenario_name(std::string_view name) {
+  constexpr std::size_t kLongest = 64;
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.' || c == ' ';
+  };
+  return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), allowed) &&
+         name.front() != '.' && name.front() != '-' && name.front() != ' ' && name.back() != ' ';
+}
+
 void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
   v.text("file", ocean.file, {},
          "CF netCDF with currents, or temperature and salinity, or both; empty: none");
@@ -58,14 +77,23 @@ void visit_ocean(ConfigVisitor& v, OceanEntry& ocean) {
 }
 
 // Two vehicles with one name would publish on one channel; with one id, they would be one to all others.
-void check_unique(ConfigVisitor& v, const std::vector<VehicleEntry>& vehicles, std::size_t index) {
-  for (std::size_t i = 0; i < index; ++i) {
-    if (vehicles[i].name == vehicles[index].name)
+class VehicleChecks {
+ public:
+  void check(ConfigVisitor& v, const std::vector<VehicleEntry>& vehicles, std::size_t index) {
+    const VehicleEntry& vehicle = vehicles[index];
+    if (!names_.insert(vehicle.name).second)
       v.problem("name", "an earlier vehicle has this name; names are unique");
-    if (vehicles[i].id == vehicles[index].id)
-      v.problem("id", "an earlier vehicle has this id; ids are unique");
+    if (!ids_.insert(vehicle.id).second) v.problem("id", "an earlier vehicle has this id; ids are unique");
+    if (index == kMaxVehicles) {
+      v.problem("name", "the channel server follows " + std::to_string(kMaxVehicles) +
+                            " vehicles, allowed are no more; these are " + std::to_string(vehicles.size()));
+    }
   }
-}
+
+ private:
+  std::set<std::string, std::less<>> names_;
+  std::set<std::int32_t> ids_;
+};
 
 }  // namespace
 
@@ -78,7 +106,13 @@ const VehicleEntry* Scenario::find(std::string_view vehicle_name) const {
 void visit(ConfigVisitor& v, Scenario& s) {
   v.section("scenario", "What this is and where", [&](ConfigVisitor& section) {
     section.text("name", s.name, {}, "short name");
+    if (!is_valid_scenario_name(s.name))
+      section.problem(
+          "name",
+          "allowed are 1 to 64 letters, digits, '_', '-', '.' and spaces, a letter, digit or '_' first");
     section.text("description", s.description, {}, "one line for a person");
+    if (std::any_of(s.description.begin(), s.description.end(), is_control))
+      section.problem("description", "allowed is one line without control characters");
     integer_as(section, "seed", s.seed, {0, 9e15, "", "seed of all random draws"});
     seconds(section, "duration_s", s.duration, {0.001, kLongestRunS, "s", "simulated time of a run"});
     section.number("origin_latitude_deg", s.origin_latitude_deg,
@@ -93,13 +127,21 @@ void visit(ConfigVisitor& v, Scenario& s) {
     seconds(section, "clock_period_s", s.clock_period,
             {1e-3, 60, "s", "simulated time between CLOCK messages"});
   });
+  v.section("bus", "Who may publish", [&](ConfigVisitor& section) {
+    section.text(
+        "accept", s.accept, {},
+        "other hosts whose messages are received: any, or addresses and ranges as 10.0.3.7, 10.0.4.0/24; "
+        "empty: any if the bus has ttl=1, none with ttl=0");
+    report_refusal(section, "accept", [&] { accepted_hosts(s.accept, ""); });
+  });
   v.section("ocean", "The ocean as fields of place and time",
             [&](ConfigVisitor& section) { visit_ocean(section, s.ocean); });
+  VehicleChecks checks;
   v.list(
       "vehicle", "A vehicle", s.vehicles.size(), [&](std::size_t n) { s.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) {
         visit_vehicle(item, s.vehicles[i]);
-        check_unique(item, s.vehicles, i);
+        checks.check(item, s.vehicles, i);
       });
 }
 

@@ -2,7 +2,7 @@
 //
 // A scenario is one TOML file. Each program reads this part and the sections of its own; `halocline run`
 // reads all, so that it finds every error at once. Sections and their owners:
-//   [scenario] [time] [ocean] [[vehicle]] [vehicle.battery]    this file
+//   [scenario] [time] [bus] [ocean] [[vehicle]] [vehicle.battery]    this file
 //   [terrain]                          bathymetry/bathymetry_config.h
 //   [environment] [modem] [channel_server], [vehicle.modem] [vehicle.clock] [vehicle.noise]    channel_server/channel_server_config.h
 //   [vehicle_sim] [sensors] [vehicle.sensors] [[tether]] [[fault]]    vehicle_sim/vehicle_sim_config.h
@@ -66,6 +66,7 @@ struct Scenario {
   double sea_surface_z_m = 0;  // z of the surface in the world frame: negative when it lies above the datum
   double rate = 1;  // simulated seconds per wall second, for processes that keep pace with the wall
   SimDuration clock_period = SimDuration::from_milliseconds(100);  // between CLOCK messages, simulation time
+  std::string accept;  // hosts whose datagrams are received (receive_filter.h)
   OceanEntry ocean;
   std::vector<VehicleEntry> vehicles;
   std::string configuration;  // configuration_of() its file, no key of it; empty where there is none

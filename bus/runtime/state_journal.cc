@@ -1,19 +1,14 @@
 #include "bus/runtime/state_journal.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
-#include "core/check.h"
+#include "bus/files/journal_file.h"
 #include "core/hash.h"
 
 namespace halocline::bus {
@@ -22,6 +17,7 @@ namespace {
 using Bytes = StateJournal::Bytes;
 using View = std::span<const std::uint8_t>;
 
+constexpr std::string_view kHeader = "HALOCLINE STATE2";
 constexpr std::uint64_t kGrowth = 4, kLeastFileBytes = 64 << 10;
 constexpr std::uint64_t kMaxParts = 1 << 20;
 
@@ -102,10 +98,8 @@ struct Found {
 };
 
 // What the records of a file come to. Behind them may be older ones, of what the file held before.
-std::optional<Found> read(const std::string& path, std::uint64_t digest) {
-  std::ifstream in(path, std::ios::binary);
-  const Bytes bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  View file = bytes;
+std::optional<Found> read(View file, std::uint64_t digest) {
+  file = file.subspan(std::min(file.size(), kJournalHeaderBytes));
   std::optional<Found> found;
   while (const auto record = read_record(file)) {
     const Head& head = record->head;
@@ -121,46 +115,59 @@ std::optional<Found> read(const std::string& path, std::uint64_t digest) {
 
 }  // namespace
 
-StateJournal::StateJournal(const std::string& path, std::uint64_t digest) : path_(path), digest_(digest) {
+StateJournal::StateJournal(const std::string& path, std::uint64_t digest) : digest_(digest) {
   for (std::size_t i = 0; i < files_.size(); ++i) {
-    const std::string name = path + "." + std::to_string(i);
-    if (auto found = read(name, digest); found && found->number >= number_) {
-      number_ = found->number + 1;
-      current_ = i;
-      inherited_ = std::move(found->saved);
-    }
-    files_[i] = open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-    require(files_[i] >= 0, "cannot write the journal " + name + ": " + std::strerror(errno));
+    files_[i] = open_journal(path + "." + std::to_string(i), kHeader);
+    const Bytes bytes = content_of(files_[i]);
+    auto found = read(bytes, digest);
+    is_damaged_ = is_damaged_ || (!found && bytes.size() > kJournalHeaderBytes);
+    if (!found || found->number < number_) continue;
+    number_ = found->number + 1;
+    current_ = i;
+    inherited_ = std::move(found->saved);
   }
+  is_damaged_ = is_damaged_ && !inherited_;
 }
 
 StateJournal::~StateJournal() {
-  for (const int file : files_) close(file);
+  for (const int file : files_) {
+    if (file >= 0) close(file);
+  }
 }
 
-void StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
+bool StateJournal::write(std::int64_t session, SimTime at, const Archive& state,
                          std::span<const std::uint8_t> additions) {
   const bool is_whole = wants_whole();
   if (is_whole) {
     current_ = 1 - current_;
-    end_ = 0;
+    end_ = kJournalHeaderBytes;
   }
   const std::array<View, 4> body = {state.bytes(), bytes_of(std::span(state.parts())), state.bytes_of_parts(),
                                     additions};
   Head head{0, digest_, number_, session, at, is_whole, {}};
-  std::array<iovec, 5> pieces{{{&head, sizeof head}}};
+  std::array<View, 5> pieces{bytes_of(std::span<const Head>(&head, 1))};
   for (std::size_t i = 0; i < body.size(); ++i) {
     head.sizes[i] = body[i].size();
-    pieces[i + 1] = {const_cast<std::uint8_t*>(body[i].data()), body[i].size()};
+    pieces[i + 1] = body[i];
   }
   head.check_sum = check_sum(head, body);
   const std::uint64_t size = sizeof head + head.size_of_body();
-  if (pwritev(files_[current_], pieces.data(), pieces.size(), static_cast<off_t>(end_)) !=
-      static_cast<ssize_t>(size))
-    throw std::runtime_error("the journal " + path_ + " could not be written whole (disk full?)");
+  if (!write_whole(files_[current_], end_, pieces)) {
+    forget();
+    return false;
+  }
   if (is_whole) max_bytes_ = std::max(kGrowth * size, kLeastFileBytes);
   end_ += size;
   ++number_;
+  return true;
+}
+
+// What follows from the state that could not be written is published: no earlier one may be taken up.
+void StateJournal::forget() {
+  for (const int file : files_) {
+    [[maybe_unused]] const int cut = ftruncate(file, static_cast<off_t>(kJournalHeaderBytes));
+  }
+  end_ = 0;
 }
 
 }  // namespace halocline::bus

@@ -47,14 +47,67 @@ SimTime ConductorTime::received() const {
   return steady_ - std::clamp(*wall_ - bus_.received_at(), SimDuration(), kLongestWait);
 }
 
+bool ConductorTime::agree(const Heard& before, const sim_clock_t& clock, SimTime received) {
+  const double rate = before.clock.clock_rate;
+  const double utime_s =
+      (SimTime::from_utime(clock.utime) - SimTime::from_utime(before.clock.utime)).seconds();
+  const double leap_s = utime_s - (received - before.received).seconds() * rate;
+  return std::abs(leap_s) <= kLeap.seconds() * std::max(1.0, rate);
+}
+
+// Whether an earlier CLOCK of its session agrees with it; otherwise it waits for one that does.
+bool ConductorTime::is_witnessed(const sim_clock_t& clock, SimTime received) {
+  constexpr std::size_t kMaxWitnesses = 8;  // anybody can make up sessions
+  const auto earlier = std::find_if(witnesses_.begin(), witnesses_.end(),
+                                    [&](const Heard& one) { return one.clock.session == clock.session; });
+  if (earlier != witnesses_.end()) {
+    if (earlier->clock.utime != clock.utime && agree(*earlier, clock, received)) return true;
+    witnesses_.erase(earlier);
+  }
+  witnesses_.push_back({clock, received});
+  if (witnesses_.size() > kMaxWitnesses) witnesses_.pop_front();
+  return false;
+}
+
+// The session is heard as expected: it is followed further, and nothing else is true.
+void ConductorTime::refuse_others() {
+  const auto leaps =
+      std::erase_if(witnesses_, [&](const Heard& one) { return one.clock.session == last_->clock.session; });
+  const auto refuse = [this](std::int64_t count, std::string_view reason) {
+    bus_.counters().rivals += count;
+    if (count > 0) bus_.refuse(channels::kClock, reason);
+  };
+  refuse(static_cast<std::int64_t>(leaps), "utime is far from what is expected, and no other CLOCK agrees");
+  refuse(std::exchange(num_others_, 0),
+         "session is of a second conductor; the first is followed until it is silent for 3 s");
+}
+
 void ConductorTime::on_clock(const sim_clock_t& clock, SimTime received) {
+  const bool is_followed = last_ && clock.session == last_->clock.session;
+  if (is_followed && agree(*last_, clock, received)) {
+    refuse_others();
+  } else if (last_ && !is_followed && received - last_->received < kSilence) {
+    ++num_others_;
+    return;
+  } else if (!is_witnessed(clock, received)) {
+    return;
+  }
+  take(clock, received);
+}
+
+void ConductorTime::take(const sim_clock_t& clock, SimTime received) {
   const SimTime sim = SimTime::from_utime(clock.utime);
-  if (clock.session != session_ || clock.clock_rate != rate_) samples_.clear();
-  if (clock.session != session_ && latest_ > sim + kJumpBack) {
+  const bool goes_on = last_ && clock.session == last_->clock.session && agree(*last_, clock, received);
+  if (!goes_on) {
+    witnesses_.clear();
+    num_others_ = 0;
+  }
+  if (!goes_on || clock.clock_rate != rate_) samples_.clear();
+  if (!goes_on && latest_ > sim + kJumpBack) {
     restarted_ = latest_ != SimTime::at_once();
     latest_ = SimTime::at_once();
   }
-  session_ = clock.session;
+  last_ = {clock, received};
   rate_ = clock.clock_rate;
   paused_at_ = rate_ > 0 ? std::nullopt : std::optional(sim);
   if (rate_ <= 0) return;

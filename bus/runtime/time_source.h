@@ -51,6 +51,8 @@ class TimeSource {
   virtual SimTime steady_at(SimTime sim) const = 0;
   // True once after simulation time jumped back: another run has begun, state of the old one is void.
   [[nodiscard]] virtual bool restarted() { return false; }
+  // How many messages it refused so far because they contradict the time that it follows.
+  virtual std::int64_t num_refused() const { return 0; }
   // What it receives by itself; null: nothing.
   virtual const Subscriptions* receives() const { return nullptr; }
 
@@ -63,12 +65,21 @@ class TimeSource {
 //
 // Each CLOCK carries a simulation time and a rate, and is received after an unknown delay; so the smallest
 // (steady - utime / rate) of the last second is the best estimate of the offset between the clocks.
+//
+// Anybody may publish CLOCK. A session is taken up when two of its CLOCKs agree: the second tells the time that the first lets
+// expect, within kLeap (of simulated or of steady time, whichever is longer). It stays until it has been silent for kSilence; CLOCKs
+// of other sessions are refused until then, and count as refused once the session is heard again. Within the session a CLOCK that
+// leaps counts only when the next one agrees with it. A restarted conductor goes on from the time of the others, who coast until they take it up.
 class ConductorTime : public TimeSource {
  public:
+  static constexpr SimDuration kSilence = SimDuration::from_milliseconds(3000);
+  static constexpr SimDuration kLeap = SimDuration::from_milliseconds(60'000);
+
   ConductorTime(lcm::LCM& lcm, const std::string& process_name);
   std::optional<SimTime> now(SimTime steady) override;
   SimTime steady_at(SimTime sim) const override;
   [[nodiscard]] bool restarted() override { return std::exchange(restarted_, false); }
+  std::int64_t num_refused() const override { return bus_.counters().rivals; }
   const Subscriptions* receives() const override { return &bus_.receives(); }
 
   // A CLOCK that was received at `received` (steady).
@@ -79,13 +90,23 @@ class ConductorTime : public TimeSource {
     SimTime received;  // steady
     double offset_s;   // received - utime / rate, seconds
   };
+  struct Heard {
+    sim_clock_t clock;
+    SimTime received;  // steady
+  };
+  static bool agree(const Heard& before, const sim_clock_t& clock, SimTime received);
+  bool is_witnessed(const sim_clock_t& clock, SimTime received);
+  void refuse_others();
+  void take(const sim_clock_t& clock, SimTime received);
   // When the message being handled was received (steady); bounded, as the wall clock may have been set meanwhile.
   SimTime received() const;
 
   Bus bus_;
   SilenceWarning silence_;
   double rate_ = 0;
-  std::int64_t session_ = 0;
+  std::optional<Heard> last_;    // of the session that is followed
+  std::deque<Heard> witnesses_;  // the latest of each session that nothing has agreed with yet
+  std::int64_t num_others_ = 0;  // CLOCKs of other sessions since the last one
   std::deque<Sample> samples_;
   std::optional<SimTime> paused_at_;
   SimTime latest_ = SimTime::at_once();

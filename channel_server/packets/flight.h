@@ -58,6 +58,7 @@ struct Flight {
 
   // Once it has arrived.
   ReceiverState* sounds_at = nullptr;  // which it is open at until it ends
+  bool is_too_late = false;            // it overlaps a reception that was decided before it was known
   bool receiver_absent = false;        // at the first significant path: its state is older than the time-out
   std::vector<NoiseSound> noise;       // of other vehicles, during the packet
   double large_scale = 1;              // of the pressures, by the link's large-scale fading

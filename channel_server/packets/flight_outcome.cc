@@ -153,6 +153,7 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEq
   outcome.doppler_factor = flight.doppler_factor();
   set_direction(flight, outcome);
   outcome.statistics = flight.statistics;
+  outcome.is_too_late = flight.is_too_late;
   if (const PowerOf* battery = flight.acquired ? equipment.power.battery_of(flight.receiver_id) : nullptr)
     outcome.receive_energy_j = battery->receiving_w * (flight.signal.end - flight.signal.begin).seconds();
   return outcome;

@@ -189,6 +189,8 @@ struct PacketOutcome {
   double arrival_azimuth_rad = 0;    // towards where the sound came from, from north by east, -pi..pi
   double arrival_elevation_rad = 0;  // likewise, from the horizontal, positive up
   DecisionStatistics statistics;
+  // Its SEND came so late that its sound overlaps, here or where it left, a reception that was decided without it.
+  bool is_too_late = false;
   double receive_energy_j = 0;  // taken from the receiver's battery; 0 unless acquired, and without one
 };
 

@@ -175,8 +175,9 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
   const SimTime departure = packet->departure;
   const VehicleId source = packet->request.source_id, destination = packet->request.destination_id;
   const bool is_served = rule_.shard.serves(source);
+  const PacketInterval span{packet, departure, departure + packet->timing.duration};
+  const bool is_late = is_served && state_of(source).transmit(span, advanced_to_);
   if (is_served) {
-    state_of(source).transmit({packet, departure, departure + packet->timing.duration});
     watch_.begin_transmission(*packet, events);
     add_sending(*packet, power(), events);
   }
@@ -202,6 +203,7 @@ void PacketMedium::launch(const PacketPointer& packet, std::vector<MediumEvent>&
     } else if (rule_.shard.serves(receiver.id)) {
       Flight& flight = flights_.make_flight();
       flight.packet = packet;
+      flight.is_too_late = is_late;
       flight.identity = identity;
       flight.receiver_id = receiver.id;
       flight.receiver = fleet_.name_of(receiver.id);
@@ -260,7 +262,7 @@ void PacketMedium::begin_reception(Flight& flight, SimTime at) {
   if (rule_.noise.has_bursts()) add_bursts(rule_.noise, rule_.seed, flight.receiver_id, flight.signal);
   flight.draws = draws_of(rule_.seed, *flight.packet, flight.identity, flight.receiver_id);
   flight.sounds_at = &state_of(flight.receiver_id);
-  flight.sounds_at->open(disturbing_sound(flight, reach_));
+  flight.is_too_late |= flight.sounds_at->open(disturbing_sound(flight, reach_), advanced_to_);
   watch_.judge_carrier_at(flight.receiver_id, at);
   flight.stage = Flight::Stage::kPreamble;
   flights_.add(std::max(flight.signal.preamble_end, at), flight);

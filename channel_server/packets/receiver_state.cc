@@ -17,12 +17,28 @@ bool overlap(const PacketInterval& span, SimTime begin, SimTime end) {
 
 }  // namespace
 
-void ReceiverState::open(AudiblePacket packet) {
+bool ReceiverState::overlaps_decided(const PacketInterval& span, SimTime decided_by) const {
+  if (span.begin >= decided_by) return false;
+  return std::any_of(sounds_.begin(), sounds_.end(), [&](const AudiblePacket& sound) {
+    return overlap(span, sound.begin, sound.end) && sound.end <= decided_by && !sound.paths.empty() &&
+           band_share(sound.packet->modem.band(), span.packet->modem.band()) > 0;
+  });
+}
+
+bool ReceiverState::transmit(const PacketInterval& span, SimTime decided_by) {
+  transmissions_.push_back(span);
+  return overlaps_decided(span, decided_by);
+}
+
+bool ReceiverState::open(AudiblePacket packet, SimTime decided_by) {
+  const bool is_too_late =
+      !packet.paths.empty() && overlaps_decided({packet.packet, packet.begin, packet.end}, decided_by);
   open_.insert(std::upper_bound(open_.begin(), open_.end(), packet.begin), packet.begin);
   longest_ = std::max(longest_, packet.end - packet.begin);
   const auto place = std::upper_bound(sounds_.begin(), sounds_.end(), packet.begin,
                                       [](SimTime begin, const AudiblePacket& h) { return begin < h.begin; });
   sounds_.insert(place, std::move(packet));
+  return is_too_late;
 }
 
 void ReceiverState::close(SimTime begin, SimTime now) {

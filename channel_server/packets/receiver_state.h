@@ -62,10 +62,12 @@ class ReceiverState {
   // `kept_longer`: how long after its end a sound may still overlap a reception that is added late.
   explicit ReceiverState(SimDuration kept_longer) : kept_longer_(kept_longer) {}
 
-  // A packet arrives; a reception is open from its begin on until closed.
-  void open(AudiblePacket packet);
+  // A packet arrives; a reception is open from its begin on until closed. Returns whether it comes too late: it overlaps, in a band of both,
+  // a sound that had ended by `decided_by`, so that what became of that is decided.
+  bool open(AudiblePacket packet, SimTime decided_by = SimTime::at_once());
   void close(SimTime begin, SimTime now);
-  void transmit(const PacketInterval& span) { transmissions_.push_back(span); }
+  // Likewise.
+  bool transmit(const PacketInterval& span, SimTime decided_by = SimTime::at_once());
   // The receiver acquires a packet at `instant` and follows it until its end.
   void acquire(const PacketInterval& reception, SimTime instant) {
     acquisitions_.push_back({reception, instant});
@@ -91,6 +93,8 @@ class ReceiverState {
   std::size_t size() const { return sounds_.size() + transmissions_.size() + acquisitions_.size(); }
 
  private:
+  bool overlaps_decided(const PacketInterval& span, SimTime decided_by) const;
+
   struct Acquisition {
     PacketInterval reception;
     SimTime instant;

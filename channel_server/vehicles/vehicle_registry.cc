@@ -28,12 +28,28 @@ std::string VehicleRegistry::add_state(std::string_view name, VehicleId id, cons
   if (is_known && vehicles_[place]->name != name) {
     return "vehicle_id " + std::to_string(id) + " belongs to " + vehicles_[place]->name;
   }
-  if (!is_known && vehicles_.size() == kMaxVehicles) {
-    return "too many vehicles; at most " + std::to_string(kMaxVehicles) + " are followed";
+  if (const auto reserved = reserved_.find(name); reserved != reserved_.end()) {
+    if (reserved->second != id)
+      return "vehicle_id " + std::to_string(id) + "; in the scenario this vehicle has the id " +
+             std::to_string(reserved->second);
+  } else if (const std::string problem = is_known ? "" : problem_of_stranger(id); !problem.empty()) {
+    return problem;
   }
   Vehicle& vehicle = is_known ? *vehicles_[place] : add_vehicle(name, id);
   vehicle.states.insert(state);
   return {};
+}
+
+void VehicleRegistry::reserve(std::string_view name, VehicleId id) {
+  reserved_.emplace(name, id);
+  reserved_ids_.insert(id);
+}
+
+std::string VehicleRegistry::problem_of_stranger(VehicleId id) const {
+  if (reserved_ids_.contains(id))
+    return "vehicle_id " + std::to_string(id) + " is that of another vehicle in the scenario";
+  if (num_strangers_ + reserved_.size() < kMaxVehicles) return {};
+  return "too many vehicles; at most " + std::to_string(kMaxVehicles) + " are followed";
 }
 
 // Where the vehicle is among all, or belongs. Ids that follow one another, as those of most fleets, need no search.
@@ -55,6 +71,7 @@ const VehicleRegistry::Vehicle* VehicleRegistry::find(VehicleId id) const {
 
 VehicleRegistry::Vehicle& VehicleRegistry::add_vehicle(std::string_view name, VehicleId id) {
   ids_.emplace(name, id);
+  num_strangers_ += reserved_.contains(name) ? 0 : 1;
   Schedules schedules = configured(name);
   if (const auto announced = announced_.find(name); announced != announced_.end()) {
     schedules = std::move(announced->second.schedules);
@@ -162,6 +179,7 @@ void VehicleRegistry::forget_before(SimTime time) {
   for (const auto& vehicle : vehicles_) {
     if (has_gone(vehicle)) {
       ids_.erase(vehicle->name);
+      num_strangers_ -= reserved_.contains(vehicle->name) ? 0 : 1;
     } else {
       vehicle->states.forget_before(time);
       vehicle->announced.modems.forget_before(time);
@@ -179,6 +197,7 @@ void VehicleRegistry::forget_before(SimTime time) {
 void VehicleRegistry::clear() {
   equipment_.clear();
   vehicles_.clear();
+  num_strangers_ = 0;
   ids_.clear();
   announced_.clear();
   announced_by_turn_.clear();

@@ -5,7 +5,7 @@
 // is forgotten. All answers are functions of the messages received and of the instants given, whatever the
 // order of the messages.
 //
-// Bounded: beyond kMaxVehicles a new vehicle is refused. The modem of a vehicle without a state is forgotten when no
+// Bounded: beyond kMaxVehicles a new vehicle is refused; those of reserve() always have their places. The modem of a vehicle without a state is forgotten when no
 // state follows in time, and when kMaxAnnounced others were announced after it, so names made up without end keep
 // nobody's modem out.
 //
@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,7 @@
 #include "channel_server/vehicles/state_history.h"
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_id.h"
+#include "core/limits.h"
 #include "core/sim_time.h"
 
 namespace halocline::channel_server {
@@ -40,11 +42,13 @@ struct ConfiguredModems {
 
 class VehicleRegistry {
  public:
-  static constexpr std::size_t kMaxVehicles = 4096;
+  static constexpr std::size_t kMaxVehicles = halocline::kMaxVehicles;
   static constexpr std::size_t kMaxAnnounced = 2 * kMaxVehicles;  // modems of vehicles without a state
 
   VehicleRegistry(PositionRule rule, ConfiguredModems modems, VehicleEquipment equipment = {});
 
+  // A vehicle of the scenario: nobody else gets its name, its id or its place, not even in another run.
+  void reserve(std::string_view name, VehicleId id);
   // Empty when taken (a repetition is); else why not.
   [[nodiscard]] std::string add_state(std::string_view name, VehicleId id, const StampedState& state);
   // The vehicle carries `modem` from `from` on. A modem may be announced before the vehicle's first state.
@@ -127,6 +131,8 @@ class VehicleRegistry {
     SimTime received_at;
     std::uint64_t turn = 0;  // of the latest announcement, among all
   };
+  // Empty, or why the scenario's vehicles leave no place for another.
+  std::string problem_of_stranger(VehicleId id) const;
   std::size_t place_of(VehicleId id) const;
   const Vehicle* find(VehicleId id) const;
   Vehicle& add_vehicle(std::string_view name, VehicleId id);
@@ -138,6 +144,9 @@ class VehicleRegistry {
   PositionRule rule_;
   ConfiguredModems modems_;
   VehicleEquipment equipment_;
+  std::map<std::string, VehicleId, std::less<>> reserved_;
+  std::set<VehicleId> reserved_ids_;
+  std::size_t num_strangers_ = 0;                   // vehicles without a reserved place
   std::vector<std::unique_ptr<Vehicle>> vehicles_;  // by id
   std::map<std::string, VehicleId, std::less<>> ids_;
   std::map<std::string, Announced, std::less<>> announced_;

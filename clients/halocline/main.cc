@@ -1,6 +1,9 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "bus/files/output_check.h"
+#include "bus/runtime/node_process.h"
+#include "bus/transport.h"
 #include "bus/version.h"
 #include "clients/halocline/commands.h"
 
@@ -30,13 +33,20 @@ int main(int argc, char** argv) {
                "halocline");
   int exit_code = hc::kDone;
   describe(app, exit_code);
+  const auto checked = [](int code) {
+    if (code != hc::kDone || halocline::bus::output_is_whole()) return code;
+    std::fprintf(stderr, "halocline: standard output could not be written\n");
+    return hc::kFailed;
+  };
   try {
     app.parse(argc, argv);
-    return exit_code;
+    return checked(exit_code);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? hc::kDone : hc::kUserError;
+    return checked(app.exit(error) == 0 ? hc::kDone : hc::kUserError);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "halocline: %s\n", error.what());
+    if (dynamic_cast<const halocline::bus::NetworkError*>(&error) != nullptr)
+      return halocline::bus::kExitNetwork;
     return dynamic_cast<const std::invalid_argument*>(&error) != nullptr ? hc::kUserError : hc::kFailed;
   }
 }

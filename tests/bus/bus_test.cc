@@ -108,11 +108,6 @@ TEST_F(BusTest, ManyChannelsOfAFamilyReceiveTheirOwnMessagesAlone) {
   EXPECT_EQ(bus_.subscribed().size(), kChannels + 1u);
 }
 
-TEST(Escaped, EverySpecialCharacterIsEscaped) {
-  EXPECT_EQ(escaped(R"(a.b*c+(d)[e]{f}^g$h|i?j\k)"), R"(a\.b\*c\+\(d\)\[e\]\{f\}\^g\$h\|i\?j\\k)");
-  EXPECT_EQ(escaped("plain_NAME-1"), "plain_NAME-1");
-}
-
 TEST_F(BusTest, AnotherTypeOfTheSameLengthIsRefused) {
   int received = 0;
   bus_.subscribe<vehicle_state_t>(channels::kState,

@@ -45,5 +45,10 @@ TEST(ChannelPatterns, AChannelHasThePlacesOfThoseThatMatchIt) {
   EXPECT_THAT(ChannelPatterns().matching("SEND.a"), ElementsAre());
 }
 
+TEST(Escaped, EverySpecialCharacterIsEscaped) {
+  EXPECT_EQ(escaped(R"(a.b*c+(d)[e]{f}^g$h|i?j\k)"), R"(a\.b\*c\+\(d\)\[e\]\{f\}\^g\$h\|i\?j\\k)");
+  EXPECT_EQ(escaped("plain_NAME-1"), "plain_NAME-1");
+}
+
 }  // namespace
 }  // namespace halocline::bus

@@ -254,7 +254,8 @@ std::int64_t missing_of_unlisted_flow(int flows_kept) {
   heartbeat.flow_session = {9};
   heartbeat.flow_last_sequence = {5};
   const auto any = [](std::string_view) { return true; };
-  EXPECT_EQ(repair.on_heartbeat(SimTime::from_seconds(1), heartbeat, any), 0);
+  for (const double steady_s : {1.0, 1.25})
+    EXPECT_EQ(repair.on_heartbeat(SimTime::from_seconds(steady_s), heartbeat, any), 0);
   return watch.on_message(SimTime::from_seconds(2), "STATE.b", 9, 1000).newly_missing;
 }
 
@@ -287,6 +288,50 @@ TEST(FlowRepair, AReceiverThatIsBehindRequestsNothing) {
   };
   EXPECT_EQ(requested_by(1, false), 0);
   EXPECT_EQ(requested_by(2, true), 1);
+}
+
+TEST_F(FlowRepairTest, AnswersLeaveInTheStepNotInTheHandler) {
+  start(0);
+  enable_repair();
+  publish();
+  repair_request_t request = valid_message<repair_request_t>(1);
+  request.missing_channel = "STATE.a";
+  request.publisher_session = 77;
+  request.missing_sequence = {0};
+  request.num_missing = 1;
+  publisher_->repair(steady_, steady_);
+  const std::int64_t sent = publisher_->counters().sent;
+  for (int i = 0; i < 50; ++i) publisher_->deliver(channels::kRepairRequest, encoded(request));
+  EXPECT_EQ(publisher_->counters().sent, sent);
+  EXPECT_LE(publisher_->next_repair(), steady_);
+  publisher_->repair(steady_, steady_);
+  EXPECT_EQ(publisher_->counters().sent, sent + 1);
+}
+
+// What a second vehicle simulator of the same name publishes is refused until the first is silent, and then repaired.
+TEST_F(FlowRepairTest, OfTwoPublishersOfOneNameTheFirstIsReceived) {
+  start(0);
+  enable_repair();
+  Bus second(network_->host(0), NodeIdentity{"publisher", 78});
+  second.enable_repair();
+  pass(300);
+  std::int64_t sequence = 0;
+  const auto publish_as_second = [&] {
+    vehicle_state_t state = valid_message<vehicle_state_t>(2);
+    state.session = 78;
+    state.sequence = 1000 + sequence++;
+    second.publish("STATE.a", state);
+    second.set_steady(steady_);
+    second.repair(steady_, steady_);
+  };
+  for (int i = 0; i < 100; ++i) {
+    publish();
+    publish_as_second();
+    pass(50);
+  }
+  EXPECT_TRUE(received_each_once());
+  EXPECT_GT(receiver_->counters().rivals, 100);
+  EXPECT_GT(publisher_->counters().rivals, 10);
 }
 
 TEST_F(FlowRepairTest, ARequestForAnUnknownMessageIsIgnored) {

@@ -102,6 +102,42 @@ TEST_F(FlowWatchTest, HostileSequenceNumbersNeitherOverflowNorGrow) {
   EXPECT_LE(requested_at(at_ms(5)).size(), FlowWatch::kMaxPerRequest);
 }
 
+// 500 flows with 2^62 messages each: what one legal datagram of 17 kB can claim.
+TEST_F(FlowWatchTest, WhatAHeartbeatClaimsOfFlowsNeverHeardTakesNoMoreThanItsBound) {
+  for (int datagram = 0; datagram < 11; ++datagram) {
+    for (int flow = 0; flow < 500; ++flow) {
+      const std::string channel = "STATE.v" + std::to_string(500 * datagram + flow);
+      EXPECT_GT(watch_.on_last(SimTime(), channel, 1, std::int64_t{1} << 62, true), 0);
+    }
+  }
+  EXPECT_EQ(watch_.num_missing(), FlowWatch::kMaxMissingUnheard);
+  missing_before("A", 1, 0);
+  EXPECT_EQ(missing_before("A", 1, 11), 10);
+  EXPECT_EQ(watch_.num_missing(), FlowWatch::kMaxMissingUnheard + 10);
+  EXPECT_GT(watch_.lost(), 0);
+  watch_.take_due(at_ms(20'000));
+  EXPECT_EQ(watch_.num_missing(), 0u);
+}
+
+TEST_F(FlowWatchTest, OneBoundHoldsForTheMissingMessagesOfAllFlows) {
+  for (int flow = 0; flow < 100; ++flow) {
+    const std::string channel = "C" + std::to_string(flow);
+    watch_.on_message(SimTime(), channel, 1, 0);
+    watch_.on_message(SimTime(), channel, 1, 1'000'000);
+  }
+  EXPECT_EQ(watch_.num_missing(), FlowWatch::kMaxMissingOfAll);
+}
+
+TEST_F(FlowWatchTest, CountersSaturate) {
+  for (int i = 0; i < 10; ++i) {
+    watch_.on_last(SimTime(), "A" + std::to_string(i), 1, INT64_MAX - 1, true);
+    EXPECT_GT(watch_.lost(), 0);
+  }
+  EXPECT_EQ(watch_.lost(), INT64_MAX);
+  EXPECT_EQ(saturating_sum(INT64_MAX, 1), INT64_MAX);
+  EXPECT_EQ(saturating_sum(2, 3), 5);
+}
+
 TEST_F(FlowWatchTest, ChannelsBeyondABoundAreNotWatched) {
   for (std::size_t i = 0; i < FlowWatch::kMaxChannels + 10; ++i) {
     const std::string channel = "C" + std::to_string(i);

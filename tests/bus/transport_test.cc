@@ -43,8 +43,10 @@ TEST(Transport, RefusesOtherProviders) {
   }
 }
 
-TEST(Transport, TheErrorForAUrlThatLcmCannotOpenNamesTheRemedy) {
-  EXPECT_THAT(refusal_of("udpm://not-an-address:x"), HasSubstr("scripts/isolated"));
+TEST(Transport, RefusesWhatIsNoGroupOrNoPort) {
+  for (const char* url :
+       {"udpm://not-an-address:7667", "udpm://239.1.1.1:x", "udpm://239.1.1.1?ttl=1", "udpm://10.0.0.1:7667"})
+    EXPECT_THAT(refusal_of(url), HasSubstr("allowed are udpm://GROUP:PORT")) << url;
 }
 
 TEST(Transport, OpensAQueueInMemory) { EXPECT_TRUE(open_transport("memq://")->good()); }

@@ -1,6 +1,7 @@
 #include "conductor/conductor_node.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -55,6 +56,24 @@ TEST_F(ConductorNodeTest, APacedClockCarriesTheTimeOfItsStepNotOfItsGrid) {
   EXPECT_EQ(clocks_[1].utime, 200'001);
   EXPECT_EQ(clocks_[0].clock_rate, 2);
   EXPECT_FALSE(clocks_[0].lockstep);
+}
+
+TEST_F(ConductorNodeTest, InRealTimeItReportsTheClocksOfAnotherAndStays) {
+  ConductorNode node(lcm_, {"conductor", 1}, SimDuration::from_milliseconds(100), 1);
+  ConductorNode other(lcm_, {"conductor", 2}, SimDuration::from_milliseconds(100), 10);
+  ::testing::internal::CaptureStderr();
+  for (int step = 1; step <= 5; ++step) {
+    const SimTime at = SimTime::from_utime(100'000 * step);
+    node.step({at, at});
+    other.step({at, at});
+    while (lcm_.handleTimeout(0) > 0) {
+    }
+  }
+  EXPECT_EQ(node.counters().rivals, 5);
+  EXPECT_EQ(other.counters().rivals, 5);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("session is 2, of a second conductor"),
+            std::string::npos);
+  EXPECT_EQ(clocks_.size(), 10u);
 }
 
 TEST_F(ConductorNodeTest, APeriodAndARateArePossible) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
+#include "bus/transport.h"
 #include "core/check.h"
 
 namespace halocline::conductor {
@@ -46,6 +48,7 @@ TEST_F(PacedTimeTest, ReceivesStatesAndStatuses) {
   status.utime = 50'000'000;
   status.session = status.sequence = 1;
   status.messages_received = status.messages_sent = status.messages_refused = 0;
+  status.messages_unsent = status.rivals = 0;
   status.gaps = status.repaired = status.late = 0;
   status.node_name = "vehicle-sim";
   publisher.publish("STATUS.vehicle-sim", status);
@@ -59,6 +62,45 @@ TEST_F(PacedTimeTest, ANodeThatKnowsNoTimeDoesNotSetIt) {
   time.now(at(0));
   time.on_utime(0);
   EXPECT_EQ(time.now(at(2)), at(0));
+}
+
+TEST_F(PacedTimeTest, OneStrayMessageDoesNotSetIt) {
+  for (const std::int64_t stray_s : {3'600, 315'576'000}) {
+    PacedTime time(lcm_, 1);
+    time.now(at(0));
+    for (const std::int64_t sim_s : {50ll, static_cast<long long>(stray_s), 51ll})
+      time.on_utime(sim_s * 1'000'000);
+    EXPECT_EQ(time.now(at(2)), at(53));
+  }
+}
+
+sim_clock_t clock_of(std::int64_t session, std::int64_t utime) {
+  sim_clock_t clock{};
+  clock.session = session;
+  clock.utime = utime;
+  return clock;
+}
+
+TEST_F(PacedTimeTest, WhereAnotherConductorRunsItDoesNotStart) {
+  PacedTime time(lcm_, 1);
+  time.now(at(0));
+  for (const double steady_s : {0.5, 0.6}) {
+    time.set_steady(at(steady_s));
+    time.on_clock(clock_of(7, 1'000'000));
+  }
+  EXPECT_THROW(time.now(at(1.3)), bus::NetworkError);
+}
+
+TEST_F(PacedTimeTest, OneClockOrOnesThatHaveEndedDoNotKeepItFromStarting) {
+  PacedTime one(lcm_, 1), ended(lcm_, 1);
+  one.now(at(0));
+  one.set_steady(at(1));
+  one.on_clock(clock_of(7, 1'000'000));
+  EXPECT_TRUE(one.now(at(1.3)).has_value());
+  ended.now(at(0));
+  ended.set_steady(at(0.1));
+  for (int i = 0; i < 5; ++i) ended.on_clock(clock_of(7, 1'000'000 + i));
+  EXPECT_TRUE(ended.now(at(1.3)).has_value());
 }
 
 TEST_F(PacedTimeTest, OnceRunningItIgnoresOtherTimes) {

@@ -75,6 +75,7 @@ LogStatistics statistics_of(LogReader& log) {
   while (log.next(event)) statistics.count(event, [&] { return place_of(log, event); });
   statistics.files = log.files();
   statistics.bad_stretches = log.bad_stretches();
+  statistics.flows = log.flows().remarkable();
   return statistics;
 }
 
@@ -127,6 +128,12 @@ std::string to_json(const LogStatistics& s) {
                                      {"offset", bad.offset},
                                      {"bytes", bad.bytes},
                                      {"cut_short", bad.cut_short}});
+  }
+  json["missing"] = nlohmann::ordered_json::object();
+  json["sessions"] = nlohmann::ordered_json::object();
+  for (const LogFlows::OfChannel& one : s.flows) {
+    if (one.missing > 0) json["missing"][one.channel] = one.missing;
+    if (one.sessions > 1) json["sessions"][one.channel] = one.sessions;
   }
   return json.dump(2);
 }

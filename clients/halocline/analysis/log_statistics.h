@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bus/logs/log_flows.h"
 #include "bus/logs/log_reader.h"
 #include "clients/mission/outcome_ledger.h"
 
@@ -29,10 +30,11 @@ struct LogStatistics {
     std::string first_at;  // "FILE, byte OFFSET"
   };
   std::map<std::string, Undecodable> undecodable_by_channel;
-  std::vector<std::string> files;         // that the log consists of
-  std::vector<BadStretch> bad_stretches;  // bytes that are no event
-  std::int64_t packets_sent = 0;          // that a receipt came for
-  std::int64_t packets_delivered = 0;     // RECEIVEs
+  std::vector<std::string> files;          // that the log consists of
+  std::vector<BadStretch> bad_stretches;   // bytes that are no event
+  std::vector<LogFlows::OfChannel> flows;  // that lack messages or have several sessions
+  std::int64_t packets_sent = 0;           // that a receipt came for
+  std::int64_t packets_delivered = 0;      // RECEIVEs
   std::array<std::int64_t, kReceiptResults> receipts{};
   OutcomeCounts outcomes{};
   std::vector<double> travel_times_s;  // of the delivered that carry their departure, as they came

@@ -118,15 +118,6 @@ void check_relays(const ScenarioConfig& config, bus::ConfigFile& file) {
   }
 }
 
-void check_count(const ScenarioConfig& config, bus::ConfigFile& file) {
-  constexpr std::size_t kMost = channel_server::VehicleRegistry::kMaxVehicles;
-  const std::size_t count = config.scenario.vehicles.size();
-  if (count > kMost)
-    file.refuse(key_of(kMost, "name"), config.scenario.vehicles[kMost].name,
-                "the channel server follows " + std::to_string(kMost) +
-                    " vehicles, allowed are no more; these are " + std::to_string(count));
-}
-
 // Refuses the key where `attempt` throws InvalidArgument, with its reason.
 template <class Attempt>
 void refuse_if_thrown(bus::ConfigFile& file, const std::string& key, const std::string& value,
@@ -215,7 +206,6 @@ void check_profile(const ScenarioConfig& config, bus::ConfigFile& file) {
 
 void check_water(const ScenarioConfig& config, bus::ConfigFile& file) {
   if (!check_ocean(config, file)) return;
-  check_count(config, file);
   check_names(config, file);
   check_extra_loss(config, file);
   check_profile(config, file);

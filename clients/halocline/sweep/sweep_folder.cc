@@ -17,6 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string result_path(const std::string& folder) { return folder + "/result.json"; }
+std::string check_sum_path(const std::string& folder) { return folder + "/result.xxh3"; }
+
+std::optional<std::string> content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) return std::nullopt;
+  return text.str();
+}
+
+std::string check_sum(const std::string& text) { return fmt::format("{:016x}\n", xxh3(text)); }
 
 // For a shell: in single quotes.
 std::string quoted(const std::string& text) {
@@ -36,18 +46,19 @@ std::string run_folder(const std::string& out, const std::string& identity) {
 }
 
 std::optional<RunMetrics> result_in(const std::string& folder) {
-  std::ifstream file(result_path(folder));
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) return std::nullopt;
+  const auto text = content_of(result_path(folder));
+  if (!text || content_of(check_sum_path(folder)) != check_sum(*text)) return std::nullopt;
   try {
-    return metrics_from_json(text.str());
+    return metrics_from_json(*text);
   } catch (const std::runtime_error&) {
-    return std::nullopt;  // of another version, or edited: to be done again
+    return std::nullopt;  // of another version: to be done again
   }
 }
 
 void write_result(const std::string& folder, const RunMetrics& metrics) {
-  replace_file(result_path(folder), to_json(metrics) + "\n");
+  const std::string text = to_json(metrics) + "\n";
+  replace_file(check_sum_path(folder), check_sum(text));
+  replace_file(result_path(folder), text);
 }
 
 std::string plan_path(const std::string& out) { return out + "/plan.toml"; }

@@ -4,7 +4,7 @@
 // program's version. So a run that is done stays done when a sweep is started again, or with more values, seeds or
 // axes; and is done anew when the scenario changes. Files that the scenario names (terrain,
 // profiles) are not part of the hash. result.json is written last, and moved into place whole: a folder without it
-// is a run that did not finish.
+// is a run that did not finish. So is one whose result.json does not have the check sum in result.xxh3 (XXH3): it was damaged or edited.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ namespace halocline::clients {
 std::string run_identity(const std::string& effective_configuration);
 
 std::string run_folder(const std::string& out, const std::string& identity);
-// Empty while there is none, or none that can be read.
+// Empty while there is none, or none that is whole.
 [[nodiscard]] std::optional<RunMetrics> result_in(const std::string& folder);
 void write_result(const std::string& folder, const RunMetrics& metrics);
 

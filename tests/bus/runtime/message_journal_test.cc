@@ -1,10 +1,14 @@
 #include "bus/runtime/message_journal.h"
 
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/check.h"
@@ -84,7 +88,7 @@ TEST_F(MessageJournalTest, WhatAKillCutOffIsNoEntry) {
   EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5"}));
 }
 
-TEST_F(MessageJournalTest, AnEntryWhoseBytesChangedEndsWhatIsRead) {
+TEST_F(MessageJournalTest, AnEntryWhoseBytesChangedIsNoEntry) {
   {
     const auto journal = open();
     receive(*journal, 1, "STATE.a", 5);
@@ -97,6 +101,75 @@ TEST_F(MessageJournalTest, AnEntryWhoseBytesChangedEndsWhatIsRead) {
     std::fclose(file);
   }
   EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5"}));
+}
+
+// Whichever bit it is, of head or body.
+TEST_F(MessageJournalTest, OneFlippedBitCostsOneEntry) {
+  constexpr int kEntries = 1294;
+  {
+    const auto journal = open();
+    for (int i = 0; i < kEntries; ++i) receive(*journal, 1 + 0.005 * i, "STATE.a", 5);
+  }
+  const auto size = std::filesystem::file_size(path_);
+  for (const auto at : {size / 2, size / 2 + 7, size / 2 + 20, size / 3}) {
+    const auto flip = [&] {
+      std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+      file.seekg(static_cast<std::streamoff>(at));
+      const int byte = file.get();
+      file.seekp(static_cast<std::streamoff>(at));
+      file.put(static_cast<char>(byte ^ 4));
+    };
+    const std::string saved = path_ + ".saved";
+    std::filesystem::copy_file(path_, saved, std::filesystem::copy_options::overwrite_existing);
+    flip();
+    const auto journal = open();
+    EXPECT_EQ(inherited(*journal).size(), kEntries - 1u);
+    EXPECT_GT(journal->bytes_damaged(), 0u);
+    EXPECT_LT(journal->bytes_damaged(), 60u);
+    std::filesystem::rename(saved, path_);
+  }
+}
+
+TEST_F(MessageJournalTest, AnotherFileIsRefusedAndStaysAsItIs) {
+  const std::string log(1'900'000, 'x');
+  std::ofstream(path_) << log;
+  EXPECT_THROW(open(), InvalidArgument);
+  EXPECT_EQ(std::filesystem::file_size(path_), log.size());
+}
+
+TEST_F(MessageJournalTest, TwoProcessesDoNotShareAJournal) {
+  const auto journal = open();
+  receive(*journal, 1, "STATE.a", 5);
+  const pid_t child = fork();
+  if (child == 0) {
+    try {
+      open();
+    } catch (const InvalidArgument&) {
+      _exit(7);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+}
+
+// As on a full disk: the kernel refuses what makes the file longer.
+TEST_F(MessageJournalTest, WhenTheDiskIsFullTheJournalIsGivenUpAndNothingElse) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  const auto journal = open();
+  receive(*journal, 1, "STATE.a", 5);
+  const rlimit full{std::filesystem::file_size(path_) + 10, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
+  receive(*journal, 2, "STATE.a", 6);
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, handler);
+  EXPECT_TRUE(journal->is_given_up());
+  receive(*journal, 3, "STATE.a", 7);
+  journal->write_output(SimTime::from_seconds(4), "OUTCOME", {8});
+  EXPECT_TRUE(inherited(*open()).empty());
 }
 
 TEST_F(MessageJournalTest, ALongRunKeepsTheLastSecondsAndWhatIsCarriedOver) {

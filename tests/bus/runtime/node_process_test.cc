@@ -5,6 +5,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <random>
@@ -13,6 +15,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "bus/transport.h"
 #include "tests/bus/messages_for_tests.h"
@@ -175,6 +178,28 @@ TEST(NodeCommandLine, TheExampleIsAScenarioThatReads) {
 TEST(NodeCommandLine, PrintConfigShowsOverrides) {
   EXPECT_THAT(output_of({HALOCLINE_ECHO_PROGRAM, "--print-config", "--set", "echo.gain=3"}, 0),
               HasSubstr("gain = 3.0"));
+}
+
+TEST(NodeCommandLine, ANetworkThatCannotBeUsedHasAnExitCodeOfItsOwn) {
+  const std::string output = output_of({"/usr/bin/unshare", "-n", HALOCLINE_ECHO_PROGRAM}, kExitNetwork);
+  EXPECT_THAT(output, HasSubstr("scripts/isolated"));
+}
+
+// The bound of 10 s is the requirement's; a busy machine may add to that.
+TEST(NodeCommandLine, TenThousandVehiclesAreRefusedWithTheLineOfTheFirstTooMany) {
+  const std::string path = ::testing::TempDir() + "halocline-10000-" + std::to_string(getpid()) + ".toml";
+  {
+    std::ofstream scenario(path);
+    for (int i = 1; i <= 10'000; ++i) scenario << "[[vehicle]]\nname = \"v" << i << "\"\nid = " << i << "\n";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THAT(output_of({kConductor, path}, 2), HasSubstr(":12290: vehicle[4096].name is 'v4097'"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 60s);
+  std::filesystem::remove(path);
+}
+
+TEST(NodeCommandLine, AFullStandardOutputIsAFailure) {
+  EXPECT_EQ(Process({"/bin/sh", "-c", HALOCLINE_ECHO_PROGRAM " --example >/dev/full"}).wait(), 1);
 }
 
 TEST(NodeCommandLine, EveryMistakeIsReportedWithExitCodeTwo) {

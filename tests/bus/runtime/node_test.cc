@@ -153,6 +153,9 @@ TEST_F(KilledNode, ItsLastMessagesAreStillRepaired) {
   request.missing_sequence = {20, 21};
   listener_.publish(channels::kRepairRequest, request);
   drain();
+  EXPECT_EQ(node->due().steady, SimTime::at_once());
+  node->step({at(2.0), at(0)});
+  drain();
   EXPECT_THAT(repaired, ::testing::ElementsAre(20));
 }
 

@@ -2,6 +2,7 @@
 #include "bus/runtime/receive_filter.h"
 
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <set>
@@ -18,7 +19,9 @@
 
 #include "bus/bus.h"
 #include "bus/transport.h"
+#include "core/check.h"
 #include "tests/bus/messages_for_tests.h"
+#include "tests/support/process.h"
 
 namespace halocline::bus {
 namespace {
@@ -70,6 +73,13 @@ TEST(ReceiveFilter, PassesWhatAnExpressionMatches) {
     EXPECT_FALSE(socket.receives(short_message(channel))) << channel;
 }
 
+TEST(ReceiveFilter, ThisHostIsAlwaysAccepted) {
+  Socket socket;
+  socket.attach(receive_program({"CLOCK"}, accepted_hosts("", "")));
+  EXPECT_TRUE(socket.receives(short_message("CLOCK")));
+  EXPECT_FALSE(socket.receives(short_message("STATE.a")));
+}
+
 TEST(ReceiveFilter, ADatagramShorterThanAChannelIsComparedWithTheOthers) {
   Socket socket;
   socket.attach(receive_program({"ABCDEFGHIJKLMNOPQRSTUVWXYZ", "ABC"}));
@@ -106,6 +116,81 @@ std::int64_t left_out(int port) {
     if (local.ends_with(place.str())) sum += std::stoll(word);
   }
   return sum;
+}
+
+TEST(AcceptedHosts, AreReadFromTheScenario) {
+  const std::string here = "udpm://239.255.76.67:7667?ttl=0", network = "udpm://239.255.76.67:7667?ttl=1";
+  EXPECT_FALSE(accepted_hosts("", here).any);
+  EXPECT_FALSE(accepted_hosts("", "udpm://239.255.76.67:7667").any);
+  EXPECT_TRUE(accepted_hosts("", network).any);
+  EXPECT_TRUE(accepted_hosts("any", here).any);
+  const AcceptedHosts two = accepted_hosts("10.0.3.7, 10.0.4.0/24", network);
+  ASSERT_EQ(two.ranges.size(), 2u);
+  EXPECT_EQ(two.ranges[0].address, 0x0a000307u);
+  EXPECT_EQ(two.ranges[0].mask, 0xffffffffu);
+  EXPECT_EQ(two.ranges[1].mask, 0xffffff00u);
+  EXPECT_EQ(accepted_hosts("0.0.0.0/0", here).ranges[0].mask, 0u);
+  for (const char* wrong :
+       {"localhost", "10.0.3", "10.0.3.7/33", "10.0.3.7/", "10.0.3.7/x", "10.0.3.7,,10.0.3.8"})
+    EXPECT_THROW(accepted_hosts(wrong, here), InvalidArgument) << wrong;
+}
+
+// Another host, in a network namespace of its own, with the address 10.9.0.2; this one has 10.9.0.1.
+class OtherHost {
+ public:
+  OtherHost() : process_({"/usr/bin/unshare", "-n", "/bin/sleep", "60"}) {
+    const std::string pid = std::to_string(process_.pid());
+    enter_ = "nsenter -t " + pid + " -n ";
+    // Until the process has its namespace.
+    EXPECT_EQ(run("while [ \"$(readlink /proc/" + pid +
+                  "/ns/net)\" = \"$(readlink /proc/self/ns/net)\" ]; do sleep 0.01; done"),
+              0);
+    EXPECT_EQ(run("ip link add va type veth peer name vb netns " + pid +
+                  " && ip addr add 10.9.0.1/24 dev va && ip link set va up"),
+              0);
+    EXPECT_EQ(run(enter_ + "ip addr add 10.9.0.2/24 dev vb && " + enter_ + "ip link set vb up"), 0);
+  }
+  void send(const std::string& datagram, int port) const {
+    const std::string file = "/dev/udp/10.9.0.1/" + std::to_string(port);
+    EXPECT_EQ(run(enter_ + "bash -c \"printf '" + datagram + "' >" + file + "\""), 0);
+  }
+
+ private:
+  static int run(const std::string& command) {
+    return std::system(("PATH=$PATH:/sbin:/usr/sbin; " + command).c_str());
+  }
+  halocline::testing::Process process_;
+  std::string enter_;
+};
+
+TEST(ReceiveFilter, UnicastOfAnotherHostIsReceivedOnlyWhereItIsAccepted) {
+  const OtherHost other;
+  const auto received_with = [&](const std::string& accept, const std::set<std::string>& expressions) {
+    const int receiver = socket(AF_INET, SOCK_DGRAM, 0);
+    sockaddr_in any{AF_INET, 0, {htonl(INADDR_ANY)}, {}};
+    EXPECT_EQ(bind(receiver, reinterpret_cast<sockaddr*>(&any), sizeof any), 0);
+    socklen_t size = sizeof any;
+    getsockname(receiver, reinterpret_cast<sockaddr*>(&any), &size);
+    auto program = receive_program({expressions.begin(), expressions.end()}, accepted_hosts(accept, ""));
+    const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+    if (!program.empty()) {
+      EXPECT_EQ(setsockopt(receiver, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter), 0);
+    }
+    const timeval longest{0, 300'000};
+    setsockopt(receiver, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
+    other.send("LC02\\001\\001\\001\\001CLOCK\\000x", ntohs(any.sin_port));
+    char buffer[1000];
+    const bool received = recv(receiver, buffer, sizeof buffer, 0) > 0;
+    close(receiver);
+    return received;
+  };
+  EXPECT_TRUE(received_with("any", {"CLOCK"}));
+  EXPECT_FALSE(received_with("", {"CLOCK"}));
+  EXPECT_FALSE(received_with("", {"[A-Z]*"}));  // where no channel is left out
+  EXPECT_FALSE(received_with("10.9.0.3, 10.8.0.0/16", {"CLOCK"}));
+  EXPECT_TRUE(received_with("10.9.0.3, 10.9.0.2", {"CLOCK"}));
+  EXPECT_TRUE(received_with("10.9.0.0/24", {"CLOCK"}));
+  EXPECT_FALSE(received_with("10.9.0.0/24", {"STATE"}));
 }
 
 class ReceiveFilterOfLcmTest : public ::testing::Test {

@@ -56,6 +56,22 @@ TEST(Scenario, ReadsItsVehicles) {
   EXPECT_NEAR(scenario.vehicles[0].heading_rad, 3.141592653589793, 1e-15);
 }
 
+TEST(ScenarioNames, AreSafeForFilesAndTerminals) {
+  for (const char* name : {"../../x", ".hidden", "a/b", "", "-rf", " a", "a ", "\\u001b[2J", "\\n"})
+    EXPECT_THAT(errors_of("[scenario]\nname = \"" + std::string(name) + "\""),
+                HasSubstr("s.toml:2: scenario.name"))
+        << name;
+  EXPECT_THAT(errors_of("[scenario]\nname = \"" + std::string(65, 'a') + "\""), HasSubstr("1 to 64"));
+  EXPECT_THAT(errors_of("[scenario]\ndescription = \"\\u001b[2J\""), HasSubstr("control characters"));
+  for (const char* name : {"a", "ocean_observatory", "Figure 4.1-b"})
+    EXPECT_EQ(errors_of("[scenario]\nname = \"" + std::string(name) + "\""), "") << name;
+}
+
+TEST(Scenario, TheHostsToAcceptAreAddresses) {
+  EXPECT_EQ(read("[bus]\naccept = \"10.0.3.7, 10.0.4.0/24\"").accept, "10.0.3.7, 10.0.4.0/24");
+  EXPECT_THAT(errors_of("[bus]\naccept = \"ship\""), HasSubstr("s.toml:2: bus.accept"));
+}
+
 TEST(Scenario, AVehicleNeedsANameAndAnId) {
   EXPECT_THAT(errors_of("[[vehicle]]\nid = 1"), HasSubstr("vehicle[0].name is missing"));
   EXPECT_THAT(errors_of("[[vehicle]]\nname = 'a'"), HasSubstr("vehicle[0].id is missing"));

@@ -1,6 +1,7 @@
 #include "bus/runtime/state_journal.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "core/check.h"
 #include "tests/bus/runtime/journal_files.h"
@@ -43,17 +45,17 @@ class State {
 class StateJournalTest : public ::testing::Test {
  protected:
   void open(std::uint64_t digest = 1) { journal_ = files_.open(digest); }
-  void write() {
+  bool write() {
     ++state_.number;
     archive_.begin_with_parts(journal_->wants_whole());
     archive_(state_);
     const auto added = static_cast<std::uint8_t>(state_.number);
-    journal_->write(7, SimTime::from_seconds(static_cast<double>(state_.number)), archive_,
-                    std::span(&added, 1));
+    return journal_->write(7, SimTime::from_seconds(static_cast<double>(state_.number)), archive_,
+                           std::span(&added, 1));
   }
-  void write(std::size_t i, const std::string& text) {
+  bool write(std::size_t i, const std::string& text) {
     state_.set(i, text);
-    write();
+    return write();
   }
   // What the next incarnation inherits.
   std::optional<State> inherited(std::uint64_t digest = 1) const {
@@ -156,6 +158,30 @@ TEST_F(StateJournalTest, ARecordOfWhichAByteChangedIsNotTakenUp) {
 TEST_F(StateJournalTest, AStateOfAnotherConfigurationIsNotTakenUp) {
   write();
   EXPECT_FALSE(inherited(2).has_value());
+}
+
+TEST_F(StateJournalTest, AnotherFileIsRefusedAndStaysAsItIs) {
+  journal_.reset();
+  std::ofstream(files_.file(1)) << "somebody's notes";
+  EXPECT_THROW(open(), InvalidArgument);
+  EXPECT_EQ(content(1), "somebody's notes");
+}
+
+// As on a full disk: the kernel refuses what makes the file longer.
+TEST_F(StateJournalTest, WhatAFullDiskRefusedIsNotInheritedAndTheNextRecordIsWhole) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  EXPECT_TRUE(write(0, "a"));
+  const rlimit full{size_of(0) + 10, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
+  EXPECT_FALSE(write(1, std::string(1000, 'b')));
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, handler);
+  EXPECT_FALSE(inherited().has_value());
+  EXPECT_TRUE(journal_->wants_whole());
+  EXPECT_TRUE(write(2, "c"));
+  EXPECT_EQ(inherited(), state_);
 }
 
 TEST_F(StateJournalTest, APathThatCannotBeWrittenIsRefused) {

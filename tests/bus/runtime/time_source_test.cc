@@ -30,6 +30,11 @@ class ConductorTimeTest : public ::testing::Test {
   void receive(double steady_s, double sim_s, double rate = 1, std::int64_t session = 1) {
     time_.on_clock(clock_at(sim_s, rate, session), at(steady_s));
   }
+  // Two CLOCKs of a session, the second of these.
+  void follow(double steady_s, double sim_s, double rate = 1, std::int64_t session = 1) {
+    receive(steady_s - 0.1, sim_s - 0.1 * rate, rate, session);
+    receive(steady_s, sim_s, rate, session);
+  }
   double now(double steady_s) { return time_.now(at(steady_s))->seconds(); }
 
   lcm::LCM lcm_{"memq://"};
@@ -53,18 +58,19 @@ TEST_F(ConductorTimeTest, ThreeSecondsWithoutAClockAreReportedOnce) {
 TEST_F(ConductorTimeTest, NothingIsReportedWhileClocksCome) {
   ::testing::internal::CaptureStderr();
   EXPECT_FALSE(time_.now(at(1)).has_value());
-  receive(3.9, 1);
+  follow(3.9, 1);
   for (const double steady_s : {4.0, 60.0}) EXPECT_TRUE(time_.now(at(steady_s)).has_value());
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(ConductorTimeTest, FollowsTheClockAtItsRate) {
-  receive(10, 100, 4);
+  follow(10, 100, 4);
   EXPECT_NEAR(now(10.5), 102, 1e-9);
   EXPECT_NEAR(time_.steady_at(at(104)).seconds(), 11, 1e-6);
 }
 
 TEST_F(ConductorTimeTest, ReceivesTheClockOnTheBus) {
+  receive(1.9, 6.9);
   const sim_clock_t clock = clock_at(7);
   time_.set_steady(at(2));
   lcm_.publish("CLOCK", &clock);
@@ -79,6 +85,7 @@ TEST_F(ConductorTimeTest, AClockThatWaitedToBeHandledCountsFromWhenItWasReceived
     return SimTime::from_nanoseconds(
         std::chrono::duration_cast<std::chrono::nanoseconds>(since_epoch).count());
   };
+  receive(1.9, 6.7, 2);
   const sim_clock_t clock = clock_at(7, 2);
   const SimTime before = wall_now();
   lcm_.publish("CLOCK", &clock);
@@ -93,7 +100,7 @@ TEST_F(ConductorTimeTest, AClockThatWaitedToBeHandledCountsFromWhenItWasReceived
 }
 
 TEST_F(ConductorTimeTest, CoastsWhenTheConductorIsSilent) {
-  receive(1, 1);
+  follow(1, 1);
   EXPECT_NEAR(now(60), 60, 1e-9);
   EXPECT_NEAR(now(3600), 3600, 1e-6);
 }
@@ -103,6 +110,7 @@ TEST_F(ConductorTimeTest, CoastsWhenTheConductorIsSilent) {
 TEST_F(ConductorTimeTest, FiltersJitterAndNeverGoesBack) {
   std::mt19937 random(3);
   double latest = 0;
+  receive(0, 0);
   for (int tick = 1; tick < 500; ++tick) {
     const double sim = 0.1 * tick;
     const double delay = tick == 1 ? 0.0 : 3e-5 * static_cast<double>(random() % 1000);
@@ -118,13 +126,13 @@ TEST_F(ConductorTimeTest, FiltersJitterAndNeverGoesBack) {
 }
 
 TEST_F(ConductorTimeTest, ANewRateTakesHoldAtOnce) {
-  receive(1, 1, 1);
+  follow(1, 1, 1);
   receive(2, 2, 10);
   EXPECT_NEAR(now(3), 12, 1e-9);
 }
 
 TEST_F(ConductorTimeTest, StandsStillWhilePaused) {
-  receive(1, 1, 1);
+  follow(1, 1, 1);
   receive(2, 2, 0);
   EXPECT_NEAR(now(5), 2, 1e-9);
   EXPECT_EQ(time_.steady_at(at(3)), SimTime::never());
@@ -133,23 +141,98 @@ TEST_F(ConductorTimeTest, StandsStillWhilePaused) {
 }
 
 TEST_F(ConductorTimeTest, ARestartedConductorThatContinuesTheTimeIsNoNewRun) {
-  receive(1, 100, 1, 1);
-  receive(5, 103.9, 1, 2);
+  follow(1, 100, 1, 1);
+  follow(5, 103.9, 1, 2);
   EXPECT_FALSE(time_.restarted());
   EXPECT_GE(now(5), 103.9);
+  EXPECT_EQ(time_.num_refused(), 0);
 }
 
 TEST_F(ConductorTimeTest, AJumpBackIsANewRunReportedOnce) {
-  receive(1, 100, 1, 1);
+  follow(1, 100, 1, 1);
   EXPECT_NEAR(now(2), 101, 1e-9);
-  receive(3, 0, 1, 2);
+  follow(4.2, 0, 1, 2);
   EXPECT_TRUE(time_.restarted());
   EXPECT_FALSE(time_.restarted());
-  EXPECT_NEAR(now(4), 1, 1e-9);
+  EXPECT_NEAR(now(5.2), 1, 1e-9);
+}
+
+constexpr double kYear_s = 365.25 * 86'400;
+
+TEST_F(ConductorTimeTest, AStrayClockTenYearsAheadIsRefusedAndReported) {
+  follow(1, 100);
+  ::testing::internal::CaptureStderr();
+  receive(1.05, 10 * kYear_s, 1, 666);
+  receive(1.1, 100.1);
+  EXPECT_NEAR(now(1.2), 100.2, 1e-6);
+  EXPECT_FALSE(time_.restarted());
+  EXPECT_EQ(time_.num_refused(), 1);
+  EXPECT_NE(
+      ::testing::internal::GetCapturedStderr().find("channel=CLOCK count=1 reason=\"session is of a second"),
+      std::string::npos);
+}
+
+TEST_F(ConductorTimeTest, AStrayClockOfTheSameSessionIsRefusedForWantOfAWitness) {
+  follow(1, 100);
+  for (const double leap_s : {3600.0, 10 * kYear_s, -99.0}) {
+    receive(1.05, 100 + leap_s);
+    EXPECT_NEAR(now(1.06), 100.06, 1e-6);
+  }
+  receive(1.1, 100.1);
+  EXPECT_NEAR(now(1.2), 100.2, 1e-6);
+  EXPECT_EQ(time_.num_refused(), 1);  // of several the last waits
+}
+
+TEST_F(ConductorTimeTest, ALeapThatASecondClockConfirmsIsFollowed) {
+  follow(1, 100);
+  receive(1.1, 4000);
+  receive(1.2, 4000.1);
+  EXPECT_NEAR(now(1.3), 4000.2, 1e-6);
+  EXPECT_FALSE(time_.restarted());
+}
+
+// A second conductor at ten times the rate, for a minute: nothing of it shows.
+TEST_F(ConductorTimeTest, OfTwoConductorsTheFirstIsFollowed) {
+  follow(1, 1);
+  for (int tick = 1; tick <= 600; ++tick) {
+    const double passed_s = 0.1 * tick;
+    receive(1 + passed_s, 1 + passed_s);
+    receive(1.03 + passed_s, 10 * passed_s, 10, 2);
+    ASSERT_NEAR(now(1.05 + passed_s), 1.05 + passed_s, 1e-6);
+  }
+  EXPECT_EQ(time_.num_refused(), 599);  // the last has not been outlived yet
+}
+
+TEST_F(ConductorTimeTest, AnotherConductorIsFollowedOnceTheFirstIsSilentForThreeSeconds) {
+  follow(1, 100);
+  for (int tick = 1; tick <= 29; ++tick) receive(1 + 0.1 * tick, 500 + 0.1 * tick, 1, 2);
+  EXPECT_NEAR(now(3.95), 102.95, 1e-6);
+  receive(4.0, 503.0, 1, 2);
+  receive(4.1, 503.1, 1, 2);
+  EXPECT_NEAR(now(4.2), 503.2, 1e-6);
+}
+
+TEST_F(ConductorTimeTest, OneClockIsNoTime) {
+  receive(1, 10 * kYear_s, 1, 666);
+  receive(1.5, 10 * kYear_s, 1, 666);  // the same again
+  EXPECT_FALSE(time_.now(at(2)).has_value());
+  follow(2, 5);
+  EXPECT_NEAR(now(2), 5, 1e-9);
+}
+
+// Forged ones of ever new sessions push no witness out before the next CLOCK of the true one comes.
+TEST_F(ConductorTimeTest, AFloodOfSessionsDoesNotKeepTheConductorFromBeingFollowed) {
+  for (int i = 0; i < 1000; ++i) {
+    receive(1 + 0.01 * i, 1 + 0.01 * i);
+    for (int k = 0; k < 3; ++k) receive(1 + 0.01 * i, 1e8 + i, 1, 1000 + 3 * i + k);
+    if (i > 0) {
+      ASSERT_NEAR(now(1 + 0.01 * i), 1 + 0.01 * i, 1e-6);
+    }
+  }
 }
 
 TEST_F(ConductorTimeTest, OneClockLongDelayedDoesNotSetTimeBack) {
-  receive(1, 1);
+  follow(1, 1);
   receive(2, 2);
   EXPECT_NEAR(now(2.5), 2.5, 1e-9);
   receive(2.6, 1.5);
@@ -157,7 +240,7 @@ TEST_F(ConductorTimeTest, OneClockLongDelayedDoesNotSetTimeBack) {
 }
 
 TEST_F(ConductorTimeTest, FarInstantsDoNotOverflow) {
-  receive(1, 1, 1e-3);
+  follow(1, 1, 1e-3);
   EXPECT_EQ(time_.steady_at(SimTime::never()), SimTime::never());
   EXPECT_EQ(time_.steady_at(SimTime::at_once()), SimTime::at_once());
   EXPECT_GT(time_.steady_at(at(9e9)), at(1));

@@ -278,6 +278,31 @@ TEST_F(PacketMediumTest, ARequestReceivedLateIsProcessedAsOfItsStart) {
   EXPECT_EQ(outcomes_in(late)[0].budget.received_level, outcomes_in(expected)[0].budget.received_level);
 }
 
+// At 2, one from 1 sounds from 12 s on, whose outcome has come at 15 s.
+TEST_F(PacketMediumTest, ARequestReceivedAfterAnOutcomeThatItWouldHaveChangedIsTooLate) {
+  stay(1, {0, 0, 50});
+  stay(2, {3000, 0, 50});
+  stay(3, {6000, 0, 50});
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 5), at_s(10)));
+  medium_.advance_to(at_s(15));
+  EXPECT_FALSE(medium_.transmit(request_of(3, 10, 0, 5), at_s(15)));
+  bool is_too_late = false;
+  for (const PacketOutcome& outcome : outcomes_in(medium_.advance_to(at_s(25))))
+    is_too_late = is_too_late || (outcome.receiver_id == 2 && outcome.is_too_late);
+  EXPECT_TRUE(is_too_late);
+}
+
+TEST_F(PacketMediumTest, ARequestReceivedLateThatChangesNoOutcomeIsNotTooLate) {
+  stay(1, {0, 0, 50});
+  stay(2, {3000, 0, 50});
+  stay(3, {6000, 0, 50});
+  EXPECT_FALSE(medium_.transmit(request_of(1, 10, 0, 5), at_s(10)));
+  medium_.advance_to(at_s(15));
+  EXPECT_FALSE(medium_.transmit(request_of(3, 14.5, 0, 5), at_s(15)));  // sounds at 2 from 16.5 s on
+  for (const PacketOutcome& outcome : outcomes_in(medium_.advance_to(at_s(25))))
+    EXPECT_FALSE(outcome.is_too_late);
+}
+
 TEST_F(PacketMediumTest, ALateRequestDoesNotOverlapWhatWasAcceptedMeanwhile) {
   stay(1, {0, 0, 50});
   EXPECT_EQ(result_of(request_of(1, 10, 1, 5)), SendResult::kAccepted);

@@ -88,6 +88,22 @@ TEST(VehicleRegistry, TooManyVehiclesAreRefused) {
   EXPECT_THAT(fleet.add_state("one-more", 5000, state_at(0, {0, 0, 0})), HasSubstr("too many"));
 }
 
+TEST(VehicleRegistry, AFloodOfNamesLeavesTheVehiclesOfTheScenarioTheirPlaces) {
+  VehicleRegistry fleet = make_fleet();
+  for (VehicleId id = 1; id <= 20; ++id) fleet.reserve(testing::name_of(id), id);
+  std::size_t taken = 0;
+  for (VehicleId id = 1; id <= 50'000; ++id)
+    taken += fleet.add_state("flood" + std::to_string(id), id, state_at(0, {0, 0, 0})).empty() ? 1 : 0;
+  EXPECT_EQ(taken, VehicleRegistry::kMaxVehicles - 20);
+  EXPECT_THAT(fleet.add_state(testing::name_of(7), 70'000, state_at(0, {0, 0, 0})),
+              HasSubstr("in the scenario"));
+  for (VehicleId id = 1; id <= 20; ++id)
+    EXPECT_EQ(fleet.add_state(testing::name_of(id), id, state_at(0, {0, 0, 0})), "");
+  fleet.forget_before(at_s(100));
+  EXPECT_EQ(fleet.size(), 0u);
+  EXPECT_EQ(fleet.add_state("stranger", 60'000, state_at(100, {0, 0, 0})), "");
+}
+
 TEST(VehicleRegistry, ModemsAnnouncedUnderForgedNamesKeepNobodyOutAndStayBounded) {
   VehicleRegistry fleet = make_fleet();
   VehicleModem loud = quick_modem();

@@ -92,6 +92,27 @@ TEST_F(SweepCommand, DoesEveryRunOnceAndMakesTheTables) {
   EXPECT_EQ(text("points.csv"), points);
 }
 
+TEST_F(SweepCommand, ADamagedResultIsDoneAgain) {
+  Process first(command(four_runs()));
+  ASSERT_EQ(first.wait(std::chrono::seconds(100)), 0) << first.output();
+  const std::string points = text("points.csv");
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    if (entry.path().filename() != "result.json") continue;
+    std::stringstream json;
+    json << std::ifstream(entry.path()).rdbuf();
+    std::string damaged = json.str();
+    const std::size_t digit = damaged.find_first_of("123456789");
+    ASSERT_NE(digit, std::string::npos);
+    damaged[digit] = damaged[digit] == '9' ? '8' : '9';  // still JSON
+    std::ofstream(entry.path()) << damaged;
+    break;
+  }
+  Process again(command({}));
+  ASSERT_EQ(again.wait(std::chrono::seconds(60)), 0) << again.output();
+  EXPECT_THAT(again.output(), HasSubstr("4 runs, 1 to do here"));
+  EXPECT_EQ(text("points.csv"), points);
+}
+
 TEST_F(SweepCommand, MoreSeedsRunOnlyWhatIsNew) {
   Process first(command(four_runs()));
   ASSERT_EQ(first.wait(std::chrono::seconds(100)), 0) << first.output();

@@ -1,4 +1,4 @@
-#include "bus/publication_pace.h"
+#include "bus/sending/publication_pace.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,0 +1,148 @@
+#include "bus/logs/log_flows.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include "bus/channels.h"
+#include "bus/flow_watch.h"
+#include "bus/logs/channel_types.h"
+#include "bus/sequence_number.h"
+#include "bus/session_watch.h"
+
+namespace halocline::clients {
+namespace {
+
+constexpr std::size_t kMostMissing = 10'000;  // of one flow; beyond these the oldest are only counted
+// Behind LCM's fingerprint every message of a flow begins with utime, session and sequence.
+constexpr std::size_t kUtimeAt = 8, kSessionAt = 16, kSequenceAt = 24, kHeadBytes = 32;
+
+std::int64_t int64_at(std::span<const std::uint8_t> data, std::size_t at) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < 8; ++i) value = value << 8 | data[at + i];
+  return static_cast<std::int64_t>(value);
+}
+
+// Packets are numbered by their senders as they like.
+std::int64_t flow_type_of(std::string_view channel) {
+  std::int64_t type = 0;
+  with_type_of(channel, [&]<class Message>() {
+    if constexpr (bus::IsOfFlow<Message> && !bus::IsPacketToSend<Message>) type = Message::getHash();
+  });
+  return type;
+}
+
+// Elsewhere several sessions are no surprise: shards, clients.
+bool has_one_publisher(std::string_view channel) {
+  const auto is_of = [&](const bus::Family& family) { return channel.starts_with(family.prefix); };
+  const auto& held = bus::SessionWatch::kHeld;
+  return is_of(bus::channels::kStatus) || std::any_of(held.begin(), held.end(), is_of);
+}
+
+}  // namespace
+
+void LogFlows::Flow::note_missing(std::int64_t from, std::int64_t end) {
+  if (from >= end) return;
+  std::int64_t count = 0;
+  if (__builtin_sub_overflow(end, from, &count)) count = INT64_MAX;
+  const auto kept = std::min(count, static_cast<std::int64_t>(kMostMissing));
+  given_up = bus::saturating_sum(given_up, count - kept);
+  for (std::int64_t sequence = end - kept; sequence < end; ++sequence) missing.insert(sequence);
+  for (; missing.size() > kMostMissing; missing.erase(missing.begin())) ++given_up;
+}
+
+void LogFlows::Flow::take(std::int64_t sequence) {
+  if (sequence > last) {
+    note_missing(last + 1, sequence);
+    last = sequence;
+  } else if (sequence < first) {
+    note_missing(sequence + 1, first);
+    first = sequence;
+  } else {
+    missing.erase(sequence);
+  }
+}
+
+LogFlows::Channel& LogFlows::channel_of(std::string_view name) {
+  auto found = channels_.find(name);
+  if (found == channels_.end())
+    found = channels_.emplace(std::string(name), Channel{.type = flow_type_of(name)}).first;
+  return found->second;
+}
+
+void LogFlows::count(std::string_view channel, std::span<const std::uint8_t> data) {
+  constexpr std::int64_t kSameRun_us = 10'000'000;
+  const std::string_view repair = bus::channels::kRepair.prefix;
+  while (channel.starts_with(repair)) channel.remove_prefix(repair.size());
+  Channel& counted = channel_of(channel);
+  if (counted.type == 0 || data.size() < kHeadBytes || int64_at(data, 0) != counted.type) return;
+  const std::int64_t utime = int64_at(data, kUtimeAt), sequence = int64_at(data, kSequenceAt);
+  const std::int64_t session = int64_at(data, kSessionAt);
+  if (session == 0 && sequence == 0) return;
+  ++counted.messages;
+  const auto [found, is_new] = counted.flows.try_emplace(session, Flow{sequence, sequence, utime, {}, 0});
+  Flow& flow = found->second;
+  if (is_new) return;
+  if (sequence < flow.last && utime / 2 < flow.last_utime / 2 - kSameRun_us / 2 &&
+      !flow.missing.contains(sequence)) {
+    begins_anew_ = true;
+    const std::int64_t before =
+        bus::saturating_sum(flow.given_up, static_cast<std::int64_t>(flow.missing.size()));
+    flow = {sequence, sequence, utime, {}, before};
+    return;
+  }
+  flow.take(sequence);
+  flow.last_utime = std::max(flow.last_utime, utime);
+}
+
+std::int64_t LogFlows::missing_of(const Channel& channel) {
+  std::int64_t missing = 0;
+  for (const auto& [session, flow] : channel.flows) {
+    missing = bus::saturating_sum(missing, flow.given_up);
+    missing = bus::saturating_sum(missing, static_cast<std::int64_t>(flow.missing.size()));
+  }
+  return missing;
+}
+
+std::vector<LogFlows::OfChannel> LogFlows::remarkable() const {
+  std::vector<OfChannel> all;
+  for (const auto& [name, channel] : channels_) {
+    const OfChannel one{name, channel.messages, missing_of(channel),
+                        has_one_publisher(name) ? channel.flows.size() : 1};
+    if (one.missing > 0 || one.sessions > 1) all.push_back(one);
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.channel < b.channel; });
+  return all;
+}
+
+std::int64_t LogFlows::missing() const {
+  std::int64_t missing = 0;
+  for (const auto& [name, channel] : channels_) missing = bus::saturating_sum(missing, missing_of(channel));
+  return missing;
+}
+
+void report_flows(std::ostream& out, const LogFlows& flows) {
+  constexpr std::size_t kMostNamed = 10;
+  const auto all = flows.remarkable();
+  const auto list = [&](const char* title, auto is_meant, auto print) {
+    std::size_t named = 0;
+    for (const auto& one : all) {
+      if (!is_meant(one) || named++ >= kMostNamed) continue;
+      out << (named == 1 ? title : ", ") << one.channel << " ";
+      print(one);
+    }
+    if (named > kMostNamed) out << " and " << named - kMostNamed << " more channels";
+    if (named > 0) out << "\n";
+  };
+  list(
+      "halocline: the log lacks messages, by their sequence numbers: ",
+      [](const auto& one) { return one.missing > 0; },
+      [&](const auto& one) {
+        out << one.missing << " of " << bus::saturating_sum(one.messages, one.missing);
+      });
+  list(
+      "halocline: programs were restarted, or runs joined; sessions: ",
+      [](const auto& one) { return one.sessions > 1; }, [&](const auto& one) { out << one.sessions; });
+  if (flows.begins_anew()) out << "halocline: the log holds several runs of the same sessions\n";
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,50 @@
+#include "bus/session_watch.h"
+
+#include <algorithm>
+
+namespace halocline::bus {
+
+bool SessionWatch::is_recent(SimTime steady, const Times& times, std::int64_t session) {
+  const auto found = times.find(session);
+  return found != times.end() && steady - found->second < kSilence;
+}
+
+void SessionWatch::note(SimTime steady, Times& times, std::int64_t session) {
+  constexpr std::size_t kMaxSessions = 4096;
+  if (times.size() >= kMaxSessions)
+    std::erase_if(times, [&](const auto& entry) { return steady - entry.second >= kSilence; });
+  if (times.size() < kMaxSessions || times.contains(session)) times[session] = steady;
+}
+
+bool SessionWatch::holds(SimTime steady, std::string_view name, std::int64_t session) {
+  const auto found = holders_.find(name);
+  if (found == holders_.end()) {
+    if (holders_.size() < kMaxNames) holders_.emplace(name, Holder{session, steady});
+    return true;
+  }
+  Holder& holder = found->second;
+  const bool is_alive = steady - holder.heard < kSilence || is_recent(steady, heartbeats_, holder.session);
+  if (holder.session != session && is_alive) return false;
+  holder = {session, steady};
+  return true;
+}
+
+// A session that one name believes is no rival because another name is claimed with it: anybody may claim.
+bool SessionWatch::on_heartbeat(SimTime steady, std::string_view node, std::int64_t session) {
+  if (holds(steady, node, session)) {
+    note(steady, heartbeats_, session);
+    rivals_.erase(session);
+    return true;
+  }
+  if (!is_recent(steady, heartbeats_, session)) note(steady, rivals_, session);
+  return false;
+}
+
+bool SessionWatch::on_message(SimTime steady, std::string_view channel, std::int64_t session) {
+  if (session != 0 && is_recent(steady, rivals_, session)) return false;
+  const bool is_held = std::any_of(kHeld.begin(), kHeld.end(),
+                                   [&](const Family& family) { return channel.starts_with(family.prefix); });
+  return !is_held || holds(steady, channel, session);
+}
+
+}  // namespace halocline::bus

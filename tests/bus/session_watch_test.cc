@@ -1,0 +1,81 @@
+#include "bus/session_watch.h"
+
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/at_ms.h"
+
+namespace halocline::bus {
+namespace {
+
+using halocline::testing::at_ms;
+
+TEST(SessionWatch, OfTwoNodesOfOneNameTheFirstIsBelievedAndTheOtherRefusedOnEveryChannel) {
+  SessionWatch watch;
+  for (int ms = 0; ms < 10'000; ms += 250) {
+    EXPECT_TRUE(watch.on_heartbeat(at_ms(ms), "vehicle-sim", 1));
+    EXPECT_FALSE(watch.on_heartbeat(at_ms(ms + 100), "vehicle-sim", 2));
+    EXPECT_TRUE(watch.on_message(at_ms(ms + 110), "SENSORS.auv-1", 1));
+    EXPECT_FALSE(watch.on_message(at_ms(ms + 120), "SENSORS.auv-1", 2));
+  }
+}
+
+TEST(SessionWatch, ARestartedNodeIsBelievedAfterASecondOfSilence) {
+  SessionWatch watch;
+  watch.on_heartbeat(at_ms(0), "vehicle-sim", 1);
+  EXPECT_FALSE(watch.on_heartbeat(at_ms(700), "vehicle-sim", 2));
+  EXPECT_FALSE(watch.on_message(at_ms(900), "STATE.auv-1", 2));
+  EXPECT_TRUE(watch.on_heartbeat(at_ms(1000), "vehicle-sim", 2));
+  EXPECT_TRUE(watch.on_message(at_ms(1001), "STATE.auv-1", 2));
+  EXPECT_FALSE(watch.on_heartbeat(at_ms(1100), "vehicle-sim", 1));  // it was not dead
+}
+
+TEST(SessionWatch, AChannelOfAVehicleHasOnePublisherWhateverTheNodesAreCalled) {
+  SessionWatch watch;
+  for (int ms = 0; ms < 10'000; ms += 500) {
+    for (const char* channel : {"STATE.auv-1", "RECEIPT.auv-1", "RECEIVE.auv-1"}) {
+      EXPECT_TRUE(watch.on_message(at_ms(ms), channel, 1));
+      EXPECT_FALSE(watch.on_message(at_ms(ms + 1), channel, 2));
+      EXPECT_FALSE(watch.on_message(at_ms(ms + 2), channel, 0));  // without a session
+    }
+    EXPECT_TRUE(watch.on_message(at_ms(ms), "STATE.auv-2", 2));
+    EXPECT_TRUE(watch.on_message(at_ms(ms), "SEND.auv-1", 2));  // several programs may use a modem
+    EXPECT_TRUE(watch.on_message(at_ms(ms), "OUTCOME", 2));     // shards
+  }
+}
+
+// States by dead reckoning may be minutes apart.
+TEST(SessionWatch, HeartbeatsKeepAChannelThatIsSeldomPublishedOn) {
+  SessionWatch watch;
+  watch.on_message(at_ms(0), "STATE.auv-1", 1);
+  for (int ms = 0; ms <= 60'000; ms += 250) watch.on_heartbeat(at_ms(ms), "vehicle-sim", 1);
+  EXPECT_FALSE(watch.on_message(at_ms(60'100), "STATE.auv-1", 2));
+  EXPECT_TRUE(watch.on_message(at_ms(61'100), "STATE.auv-1", 2));
+}
+
+// HEARTBEAT.vehicle-sim with the session of the channel server.
+TEST(SessionWatch, AForgedClaimToANameSilencesNoOther) {
+  SessionWatch watch;
+  watch.on_heartbeat(at_ms(0), "vehicle-sim", 1);
+  watch.on_heartbeat(at_ms(0), "channel-server", 2);
+  EXPECT_FALSE(watch.on_heartbeat(at_ms(10), "vehicle-sim", 2));
+  EXPECT_TRUE(watch.on_message(at_ms(20), "OUTCOME", 2));
+  EXPECT_TRUE(watch.on_heartbeat(at_ms(250), "channel-server", 2));
+}
+
+TEST(SessionWatch, NamesWithoutEndDoNotForgetThoseThatAreBelieved) {
+  SessionWatch watch;
+  EXPECT_TRUE(watch.on_message(at_ms(0), "STATE.auv-1", 1));
+  for (std::int64_t i = 0; i < 50'000; ++i) {
+    EXPECT_TRUE(watch.on_message(at_ms(1), "STATE.x" + std::to_string(i), i));
+    watch.on_heartbeat(at_ms(1), "n" + std::to_string(i), i);
+    watch.on_heartbeat(at_ms(1), "n0", 100'000 + i);
+  }
+  EXPECT_FALSE(watch.on_message(at_ms(2), "STATE.auv-1", 2));
+  EXPECT_TRUE(watch.on_message(at_ms(2), "STATE.auv-1", 1));
+}
+
+}  // namespace
+}  // namespace halocline::bus

@@ -1,0 +1,241 @@
+// Programs as separate processes on a bus that somebody attacks: each attack is a datagram, a count and a time, as docs/reliability.md lists
+// them. Runs inside a network namespace of its own (scripts/isolated).
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/message_codec.h"
+#include "bus/runtime/node_process.h"
+#include "tests/integration/bus_monitor.h"
+#include "tests/support/process.h"
+
+namespace halocline {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::BusMonitor;
+using ::testing::HasSubstr;
+using testing::Process;
+
+const char* const kScenario = HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml";
+constexpr double kLongest_s = 60;
+constexpr std::int64_t kTenYears_us = 315'576'000'000'000;
+
+class AttackedProcesses : public ::testing::Test {
+ protected:
+  AttackedProcesses() {
+    monitor_.lcm().subscribe(".*", &AttackedProcesses::on_any, this);
+    for (const char* program : {"halocline-conductor", "halocline-bathymetry", "halocline-vehicle-sim",
+                                "halocline-channel-server", "halocline-traffic"})
+      processes_[program] = run(program);
+  }
+  static std::unique_ptr<Process> run(const std::string& program) {
+    return std::make_unique<Process>(std::vector<std::string>{HALOCLINE_BIN_DIR "/" + program, kScenario});
+  }
+  Process& at(const std::string& program) { return *processes_.at(program); }
+
+  bool outcomes_come(std::size_t count) {
+    const std::size_t before = monitor_.outcomes.size();
+    return monitor_.wait_until(kLongest_s, [&] { return monitor_.outcomes.size() >= before + count; });
+  }
+  bool status_shows(const std::string& node, const std::function<bool(const node_status_t&)>& what) {
+    return monitor_.wait_until(kLongest_s, [&] {
+      const auto status = monitor_.last_status.find(node);
+      return status != monitor_.last_status.end() && what(status->second);
+    });
+  }
+  void expect_all_running() {
+    for (const auto& [program, process] : processes_)
+      EXPECT_TRUE(process->running()) << program << process->output();
+  }
+  // Within a second; a busy machine may add to that.
+  void expect_all_obey_sigterm() {
+    const auto begin = std::chrono::steady_clock::now();
+    for (const auto& [program, process] : processes_) process->signal(SIGTERM);
+    for (const auto& [program, process] : processes_)
+      EXPECT_EQ(process->wait(), 0) << program << process->output();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 10s);
+  }
+  template <class Message>
+  void publish(const std::string& channel, const Message& message) {
+    const bus::Bytes bytes = bus::encoded(message);
+    monitor_.lcm().publish(channel, bytes.data(), static_cast<unsigned>(bytes.size()));
+  }
+  static sim_clock_t clock_at(std::int64_t utime, std::int64_t session) {
+    sim_clock_t clock{};
+    clock.utime = utime;
+    clock.session = session;
+    clock.clock_rate = 1;
+    clock.clock_step_us = 100'000;
+    return clock;
+  }
+
+  BusMonitor monitor_;
+  std::map<std::string, std::unique_ptr<Process>> processes_;
+  std::int64_t clock_session_ = 0;                       // of the last CLOCK
+  std::int64_t state_session_ = 0, state_sequence_ = 0;  // of the last STATE.alpha
+
+ private:
+  void on_any(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
+    const std::span bytes(static_cast<const std::uint8_t*>(buffer->data), buffer->data_size);
+    if (channel == "CLOCK") {
+      sim_clock_t clock;
+      if (bus::decode(bytes, clock).empty()) clock_session_ = clock.session;
+    } else if (channel == "STATE.alpha") {
+      vehicle_state_t state;
+      if (!bus::decode(bytes, state).empty()) return;
+      state_session_ = state.session;
+      state_sequence_ = state.sequence;
+    }
+  }
+};
+
+TEST_F(AttackedProcesses, AStrayClockChangesNothing) {
+  ASSERT_TRUE(outcomes_come(4));
+  for (const std::int64_t ahead_us : {kTenYears_us, std::int64_t{3'600'000'000}}) {
+    publish("CLOCK", clock_at(monitor_.last_clock_utime + ahead_us, 666));
+    publish("CLOCK", clock_at(monitor_.last_clock_utime + ahead_us, clock_session_));
+    ASSERT_TRUE(outcomes_come(4));
+  }
+  for (const char* node : {"vehicle-sim", "channel-server"}) {
+    EXPECT_TRUE(status_shows(node, [](const node_status_t& status) { return status.rivals >= 4; }));
+    EXPECT_LT(monitor_.last_status[node].utime, 600'000'000);
+  }
+  EXPECT_THAT(at("halocline-channel-server").output(), HasSubstr("session is of a second conductor"));
+  expect_all_running();
+  expect_all_obey_sigterm();
+}
+
+// Two that agree are believed; what follows is long, and still SIGTERM is obeyed.
+TEST_F(AttackedProcesses, SigtermIsObeyedTenYearsAhead) {
+  ASSERT_TRUE(outcomes_come(1));
+  at("halocline-conductor").signal(SIGKILL);
+  for (int i = 0; i < 2; ++i) publish("CLOCK", clock_at(kTenYears_us + 1000 * i, clock_session_));
+  EXPECT_TRUE(status_shows("channel-server",
+                           [](const node_status_t& status) { return status.utime > 3'600'000'000; }));
+  processes_.erase("halocline-conductor");
+  expect_all_obey_sigterm();
+}
+
+TEST_F(AttackedProcesses, ASecondConductorEndsAndTheFirstStays) {
+  ASSERT_TRUE(outcomes_come(1));
+  const auto second = run("halocline-conductor");
+  EXPECT_EQ(second->wait(), bus::kExitNetwork);
+  EXPECT_THAT(second->output(), HasSubstr("another conductor"));
+  EXPECT_TRUE(outcomes_come(2));
+  expect_all_running();
+}
+
+TEST_F(AttackedProcesses, OfTwoVehicleSimulatorsAndTwoChannelServersTheFirstAreBelieved) {
+  ASSERT_TRUE(outcomes_come(1));
+  for (const char* program : {"halocline-vehicle-sim", "halocline-channel-server"}) {
+    const auto rivals = [](const node_status_t& status) { return status.rivals; };
+    const std::int64_t before = rivals(monitor_.last_status["traffic"]);
+    const auto second = run(program);
+    EXPECT_TRUE(status_shows("traffic", [&](const node_status_t& status) { return rivals(status) > before; }))
+        << program;
+    EXPECT_TRUE(outcomes_come(2));
+    EXPECT_TRUE(monitor_.wait_until(kLongest_s,
+                                    [&] { return second->output().find("a rival's") != std::string::npos; }));
+    EXPECT_THAT(at(program).output(), HasSubstr("a rival's"));
+  }
+  expect_all_running();
+}
+
+// Without a journal its session is another.
+TEST_F(AttackedProcesses, ARestartedServerIsBelievedOnceTheKilledOneIsSilent) {
+  ASSERT_TRUE(outcomes_come(1));
+  at("halocline-channel-server").signal(SIGKILL);
+  processes_["halocline-channel-server"] = run("halocline-channel-server");
+  EXPECT_TRUE(outcomes_come(2));
+  monitor_.clear();
+  EXPECT_TRUE(monitor_.wait_until(kLongest_s, [&] { return monitor_.received("RECEIVE.alpha") > 0; }));
+}
+
+TEST_F(AttackedProcesses, ABusThatIsAwayFor343MillisecondsEndsNothing) {
+  ASSERT_TRUE(outcomes_come(2));
+  ASSERT_EQ(
+      std::system("PATH=$PATH:/sbin:/usr/sbin; ip link set lo down && sleep 0.343 && ip link set lo up && "
+                  "ip route add 224.0.0.0/4 dev lo"),
+      0);
+  EXPECT_TRUE(outcomes_come(4));
+  EXPECT_TRUE(
+      status_shows("vehicle-sim", [](const node_status_t& status) { return status.messages_unsent > 0; }));
+  EXPECT_THAT(at("halocline-vehicle-sim").output(), HasSubstr("network-is-back"));
+  expect_all_running();
+  EXPECT_EQ(monitor_.last_status["channel-server"].lost, 0);
+}
+
+// 50 requests a second for 200 messages each, for 5 s.
+TEST_F(AttackedProcesses, RepairRequestsAreNotTurnedAgainstTheBus) {
+  ASSERT_TRUE(outcomes_come(1));
+  ASSERT_TRUE(monitor_.wait_until(kLongest_s, [&] { return state_sequence_ >= 100; }));
+  repair_request_t request{};
+  request.client_name = "evil";
+  request.missing_channel = "STATE.alpha";
+  request.publisher_session = state_session_;
+  for (std::int64_t i = 0; i < 200; ++i) request.missing_sequence.push_back(i % (state_sequence_ + 1));
+  request.num_missing = 200;
+  monitor_.clear();
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 250; ++i) {
+    publish("REPAIR_REQUEST", request);
+    monitor_.dispatch_for(0.02);
+  }
+  const double passed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::int64_t published = monitor_.last_status["vehicle-sim"].messages_sent;
+  EXPECT_GT(monitor_.received("REPAIR.STATE.alpha"), 0);
+  EXPECT_LT(static_cast<double>(monitor_.received("REPAIR.STATE.alpha")),
+            std::min(256 + 3 * static_cast<double>(published), 8192.0) + (200 + 3 * 300) * passed_s);
+  EXPECT_TRUE(outcomes_come(1));
+  expect_all_running();
+}
+
+double resident_mb(const Process& process) {
+  std::ifstream status("/proc/" + std::to_string(process.pid()) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1000;
+  }
+  return 0;
+}
+
+// Legal datagrams of 17 kB, each with 500 flows that nobody has heard of and 2^62 messages in each.
+TEST_F(AttackedProcesses, HeartbeatsCostNoMemory) {
+  ASSERT_TRUE(outcomes_come(2));
+  const double before_mb = resident_mb(at("halocline-channel-server"));
+  ASSERT_GT(before_mb, 1);
+  for (int datagram = 0; datagram < 11; ++datagram) {
+    flow_heartbeat_t heartbeat{};
+    heartbeat.session = 1000 + datagram % 2;
+    heartbeat.sequence = datagram;
+    for (int i = 0; i < 500; ++i) {
+      heartbeat.flow_channel.push_back("STATE.x" + std::to_string(500 * datagram + i));
+      heartbeat.flow_session.push_back(heartbeat.session);
+      heartbeat.flow_last_sequence.push_back(std::int64_t{1} << 62);
+    }
+    heartbeat.num_flows = heartbeat.num_flows_kept = 500;
+    publish("HEARTBEAT.evil" + std::to_string(datagram % 2), heartbeat);
+    monitor_.dispatch_for(0.1);
+  }
+  EXPECT_TRUE(outcomes_come(2));
+  EXPECT_LT(resident_mb(at("halocline-channel-server")), before_mb + 10);
+  EXPECT_TRUE(
+      status_shows("channel-server", [](const node_status_t& s) { return s.gaps >= 0 && s.lost >= 0; }));
+}
+
+}  // namespace
+}  // namespace halocline
