@@ -46,7 +46,7 @@ class LogFlows {
   struct Channel {
     std::int64_t type = 0;  // LCM's fingerprint; 0: no flow
     std::int64_t messages = 0;
-    std::map<std::int64_t, Flow> flows;  // by session
+    std::map<std::int64_t, Flow> flows = {};  // by session
   };
   static std::int64_t missing_of(const Channel& channel);
   Channel& channel_of(std::string_view name);

@@ -59,7 +59,7 @@ struct SendOptions {
 // How the modem listens; the defaults are those of [modem].
 struct ListenOptions {
   bool asleep = false;       // acquires nothing
-  SimTime wakes;             // of one asleep: by itself, at this instant; 0: by another listen() alone
+  SimTime wakes = {};        // of one asleep: by itself, at this instant; 0: by another listen() alone
   bool promiscuous = false;  // packets for others are received as well
   bool events = false;       // MODEM_EVENTs are published
   double carrier_threshold_db =
