@@ -7,6 +7,7 @@
 
 #include <poll.h>
 #include <sys/epoll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -25,7 +26,15 @@ bool is_over(ssize_t result) {
 
 }  // namespace
 
-Connections::Connections() : epoll_(epoll_create1(EPOLL_CLOEXEC)) { ensure(epoll_.get() >= 0, "no epoll"); }
+Connections::Connections() : epoll_(epoll_create1(EPOLL_CLOEXEC)) {
+  ensure(epoll_.get() >= 0, "no epoll");
+  // As many files as the process may have: a host that finds none free would keep its door ready for ever.
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) == 0) {
+    files.rlim_cur = files.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &files);
+  }
+}
 
 void Connections::watch(int operation, int fd, std::uint64_t mark, std::uint32_t events) const {
   epoll_event event{};
