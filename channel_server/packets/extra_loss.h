@@ -14,11 +14,11 @@
 namespace halocline::channel_server {
 
 struct ExtraLoss {
-  std::string from, to;            // names of sender and receiver; empty: any
-  std::optional<PacketKind> kind;  // empty: any
-  double share = 0;                // of the packets that would have been received, 0..1
-  SimTime begin;                   // departures from here on
-  SimTime end = SimTime::never();  // and before this
+  std::string from = {}, to = {};       // names of sender and receiver; empty: any
+  std::optional<PacketKind> kind = {};  // empty: any
+  double share = 0;                     // of the packets that would have been received, 0..1
+  SimTime begin = {};                   // departures from here on
+  SimTime end = SimTime::never();       // and before this
 
   bool concerns(const Packet& packet, const std::string& receiver) const;
 };

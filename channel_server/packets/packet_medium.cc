@@ -9,7 +9,6 @@
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/packets/send_decision.h"
 #include "channel_server/vehicles/modem_schedule.h"
-#include "channel_server/vehicles/vehicle_equipment.h"
 #include "core/check.h"
 #include "core/frames.h"
 #include "core/names.h"
@@ -303,10 +302,9 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
     kind = OutcomeKind::kExtraLoss;
     flight.statistics.frames_good = 0;
   }
-  const VehicleEquipment& equipment = fleet_.equipment();
   PacketOutcome outcome =
-      outcome_of(flight, kind, equipment, fleet_.listening(flight.receiver_id, at).promiscuous);
-  add_receiving(flight, outcome, at, equipment.power, events);
+      outcome_of(flight, kind, fleet_.equipment(), fleet_.listening(flight.receiver_id, at).promiscuous);
+  add_receiving(flight, outcome, at, power(), events);
   const bool is_answered = asks_for_answer(outcome);
   ModemWatch::end(flight, at, kind, events);
   events.push_back({at, std::move(outcome)});

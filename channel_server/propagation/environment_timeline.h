@@ -32,7 +32,7 @@ namespace halocline::channel_server {
 struct EnvironmentChange {
   std::optional<double> wind_mps, shipping, sea_surface_z_m;  // ranges as in acoustics/sea/environment.h
   std::optional<acoustics::SoundSpeedProfile> profile;
-  std::optional<double> rain_mm_per_h;
+  std::optional<double> rain_mm_per_h = {};
   std::shared_ptr<const acoustics::NoiseSpectrum> noise_table = nullptr;
 };
 

@@ -15,12 +15,15 @@ constexpr SimDuration kShort = SimDuration::from_milliseconds(20);
 
 class BlockingModemTest : public ::testing::Test {
  protected:
+  // Twice: a conductor is followed once two of its CLOCKs agree.
   void publish_clock(std::int64_t utime) {
     sim_clock_t clock{};
     clock.utime = utime;
     clock.session = 7;
     clock.clock_rate = 1;
     clock.clock_step_us = 100'000;
+    peer_.publish(bus::channels::kClock, clock);
+    ++clock.utime;
     peer_.publish(bus::channels::kClock, clock);
   }
 

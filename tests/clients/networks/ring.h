@@ -30,7 +30,7 @@ namespace halocline::networks::testing {
 inline constexpr const char* kModem = "bit_rate_bps = 1000.0\nmax_payload_bytes = 32768\n";
 
 struct Ring {
-  std::string mac = "aloha", settings;  // of [network], besides
+  std::string mac = "aloha", settings = {};  // of [network], besides
   int stations = 50;
   double radius_m = 75;        // 0.05 s to the hub, 0.1 s from side to side
   double packet_s = 1;         // the hub's packets have this duration
