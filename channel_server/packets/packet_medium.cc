@@ -309,7 +309,7 @@ void PacketMedium::end_packet(Flight& flight, SimTime at, std::vector<MediumEven
   ModemWatch::end(flight, at, kind, events);
   events.push_back({at, std::move(outcome)});
   if (is_answered) {
-    const ModemReply answer = answer_of(flight, at, equipment.clocks);
+    const ModemReply answer = answer_of(flight, at, fleet_.equipment().clocks);
     add_answer(answer);
     if (!rule_.shard.is_alone()) events.push_back({at, answer});
   }
