@@ -10,6 +10,7 @@
 #include "bathymetry/rasters/raster_source.h"
 #include "core/check.h"
 #include "core/elementary.h"
+#include "core/huge_page_vector.h"
 #include "core/units.h"
 
 namespace halocline::bathymetry {
@@ -158,9 +159,9 @@ LoadedRaster load_raster(const RasterOptions& options, const LocalFrame& frame,
   const std::unique_ptr<const RasterSource> opened = RasterSource::open(
       options, to_degrees(frame.origin_latitude_rad()), to_degrees(frame.origin_longitude_rad()));
   const RasterSource& source = *opened;
-  HeightGrid grid(geometry, std::vector<float>(static_cast<std::size_t>(geometry.posts_x) *
-                                                   static_cast<std::size_t>(geometry.posts_y),
-                                               std::numeric_limits<float>::quiet_NaN()));
+  HeightGrid grid(geometry, HugePageVector<float>(static_cast<std::size_t>(geometry.posts_x) *
+                                                      static_cast<std::size_t>(geometry.posts_y),
+                                                  std::numeric_limits<float>::quiet_NaN()));
   const PostMap map(source, frame);
   const PixelBounds bounds = bounds_of(map, geometry);
   PostCounts counts;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bathymetry/rasters/raster_options.h"
+#include "core/huge_page_vector.h"
 
 namespace halocline::bathymetry {
 
@@ -31,7 +32,8 @@ struct PixelPosition {
 // so.
 struct RasterWindow {
   int first_column = 0, first_row = 0, columns = 0, rows = 0;
-  std::vector<float> depths_m;  // positive down from the file's zero plus the offset; NaN no data; row by row
+  HugePageVector<float>
+      depths_m;  // positive down from the file's zero plus the offset; NaN no data; row by row
 
   // Bilinear over the posts around; NaN when one that counts is NaN, and beyond the window: nothing bleeds,
   // nothing is extrapolated.

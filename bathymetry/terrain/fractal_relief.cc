@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/elementary.h"
+#include "core/huge_page_vector.h"
 #include "core/random.h"
 
 namespace halocline::bathymetry {
@@ -148,7 +149,7 @@ void add_relief(const FractalRelief& relief, HeightGrid& grid) {
     if (octave.wavelength_m < 2 * grid.geometry().spacing_m) break;
     add_octave(octave, relief.seed, grid.geometry(), sum);
   }
-  std::vector<float>& posts = grid.posts_for_editing();
+  HugePageVector<float>& posts = grid.posts_for_editing();
   for (std::size_t n = 0; n < posts.size(); ++n) posts[n] = static_cast<float>(posts[n] + sum[n]);
 }
 

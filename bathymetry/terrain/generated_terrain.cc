@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/elementary.h"
+#include "core/huge_page_vector.h"
 
 namespace halocline::bathymetry {
 namespace {
@@ -72,7 +73,7 @@ HeightGrid make_grid(const GridGeometry& geometry, const Shape& shape) {
 
 HeightGrid make_grid(const GridGeometry& geometry, const std::function<double(double, double)>& z_m) {
   require_valid(geometry);
-  std::vector<float> posts;
+  HugePageVector<float> posts;
   posts.reserve(static_cast<std::size_t>(geometry.posts_x) * static_cast<std::size_t>(geometry.posts_y));
   for (int i = 0; i < geometry.posts_x; ++i) {
     for (int j = 0; j < geometry.posts_y; ++j) {

@@ -21,7 +21,7 @@ void require_valid(const GridGeometry& geometry) {
 
 bool is_no_data(const BilinearCell& cell) { return std::isnan(cell.z00 + cell.a + cell.b + cell.c); }
 
-HeightGrid::HeightGrid(const GridGeometry& geometry, std::vector<float> posts)
+HeightGrid::HeightGrid(const GridGeometry& geometry, HugePageVector<float> posts)
     : geometry_(geometry), posts_(std::move(posts)) {
   require_valid(geometry_);
   const auto expected =

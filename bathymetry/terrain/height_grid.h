@@ -13,7 +13,8 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
+
+#include "core/huge_page_vector.h"
 
 namespace halocline::bathymetry {
 
@@ -58,12 +59,12 @@ class HeightGrid {
  public:
   // posts: z, metres down, index i * posts_y + j; NaN is no data, infinities are refused.
   // Throws InvalidArgument for an impossible geometry or a wrong number of posts.
-  HeightGrid(const GridGeometry& geometry, std::vector<float> posts);
+  HeightGrid(const GridGeometry& geometry, HugePageVector<float> posts);
 
   const GridGeometry& geometry() const { return geometry_; }
-  const std::vector<float>& posts() const { return posts_; }
+  const HugePageVector<float>& posts() const { return posts_; }
   // For those who add relief or blend before a Terrain takes the grid.
-  std::vector<float>& posts_for_editing() { return posts_; }
+  HugePageVector<float>& posts_for_editing() { return posts_; }
 
   float post(int i, int j) const { return posts_[index(i, j)]; }
   std::size_t index(int i, int j) const {
@@ -91,7 +92,7 @@ class HeightGrid {
 
  private:
   GridGeometry geometry_;
-  std::vector<float> posts_;
+  HugePageVector<float> posts_;
 };
 
 // Throws InvalidArgument unless the geometry is possible.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/check.h"
+#include "core/huge_page_vector.h"
 
 namespace halocline::bathymetry {
 namespace {
@@ -55,7 +56,7 @@ bool overlap(const GridGeometry& one, const GridGeometry& other) {
 
 void blend_into(const HeightGrid& around, double blend_width_m, bool fill_holes, HeightGrid& fine) {
   const GridGeometry& g = fine.geometry();
-  std::vector<float>& posts = fine.posts_for_editing();
+  HugePageVector<float>& posts = fine.posts_for_editing();
   for (int i = 0; i < g.posts_x; ++i) {
     for (int j = 0; j < g.posts_y; ++j) {
       float& post = posts[fine.index(i, j)];

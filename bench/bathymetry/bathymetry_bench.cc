@@ -15,6 +15,7 @@
 #include "bathymetry/terrain/profile.h"
 #include "bathymetry/terrain/shallowest_pyramid.h"
 #include "bathymetry/terrain/terrain.h"
+#include "core/huge_page_vector.h"
 #include "core/random.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 
@@ -68,7 +69,7 @@ void load_geotiff(benchmark::State& state) {
     GDALDataset* file = driver->Create(path, kPosts, kPosts, 1, GDT_Float32, nullptr);
     double geotransform[6] = {-5, 10, 0, kExtentM + 5, 0, -10};
     file->SetGeoTransform(geotransform);
-    std::vector<float> heights = grid.posts();
+    HugePageVector<float> heights = grid.posts();
     for (float& height : heights) height = -height;
     if (file->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, kPosts, kPosts, heights.data(), kPosts, kPosts,
                                          GDT_Float32, 0, 0, nullptr) != CE_None) {

@@ -15,6 +15,7 @@
 #include "bathymetry/terrain/generated_terrain.h"
 #include "bathymetry/terrain/height_grid.h"
 #include "core/check.h"
+#include "core/huge_page_vector.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 
@@ -98,7 +99,7 @@ TEST(ExactProfile, HasAPointAtEveryCrossing) {
 }
 
 TEST(ExactProfile, SeesTheRidgeThatEvenSamplesMiss) {
-  std::vector<float> posts(101 * 3, 200.0f);
+  HugePageVector<float> posts(101 * 3, 200.0f);
   posts[50 * 3] = posts[50 * 3 + 1] = posts[50 * 3 + 2] = 20;  // at x = 500
   const Terrain terrain(HeightGrid({0, 0, 10, 101, 3}, posts));
   const auto shallowest = [](const std::vector<ProfilePoint>& points) {
@@ -146,7 +147,7 @@ TEST(ExactProfile, LiesOnTheSurfaceAndInOrder) {
 }
 
 TEST(ExactProfile, MarksAGapByItsFirstAndLastPoint) {
-  std::vector<float> posts(9, 100.0f);
+  HugePageVector<float> posts(9, 100.0f);
   posts[8] = kNoData;  // at (20, 20): the last cell
   const auto points = exact_profile(Terrain(testing::small_grid(posts)), {15, -7}, {15, 27});
   std::vector<DepthStatus> statuses;

@@ -8,6 +8,7 @@
 #include "bathymetry/terrain/generated_terrain.h"
 #include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/terrain.h"
+#include "core/huge_page_vector.h"
 
 namespace halocline::bathymetry::testing {
 
@@ -23,7 +24,7 @@ inline HeightGrid rugged_grid(int posts, double spacing_m = 10) {
 }
 
 // 3 x 3 posts, 10 m apart, from (0, 0): rows towards north, columns towards east.
-inline HeightGrid small_grid(std::vector<float> posts) {
+inline HeightGrid small_grid(HugePageVector<float> posts) {
   return HeightGrid({.spacing_m = 10, .posts_x = 3, .posts_y = 3}, std::move(posts));
 }
 

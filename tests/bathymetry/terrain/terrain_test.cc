@@ -6,6 +6,7 @@
 
 #include "bathymetry/terrain/generated_terrain.h"
 #include "core/check.h"
+#include "core/huge_page_vector.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 #include "tests/support/tolerance.h"
 
@@ -129,7 +130,7 @@ TEST(TerrainRay, OnTheBottomHitsAtOnce) {
 }
 
 TEST(TerrainRay, ComingOverNoDataEndsThereAtAnyDepth) {
-  std::vector<float> posts(9, 100.0f);
+  HugePageVector<float> posts(9, 100.0f);
   posts[2] = kNoData;  // north 0, east 20
   const Terrain terrain(testing::small_grid(posts));
   for (const double z : {-50.0, 0.0, 99.0}) {
@@ -140,14 +141,14 @@ TEST(TerrainRay, ComingOverNoDataEndsThereAtAnyDepth) {
 }
 
 TEST(TerrainRay, ThatHitsBeforeNoDataIsAHit) {
-  std::vector<float> posts(9, 100.0f);
+  HugePageVector<float> posts(9, 100.0f);
   posts[2] = kNoData;
   EXPECT_EQ(Terrain(testing::small_grid(posts)).closest_hit({{5, 5, 98}, {0, 1, 1}, 500}).status,
             RayStatus::kHit);
 }
 
 TEST(TerrainRay, ThatBeginsOverNoDataIsNoData) {
-  std::vector<float> posts(9, 100.0f);
+  HugePageVector<float> posts(9, 100.0f);
   posts[4] = kNoData;
   const RayHit hit = Terrain(testing::small_grid(posts)).closest_hit({{5, 5, 10}, {0, 0, 1}, 500});
   EXPECT_EQ(hit.status, RayStatus::kNoData);
@@ -174,7 +175,7 @@ TEST(TerrainRay, AlongEveryEdgeOfTheTerrainStaysInside) {
 }
 
 TEST(TerrainRay, AOneCellRidgeBetweenSamplesIsNotTunnelled) {
-  std::vector<float> posts(101 * 3, 200.0f);
+  HugePageVector<float> posts(101 * 3, 200.0f);
   posts[50 * 3] = posts[50 * 3 + 1] = posts[50 * 3 + 2] = 20;
   const Terrain terrain(HeightGrid({0, 0, 10, 101, 3}, posts));
   const RayHit hit = terrain.closest_hit({{0, 10, 21}, {1, 0, 0}, 900});
@@ -200,22 +201,22 @@ TEST(TerrainOcclusion, SkinLetsEndsLieOnTheBottom) {
 }
 
 TEST(TerrainVersion, IsTheSameForTheSameContentAndMovesWithEveryPost) {
-  const std::vector<float> posts{1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const HugePageVector<float> posts{1, 2, 3, 4, 5, 6, 7, 8, 9};
   const std::uint64_t version = Terrain(testing::small_grid(posts)).version();
   EXPECT_EQ(version, Terrain(testing::small_grid(posts)).version());
   for (std::size_t n = 0; n < posts.size(); ++n) {
-    std::vector<float> changed = posts;
+    HugePageVector<float> changed = posts;
     changed[n] = std::nextafter(changed[n], 100.0f);
     EXPECT_NE(version, Terrain(testing::small_grid(changed)).version()) << n;
   }
 }
 
 TEST(TerrainGrid, RefusesWhatIsNoGrid) {
-  EXPECT_THROW(HeightGrid({0, 0, 10, 1, 5}, std::vector<float>(5)), InvalidArgument);
-  EXPECT_THROW(HeightGrid({0, 0, 10, 2, 2}, std::vector<float>(5)), InvalidArgument);
-  EXPECT_THROW(HeightGrid({0, 0, 0, 2, 2}, std::vector<float>(4)), InvalidArgument);
-  EXPECT_THROW(HeightGrid({0, kNaN, 1, 2, 2}, std::vector<float>(4)), InvalidArgument);
-  EXPECT_THROW(HeightGrid({0, 0, 1, 2, 2}, std::vector<float>(4, HUGE_VALF)), InvalidArgument);
+  EXPECT_THROW(HeightGrid({0, 0, 10, 1, 5}, HugePageVector<float>(5)), InvalidArgument);
+  EXPECT_THROW(HeightGrid({0, 0, 10, 2, 2}, HugePageVector<float>(5)), InvalidArgument);
+  EXPECT_THROW(HeightGrid({0, 0, 0, 2, 2}, HugePageVector<float>(4)), InvalidArgument);
+  EXPECT_THROW(HeightGrid({0, kNaN, 1, 2, 2}, HugePageVector<float>(4)), InvalidArgument);
+  EXPECT_THROW(HeightGrid({0, 0, 1, 2, 2}, HugePageVector<float>(4, HUGE_VALF)), InvalidArgument);
 }
 
 }  // namespace

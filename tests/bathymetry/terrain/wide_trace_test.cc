@@ -18,6 +18,7 @@
 #include "bathymetry/terrain/height_grid.h"
 #include "bathymetry/terrain/terrain.h"
 #include "core/frames.h"
+#include "core/huge_page_vector.h"
 #include "core/random.h"
 #include "tests/bathymetry/terrain/terrain_fixtures.h"
 
@@ -145,7 +146,7 @@ TEST(RaysInBatches, PassNestedGridsAsSingleRaysDo) {
 TEST(RaysInBatches, HoldOnGridsOfAnyShape) {
   for (const auto& [posts_x, posts_y] : {std::pair{2, 2}, {3, 3}, {2, 300}, {257, 3}, {18, 33}}) {
     const HeightGrid rugged = testing::rugged_grid(300);
-    std::vector<float> posts;
+    HugePageVector<float> posts;
     for (int i = 0; i < posts_x; ++i) {
       for (int j = 0; j < posts_y; ++j) posts.push_back(rugged.post(i, j));
     }
