@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "acoustics/modem/modem.h"
 #include "channel_server/vehicles/modem_rates.h"
+#include "channel_server/vehicles/schedule.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 
@@ -66,43 +64,6 @@ inline const acoustics::Modem& receiving_modem(const VehicleModem& receiver, con
 inline std::size_t largest_payload_bytes(const VehicleModem& modem) {
   return std::min(static_cast<std::size_t>(modem.max_payload_bytes), max_payload_bytes(modem.modem));
 }
-
-template <class Value>
-class Schedule {
- public:
-  explicit Schedule(Value configured) : configured_(std::move(configured)) {}
-
-  // `value` holds from `from` on, until an announcement of a later instant. A repetition of what holds
-  // already changes nothing.
-  void announce(SimTime from, const Value& value) {
-    if (at(from) == value) return;
-    announced_.insert_or_assign(from, value);
-    if (announced_.size() > kMaxAnnouncements) announced_.erase(announced_.begin());
-  }
-  const Value& at(SimTime instant) const {
-    const auto later = announced_.upper_bound(instant);
-    return later == announced_.begin() ? configured_ : std::prev(later)->second;
-  }
-  // Calls visit(value, first instant within the interval) for each that holds at some instant of [from, to].
-  template <class Visit>
-  void visit_during(SimTime from, SimTime to, Visit&& visit) const {
-    visit(at(from), from);
-    for (auto next = announced_.upper_bound(from); next != announced_.end() && next->first <= to; ++next) {
-      visit(next->second, next->first);
-    }
-  }
-  // Drops announcements that were superseded before `time`.
-  void forget_before(SimTime time) {
-    while (announced_.size() > 1 && std::next(announced_.begin())->first < time) {
-      announced_.erase(announced_.begin());
-    }
-  }
-
- private:
-  static constexpr std::size_t kMaxAnnouncements = 64;  // the earliest make room
-  Value configured_;
-  std::map<SimTime, Value> announced_;
-};
 
 using ModemSchedule = Schedule<VehicleModem>;
 using ListenSchedule = Schedule<Listening>;

@@ -1,7 +1,6 @@
 #include "channel_server/vehicles/vehicle_clocks.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "core/check.h"
 #include "core/random.h"
@@ -17,8 +16,8 @@ VehicleClocks::VehicleClocks(const std::vector<ClockOf>& clocks, std::uint64_t s
     require_in_range(settings.random_walk, 0, 1e-3, "random walk of a clock", "s/sqrt(s)");
     require_in_range(settings.gps_residual_s, 0, 1, "residual of a clock set by GPS", "s");
     const DrawAddress address{.seed = seed, .purpose = kWalk, .who = static_cast<std::uint32_t>(id)};
-    clocks_.emplace(
-        id, Clock{vehicle, settings, GaussMarkovProcess::random_walk(settings.random_walk, address), {}});
+    clocks_.emplace(id,
+                    Clock{vehicle, settings, GaussMarkovProcess::random_walk(settings.random_walk, address)});
   }
 }
 
@@ -31,9 +30,7 @@ void VehicleClocks::add_fix(std::string_view vehicle, SimTime at) {
   const auto found = std::find_if(clocks_.begin(), clocks_.end(),
                                   [&](const auto& entry) { return entry.second.vehicle == vehicle; });
   if (found == clocks_.end() || !found->second.settings.is_set_by_gps) return;
-  std::set<SimTime>& fixes = found->second.fixes;
-  fixes.insert(at);
-  if (fixes.size() > kMaxFixes) fixes.erase(fixes.begin());
+  found->second.fix.set(at, at);
 }
 
 double VehicleClocks::residual_s(VehicleId id, const Clock& clock, SimTime fix) const {
@@ -49,24 +46,21 @@ double VehicleClocks::error_s(VehicleId id, SimTime at) const {
   if (found == clocks_.end()) return 0;
   const Clock& clock = found->second;
   const double walk_s = clock.walk.at(at);
-  const auto later = clock.fixes.upper_bound(at - fix_lag_);
-  if (later == clock.fixes.begin()) {
+  const std::optional<SimTime> fix = clock.fix.at(at - fix_lag_);
+  if (!fix) {
     return clock.settings.offset_s + clock.settings.drift * (at - SimTime()).seconds() + walk_s;
   }
-  const SimTime fix = *std::prev(later), set = fix + fix_lag_;
-  return residual_s(id, clock, fix) + clock.settings.drift * (at - set).seconds() + walk_s -
+  const SimTime set = *fix + fix_lag_;
+  return residual_s(id, clock, *fix) + clock.settings.drift * (at - set).seconds() + walk_s -
          clock.walk.at(set);
 }
 
 void VehicleClocks::forget_before(SimTime time) {
-  for (auto& [id, clock] : clocks_) {
-    const auto later = clock.fixes.upper_bound(time - fix_lag_);
-    if (later != clock.fixes.begin()) clock.fixes.erase(clock.fixes.begin(), std::prev(later));
-  }
+  for (auto& [id, clock] : clocks_) clock.fix.forget_before(time - fix_lag_);
 }
 
 void VehicleClocks::clear() {
-  for (auto& [id, clock] : clocks_) clock.fixes.clear();
+  for (auto& [id, clock] : clocks_) clock.fix.clear();
 }
 
 }  // namespace halocline::channel_server

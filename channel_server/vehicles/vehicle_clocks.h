@@ -17,11 +17,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "channel_server/vehicles/schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/gauss_markov.h"
 #include "core/sim_time.h"
@@ -68,7 +69,7 @@ class VehicleClocks {
     std::string vehicle;
     ClockSettings settings;
     GaussMarkovProcess walk;
-    std::set<SimTime> fixes;
+    Schedule<std::optional<SimTime>> fix{std::nullopt, kMaxFixes};  // the latest
   };
   double residual_s(VehicleId id, const Clock& clock, SimTime fix) const;
 

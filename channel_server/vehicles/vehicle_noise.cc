@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "core/check.h"
@@ -26,24 +25,17 @@ bool VehicleNoise::needs_rates() const {
 void VehicleNoise::add_rate(std::string_view vehicle, SimTime at, double turns_per_s) {
   for (const auto& [id, source] : sources_) {
     if (source.vehicle != vehicle) continue;
-    auto& rates = rates_[id];
-    rates.insert_or_assign(at, std::abs(turns_per_s));
-    if (rates.size() > kMaxRates) rates.erase(rates.begin());
+    rates_.try_emplace(id, 0.0, kMaxRates).first->second.set(at, std::abs(turns_per_s));
   }
 }
 
 double VehicleNoise::rate_at(VehicleId id, SimTime at, SimTime decided_at) const {
   const auto known = rates_.find(id);
-  if (known == rates_.end()) return 0;
-  const auto later = known->second.upper_bound(std::min(at, decided_at - lag_));
-  return later == known->second.begin() ? 0 : std::prev(later)->second;
+  return known == rates_.end() ? 0 : known->second.at(std::min(at, decided_at - lag_));
 }
 
 void VehicleNoise::forget_before(SimTime time) {
-  for (auto& [id, rates] : rates_) {
-    const auto later = rates.upper_bound(time - lag_);
-    if (later != rates.begin()) rates.erase(rates.begin(), std::prev(later));
-  }
+  for (auto& [id, rates] : rates_) rates.forget_before(time - lag_);
 }
 
 void VehicleNoise::clear() { rates_.clear(); }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "acoustics/noise/noise_spectrum.h"
+#include "channel_server/vehicles/schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/sim_time.h"
 #include "core/units.h"
@@ -60,7 +61,7 @@ class VehicleNoise {
 
  private:
   std::map<VehicleId, NoiseOf> sources_;
-  std::map<VehicleId, std::map<SimTime, double>> rates_;
+  std::map<VehicleId, Schedule<double>> rates_;
   SimDuration lag_;
 };
 

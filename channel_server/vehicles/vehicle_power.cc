@@ -1,6 +1,5 @@
 #include "channel_server/vehicles/vehicle_power.h"
 
-#include <iterator>
 #include <utility>
 
 #include "acoustics/modem/modem_power.h"
@@ -25,23 +24,17 @@ double VehiclePower::transmit_energy_j(VehicleId id, const acoustics::Modem& mod
 void VehiclePower::add_report(std::string_view vehicle, SimTime at, bool is_empty) {
   for (auto& [id, battery] : batteries_) {
     if (battery.settings.vehicle != vehicle) continue;
-    battery.is_empty.insert_or_assign(at, is_empty);
-    if (battery.is_empty.size() > kMaxReports) battery.is_empty.erase(battery.is_empty.begin());
+    battery.is_empty.set(at, is_empty);
   }
 }
 
 bool VehiclePower::has_power(VehicleId id, SimTime at) const {
   const auto found = batteries_.find(id);
-  if (found == batteries_.end()) return true;
-  const auto later = found->second.is_empty.upper_bound(at - lag_);
-  return later == found->second.is_empty.begin() || !std::prev(later)->second;
+  return found == batteries_.end() || !found->second.is_empty.at(at - lag_);
 }
 
 void VehiclePower::forget_before(SimTime time) {
-  for (auto& [id, battery] : batteries_) {
-    const auto later = battery.is_empty.upper_bound(time - lag_);
-    if (later != battery.is_empty.begin()) battery.is_empty.erase(battery.is_empty.begin(), std::prev(later));
-  }
+  for (auto& [id, battery] : batteries_) battery.is_empty.forget_before(time - lag_);
 }
 
 void VehiclePower::clear() {

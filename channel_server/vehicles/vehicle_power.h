@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "acoustics/modem/modem.h"
+#include "channel_server/vehicles/schedule.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/sim_time.h"
 
@@ -51,7 +52,7 @@ class VehiclePower {
  private:
   struct Battery {
     PowerOf settings;
-    std::map<SimTime, bool> is_empty;
+    Schedule<bool> is_empty{false, kMaxReports};
   };
   std::map<VehicleId, Battery> batteries_;
   SimDuration lag_;
