@@ -34,17 +34,10 @@ const char* name_of(S2cMessage::Type type) {
   }
 }
 
-const char* lower_name_of(S2cMessage::Type type) {
-  switch (type) {
-    case S2cMessage::Type::kSynchronous:
-      return "ims";
-    case S2cMessage::Type::kPiggyBack:
-      return "pbm";
-    case S2cMessage::Type::kBurst:
-      return "burst";
-    default:
-      return "im";
-  }
+std::string lower_name_of(S2cMessage::Type type) {
+  std::string name = name_of(type);
+  for (char& letter : name) letter = static_cast<char>(letter - 'A' + 'a');
+  return name;
 }
 
 S2cMessage::Type type_of(const std::string& command) {
