@@ -35,45 +35,53 @@ struct WaveformOptions {
   bool quiet_sea = false, force = false;
 };
 
+struct Transmission {
+  std::string vehicle, file;
+  double at_s = 0;
+};
+
 // "VEHICLE=FILE" or "VEHICLE=FILE@SECONDS".
-SentWaveform also_sent(const std::string& text, double at_s) {
+Transmission transmission_of(const std::string& text, double at_s) {
   const auto equals = text.find('='), at = text.rfind('@');
   require(equals != std::string::npos && equals > 0,
           "--also is '" + text + "'; allowed is VEHICLE=FILE or VEHICLE=FILE@SECONDS");
-  SentWaveform sent{text.substr(0, equals), {}, {}};
-  std::string file = text.substr(equals + 1);
+  const std::string vehicle = text.substr(0, equals);
   if (at != std::string::npos && at > equals) {
-    if (const auto seconds = parse_number(text.substr(at + 1))) {
-      file = text.substr(equals + 1, at - equals - 1);
-      at_s = *seconds;
-    }
+    if (const auto seconds = parse_number(text.substr(at + 1)))
+      return {vehicle, text.substr(equals + 1, at - equals - 1), *seconds};
   }
-  sent.sound = read_sound(file);
-  sent.sound.begin_s = at_s;
-  return sent;
+  return {vehicle, text.substr(equals + 1), at_s};
 }
 
-std::vector<SentWaveform> sent_by(const WaveformOptions& options, const ScenarioConfig& config) {
-  std::vector<SentWaveform> sent{{options.from, read_sound(options.input), {}}};
-  sent.front().sound.begin_s = options.at_s;
-  for (const std::string& text : options.also) sent.push_back(also_sent(text, options.at_s));
+std::vector<Transmission> transmissions_of(const WaveformOptions& options) {
+  std::vector<Transmission> all{{options.from, options.input, options.at_s}};
+  for (const std::string& text : options.also) all.push_back(transmission_of(text, options.at_s));
+  return all;
+}
+
+std::vector<SentWaveform> sent_by(const std::vector<Transmission>& transmissions,
+                                  const WaveformOptions& options, const ScenarioConfig& config) {
   const auto modems = make_modems(config.channel_server);
-  for (SentWaveform& wave : sent) {
-    require(config.scenario.find(wave.vehicle) != nullptr,
-            "'" + wave.vehicle + "' is no vehicle of the scenario");
-    require(wave.sound.begin_s >= 0, "waveforms leave from time 0 on");
-    wave.source_level = modems.of(wave.vehicle).modem.source_level;
-    if (options.source_level_db) wave.source_level = Decibels{*options.source_level_db};
+  std::vector<SentWaveform> sent;
+  for (const auto& [vehicle, file, at_s] : transmissions) {
+    require(config.scenario.find(vehicle) != nullptr, "'" + vehicle + "' is no vehicle of the scenario");
+    require(at_s >= 0, "waveforms leave from time 0 on");
+    const Decibels level = modems.of(vehicle).modem.source_level;
+    sent.push_back({vehicle, read_sound(file), Decibels{options.source_level_db.value_or(level.value)}});
+    sent.back().sound.begin_s = at_s;
   }
   return sent;
 }
 
 int convolve(const WaveformOptions& options) {
   bus::set_log_level(bus::LogLevel::kWarning);
-  std::vector<std::string> inputs{options.input, options.scenario, options.log};
+  const std::vector<Transmission> transmissions = transmissions_of(options);
+  std::vector<std::string> inputs{options.scenario, options.log};
+  for (const Transmission& each : transmissions) inputs.push_back(each.file);
   require_free({{options.output}, options.force}, inputs);
   const ScenarioConfig config = load_scenario(options.scenario, options.overrides);
-  const std::vector<SentWaveform> sent = sent_by(options, config);
+  const std::vector<SentWaveform> sent = sent_by(transmissions, options, config);
+  const auto terrain = make_terrain(config);
   double end_s = 0;
   for (const SentWaveform& wave : sent)
     end_s = std::max(end_s,
@@ -81,12 +89,12 @@ int convolve(const WaveformOptions& options) {
   Recording run;
   if (options.log.empty()) {
     // Beyond what sound takes, vehicles go straight on.
-    run = record_run(config, SimTime::from_seconds(end_s + 5));
+    run = record_run(config, terrain, SimTime::from_seconds(end_s + 5));
   } else {
     LogReader log(options.log);
     run = read_recording(log, config.scenario);
   }
-  const acoustics::Samples received = received_waveform(config, run, sent,
+  const acoustics::Samples received = received_waveform(config, terrain, run, sent,
                                                         {.receiver = options.to,
                                                          .begin_s = options.at_s,
                                                          .tail_s = options.tail_s,

@@ -47,11 +47,11 @@ double amplitude_of(Decibels level) { return elementary::exp10(level.value / 20)
 // The links of a scenario as they are at any departure, every search anew: a cell that shares one would step.
 class ScenarioLinks {
  public:
-  ScenarioLinks(const ScenarioConfig& config, const Recording& run)
+  ScenarioLinks(const ScenarioConfig& config, const bathymetry::Terrain& terrain, const Recording& run)
       : config_(with_own_searches(config)),
         run_(run),
         modems_(make_modems(config_.channel_server)),
-        terrain_(make_terrain(config_).terrain),
+        terrain_(terrain),
         water_(make_water_model(config_.channel_server, config_.scenario, config_.folder)) {}
 
   const acoustics::Environment& water(SimTime at) const { return water_.propagation->environment(at); }
@@ -106,7 +106,7 @@ class ScenarioLinks {
     for (int i = 0; i < turns; ++i) {
       to.place = receiver.at(departure + SimDuration::from_seconds(delay_s));
       while (!water_.propagation->is_ready_for_packet(departure, from.link_end(), to.link_end()))
-        answer_requests(*terrain_, *water_.seabed);
+        answer_requests(terrain_, *water_.seabed);
       reception = water_.propagation->reception_without_capacity(departure, from.link_end(), to.link_end());
       delay_s = reception.budget.delay_s;
     }
@@ -131,7 +131,7 @@ class ScenarioLinks {
   ScenarioConfig config_;
   const Recording& run_;
   channel_server::ConfiguredModems modems_;
-  std::shared_ptr<const bathymetry::Terrain> terrain_;
+  const bathymetry::Terrain& terrain_;
   channel_server::WaterModel water_;
 };
 
@@ -173,9 +173,9 @@ void add_noise(const ScenarioConfig& config, const acoustics::Environment& water
 
 }  // namespace
 
-Recording record_run(const ScenarioConfig& config, SimTime end) {
+Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end) {
   lcm::LCM lcm("memq://");
-  Composition all(lcm, config, Composition::kRun);
+  Composition all(lcm, config, Composition::kRun, nullptr, terrain);
   EmbeddedRun run{.end = end,
                   .log_path = std::filesystem::temp_directory_path() /
                               ("halocline-waveform-" + std::to_string(getpid()) + ".lcm")};
@@ -188,11 +188,12 @@ Recording record_run(const ScenarioConfig& config, SimTime end) {
   return read_recording(log, config.scenario);
 }
 
-Samples received_waveform(const ScenarioConfig& config, const Recording& run,
-                          const std::vector<SentWaveform>& sent, const WaveformRules& rules) {
+Samples received_waveform(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,
+                          const Recording& run, const std::vector<SentWaveform>& sent,
+                          const WaveformRules& rules) {
   require(!sent.empty(), "a waveform needs a sender");
   const double rate_hz = sent.front().sound.rate_hz;
-  ScenarioLinks links(config, run);
+  ScenarioLinks links(config, *terrain.terrain, run);
   std::vector<acoustics::MovingLink> ways;
   double end_s = rules.begin_s;
   for (const SentWaveform& wave : sent) {

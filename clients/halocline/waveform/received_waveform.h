@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "acoustics/waveform/moving_link.h"
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "clients/halocline/analysis/recording.h"
 #include "clients/halocline/scenario/composition.h"
 #include "core/sim_time.h"
@@ -39,11 +40,12 @@ struct WaveformRules {
 
 inline constexpr SimDuration kFrame = SimDuration::from_milliseconds(20);
 
-// The run of the scenario's vehicles until `end`, in memory.
-Recording record_run(const ScenarioConfig& config, SimTime end);
+// The run of the scenario's vehicles on its terrain until `end`, in memory.
+Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end);
 
 // Of one rate. Throws InvalidArgument where senders' rates differ, a vehicle is not of the scenario, or has no state.
-acoustics::Samples received_waveform(const ScenarioConfig& config, const Recording& run,
-                                     const std::vector<SentWaveform>& sent, const WaveformRules& rules);
+acoustics::Samples received_waveform(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,
+                                     const Recording& run, const std::vector<SentWaveform>& sent,
+                                     const WaveformRules& rules);
 
 }  // namespace halocline::clients

@@ -65,10 +65,10 @@ class WaveformTest : public ::testing::Test {
 TEST_F(WaveformTest, AToneOfAMovingLinkHasItsLevelAndItsDopplerShift) {
   const ScenarioConfig config = load("tests/data/scenarios/two_vehicles.toml",
                                      {"propagation.model=\"straight\"", "scenario.duration_s=20"});
-  const Recording run = record_run(config, SimTime::from_seconds(14));
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(14));
   const VehicleTrack from(run, "alpha"), to(run, "bravo");
   const Samples heard =
-      received_waveform(config, run, {tone_from("alpha", 10, 1)},
+      received_waveform(config, make_terrain(config), run, {tone_from("alpha", 10, 1)},
                         {.receiver = "bravo", .begin_s = 10, .sensitivity = Decibels{0}, .has_noise = false});
   const auto there = to.at(SimTime::from_seconds(10.7)), here = from.at(SimTime::from_seconds(10.5));
   LinkSurveyEnd sender = link_end(config, "alpha"), receiver = link_end(config, "bravo");
@@ -98,9 +98,9 @@ TEST_F(WaveformTest, EchoesOfASweepStandAtTheArrivalsOfTheLink) {
     const double t = n / kRate;
     sweep.sound.values.push_back(std::sin(2 * pi * (kLow + (kHigh - kLow) / kSeconds / 2 * t) * t));
   }
-  const Recording run = record_run(config, SimTime::from_seconds(8));
-  const Samples heard =
-      received_waveform(config, run, {sweep}, {.receiver = "east", .begin_s = 5, .has_noise = false});
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(8));
+  const Samples heard = received_waveform(config, make_terrain(config), run, {sweep},
+                                          {.receiver = "east", .begin_s = 5, .has_noise = false});
   const LinkSurvey link = survey_link(config, link_end(config, "west"), link_end(config, "east"));
   std::vector<channel_server::SoundPath> paths = link.reception.paths;
   ASSERT_GT(paths.size(), 4u);
@@ -138,12 +138,12 @@ TEST_F(WaveformTest, EchoesOfASweepStandAtTheArrivalsOfTheLink) {
 TEST_F(WaveformTest, SendersAddUp) {
   const ScenarioConfig config =
       load("scenarios/ranging.toml", {"propagation.model=\"straight\"", "propagation.fading=\"none\""});
-  const Recording run = record_run(config, SimTime::from_seconds(4));
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(4));
   const WaveformRules rules{.receiver = "auv-1", .begin_s = 1, .tail_s = 1, .has_noise = false};
   const SentWaveform west = tone_from("west", 1, 0.2), east = tone_from("east", 1.3, 0.2, 22'000);
-  const Samples both = received_waveform(config, run, {west, east}, rules);
-  const Samples first = received_waveform(config, run, {west}, rules),
-                second = received_waveform(config, run, {east}, rules);
+  const Samples both = received_waveform(config, make_terrain(config), run, {west, east}, rules);
+  const Samples first = received_waveform(config, make_terrain(config), run, {west}, rules),
+                second = received_waveform(config, make_terrain(config), run, {east}, rules);
   for (std::size_t n = 0; n < first.values.size(); ++n)
     ASSERT_NEAR(both.values[n], first.values[n] + (n < second.values.size() ? second.values[n] : 0), 1e-15)
         << n;
@@ -153,10 +153,10 @@ TEST_F(WaveformTest, SendersAddUp) {
 TEST_F(WaveformTest, NoiseHasTheLevelThatLinksState) {
   const ScenarioConfig config =
       load("scenarios/ranging.toml", {"propagation.model=\"straight\"", "propagation.fading=\"none\""});
-  const Recording run = record_run(config, SimTime::from_seconds(4));
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(4));
   SentWaveform silence{"west", {0, kRate, std::vector<double>(96'000, 0.0)}, Decibels{185}};
-  const Samples heard =
-      received_waveform(config, run, {silence}, {.receiver = "auv-1", .sensitivity = Decibels{0}});
+  const Samples heard = received_waveform(config, make_terrain(config), run, {silence},
+                                          {.receiver = "auv-1", .sensitivity = Decibels{0}});
   // 5 kHz about 25 kHz in lines of 100 Hz over spectra of 10 ms: 100 spectra of 50 lines, 1.4 %.
   double power = 0;
   for (int s = 0; s < 100; ++s) {
@@ -165,22 +165,26 @@ TEST_F(WaveformTest, NoiseHasTheLevelThatLinksState) {
   }
   const LinkSurvey link = survey_link(config, link_end(config, "west"), link_end(config, "auv-1"));
   EXPECT_NEAR(10 * std::log10(power), link.reception.budget.noise_level.value, 4 * 0.062);
-  EXPECT_EQ(
-      heard.values,
-      received_waveform(config, run, {silence}, {.receiver = "auv-1", .sensitivity = Decibels{0}}).values);
+  EXPECT_EQ(heard.values, received_waveform(config, make_terrain(config), run, {silence},
+                                            {.receiver = "auv-1", .sensitivity = Decibels{0}})
+                              .values);
 }
 
 TEST_F(WaveformTest, RefusesSendersThatCannotBe) {
   const ScenarioConfig config = load("scenarios/ranging.toml", {});
-  const Recording run = record_run(config, SimTime::from_seconds(1));
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(1));
   const SentWaveform sent = tone_from("west", 0, 0.01);
-  EXPECT_THROW(received_waveform(config, run, {}, {.receiver = "east"}), InvalidArgument);
-  EXPECT_THROW(received_waveform(config, run, {sent}, {.receiver = "west"}), InvalidArgument);
-  EXPECT_THROW(received_waveform(config, run, {sent}, {.receiver = "nobody"}), InvalidArgument);
+  EXPECT_THROW(received_waveform(config, make_terrain(config), run, {}, {.receiver = "east"}),
+               InvalidArgument);
+  EXPECT_THROW(received_waveform(config, make_terrain(config), run, {sent}, {.receiver = "west"}),
+               InvalidArgument);
+  EXPECT_THROW(received_waveform(config, make_terrain(config), run, {sent}, {.receiver = "nobody"}),
+               InvalidArgument);
   SentWaveform other = sent;
   other.vehicle = "auv-1";
   other.sound.rate_hz = 48'000;
-  EXPECT_THROW(received_waveform(config, run, {sent, other}, {.receiver = "east"}), InvalidArgument);
+  EXPECT_THROW(received_waveform(config, make_terrain(config), run, {sent, other}, {.receiver = "east"}),
+               InvalidArgument);
 }
 
 TEST(WavFile, IsReadAsItWasWritten) {
