@@ -11,7 +11,7 @@ final class OutcomeTable extends AbstractTableModel implements Refreshed {
   private static final String[] KINDS = {"data", "ping", "reply", "ack", "mini", "janus", "cargo"};  // of modem_receive_t
   private static final String[] COLUMNS = {
       "decided, s", "packet", "to", "kind", "outcome", "cause", "range, m", "level, dB", "noise, dB",
-      "SNR, dB", "SINR, dB", "acquired", "draw", "bits right", "draw", "rate", "frames right", "frames"};
+      "SNR, dB", "SINR, dB", "acquired", "draw", "bits right", "draw", "rate", "frames", "good"};
 
   private final OutcomeStore store;
   private final LinkStore vehicles;
@@ -57,6 +57,7 @@ final class OutcomeTable extends AbstractTableModel implements Refreshed {
 
   @Override
   public Class<?> getColumnClass(int column) {
+    if (column > 14) return Integer.class;  // counts, without decimals
     return column == 0 || column > 5 ? Double.class : String.class;
   }
 
@@ -79,9 +80,9 @@ final class OutcomeTable extends AbstractTableModel implements Refreshed {
       case 12: return outcome.acquisition_draw;
       case 13: return outcome.success_probability;
       case 14: return outcome.success_draw;
-      case 15: return (double) outcome.rate_number;
-      case 16: return (double) outcome.num_frames_good;
-      default: return (double) outcome.num_frames;
+      case 15: return outcome.rate_number;
+      case 16: return outcome.num_frames;
+      default: return outcome.num_frames_good;
     }
   }
 }
