@@ -91,6 +91,7 @@ SendRequest to_request(std::string_view vehicle, const modem_send_t& message) {
   request.wants_ack = message.wants_ack != 0;
   if (message.sets_rate != 0) request.rate_number = message.rate_number;
   if (message.sets_source_level != 0) request.source_level = Decibels{message.source_level_db};
+  request.header_number = message.header_number;
   request.frame_bytes = message.frame_bytes;
   return request;
 }
@@ -182,12 +183,15 @@ modem_event_t to_message(const ModemEvent& event, SimTime at) {
   message.destination_id = event.destination_id;
   message.packet_duration_s = event.packet_duration.seconds();
   message.packet_end_utime = event.packet_end.to_utime();
+  message.rate_number = event.rate_number;
+  message.arrival_utime = event.measured_arrival.to_utime();
   return message;
 }
 
 modem_receive_t to_receive(const PacketOutcome& outcome, SimTime at) {
   const SendRequest& request = outcome.packet->request;
   auto message = common_fields<modem_receive_t>(outcome, at);
+  message.header_number = request.header_number;
   message.stamped = request.stamped ? 1 : 0;
   message.departure_utime = request.stamped ? outcome.departure_stamp.to_utime() : 0;
   message.travel_time_s = request.stamped ? outcome.measured_travel_time_s : 0;

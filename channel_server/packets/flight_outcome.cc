@@ -74,7 +74,19 @@ OutcomeKind outcome_without_path(PathState state) {
   return OutcomeKind::kShadow;
 }
 
+// The packet's departure by its sender's clock.
+SimTime departure_stamp(const Flight& flight, const VehicleClocks& clocks) {
+  const Packet& packet = *flight.packet;
+  return packet.departure +
+         SimDuration::from_seconds(clocks.error_s(packet.request.source_id, packet.departure));
+}
+
 }  // namespace
+
+SimTime measured_arrival(const Flight& flight, const VehicleClocks& clocks) {
+  return departure_stamp(flight, clocks) +
+         SimDuration::from_seconds(measured(flight, one_way_travel_time_s(flight, clocks)));
+}
 
 OutcomeKind outcome_before_acquisition(const Flight& flight) {
   const Reception& reception = flight.reception;
@@ -138,9 +150,7 @@ PacketOutcome outcome_of(const Flight& flight, OutcomeKind kind, const VehicleEq
   outcome.deliver = outcome.kind == OutcomeKind::kReceived &&
                     (promiscuous || is_for(flight.packet->request, flight.receiver_id));
   outcome.travel_time_s = flight.travel_time_s;
-  outcome.departure_stamp =
-      flight.packet->departure +
-      SimDuration::from_seconds(clocks.error_s(flight.packet->request.source_id, flight.packet->departure));
+  outcome.departure_stamp = departure_stamp(flight, clocks);
   outcome.measured_travel_time_s = measured(flight, one_way_travel_time_s(flight, clocks));
   if (flight.packet->answers) {
     outcome.two_way_travel_time_s = measured(flight, two_way_travel_time_s(flight, clocks));

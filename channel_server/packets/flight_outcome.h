@@ -19,6 +19,9 @@
 
 namespace halocline::channel_server {
 
+// The first bit's arrival of a packet that was acquired, by the receiver's clock, as its modem measures it.
+SimTime measured_arrival(const Flight& flight, const VehicleClocks& clocks);
+
 // Without regard to noise and other sounds; kReceived: the packet may be acquired.
 OutcomeKind outcome_before_acquisition(const Flight& flight);
 // A wall where nothing fades; with fading the shift costs signal (acoustics/reception/signal_history.h).

@@ -44,6 +44,8 @@ struct ModemEvent {
   VehicleId source_id = 0, destination_id = 0;
   SimDuration packet_duration = {};  // as sent
   SimTime packet_end = {};           // of its last bit at the receiver
+  std::int32_t rate_number = 0;      // of a packet that was detected
+  SimTime measured_arrival = {};     // likewise, at its detection alone (PacketOutcome)
 };
 
 struct MediumEvent {

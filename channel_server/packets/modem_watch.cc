@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "acoustics/modem/modem.h"
+#include "channel_server/packets/flight_outcome.h"
 #include "channel_server/packets/reception_decision.h"
 #include "channel_server/packets/vehicle_sounds.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -45,6 +46,7 @@ void ModemWatch::end_transmission_or_header(std::vector<MediumEvent>& events) {
   if (!has_header(flight, at)) return;
   ModemEvent event{flight.receiver, ModemEventKind::kHeaderReceived};
   event.level = flight.reception.budget.received_level;
+  event.rate_number = flight.packet->rate_number;
   set_header(flight, event);
   events.push_back({at, std::move(event)});
 }
@@ -64,6 +66,8 @@ void ModemWatch::detect(Flight& flight, std::vector<MediumEvent>& events) {
   if (!flight.reports) return;
   ModemEvent event{flight.receiver, ModemEventKind::kPacketDetected};
   event.level = flight.reception.budget.received_level;
+  event.rate_number = flight.packet->rate_number;
+  event.measured_arrival = measured_arrival(flight, fleet_.equipment().clocks);
   events.push_back({at, std::move(event)});
   if (flight.packet->format.header_bits > 0)
     headers_.insert_or_assign({header_end(flight.signal), flight.receiver_id}, &flight);
@@ -76,6 +80,7 @@ void ModemWatch::end(const Flight& flight, SimTime at, OutcomeKind outcome,
   event.level = flight.reception.budget.received_level;
   event.sinr = flight.statistics.sinr;
   event.outcome = outcome;
+  event.rate_number = flight.packet->rate_number;
   if (outcome == OutcomeKind::kReceived) set_header(flight, event);
   events.push_back({at, std::move(event)});
 }

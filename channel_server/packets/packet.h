@@ -55,6 +55,7 @@ struct SendRequest {
   bool wants_ack = false;  // to one vehicle, whose modem answers by itself
   std::optional<std::int32_t> rate_number = {};  // none: the modem's own rate
   std::optional<Decibels> source_level = {};     // dB re 1 uPa at 1 m; none: the modem's own
+  std::int32_t header_number = 0;                // of the sender's choice, carried by the header, 0..255
   std::vector<std::int32_t> frame_bytes = {};    // of the payload's frames; none: as the modem divides it
 };
 

@@ -65,6 +65,7 @@ std::int64_t ModemClient::send(SimTime steady, SimTime start, std::int32_t desti
   message.rate_number = options.rate_number.value_or(0);
   message.sets_source_level = options.source_level_db ? 1 : 0;
   message.source_level_db = options.source_level_db.value_or(0);
+  message.header_number = options.header_number;
   message.frame_bytes = std::move(options.frame_bytes);
   message.num_frames = static_cast<std::int32_t>(message.frame_bytes.size());
   message.payload_size = static_cast<std::int32_t>(payload.size());

@@ -52,6 +52,7 @@ struct SendOptions {
   bool wants_ack = false;  // to one vehicle, whose modem answers with an ACK; not for a PING
   std::optional<std::int32_t> rate_number = {};  // of a rate of the modem, 0..255; none: its own
   std::optional<double> source_level_db = {};    // dB re 1 uPa at 1 m, 0..250; none: the modem's own
+  std::int32_t header_number = 0;                // carried by the packet's header, 0..255
   std::vector<std::int32_t> frame_bytes =
       {};  // of each frame of DATA, together the payload; none: as the modem does
 };

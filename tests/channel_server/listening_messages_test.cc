@@ -25,6 +25,8 @@ TEST(ChannelServerMessages, AModemEventHoldsItsExactInstant) {
   event.destination_id = 4;
   event.packet_duration = testing::for_s(1.25);
   event.packet_end = at_s(2.5);
+  event.rate_number = 6;
+  event.measured_arrival = at_s(1.125);
   const modem_event_t message = to_message(event, SimTime::from_nanoseconds(1'234'567'891));
   EXPECT_EQ(bus::problem_in(message), "");
   EXPECT_EQ(message.event_ns, 1'234'567'891);
@@ -37,6 +39,8 @@ TEST(ChannelServerMessages, AModemEventHoldsItsExactInstant) {
   EXPECT_EQ(message.destination_id, 4);
   EXPECT_EQ(message.packet_duration_s, 1.25);
   EXPECT_EQ(message.packet_end_utime, 2'500'000);
+  EXPECT_EQ(message.rate_number, 6);
+  EXPECT_EQ(message.arrival_utime, 1'125'000);
 }
 
 TEST(ChannelServerMessages, AListenKeepsHowTheModemReceives) {

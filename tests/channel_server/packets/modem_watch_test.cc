@@ -85,6 +85,17 @@ TEST_F(ModemWatchTest, APacketIsDetectedAtTheEndOfItsPreambleAndEndsWithItsLastB
   }
 }
 
+TEST_F(ModemWatchTest, ADetectionTellsTheRateAndWhenThePacketBegan) {
+  change_modem({1, 2}, [](acoustics::Modem& modem) { modem.packet_overhead = modem.preamble = for_s(0.25); });
+  send(1, 10, 0, 100);
+  run();
+  const ModemEvent detected = events_of(2).at(1), ended = events_of(2).at(2);
+  ASSERT_EQ(detected.kind, Kind::kPacketDetected);
+  EXPECT_EQ(detected.rate_number, end_of(1, 0, 2).packet->rate_number);
+  EXPECT_EQ(ended.rate_number, detected.rate_number);
+  EXPECT_EQ(detected.measured_arrival, at_s(11));
+}
+
 // A preamble and a header of a quarter of a second each, then 100 bytes in a second.
 class HeaderTest : public ModemWatchTest {
  protected:

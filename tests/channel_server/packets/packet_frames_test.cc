@@ -234,6 +234,18 @@ TEST_F(KindsTest, APacketMayHaveALevelOfItsOwn) {
   EXPECT_EQ(end_of(1, 0, 2).packet->modem.source_level.value, 160);
 }
 
+TEST_F(KindsTest, TheNumberInTheHeaderArrivesAndTakesNoTime) {
+  SendRequest request = request_of(1, 10, 0, 1);
+  send(request);
+  request = request_of(1, 12, 1, 1);
+  request.header_number = 200;
+  send(request);
+  run();
+  EXPECT_EQ(to_receive(end_of(1, 0, 2), at_s(13)).header_number, 0);
+  EXPECT_EQ(to_receive(end_of(1, 1, 2), at_s(13)).header_number, 200);
+  EXPECT_EQ(end_of(1, 1, 2).packet->timing.duration, end_of(1, 0, 2).packet->timing.duration);
+}
+
 class AckTest : public FramesTest {
  protected:
   void send_wanting_ack(VehicleId from, VehicleId to, double start_s, std::int64_t sequence,
