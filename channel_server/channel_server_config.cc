@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "acoustics/noise/noise_spectrum.h"
+#include "channel_server/modems/clock_config.h"
 #include "channel_server/modems/modem_config.h"
 #include "channel_server/packets/extra_loss.h"
 #include "channel_server/packets/packet.h"
@@ -26,18 +27,6 @@ constexpr double kMinLinkRateHz = 1.0 / 60, kMaxLinkRateHz = 50;
 template <class Count>
 void visit_count(bus::ConfigVisitor& v, std::string_view key, Count& value, const bus::NumberRule& rule) {
   bus::integer_as(v, key, value, rule);
-}
-
-void visit_clock(bus::ConfigVisitor& v, ClockSettings& clock) {
-  double drift_ppm = clock.drift * 1e6;
-  v.number("offset_s", clock.offset_s, {-1e5, 1e5, "s", "how far it is ahead at time 0"});
-  v.number("drift_ppm", drift_ppm, {-1000, 1000, "ppm", "how fast it gains: 1 ppm is 3.6 ms an hour"});
-  clock.drift = drift_ppm * 1e-6;
-  v.number("random_walk_s_per_sqrt_s", clock.random_walk,
-           {0, 1e-3, "s/sqrt(s)", "random walk of its reading: after t seconds this times sqrt(t)"});
-  v.boolean("set_by_gps", clock.is_set_by_gps, "each GPS fix of the vehicle sets it");
-  v.number("gps_residual_s", clock.gps_residual_s,
-           {0, 1, "s", "standard deviation of its error when GPS has set it"});
 }
 
 void visit_noise_variation(bus::ConfigVisitor& v, acoustics::NoiseVariation& n) {

@@ -37,9 +37,10 @@ SimTime whole_microsecond_from(SimTime time) {
 
 }  // namespace
 
-Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway, AddressBook& addresses,
-           Writer writer, Trace trace)
+Door::Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
+           const channel_server::VehicleClocks& clocks, AddressBook& addresses, Writer writer, Trace trace)
     : bus_(bus),
+      clocks_(clocks),
       writer_(std::move(writer)),
       trace_(std::move(trace)),
       modem_(bus, address_of(bus, config)),
@@ -88,6 +89,12 @@ bool Door::ask_paths(std::int32_t from_vehicle) {
   return true;
 }
 
+void Door::sleep_until(SimTime wakes) {
+  if (!listens_) return;
+  listens_->wakes = wakes;
+  next_listen_ = now_.sim;
+}
+
 void Door::store(const packet_outcome_t& outcome) {
   if (outcome.outcome != packet_outcome_t::RECEIVED) happenings_.emplace_back(outcome);
 }
@@ -100,6 +107,8 @@ bus::Due Door::due() const {
 void Door::begin_step(const bus::Now& now) {
   now_ = now;
   if (now.sim_known && now.sim >= next_listen_) {
+    listens_->asleep = now.sim < listens_->wakes;
+    if (!listens_->asleep) listens_->wakes = {};
     modem_.listen(now.sim, *listens_);
     next_listen_ = now.sim + kListenPeriod;
   }
@@ -170,6 +179,7 @@ void Door::restart() {
   lost_events_.clear();
   lost_outcomes_.clear();
   next_listen_ = listens_ ? SimTime() : SimTime::never();
+  if (listens_) listens_->wakes = {};
 }
 
 void Door::write(ClientId client, std::string_view bytes) {

@@ -17,6 +17,7 @@
 
 #include "bus/bus.h"
 #include "bus/runtime/node.h"
+#include "channel_server/vehicles/vehicle_clocks.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/gateway_config.h"
 #include "clients/modem_gateway/protocols/address_book.h"
@@ -33,8 +34,9 @@ class Door : private ProtocolPort {
   using Trace = std::function<void(char direction, std::string_view text)>;
 
   // Subscribes on the bus. Throws InvalidArgument for a configuration that makes no door.
-  Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway, AddressBook& addresses,
-       Writer writer, Trace trace);
+  // `clocks` must outlive it.
+  Door(bus::Bus& bus, const DoorConfig& config, const GatewayConfig& gateway,
+       const channel_server::VehicleClocks& clocks, AddressBook& addresses, Writer writer, Trace trace);
 
   const std::string& vehicle() const { return modem_.address().vehicle; }
   std::int32_t vehicle_id() const { return modem_.address().vehicle_id; }
@@ -62,6 +64,10 @@ class Door : private ProtocolPort {
                                  vehicle_usbl_t, link_reply_t>;
 
   SimTime now() const override { return now_.sim; }
+  SimTime clock_at(SimTime time) const override {
+    return time + SimDuration::from_seconds(clocks_.error_s(vehicle_id(), time));
+  }
+  void sleep_until(SimTime wakes) override;
   void write(ClientId client, std::string_view bytes) override;
   std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                     clients::SendOptions options) override;
@@ -79,6 +85,7 @@ class Door : private ProtocolPort {
   void pair_losses();
 
   bus::Bus& bus_;
+  const channel_server::VehicleClocks& clocks_;
   Writer writer_;
   Trace trace_;
   clients::ModemClient modem_;

@@ -6,6 +6,7 @@
 
 #include <arpa/inet.h>
 
+#include "channel_server/modems/clock_config.h"
 #include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/door_options.h"
@@ -26,6 +27,8 @@ constexpr std::string_view kTcp = "tcp:", kPty = "pty:";
 class NoPort : public ProtocolPort {
  public:
   SimTime now() const override { return {}; }
+  SimTime clock_at(SimTime time) const override { return time; }
+  void sleep_until(SimTime) override {}
   void write(ClientId, std::string_view) override {}
   std::int64_t send(SimTime, std::int32_t, std::span<const std::uint8_t>, clients::SendOptions) override {
     return 0;
@@ -126,7 +129,18 @@ void visit(ConfigVisitor& v, GatewayConfig& config) {
         item.shared_with_others();
         item.text("name", config.vehicles[i].name, {}, "");
         bus::integer_as(item, "id", config.vehicles[i].id, {1, 2147483647, "", ""});
+        if (v.writing() || !item.given("clock")) return;
+        channel_server::ClockOf clock{config.vehicles[i].name, config.vehicles[i].id, {}};
+        item.section("clock", "",
+                     [&](ConfigVisitor& section) { channel_server::visit_clock(section, clock.settings); });
+        config.clocks.push_back(clock);
       });
+  if (!v.writing()) {
+    v.section("channel_server", "", [&](ConfigVisitor& section) {
+      section.shared_with_others();
+      bus::seconds(section, "state_lag_s", config.state_lag, {0, 10, "s", ""});
+    });
+  }
   v.list(
       "door", "A front door: the modem of a vehicle as a real one (halocline-modem-gateway)",
       config.doors.size(), [&](std::size_t n) { config.doors.resize(n); },

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bus/channels.h"
+#include "bus/subscription.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "core/check.h"
 
@@ -12,12 +13,21 @@ namespace halocline::modem_gateway {
 GatewayNode::GatewayNode(lcm::LCM& lcm, bus::NodeIdentity identity, const GatewayConfig& config,
                          SimDuration look_period, const std::string& trace_path)
     : Node(lcm, std::move(identity)),
+      clocks_(config.clocks, config.seed, config.state_lag),
       look_period_(look_period),
       next_look_(look_period == SimDuration() ? SimTime::never() : SimTime()) {
   if (!trace_path.empty()) trace_ = std::make_unique<TraceLog>(trace_path);
   if (config.rate != 1)
     bus().log().warning("rate", "rate=" + std::to_string(config.rate) + ": hosts keep wall time");
   for (const DoorConfig& door : config.doors) add_door(config, door);
+  if (clocks_.need_fixes()) {
+    bus().subscribe<vehicle_gps_t>(
+        bus::channels::kGps,
+        [this](std::string_view vehicle, const vehicle_gps_t& fix) {
+          clocks_.add_fix(vehicle, SimTime::from_utime(fix.utime));
+        },
+        bus::Wakeup::kStoreOnly);
+  }
   const bool wants_outcomes =
       std::any_of(doors_.begin(), doors_.end(), [](const auto& door) { return door->wants_outcomes(); });
   if (!wants_outcomes) return;
@@ -36,7 +46,7 @@ void GatewayNode::add_door(const GatewayConfig& config, const DoorConfig& door) 
     };
   }
   doors_.push_back(std::make_unique<Door>(
-      bus(), door, config, addresses,
+      bus(), door, config, clocks_, addresses,
       [this, number](ClientId client, std::string_view bytes) { connections_.write(number, client, bytes); },
       std::move(trace)));
   bus().log().info("door", "vehicle=" + door.vehicle + " kind=" + door.kind + " place=" + place_of(number));
@@ -90,6 +100,7 @@ void GatewayNode::serve_hosts(SimTime steady) {
 
 void GatewayNode::on_restart(const bus::Now& now) {
   for (const auto& door : doors_) door->restart();
+  clocks_.clear();
   if (look_period_ > SimDuration()) next_look_ = now.sim;
 }
 

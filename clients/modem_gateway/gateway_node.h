@@ -14,6 +14,7 @@
 
 #include "bus/node_identity.h"
 #include "bus/runtime/node.h"
+#include "channel_server/vehicles/vehicle_clocks.h"
 #include "clients/modem_gateway/connections.h"
 #include "clients/modem_gateway/door.h"
 #include "clients/modem_gateway/gateway_config.h"
@@ -51,6 +52,7 @@ class GatewayNode : public bus::Node {
   void take_outcome(const packet_outcome_t& outcome);
   void serve_hosts(SimTime steady);
 
+  channel_server::VehicleClocks clocks_;
   SimDuration look_period_;
   SimTime next_look_;  // at hosts, simulation time; with a look_period
   Connections connections_;

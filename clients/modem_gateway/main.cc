@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   program.interface =
       "receives:  CLOCK, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>, OUTCOME, "
       "USBL.<vehicle>,\n"
-      "           SENSORS.<vehicle>, STATE.<vehicle>\n"
+      "           SENSORS.<vehicle>, STATE.<vehicle>, BATTERY.<vehicle>, GPS.<vehicle>\n"
       "publishes: SEND.<vehicle>, LISTEN.<vehicle>, STATUS.<name>";
   program.options = {
       {.name = "--door",
@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {
     config.rate = context.scenario.rate;
+    config.seed = context.scenario.seed;
     config.origin_latitude_deg = context.scenario.origin_latitude_deg;
     config.origin_longitude_deg = context.scenario.origin_longitude_deg;
     for (const std::string& door : doors) add_door(config, door);

@@ -188,6 +188,7 @@ void Composition::add_vehicle_sims(const ScenarioConfig& config) {
 void Composition::add_gateway(const ScenarioConfig& config) {
   if (config.gateway.doors.empty()) return;
   modem_gateway::GatewayConfig gateway = config.gateway;
+  gateway.seed = config.scenario.seed;
   gateway.origin_latitude_deg = config.scenario.origin_latitude_deg;
   gateway.origin_longitude_deg = config.scenario.origin_longitude_deg;
   add<modem_gateway::GatewayNode>(bus::Stage::kClients, "modem-gateway", gateway,

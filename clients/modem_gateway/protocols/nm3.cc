@@ -151,6 +151,7 @@ class Nm3 : public Protocol {
       Command command;
       const auto result = reader.take(command);
       if (result == CommandReader::Result::kIncomplete) return;
+      if (command.at) command.at = port_.instant_of(*command.at);
       const bool is_too_far = command.at && *command.at > port_.now() + kMaxAhead;
       if (result == CommandReader::Result::kWrong || is_too_far) {
         port_.write(client, "E\r\n");

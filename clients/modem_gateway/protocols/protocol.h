@@ -40,12 +40,18 @@ class ProtocolPort {
 
   // The instant of the present call, simulation time.
   virtual SimTime now() const = 0;
+  // What the vehicle's own clock shows at an instant (docs/vehicles.md).
+  virtual SimTime clock_at(SimTime time) const = 0;
+  // The instant at which it shows that.
+  SimTime instant_of(SimTime reading) const;
   // To one host, or to all that are connected. What does not fit into the buffer of a host that does not read is dropped whole.
   virtual void write(ClientId client, std::string_view bytes) = 0;
   // Sends a packet at `start`, or now where that has passed; returns its packet_sequence, which its receipt, events and answers bear.
   // `payload` and `options`: as ModemClient::send. kNotSent, and no receipt, for what no modem sends.
   virtual std::int64_t send(SimTime start, std::int32_t destination, std::span<const std::uint8_t> payload,
                             clients::SendOptions options) = 0;
+  // From now on the modem acquires nothing, until that instant.
+  virtual void sleep_until(SimTime wakes) = 0;
   // Whether (session, packet_sequence) names a packet of this door.
   virtual bool is_own(std::int64_t send_session) const = 0;
   // The latest measurement of the vehicle's sensors; null before the first.

@@ -1,5 +1,4 @@
-// The lines of the EvoLogics protocol, one by one, in both directions.
-#include <cmath>
+// The lines of the EvoLogics protocol, one by one, in both directions: settings, and what is sent.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -8,39 +7,21 @@
 #include "clients/modem_gateway/protocols/s2c/s2c_core.h"
 #include "core/check.h"
 #include "core/names.h"
-#include "tests/clients/modem_gateway/fake_port.h"
+#include "core/sim_time.h"
+#include "tests/clients/modem_gateway/s2c_bench.h"
 
 namespace halocline::modem_gateway {
 namespace {
 
 using ::testing::HasSubstr;
 using testing::kHardBytes;
+using testing::kQuality;
 using testing::ProtocolBench;
+using testing::S2cBench;
 using ::testing::StartsWith;
 using namespace std::string_literals;
 
-struct S2cBench : ProtocolBench {
-  explicit S2cBench(std::string_view options = "") : ProtocolBench("evologics", options) {}
-  std::string say(const std::string& command) { return ask(command + "\n"); }
-  // A plain message that arrives now.
-  modem_receive_t message_from(std::int32_t source, std::int32_t destination, std::string_view data,
-                               std::int32_t rate = kS2cImRate) const {
-    modem_receive_t packet = packet_from(source, destination, data);
-    packet.stamped = true;
-    packet.rate_number = rate;
-    packet.travel_time_s = 0.4;
-    return packet;
-  }
-  modem_receive_t message_of_kind(S2cKind kind, std::string_view data, std::int32_t rate = kS2cImRate) const {
-    const auto bytes = s2c_packet({kind, 0, as_bytes(data)});
-    modem_receive_t packet = message_from(5, 1, as_text(bytes), rate);
-    packet.stamped = false;
-    return packet;
-  }
-};
 const std::string kData(kHardBytes);
-// 0.25 s, 120 dB, SINR 20 dB, Doppler factor 1.0004 at 1500 m/s.
-constexpr auto kQuality = "250000,-70,160,0.6000,";
 
 TEST(Evologics, StartsAsDuneStartsIt) {
   S2cBench bench;
@@ -51,7 +32,7 @@ TEST(Evologics, StartsAsDuneStartsIt) {
   EXPECT_EQ(bench.say("AT?MODE"), "NET\r\n");
   EXPECT_EQ(bench.say("ATI0"), "1.9\r\n");
   EXPECT_EQ(bench.say("ATI1"), "phy: 03, mac: v1.2\r\n");
-  EXPECT_EQ(bench.say("AT?CLOCK"), "100.000000\r\n");
+  EXPECT_EQ(bench.say("AT?CLOCK"), "100\r\n");
   EXPECT_EQ(bench.say("AT?AL"), "7\r\n");
   EXPECT_EQ(bench.addresses.vehicle_of(7), ProtocolBench::kVehicle);
 }
@@ -93,7 +74,8 @@ TEST(Evologics, AnInstantMessageWithAcknowledgementIsDelivered) {
   EXPECT_EQ(bench.say("AT*SENDIM,1,3,noack,x"), "BUSY DELIVERING MESSAGE\r\n");
   EXPECT_EQ(bench.wait(0.3), "SENDEND,2,im,100000000,213000\r\n");
   EXPECT_THAT(bench.receive(bench.answer_from(2, modem_receive_t::ACK, 1.6, "\x01")),
-              HasSubstr("RECVEND,100050000,250000,-70,160\r\nDELIVEREDIM,2\r\n"));
+              HasSubstr("RECVEND,100050000,250000,-70,160\r\nRECVSRV,2,1,ack,100300000,100000000,-70,160\r\n"
+                        "DELIVEREDIM,2\r\n"));
   EXPECT_EQ(bench.say("AT?T"), "800000\r\n");
   EXPECT_EQ(bench.say("AT*SENDIM,1,3,noack,x"), "OK\r\n");
 }
@@ -179,88 +161,6 @@ TEST(Evologics, BurstsAreQueuedRepeatedAndReported) {
   EXPECT_EQ(bench.say("AT*SEND,2,2,hi"), "ERROR BUFFER FULL\r\n");
 }
 
-TEST(Evologics, ReportsWhatArrivesByItsKind) {
-  S2cBench bench;
-  EXPECT_EQ(bench.receive(bench.message_from(5, 1, kData)),
-            "RECVIM,6,5,1,noack,"s + kQuality + kData + "\r\n");
-  modem_receive_t acknowledged = bench.message_from(5, 1, "hi");
-  acknowledged.wants_ack = true;
-  EXPECT_EQ(bench.receive(acknowledged), "RECVIM,2,5,1,ack,"s + kQuality + "hi\r\n");
-  EXPECT_EQ(bench.receive(bench.message_from(5, kBroadcastId, "hi")),
-            "RECVIM,2,5,255,noack,"s + kQuality + "hi\r\n");
-  EXPECT_EQ(bench.receive(bench.message_of_kind(S2cKind::kForced, "hi")),
-            "RECVIM,2,5,1,force,"s + kQuality + "hi\r\n");
-  EXPECT_EQ(bench.receive(bench.message_of_kind(S2cKind::kSynchronous, "hi")),
-            "RECVIMS,2,5,1,99750000,"s + kQuality + "hi\r\n");
-  EXPECT_EQ(bench.receive(bench.message_of_kind(S2cKind::kPiggyBack, kData)),
-            "RECVPBM,6,5,1,"s + kQuality + kData + "\r\n");
-  // 16 bits in 0.25 s; 0.4 s of propagation.
-  EXPECT_EQ(bench.receive(bench.message_from(5, 1, "hi", kS2cBurstRate)),
-            "RECV,2,5,1,64,-70,160,400000,0.6000,hi\r\n");
-}
-
-TEST(Evologics, ReportsMessagesForOthersOnlyWherePromiscuous) {
-  S2cBench bench;
-  EXPECT_EQ(bench.receive(bench.message_from(5, 9, "hi")), "");
-  bench.say("AT!RP1");
-  EXPECT_THAT(bench.receive(bench.message_from(5, 9, "hi")), StartsWith("RECVIM,2,5,9,"));
-}
-
-TEST(Evologics, ShowsProtocolIdsInExtendedNetworking) {
-  S2cBench bench;
-  bench.say("AT@ZF1");
-  EXPECT_EQ(bench.say("AT*SENDIM,p3,2,2,noack,hi"), "OK\r\n");
-  modem_receive_t packet = bench.message_from(5, 1, bench.port.sent.at(0).payload);
-  packet.stamped = bench.port.sent[0].options.stamped;
-  EXPECT_THAT(bench.receive(packet), StartsWith("RECVIM,p3,2,5,1,noack,"));
-}
-
-TEST(Evologics, ExtendedNotificationsShowDetectionsAndLosses) {
-  S2cBench bench;
-  packet_outcome_t loss{};
-  loss.received_level_db = 110;
-  loss.sinr_db = -5;
-  loss.strongest_path_doppler_factor = 0.999;
-  modem_event_t detected{};
-  detected.modem_event = modem_event_t::PACKET_DETECTED;
-  bench.protocol->on_event(detected);
-  EXPECT_EQ(bench.lose(loss), "");
-  bench.say("AT@ZX1");
-  bench.protocol->on_event(detected);
-  EXPECT_EQ(bench.port.take(), "RECVSTART\r\n");
-  EXPECT_EQ(bench.lose(loss), "RECVFAILED,-1.5000,-80,85\r\n");
-}
-
-TEST(Evologics, PositionsOfAcknowledgedMessagesHaveARange) {
-  S2cBench bench;
-  bench.say("AT@ZU1");
-  vehicle_sensors_t attitude{};
-  attitude.heading_rad = std::acos(0.0);  // east
-  bench.port.measured = attitude;
-  modem_receive_t packet = bench.message_from(5, 1, "hi");
-  packet.wants_ack = true;
-  packet.packet_sequence = 3;
-  bench.receive(packet);
-  vehicle_usbl_t bearing{};
-  bearing.utime = 99'750'000;
-  bearing.send_session = packet.send_session;
-  bearing.packet_sequence = 3;
-  bearing.packet_kind = packet.packet_kind;
-  bearing.angle_deviation_rad = 0.01;
-  bench.protocol->on_bearing(bearing);
-  // Straight ahead at 0.4 s * 1500 m/s: forward is east.
-  EXPECT_EQ(bench.port.take(),
-            "USBLLONG,100.000000,99.750000,5,0.0000,600.0000,0.0000,600.0000,0.0000,-0.0000,0.0000,0.0000,1."
-            "5708,400000,"
-            "-70,160,6.0000\r\n");
-  EXPECT_THAT(bench.say("AT?UP"), StartsWith("99.750000,5,600.0000,"));
-  packet.wants_ack = false;
-  packet.packet_sequence = bearing.packet_sequence = 4;
-  bench.receive(packet);
-  bench.protocol->on_bearing(bearing);
-  EXPECT_THAT(bench.port.take(), StartsWith("USBLANGLES,100.000000,99.750000,5,0.0000,0.0000,1.5708,"));
-}
-
 TEST(Evologics, InDataModeCommandsAreEscapedAndAnswersWrapped) {
   S2cBench bench("mode=data");
   EXPECT_EQ(bench.ask_in_pieces("+++AT*SENDIM,6,2,noack," + kData + "\n"), "+++AT*SENDIM:2:OK\r\n");
@@ -289,28 +189,29 @@ TEST(Evologics, InDataModeOtherBytesGoToTheRemoteAddressAsBursts) {
   ASSERT_EQ(bench.port.sent.size(), 1u);
   const auto& sent = bench.port.sent[0];
   EXPECT_EQ(sent.destination, 2);
-  EXPECT_EQ(sent.payload.substr(1), "a\n+" + kData + "++" + "end+");
+  EXPECT_EQ(sent.payload, "a\n+" + kData + "++" + "end+");
   modem_receive_t packet = bench.message_from(5, 1, sent.payload, kS2cBurstRate);
-  packet.stamped = sent.options.stamped;
-  EXPECT_EQ(bench.receive(packet), sent.payload.substr(1));
+  packet.header_number = sent.options.header_number;
+  EXPECT_EQ(bench.receive(packet), sent.payload);
 }
 
-TEST(Evologics, ShowsThePathsFromWhomItHeardLast) {
+TEST(Evologics, MessagesOfEveryKindHold64Bytes) {
   S2cBench bench;
-  EXPECT_EQ(bench.say("AT?P"), "\r\n");
-  bench.receive(bench.message_from(5, 1, "hi"));
-  EXPECT_EQ(bench.say("AT?P"), "");
-  EXPECT_EQ(bench.port.paths_asked.back(), 5);
-  link_reply_t reply{};
-  reply.link_paths.paths.resize(2);
-  reply.link_paths.paths[0].path_delay_s = 0.4;
-  reply.link_paths.paths[0].path_level_db = 100;
-  reply.link_paths.paths[1].path_delay_s = 0.4012;
-  reply.link_paths.paths[1].path_level_db = 80;
-  bench.protocol->on_paths(reply);
-  EXPECT_EQ(bench.port.take(), "0 1000\n1200 100\n\r\n");
-  bench.say("AT?P");
-  EXPECT_EQ(bench.wait(1), "\r\n");  // the channel did not answer
+  const std::string data(64, 'x');
+  EXPECT_EQ(bench.say("AT*SENDIM,p7,64,2,force," + data), "OK\r\n");
+  EXPECT_EQ(bench.port.sent.at(0).payload, data);
+  EXPECT_EQ(bench.say("AT*SENDIM,p7,65,2,force,x" + data), "ERROR WRONG FORMAT\r\n");
+}
+
+TEST(Evologics, ItsClockIsTheVehicles) {
+  S2cBench bench;
+  bench.port.clock_ahead = SimDuration::from_milliseconds(1250);
+  EXPECT_EQ(bench.say("AT?CLOCK"), "101\r\n");
+  bench.say("AT@ZX1");
+  EXPECT_EQ(bench.say("AT*SENDIMS,3,2,103000000,abc"), "OK\r\n");
+  EXPECT_EQ(bench.port.sent.at(0).start, SimTime::from_seconds(101.75));
+  bench.accept(0.2);
+  EXPECT_EQ(bench.wait(3), "SENDEND,2,ims,103000000,200000\r\n");
 }
 
 TEST(Evologics, ListsItsSettingsAndItsStatusUpToAnEmptyLine) {
@@ -342,6 +243,7 @@ TEST(Evologics, ItsVoltageFallsWithTheBattery) {
 
 TEST(Evologics, RefusesOptionsThatItLacks) {
   EXPECT_THROW(S2cBench("mode=serial"), InvalidArgument);
+  EXPECT_THROW(S2cBench("paths=all"), InvalidArgument);
   EXPECT_THROW(S2cBench("colour=red"), InvalidArgument);
 }
 

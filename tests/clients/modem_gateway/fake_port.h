@@ -36,6 +36,8 @@ class FakePort : public ProtocolPort {
   static constexpr std::int64_t kSession = 77;
 
   SimTime now() const override { return at; }
+  SimTime clock_at(SimTime time) const override { return time + clock_ahead; }
+  void sleep_until(SimTime wakes) override { sleeps_until = wakes; }
   void write(ClientId client, std::string_view bytes) override {
     written += bytes;
     written_to.push_back(client);
@@ -63,6 +65,8 @@ class FakePort : public ProtocolPort {
   }
 
   SimTime at = SimTime::from_seconds(100);
+  SimDuration clock_ahead;  // of the vehicle's clock
+  SimTime sleeps_until;
   std::string written;
   std::vector<ClientId> written_to;
   std::vector<Sent> sent;

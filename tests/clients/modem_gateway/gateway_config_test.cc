@@ -7,6 +7,7 @@
 
 #include "bus/config/config.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {
@@ -28,6 +29,18 @@ GatewayConfig read(const std::string& doors) {
   file.read([&](bus::ConfigVisitor& v) { visit(v, config); });
   file.check(/*whole_file=*/false);
   return config;
+}
+
+TEST(GatewayConfig, KnowsTheClocksOfVehicles) {
+  const GatewayConfig config = read(
+      "[[vehicle]]\nname = \"late\"\nid = 7\n[vehicle.clock]\noffset_s = 0.5\ndrift_ppm = 2\n"
+      "[channel_server]\nstate_lag_s = 0.125\n");
+  ASSERT_EQ(config.clocks.size(), 1u);
+  EXPECT_EQ(config.clocks[0].vehicle, "late");
+  EXPECT_EQ(config.clocks[0].id, 7);
+  EXPECT_EQ(config.clocks[0].settings.offset_s, 0.5);
+  EXPECT_EQ(config.clocks[0].settings.drift, 2e-6);
+  EXPECT_EQ(config.state_lag, SimDuration::from_milliseconds(125));
 }
 
 std::string errors_of(const std::string& doors) {

@@ -1,6 +1,7 @@
 // A Micromodem's door and the sentences that it writes.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,14 @@ struct MicromodemBench : ProtocolBench {
   explicit MicromodemBench(std::string_view options = "") : ProtocolBench("micromodem", options) {}
   std::vector<std::string> say(const std::string& body) { return bodies(ask("$" + body + "\r\n")); }
   std::vector<std::string> hear(const modem_receive_t& packet) { return bodies(receive(packet)); }
+  // A packet of that rate is detected.
+  std::vector<std::string> detect(std::int32_t rate) {
+    modem_event_t event{};
+    event.modem_event = modem_event_t::PACKET_DETECTED;
+    event.rate_number = rate;
+    protocol->on_event(event);
+    return bodies(port.take());
+  }
   std::vector<std::string> after(double seconds) { return bodies(wait(seconds)); }
 };
 inline constexpr auto kFirstGeneration = "revision=0.94.0.00";

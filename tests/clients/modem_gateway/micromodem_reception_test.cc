@@ -28,7 +28,6 @@ using ::testing::StartsWith;
 // A packet of three frames at rate 1, the second wrong.
 modem_receive_t three_frames(const Bench& bench) {
   modem_receive_t packet = bench.packet_from(2, 1, std::string(kHardBytes) + "bad" + "good");
-  packet.stamped = true;
   packet.rate_number = 1;
   packet.num_frames = 3;
   packet.frame_bytes = {6, 3, 4};
@@ -39,14 +38,13 @@ modem_receive_t three_frames(const Bench& bench) {
 TEST(Micromodem, ReportsAPacketFrameByFrameAndItsStatisticsLast) {
   Bench bench;
   const auto lines = bench.hear(three_frames(bench));
-  ASSERT_EQ(lines.size(), 6u);
-  EXPECT_EQ(lines[0], "CARXP,1");
-  EXPECT_EQ(lines[1], "CACYC,0,2,1,1,0,3");
-  EXPECT_EQ(lines[2], "CARXD,2,1,0,1,000A0D2B2CFF");
-  EXPECT_EQ(lines[3], "CAMSG,BAD_CRC,2");
-  EXPECT_EQ(lines[4], "CARXD,2,1,0,3,676F6F64");
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[0], "CACYC,0,2,1,1,0,3");
+  EXPECT_EQ(lines[1], "CARXD,2,1,0,1,000A0D2B2CFF");
+  EXPECT_EQ(lines[2], "CAMSG,BAD_CRC,2");
+  EXPECT_EQ(lines[3], "CARXD,2,1,0,3,676F6F64");
   // Arrived at 99.75 s with 120 dB, 30 dB above the noise, SINR 20 dB, Doppler 0.0004: peak 32767 10^((120 - 180) / 20) = 33.
-  EXPECT_EQ(lines[5],
+  EXPECT_EQ(lines[4],
             "CACST,6,1,19700101000139.750000,12,33,30,30,120,250,0,0,0,0,1,2,1,3,3,3,1,30,30,25,20,-20.0,252,"
             "0.60,90,"
             "25000,5000");
@@ -59,10 +57,17 @@ TEST(Micromodem, TheFirstGenerationHasTheOlderStatistics) {
   EXPECT_EQ(fields_of(lines.back(), ',').size(), 30u);  // the id and 29 fields
 }
 
+TEST(Micromodem, TellsOfADetectedPacketAtOnceHowItIsModulated) {
+  Bench bench;
+  EXPECT_THAT(bench.detect(0), ElementsAre("CARXP,0"));
+  EXPECT_THAT(bench.detect(4), ElementsAre("CARXP,1"));
+}
+
 TEST(Micromodem, LeavesOutWhatItsSettingsTurnOff) {
   Bench bench;
   bench.say("CCCFG,CST,0");
   bench.say("CCCFG,RXP,0");
+  EXPECT_THAT(bench.detect(1), IsEmpty());
   EXPECT_THAT(bench.hear(three_frames(bench)).size(), 4u);
 }
 
@@ -81,11 +86,11 @@ packet_outcome_t loss_of(std::int8_t outcome) {
 
 TEST(Micromodem, ReportsLostPacketsAsWell) {
   Bench bench;
-  EXPECT_THAT(bodies(bench.lose(loss_of(packet_outcome_t::BIT_ERRORS))),
-              ElementsAre("CARXP,1", "CAMSG,BAD_CRC,1", "CAMSG,BAD_CRC,2",
-                          StartsWith("CACST,6,1,19700101000139.500000,")));
+  EXPECT_THAT(
+      bodies(bench.lose(loss_of(packet_outcome_t::BIT_ERRORS))),
+      ElementsAre("CAMSG,BAD_CRC,1", "CAMSG,BAD_CRC,2", StartsWith("CACST,6,1,19700101000139.500000,")));
   EXPECT_THAT(bodies(bench.lose(loss_of(packet_outcome_t::HALF_DUPLEX))),
-              ElementsAre("CARXP,1", "CAMSG,PACKET_TIMEOUT,2", StartsWith("CACST,6,2,")));
+              ElementsAre("CAMSG,PACKET_TIMEOUT,2", StartsWith("CACST,6,2,")));
 }
 
 TEST(Micromodem, MiniPacketsHaveThirteenBits) {
@@ -94,10 +99,9 @@ TEST(Micromodem, MiniPacketsHaveThirteenBits) {
   EXPECT_EQ(bench.port.sent.at(0).payload, "\x1f\xff");
   EXPECT_EQ(bench.port.sent.at(0).options.kind, modem_send_t::MINI_PACKET);
   modem_receive_t mini = bench.packet_from(2, 1, std::string("\x00\x2b", 2), modem_receive_t::MINI_PACKET);
-  mini.stamped = true;
   const auto lines = bench.hear(mini);
-  EXPECT_THAT(lines, ElementsAre("CARXP,0", "CAMUA,2,1,002B", StartsWith("CACST,6,0,")));
-  EXPECT_EQ(field(lines[2], 18), "2");  // packet type: mini-packet of frequency-shift keying
+  EXPECT_THAT(lines, ElementsAre("CAMUA,2,1,002B", StartsWith("CACST,6,0,")));
+  EXPECT_EQ(field(lines[1], 18), "2");  // packet type: mini-packet of frequency-shift keying
 }
 
 TEST(Micromodem, PingsReportTheOneWayTime) {
@@ -106,9 +110,8 @@ TEST(Micromodem, PingsReportTheOneWayTime) {
   EXPECT_EQ(bench.port.sent.at(0).options.kind, modem_send_t::PING);
   EXPECT_THAT(bench.hear(bench.answer_from(2, modem_receive_t::PING_REPLY, 0.9134)),
               ElementsAre("CAMPR,2,1,0.4567", StartsWith("CACST,")));
-  modem_receive_t ping = bench.packet_from(2, 1, "", modem_receive_t::PING);
-  ping.stamped = true;
-  EXPECT_THAT(bench.hear(ping), ElementsAre("CARXP,0", "CAMPA,2,1", StartsWith("CACST,")));
+  EXPECT_THAT(bench.hear(bench.packet_from(2, 1, "", modem_receive_t::PING)),
+              ElementsAre("CAMPA,2,1", StartsWith("CACST,")));
 }
 
 TEST(Micromodem, TheSecondGenerationHasAnotherPing) {
@@ -116,9 +119,10 @@ TEST(Micromodem, TheSecondGenerationHasAnotherPing) {
   EXPECT_THAT(bench.say("CCCMD,PNG,1,2,1,0,0"), ElementsAre("CACMD,PNG,1,2,1,0,0"));
   EXPECT_THAT(bench.hear(bench.answer_from(2, modem_receive_t::PING_REPLY, 0.9134)),
               ElementsAre("CACMR,PNR,1970-01-01T00:01:39Z,2,1,0.456700,30,,,,", StartsWith("CACST,")));
-  EXPECT_THAT(
-      bench.hear(bench.packet_from(2, 1, "", modem_receive_t::PING)),
-      ElementsAre("CARXP,0", StartsWith("CACMA,1970-01-01T00:01:39Z,PNG,2,1,"), StartsWith("CACST,")));
+  modem_receive_t ping = bench.packet_from(2, 1, "", modem_receive_t::PING);
+  ping.header_number = bench.port.sent.at(0).options.header_number;
+  EXPECT_THAT(bench.hear(ping),
+              ElementsAre(StartsWith("CACMA,1970-01-01T00:01:39Z,PNG,2,1,"), StartsWith("CACST,")));
 }
 
 TEST(Micromodem, FlexiblePacketsAreSentAndReportedAsTriplets) {
@@ -127,14 +131,14 @@ TEST(Micromodem, FlexiblePacketsAreSentAndReportedAsTriplets) {
   EXPECT_EQ(bench.port.sent.at(0).payload, kHardBytes);
   modem_receive_t packet = bench.packet_from(2, 1, "\x0a\x0b\x0c");
   packet.rate_number = 1;
-  EXPECT_THAT(bench.hear(packet),
-              ElementsAre("CARXP,1", "CARDP,2,1,1,0,0,,1;3;0A0B0C", StartsWith("CACST,")));
+  packet.header_number = bench.port.sent.at(0).options.header_number;
+  EXPECT_THAT(bench.hear(packet), ElementsAre("CARDP,2,1,1,0,0,,1;3;0A0B0C", StartsWith("CACST,")));
   packet.num_frames = 2;
   packet.frame_bytes = {2, 1};
   packet.frames_good = 2;
-  EXPECT_THAT(bench.hear(packet)[1], "CARDP,2,1,1,0,0,,0;2;0A0B;1;1;0C");
+  EXPECT_THAT(bench.hear(packet)[0], "CARDP,2,1,1,0,0,,0;2;0A0B;1;1;0C");
   Bench newer("newer_lines=yes");
-  EXPECT_THAT(newer.hear(packet)[1], StartsWith("CARFP,1970-01-01T00:01:39Z,0,2,1,0,1,0,0,,"));
+  EXPECT_THAT(newer.hear(packet)[0], StartsWith("CARFP,1970-01-01T00:01:39Z,0,2,1,0,1,0,0,,"));
 }
 
 TEST(Micromodem, AnotherIsAskedForDataByACyclePacketAndAsksItsHost) {
@@ -146,8 +150,9 @@ TEST(Micromodem, AnotherIsAskedForDataByACyclePacketAndAsksItsHost) {
   sender.say("CCCFG,SRC,2");
   modem_receive_t request =
       sender.packet_from(5, 1, asker.port.sent[0].payload, modem_receive_t::MINI_PACKET);
+  request.header_number = asker.port.sent[0].options.header_number;
   EXPECT_THAT(sender.hear(request),
-              ElementsAre("CARXP,0", "CACYC,0,2,3,1,1,3", StartsWith("CACST,"), "CADRQ,000140,2,3,1,64,1"));
+              ElementsAre("CACYC,0,2,3,1,1,3", StartsWith("CACST,"), "CADRQ,000140,2,3,1,64,1"));
 }
 
 TEST(Micromodem, ATransmissionStartsOnAWholeSecondWhereSynchronised) {
@@ -159,7 +164,6 @@ TEST(Micromodem, ATransmissionStartsOnAWholeSecondWhereSynchronised) {
   EXPECT_EQ(bench.port.sent.at(0).start, SimTime::from_seconds(101));
   // So the fraction of a second of an arrival is its travel time, in clock mode PPS and set.
   modem_receive_t mini = bench.packet_from(2, 1, std::string("\x00\x01", 2), modem_receive_t::MINI_PACKET);
-  mini.stamped = true;
   mini.arrival_utime = 102'345'678;
   const auto lines = bench.hear(mini);
   EXPECT_EQ(field(lines.back(), 3), "20261124103007.345678");
@@ -186,6 +190,15 @@ TEST(Micromodem, RangesToTranspondersOneAfterTheOther) {
               ElementsAre(StartsWith("SNTTA,,0.1250,,,")));
 }
 
+TEST(Micromodem, GenericRangingHasItsOwnSentence) {
+  Bench bench("lbl=11");
+  EXPECT_THAT(bench.say("CCPGT,9000,7,1,1500,10000,1,0,0,0,2000,0"),
+              ElementsAre("SNPGT,9000,7,1,1500,10000,1,0,0,0,2000,0"));
+  EXPECT_EQ(bench.port.sent.at(0).destination, 11);
+  EXPECT_THAT(bench.hear(bench.answer_from(11, modem_receive_t::PING_REPLY, 0.25)),
+              ElementsAre(StartsWith("SNTTA,0.1250,,,,")));
+}
+
 TEST(Micromodem, RangingToNobodyEndsWithItsTimeOut) {
   Bench bench;
   bench.say("CCPDT,1,1,0,0,1500,1,1,1,1");
@@ -193,9 +206,27 @@ TEST(Micromodem, RangingToNobodyEndsWithItsTimeOut) {
   EXPECT_THAT(bench.after(0.2), ElementsAre("SNTTA,,,,,000141.50"));
 }
 
+TEST(Micromodem, SetsALineOfAnotherModemAndTellsWhenItIsSet) {
+  Bench asker, other;
+  EXPECT_THAT(asker.say("CCMEC,1,2,3,2,17"), ElementsAre("CAMEC,1,2,3,2,17"));
+  ASSERT_EQ(asker.port.sent.size(), 1u);
+  EXPECT_EQ(asker.port.sent[0].destination, 2);
+  const auto arrives_at = [](Bench& bench, const testing::FakePort::Sent& sent) {
+    modem_receive_t packet = bench.packet_from(2, 1, sent.payload, modem_receive_t::MINI_PACKET);
+    packet.header_number = sent.options.header_number;
+    return bench.hear(packet);
+  };
+  EXPECT_THAT(arrives_at(other, asker.port.sent[0]), ElementsAre(StartsWith("CACST,")));
+  ASSERT_EQ(other.port.sent.size(), 1u);
+  EXPECT_EQ(other.port.sent[0].destination, 2);
+  EXPECT_THAT(arrives_at(asker, other.port.sent[0]), ElementsAre("CAMER,2,1,3,2,17", StartsWith("CACST,")));
+  EXPECT_EQ(asker.port.sent.size(), 1u);
+  EXPECT_THAT(asker.say("CCMEC,1,1,3,2,17"), ElementsAre("CAMEC,1,1,3,2,17", "CAMER,1,1,3,2,17"));
+  EXPECT_THAT(asker.say("CCMEC,1,2,16,0,0"), ElementsAre(HasSubstr(",NMEA,3,")));
+}
+
 TEST(Micromodem, EchoesTheRest) {
   Bench bench;
-  EXPECT_THAT(bench.say("CCMEC,1,2,1,1,1"), ElementsAre("CAMEC,1,2,1,1,1"));
   EXPECT_THAT(bench.say("CCSWP,1,2"), ElementsAre("CASWP,1,2"));
   EXPECT_THAT(bench.say("CCMSQ,1"), ElementsAre("CAMSQ,1"));
   EXPECT_THAT(bench.say("CCRSP,1"), ElementsAre("CARSP,1"));

@@ -189,8 +189,9 @@ TEST_F(DoorsOfAMission, TheFractionOfASecondOfAnArrivalIsTheTravelTime) {
   }
   EXPECT_GT(checked, 5u);
   for (const packet_outcome_t& outcome : mission->outcomes) {
-    if (outcome.receiver_id == 2 && outcome.source_id == 1)
+    if (outcome.receiver_id == 2 && outcome.source_id == 1) {
       EXPECT_NEAR(outcome.travel_time_s, 1000.0 / 1500.0, kBound_s);
+    }
   }
 }
 
@@ -215,6 +216,55 @@ TEST_F(DoorsOfAMission, UnetGatewaysReportEachFrameAndEachLossOnce) {
   }
 }
 
+// Transmissions start on whole seconds of the sender's clock, which is 4 ms ahead; the receiver's is 3 ms late.
+TEST(DoorClocks, AMeasuredTravelTimeIsOffByWhatTheClocksDiffer) {
+  std::vector<DoorVehicle> fleet{kFleet[0], kFleet[1]};
+  fleet[0].more = "[vehicle.clock]\noffset_s = 0.004\n";
+  fleet[1].more = "[vehicle.clock]\noffset_s = -0.003\n";
+  DoorMission mission(fleet);
+  mission.run_until(SimTime::from_seconds(1));
+  Conversation sender(mission.gateway().place_of(0)), receiver(mission.gateway().place_of(1));
+  for (Conversation* host : {&sender, &receiver})
+    host->write("$CCCFG,SNV,1\r\n$CCCLK,2026,11,24,10,30,00\r\n");
+  for (int second = 2; second < 40; ++second) {
+    if (second % 4 == 0) sender.write("$CCMUC,1,2,0001\r\n");
+    mission.run_until(SimTime::from_seconds(second));
+  }
+  receiver.read();
+  std::size_t checked = 0;
+  for (const std::string& line : receiver.lines) {
+    const auto fields = fields_of(line, ',');
+    if (!line.starts_with("$CACST,6,0,")) continue;
+    EXPECT_NEAR(number_in(fields.at(3).substr(14), 0, 1).value_or(-1), 1000.0 / 1500.0 - 0.007, 1e-4) << line;
+    ++checked;
+  }
+  EXPECT_GT(checked, 3u);
+  for (const packet_outcome_t& outcome : mission.outcomes)
+    EXPECT_EQ(outcome.departure_utime % 1'000'000, 996'000) << "4 ms before a second of the simulation";
+}
+
+TEST(DoorSleep, AModemThatSleepsHearsNothingUntilItReboots) {
+  DoorMission mission({kFleet[0], kFleet[1]});
+  mission.run_until(SimTime::from_seconds(1));
+  Conversation sender(mission.gateway().place_of(0)), sleeper(mission.gateway().place_of(1));
+  sleeper.write("$CCMSC,2,2,1\r\n");
+  for (int second = 2; second < 100; ++second) {
+    mission.run_until(SimTime::from_seconds(second));
+    if (second % 7 == 0) sender.write("$CCMUC,1,2,0001\r\n");
+  }
+  sleeper.read();
+  EXPECT_EQ(sleeper.count(",INIT,"), 1u);
+  std::size_t received = 0;
+  for (const packet_outcome_t& outcome : mission.outcomes) {
+    if (outcome.receiver_id != 2) continue;
+    const bool sleeps = outcome.utime < 61'000'000;
+    EXPECT_EQ(outcome.outcome == packet_outcome_t::ASLEEP, sleeps) << outcome.utime;
+    received += outcome.outcome == packet_outcome_t::RECEIVED ? 1 : 0;
+  }
+  EXPECT_GT(received, 2u);
+  EXPECT_EQ(sleeper.count("$CAMUA,1,2,0001"), received);
+}
+
 // Hosts of one door that do what none should; everybody else's packets fare as if nobody had.
 std::vector<std::string> outcomes_with(bool has_bad_hosts) {
   std::vector<DoorVehicle> fleet = kFleet;
@@ -231,6 +281,7 @@ std::vector<std::string> outcomes_with(bool has_bad_hosts) {
       if (bad.size() < 500) bad.push_back(std::make_unique<Host>(place));
       bad[static_cast<std::size_t>(tick) % bad.size()]->write(
           std::string(4096, static_cast<char>('A' + tick % 26)));
+      if (tick <= 42) bad.front()->write(std::string(32'768, 'x'));  // a line of 1 MiB that has no end
       if (tick % 10 == 0) bad[static_cast<std::size_t>(tick / 10) % bad.size()]->write("$CCTXD,1,2,0,00112");
       if (tick % 50 == 0) bad[static_cast<std::size_t>(tick / 50)]->close();
       bad[bad.size() / 2]->write("$CCCFQ,ALL\r\n");  // and reads none of it

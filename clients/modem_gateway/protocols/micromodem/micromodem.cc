@@ -4,8 +4,7 @@
 // `broadcast` (the address of all; 15 is another where no modem has been given it), `lbl` (addresses of up to four transponders, with /
 // between), `newer_lines` (CARFP in the place of CARDP).
 //
-// Answers go to the host that asked, everything else to all. Left out: commands to another modem's lines (CCMEC), sleep (CCMSC with
-// minutes), and the sounds of CCMSQ and CCSWP; they are echoed.
+// Answers go to the host that asked, everything else to all. Left out: the sounds of CCMSQ and CCSWP; they are echoed.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -28,6 +27,7 @@
 #include "clients/modem_gateway/protocols/micromodem/micromodem_housekeeping.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_lbl.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_receptions.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_remote.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_transmitter.h"
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "clients/modem_gateway/protocols/protocol.h"
@@ -49,7 +49,8 @@ class Micromodem : public Protocol {
         addresses_(context.addresses),
         housekeeping_(core_),
         lbl_(port_, [this](const MicromodemLbl::Times& times) { report_lbl(times); }),
-        transmitter_(core_) {
+        transmitter_(core_),
+        remote_(core_, transmitter_, housekeeping_) {
     read_transponders(context.options.take("lbl", ""));
     context.options.require_all_taken();
   }
@@ -76,12 +77,22 @@ class Micromodem : public Protocol {
     if (packet.packet_kind == modem_receive_t::PING_REPLY || packet.packet_kind == modem_receive_t::ACK)
       return;
     core_.say_all(lines_of(core_.listener(), packet));
-    if (packet.packet_kind == modem_receive_t::MINI_PACKET && !packet.stamped) follow_cycle(packet);
+    if (packet.packet_kind != modem_receive_t::MINI_PACKET || packet.destination_id != core_.vehicle_id())
+      return;
+    if (kind_of(packet) == MicromodemKind::kCycle) return follow_cycle(packet);
+    remote_.follow(packet);
   }
 
+  // CARXP: 0 frequency-shift, 1 phase-shift keying.
+  void on_event(const modem_event_t& event) override {
+    if (event.modem_event == modem_event_t::PACKET_DETECTED && core_.settings().is_on("RXP"))
+      core_.say_all(event.rate_number == 0 ? "CARXP,0" : "CARXP,1");
+  }
   void on_loss(const packet_outcome_t& loss) override {
     housekeeping_.note_noise(loss.noise_level_db);
-    core_.say_all(lines_of(core_.listener(), loss));
+    const SimTime arrival =
+        SimTime::from_utime(loss.departure_utime) + SimDuration::from_seconds(loss.travel_time_s);
+    core_.say_all(lines_of(core_.listener(), loss, port_.clock_at(arrival)));
   }
 
   SimTime next() const override { return std::min({housekeeping_.next(), lbl_.next(), transmitter_.next()}); }
@@ -97,7 +108,7 @@ class Micromodem : public Protocol {
     std::string_view id;
     Command command;
   };
-  static constexpr std::array<Named, 9> commands() {
+  static constexpr std::array<Named, 10> commands() {
     return {{{"CCCYC", &Micromodem::begin_cycle},
              {"CCTXD", &Micromodem::take_hex},
              {"CCTXA", &Micromodem::take_text},
@@ -106,6 +117,7 @@ class Micromodem : public Protocol {
              {"CCCMD", &Micromodem::command},
              {"CCTDP", &Micromodem::send_flexible},
              {"CCPDT", &Micromodem::range_digital},
+             {"CCPGT", &Micromodem::range_generic},
              {"CCPNT", &Micromodem::range_narrow_band}}};
   }
 
@@ -118,6 +130,7 @@ class Micromodem : public Protocol {
     for (const Named& named : commands()) {
       if (named.id == sentence.id) return (this->*named.command)(client, sentence);
     }
+    if (remote_.obey(client, sentence)) return;
     if (!housekeeping_.obey(client, sentence)) core_.refuse(client, NmeaError::kUnknown, "unknown command");
   }
 
@@ -147,7 +160,7 @@ class Micromodem : public Protocol {
       return transmitter_.begin(cycle, core_.vehicle_of(cycle.destination), cycle.rate == 0);
     // Another is to send: a cycle packet tells it.
     transmitter_.send({Kind::kCycle, core_.vehicle_of(cycle.source), cycle.source, cycle_packet(cycle, true)},
-                      {.kind = modem_send_t::MINI_PACKET, .stamped = false, .rate_number = 0});
+                      mini_packet(MicromodemKind::kCycle));
   }
 
   // A cycle packet that asks this modem for data.
@@ -155,8 +168,7 @@ class Micromodem : public Protocol {
     const Listener listener = core_.listener();
     const auto asked =
         cycle_in(packet.payload, listener.address(packet.source_id), listener.address(packet.destination_id));
-    const bool is_asked = asked && asked->asks_for_data && packet.destination_id == core_.vehicle_id();
-    if (!is_asked || transmitter_.is_busy()) return;
+    if (!asked || !asked->asks_for_data || transmitter_.is_busy()) return;
     const MicromodemCycle& cycle = asked->cycle;
     if (cycle.frames <= micromodem_rate(static_cast<int>(cycle.rate)).max_frames)
       transmitter_.begin(cycle, core_.vehicle_of(cycle.destination), false);
@@ -189,7 +201,7 @@ class Micromodem : public Protocol {
     if (!n || !data || data->size() != 2 || (*data)[0] > 0x1f) return core_.refuse_argument(client, sentence);
     core_.echo(client, sentence);
     transmitter_.send({Kind::kMini, core_.vehicle_of((*n)[1]), (*n)[1], std::move(*data)},
-                      {.kind = modem_send_t::MINI_PACKET, .rate_number = 0});
+                      mini_packet(MicromodemKind::kPlain));
   }
 
   bool can_be_pinged(std::int32_t vehicle_id) const {
@@ -211,9 +223,10 @@ class Micromodem : public Protocol {
         sentence.field(0) == "PNG" && n && (*n)[2] < kMicromodemRates && can_be_pinged(to);
     if (!is_possible) return core_.refuse_argument(client, sentence);
     core_.echo(client, sentence);
-    transmitter_.send(
-        {Kind::kNewPing, to, (*n)[1], {}},
-        {.kind = modem_send_t::PING, .stamped = false, .rate_number = static_cast<std::int32_t>((*n)[2])});
+    transmitter_.send({Kind::kNewPing, to, (*n)[1], {}},
+                      {.kind = modem_send_t::PING,
+                       .rate_number = static_cast<std::int32_t>((*n)[2]),
+                       .header_number = static_cast<int>(MicromodemKind::kNewPing)});
   }
 
   // CCTDP,dest,rate,ack,0,HEX.
@@ -226,13 +239,15 @@ class Micromodem : public Protocol {
     const std::int32_t to = core_.vehicle_of(destination);
     core_.say(client, fmt::format("CATDP,0,{},{},{},{},{}", destination, rate, ack, reserved, data->size()));
     transmitter_.send({Kind::kFlexible, to, destination, std::move(*data)},
-                      {.stamped = false,
-                       .wants_ack = ack == 1 && to != kBroadcastId,
-                       .rate_number = static_cast<std::int32_t>(rate)});
+                      {.wants_ack = ack == 1 && to != kBroadcastId,
+                       .rate_number = static_cast<std::int32_t>(rate),
+                       .header_number = static_cast<int>(MicromodemKind::kFlexible)});
   }
 
   // CCPDT,group,channel,sync,pps_to,timeout_ms,a,b,c,d: which of the four transponders.
   void range_digital(ClientId client, const NmeaSentence& sentence) { range(client, sentence, 4, 5); }
+  // CCPGT,ftx,bits,code,timeout_ms,frx,a,b,c,d,bandwidth,0: codes of their answers.
+  void range_generic(ClientId client, const NmeaSentence& sentence) { range(client, sentence, 3, 5); }
   // CCPNT,ftx,ttx,trx,timeout_ms,fa,fb,fc,fd,flag: frequencies of their answers, 0 where not used.
   void range_narrow_band(ClientId client, const NmeaSentence& sentence) { range(client, sentence, 3, 4); }
   void range(ClientId client, const NmeaSentence& sentence, std::size_t timeout_at, std::size_t first) {
@@ -250,7 +265,7 @@ class Micromodem : public Protocol {
   void report_lbl(const MicromodemLbl::Times& times) const {
     std::string body = "SNTTA";
     for (const auto& time : times) body += time ? fmt::format(",{:.4f}", *time) : ",";
-    core_.say_all(body + "," + core_.clock().hhmmss(core_.now(), 2));
+    core_.say_all(body + "," + core_.clock().hhmmss(core_.reading(), 2));
   }
 
   // A PING_REPLY or an ACK to a packet of this door.
@@ -277,6 +292,7 @@ class Micromodem : public Protocol {
   MicromodemHousekeeping housekeeping_;
   MicromodemLbl lbl_;
   MicromodemTransmitter transmitter_;
+  MicromodemRemote remote_;
   std::map<ClientId, LineReader> readers_;
 };
 

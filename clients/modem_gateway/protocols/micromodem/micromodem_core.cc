@@ -47,11 +47,11 @@ ReporterState MicromodemCore::state() const {
 }
 
 Listener MicromodemCore::listener() const {
-  return {state(), addresses_, broadcast_, settings_.is_on("RXP"), settings_.is_on("CST"), has_newer_lines_};
+  return {state(), addresses_, broadcast_, settings_.is_on("CST"), has_newer_lines_};
 }
 
 SimTime MicromodemCore::start_of_transmission() const {
-  return settings_.is_on("SNV") ? clock_.next_second(port_.now()) : port_.now();
+  return settings_.is_on("SNV") ? port_.instant_of(clock_.next_second(reading())) : port_.now();
 }
 
 void MicromodemCore::say_all(const std::vector<std::string>& bodies) const {
@@ -59,7 +59,7 @@ void MicromodemCore::say_all(const std::vector<std::string>& bodies) const {
 }
 
 void MicromodemCore::refuse(ClientId client, NmeaError error, std::string_view text) const {
-  say(client, fmt::format("CAERR,{},NMEA,{},{}", clock_.hhmmss(now()), static_cast<int>(error), text));
+  say(client, fmt::format("CAERR,{},NMEA,{},{}", clock_.hhmmss(reading()), static_cast<int>(error), text));
 }
 
 void MicromodemCore::refuse_argument(ClientId client, const NmeaSentence& sentence) const {

@@ -31,6 +31,8 @@ class MicromodemCore {
 
   ProtocolPort& port() const { return port_; }
   SimTime now() const { return port_.now(); }
+  // What the vehicle's clock shows, by which the modem's goes.
+  SimTime reading() const { return port_.clock_at(now()); }
   std::int32_t vehicle_id() const { return vehicle_id_; }
   MicromodemSettings& settings() { return settings_; }
   const MicromodemSettings& settings() const { return settings_; }

@@ -21,8 +21,8 @@ constexpr SimDuration kRevisionPeriod = SimDuration::from_milliseconds(5000);
 constexpr SimDuration kRebootTime = SimDuration::from_milliseconds(300);
 constexpr int kNoiseValues = 14;
 constexpr std::size_t kMaxSettings = 1000;
-// CCMEC acts on another modem's lines, CCSWP and CCMSQ make sounds for tests, CCRSP answers them: none is simulated.
-constexpr std::array<std::string_view, 4> kEchoed{"CCMEC", "CCSWP", "CCMSQ", "CCRSP"};
+// CCSWP and CCMSQ make sounds for tests, CCRSP answers them: none is simulated.
+constexpr std::array<std::string_view, 3> kEchoed{"CCSWP", "CCMSQ", "CCRSP"};
 
 }  // namespace
 
@@ -32,8 +32,6 @@ bool MicromodemHousekeeping::obey(ClientId client, const NmeaSentence& sentence)
     configure(client, sentence);
   else if (id == "CCCFQ")
     query(client, sentence);
-  else if (id == "CCMSC")
-    sleep(client, sentence);
   else if (id == "CCCLK")
     set_clock(client, sentence);
   else if (id == "CCTMS")
@@ -79,35 +77,32 @@ void MicromodemHousekeeping::query(ClientId client, const NmeaSentence& sentence
   if (!settings.all().contains("SRC")) answer("SRC");
 }
 
-void MicromodemHousekeeping::sleep(ClientId client, const NmeaSentence& sentence) {
-  const auto minutes = sentence.numbers<1>(2);
-  if (!minutes) return core_.refuse_argument(client, sentence);
-  core_.echo(client, sentence);
-  if (minutes->front() == 0)
-    reboots_ = core_.now() + kRebootTime;
-  else
-    core_.port().note("not-simulated", "command=CCMSC: the modem stays awake");
+void MicromodemHousekeeping::sleep(std::int64_t minutes) {
+  const SimTime wakes = core_.now() + SimDuration::from_milliseconds(60'000) * minutes;
+  if (minutes > 0 || is_asleep_) core_.port().sleep_until(wakes);
+  is_asleep_ = minutes > 0;
+  reboots_ = wakes + kRebootTime;
 }
 
 void MicromodemHousekeeping::set_clock(ClientId client, const NmeaSentence& sentence) {
   const auto n = sentence.numbers<6>();
   const auto time = n ? calendar_seconds((*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4], (*n)[5]) : std::nullopt;
   if (!time) return core_.refuse_argument(client, sentence);
-  core_.clock().set(core_.now(), *time);
-  core_.say(client, "CACLK," + core_.clock().comma_separated(core_.now()));
+  core_.clock().set(core_.reading(), *time);
+  core_.say(client, "CACLK," + core_.clock().comma_separated(core_.reading()));
 }
 
 void MicromodemHousekeeping::set_time(ClientId client, const NmeaSentence& sentence) {
   const auto time = calendar_seconds(sentence.field(0));
   if (!time) return core_.refuse_argument(client, sentence);
-  core_.clock().set(core_.now(), *time);
+  core_.clock().set(core_.reading(), *time);
   core_.say(client, "CATMS,0," + std::string(sentence.field(0)));
 }
 
 void MicromodemHousekeeping::query_time(ClientId client) const {
   const ModemClock& clock = core_.clock();
-  core_.say(client, fmt::format("CATMQ,{},{},{}", clock.iso(core_.now()), clock.is_set() ? "USER" : "NONE",
-                                clock.has_pps() ? "EXT" : "NONE"));
+  core_.say(client, fmt::format("CATMQ,{},{},{}", clock.iso(core_.reading()),
+                                clock.is_set() ? "USER" : "NONE", clock.has_pps() ? "EXT" : "NONE"));
 }
 
 // CCCFR,ms: the noise after so long; one band of this modem stands for all.
@@ -126,7 +121,7 @@ void MicromodemHousekeeping::report_noise() {
 }
 
 void MicromodemHousekeeping::say_revision(const char* who) const {
-  core_.say_all(fmt::format("CAREV,{},{},{}", core_.clock().hhmmss(core_.now()), who, core_.revision()));
+  core_.say_all(fmt::format("CAREV,{},{},{}", core_.clock().hhmmss(core_.reading()), who, core_.revision()));
 }
 
 SimTime MicromodemHousekeeping::next() const {
@@ -138,6 +133,7 @@ void MicromodemHousekeeping::step() {
   const SimTime now = core_.now();
   if (now >= reboots_) {
     reboots_ = SimTime::never();
+    is_asleep_ = false;
     say_revision("INIT");
     say_revision("AUV");
   }

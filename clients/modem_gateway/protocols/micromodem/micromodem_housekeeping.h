@@ -1,6 +1,8 @@
 // The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and those that are only echoed.
 #pragma once
 
+#include <cstdint>
+
 #include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
 #include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "clients/modem_gateway/protocols/protocol.h"
@@ -14,6 +16,8 @@ class MicromodemHousekeeping {
 
   // False for a command that is none of these.
   bool obey(ClientId client, const NmeaSentence& sentence);
+  // Hears nothing for so long, and then reboots; 0: reboots.
+  void sleep(std::int64_t minutes);
   // The noise over the band of the latest packet, dB re 1 uPa.
   void note_noise(double level_db) { last_noise_db_ = level_db; }
 
@@ -23,7 +27,6 @@ class MicromodemHousekeeping {
  private:
   void configure(ClientId client, const NmeaSentence& sentence);
   void query(ClientId client, const NmeaSentence& sentence) const;
-  void sleep(ClientId client, const NmeaSentence& sentence);
   void set_clock(ClientId client, const NmeaSentence& sentence);
   void set_time(ClientId client, const NmeaSentence& sentence);
   void query_time(ClientId client) const;
@@ -33,6 +36,7 @@ class MicromodemHousekeeping {
 
   MicromodemCore& core_;
   SimTime next_revision_, reboots_ = SimTime::never(), noise_due_ = SimTime::never();
+  bool is_asleep_ = false;
   double last_noise_db_ = 0;
 };
 

@@ -27,11 +27,6 @@ MicromodemPacket type_of(std::int8_t kind, int rate, bool is_flexible) {
   }
 }
 
-// CARXP: 0 frequency-shift, 1 phase-shift keying.
-void add_start(const Listener& listener, int rate, std::vector<std::string>& lines) {
-  if (listener.reports_start) lines.push_back(rate == 0 ? "CARXP,0" : "CARXP,1");
-}
-
 MicromodemCycle cycle_of(const Listener& listener, const modem_receive_t& packet) {
   return {0,
           listener.address(packet.source_id),
@@ -84,8 +79,11 @@ void add_flexible(const Listener& listener, const modem_receive_t& packet, std::
 void add_mini(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
   const auto source = listener.address(packet.source_id),
              destination = listener.address(packet.destination_id);
-  if (packet.stamped)
+  if (kind_of(packet) == MicromodemKind::kPlain)
     return lines.push_back(fmt::format("CAMUA,{},{},{}", source, destination, hex_of(packet.payload)));
+  if (kind_of(packet) == MicromodemKind::kControlReply && packet.destination_id == packet.receiver_id)
+    lines.push_back(fmt::format("CAMER,{},{},{}", source, destination, control_fields(packet.payload)));
+  if (kind_of(packet) != MicromodemKind::kCycle) return;
   if (const auto announced = cycle_in(packet.payload, source, destination))
     lines.push_back("CACYC," + announced->cycle.fields());
 }
@@ -94,7 +92,7 @@ void add_ping(const Listener& listener, const modem_receive_t& packet, std::vect
   const auto source = listener.address(packet.source_id),
              destination = listener.address(packet.destination_id);
   if (packet.destination_id != packet.receiver_id) return;
-  lines.push_back(packet.stamped
+  lines.push_back(kind_of(packet) != MicromodemKind::kNewPing
                       ? fmt::format("CAMPA,{},{}", source, destination)
                       : fmt::format("CACMA,{},PNG,{},{},{},0,0,,",
                                     listener.state.clock.iso(SimTime::from_utime(packet.arrival_utime)),
@@ -102,6 +100,10 @@ void add_ping(const Listener& listener, const modem_receive_t& packet, std::vect
 }
 
 }  // namespace
+
+MicromodemKind kind_of(const modem_receive_t& packet) {
+  return static_cast<MicromodemKind>(packet.header_number);
+}
 
 std::string MicromodemCycle::fields() const {
   return fmt::format("{},{},{},{},{},{}", command, source, destination, rate, wants_ack, frames);
@@ -131,6 +133,17 @@ std::optional<CyclePacket> cycle_in(const std::vector<std::uint8_t>& payload, st
   return packet.cycle.rate < kMicromodemRates ? std::optional(packet) : std::nullopt;
 }
 
+std::vector<std::uint8_t> control_packet(std::int64_t line, std::int64_t mode, std::int64_t argument) {
+  const std::int64_t bits = line << 9 | mode << 5 | argument;
+  return {static_cast<std::uint8_t>(bits >> 8), static_cast<std::uint8_t>(bits & 255)};
+}
+
+std::string control_fields(const std::vector<std::uint8_t>& payload) {
+  const std::int64_t bits = payload.size() == 2 ? payload[0] << 8 | payload[1] : 0;
+  return fmt::format("{},{},{}", bits >> 9 & kMaxControlLine, bits >> 5 & kMaxControlMode,
+                     bits & kMaxControlArgument);
+}
+
 std::int32_t Listener::address(std::int32_t vehicle_id) const {
   return vehicle_id == kBroadcastId ? broadcast : addresses.address_of(vehicle_id).value_or(vehicle_id);
 }
@@ -141,25 +154,27 @@ void add_statistics(const Listener& listener, const modem_receive_t& packet,
   ReceptionReport report = report_of(packet);
   report.source = listener.address(packet.source_id);
   report.destination = listener.address(packet.destination_id);
-  report.type = type_of(packet.packet_kind, packet.rate_number, !packet.stamped);
+  report.type = type_of(packet.packet_kind, packet.rate_number, kind_of(packet) == MicromodemKind::kFlexible);
   if (report.num_bad > 0 && packet.rate_number != 0) report.psk_error = 3;
   lines.push_back(cacst(listener.state, report));
 }
 
 std::vector<std::string> lines_of(const Listener& listener, const modem_receive_t& packet) {
   std::vector<std::string> lines;
-  add_start(listener, packet.rate_number, lines);
   if (packet.packet_kind == modem_receive_t::PING) add_ping(listener, packet, lines);
   if (packet.packet_kind == modem_receive_t::MINI_PACKET) add_mini(listener, packet, lines);
-  if (packet.packet_kind == modem_receive_t::DATA && packet.stamped) add_data(listener, packet, lines);
-  if (packet.packet_kind == modem_receive_t::DATA && !packet.stamped) add_flexible(listener, packet, lines);
+  if (packet.packet_kind == modem_receive_t::DATA) {
+    if (kind_of(packet) == MicromodemKind::kFlexible)
+      add_flexible(listener, packet, lines);
+    else
+      add_data(listener, packet, lines);
+  }
   add_statistics(listener, packet, lines);
   return lines;
 }
 
 std::vector<std::string> lines_of_ack(const Listener& listener, const modem_receive_t& ack) {
   std::vector<std::string> lines;
-  add_start(listener, ack.rate_number, lines);
   for (std::size_t i = 0; i < 8 * ack.payload.size(); ++i) {
     if ((ack.payload[i / 8] >> i % 8 & 1) == 0) continue;
     lines.push_back(fmt::format("CAACK,{},{},{},1", listener.address(ack.source_id),
@@ -169,13 +184,12 @@ std::vector<std::string> lines_of_ack(const Listener& listener, const modem_rece
   return lines;
 }
 
-std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss) {
+std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss, SimTime arrival) {
   std::vector<std::string> lines;
-  ReceptionReport report = report_of(loss);
+  ReceptionReport report = report_of(loss, arrival);
   report.source = listener.address(loss.source_id);
   report.destination = listener.address(loss.destination_id);
   report.type = type_of(loss.packet_kind, loss.rate_number, false);
-  add_start(listener, loss.rate_number, lines);
   const bool broke_off = report.mode == ReceptionReport::Mode::kTimeOut;
   if (broke_off) lines.push_back(fmt::format("CAMSG,PACKET_TIMEOUT,{}", loss.num_frames));
   const bool has_frames = loss.packet_kind == modem_receive_t::DATA;

@@ -1,7 +1,6 @@
 // The lines that a Micromodem writes when something was received, or lost after its detection.
 //
-// Packets on the bus have no kinds of their own for two of the Micromodem's: a mini-packet without a stamp is a cycle packet, which
-// announces data at rate 0 or asks another modem for data; a data packet without a stamp is a flexible one.
+// CARXP comes when a packet is detected, all else with its last bit.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +11,21 @@
 #include "bus/messages.h"
 #include "clients/modem_gateway/protocols/address_book.h"
 #include "clients/modem_gateway/protocols/micromodem/micromodem_reports.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
+
+// Kinds of packets that the bus does not know, by the number in their header.
+enum class MicromodemKind {
+  kPlain = 0,
+  kCycle = 1,         // mini-packet that announces data at rate 0, or asks another modem for data
+  kNewPing = 2,       // the second generation's
+  kFlexible = 3,      // data
+  kControl = 4,       // mini-packet: set a line of the modem it is for
+  kControlReply = 5,  // mini-packet: it is set
+  kSleep = 6,         // mini-packet: sleep for so many minutes
+};
+MicromodemKind kind_of(const modem_receive_t& packet);
 
 // A data cycle: `source` sends `frames` frames to `destination` (addresses).
 struct MicromodemCycle {
@@ -33,12 +45,16 @@ struct CyclePacket {
 std::optional<CyclePacket> cycle_in(const std::vector<std::uint8_t>& payload, std::int64_t sender,
                                     std::int64_t addressee);
 
+// The 13 bits of a control packet: line (4), mode (4), argument (5), and back as "line,mode,argument".
+inline constexpr std::int64_t kMaxControlLine = 15, kMaxControlMode = 15, kMaxControlArgument = 31;
+std::vector<std::uint8_t> control_packet(std::int64_t line, std::int64_t mode, std::int64_t argument);
+std::string control_fields(const std::vector<std::uint8_t>& payload);
+
 // Of the modem that receives.
 struct Listener {
   ReporterState state;
   const AddressBook& addresses;
   std::int32_t broadcast;   // address that stands for all
-  bool reports_start;       // setting RXP
   bool reports_statistics;  // setting CST
   bool has_newer_lines;     // CARFP in the place of CARDP
 
@@ -49,8 +65,8 @@ struct Listener {
 std::vector<std::string> lines_of(const Listener& listener, const modem_receive_t& packet);
 // Of an acknowledgement: the frames that it says were right.
 std::vector<std::string> lines_of_ack(const Listener& listener, const modem_receive_t& ack);
-// For a packet that was detected and lost.
-std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss);
+// For a packet that was detected and lost; `arrival` by the vehicle's clock.
+std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss, SimTime arrival);
 // CACST alone, where it is reported.
 void add_statistics(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines);
 

@@ -25,10 +25,12 @@ constexpr int kVersion = 6, kProbeLength = 200;
 double ratio_of(double db) { return elementary::exp10(db / 10); }
 double db_of(double ratio) { return 10 * elementary::log10(ratio); }
 
-// Bits 0 and 1: who set the clock (2 a user); 2 to 4: where pulses come from (3 outside).
-int clock_mode(const ReporterState& modem) {
-  const int set = modem.clock.is_set() ? 1 : 0, pps = modem.clock.has_pps() ? 1 : 0;
-  return modem.is_second_generation ? 2 * set + (pps != 0 ? 3 << 2 : 0) : set + 2 * pps;
+// Bit 0: the clock was set; 1: it has pulses.
+int clock_mode(const ModemClock& clock) { return (clock.is_set() ? 1 : 0) + (clock.has_pps() ? 2 : 0); }
+
+// Of a reception by the second generation. Bits 0 and 1: who set the clock (2 a user); 2 to 4: where pulses come from (3 outside).
+int clock_sources(const ModemClock& clock) {
+  return (clock.is_set() ? 2 : 0) + (clock.has_pps() ? 3 << 2 : 0);
 }
 
 // Least mean square error of symbols of power 1: 1 / (1 + SINR).
@@ -54,13 +56,13 @@ ReceptionReport report_of(const modem_receive_t& packet) {
   return report;
 }
 
-ReceptionReport report_of(const packet_outcome_t& loss) {
+ReceptionReport report_of(const packet_outcome_t& loss, SimTime arrival) {
   const bool broke_off = loss.outcome == packet_outcome_t::HALF_DUPLEX ||
                          loss.outcome == packet_outcome_t::RECEIVER_GONE ||
                          loss.outcome == packet_outcome_t::ASLEEP;
   ReceptionReport report;
   report.mode = broke_off ? ReceptionReport::Mode::kTimeOut : ReceptionReport::Mode::kBadCrc;
-  report.arrival = SimTime::from_utime(loss.departure_utime) + SimDuration::from_seconds(loss.travel_time_s);
+  report.arrival = arrival;
   report.rate = loss.rate_number;
   report.num_frames = report.num_bad = loss.num_frames;
   report.level_db = loss.received_level_db;
@@ -83,7 +85,8 @@ std::string cacst(const ReporterState& modem, const ReceptionReport& r) {
           ? std::to_string(kVersion) + "," + std::to_string(static_cast<int>(r.mode)) + "," +
                 modem.clock.yyyymmdd(r.arrival) + modem.clock.hhmmss(r.arrival, 6)
           : std::to_string(static_cast<int>(r.mode)) + "," + modem.clock.hhmmss(r.arrival, 4);
-  return fmt::format("CACST,{},{},{},{:.0f},{:.0f},{:.0f},{},0,0,0,0,", arrival, clock_mode(modem), peak,
+  const int mode = modem.is_second_generation ? clock_sources(modem.clock) : clock_mode(modem.clock);
+  return fmt::format("CACST,{},{},{},{:.0f},{:.0f},{:.0f},{},0,0,0,0,", arrival, mode, peak,
                      2 * db_of(static_cast<double>(peak)), r.snr_db, r.level_db, modem.gain) +
          fmt::format("{},{},{},{},{},{},{},{:.0f},{:.0f},{:.0f},{:.0f},{:.1f},{:.0f},{:.2f},{:.0f},{},{:.0f}",
                      r.rate, r.source, r.destination, r.psk_error, static_cast<int>(r.type), r.num_frames,
@@ -96,7 +99,7 @@ std::string cacst(const ReporterState& modem, const ReceptionReport& r) {
 std::string caxst(const ReporterState& modem, const TransmissionReport& t) {
   const std::string version = modem.is_second_generation ? std::to_string(kVersion) + "," : "";
   return fmt::format("CAXST,{}{},{},{},{},{},{:.0f},{},{},{},{},{},{},{},{},{}", version,
-                     modem.clock.yyyymmdd(t.at), modem.clock.hhmmss(t.at, 4), clock_mode(modem),
+                     modem.clock.yyyymmdd(t.at), modem.clock.hhmmss(t.at, 4), clock_mode(modem.clock),
                      static_cast<int>(t.mode), kProbeLength,
                      micromodem_rate(std::clamp(t.rate, 0, kMicromodemRates - 1)).bandwidth_hz,
                      modem.carrier_hz, t.rate, t.source, t.destination, t.wants_ack ? 1 : 0,

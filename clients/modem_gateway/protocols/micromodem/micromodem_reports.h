@@ -49,7 +49,8 @@ struct ReceptionReport {
 };
 // All but addresses and kind, which the door knows.
 ReceptionReport report_of(const modem_receive_t& packet);
-ReceptionReport report_of(const packet_outcome_t& loss);
+// `arrival`: by the vehicle's clock.
+ReceptionReport report_of(const packet_outcome_t& loss, SimTime arrival);
 
 struct TransmissionReport {
   enum class Mode { kGood = 0, kInhibited = 3, kDataTimeOut = 4 };

@@ -29,6 +29,10 @@ MicromodemPacket type_of(MicromodemTransmitter::Kind kind, int rate) {
 
 }  // namespace
 
+clients::SendOptions mini_packet(MicromodemKind kind) {
+  return {.kind = modem_send_t::MINI_PACKET, .rate_number = 0, .header_number = static_cast<int>(kind)};
+}
+
 void MicromodemTransmitter::begin(const MicromodemCycle& cycle, std::int32_t to, bool has_cycle_packet) {
   cycle_ = Cycle{cycle, to, has_cycle_packet, {}, {}, false, false, {}};
   ask_for_data();
@@ -37,7 +41,7 @@ void MicromodemTransmitter::begin(const MicromodemCycle& cycle, std::int32_t to,
 void MicromodemTransmitter::ask_for_data() {
   const MicromodemCycle& wanted = cycle_->wanted;
   cycle_->asked = core_.now();
-  core_.say_all(fmt::format("CADRQ,{},{},{},{},{},{}", core_.clock().hhmmss(core_.now()), wanted.source,
+  core_.say_all(fmt::format("CADRQ,{},{},{},{},{},{}", core_.clock().hhmmss(core_.reading()), wanted.source,
                             wanted.destination, wanted.wants_ack,
                             micromodem_rate(static_cast<int>(wanted.rate)).frame_bytes,
                             cycle_->frame_bytes.size() + 1));
@@ -66,7 +70,7 @@ void MicromodemTransmitter::complete() {
   MicromodemCycle announced = cycle_->wanted;
   announced.frames = static_cast<std::int64_t>(cycle_->frame_bytes.size());
   send({Kind::kCycle, cycle_->to, announced.destination, cycle_packet(announced, false)},
-       {.kind = modem_send_t::MINI_PACKET, .stamped = false, .rate_number = 0});
+       mini_packet(MicromodemKind::kCycle));
 }
 
 void MicromodemTransmitter::send_data(SimTime start) {
@@ -136,7 +140,7 @@ SimTime MicromodemTransmitter::next() const {
 
 void MicromodemTransmitter::step() {
   if (core_.now() >= data_due()) {
-    core_.say_all(fmt::format("CAERR,{},DATA_TIMEOUT,{}", core_.clock().hhmmss(core_.now()),
+    core_.say_all(fmt::format("CAERR,{},DATA_TIMEOUT,{}", core_.clock().hhmmss(core_.reading()),
                               cycle_->frame_bytes.size() + 1));
     cycle_.reset();
   }
@@ -156,7 +160,7 @@ void MicromodemTransmitter::step() {
 bool MicromodemTransmitter::advance(OnItsWay& sent) {
   const SimTime now = core_.now();
   if (now >= sent.begins) {
-    sent.report.at = std::exchange(sent.begins, SimTime::never());
+    sent.report.at = core_.port().clock_at(std::exchange(sent.begins, SimTime::never()));
     if (sent.is_accepted) core_.say_all(fmt::format("CATXP,{}", sent.report.bytes));
   }
   if (now >= sent.ends) {

@@ -20,6 +20,9 @@
 
 namespace halocline::modem_gateway {
 
+// How a mini-packet of that kind is sent.
+clients::SendOptions mini_packet(MicromodemKind kind);
+
 class MicromodemTransmitter {
  public:
   enum class Kind { kData, kCycle, kMini, kPing, kNewPing, kFlexible };

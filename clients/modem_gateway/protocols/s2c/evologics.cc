@@ -2,8 +2,8 @@
 // piggy-back messages, bursts, positions of a USBL head.
 //
 // Each host has its own mode; ATO and ATC change it. Bytes that are no commands in data mode go to the remote address (!AR) as bursts of up
-// to 1023 bytes, once 50 ms have passed without more; what comes of another's stream is written as it is to hosts in data mode, and as
-// RECV to the others. Options: `mode` (net or data, of a host that connects).
+// to 1024 bytes, once 50 ms have passed without more; what comes of another's stream is written as it is to hosts in data mode, and as
+// RECV to the others. Options: `mode` (net or data, of a host that connects), `paths` (how ?P shows them: lines, or dune).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -37,9 +37,10 @@ namespace halocline::modem_gateway {
 namespace {
 
 constexpr SimDuration kStreamPause = SimDuration::from_milliseconds(50);
-constexpr std::size_t kMaxStreamBurst = 1023, kMaxStream = 16 * kMaxStreamBurst;
+constexpr std::size_t kMaxStreamBurst = 1024, kMaxStream = 16 * kMaxStreamBurst;
 // Packets whose bearing may still come.
 constexpr std::size_t kMaxRecent = 32;
+constexpr std::size_t kDunePaths = 8;
 // An answer to ?P that the channel does not give in time is empty.
 constexpr SimDuration kPathsWithin = SimDuration::from_milliseconds(800);
 
@@ -53,6 +54,10 @@ class Evologics : public Protocol {
     const std::string mode = context.options.take("mode", "net");
     require(mode == "net" || mode == "data", "option mode is '" + mode + "'; allowed are net and data");
     begins_in_data_mode_ = mode == "data";
+    const std::string paths = context.options.take("paths", "lines");
+    require(paths == "lines" || paths == "dune",
+            "option paths is '" + paths + "'; allowed are lines and dune");
+    shows_paths_for_dune_ = paths == "dune";
     context.options.require_all_taken();
   }
 
@@ -109,7 +114,7 @@ class Evologics : public Protocol {
     fix.bearing_rad = bearing.peer_bearing_rad;
     fix.elevation_rad = bearing.peer_elevation_rad;
     fix.deviation_rad = bearing.angle_deviation_rad;
-    fix.measured_us = bearing.utime;
+    fix.measured = port_.clock_at(SimTime::from_utime(bearing.utime));
     const S2cPosition position = position_message(core_, fix);
     if (!position.position.empty()) settings_.note_position(position.position);
     if (core_.setting("@ZU") != 0) core_.tell(position.message);
@@ -117,24 +122,28 @@ class Evologics : public Protocol {
 
   void on_paths(const link_reply_t& reply) override {
     if (!paths_client_) return;
-    std::string text;
     double strongest_db = -HUGE_VAL;
     const auto& paths = reply.link_paths.paths;
     for (const ray_path_t& path : paths) strongest_db = std::max(strongest_db, path.path_level_db);
+    std::vector<ShownPath> shown;
     for (const ray_path_t& path : paths)
-      text += fmt::format("{:.0f} {:.0f}\n", 1e6 * (path.path_delay_s - paths.front().path_delay_s),
-                          1000 * elementary::exp10((path.path_level_db - strongest_db) / 20));
-    answer_paths(text);
+      shown.push_back({std::llround(1e6 * (path.path_delay_s - paths.front().path_delay_s)),
+                       std::lround(1000 * elementary::exp10((path.path_level_db - strongest_db) / 20))});
+    answer_paths(std::move(shown));
   }
 
   SimTime next() const override { return std::min({sender_.next(), stream_due_, paths_due_}); }
   void step() override {
     sender_.step();
-    if (port_.now() >= paths_due_) answer_paths("");
+    if (port_.now() >= paths_due_) answer_paths({});
     if (port_.now() >= stream_due_) send_stream();
   }
 
  private:
+  struct ShownPath {
+    long long delay_us = 0;
+    long amplitude = 0;  // 1000 of the strongest
+  };
   // A packet whose bearing may come.
   struct Recent {
     std::int64_t session, sequence;
@@ -172,14 +181,23 @@ class Evologics : public Protocol {
 
   // ?P: the paths of sound from whom the modem heard last.
   void ask_paths(ClientId client) {
-    if (paths_client_) return answer(client, "?P", "");
-    if (last_source_ == kBroadcastId || !port_.ask_paths(last_source_)) return answer(client, "?P", "");
+    const bool is_asked = !paths_client_ && last_source_ != kBroadcastId && port_.ask_paths(last_source_);
+    if (!is_asked) return answer(client, "?P", paths_text({}));
     paths_client_ = client;
     paths_due_ = port_.now() + kPathsWithin;
   }
-  void answer_paths(const std::string& text) {
+  void answer_paths(std::vector<ShownPath> paths) {
     paths_due_ = SimTime::never();
-    answer(*std::exchange(paths_client_, std::nullopt), "?P", text);
+    answer(*std::exchange(paths_client_, std::nullopt), "?P", paths_text(std::move(paths)));
+  }
+  // A line for each; DUNE reads 16 numbers of one line, here of the first eight.
+  std::string paths_text(std::vector<ShownPath> paths) const {
+    if (shows_paths_for_dune_) paths.resize(kDunePaths);
+    std::string text;
+    for (const auto& [delay_us, amplitude] : paths)
+      text += fmt::format("{} {}{}", delay_us, amplitude, shows_paths_for_dune_ ? " " : "\n");
+    if (shows_paths_for_dune_) text.pop_back();
+    return text;
   }
 
   void report(const modem_receive_t& packet) {
@@ -233,7 +251,7 @@ class Evologics : public Protocol {
   ProtocolPort& port_;
   S2cSender sender_;
   S2cSettings settings_;
-  bool begins_in_data_mode_ = false;
+  bool begins_in_data_mode_ = false, shows_paths_for_dune_ = false;
   std::map<ClientId, S2cReader> hosts_;
   std::deque<Recent> recent_;
   std::int32_t last_source_ = kBroadcastId;

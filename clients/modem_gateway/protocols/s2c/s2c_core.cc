@@ -6,19 +6,8 @@
 
 namespace halocline::modem_gateway {
 
-std::vector<std::uint8_t> s2c_packet(const S2cPayload& payload) {
-  std::vector<std::uint8_t> packet;
-  if (payload.has_header())
-    packet.push_back(static_cast<std::uint8_t>(static_cast<int>(payload.kind) | payload.protocol << 2));
-  packet.insert(packet.end(), payload.bytes.begin(), payload.bytes.end());
-  return packet;
-}
-
 S2cPayload s2c_payload(const modem_receive_t& packet) {
-  if (packet.stamped || packet.payload.empty()) return {S2cKind::kPlain, 0, packet.payload};
-  const std::uint8_t header = packet.payload.front();
-  return {
-      static_cast<S2cKind>(header & 3), header >> 2 & 7, {packet.payload.begin() + 1, packet.payload.end()}};
+  return {static_cast<S2cKind>(packet.header_number & 3), packet.header_number >> 2 & 7, packet.payload};
 }
 
 S2cCore::S2cCore(ProtocolContext& context, Tell tell)
@@ -51,8 +40,9 @@ std::int64_t S2cCore::setting(std::string_view name) const {
 }
 
 SimTime S2cCore::time_of(std::uint32_t clock) const {
-  const auto ahead = static_cast<std::int32_t>(clock - clock_us(now()));
-  return SimTime::from_utime(now().to_utime() + ahead);
+  const SimTime now = reading();
+  const auto ahead = static_cast<std::int32_t>(clock - clock_us(now));
+  return port_.instant_of(SimTime::from_utime(now.to_utime() + ahead));
 }
 
 }  // namespace halocline::modem_gateway

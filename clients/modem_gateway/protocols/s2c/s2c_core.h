@@ -15,9 +15,8 @@
 
 namespace halocline::modem_gateway {
 
-// The kinds of the modem's packets. The bus knows data of two rates; a packet without a stamp begins with a byte of its own that holds
-// kind (2 bits) and protocol id (3): synchronous messages, piggy-back messages, forced ones, data of the burst stream, and all with
-// another protocol id than 0. Such packets carry a byte less.
+// The kinds of the modem's packets. The bus knows data of two rates; the number in the packet's header holds kind (2 bits) and protocol
+// id (3).
 enum class S2cKind { kPlain = 0, kSynchronous = 1, kPiggyBack = 2, kForced = 3 };
 inline constexpr S2cKind kS2cStream = S2cKind::kSynchronous;  // of a burst
 
@@ -26,9 +25,8 @@ struct S2cPayload {
   int protocol = 0;
   std::vector<std::uint8_t> bytes;
 
-  bool has_header() const { return kind != S2cKind::kPlain || protocol != 0; }
+  std::int32_t header_number() const { return static_cast<int>(kind) | protocol << 2; }
 };
-std::vector<std::uint8_t> s2c_packet(const S2cPayload& payload);
 S2cPayload s2c_payload(const modem_receive_t& packet);
 
 inline constexpr std::int32_t kS2cBroadcast = 255;
@@ -56,8 +54,10 @@ class S2cCore {
   const std::map<std::string, std::int64_t, std::less<>>& settings() const { return settings_; }
   void reset_settings();
 
-  // The modem's clock: microseconds since the start of the simulation, 32 bits.
-  static std::uint32_t clock_us(SimTime time) { return static_cast<std::uint32_t>(time.to_utime()); }
+  // What the vehicle's clock shows, which is the modem's.
+  SimTime reading() const { return port_.clock_at(now()); }
+  // A reading as messages have it: microseconds, 32 bits.
+  static std::uint32_t clock_us(SimTime reading) { return static_cast<std::uint32_t>(reading.to_utime()); }
   // The instant nearest to now at which the clock shows that.
   SimTime time_of(std::uint32_t clock_us) const;
 

@@ -105,7 +105,7 @@ S2cPosition position_message(const S2cCore& core, const S2cFix& fix) {
              elevation = elementary::sin_cos(fix.elevation_rad);
   const double x = elevation.cosine * bearing.sine, y = elevation.cosine * bearing.cosine, z = elevation.sine;
   const Vec3 ned = to_quaternion(attitude) * Vec3(y, x, -z);
-  const double now_s = core.now().seconds(), measured_s = static_cast<double>(fix.measured_us) / 1e6;
+  const double now_s = core.reading().seconds(), measured_s = fix.measured.seconds();
   const std::string head = fmt::format("{:.6f},{:.6f},{},", now_s, measured_s, fix.address);
   const std::string angles = fmt::format("{:.4f},{:.4f},{:.4f}", attitude.roll, attitude.pitch, attitude.yaw);
   if (!fix.has_range)

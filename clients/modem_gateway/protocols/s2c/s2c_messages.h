@@ -11,6 +11,7 @@
 
 #include "bus/messages.h"
 #include "clients/modem_gateway/protocols/s2c/s2c_core.h"
+#include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 
@@ -31,7 +32,7 @@ std::string receive_failed(const S2cCore& core, const packet_outcome_t& loss);  
 struct S2cFix {
   std::int32_t address = 0;
   double bearing_rad = 0, elevation_rad = 0, deviation_rad = 0;  // as in vehicle_usbl_t
-  std::int64_t measured_us = 0;                                  // simulation time, microseconds
+  SimTime measured;                                              // by the vehicle's clock
   bool has_range = false;
   double travel_time_s = 0;  // one way
   long rssi = 0, integrity = 0;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "clients/modem_gateway/protocols/fields.h"
+#include "clients/modem_gateway/protocols/s2c/s2c_messages.h"
 #include "core/names.h"
 
 namespace halocline::modem_gateway {
@@ -101,7 +102,7 @@ std::string S2cSender::take(S2cMessage message) {
     if (!burst_) burst_due_ = std::min(burst_due_, core_.now());
     return "OK";
   }
-  if (s2c_packet(message.payload).size() > kMaxInstant) return "ERROR WRONG FORMAT";
+  if (message.payload.bytes.size() > kMaxInstant) return "ERROR WRONG FORMAT";
   if (message.type == S2cMessage::Type::kPiggyBack) {
     if (waiting_piggy_back_) return "BUSY DELIVERING MESSAGE";
     waiting_piggy_back_ = std::move(message);
@@ -138,10 +139,10 @@ void S2cSender::transmit(OnItsWay& sent) {
   const S2cMessage& message = sent.message;
   const bool is_burst = message.type == S2cMessage::Type::kBurst;
   const std::int32_t to = core_.vehicle_of(message.address);
-  sent.sequence = core_.port().send(sent.start, to, s2c_packet(message.payload),
-                                    {.stamped = !message.payload.has_header(),
-                                     .wants_ack = message.wants_ack && to != kBroadcastId,
-                                     .rate_number = is_burst ? kS2cBurstRate : kS2cImRate});
+  sent.sequence = core_.port().send(sent.start, to, message.payload.bytes,
+                                    {.wants_ack = message.wants_ack && to != kBroadcastId,
+                                     .rate_number = is_burst ? kS2cBurstRate : kS2cImRate,
+                                     .header_number = message.payload.header_number()});
   sent.ends = SimTime::never();
   sent.until = std::max(sent.start, core_.now()) + kReceiptWithin;
 }
@@ -193,6 +194,13 @@ void S2cSender::on_ack(const modem_receive_t& ack) {
   const bool is_good = !ack.payload.empty() && (ack.payload[0] & 1) != 0;
   if (place == nullptr || !is_good) return;
   note_propagation(ack.two_way_travel_time_s / 2);
+  // When it was decoded, and when what it acknowledges left.
+  const S2cQuality q = quality_of(core_, ack);
+  const std::uint32_t arrival_us = S2cCore::clock_us(SimTime::from_utime(ack.arrival_utime));
+  core_.tell_more(fmt::format("RECVSRV,{},{},ack,{},{},{},{}", core_.address_of(ack.source_id),
+                              core_.own_address(), arrival_us + static_cast<std::uint32_t>(q.duration_us),
+                              S2cCore::clock_us(core_.port().clock_at((*place)->start)), q.rssi,
+                              q.integrity));
   finish(*place, true);
 }
 
@@ -255,9 +263,10 @@ void S2cSender::step(std::optional<OnItsWay>& place) {
   const SimTime now = core_.now();
   const S2cMessage& message = sent.message;
   if (now >= sent.ends) {
-    core_.tell_more(fmt::format(
-        "SENDEND,{},{},{},{}", message.address, lower_name_of(message.type), S2cCore::clock_us(sent.start),
-        (std::exchange(sent.ends, SimTime::never()) - sent.start).nanoseconds() / 1000));
+    core_.tell_more(
+        fmt::format("SENDEND,{},{},{},{}", message.address, lower_name_of(message.type),
+                    S2cCore::clock_us(core_.port().clock_at(sent.start)),
+                    (std::exchange(sent.ends, SimTime::never()) - sent.start).nanoseconds() / 1000));
     if (!message.wants_ack) return finish(place, true);
     sent.until = now + SimDuration::from_milliseconds(core_.setting("!RT"));
   }

@@ -1,11 +1,10 @@
 // UnetStack gateway: JSON lines of fjage, agents node, arp, phy, ranging and uwlink.
 //
-// A frame's protocol number goes with its data, a byte of it, but for protocol 0. Frames are sent one after the other; up to 16 wait. With
-// `reliability` a frame is acknowledged by the receiver's modem and repeated twice. A detected frame is reported when it ends
-// (RxFrameStartNtf, then RxFrameNtf, BadFrameNtf or CollisionNtf): the medium does not tell earlier which channel it is of. Left out:
-// baseband signals, fragmentation. Options: none.
+// A frame's protocol number goes in its header. Frames are sent one after the other; up to 16 wait. With `reliability` a frame is
+// acknowledged by the receiver's modem and repeated twice. A frame is reported when it is detected (RxFrameStartNtf) and when it ends
+// (RxFrameNtf, BadFrameNtf or CollisionNtf). The modem's time is the vehicle's clock. Left out: baseband signals, fragmentation.
+// Options: none.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -75,7 +74,7 @@ class Unet : public Protocol {
       port_.note("send-refused", "result=" + std::to_string(receipt.receipt_result));
       return try_again();
     }
-    sending_->began_us = receipt.start_utime;
+    sending_->began_us = port_.clock_at(SimTime::from_utime(receipt.start_utime)).to_utime();
     sending_->ends = SimTime::from_utime(receipt.start_utime) + SimDuration::from_seconds(receipt.duration_s);
     sending_->until = SimTime::never();
   }
@@ -88,12 +87,23 @@ class Unet : public Protocol {
     report_frame(packet);
   }
 
+  void on_event(const modem_event_t& event) override {
+    if (event.modem_event != modem_event_t::PACKET_DETECTED || !parameters_.receives()) return;
+    hosts_.notify(kPhyTopic, "org.arl.unet.phy.RxFrameStartNtf",
+                  {{"type", channel_of(event.rate_number)},
+                   {"rxTime", event.arrival_utime},
+                   {"rssi", event.level_db},
+                   {"detector", 1.0},
+                   {"sender", "phy"}});
+  }
+
   void on_loss(const packet_outcome_t& loss) override {
     parameters_.note_noise(loss.noise_level_db);
     if (!parameters_.receives()) return;
     const int type = channel_of(loss.rate_number);
-    const std::int64_t arrival_us = loss.departure_utime + std::llround(1e6 * loss.travel_time_s);
-    report_start(type, arrival_us);
+    const SimTime arrival =
+        SimTime::from_utime(loss.departure_utime) + SimDuration::from_seconds(loss.travel_time_s);
+    const std::int64_t arrival_us = port_.clock_at(arrival).to_utime();
     if (loss.outcome == packet_outcome_t::COLLIDED)
       return hosts_.notify(kPhyTopic, "org.arl.unet.phy.CollisionNtf",
                            {{"type", type}, {"rxTime", arrival_us}, {"sender", "phy"}});
@@ -120,8 +130,8 @@ class Unet : public Protocol {
     bool is_ping = false;
     int channel = kUnetData;
     std::int32_t address = 0;
-    std::vector<std::uint8_t> packet;  // as it is sent
-    bool has_header = false;           // the protocol's number in front
+    std::int32_t protocol = 0;
+    std::vector<std::uint8_t> data;
     bool wants_ack = false;
     SimTime start;
     int tries_left = 1;
@@ -169,15 +179,13 @@ class Unet : public Protocol {
     const auto data = unet_bytes(request.data.contains("data") ? request.data["data"] : json());
     if (job.channel != kUnetControl && job.channel != kUnetData) return refuse(request, "bad type");
     if (!data || protocol < 0 || protocol > 63 || job.address < 0) return refuse(request, "bad request");
-    job.has_header = protocol != 0;
-    if (job.has_header) job.packet.push_back(static_cast<std::uint8_t>(protocol));
-    job.packet.insert(job.packet.end(), data->begin(), data->end());
-    if (std::ssize(job.packet) > unet_channel(job.channel).frame_bytes)
-      return refuse(request, "data too long");
+    job.protocol = static_cast<std::int32_t>(protocol);
+    job.data = *data;
+    if (std::ssize(job.data) > unet_channel(job.channel).frame_bytes) return refuse(request, "data too long");
     job.wants_ack = !is_frame && flag_of(request.data, "reliability") && job.address != 0;
     job.tries_left = job.wants_ack ? kTries : 1;
     const auto at_us = integer_of(request.data, "txTime");
-    job.start = at_us > 0 ? SimTime::from_utime(at_us) : SimTime();
+    job.start = at_us > 0 ? port_.instant_of(SimTime::from_utime(at_us)) : SimTime();
     if (job.start > port_.now() + kMaxAhead) return refuse(request, "txTime too far ahead");
     accept(std::move(job));
   }
@@ -224,11 +232,11 @@ class Unet : public Protocol {
     Job& job = *sending_;
     --job.tries_left;
     clients::SendOptions options{.kind = job.is_ping ? modem_send_t::PING : modem_send_t::DATA,
-                                 .stamped = !job.has_header,
                                  .wants_ack = job.wants_ack,
                                  .rate_number = job.channel,
-                                 .source_level_db = parameters_.source_level_db(job.channel)};
-    job.sequence = port_.send(job.start, vehicle_of(job.address), job.packet, std::move(options));
+                                 .source_level_db = parameters_.source_level_db(job.channel),
+                                 .header_number = job.protocol};
+    job.sequence = port_.send(job.start, vehicle_of(job.address), job.data, std::move(options));
     job.ends = SimTime::never();
     job.until = std::max(job.start, port_.now()) + kReceiptWithin;
   }
@@ -285,20 +293,13 @@ class Unet : public Protocol {
     finish();
   }
 
-  void report_start(int type, std::int64_t arrival_us) {
-    hosts_.notify(kPhyTopic, "org.arl.unet.phy.RxFrameStartNtf",
-                  {{"type", type}, {"rxTime", arrival_us}, {"detector", 1.0}, {"sender", "phy"}});
-  }
   void report_frame(const modem_receive_t& packet) {
-    const bool has_header = !packet.stamped && !packet.payload.empty();
-    const std::span<const std::uint8_t> payload(packet.payload);
-    report_start(channel_of(packet.rate_number), packet.arrival_utime);
     hosts_.notify(kPhyTopic, "org.arl.unet.phy.RxFrameNtf",
                   {{"from", address_of(packet.source_id)},
                    {"to", address_of(packet.destination_id)},
-                   {"protocol", has_header ? payload.front() : 0},
+                   {"protocol", packet.header_number},
                    {"type", channel_of(packet.rate_number)},
-                   {"data", unet_array(payload.subspan(has_header ? 1 : 0))},
+                   {"data", unet_array(packet.payload)},
                    {"rxTime", packet.arrival_utime},
                    {"rssi", packet.received_level_db},
                    {"snr", packet.snr_db},

@@ -12,8 +12,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<UnetChannel, 2> kChannels{{{800, 16, 0.1, "fhbfsk"}, {2400, 64, 0.1, "ofdm"}}};
-// Of a frame with another protocol than 0, whose number goes with its data.
-constexpr std::int64_t kHeaderBytes = 1;
 constexpr double kSourceLevel_db = 185;
 constexpr std::int64_t kHighestAddress = 254;
 
@@ -38,7 +36,7 @@ bool is_settable(const std::string& name) {
   return std::find(kSettable.begin(), kSettable.end(), name) != kSettable.end();
 }
 
-std::int64_t mtu_of(int index) { return unet_channel(index).frame_bytes - kHeaderBytes; }
+std::int64_t mtu_of(int index) { return unet_channel(index).frame_bytes; }
 
 }  // namespace
 
@@ -77,7 +75,7 @@ json UnetParameters::channel_value(int index, const std::string& name) const {
 
 json UnetParameters::phy_value(const std::string& name) const {
   if (name == "MTU" || name == "RTU") return mtu_of(kUnetData);
-  if (name == "time") return port_.now().to_utime();
+  if (name == "time") return port_.clock_at(port_.now()).to_utime();
   if (name == "busy") return is_busy_;
   if (name == "rxEnable") return receives_;
   if (name == "propagationSpeed") return sound_speed_mps_;

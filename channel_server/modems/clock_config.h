@@ -1,0 +1,11 @@
+// [vehicle.clock] of a scenario: the clock by which a vehicle's modem stamps packets and measures arrivals.
+#pragma once
+
+#include "bus/config/config.h"
+#include "channel_server/vehicles/vehicle_clocks.h"
+
+namespace halocline::channel_server {
+
+void visit_clock(bus::ConfigVisitor& v, ClockSettings& clock);
+
+}  // namespace halocline::channel_server
