@@ -5,6 +5,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 namespace halocline::acoustics {
@@ -15,13 +16,15 @@ class AnalyticSignal {
   AnalyticSignal(double rate_hz, const std::vector<double>& samples);
 
   double rate_hz() const { return rate_hz_; }
-  double duration_s() const { return static_cast<double>(samples_.size()) / rate_hz_; }
+  double duration_s() const { return static_cast<double>(count_) / rate_hz_; }
   // `time_s` after the first sample.
   std::complex<double> at(double time_s) const;
 
  private:
   double rate_hz_;
-  std::vector<std::complex<double>> samples_;
+  std::ptrdiff_t count_ = 0;
+  // Real and imaginary parts, with zeros before and after them.
+  std::vector<double> real_, turned_;
 };
 
 }  // namespace halocline::acoustics

@@ -59,6 +59,8 @@ void MovingLink::add_received(const AnalyticSignal& sent, double departure_s, Sa
 void MovingLink::add_span(const Span& span, const AnalyticSignal& sent, double departure_s,
                           Samples& received) const {
   const double slope = (span.delay_end_s - span.delay_s) / step_s_;
+  const double per_slope = 1 / (1 + slope);
+  const std::complex<double> gain_slope = (span.gain_end - span.gain) / step_s_;
   const double first_s = span.begin_s + span.delay_s, end_s = span.begin_s + step_s_ + span.delay_end_s;
   const auto index = [&](double time_s) {
     return static_cast<std::ptrdiff_t>(std::ceil((time_s - received.begin_s) * received.rate_hz));
@@ -66,10 +68,10 @@ void MovingLink::add_span(const Span& span, const AnalyticSignal& sent, double d
   const auto last = std::min(index(end_s), std::ssize(received.values));
   for (auto n = std::max<std::ptrdiff_t>(index(first_s), 0); n < last; ++n) {
     const double at_s = received.begin_s + static_cast<double>(n) / received.rate_hz;
-    const double left_after_s = (at_s - first_s) / (1 + slope);  // after span.begin_s
-    const std::complex<double> gain = span.gain + left_after_s / step_s_ * (span.gain_end - span.gain);
-    received.values[static_cast<std::size_t>(n)] +=
-        (gain * sent.at(span.begin_s + left_after_s - departure_s)).real();
+    const double left_after_s = (at_s - first_s) * per_slope;  // after span.begin_s
+    const std::complex<double> gain = span.gain + left_after_s * gain_slope;
+    const std::complex<double> x = sent.at(span.begin_s + left_after_s - departure_s);
+    received.values[static_cast<std::size_t>(n)] += gain.real() * x.real() - gain.imag() * x.imag();
   }
 }
 

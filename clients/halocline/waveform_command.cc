@@ -92,7 +92,7 @@ int convolve(const WaveformOptions& options) {
     run = record_run(config, terrain, SimTime::from_seconds(end_s + 5));
   } else {
     LogReader log(options.log);
-    run = read_recording(log, config.scenario);
+    run = read_recording(log, config.scenario, Played::kWithEquipment);
   }
   const acoustics::Samples received = received_waveform(config, terrain, run, sent,
                                                         {.receiver = options.to,

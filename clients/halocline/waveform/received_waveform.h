@@ -1,15 +1,13 @@
 // What a hydrophone of a scenario records while others transmit waveforms.
 //
-// Each sender's sound goes along the paths of its link to the receiver, as packets' does: searched for every kFrame of its
-// departure, with the ends where a recorded run had them, the receiver when the sound arrives; with their phases and their fading
-// (acoustics/fading/link_fading.h) at the arrival of the first; delayed, turned and summed by acoustics/waveform/moving_link.h. To
-// that comes the ambient noise of the water, its slow variation and its bursts (acoustics/noise/noise_variation.h), shaped over
-// the whole band of the samples. All draws are those of the scenario's seed: the same file every time.
+// Each sender's sound goes along the paths of its link to the receiver, as packets' does (scenario_links.h): with the ends where a
+// recorded run had them, the receiver when the sound arrives; with their phases and their fading (acoustics/fading/link_fading.h) at the
+// arrival of the first; delayed, turned and summed by acoustics/waveform/moving_link.h. To that comes the noise of the sea and of
+// vehicles (recorded_noise.h). All draws are those of the scenario's seed: the same file every time.
 //
 // Levels. A sine of amplitude 1 in a sender's samples has the source level (rms, dB re 1 uPa at 1 m). Received pressure p becomes
 // the sample 10^(sensitivity / 20) p, p in uPa: at -190 dB re 1/uPa a sine of amplitude 1 has 187 dB re 1 uPa.
-// Left out: the noise of vehicles, absorption over the band (that of the modem's centre holds), a path's own echoes beyond those
-// that the scenario's model of propagation finds.
+// Left out: a path's own echoes beyond those that the scenario's model of propagation finds.
 #pragma once
 
 #include <string>
@@ -37,8 +35,6 @@ struct WaveformRules {
   Decibels sensitivity{-190};  // dB re 1/uPa
   bool has_noise = true;
 };
-
-inline constexpr SimDuration kFrame = SimDuration::from_milliseconds(20);
 
 // The run of the scenario's vehicles on its terrain until `end`, in memory.
 Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "acoustics/waveform/analytic_signal.h"
+#include "acoustics/waveform/linear_phase_filter.h"
 #include "acoustics/waveform/moving_link.h"
 #include "acoustics/waveform/shaped_noise.h"
 #include "core/check.h"
@@ -108,6 +109,19 @@ TEST(MovingLink, RefusesWhatIsNoLink) {
 
 // Power in bands of 4 kHz, from 200 spectra of 5 ms by the formula of a discrete transform: the standard error of the mean of
 // 200 * 20 exponential powers is 1.6 %.
+TEST(LinearPhaseFilter, ChangesTheLevelOfATone) {
+  const auto amplitude = [](double frequency_hz) { return 1 - frequency_hz / 1e5; };
+  const std::vector<double> taps = linear_phase_taps(amplitude, kRate);
+  for (const double frequency_hz : {5e3, 2e4}) {
+    const std::vector<double> sent = tone(frequency_hz, 0.05);
+    const std::vector<double> heard = filtered(sent, taps);
+    for (std::size_t n = kFilterHalf; n + kFilterHalf < sent.size(); ++n)
+      ASSERT_NEAR(heard[n], amplitude(frequency_hz) * sent[n], 1e-3) << n;  // the window is 63 dB down
+  }
+  EXPECT_THROW(linear_phase_taps([](double) { return -1.0; }, kRate), InvalidArgument);
+  EXPECT_THROW(linear_phase_taps(amplitude, 0), InvalidArgument);
+}
+
 TEST(ShapedNoise, HasItsSpectrum) {
   const auto density = [](double f) { return 1e4 / (1 + std::pow(f / 10'000, 2)); };
   const ShapedNoise noise(density, kRate, {.seed = 3, .purpose = 4, .who = 5});

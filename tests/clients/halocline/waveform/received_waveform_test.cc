@@ -16,14 +16,19 @@
 
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/link/link_budget.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/environment.h"
 #include "acoustics/waveform/analytic_signal.h"
 #include "bus/event_log.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/water_model.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
 #include "clients/halocline/waveform/vehicle_track.h"
 #include "clients/halocline/waveform/wav_file.h"
 #include "core/check.h"
 #include "core/frames.h"
+#include "core/sim_time.h"
 #include "core/units.h"
 
 namespace halocline::clients {
@@ -149,6 +154,31 @@ TEST_F(WaveformTest, SendersAddUp) {
         << n;
 }
 
+// 10 log10 of the power that absorption takes: alpha times the range. Half way between the ends stands for the depths between them.
+TEST_F(WaveformTest, AbsorptionTakesMoreOfAHigherFrequency) {
+  const ScenarioConfig config =
+      load("scenarios/ranging.toml", {"propagation.model=\"straight\"", "propagation.fading=\"none\""});
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(4));
+  const auto heard_db = [&](double frequency_hz) {
+    const Samples heard =
+        received_waveform(config, make_terrain(config), run, {tone_from("west", 1, 0.3, frequency_hz)},
+                          {.receiver = "east", .begin_s = 1, .sensitivity = Decibels{0}, .has_noise = false});
+    return level_db(std::abs(line(
+        heard, heard.begin_s + static_cast<double>(heard.values.size()) / kRate - 0.7, 0.1, frequency_hz)));
+  };
+  const double range_m =
+      survey_link(config, link_end(config, "west"), link_end(config, "east")).reception.budget.range_m;
+  const auto water = channel_server::make_water_model(config.channel_server, config.scenario, config.folder);
+  const double depth_m =
+      (link_end(config, "west").position_ned_m.z() + link_end(config, "east").position_ned_m.z()) / 2;
+  const auto alpha = acoustics::absorption_spectrum_at(water.propagation->environment(SimTime()), depth_m);
+  const double expected_db =
+      (alpha.components_at(20'000).total_db_per_km - alpha.components_at(30'000).total_db_per_km) * range_m /
+      1000;
+  ASSERT_LT(expected_db, -1);
+  EXPECT_NEAR(heard_db(30'000) - heard_db(20'000), expected_db, 0.1);
+}
+
 // Nothing is sent: what is left is the noise of the sea, in its band as a table of links states it.
 TEST_F(WaveformTest, NoiseHasTheLevelThatLinksState) {
   const ScenarioConfig config =
@@ -168,6 +198,57 @@ TEST_F(WaveformTest, NoiseHasTheLevelThatLinksState) {
   EXPECT_EQ(heard.values, received_waveform(config, make_terrain(config), run, {silence},
                                             {.receiver = "auv-1", .sensitivity = Decibels{0}})
                               .values);
+}
+
+// A vehicle 1 km away makes 140 dB re 1 uPa^2/Hz at 1 m at 25 kHz: less the loss of the link, or at its own hydrophone less 20 dB. The sea is
+// more than 30 dB below that. 5 kHz in 100 spectra of 50 lines: 0.062 dB is a standard deviation.
+TEST_F(WaveformTest, VehiclesAreHeardByTheirNoise) {
+  const std::string path = ::testing::TempDir() + "halocline-noise-" + std::to_string(getpid()) + ".toml";
+  std::ofstream(path) << R"([scenario]
+duration_s = 10
+[terrain]
+kind = "flat"
+[terrain.flat]
+depth_m = 200.0
+[environment]
+profile = "isovelocity"
+[propagation]
+model = "straight"
+fading = "none"
+[[vehicle]]
+name = "loud"
+id = 1
+model = "fixed"
+start_ned_m = [0.0, 0.0, 50.0]
+[vehicle.noise]
+frequency_khz = [25.0]
+level_db = [140.0]
+varies_with = "nothing"
+own_loss_db = 20.0
+[[vehicle]]
+name = "quiet"
+id = 2
+model = "fixed"
+start_ned_m = [1000.0, 0.0, 50.0]
+)";
+  const ScenarioConfig config = load_scenario(path, {});
+  std::filesystem::remove(path);
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(5));
+  const auto heard_db = [&](const std::string& from, const std::string& by) {
+    const SentWaveform silence{from, {1, kRate, std::vector<double>(96'000, 0.0)}, Decibels{185}};
+    const Samples heard = received_waveform(config, make_terrain(config), run, {silence},
+                                            {.receiver = by, .begin_s = 1, .sensitivity = Decibels{0}});
+    double power = 0;
+    for (int s = 0; s < 100; ++s) {
+      for (double f = 22'500; f < 27'500; f += 100)
+        power += std::norm(line(heard, 1 + 0.01 * s, 0.01, f)) / 2 / 100;
+    }
+    return 10 * std::log10(power);
+  };
+  const double band_db = 10 * std::log10(5000.0);
+  const auto link = survey_link(config, link_end(config, "loud"), link_end(config, "quiet"));
+  EXPECT_NEAR(heard_db("loud", "quiet"), 140 + band_db - link.reception.budget.transmission_loss.value, 0.3);
+  EXPECT_NEAR(heard_db("quiet", "loud"), 140 + band_db - 20, 0.25);
 }
 
 TEST_F(WaveformTest, RefusesSendersThatCannotBe) {

@@ -1,0 +1,119 @@
+#include "clients/halocline/waveform/scenario_links.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "acoustics/fading/sound_path.h"
+#include "acoustics/sea/absorption.h"
+#include "acoustics/waveform/analytic_signal.h"
+#include "acoustics/waveform/linear_phase_filter.h"
+#include "bus/runtime/scenario.h"
+#include "channel_server/channel_server_config.h"
+#include "clients/halocline/scenario/link_survey.h"
+#include "core/check.h"
+#include "core/elementary.h"
+
+namespace halocline::clients {
+namespace {
+
+using acoustics::PathGain;
+using channel_server::Reception;
+
+ScenarioConfig with_own_searches(ScenarioConfig config) {
+  config.channel_server.propagation.reuse_distance_m = 0;
+  return config;
+}
+
+std::vector<PathGain> gains_of(const Reception& reception, const acoustics::LinkFading& fading,
+                               SimTime departure, const acoustics::Modem& modem) {
+  std::vector<PathGain> gains;
+  if (reception.paths.empty()) return gains;
+  const SimTime arrival = departure + SimDuration::from_seconds(reception.paths.front().delay_s);
+  const auto pressures =
+      fading.responses(reception.paths, modem.band(), arrival, {}, fading.large_scale(arrival));
+  const double sent = amplitude_of(modem.source_level);
+  for (std::size_t i = 0; i < reception.paths.size(); ++i) {
+    const acoustics::SoundPath& path = reception.paths[i];
+    gains.push_back({path.identity, path.delay_s, pressures[i] / sent, path.doppler_factor});
+  }
+  return gains;
+}
+
+// What absorption takes of a frequency beyond what it takes of the band's centre.
+std::vector<double> absorption_taps(const acoustics::Environment& water, const Way& way, double rate_hz) {
+  const acoustics::AbsorptionSpectrum alpha = acoustics::absorption_spectrum_at(water, way.depth_m);
+  const double centre_db_per_km = alpha.components_at(way.centre_hz).total_db_per_km;
+  return acoustics::linear_phase_taps(
+      [&](double frequency_hz) {
+        const double more_db_per_km = alpha.components_at(frequency_hz).total_db_per_km - centre_db_per_km;
+        return amplitude_of(Decibels{-more_db_per_km * way.length_m / 1000});
+      },
+      rate_hz);
+}
+
+}  // namespace
+
+double amplitude_of(Decibels level) { return elementary::exp10(level.value / 20); }
+
+ScenarioLinks::ScenarioLinks(const ScenarioConfig& config, const bathymetry::Terrain& terrain,
+                             const Recording& run)
+    : config_(with_own_searches(config)),
+      run_(run),
+      modems_(make_modems(config_.channel_server)),
+      terrain_(terrain),
+      water_(make_water_model(config_.channel_server, config_.scenario, config_.folder)) {}
+
+std::int32_t ScenarioLinks::id_of(const std::string& vehicle) const {
+  const bus::VehicleEntry* entry = config_.scenario.find(vehicle);
+  require(entry != nullptr, "'" + vehicle + "' is no vehicle of the scenario");
+  return entry->id;
+}
+
+Way ScenarioLinks::between(const std::string& from, const acoustics::Modem& modem, const std::string& to,
+                           double begin_s, double end_s) {
+  const VehicleTrack sender(run_, from), receiver(run_, to);
+  const acoustics::FadingLink pair{
+      config_.scenario.seed, static_cast<std::uint32_t>(std::min(id_of(from), id_of(to))),
+      static_cast<std::uint32_t>(std::max(id_of(from), id_of(to))), id_of(from) > id_of(to)};
+  const acoustics::LinkFading fading(config_.channel_server.propagation.fading, pair);
+  std::vector<std::vector<PathGain>> frames;
+  double delay_s = -1, length_m = 0, depth_m = 0;
+  const auto count = static_cast<int>(std::ceil((end_s - begin_s) / kFrame.seconds())) + 2;
+  for (int k = 0; k < count; ++k) {
+    const SimTime departure = SimTime::from_seconds(begin_s) + kFrame * k;
+    const Reception reception = reception_of(departure, {id_of(from), modem, sender.at(departure)},
+                                             {id_of(to), modem_of(to), {}}, receiver, delay_s);
+    frames.push_back(gains_of(reception, fading, departure, modem));
+    length_m += reception.budget.delay_s * reception.budget.mean_sound_speed_mps / count;
+    depth_m +=
+        (sender.at(departure).position_ned_m.z() + receiver.at(departure).position_ned_m.z()) / 2 / count;
+  }
+  return {{begin_s, kFrame.seconds(), std::move(frames)}, length_m, depth_m, modem.centre_frequency_hz};
+}
+
+// `delay_s`: of the departure before, below 0 of none; set to that of this one.
+Reception ScenarioLinks::reception_of(SimTime departure, const End& from, End to,
+                                      const VehicleTrack& receiver, double& delay_s) {
+  constexpr double kNear = 1500;  // m/s: for a first guess
+  const int turns = delay_s < 0 ? 3 : 1;
+  if (delay_s < 0)
+    delay_s = (receiver.at(departure).position_ned_m - from.place.position_ned_m).norm() / kNear;
+  Reception reception;
+  for (int i = 0; i < turns; ++i) {
+    to.place = receiver.at(departure + SimDuration::from_seconds(delay_s));
+    while (!water_.propagation->is_ready_for_packet(departure, from.link_end(), to.link_end()))
+      answer_requests(terrain_, *water_.seabed);
+    reception = water_.propagation->reception_without_capacity(departure, from.link_end(), to.link_end());
+    delay_s = reception.budget.delay_s;
+  }
+  return reception;
+}
+
+void ScenarioLinks::add_received(const Way& way, const acoustics::Samples& sound,
+                                 acoustics::Samples& received) const {
+  const auto taps = absorption_taps(water(SimTime::from_seconds(sound.begin_s)), way, sound.rate_hz);
+  way.link.add_received({sound.rate_hz, acoustics::filtered(sound.values, taps)}, sound.begin_s, received);
+}
+
+}  // namespace halocline::clients
