@@ -67,7 +67,7 @@ void add_flexible(const Listener& listener, const modem_receive_t& packet, std::
   });
   const auto source = listener.address(packet.source_id),
              destination = listener.address(packet.destination_id);
-  const int ack = packet.wants_ack;
+  const int ack = packet.wants_ack != 0 ? 1 : 0;
   lines.push_back(
       listener.has_newer_lines
           ? fmt::format("CARFP,{},0,{},{},{},{},0,0,,{},",

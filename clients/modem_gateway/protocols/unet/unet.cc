@@ -52,8 +52,8 @@ class Unet : public Protocol {
       : port_(context.port),
         addresses_(context.addresses),
         vehicle_id_(context.vehicle_id),
-        vehicles_(context.vehicles),
         parameters_(context),
+        vehicles_(std::move(context.vehicles)),
         hosts_(port_, [this](const UnetRequest& request) { take(request); }) {
     context.options.require_all_taken();
   }
@@ -311,8 +311,8 @@ class Unet : public Protocol {
   ProtocolPort& port_;
   AddressBook& addresses_;
   std::int32_t vehicle_id_;
-  std::vector<NamedVehicle> vehicles_;
   UnetParameters parameters_;
+  std::vector<NamedVehicle> vehicles_;
   UnetHosts hosts_;
   std::deque<Job> waiting_;
   std::optional<Job> sending_;
