@@ -1,6 +1,8 @@
 // Claims about the acoustics' speed: docs/performance.md holds the table.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -11,6 +13,9 @@
 #include "acoustics/link/multipath.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/waveform/analytic_signal.h"
+#include "acoustics/waveform/moving_link.h"
+#include "core/elementary.h"
 #include "core/frames.h"
 
 namespace halocline::acoustics {
@@ -77,6 +82,33 @@ void make_link_kernel(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(make_link_kernel)->Unit(benchmark::kMicrosecond);
+
+// A second of ten links of 20 paths each, which move, at 96 kHz.
+void ten_waveform_links(benchmark::State& state) {
+  constexpr double kRateHz = 96'000, kStep_s = 0.02;
+  constexpr int kLinks = 10, kPaths = 20, kFrames = 52;
+  std::vector<double> tone(static_cast<std::size_t>(kRateHz));
+  for (std::size_t i = 0; i < tone.size(); ++i)
+    tone[i] = elementary::sin(0.25 * std::numbers::pi * static_cast<double>(i % 8));
+  const AnalyticSignal sent(kRateHz, tone);
+  std::vector<std::vector<PathGain>> frames(kFrames);
+  for (int k = 0; k < kFrames; ++k) {
+    for (int path = 0; path < kPaths; ++path)
+      frames[static_cast<std::size_t>(k)].push_back({static_cast<std::uint64_t>(path),
+                                                     0.3 + 0.002 * path + 1e-6 * k * path,
+                                                     {0.1 / (1 + path), 0.05},
+                                                     1});
+  }
+  const MovingLink link(0, kStep_s, frames);
+  for (auto _ : state) {
+    Samples received{0, kRateHz, std::vector<double>(static_cast<std::size_t>(1.5 * kRateHz))};
+    for (int i = 0; i < kLinks; ++i) link.add_received(sent, 0, received);
+    benchmark::DoNotOptimize(received.values.data());
+  }
+  state.counters["of_real_time"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(ten_waveform_links)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace halocline::acoustics
