@@ -26,7 +26,7 @@
 
 namespace halocline::modem_gateway::testing {
 
-// Shallow straight water, still and isovelocity: travel times are ranges over 1500 m/s. A fifth of what would be received is lost.
+// Shallow straight water, still and isovelocity: travel times are ranges over 1500 m/s.
 inline constexpr const char* kDoorWater = R"(
 [scenario]
 duration_s = 600
@@ -42,8 +42,6 @@ wind_mps = 5.0
 model = "straight"
 [channel_server]
 link_rate_hz = 0.1
-[[extra_loss]]
-share = 0.2
 )";
 
 struct DoorVehicle {
@@ -58,10 +56,12 @@ struct DoorVehicle {
 
 class DoorMission {
  public:
-  explicit DoorMission(const std::vector<DoorVehicle>& vehicles) {
+  // `lost`: share of what would be received that is lost.
+  explicit DoorMission(const std::vector<DoorVehicle>& vehicles, double lost = 0.2) {
     bus::set_log_level(bus::LogLevel::kError);
     const std::string path = ::testing::TempDir() + "halocline-doors-" + std::to_string(getpid()) + ".toml";
     std::string text = kDoorWater, doors;
+    if (lost > 0) text += "[[extra_loss]]\nshare = " + std::to_string(lost) + "\n";
     for (const DoorVehicle& v : vehicles) {
       text += "[[vehicle]]\nname = \"" + v.name + "\"\nid = " + std::to_string(v.id) +
               "\nmodel = \"fixed\"\nstart_ned_m = [" + std::to_string(v.north_m) + ", " +

@@ -23,7 +23,7 @@ MicromodemPacket type_of(std::int8_t kind, int rate, bool is_flexible) {
     case modem_receive_t::JANUS_CARGO:
       return MicromodemPacket::kUnknown;
     default:
-      return MicromodemPacket::kFskMini;
+      return rate == 0 ? MicromodemPacket::kFskMini : MicromodemPacket::kPskMini;
   }
 }
 

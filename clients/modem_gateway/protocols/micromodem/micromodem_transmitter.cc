@@ -23,7 +23,7 @@ MicromodemPacket type_of(MicromodemTransmitter::Kind kind, int rate) {
     case MicromodemTransmitter::Kind::kFlexible:
       return MicromodemPacket::kFlexible;
     default:
-      return MicromodemPacket::kFskMini;
+      return rate == 0 ? MicromodemPacket::kFskMini : MicromodemPacket::kPskMini;
   }
 }
 

@@ -266,7 +266,7 @@ void S2cSender::step(std::optional<OnItsWay>& place) {
     core_.tell_more(
         fmt::format("SENDEND,{},{},{},{}", message.address, lower_name_of(message.type),
                     S2cCore::clock_us(core_.port().clock_at(sent.start)),
-                    (std::exchange(sent.ends, SimTime::never()) - sent.start).nanoseconds() / 1000));
+                    std::llround((std::exchange(sent.ends, SimTime::never()) - sent.start).seconds() * 1e6)));
     if (!message.wants_ack) return finish(place, true);
     sent.until = now + SimDuration::from_milliseconds(core_.setting("!RT"));
   }
