@@ -1,9 +1,9 @@
 // What a hydrophone of a scenario records while others transmit waveforms.
 //
 // Each sender's sound goes along the paths of its link to the receiver, as packets' does (scenario_links.h): with the ends where a
-// recorded run had them, the receiver when the sound arrives; with their phases and their fading (acoustics/fading/link_fading.h) at the
-// arrival of the first; delayed, turned and summed by acoustics/waveform/moving_link.h. To that comes the noise of the sea and of
-// vehicles (recorded_noise.h). All draws are those of the scenario's seed: the same file every time.
+// recorded run had them, the receiver when the sound arrives; with their phases, and their fading at the arrival of the first by the
+// model (acoustics/fading/link_fading.h) or a measured channel; delayed, turned and summed by acoustics/waveform/moving_link.h. To that
+// comes the noise of the sea and of vehicles (recorded_noise.h). All draws are those of the scenario's seed: the same file every time.
 //
 // Levels. A sine of amplitude 1 in a sender's samples has the source level (rms, dB re 1 uPa at 1 m). Received pressure p becomes
 // the sample 10^(sensitivity / 20) p, p in uPa: at -190 dB re 1/uPa a sine of amplitude 1 has 187 dB re 1 uPa.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "acoustics/fading/link_fading.h"
+#include "acoustics/fading/measured_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/waveform/analytic_signal.h"
@@ -25,13 +27,19 @@ ScenarioConfig with_own_searches(ScenarioConfig config) {
   return config;
 }
 
-std::vector<PathGain> gains_of(const Reception& reception, const acoustics::LinkFading& fading,
-                               SimTime departure, const acoustics::Modem& modem) {
+// As the paths fade at the arrival of the first: by the model, or as the measured channel whose taps they are.
+std::vector<PathGain> gains_of(const Reception& reception, const acoustics::FadingModel& model,
+                               const acoustics::FadingLink& pair, SimTime departure,
+                               const acoustics::Modem& modem) {
   std::vector<PathGain> gains;
   if (reception.paths.empty()) return gains;
   const SimTime arrival = departure + SimDuration::from_seconds(reception.paths.front().delay_s);
-  const auto pressures =
-      fading.responses(reception.paths, modem.band(), arrival, {}, fading.large_scale(arrival));
+  const acoustics::LinkFading fading(model, pair);
+  const double large_scale = fading.large_scale(arrival);
+  const auto pressures = reception.measured
+                             ? acoustics::MeasuredFading(reception.measured, pair)
+                                   .responses(reception.paths, modem.band(), arrival, {}, large_scale)
+                             : fading.responses(reception.paths, modem.band(), arrival, {}, large_scale);
   const double sent = amplitude_of(modem.source_level);
   for (std::size_t i = 0; i < reception.paths.size(); ++i) {
     const acoustics::SoundPath& path = reception.paths[i];
@@ -76,7 +84,6 @@ Way ScenarioLinks::between(const std::string& from, const acoustics::Modem& mode
   const acoustics::FadingLink pair{
       config_.scenario.seed, static_cast<std::uint32_t>(std::min(id_of(from), id_of(to))),
       static_cast<std::uint32_t>(std::max(id_of(from), id_of(to))), id_of(from) > id_of(to)};
-  const acoustics::LinkFading fading(config_.channel_server.propagation.fading, pair);
   std::vector<std::vector<PathGain>> frames;
   double delay_s = -1, length_m = 0, depth_m = 0;
   const auto count = static_cast<int>(std::ceil((end_s - begin_s) / kFrame.seconds())) + 2;
@@ -84,7 +91,7 @@ Way ScenarioLinks::between(const std::string& from, const acoustics::Modem& mode
     const SimTime departure = SimTime::from_seconds(begin_s) + kFrame * k;
     const Reception reception = reception_of(departure, {id_of(from), modem, sender.at(departure)},
                                              {id_of(to), modem_of(to), {}}, receiver, delay_s);
-    frames.push_back(gains_of(reception, fading, departure, modem));
+    frames.push_back(gains_of(reception, config_.channel_server.propagation.fading, pair, departure, modem));
     length_m += reception.budget.delay_s * reception.budget.mean_sound_speed_mps / count;
     depth_m +=
         (sender.at(departure).position_ned_m.z() + receiver.at(departure).position_ned_m.z()) / 2 / count;

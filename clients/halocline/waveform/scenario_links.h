@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "acoustics/fading/link_fading.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
 #include "acoustics/waveform/moving_link.h"

@@ -30,6 +30,7 @@
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "core/units.h"
+#include "tests/support/channel_file.h"
 
 namespace halocline::clients {
 namespace {
@@ -249,6 +250,29 @@ start_ned_m = [1000.0, 0.0, 50.0]
   const auto link = survey_link(config, link_end(config, "loud"), link_end(config, "quiet"));
   EXPECT_NEAR(heard_db("loud", "quiet"), 140 + band_db - link.reception.budget.transmission_loss.value, 0.3);
   EXPECT_NEAR(heard_db("quiet", "loud"), 140 + band_db - 20, 0.25);
+}
+
+// h is pressure at the receiver over that at 1 m: 0.01 for half a second, then 0.02, with a tenth of a second between.
+TEST_F(WaveformTest, AMeasuredChannelTakesThePlaceOfThePaths) {
+  auto file = halocline::testing::channel_file(10, 1, 1);
+  for (std::size_t i = 0; i < 10; ++i) file.at(i, 0, 0) = i < 5 ? 0.01 : 0.02;
+  const std::string path = halocline::testing::write_channel_file(file, "waveform.mat");
+  const ScenarioConfig config = load(
+      "scenarios/ranging.toml", {"propagation.model=\"straight\"", "propagation.large_scale_fading_db=0",
+                                 "propagation.replay=\"" + path + "\"", "propagation.replay_level=\"file\""});
+  const Recording run = record_run(config, make_terrain(config), SimTime::from_seconds(4));
+  const Samples heard =
+      received_waveform(config, make_terrain(config), run, {tone_from("west", 1, 2)},
+                        {.receiver = "east", .begin_s = 1, .sensitivity = Decibels{0}, .has_noise = false});
+  const double end_s = heard.begin_s + static_cast<double>(heard.values.size()) / kRate - 0.5;
+  double least_db = 300, most_db = 0;
+  for (double t_s = end_s - 1.9; t_s < end_s - 0.1; t_s += 0.05) {
+    const double at_db = level_db(std::abs(line(heard, t_s, 0.02, kTone)));
+    least_db = std::min(least_db, at_db);
+    most_db = std::max(most_db, at_db);
+  }
+  EXPECT_NEAR(least_db, 185 - 40, 0.05);
+  EXPECT_NEAR(most_db, 185 - 40 + 20 * std::log10(2.0), 0.05);
 }
 
 TEST_F(WaveformTest, RefusesSendersThatCannotBe) {
