@@ -6,6 +6,7 @@
 
 #include "acoustics/fading/link_fading.h"
 #include "acoustics/fading/measured_fading.h"
+#include "acoustics/fading/path_fading.h"
 #include "acoustics/fading/sound_path.h"
 #include "acoustics/sea/absorption.h"
 #include "acoustics/waveform/analytic_signal.h"
