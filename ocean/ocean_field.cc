@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <string>
@@ -247,6 +248,61 @@ std::vector<WaterAtDepth> OceanField::column_at(double north_m, double east_m, d
   for (std::size_t depth = 0; depth < grid_.depths_m.size(); ++depth) {
     column.push_back({grid_.depths_m[depth], at_level(values_.temperature_degc, about, time, depth),
                       at_level(values_.salinity_psu, about, time, depth)});
+  }
+  return column;
+}
+
+// f(t) = h00 f1 + h10 H m1 + h01 f2 + h11 H m2 over t = 0..1 between points 1 and 2, H apart, with the weights of Hermite's cubic and
+// m1 = (d1 H + d2 G) / (G + H) of the differences d1 before, over G, and d2 between; m2 likewise.
+OceanField::Stencil OceanField::stencil(const std::vector<double>& axis, double value) {
+  const auto [low, high, t] = bracket(axis, value);
+  if (low == high) return {{low, low, low, low}, {0, 1, 0, 0}};
+  const std::size_t before = low > 0 ? low - 1 : low, after = std::min(high + 1, axis.size() - 1);
+  const double width = axis[high] - axis[low], t2 = t * t, t3 = t2 * t;
+  Stencil stencil{{before, low, high, after}, {0, 1 - 3 * t2 + 2 * t3, 3 * t2 - 2 * t3, 0}};
+  // The slope at `near`, seen from there the cell's other point is `far`, the one beyond `near` is `beyond`.
+  const auto add_slope = [&](double weight, std::size_t beyond, std::size_t near, std::size_t far,
+                             double gap) {
+    const double inner = gap > 0 ? gap / (gap + width) : 1, sign = far > near ? 1 : -1;
+    stencil.weight[far] += sign * weight * inner;
+    stencil.weight[near] -= sign * weight * inner;
+    if (gap == 0) return;
+    const double outer = (1 - inner) * width / gap;
+    stencil.weight[near] += sign * weight * outer;
+    stencil.weight[beyond] -= sign * weight * outer;
+  };
+  add_slope(t - 2 * t2 + t3, 0, 1, 2, axis[low] - axis[before]);
+  add_slope(t3 - t2, 3, 2, 1, axis[after] - axis[high]);
+  return stencil;
+}
+
+std::vector<WaterAtDepth> OceanField::smooth_column_at(double north_m, double east_m, double time_s) const {
+  const GeodeticPlace place = geodetic(north_m, east_m);
+  const Stencil rows = stencil(grid_.latitudes_rad, place.latitude_rad),
+                columns = stencil(grid_.longitudes_rad, place.longitude_rad);
+  const Bracket time = bracket(grid_.times_s, time_s);
+  const auto bicubic = [&](const std::vector<float>& values, std::size_t instant, std::size_t depth) {
+    const float* level = values.data() + (instant * grid_.depths_m.size() + depth) * grid_.columns();
+    double sum = 0, least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        const double value = level[rows.at[i] * grid_.longitudes_rad.size() + columns.at[j]];
+        sum += rows.weight[i] * columns.weight[j] * value;
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+    }
+    return std::clamp(sum, least, most);
+  };
+  const auto at = [&](const std::vector<float>& values, std::size_t depth) {
+    const double before = bicubic(values, time.low, depth);
+    return time.share > 0 ? before + time.share * (bicubic(values, time.high, depth) - before) : before;
+  };
+  std::vector<WaterAtDepth> column;
+  column.reserve(grid_.depths_m.size());
+  for (std::size_t depth = 0; depth < grid_.depths_m.size(); ++depth) {
+    column.push_back(
+        {grid_.depths_m[depth], at(values_.temperature_degc, depth), at(values_.salinity_psu, depth)});
   }
   return column;
 }

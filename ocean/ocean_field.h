@@ -66,6 +66,9 @@ class OceanField {
   WaterAtDepth water_at(const Vec3& place, double time_s) const;
   // The same at all levels of the grid.
   std::vector<WaterAtDepth> column_at(double north_m, double east_m, double time_s) const;
+  // The same, smooth along rows and columns: cubic Hermite polynomials whose slope at a point is that of the parabola through it
+  // and its neighbours, at the first and the last that of the line; within what the points about have.
+  std::vector<WaterAtDepth> smooth_column_at(double north_m, double east_m, double time_s) const;
 
   // Where the straight way between two places crosses rows, columns or levels of the grid: shares of it in (0, 1), rising.
   std::vector<double> crossings(const Vec3& from, const Vec3& to) const;
@@ -87,6 +90,12 @@ class OceanField {
     std::size_t at[4];
     double weight[4];
   };
+  // Those of two more along an axis.
+  struct Stencil {
+    std::size_t at[4];
+    double weight[4];
+  };
+  static Stencil stencil(const std::vector<double>& axis, double value);
   static Bracket bracket(const std::vector<double>& axis, double value);
   GeodeticPlace geodetic(double north_m, double east_m) const;
   Corners corners(const GeodeticPlace& place) const;

@@ -41,6 +41,7 @@ ArcTracer::ArcTracer(const ProfiledSea& sea, const RayLink& link)
   source_facet_ = sea.profile.facet_at(0);
   source_speed_ = sea.water.speed_at(source_depth_);
   if (sea.section == nullptr) return;
+  source_speed_ = sea.section->speed_at(0, source_depth_);
   section_.emplace(sea_, losses_, SectionEnds{source_depth_, range_, bottom_at_receiver_});
 }
 

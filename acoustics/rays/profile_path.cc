@@ -17,7 +17,6 @@ using std::numbers::pi;
 
 constexpr double kFarOff = 1e-2;         // m of unfolded depth: a ray further off did not converge
 constexpr double kBesideGrazing = 1e-9;  // rad
-constexpr double kSharpKink = 0.01;      // 1/s: jump of the gradient at a section's knot
 
 constexpr double kMinTube = 1e-9;  // m, of |q|: a ray on a caustic to rounding
 
@@ -267,10 +266,9 @@ std::vector<double> fan_angles(const ArcTracer& tracer, double steepest) {
     angles.push_back(-theta);
   };
   const RayWater& water = tracer.sea().water;
-  // Knots of a section are many, most of their kinks small.
+  // A section has no kinks.
   const auto counts = [&](std::size_t i) {
-    if (tracer.sea().section == nullptr || i == 0 || i == water.layers()) return true;
-    return std::abs(water.gradients_per_s()[i] - water.gradients_per_s()[i - 1]) > kSharpKink;
+    return tracer.sea().section == nullptr || i == 0 || i == water.layers();
   };
   for (std::size_t i = 0; i < water.speeds_mps().size(); ++i) {
     if (!counts(i)) continue;

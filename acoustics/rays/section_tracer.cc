@@ -4,243 +4,245 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
-#include "acoustics/math/arc_math.h"
+#include "acoustics/math/hermite_cubic.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
 
-using Half = SectionCell::Half;
-
 constexpr std::uint64_t kTurnOfSection = 100'000;  // numbers of turns follow those of facets
-constexpr int kMaxTriangles = 1'000'000;           // of one ray: a guard, never met
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-// w of where an arc goes out through an edge at the distance d >= 0 along the normal m; never where it does not within half a
-// circle.
-double way_to(double along_t, double along_n, double d, double curvature) {
-  const double turned = along_n - curvature * d, square = 1 - turned * turned;
-  if (!(square >= 0)) return kNever;
-  const double leaving = std::sqrt(square);
-  if (along_t > 0) return 2 * d / (along_t + leaving);
-  // Curving back to it: (t' . m)^2 - (t . m)^2 = 2 kappa d (n . m - kappa d / 2).
-  const double towards = curvature * (along_n - curvature * d / 2);
-  return towards > 0 ? (leaving - along_t) / towards : kNever;
-}
+constexpr int kMaxSteps = 1'000'000;               // of one ray: a guard, never met
+constexpr double kLongestStep = 15;                // m along the ray
+constexpr double kOnEdge = 1e-9;                   // m
+constexpr double kLeastShare = 1e-6;               // of a step: a turn nearer than that is behind
+constexpr int kMaxCorrections = 4;                 // of where a step ends: a guard, two suffice
 
 }  // namespace
 
 struct SectionTracer::State {
-  double r, z, sine, cosine, c, curvature;
-  SpeedGradient g;
+  double r;
+  Carried ray;
   SectionCell cell;
-  double q, p;    // the tube
-  double qx, px;  // the same for rays as they are reflected, facet by facet: the slope of zeta
+  SpeedPatch patch;
+  double c, xi, sine, cosine;  // at the place
+  Stage first;                 // of the next step
   std::size_t facet;
   bool on_facet = false;
   double orientation = 1, images = 0;  // o and k of zeta
 
-  void look_at(const RaySection& section) {
-    g = section.gradient(cell);
-    c = section.speed_in(cell, r, z);
-    curvature = (g.along * sine - g.down * cosine) / c;
+  void look() {
+    c = patch.at(r, ray.z).c;
+    sine = ray.s * c;
+    cosine = std::sqrt(std::max(1 - sine * sine, 0.0));
+    xi = cosine / c;
+    first = stage(patch, r, ray);
   }
 };
 
-// To an edge, of normal (along, down), by the chord (dr, dz).
 struct SectionTracer::Step {
-  Edge edge = Edge::kNone;
-  double w = kNever;
-  double along = 0, down = 0;
-  double dr = 0, dz = 0;
+  double dr;
+  Carried end;
+  std::array<Stage, 4> stages;
+  Edge edge = Edge::kInside;
+  std::size_t facet = 0;
 };
+
+SectionTracer::Stage SectionTracer::stage(const SpeedPatch& patch, double r, const Carried& at) {
+  const LocalSpeed speed = patch.at(r, at.z);
+  const double per_c = 1 / speed.c, sine = at.s * speed.c;
+  const double cosine = std::sqrt(std::max(1 - sine * sine, kMinCosine * kMinCosine));
+  const double per_xi = speed.c / cosine, bend = per_c * per_c / cosine;
+  const double across = speed.along_along * sine * sine - 2 * speed.along_down * sine * cosine +
+                        speed.down_down * cosine * cosine;
+  return {{at.s * per_xi, -speed.down * bend, at.p * per_xi, -at.q * across * bend, at.px * per_xi,
+           -at.qx * across * bend},
+          at.z,
+          per_c,
+          cosine * per_c};
+}
+
+SectionTracer::Step SectionTracer::stepped(const State& s, double dr) {
+  const auto moved = [&s](const Carried& d, double by) {
+    const Carried& a = s.ray;
+    return Carried{a.z + by * d.z, a.s + by * d.s,   a.q + by * d.q,
+                   a.p + by * d.p, a.qx + by * d.qx, a.px + by * d.px};
+  };
+  Step step{dr, {}, {}};
+  auto& k = step.stages;
+  k[0] = s.first;
+  k[1] = stage(s.patch, s.r + dr / 2, moved(k[0].slope, dr / 2));
+  k[2] = stage(s.patch, s.r + dr / 2, moved(k[1].slope, dr / 2));
+  k[3] = stage(s.patch, s.r + dr, moved(k[2].slope, dr));
+  const auto mean = [&k](double Carried::*of) {
+    return (k[0].slope.*of + 2 * (k[1].slope.*of + k[2].slope.*of) + k[3].slope.*of) / 6;
+  };
+  step.end = moved({mean(&Carried::z), mean(&Carried::s), mean(&Carried::q), mean(&Carried::p),
+                    mean(&Carried::qx), mean(&Carried::px)},
+                   dr);
+  return step;
+}
+
+void SectionTracer::enter(State& s, const SectionCell& cell) const {
+  s.cell = cell;
+  s.patch = section_.patch(cell);
+  s.look();
+}
 
 SectionTracer::State SectionTracer::start(double theta, TracedRay& ray) const {
   ray.begin(theta);
   const auto [sine, cosine] = elementary::sin_cos(theta);
-  State s{0,
-          ends_.source_depth_m,
-          sine,
-          cosine,
-          0,
-          0,
-          {},
-          section_.enter(0, ends_.source_depth_m, sine < 0),
-          0,
-          0,
-          0,
-          0,
-          profile_.facet_at(0)};
-  s.look_at(section_);
-  s.p = s.px = 1 / s.c;
+  State s{.r = 0,
+          .ray = {},
+          .cell = {},
+          .patch = {},
+          .c = 0,
+          .xi = 0,
+          .sine = 0,
+          .cosine = 0,
+          .first = {},
+          .facet = profile_.facet_at(0)};
+  s.ray.z = ends_.source_depth_m;
+  enter(s, section_.cell_at(0, ends_.source_depth_m, sine < 0));
+  s.ray.s = sine / s.c;
+  s.ray.p = s.ray.px = 1 / s.c;
+  s.look();
   return s;
+}
+
+// By the cubic through depths and slopes at both ends, a millimetre off at most: on both sides of an edge speed and gradient are the
+// same. To the surface by Newton's method from there.
+SectionTracer::Step SectionTracer::until_depth(const State& s, const Step& step, double depth_m, Edge edge) {
+  const HermiteCubic depths(s.ray.z, step.stages[0].slope.z, step.end.z, step.stages[3].slope.z, step.dr);
+  Step part = stepped(s, step.dr * depths.crossing(depth_m));
+  part.edge = edge;
+  if (depth_m > 0) return part;
+  for (int i = 0; i < kMaxCorrections && std::abs(part.end.z - depth_m) > kOnEdge; ++i) {
+    const double slope = part.stages[3].slope.z;
+    if (slope == 0) break;
+    part = stepped(s, std::clamp(part.dr - (part.end.z - depth_m) / slope, 0.0, step.dr));
+  }
+  part.end.z = depth_m;
+  part.edge = edge;
+  return part;
+}
+
+// Along the circle through the step's ends (acoustics/rays/arcs/arc_steps.h), then by Newton's method to the facet's line.
+SectionTracer::Step SectionTracer::until_bottom(const State& s, const Step& step) const {
+  const double sine = step.end.s / step.stages[3].per_c, curvature = (sine - s.sine) / step.dr;
+  const ArcPoint at{s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, s.facet, s.on_facet};
+  const auto below = [&](const Step& there, std::size_t facet_index) {
+    const Facet& facet = profile_.facets()[facet_index];
+    return there.end.z - facet.z0 - facet.slope * (s.r + there.dr - facet.r0);
+  };
+  ArcHit hit{step.dr, profile_.facet_from(s.facet, s.r + step.dr)};
+  if (!find_hit(curvature, profile_, at, {step.dr, step.end.z, sine, false, sine > 0}, step.dr, hit) &&
+      below(step, hit.facet) <= 0)
+    return step;
+  Step part = stepped(s, hit.dr);
+  const double bottom_slope = profile_.facets()[hit.facet].slope;
+  for (int i = 0; i < kMaxCorrections && std::abs(below(part, hit.facet)) > kOnEdge; ++i) {
+    const double slope = part.stages[3].slope.z - bottom_slope;
+    if (slope <= 0) break;
+    part = stepped(s, std::clamp(part.dr - below(part, hit.facet) / slope, 0.0, step.dr));
+  }
+  part.end.z -= below(part, hit.facet);
+  part.edge = Edge::kBottom;
+  part.facet = hit.facet;
+  return part;
 }
 
 SectionTracer::Step SectionTracer::next_step(const State& s) const {
   const std::vector<double>& depths = section_.depths_m();
   const double top = depths[s.cell.layer], bottom = depths[s.cell.layer + 1];
-  const double strip_end = section_.end_of(s.cell.strip);
-  Step first;
-  const auto try_edge = [&](Edge edge, double along, double down, double d) {
-    const double w = way_to(s.cosine * along + s.sine * down, s.cosine * down - s.sine * along,
-                            std::max(d, 0.0), s.curvature);
-    if (w < first.w) first = {edge, w, along, down};
-  };
-  if (s.cell.half != Half::kLower) try_edge(Edge::kAbove, 0, -1, s.z - top);
-  if (s.cell.half != Half::kUpper) try_edge(Edge::kBelow, 0, 1, bottom - s.z);
-  if (s.cell.half != Half::kWhole) {
-    // Its normal points down, out of the upper half; h times the unit vector.
-    const double width = strip_end - section_.ranges_m()[s.cell.strip], height = bottom - top;
-    const bool falls = section_.diagonal_falls(s.cell);
-    const double slope = falls ? height / width : -height / width, h = std::sqrt(1 + slope * slope);
-    const double depth = (falls ? top : bottom) + slope * (s.r - section_.ranges_m()[s.cell.strip]);
-    const double out = s.cell.half == Half::kUpper ? 1 : -1;
-    try_edge(Edge::kDiagonal, -out * slope / h, out / h, out * (depth - s.z) / h);
-  }
-  if (ends_.range_m <= strip_end) {
-    try_edge(Edge::kReceiver, 1, 0, ends_.range_m - s.r);
-  } else if (section_.reaches_end(s.cell)) {
-    try_edge(Edge::kEnd, 1, 0, strip_end - s.r);
-  }
-  if (first.edge == Edge::kNone) return first;
-  const double half_turn = s.curvature * first.w / 2, x = first.w / (1 + half_turn * half_turn),
-               y = x * half_turn;
-  first.dr = x * s.cosine - y * s.sine;
-  first.dz = x * s.sine + y * s.cosine;
-  return first;
+  const bool near_bottom = std::min(bottom, s.ray.z + kLongestStep) > profile_.shallowest_m();
+  const double longest = kLongestStep * std::max(s.cosine, kMinCosine);
+  Step step = stepped(s, std::min({longest, section_.end_of(s.cell.strip) - s.r, ends_.range_m - s.r}));
+  const HermiteCubic way(s.ray.z, step.stages[0].slope.z, step.end.z, step.stages[3].slope.z, step.dr);
+  const HermiteCubic::Turns turns = way.turns();
+  if (turns.count > 0 && turns.at[0] > kLeastShare) step = stepped(s, step.dr * turns.at[0]);
+  if (step.end.z < top) step = until_depth(s, step, top, Edge::kAbove);
+  if (step.end.z > bottom) step = until_depth(s, step, bottom, Edge::kBelow);
+  return near_bottom && step.dr > 0 ? until_bottom(s, step) : step;
 }
 
-void SectionTracer::add_details(const State& s, double dr, double z, double sine,
-                                TracedDetails& details) const {
-  const double dz = z - s.z, square = dr * dr + dz * dz, chord = std::sqrt(square);
-  const double cosine = std::sqrt(std::max(1 - sine * sine, 0.0));
-  const double c = s.c + s.g.along * dr + s.g.down * dz;
-  // 2 / |g| asinh(x / sqrt(1 - x^2)) = 2 / |g| atanh(x), x = |g| L / sqrt(g^2 L^2 + 4 c1 c2).
-  const double g2 = s.g.along * s.g.along + s.g.down * s.g.down, root = std::sqrt(g2 * square + 4 * s.c * c);
-  const double length = chord * asin_over(s.curvature * chord / 2);
-  details.delay_s += 2 * chord / root * atanh_over(std::sqrt(g2) * chord / root);
-  details.length_m += length;
-  details.slowness_over_range += (s.cosine / s.c + cosine / c) / 2 * dr;
-  // Simpson's rule; the middle of the arc is kappa L^2 / 8 off that of the chord.
-  const double off = s.curvature * chord / 8;
-  const auto absorption = [&](double along, double down) {
-    return section_.absorption_db_per_m(s.cell, s.r + along, s.z + down);
+void SectionTracer::add_details(const State& s, const Step& step, TracedDetails& details) const {
+  // The scheme's own mean of what changes with range alone: d tau = dr / (c^2 xi), length dr / (c xi).
+  const auto mean = [&](const auto& of) {
+    const auto& k = step.stages;
+    return (of(k[0], 0) + 2 * (of(k[1], 0.5) + of(k[2], 0.5)) + of(k[3], 1)) / 6;
   };
+  const auto length = [](const Stage& k, double) { return k.per_c / k.xi; };
+  details.delay_s += step.dr * mean([](const Stage& k, double) { return k.per_c * k.per_c / k.xi; });
+  details.length_m += step.dr * mean(length);
+  details.slowness_over_range += step.dr * mean([](const Stage& k, double) { return k.xi; });
   details.absorption_db +=
-      length / 6 *
-      (absorption(0, 0) + 4 * absorption(dr / 2 + off * dz, dz / 2 - off * dr) + absorption(dr, dz));
+      step.dr * mean([&](const Stage& k, double share) {
+        return length(k, share) * section_.absorption_db_per_m(s.cell, s.r + share * step.dr, k.z);
+      });
+  // A chord of 15 m is within 0.1 m of any ray that a gradient of 5 /s or less bends.
+  if (details.track != nullptr) details.track->push_back({s.r + step.dr, step.end.z});
 }
 
-// As those of arc_tracer.cc, by a sine that grows by kappa dr.
-void SectionTracer::add_to_track(const State& s, double dr, double z, std::vector<RayPoint>& track) {
-  constexpr double kMaxPieces = 32;
-  const double dz = z - s.z, off_m = (dr * dr + dz * dz) * std::abs(s.curvature) / 8;
-  const double pieces = std::min(std::ceil(std::sqrt(off_m / TracedDetails::kTrackErrorM)), kMaxPieces);
-  for (double piece = 1; piece < pieces; ++piece) {
-    const double part = dr * piece / pieces, sine = s.sine + s.curvature * part;
-    const double cosine = std::sqrt(std::max(1 - sine * sine, 0.0));
-    track.push_back({s.r + part, s.z + part * (s.sine + sine) / (s.cosine + cosine)});
-  }
-  track.push_back({s.r + dr, z});
-}
-
-void SectionTracer::go(State& s, double dr, double z, double sine, TracedRay& ray,
-                       TracedDetails* details) const {
-  const double dz = z - s.z, along = s.g.along * s.cosine + s.g.down * s.sine;
-  const double way =
-      s.c * (dr * s.cosine + dz * s.sine) + along * (dr * dr + dz * dz) / 2;  // integral of c ds
-  const double q = s.q + s.p * way;
-  if (q * s.q < 0) ++ray.caustics;
-  s.q = q;
-  s.qx += s.px * way;
-  if (details != nullptr && dr > 0) {
-    add_details(s, dr, z, sine, *details);
-    if (details->track != nullptr) add_to_track(s, dr, z, *details->track);
-  }
-  if (s.sine * sine < 0) {
-    const bool is_lower = s.sine > 0;
+void SectionTracer::go(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const {
+  if (step.end.q * s.ray.q < 0) ++ray.caustics;
+  if (details != nullptr && step.dr > 0) add_details(s, step, *details);
+  if (s.ray.s * step.end.s < 0) {
+    const bool is_lower = s.ray.s > 0;
     ray.events.push_back({is_lower ? RayEvent::kLowerTurn : RayEvent::kUpperTurn, 0});
     ray.family = continued_family(ray.family, kTurnOfSection + (is_lower ? 1 : 0));
     ++(is_lower ? ray.lower_turns : ray.upper_turns);
   }
-  s.r += dr;
-  s.z = z;
-  s.sine = sine;
-  s.cosine = std::sqrt(std::max(1 - sine * sine, 0.0));
-  s.on_facet = s.on_facet && dr == 0;
+  s.r += step.dr;
+  s.ray = step.end;
+  s.on_facet = s.on_facet && step.dr == 0;
   s.facet = profile_.facet_from(s.facet, s.r);
-}
-
-void SectionTracer::bend_tube(State& s, const SpeedGradient& before, double along, double down) const {
-  const double out = s.cosine * along + s.sine * down;
-  const double jump = (s.g.along - before.along) * along + (s.g.down - before.down) * down;
-  const double kink = jump * (1 - out * out) / (s.c * s.c * std::max(out, kMinSine));
-  s.p -= s.q * kink;
-  s.px -= s.qx * kink;
+  s.look();
 }
 
 bool SectionTracer::cross(State& s, const Step& step, TracedRay& ray, TracedDetails* details) const {
+  if (step.edge == Edge::kBottom) return meet_bottom(s, step.facet, ray, details);
   if (step.edge == Edge::kAbove && s.cell.layer == 0) return meet_surface(s, ray, details);
-  switch (step.edge) {
-    case Edge::kAbove:
-      --s.cell.layer;
-      if (s.cell.half != Half::kWhole) s.cell.half = Half::kLower;
-      break;
-    case Edge::kBelow:
-      ++s.cell.layer;
-      if (s.cell.half != Half::kWhole) s.cell.half = Half::kUpper;
-      break;
-    case Edge::kDiagonal:
-      s.cell.half = s.cell.half == Half::kUpper ? Half::kLower : Half::kUpper;
-      break;
-    default:
-      s.cell = section_.enter_layer(s.cell.strip + 1, s.cell.layer);
-  }
-  const SpeedGradient before = s.g;
-  s.look_at(section_);
-  bend_tube(s, before, step.along, step.down);
+  SectionCell cell = s.cell;
+  if (step.edge == Edge::kAbove) --cell.layer;
+  if (step.edge == Edge::kBelow) ++cell.layer;
+  if (s.r > section_.end_of(cell.strip) - kOnEdge) ++cell.strip;
+  if (cell.strip != s.cell.strip || cell.layer != s.cell.layer) enter(s, cell);
   return true;
 }
 
 bool SectionTracer::meet_surface(State& s, TracedRay& ray, TracedDetails* details) const {
   // The mirrored water has the gradient (a, -b): a jump of 2 b along the normal (0, -1).
   const double sine = std::max(std::abs(s.sine), kMinSine);
-  s.c = section_.speed_in(s.cell, s.r, s.z);
-  const double kink = 2 * s.g.down * s.cosine * s.cosine / (s.c * s.c * sine);
-  s.p -= s.q * kink;
-  s.px -= s.qx * kink;
-  s.sine = -s.sine;
+  const double kink = 2 * s.patch.at(s.r, 0).down * s.cosine * s.cosine / (s.c * s.c * sine);
+  s.ray.p -= s.ray.q * kink;
+  s.ray.px -= s.ray.qx * kink;
+  s.ray.s = -s.ray.s;
   s.orientation = -s.orientation;
-  s.look_at(section_);
+  s.look();
   return losses_.at_surface(sine, ray, details);
 }
 
-bool SectionTracer::meet_bottom(State& s, const ArcHit& hit, TracedRay& ray, TracedDetails* details) const {
-  const Facet& facet = profile_.facets()[hit.facet];
-  const double sine = s.sine + s.curvature * hit.dr;
-  go(s, hit.dr, facet.z0 + facet.slope * (s.r + hit.dr - facet.r0), sine, ray, details);
-  s.c = section_.speed_in(s.cell, s.r, s.z);
-  const double xi = s.cosine / s.c;
-  const FacetBounce bounce = bounce_off(facet, {s.r, s.z, s.sine, xi, s.c, 1 / xi, 0, hit.facet});
+bool SectionTracer::meet_bottom(State& s, std::size_t index, TracedRay& ray, TracedDetails* details) const {
+  const Facet& facet = profile_.facets()[index];
+  const FacetBounce bounce = bounce_off(facet, {s.r, s.ray.z, s.sine, s.xi, s.c, 1 / s.xi, 0, index});
   if (bounce.out_cosine < kMinCosine) return false;
   // As at the bottom of arc_tracer.cc, with u = g . n = b cos - a sin of the ray as it comes and u' as it goes in the place
   // of g cos: p' = p + q ((u + u') cot G / c + 2 k / sin G) / c. Likewise for rays that meet the facet itself and leave it at
   // another angle.
-  const double in = s.g.down * s.cosine - s.g.along * s.sine;
-  const double out = s.g.down * bounce.out_cosine - s.g.along * bounce.out_sine;
+  const LocalSpeed g = s.patch.at(s.r, s.ray.z);
+  const double in = g.down * s.cosine - g.along * s.sine;
+  const double out = g.down * bounce.out_cosine - g.along * bounce.out_sine;
   const double in_c = s.cosine * facet.cosine + s.sine * facet.sine;
   const double off_s = facet.sine * bounce.out_cosine - facet.cosine * bounce.out_sine;
   const double off_c = facet.cosine * bounce.out_cosine + facet.sine * bounce.out_sine;
   const double bend = 2 * bounce.bend_per_m;
-  s.p += s.q * ((in + out) * bounce.cosine / s.c + bend) / (s.c * bounce.sine);
-  s.px += s.qx * ((in * in_c + out * off_c) / s.c + bend) / (s.c * bounce.facet_sine);
-  s.qx *= off_s / bounce.facet_sine;
-  s.sine = bounce.out_sine;
-  s.cosine = bounce.out_cosine;
-  s.look_at(section_);
-  s.facet = hit.facet;
+  s.ray.p += s.ray.q * ((in + out) * bounce.cosine / s.c + bend) / (s.c * bounce.sine);
+  s.ray.px += s.ray.qx * ((in * in_c + out * off_c) / s.c + bend) / (s.c * bounce.facet_sine);
+  s.ray.qx *= off_s / bounce.facet_sine;
+  s.ray.s = bounce.out_sine / s.c;
+  s.look();
+  s.facet = index;
   s.on_facet = true;
   s.images += s.orientation;
   s.orientation = -s.orientation;
@@ -249,38 +251,27 @@ bool SectionTracer::meet_bottom(State& s, const ArcHit& hit, TracedRay& ray, Tra
 
 void SectionTracer::arrive(const State& s, TracedRay& ray) const {
   ray.arrived = true;
-  ray.z = s.z;
+  ray.z = s.ray.z;
   ray.sine = s.sine;
-  ray.xi = s.cosine / section_.speed_in(s.cell, s.r, s.z);
-  ray.q = s.q;
-  ray.p = s.p;
-  ray.zeta = s.orientation * s.z + 2 * ends_.bottom_at_receiver_m * s.images;
-  ray.zeta_slope = s.qx / std::max(s.cosine, kMinCosine);
+  ray.xi = s.xi;
+  ray.q = s.ray.q;
+  ray.p = s.ray.p;
+  ray.zeta = s.orientation * s.ray.z + 2 * ends_.bottom_at_receiver_m * s.images;
+  ray.zeta_slope = s.ray.qx / std::max(s.cosine, kMinCosine);
 }
 
 void SectionTracer::trace(double theta, TracedRay& ray, TracedDetails* details) const {
   State s = start(theta, ray);
-  const double shallowest = profile_.shallowest_m();
-  for (int steps = 0; steps < kMaxTriangles; ++steps) {
+  for (int steps = 0; steps < kMaxSteps; ++steps) {
     const Step step = next_step(s);
-    const double sine = s.sine + s.curvature * step.dr;
-    if (step.edge == Edge::kNone || !(1 - sine * sine > kMinCosine * kMinCosine)) return;
-    ArcHit hit;
-    const ArcPoint at{s.r, s.z, s.sine, s.cosine / s.c, s.c, s.c / s.cosine, 0, s.facet, s.on_facet};
-    const bool near_bottom = section_.depths_m()[s.cell.layer + 1] > shallowest;
-    if (near_bottom &&
-        find_hit(s.curvature, profile_, at, {step.dr, s.z + step.dz, sine, false, sine > 0}, step.dr, hit)) {
-      if (!meet_bottom(s, hit, ray, details)) return;
-      continue;
-    }
-    const std::vector<double>& depths = section_.depths_m();
-    const double z = step.edge == Edge::kAbove   ? depths[s.cell.layer]
-                     : step.edge == Edge::kBelow ? depths[s.cell.layer + 1]
-                                                 : s.z + step.dz;
-    go(s, step.dr, z, sine, ray, details);
-    if (step.edge == Edge::kReceiver) return arrive(s, ray);
-    if (step.edge == Edge::kEnd) s.r = section_.end_of(s.cell.strip);
+    const bool is_there = s.r + step.dr > ends_.range_m - kOnEdge;
+    go(s, step, ray, details);
+    if (s.cosine < kMinCosine) return;
+    // A step to the receiver may end at the bottom of the last facet before it: then the ray is reflected first.
+    if (is_there && step.edge != Edge::kBottom && !(step.edge == Edge::kAbove && s.cell.layer == 0))
+      return arrive(s, ray);
     if (!cross(s, step, ray, details)) return;
+    if (is_there) return arrive(s, ray);
   }
 }
 

@@ -1,64 +1,141 @@
 #include "acoustics/sea/ray_section.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/check.h"
 
 namespace halocline::acoustics {
+namespace {
 
-using Half = SectionCell::Half;
+// The slope at point i of the parabola through it and its neighbours, at an end through the first three; of the line through two.
+template <class Value>
+double parabola_slope(const std::vector<double>& x, std::size_t i, const Value& f) {
+  const auto difference = [&](std::size_t k) { return (f(k + 1) - f(k)) / (x[k + 1] - x[k]); };
+  if (x.size() < 2) return 0;
+  if (x.size() == 2) return difference(0);
+  const std::size_t middle = std::clamp<std::size_t>(i, 1, x.size() - 2);
+  const double before = difference(middle - 1), after = difference(middle);
+  const double bend = (after - before) / (x[middle + 1] - x[middle - 1]);
+  return before + bend * (2 * x[i] - x[middle - 1] - x[middle]);
+}
+
+double minmod(double a, double b) { return a * b <= 0 ? 0 : std::abs(a) < std::abs(b) ? a : b; }
+
+// That slope within what Huynh 1993, equation (2.17), allows (M3-A): no overshoot beside a sharp bend or in water of steady speed, and the
+// parabola's slope where the water is smooth, at its extremes too.
+template <class Value>
+double limited_slope(const std::vector<double>& x, std::size_t i, const Value& f) {
+  const std::size_t last = x.size() - 1;
+  const auto difference = [&](std::size_t k) { return (f(k + 1) - f(k)) / (x[k + 1] - x[k]); };
+  const auto bend = [&](std::size_t k) {
+    const std::size_t m = std::clamp<std::size_t>(k, 1, last - 1);
+    return (difference(m) - difference(m - 1)) / (x[m + 1] - x[m - 1]);
+  };
+  const double slope = parabola_slope(x, i, f);
+  if (last < 2) return slope;
+  const double before = difference(i > 0 ? i - 1 : 0), after = difference(std::min(i, last - 1));
+  if (i == 0 || i == last) return minmod(slope, 3 * before);
+  const double from_left = before + minmod(bend(i - 1), bend(i)) * (x[i] - x[i - 1]),
+               from_right = after - minmod(bend(i), bend(i + 1)) * (x[i + 1] - x[i]);
+  const double either = minmod(from_left, from_right);
+  const double most = std::max(3 * std::abs(minmod(before, after)), 1.5 * std::abs(either));
+  return minmod(slope, std::copysign(most, either));
+}
+
+// Of the cubic a + b t + c t^2 + d t^3 over t = 0..1, by values and slopes at its ends.
+std::array<double, 4> cubic(double f0, double s0, double f1, double s1) {
+  return {f0, s0, 3 * (f1 - f0) - 2 * s0 - s1, 2 * (f0 - f1) + s0 + s1};
+}
+
+// Its value, first and second derivative.
+struct Derivatives {
+  double value, first, second;
+};
+Derivatives derivatives(const std::array<double, 4>& a, double t) {
+  return {a[0] + t * (a[1] + t * (a[2] + t * a[3])), a[1] + t * (2 * a[2] + t * 3 * a[3]),
+          2 * a[2] + t * 6 * a[3]};
+}
+
+}  // namespace
+
+LocalSpeed SpeedPatch::at(double range_m, double depth_m) const {
+  const double u = (range_m - range_) * per_width_, v = (depth_m - depth_) * per_height_;
+  std::array<double, 4> values{}, slopes{}, bends{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Derivatives row = derivatives(a_[i], v);
+    values[i] = row.value;
+    slopes[i] = row.first;
+    bends[i] = row.second;
+  }
+  const Derivatives c = derivatives(values, u), down = derivatives(slopes, u);
+  const double down_down = bends[0] + u * (bends[1] + u * (bends[2] + u * bends[3]));
+  return {c.value,
+          c.first * per_width_,
+          down.value * per_height_,
+          c.second * per_width_ * per_width_,
+          down.first * per_width_ * per_height_,
+          down_down * per_height_ * per_height_};
+}
 
 RaySection::RaySection(std::vector<double> ranges_m, std::vector<RayWater> columns)
     : ranges_(std::move(ranges_m)), columns_(std::move(columns)) {
   require(!columns_.empty() && ranges_.size() == columns_.size() && ranges_.front() == 0,
           "a section needs a range for each of its columns, the first of them 0");
-  layers_ = columns_.front().layers();
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     require(i == 0 || ranges_[i] > ranges_[i - 1], "the ranges of a section do not rise");
     require(columns_[i].depths_m() == depths_m(), "the columns of a section have different knots");
-    const RayWater &left = columns_[i], &right = columns_[std::min(i + 1, columns_.size() - 1)];
-    is_even_.push_back(left.speeds_mps() == right.speeds_mps());
-    for (std::size_t j = 0; j < layers_; ++j) {
-      const auto along = [&](std::size_t knot) {
-        return is_even_.back()
-                   ? 0
-                   : (right.speeds_mps()[knot] - left.speeds_mps()[knot]) / (ranges_[i + 1] - ranges_[i]);
-      };
-      // The half with the edge at the strip's end has the gradient of that column, the other that of the one before.
-      const bool falls = diagonal_falls({i, j});
-      const double upper = (falls ? right : left).gradients_per_s()[j],
-                   lower = (falls ? left : right).gradients_per_s()[j];
-      gradients_.push_back({along(j), upper});
-      gradients_.push_back({along(j + 1), lower});
+  }
+  const std::size_t knots = depths_m().size();
+  nodes_.resize(columns_.size() * knots);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    for (std::size_t j = 0; j < knots; ++j) {
+      const auto along = [&](std::size_t k) { return columns_[k].speeds_mps()[j]; };
+      const auto down = [&](std::size_t k) { return columns_[i].speeds_mps()[k]; };
+      nodes_[i * knots + j] = {down(j), parabola_slope(ranges_, i, along), limited_slope(depths_m(), j, down),
+                               0};
+    }
+    for (std::size_t j = 0; j < knots; ++j) {
+      const auto along = [&](std::size_t k) { return nodes_[i * knots + k].along; };
+      nodes_[i * knots + j].along_down = parabola_slope(depths_m(), j, along);
     }
   }
 }
 
-SectionCell RaySection::enter_layer(std::size_t strip, std::size_t layer) const {
-  if (is_even_[strip]) return {strip, layer, Half::kWhole};
-  return {strip, layer, diagonal_falls({strip, layer}) ? Half::kLower : Half::kUpper};
-}
-
-SectionCell RaySection::enter(std::size_t strip, double depth_m, bool rises) const {
+SectionCell RaySection::cell_at(double range_m, double depth_m, bool rises) const {
+  const auto after = std::upper_bound(ranges_.begin() + 1, ranges_.end(), range_m);
   std::size_t layer = columns_.front().layer_at(depth_m);
   if (rises && layer > 0 && depth_m == depths_m()[layer]) --layer;
-  return enter_layer(strip, layer);
+  return {static_cast<std::size_t>(after - ranges_.begin() - 1), layer};
 }
 
 double RaySection::end_of(std::size_t strip) const {
   return strip + 1 < ranges_.size() ? ranges_[strip + 1] : std::numeric_limits<double>::infinity();
 }
 
-const SpeedGradient& RaySection::gradient(const SectionCell& cell) const { return gradients_[index(cell)]; }
-
-double RaySection::speed_in(const SectionCell& cell, double range_m, double depth_m) const {
-  // The upper half lies on the plane through the left end of the edge above, the lower one on that of the edge below.
-  const std::size_t knot = cell.half == Half::kLower ? cell.layer + 1 : cell.layer;
-  const SpeedGradient& g = gradient(cell);
-  return columns_[cell.strip].speeds_mps()[knot] + g.along * (range_m - ranges_[cell.strip]) +
-         g.down * (depth_m - depths_m()[knot]);
+SpeedPatch RaySection::patch(const SectionCell& cell) const {
+  const bool is_last = cell.strip + 1 == ranges_.size();
+  const double width = is_last ? 1 : ranges_[cell.strip + 1] - ranges_[cell.strip];
+  const double height = depths_m()[cell.layer + 1] - depths_m()[cell.layer];
+  SpeedPatch patch;
+  patch.range_ = ranges_[cell.strip];
+  patch.depth_ = depths_m()[cell.layer];
+  patch.per_width_ = 1 / width;
+  patch.per_height_ = 1 / height;
+  // At each corner's depth the cubics along range of c and of c_z, then down.
+  const auto along = [&](std::size_t knot) {
+    const Node &a = node(cell.strip, knot), &b = is_last ? a : node(cell.strip + 1, knot);
+    return is_last ? std::pair{cubic(a.c, 0, a.c, 0), cubic(a.down, 0, a.down, 0)}
+                   : std::pair{cubic(a.c, a.along * width, b.c, b.along * width),
+                               cubic(a.down, a.along_down * width, b.down, b.along_down * width)};
+  };
+  const auto [c_above, down_above] = along(cell.layer);
+  const auto [c_below, down_below] = along(cell.layer + 1);
+  for (std::size_t i = 0; i < 4; ++i)
+    patch.a_[i] = cubic(c_above[i], down_above[i] * height, c_below[i], down_below[i] * height);
+  return patch;
 }
 
 double RaySection::absorption_db_per_m(const SectionCell& cell, double range_m, double depth_m) const {
@@ -74,15 +151,7 @@ double RaySection::absorption_db_per_m(const SectionCell& cell, double range_m, 
 }
 
 double RaySection::speed_at(double range_m, double depth_m) const {
-  const double range = std::max(range_m, 0.0);
-  const auto after = std::upper_bound(ranges_.begin() + 1, ranges_.end(), range);
-  const auto strip = static_cast<std::size_t>(after - ranges_.begin() - 1);
-  SectionCell cell = enter(strip, depth_m, false);
-  if (cell.half == Half::kWhole) return speed_in(cell, range, depth_m);
-  const double across = (range - ranges_[strip]) / (ranges_[strip + 1] - ranges_[strip]);
-  const double top = depths_m()[cell.layer], down = (depth_m - top) / (depths_m()[cell.layer + 1] - top);
-  cell.half = down < (diagonal_falls(cell) ? across : 1 - across) ? Half::kUpper : Half::kLower;
-  return speed_in(cell, range, depth_m);
+  return patch(cell_at(range_m, depth_m)).at(range_m, depth_m).c;
 }
 
 }  // namespace halocline::acoustics

@@ -86,11 +86,10 @@ double share_below(const std::vector<double>& values, double bound) {
   return static_cast<double>(below) / static_cast<double>(values.size());
 }
 
-// Of the paths of one link within 30 dB of the strongest. Where kinks of the sampled water split a path in several, the one launched
-// nearest to the front's own counts.
+// Of the paths of one link within 30 dB of the strongest. Where two come to one of the front's own, the one launched nearest to it counts.
 void compare_link(const Environment& sea, const Vec3& from, const Vec3& to, const RayLink& link,
-                  double tolerance_mps, Errors& errors) {
-  const LinkWater along = water_between(sea, from, to, kBottom, kFrequency, tolerance_mps);
+                  Errors& errors) {
+  const LinkWater along = water_between(sea, from, to, kBottom, kFrequency, 0);
   RaySea rays{along.water, BottomProfile::flat(kBottom), kSand, {}, {}};
   rays.section = along.section;
   rays.options.max_bounces = 4;
@@ -128,7 +127,7 @@ void compare_link(const Environment& sea, const Vec3& from, const Vec3& to, cons
   }
 }
 
-Errors errors_of(double step_m, double level_m, double tolerance_mps, int links) {
+Errors errors_of(double step_m, double level_m, int links) {
   const Environment sea = sampled_front(step_m, level_m);
   std::mt19937 draw(21);
   std::uniform_real_distribution<double> share(0, 1);
@@ -138,29 +137,27 @@ Errors errors_of(double step_m, double level_m, double tolerance_mps, int links)
     const Vec3 from{kFront - range * share(draw), 0, 0};
     const Vec3 to = from + range * Vec3(std::cos(bearing), std::sin(bearing), 0);
     const RayLink link{5 + 170 * share(draw), 5 + 170 * share(draw), range};
-    compare_link(sea, from, to, link, tolerance_mps, errors);
+    compare_link(sea, from, to, link, errors);
   }
   return errors;
 }
 
-// The section's own tolerance is far below what the grid leaves. Half the step and half the level leave a quarter of the delay's error. Levels
-// converge where rays do not turn near a kink of the sampled water or come near a caustic: most are far within 0.1 dB, some are
-// not at any resolution.
+// Half the step and half the level leave a fifteenth of the delay's error. Levels converge, too; what is left are paths that come
+// within a few metres of a caustic.
 TEST(SampledFront, EigenraysConvergeToThoseOfTheFrontItself) {
   constexpr int kLinks = 100;
-  constexpr double kSectionTolerance = 0.0003;  // m/s
   std::vector<double> medians_s;
   Errors errors;
-  for (const double finer : {1, 2, 4, 8}) {
-    errors = errors_of(400 / finer, 8 / finer, kSectionTolerance, kLinks);
+  for (const double finer : {1, 2, 4}) {
+    errors = errors_of(400 / finer, 8 / finer, kLinks);
     ASSERT_GT(errors.delays_s.size(), 500U);
-    EXPECT_LT(errors.not_compared, errors.delays_s.size() / 30);
+    EXPECT_LT(errors.not_compared, errors.delays_s.size() / 100);
     medians_s.push_back(quantile(errors.delays_s, 0.5));
   }
-  for (std::size_t i = 1; i < medians_s.size(); ++i) EXPECT_GT(medians_s[i - 1] / medians_s[i], 3);
-  EXPECT_LT(quantile(errors.delays_s, 0.95), tolerance(1e-6));
+  for (std::size_t i = 1; i < medians_s.size(); ++i) EXPECT_GT(medians_s[i - 1] / medians_s[i], 8);
+  EXPECT_LT(quantile(errors.delays_s, 1), tolerance(1e-6));
   EXPECT_LT(quantile(errors.decibels, 0.5), tolerance(0.01));
-  EXPECT_GT(share_below(errors.decibels, 0.1), 0.8);
+  EXPECT_GT(share_below(errors.decibels, 0.1), 0.99);
 }
 
 }  // namespace
