@@ -105,6 +105,27 @@ void check(const std::vector<float>& values, const OceanGrid& grid, double lowes
   }
 }
 
+std::vector<WaterRange> extremes_of(const OceanValues& values, const OceanGrid& grid) {
+  std::vector<WaterRange> extremes;
+  for (std::size_t depth = 0; depth < grid.depths_m.size(); ++depth) {
+    const auto over = [&](const std::vector<float>& of) {
+      std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                      -std::numeric_limits<double>::infinity()};
+      for (std::size_t time = 0; time < grid.times_s.size(); ++time) {
+        const auto level =
+            std::span(of).subspan((time * grid.depths_m.size() + depth) * grid.columns(), grid.columns());
+        const auto [least, greatest] = std::minmax_element(level.begin(), level.end());
+        range = {std::min<double>(range.first, *least), std::max<double>(range.second, *greatest)};
+      }
+      return range;
+    };
+    const auto [coldest, warmest] = over(values.temperature_degc);
+    const auto [freshest, saltiest] = over(values.salinity_psu);
+    extremes.push_back({coldest, warmest, freshest, saltiest});
+  }
+  return extremes;
+}
+
 std::uint64_t hash_of(const OceanGrid& grid, const OceanValues& values) {
   std::uint64_t hash = 0;
   const auto add = [&hash](const auto& numbers) {
@@ -157,6 +178,7 @@ OceanField::OceanField(OceanGrid grid, OceanValues values, const GeodeticOrigin&
   if (has_water()) {
     fill(values_.temperature_degc, grid_, "temperature");
     fill(values_.salinity_psu, grid_, "salinity");
+    extremes_ = extremes_of(values_, grid_);
   }
   // Radii of curvature of the ellipsoid: M = a (1 - e2) / (1 - e2 sin^2)^(3/2), N = a / (1 - e2 sin^2)^(1/2).
   const double sine = elementary::sin(origin_.latitude_rad), w2 = 1 - kEccentricity2 * sine * sine;
@@ -250,6 +272,14 @@ std::vector<WaterAtDepth> OceanField::column_at(double north_m, double east_m, d
                       at_level(values_.salinity_psu, about, time, depth)});
   }
   return column;
+}
+
+// Between two levels water is that of both, mixed.
+WaterRange OceanField::extremes_at(double depth_m) const {
+  const Bracket depth = bracket(grid_.depths_m, depth_m);
+  const WaterRange &a = extremes_[depth.low], &b = extremes_[depth.high];
+  return {std::min(a.least_degc, b.least_degc), std::max(a.greatest_degc, b.greatest_degc),
+          std::min(a.least_psu, b.least_psu), std::max(a.greatest_psu, b.greatest_psu)};
 }
 
 // f(t) = h00 f1 + h10 H m1 + h01 f2 + h11 H m2 over t = 0..1 between points 1 and 2, H apart, with the weights of Hermite's cubic and

@@ -47,6 +47,11 @@ struct WaterAtDepth {
   double depth_m, temperature_degc, salinity_psu;
 };
 
+// What all water of a layer has, between the values of a field.
+struct WaterRange {
+  double least_degc, greatest_degc, least_psu, greatest_psu;
+};
+
 class OceanField {
  public:
   // Throws InvalidArgument that names the axis or the variable, the value and what is allowed; also when the origin lies outside
@@ -69,6 +74,9 @@ class OceanField {
   // The same, smooth along rows and columns: cubic Hermite polynomials whose slope at a point is that of the parabola through it
   // and its neighbours, at the first and the last that of the line; within what the points about have.
   std::vector<WaterAtDepth> smooth_column_at(double north_m, double east_m, double time_s) const;
+
+  // All water at a depth at any place and time, smooth or not; of a field that has it.
+  WaterRange extremes_at(double depth_m) const;
 
   // Where the straight way between two places crosses rows, columns or levels of the grid: shares of it in (0, 1), rising.
   std::vector<double> crossings(const Vec3& from, const Vec3& to) const;
@@ -106,6 +114,7 @@ class OceanField {
 
   OceanGrid grid_;
   OceanValues values_;
+  std::vector<WaterRange> extremes_;  // at each level, over all times
   GeodeticOrigin origin_;
   double meridional_radius_m_, transverse_radius_m_;  // of curvature at the origin
   std::uint64_t hash_ = 0;

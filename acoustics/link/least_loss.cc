@@ -6,8 +6,11 @@
 #include <numbers>
 #include <utility>
 
+#include "acoustics/sea/absorption.h"
+#include "acoustics/sea/pressure.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "core/elementary.h"
+#include "ocean/ocean_field.h"
 
 namespace halocline::acoustics {
 namespace {
@@ -20,6 +23,28 @@ constexpr double kSampled = 0.995;
 // Angles over which the bottom's reflection is summed.
 constexpr int kAngles = 180;
 constexpr double kAngleStep = std::numbers::pi / 2 / kAngles;
+
+// Of all water of a field at a depth, at temperatures and salinities of its extremes and between them; otherwise that of the profile.
+double least_absorption(const Environment& environment, double depth_m, double khz) {
+  if (!environment.field) return absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz);
+  constexpr double kStepDegc = 0.5, kSalinities = 4;
+  const ocean::WaterRange range = environment.field.ocean->extremes_at(depth_m);
+  const double temperatures = std::ceil((range.greatest_degc - range.least_degc) / kStepDegc) + 1;
+  AbsorbingWater water{.temperature_degc = 0,
+                       .salinity_psu = 0,
+                       .depth_m = depth_m,
+                       .pressure_atm = pressure_atm_absolute(depth_m, environment.latitude_rad),
+                       .ph = environment.ph};
+  double least = std::numeric_limits<double>::infinity();
+  for (double i = 0; i <= temperatures; ++i) {
+    water.temperature_degc = range.least_degc + i / temperatures * (range.greatest_degc - range.least_degc);
+    for (double j = 0; j <= kSalinities; ++j) {
+      water.salinity_psu = range.least_psu + j / kSalinities * (range.greatest_psu - range.least_psu);
+      least = std::min(least, absorption_spectrum(environment.absorption_model, water).db_per_km(khz * khz));
+    }
+  }
+  return least;
+}
 
 double next_depth(double depth_m) { return std::max(depth_m + kDepthStep, depth_m * kDepthGrowth); }
 
@@ -68,8 +93,7 @@ LeastLoss LeastLoss::of_straight_path(const Environment& environment, double fre
   const double khz = frequency_hz / 1000;
   double least = std::numeric_limits<double>::infinity();
   for (double depth_m = 0; depth_m < deepest_end_m + kDepthStep; depth_m = next_depth(depth_m)) {
-    least = std::min(
-        least, absorption_spectrum_at(environment, std::min(depth_m, deepest_end_m)).db_per_km(khz * khz));
+    least = std::min(least, least_absorption(environment, std::min(depth_m, deepest_end_m), khz));
   }
   loss.depths_ = {{kSampled * least, 0}};
   return loss;
@@ -82,9 +106,10 @@ LeastLoss LeastLoss::of_rays(const Environment& environment, double frequency_hz
   const double khz = frequency_hz / 1000;
   double least = std::numeric_limits<double>::infinity();
   for (double depth_m = 0; depth_m < column.greatest_depth_m; depth_m = next_depth(depth_m)) {
-    least = std::min(least, absorption_spectrum_at(environment, depth_m).db_per_km(khz * khz));
+    least = std::min(least, least_absorption(environment, depth_m, khz));
     loss.depths_.push_back({kSampled * least, std::max(2 * (depth_m - deepest_end_m), 0.0)});
   }
+  if (environment.field) return loss;
   loss.least_depth_m_ = column.least_depth_m;
   if (!(loss.least_depth_m_ > 0)) return loss;
   const double speed = environment.profile.sound_speed_mps(column.least_depth_m);

@@ -23,6 +23,9 @@
 // - gain: what focusing adds (kFocusingGain at caustics and convergence zones), and what the caller's way of adding paths may.
 // Left out: beams, which the caller adds; hard bottoms without any loss in water of less than H, unless it is known.
 //
+// In a field of temperature and salinity (Environment::field) alpha_min(D) is the least of all water of the field down to D, at any
+// place and time, and of rays the first bound on spreading alone holds, which asks for no profile.
+//
 // It rises with range. Immutable: calls may overlap between threads. Making one costs a millisecond.
 #pragma once
 

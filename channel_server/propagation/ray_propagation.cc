@@ -110,7 +110,6 @@ bool RayPropagation::are_ready(SimTime at, const std::vector<EndPair>& links) {
 
 std::optional<acoustics::LeastLoss> RayPropagation::least_loss(SimTime at, double frequency_hz,
                                                                double deepest_end_m) const {
-  if (waters_->at(at).field) return std::nullopt;  // waters of many kinds
   const Decibels gain = gain_beyond_powers(model_, waters_->at(at));
   return acoustics::LeastLoss::of_rays(waters_->at(at), frequency_hz, deepest_end_m, gain,
                                        {model_.least_depth_m, model_.greatest_depth_m, model_.bottom});

@@ -59,7 +59,6 @@ class StraightPropagation : public Propagation {
                           const std::vector<acoustics::BottomPoint>& points) override;
   std::optional<acoustics::LeastLoss> least_loss(SimTime at, double frequency_hz,
                                                  double deepest_end_m) const override {
-    if (waters_->at(at).field) return std::nullopt;  // waters of many kinds
     return acoustics::LeastLoss::of_straight_path(waters_->at(at), frequency_hz, deepest_end_m);
   }
   const acoustics::Environment& environment(SimTime at) const override { return waters_->at(at); }

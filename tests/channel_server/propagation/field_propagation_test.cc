@@ -1,10 +1,12 @@
 // Propagation through an ocean field: which water holds when, and what links make of it.
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "acoustics/link/least_loss.h"
 #include "acoustics/link/line_means.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
@@ -18,6 +20,7 @@
 #include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/vehicles/vehicle_id.h"
 #include "core/frames.h"
+#include "core/random.h"
 #include "core/sim_time.h"
 #include "ocean/ocean_field.h"
 #include "tests/support/tolerance.h"
@@ -126,6 +129,35 @@ TEST(RaysThroughAField, AreTheLayeredOnesWhereItIsTheSameEverywhere) {
   for (std::size_t i = 0; i < field.paths.size(); ++i) {
     EXPECT_EQ(field.paths[i].delay_s, layered.paths[i].delay_s);
     EXPECT_EQ(field.paths[i].level, layered.paths[i].level);
+  }
+}
+
+// Of 300 links anywhere in the field, along the line and along rays; nor much more along the line, where absorption varies alone.
+TEST(LeastLossThroughAField, NoLinkLosesLess) {
+  const acoustics::Environment sea = warming_sea(2, 0.8);
+  acoustics::Modem modem;
+  StraightPropagation straight(sea);
+  RayModel model;
+  model.speed_tolerance_mps = 0.02;
+  const RayPropagation rays(std::make_shared<EnvironmentTimeline>(sea),
+                            std::make_shared<SeabedMap>(SeabedRule{}), model);
+  const double frequency_hz = modem.band().centre_hz();
+  const auto line = straight.least_loss(SimTime(), frequency_hz, 100),
+             all = rays.least_loss(SimTime(), frequency_hz, 100);
+  ASSERT_TRUE(line && all);
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const auto draw = [&](std::uint32_t what) { return uniform_at({.seed = 5, .who = what, .which = i}); };
+    const Vec3 from(8000 * draw(0) - 4000, 8000 * draw(1) - 4000, 100 * draw(2)),
+        to(8000 * draw(3) - 4000, 8000 * draw(4) - 4000, 100 * draw(5));
+    const LinkEnd a = end_at(1, from, modem), b = end_at(2, to, modem);
+    const double range_m = (to - from).norm();
+    const double loss_db =
+        (modem.source_level - straight.reception(SimTime(), a, b).budget.received_level).value;
+    EXPECT_GE(loss_db, line->at(range_m).value - tolerance(1e-9));
+    EXPECT_LE(loss_db, 1.15 * line->at(range_m).value + 0.01);
+    if (i % 10 > 0) continue;
+    const double ray_loss_db = (modem.source_level - along_rays(sea, a, b).budget.received_level).value;
+    EXPECT_GE(ray_loss_db, all->at(std::hypot(to.x() - from.x(), to.y() - from.y())).value);
   }
 }
 
