@@ -1,8 +1,11 @@
 // A value over time, told in pieces: each holds from an instant on, until the next.
 //
-// With set() it is a function of what was told, whatever the order. Bounded: beyond `most` the earliest make room. Not thread-safe.
+// It is a function of what was told, whatever the order: at every instant what was told for the latest instant before holds. So a
+// repetition of what holds is kept, for something else may yet be told for an instant before it. Bounded: beyond `most` the
+// earliest repetition makes room, and where there is none the earliest of all. Not thread-safe.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -21,11 +24,7 @@ class Schedule {
   // `value` holds from `from` on.
   void set(SimTime from, const Value& value) {
     pieces_.insert_or_assign(from, value);
-    if (pieces_.size() > most_) pieces_.erase(pieces_.begin());
-  }
-  // The same; a repetition of what holds already changes nothing.
-  void announce(SimTime from, const Value& value) {
-    if (at(from) != value) set(from, value);
+    if (pieces_.size() > most_) make_room();
   }
   const Value& at(SimTime instant) const {
     const auto later = pieces_.upper_bound(instant);
@@ -34,9 +33,12 @@ class Schedule {
   // Calls visit(value, first instant within the interval) for each that holds at some instant of [from, to].
   template <class Visit>
   void visit_during(SimTime from, SimTime to, Visit&& visit) const {
-    visit(at(from), from);
+    const Value* last = &at(from);
+    visit(*last, from);
     for (auto next = pieces_.upper_bound(from); next != pieces_.end() && next->first <= to; ++next) {
-      visit(next->second, next->first);
+      if (next->second == *last) continue;
+      last = &next->second;
+      visit(*last, next->first);
     }
   }
   // Drops what no instant from `time` on needs.
@@ -46,6 +48,12 @@ class Schedule {
   void clear() { pieces_.clear(); }
 
  private:
+  void make_room() {
+    const auto repeats = [](const auto& a, const auto& b) { return a.second == b.second; };
+    const auto first = std::adjacent_find(pieces_.begin(), pieces_.end(), repeats);
+    pieces_.erase(first == pieces_.end() ? pieces_.begin() : std::next(first));
+  }
+
   Value before_;
   std::size_t most_;
   std::map<SimTime, Value> pieces_;

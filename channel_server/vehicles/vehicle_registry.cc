@@ -89,12 +89,12 @@ VehicleRegistry::Schedules VehicleRegistry::configured(std::string_view name) co
 
 void VehicleRegistry::announce_modem(std::string_view name, SimTime from, const VehicleModem& modem,
                                      SimTime received_at) {
-  schedules_of(name, received_at).modems.announce(from, modem);
+  schedules_of(name, received_at).modems.set(from, modem);
 }
 
 void VehicleRegistry::announce_listening(std::string_view name, SimTime from, const Listening& listening,
                                          SimTime received_at) {
-  schedules_of(name, received_at).listening.announce(from, listening);
+  schedules_of(name, received_at).listening.set(from, listening);
 }
 
 VehicleRegistry::Schedules& VehicleRegistry::schedules_of(std::string_view name, SimTime received_at) {
