@@ -33,6 +33,11 @@ std::vector<std::pair<SearchBudget::LinkId, const EndPair*>> one_way_of_each(
   return ways;
 }
 
+// Where the gradient of sound speed jumps, to the last bit: as a profile and a mooring of one scenario state it.
+bool is_knot(const acoustics::RayWater& water, double depth_m) {
+  return depth_m > 0 && std::binary_search(water.depths_m().begin(), water.depths_m().end(), depth_m);
+}
+
 SharedQuery shared_query(const LinkSearches::Task& task) {
   return {task.ends.from.id, task.ends.to.id, task.query, *task.water, *task.environment};
 }
@@ -100,6 +105,10 @@ LinkSearches::Task LinkSearches::shared_task_of(SimTime at, const LinkEnd& from,
   if (auto shared = middle_of_cell(task.link, model_.reuse_distance_m)) {
     shared->source_depth_m = std::min(shared->source_depth_m, kDeepestEndM);
     shared->receiver_depth_m = std::min(shared->receiver_depth_m, kDeepestEndM);
+    // At a knot of the water a ray has the tube of neither layer beside: an end there is not moved.
+    if (is_knot(*task.water, task.link.source_depth_m)) shared->source_depth_m = task.link.source_depth_m;
+    if (is_knot(*task.water, task.link.receiver_depth_m))
+      shared->receiver_depth_m = task.link.receiver_depth_m;
     task.query.link = *shared;
     const double apart_m = model_.profile_reuse_distance_m;
     for (double& place_m : task.query.places) place_m = std::round(place_m / apart_m) * apart_m;

@@ -2,7 +2,8 @@
 //
 // A link is searched from the end where the bottom profile starts (the lower id) to the other. For itself, the query is that of
 // its very ends. For a table, with a distance of reuse, both ends go to the nearest points of a horizontal lattice for the bottom,
-// and the query is that of the middle of the cell that the link lies in (middle_of_cell); not for coherent levels. With a budget
+// and the query is that of the middle of the cell that the link lies in (middle_of_cell), but for an end exactly at a knot of the
+// water, which keeps its depth; not for coherent levels. With a budget
 // of searches a tick (search_budget.h) it is the query that the link was last granted. For a packet it is as for a table with
 // RayModel::reuse_for_packets, but a link that waits for its first turn, or was granted its query in other water or over another
 // seabed, is searched at once; else as for itself.
