@@ -6,16 +6,19 @@
 #include <limits>
 #include <numbers>
 
+#include "acoustics/link/slope_diffusion.h"
 #include "acoustics/rays/profile_path.h"
 #include "core/elementary.h"
 
 namespace halocline::acoustics {
 namespace {
 
-constexpr double kCoarseness = 3;        // windows over those of a search's fan
-constexpr double kLeastSine = 0.02;      // where a ray turns its density is bounded by this
-constexpr double kKeptShare = 0.99;      // of the power
-constexpr double kFarAway = 10;          // depths
+constexpr double kCoarseness = 3;    // windows over those of a search's fan
+constexpr double kLeastSine = 0.02;  // where a ray turns its density is bounded by this
+constexpr double kKeptShare = 0.99;  // of the power
+constexpr double kFarAway = 10;      // depths
+constexpr std::size_t kBottomRays = 40;
+constexpr double kRayWidth = to_radians(1.5);  // steeper ones than 60 degrees are lost, whatever turns them
 constexpr int kEnds = 12, kBottoms = 5;  // depths of ends and of bottoms at which the least loss is sought
 
 double sine_at(double xi, double speed) { return std::sqrt(std::max(1 - xi * xi * speed * speed, 0.0)); }
@@ -58,6 +61,11 @@ double weak_power(const RayOptions& options, Decibels below) {
 
 double power_of(const Arrival& path) { return path.received_pressure() * path.received_pressure(); }
 
+double surface_loss_of(const MixedSea& sea, double xi) {
+  const double sine = sine_at(xi, sea.water.speeds_mps().front());
+  return surface_loss_db(sea.surface, elementary::asin(sine), sea.options.frequency_hz);
+}
+
 // What the boundaries take on the way.
 void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double range_m, Arrival& window) {
   const double times = range_m / half.range_m / 2;
@@ -65,8 +73,7 @@ void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double r
     const double sine = sine_at(xi, sea.water.speeds_mps().front());
     window.surface_bounces = static_cast<int>(times);
     window.surface_sine_squares = times * sine * sine;
-    window.surface_loss_db =
-        times * surface_loss_db(sea.surface, elementary::asin(sine), sea.options.frequency_hz);
+    window.surface_loss_db = times * surface_loss_of(sea, xi);
   }
   if (half.lower_m == sea.depth_m) {
     const double speed = sea.water.speed_at(sea.depth_m), sine = sine_at(xi, speed);
@@ -77,20 +84,60 @@ void set_bounces(const MixedSea& sea, double xi, const HalfCycle& half, double r
   }
 }
 
-// Rays launched between `low` and `high`.
-std::optional<Arrival> window_of(const MixedSea& sea, const RayLink& link, double low, double high) {
+// What of the rays of `xi` in half a cycle lies at a depth, for a metre.
+double density_at(const MixedSea& sea, double xi, double depth_m, const HalfCycle& half) {
+  if (depth_m < half.upper_m || depth_m > half.lower_m) return 0;
+  const double speed = sea.water.speed_at(depth_m);
+  return xi * speed / std::max(sine_at(xi, speed), kLeastSine) / half.range_m;
+}
+
+// What rays of each angle at the bottom bring, times the range and for a launch angle: slopes turn them on their way.
+std::vector<BottomRay> rays_after_slopes(const MixedSea& sea, const RayLink& link) {
+  const double speed = sea.water.speed_at(sea.depth_m);
+  std::vector<BottomRay> rays;
+  for (std::size_t i = 0; i < kBottomRays; ++i) {
+    const double angle = (static_cast<double>(i) + 0.5) * kRayWidth, xi = elementary::cos(angle) / speed;
+    HalfCycle half;
+    half.lower_m = sea.depth_m;
+    half.upper_m = add_leg(sea.water, xi, sea.depth_m, 0, half);
+    double loss_db =
+        -20 * elementary::log10(bottom_magnitude_at_sine(sea.bottom, elementary::sin(angle), speed));
+    if (half.upper_m == 0) loss_db += surface_loss_of(sea, xi);
+    const double cycle_m = 2 * half.range_m;
+    rays.push_back({cycle_m, std::numbers::ln10 / 10 * loss_db / cycle_m,
+                    density_at(sea, xi, link.receiver_depth_m, half)});
+  }
+  diffuse_by_slopes(rays, kRayWidth, sea.mean_square_slope, link.range_m);
+  return rays;
+}
+
+// Between two of them.
+double power_at(const std::vector<BottomRay>& rays, double angle) {
+  const double place = std::max(angle / kRayWidth - 0.5, 0.0);
+  const auto i = std::min(static_cast<std::size_t>(place), rays.size() - 2);
+  const double share = place - static_cast<double>(i);
+  return (1 - share) * rays[i].power + share * rays[i + 1].power;
+}
+
+// Rays launched between `low` and `high`; `turned`: those that slopes turn, empty without slopes.
+std::optional<Arrival> window_of(const MixedSea& sea, const RayLink& link,
+                                 const std::vector<BottomRay>& turned, double low, double high) {
   const double theta = 0.5 * (low + high), speed = sea.water.speed_at(link.receiver_depth_m);
   const double xi = elementary::cos(theta) / sea.water.speed_at(link.source_depth_m);
   HalfCycle half;
   half.upper_m = add_leg(sea.water, xi, link.source_depth_m, 0, half);
   half.lower_m = add_leg(sea.water, xi, link.source_depth_m, sea.depth_m, half);
-  if (!(half.range_m > 0) || link.receiver_depth_m < half.upper_m || link.receiver_depth_m > half.lower_m)
-    return std::nullopt;
+  if (!(half.range_m > 0)) return std::nullopt;
   Arrival window;
   set_bounces(sea, xi, half, link.range_m, window);
-  const double density = xi * speed / std::max(sine_at(xi, speed), kLeastSine) / half.range_m;
-  window.amplitude = std::sqrt((high - low) * density / link.range_m) *
-                     elementary::exp10(-(window.surface_loss_db + window.bottom_loss_db) / 20);
+  const double angle = elementary::asin(sine_at(xi, sea.water.speed_at(sea.depth_m)));
+  const bool is_turned = !turned.empty() && half.lower_m == sea.depth_m && angle < kRayWidth * kBottomRays;
+  const double power = is_turned
+                           ? power_at(turned, angle)
+                           : density_at(sea, xi, link.receiver_depth_m, half) *
+                                 elementary::exp10(-(window.surface_loss_db + window.bottom_loss_db) / 10);
+  if (!(power > 0)) return std::nullopt;
+  window.amplitude = std::sqrt((high - low) * power / link.range_m);
   const double halves = link.range_m / half.range_m;
   window.delay_s = half.delay_s * halves;
   window.path_length_m = half.length_m * halves;
@@ -117,9 +164,11 @@ void keep_most(std::vector<Arrival>& windows) {
 
 std::vector<Arrival> all_windows(const MixedSea& sea, const RayLink& link) {
   const std::vector<double> edges = even_angles(sea.options.max_launch_angle_rad, kCoarseness);
+  std::vector<BottomRay> turned;
+  if (sea.mean_square_slope > 0) turned = rays_after_slopes(sea, link);
   std::vector<Arrival> windows;
   for (std::size_t i = 1; i < edges.size(); ++i) {
-    auto window = window_of(sea, link, edges[i - 1], edges[i]);
+    auto window = window_of(sea, link, turned, edges[i - 1], edges[i]);
     if (!window) continue;
     window->identity = diffuse_identity(window->launch_angle_rad, i);
     windows.push_back(*window);

@@ -4,10 +4,12 @@
 // xi goes up and down between where it turns, or meets surface and bottom, half a cycle D(xi) long; over the range r it does
 // so r / D times, and loses each time what the boundaries take, f in all. The launch angles dtheta bring the power
 //   f^2 cot(angle at the receiver) / D dtheta / r
-// with the delay, length and absorption of r / D half cycles. Each window is one Arrival, diffuse.
+// with the delay, length and absorption of r / D half cycles. Where the bottom has slopes, these turn the rays at every bounce: the
+// power of those that meet it is that of acoustics/link/slope_diffusion.h, by their angles at the bottom. Each window is one
+// Arrival, diffuse.
 //
-// Accuracy: over bottoms with 5 m of relief, 2 to 6 km apart, 1 dB in the mean over places of what every ray brings, 3 dB rms
-// from place to place; some thirty microseconds. Left out: what stands in the way, and slopes.
+// Accuracy: over bottoms with 5 m of relief, 2 to 5 km apart, 0.6 dB in the mean over places of what every ray brings, 2 dB rms
+// from place to place; some fifty microseconds. Left out: what stands in the way, and slopes that go on over the whole link.
 #pragma once
 
 #include <optional>
@@ -27,6 +29,7 @@ struct MixedSea {
   FluidBottom bottom;
   RaySurface surface;
   RayOptions options;
+  double mean_square_slope = 0;  // of the bottom along the link, beside its mean slope
 };
 
 // The windows that hold 99 % of the power, by delay; none where no ray that leaves the source comes to the receiver's depth.

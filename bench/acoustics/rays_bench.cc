@@ -117,7 +117,7 @@ void weak_link(benchmark::State& state) {
     for (Situation& at : all) {
       at.link.range_m += 1e-6;
       benchmark::DoNotOptimize(
-          mixed_arrivals({at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options}, at.link));
+          mixed_arrivals({at.sea.water, 150, at.sea.bottom, at.sea.surface, at.sea.options, 0.003}, at.link));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));

@@ -245,9 +245,9 @@ LinkSearches::Paths LinkSearches::search(const Task& task) const {
   const PathQuery& query = task.query;
   if (!query.given && may_be_weak(model_, *task.water, query)) {
     const auto [north, east, last_north, last_east] = query.places;
-    const auto z_m = seabed_->places_between({north, east, 0}, {last_north, last_east, 0});
-    if (!z_m) return nullptr;
-    if (auto weak = weak_paths(model_, *task.water, *task.environment, query, *z_m)) return weak;
+    const auto places = seabed_->places_between({north, east, 0}, {last_north, last_east, 0});
+    if (!places) return nullptr;
+    if (auto weak = weak_paths(model_, *task.water, *task.environment, query, *places)) return weak;
   }
   const auto seabed = seabed_of(query);
   return seabed ? search_paths(model_, *task.water, *task.environment, query, *seabed) : nullptr;

@@ -142,18 +142,18 @@ bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const 
 
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
                                              const acoustics::Environment& environment,
-                                             const PathQuery& query, std::span<const double> seabed_z_m) {
-  const auto [least, most] = std::minmax_element(seabed_z_m.begin(), seabed_z_m.end());
+                                             const PathQuery& query, const SeabedPlaces& seabed) {
+  const auto [least, most] = std::minmax_element(seabed.z_m.begin(), seabed.z_m.end());
   if (*most - *least < kEvenM) return nullptr;
   double mean_z_m = 0;
-  for (const double z_m : seabed_z_m) mean_z_m += z_m / static_cast<double>(seabed_z_m.size());
+  for (const double z_m : seabed.z_m) mean_z_m += z_m / static_cast<double>(seabed.z_m.size());
   const double deepest_end_m = std::max(query.link.source_depth_m, query.link.receiver_depth_m);
   const double depth_m =
       std::clamp(mean_z_m - environment.sea_surface_z_m, deepest_end_m + kEvenM, acoustics::kDeepestWater);
   const acoustics::LinkWater along = water_along(model, water, environment, query, depth_m);
-  auto windows = acoustics::weak_arrivals(
-      {along.water, depth_m, model.bottom, surface_of(model, environment), options_of(model, query)},
-      query.link, model.weak_below_diffuse);
+  auto windows = acoustics::weak_arrivals({along.water, depth_m, model.bottom, surface_of(model, environment),
+                                           options_of(model, query), seabed.mean_square_slope},
+                                          query.link, model.weak_below_diffuse);
   if (!windows) return nullptr;
   auto found = std::make_shared<FoundPaths>();
   found->arrivals = {acoustics::RaySolver::kArcs, *std::move(windows)};

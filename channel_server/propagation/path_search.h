@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <tuple>
 
 #include "acoustics/fading/path_fading.h"
@@ -119,10 +118,9 @@ std::shared_ptr<const FoundPaths> search_paths(const RayModel& model, const acou
                                                const PathQuery& query, const SeabedProfile& seabed);
 
 // The same of a link so weak and over so uneven a bottom that its energy is enough (acoustics/link/mixed_link.h); null for others.
-// `seabed_z_m` at even places between the ends.
 std::shared_ptr<const FoundPaths> weak_paths(const RayModel& model, const acoustics::RayWater& water,
                                              const acoustics::Environment& environment,
-                                             const PathQuery& query, std::span<const double> seabed_z_m);
+                                             const PathQuery& query, const SeabedPlaces& seabed);
 
 // Whether that may be found, before its bottom is looked at.
 bool may_be_weak(const RayModel& model, const acoustics::RayWater& water, const PathQuery& query);

@@ -42,6 +42,15 @@ double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 
   return weight > 0 ? sum / weight : kUnknown;
 }
 
+struct SlopeSums {
+  double count = 0, sum = 0, squares = 0;
+
+  double variance() const {
+    const double mean = sum / std::max(count, 1.0);
+    return std::max(squares / std::max(count, 1.0) - mean * mean, 0.0);
+  }
+};
+
 }  // namespace
 
 std::optional<RayKind> TileSurvey::next_query() const {
@@ -87,6 +96,20 @@ class SeabedMap::Reader {
                  east = (line.east_m + way * line.along_east) / map_.rule_.spacing_m;
     const double i = std::floor(north), j = std::floor(east);
     return seabed_in_cell(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), north - i, east - j);
+  }
+  // Along the line, in the cell of the last sample.
+  void add_slopes(const Line& line, SlopeSums& slopes) const {
+    for (std::size_t i = 0; i + 1 < kReach; ++i) {
+      for (std::size_t j = 0; j + 1 < kReach; ++j) {
+        const double slope = ((cell_[i + 1][j] - cell_[i][j]) * line.along_north +
+                              (cell_[i][j + 1] - cell_[i][j]) * line.along_east) /
+                             map_.rule_.spacing_m;
+        if (std::isnan(slope)) continue;
+        ++slopes.count;
+        slopes.sum += slope;
+        slopes.squares += slope * slope;
+      }
+    }
   }
 
  private:
@@ -183,16 +206,21 @@ std::shared_ptr<const SeabedProfile> SeabedMap::between(const Vec3& from, const 
   return std::make_shared<const SeabedProfile>(std::move(profile));
 }
 
-std::optional<std::array<double, SeabedMap::kPlaces>> SeabedMap::places_between(const Vec3& from,
-                                                                                const Vec3& to) const {
-  std::array<double, kPlaces> z_m{};
-  Line line{from.x(), from.y(), to.x() - from.x(), to.y() - from.y(), 0.5 / kPlaces, 0};
+std::optional<SeabedPlaces> SeabedMap::places_between(const Vec3& from, const Vec3& to) const {
+  SeabedPlaces places;
+  const int count = static_cast<int>(places.z_m.size());
+  Line line = line_between(from, to);
+  line.spacing_m = elementary::hypot(to.x() - from.x(), to.y() - from.y()) / (2 * count);
   Reader reader(*this);
-  for (int i = 0; i < kPlaces; ++i) {
-    z_m[static_cast<std::size_t>(i)] = reader.seabed(line, 2 * i + 1);
-    if (std::isnan(z_m[static_cast<std::size_t>(i)])) return std::nullopt;
+  SlopeSums slopes;
+  for (int i = 0; i < count; ++i) {
+    double& z_m = places.z_m[static_cast<std::size_t>(i)];
+    z_m = reader.seabed(line, 2 * i + 1);
+    if (std::isnan(z_m)) return std::nullopt;
+    reader.add_slopes(line, slopes);
   }
-  return z_m;
+  places.mean_square_slope = slopes.variance();
+  return places;
 }
 
 std::optional<double> SeabedMap::seabed_z_m(const Vec3& place) const {

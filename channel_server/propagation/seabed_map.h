@@ -82,10 +82,9 @@ class SeabedMap {
 
   // From one end to the other; null where it is unknown.
   std::shared_ptr<const SeabedProfile> between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
-  // z of the seabed at kPlaces even places between the ends, in the middle of as many equal parts; empty where one is unknown.
-  static constexpr int kPlaces = 16;
-  std::optional<std::array<double, kPlaces>> places_between(const Vec3& from_ned_m,
-                                                            const Vec3& to_ned_m) const;
+  // At even places between the ends, in the middle of as many equal parts; slopes between the points of the lattice that weigh
+  // there. Empty where a place is unknown.
+  std::optional<SeabedPlaces> places_between(const Vec3& from_ned_m, const Vec3& to_ned_m) const;
   // z of the seabed at a place; empty where it is unknown.
   std::optional<double> seabed_z_m(const Vec3& place_ned_m) const;
   // Whether every tile that between() needs is answered. Those that are not are requested. What was found so for the same two ends

@@ -7,6 +7,7 @@
 // changed. Land counts as 0.1 m of water.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "acoustics/rays/arrivals.h"
@@ -20,6 +21,12 @@ struct SeabedProfile {
   std::vector<double> z_m;  // of the seabed, two samples at least
 
   static SeabedProfile flat(double z_m) { return {-1e5, 1e6, {z_m, z_m}}; }
+};
+
+// What links whose rays are not traced need of it.
+struct SeabedPlaces {
+  std::array<double, 16> z_m{};  // at even places between the ends
+  double mean_square_slope = 0;  // along the link, beside the mean slope
 };
 
 // The bottom along a link whose ends are those of `seabed` in its order.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,6 +50,19 @@ TEST_F(SeabedMapTest, APlaneIsExactUnderEveryLink) {
 TEST_F(SeabedMapTest, LevelGroundStaysLevelToTheLastBit) {
   const auto profile = surveyed({-310.7, 45.3, 20}, {902.2, 777.7, 50}, [](const Vec3&) { return 123.4; });
   for (const double z_m : profile.z_m) EXPECT_EQ(z_m, 123.4);
+}
+
+// Waves of the amplitude a and the length l have (2 pi a / l)^2 / 2, seen along them; a plane has one slope.
+TEST_F(SeabedMapTest, SlopesAreThoseAlongTheLink) {
+  const auto waves = [](const Vec3& place) {
+    return 100 + 0.05 * place.x() + 4 * std::sin(2 * std::numbers::pi * place.x() / 300);
+  };
+  const Vec3 from(-310.7, 45.3, 20), north(2689.3, 45.3, 20), east(-310.7, 3045.3, 20);
+  survey(map_, from, north, waves);
+  survey(map_, from, east, waves);
+  const double expected = std::pow(2 * std::numbers::pi * 4 / 300, 2) / 2;
+  EXPECT_NEAR(map_.places_between(from, north)->mean_square_slope, expected, tolerance(0.1) * expected);
+  EXPECT_NEAR(map_.places_between(from, east)->mean_square_slope, 0, 1e-12);
 }
 
 TEST_F(SeabedMapTest, SamplesLieASpacingApartAndGoOnBeyondBothEnds) {
