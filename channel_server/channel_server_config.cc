@@ -128,7 +128,7 @@ void visit_rules(bus::ConfigVisitor& v, ServerRules& r) {
   visit_count(v, "predicted_payload_bytes", r.predicted_payload_bytes,
               {1, acoustics::kMaxPayloadBytes, "bytes", "of the packets whose delivery link tables predict"});
   visit_count(v, "shards", r.medium.shard.count,
-              {1, kMaxShards, "", "channel servers that share the vehicles (id mod shards = shard)"});
+              {1, kMaxShards, "", "channel servers that share the vehicles, by where they start"});
   visit_count(v, "shard", r.medium.shard.index,
               {0, kMaxShards - 1.0, "", "which of them this one is; in one process all run"});
   bus::seconds(v, "echo_deadline_s", r.ray_queries.answer_deadline,

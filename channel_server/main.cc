@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   std::string share, journal;
   program.options = {
-      {"--shard", "I/N: serve the vehicles whose id mod N is I, beside N - 1 other servers", &share, nullptr,
+      {"--shard", "I/N: serve the I-th share of the vehicles, beside N - 1 other servers", &share, nullptr,
        [](const std::string& value) {
          return part_settings("--shard", value, "channel_server.shard", "channel_server.shards");
        }},

@@ -4,20 +4,33 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
 
 #include "channel_server/vehicles/vehicle_id.h"
+#include "core/frames.h"
 
 namespace halocline::channel_server {
 
-// A server with index i of n serves the vehicles whose id mod n is i: what arrives at them, the receipts of what
-// they send, the link tables that start at them.
+// The index of the server of each vehicle of the scenario.
+using ServersByVehicle = std::unordered_map<VehicleId, int>;
+
+// A server with index i of n serves the vehicles that `servers` gives it, and of others those whose id mod n is i: what arrives
+// at them, the receipts of what they send, the link tables that start at them.
 struct Shard {
   int index = 0;  // 0 to count - 1
   int count = 1;
+  std::shared_ptr<const ServersByVehicle> servers = nullptr;  // null: of no vehicle; the same for all shards
 
-  bool serves(VehicleId id) const { return id % count == index; }
+  bool serves(VehicleId id) const { return of(id) == index; }
   bool is_alone() const { return count == 1; }
-  int of(VehicleId id) const { return id % count; }  // the index of who serves it
+  // The index of who serves it.
+  int of(VehicleId id) const {
+    if (!servers) return id % count;
+    const auto found = servers->find(id);
+    return found == servers->end() ? id % count : found->second;
+  }
   // Which server searches for the paths between two vehicles: that of the one or of the other, by a bit of a hash of both ids.
   int owner_of(VehicleId a, VehicleId b) const {
     const auto [low, high] = std::minmax(a, b);
@@ -28,5 +41,15 @@ struct Shard {
     return of(hash >> 63 != 0 ? high : low);
   }
 };
+
+struct StartPlace {
+  VehicleId id;
+  Vec3 start_ned_m;
+};
+
+// Shares vehicles out among `count` servers by where they start, so that few links run from those of one to those of another: the
+// vehicles are cut in two across their longer side, north or east, and the parts again, until each server has as many as any
+// other but for one. They stay with their servers wherever they go.
+std::shared_ptr<const ServersByVehicle> servers_by_place(std::vector<StartPlace> vehicles, int count);
 
 }  // namespace halocline::channel_server

@@ -3,6 +3,7 @@
 #include "channel_server/vehicles/shard.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <set>
@@ -120,6 +121,31 @@ TEST(Shard, EveryVehicleIsServedByExactlyOne) {
       for (int index = 0; index < count; ++index) serving += Shard{index, count}.serves(id) ? 1 : 0;
       EXPECT_EQ(serving, 1);
     }
+  }
+}
+
+// Four groups of 25, 10 km apart, numbered in turn: each server has one.
+TEST(Shard, VehiclesOfOnePlaceHaveOneServer) {
+  std::vector<StartPlace> vehicles;
+  for (VehicleId id = 1; id <= 100; ++id)
+    vehicles.push_back({id, {id % 4 < 2 ? 0.0 : 12e3, (id % 2 == 0 ? 0.0 : 10e3) + id, 20}});
+  const Shard shard{0, 4, servers_by_place(vehicles, 4)};
+  std::map<int, std::set<int>> groups;  // of each server
+  for (VehicleId id = 1; id <= 100; ++id) groups[shard.of(id)].insert(id % 4);
+  EXPECT_EQ(groups.size(), 4u);
+  for (const auto& [server, some] : groups) EXPECT_EQ(some.size(), 1u) << server;
+  EXPECT_EQ(shard.of(1001), 1001 % 4);  // of no scenario
+}
+
+TEST(Shard, ServersHaveAsManyVehiclesButForOne) {
+  for (const int count : {2, 3, 7, 25}) {
+    std::vector<StartPlace> vehicles;
+    for (VehicleId id = 1; id <= 100; ++id) vehicles.push_back({id, {37.0 * (id % 11), 53.0 * (id % 7), 20}});
+    std::vector<int> served(static_cast<std::size_t>(count));
+    for (const auto& [id, server] : *servers_by_place(vehicles, count))
+      ++served[static_cast<std::size_t>(server)];
+    const auto [least, most] = std::minmax_element(served.begin(), served.end());
+    EXPECT_LE(*most - *least, 1) << count;
   }
 }
 
