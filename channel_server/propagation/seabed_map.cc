@@ -42,20 +42,7 @@ double mean_of_known(const std::array<double, 4>& z_m, const std::array<double, 
   return weight > 0 ? sum / weight : kUnknown;
 }
 
-struct SlopeSums {
-  double count = 0, sum = 0, squares = 0;
-
-  double variance() const {
-    const double mean = sum / std::max(count, 1.0);
-    return std::max(squares / std::max(count, 1.0) - mean * mean, 0.0);
-  }
-};
-
 }  // namespace
-
-std::optional<RayKind> TileSurvey::next_query() const {
-  return z_m_.empty() ? std::optional(RayKind::kDepths) : std::nullopt;
-}
 
 std::vector<TerrainRay> TileSurvey::rays() const {
   std::vector<TerrainRay> rays;

@@ -57,7 +57,9 @@ class TileSurvey {
   TileSurvey(TileIndex tile, double spacing_m) : tile_(tile), spacing_m_(spacing_m) {}
 
   // As EchoSurvey's: there is one query.
-  std::optional<RayKind> next_query() const;
+  std::optional<RayKind> next_query() const {
+    return z_m_.empty() ? std::optional(RayKind::kDepths) : std::nullopt;
+  }
   std::vector<TerrainRay> rays() const;
   void take(std::span<const RayAnswer> answers);
 

@@ -7,6 +7,7 @@
 // changed. Land counts as 0.1 m of water.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -21,6 +22,16 @@ struct SeabedProfile {
   std::vector<double> z_m;  // of the seabed, two samples at least
 
   static SeabedProfile flat(double z_m) { return {-1e5, 1e6, {z_m, z_m}}; }
+};
+
+// Of slopes.
+struct SlopeSums {
+  double count = 0, sum = 0, squares = 0;
+
+  double variance() const {
+    const double mean = sum / std::max(count, 1.0);
+    return std::max(squares / std::max(count, 1.0) - mean * mean, 0.0);
+  }
 };
 
 // What links whose rays are not traced need of it.
