@@ -18,11 +18,5 @@ pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
 pkg_check_modules(SLEEF REQUIRED IMPORTED_TARGET sleef)
 
-# LCM 1.3.1 (Debian) has no CMake package, 1.5 (upstream) has one whose target differs: find the header,
-# the library and the generator ourselves, so that both work.
-find_path(LCM_INCLUDE_DIR lcm/lcm-cpp.hpp REQUIRED)
-find_library(LCM_LIBRARY lcm REQUIRED)
+include(cmake/lcm.cmake)
 find_program(LCM_GEN lcm-gen REQUIRED)
-add_library(halocline_lcm INTERFACE)
-target_include_directories(halocline_lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
-target_link_libraries(halocline_lcm INTERFACE ${LCM_LIBRARY} Threads::Threads)

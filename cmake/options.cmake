@@ -47,21 +47,22 @@ target_precompile_headers(halocline_library_headers PRIVATE ${HALOCLINE_COMMON_H
 function(halocline_library name)
   cmake_parse_arguments(ARG "NO_COMMON_HEADERS" "" "SOURCES;LINK;LINK_PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
-  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
-  target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE halocline_options ${ARG_LINK_PRIVATE})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
+  target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE $<BUILD_INTERFACE:halocline_options> ${ARG_LINK_PRIVATE})
   if(NOT ARG_NO_COMMON_HEADERS)
     target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
   endif()
 endfunction()
 
 # halocline_module(name SOURCES ... LINK ...): a shared module beside the programs, loaded when it is first used
-# (core/shared_module.h).
+# (core/shared_module.h); installed in lib/halocline.
 function(halocline_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} MODULE ${ARG_SOURCES})
   set_target_properties(${name} PROPERTIES PREFIX "" DEFINE_SYMBOL "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
   target_link_libraries(${name} PRIVATE halocline_options ${ARG_LINK})
   target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
+  install(TARGETS ${name} LIBRARY DESTINATION lib/halocline COMPONENT programs)
 endfunction()
 
 # halocline_executable(name SOURCES ... LINK ...): an executable in build/<preset>/bin.
@@ -73,9 +74,10 @@ function(halocline_executable name)
   target_precompile_headers(${name} REUSE_FROM halocline_library_headers)
 endfunction()
 
-# halocline_program(name SOURCES ... LINK ...): the same, of the target `programs`: what a user runs.
+# halocline_program(name SOURCES ... LINK ...): the same, of the target `programs`: what a user runs; installed.
 add_custom_target(programs)
 function(halocline_program name)
   halocline_executable(${name} ${ARGN})
   add_dependencies(programs ${name})
+  install(TARGETS ${name} RUNTIME COMPONENT programs)
 endfunction()

@@ -24,8 +24,9 @@ std::string program_folder() {
 void* module_symbol(const std::string& file, const std::string& symbol) {
   void* module = nullptr;
   std::string errors;
-  for (const char* folder : {"", "../bin/"}) {
-    module = dlopen((program_folder() + folder + file).c_str(), RTLD_LAZY | RTLD_LOCAL);
+  for (const std::string& folder : {program_folder(), program_folder() + "../bin/",
+                                    program_folder() + "../lib/halocline/", std::string()}) {
+    module = dlopen((folder + file).c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (module != nullptr) break;
     errors += std::string(errors.empty() ? "" : "; ") + dlerror();
   }

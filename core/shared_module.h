@@ -6,8 +6,9 @@
 namespace halocline {
 
 // The address of `symbol` in the module `file` ("halocline_rasters.so"). The module is searched in the program's folder,
-// then in the folder `bin` next to that (for tests), and stays loaded until the program ends. Throws InvalidArgument with
-// the dynamic linker's own words. Calls may overlap between threads.
+// in the folders bin (for tests) and lib/halocline (of an installed program) next to that, then where the dynamic linker
+// searches shared libraries, and stays loaded until the program ends. Throws InvalidArgument with the dynamic linker's
+// own words. Calls may overlap between threads.
 void* module_symbol(const std::string& file, const std::string& symbol);
 
 }  // namespace halocline

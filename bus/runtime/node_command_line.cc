@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "bus/config/config.h"
+#include "bus/files/version_text.h"
 #include "bus/transport.h"
 #include "bus/version.h"
 #include "core/check.h"
@@ -61,7 +62,7 @@ void describe(CLI::App& app, Arguments& arguments, const NodeProgram& program) {
   app.add_flag("--example", arguments.example, "print an example of this program's sections and exit");
   app.add_flag("--interface", arguments.interface, "print the channels subscribed and published and exit");
   app.add_flag("--print-config", arguments.print_config, "print the effective configuration and exit");
-  app.set_version_flag("--version", kVersion);
+  app.set_version_flag("--version", [&program] { return version_text(program.program); });
   app.footer("Example:\n  " + program.program + " scenarios/seamount.toml --log-level debug");
 }
 

@@ -40,7 +40,4 @@ void add_view_command(CLI::App& app, int& exit_code);
 void add_waveform_command(CLI::App& app, int& exit_code);
 void add_completion_command(CLI::App& app, int& exit_code);
 
-// Bash code that completes the command line of `app`; for `eval "$(halocline completion bash)"`.
-std::string bash_completion(const CLI::App& app);
-
 }  // namespace halocline::clients

@@ -2,9 +2,9 @@
 #include <stdexcept>
 
 #include "bus/files/output_check.h"
+#include "bus/files/version_text.h"
 #include "bus/runtime/node_process.h"
 #include "bus/transport.h"
-#include "bus/version.h"
 #include "clients/halocline/commands.h"
 
 namespace hc = halocline::clients;
@@ -12,7 +12,7 @@ namespace hc = halocline::clients;
 namespace {
 
 void describe(CLI::App& app, int& exit_code) {
-  app.set_version_flag("--version", halocline::bus::kVersion);
+  app.set_version_flag("--version", [] { return halocline::bus::version_text("halocline"); });
   app.require_subcommand(1);
   app.footer(
       hc::footer("  halocline run scenarios/seamount.toml\n  halocline link scenarios/seamount.toml --from "

@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bus/version.h"
+#include "bus/files/version_text.h"
 #include "core/check.h"
 
 namespace halocline::monitor {
@@ -22,15 +22,18 @@ constexpr char kFooter[] =
     "  halocline-monitor --address 0.0.0.0 --port 8080 --token \"$(openssl rand -hex 16)\"\n\n"
     "Exit codes: 0 done, 1 failed, 2 wrong command line or configuration.";
 
-// build/monitor/page, of a program in build/<preset>/bin.
-std::string page_beside_program() {
+// share/halocline/monitor beside the folder of an installed program, or build/monitor/page, of one in build/<preset>/bin.
+std::string page_of_program() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (program.parent_path().parent_path().parent_path() / "monitor/page").string();
+  const auto beside = program.parent_path().parent_path();
+  const auto installed = beside / "share/halocline/monitor";
+  return (std::filesystem::exists(installed, error) ? installed : beside.parent_path() / "monitor/page")
+      .string();
 }
 
 void describe(CLI::App& app, MonitorOptions& options) {
-  app.set_version_flag("--version", bus::kVersion);
+  app.set_version_flag("--version", [] { return bus::version_text("halocline-monitor"); });
   app.footer(kFooter);
   app.add_option("log", options.logs,
                  "LCM log of a run, or its parts in order; without one: what is on the bus now");
@@ -43,7 +46,8 @@ void describe(CLI::App& app, MonitorOptions& options) {
   app.add_option("--history", options.history_s, "of a bus, how far back the page can go, s")
       ->check(CLI::Range(60.0, 1e7))
       ->capture_default_str();
-  app.add_option("--page", options.web.page, "folder of the page's files; default: build/monitor/page");
+  app.add_option("--page", options.web.page,
+                 "folder of the page's files; default: that of the build or the installation");
   app.add_option("--address", options.web.access.address, "to listen on; other than 127.0.0.1 needs --token")
       ->capture_default_str();
   app.add_option("--port", options.web.access.port, "to listen on; 0: any that is free")
@@ -69,7 +73,7 @@ std::optional<MonitorOptions> parse_monitor_command_line(int argc, char** argv) 
   CLI::App app("Shows a running bus or a log in the browser: prints the URL of its page.",
                "halocline-monitor");
   MonitorOptions options;
-  options.web.page = page_beside_program();
+  options.web.page = page_of_program();
   describe(app, options);
   try {
     app.parse(argc, argv);
