@@ -1,9 +1,13 @@
 #include "bus/lockstep/journal_replay.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "core/sim_time.h"
@@ -13,10 +17,20 @@ namespace {
 
 std::string text_of(const bus::Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
 
+[[noreturn]] void refuse() { throw std::runtime_error("the journal holds an entry that no conductor wrote"); }
+
 template <class Decoded>
 Decoded expected(std::optional<Decoded> decoded) {
-  if (!decoded) throw std::runtime_error("the journal holds an entry that no conductor wrote");
+  if (!decoded) refuse();
   return std::move(*decoded);
+}
+
+std::int64_t number_of(const bus::Bytes& bytes) {
+  const std::string text = text_of(bytes);
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) refuse();
+  return number;
 }
 
 void apply_join(const bus::Bytes& bytes, const std::string& scenario_digest, Sequencer& sequencer) {
@@ -28,9 +42,13 @@ void apply_join(const bus::Bytes& bytes, const std::string& scenario_digest, Seq
 
 void apply_round(const bus::Bytes& bytes, bool ending, Sequencer& sequencer) {
   const auto results = expected(bus::decoded_list<lockstep_result_t>(bytes));
+  const auto takes_part = [&](const auto& result) { return sequencer.takes_part(result.participant_name); };
+  if (results.empty() || !std::all_of(results.begin(), results.end(), takes_part)) refuse();
   while (!sequencer.begin_past_round(results)) {
-    if (ending) throw std::runtime_error("the journal has a round after the last");
-    sequencer.begin_instant(sequencer.next_instant());
+    const SimTime next = sequencer.next_instant();
+    if (ending || next == SimTime::never())
+      throw std::runtime_error("the journal has a round after the last");
+    sequencer.begin_instant(next);
   }
   sequencer.complete(results);
 }
@@ -43,7 +61,7 @@ RunState replay_journal(const std::vector<JournalEntry>& entries, const std::str
   for (const auto& [kind, bytes] : entries) {
     switch (kind) {
       case EntryKind::kRun:
-        run.id = std::stoll(text_of(bytes));
+        run.id = number_of(bytes);
         break;
       case EntryKind::kJoin:
         apply_join(bytes, scenario_digest, sequencer);
@@ -58,12 +76,14 @@ RunState replay_journal(const std::vector<JournalEntry>& entries, const std::str
         sequencer.inject(expected(bus::decoded<lockstep_message_t>(bytes)));
         break;
       case EntryKind::kEnd:
-        sequencer.end_run(SimTime::from_nanoseconds(std::stoll(text_of(bytes))));
+        sequencer.end_run(SimTime::from_nanoseconds(number_of(bytes)));
         run.ending = true;
         break;
       case EntryKind::kOver:
         run.over = true;
         break;
+      default:
+        refuse();
     }
   }
   return run;

@@ -201,6 +201,7 @@ void LockstepConductor::on_answer(const lockstep_answer_t& answer, SimTime stead
   if (!body) return;
   auto result = bus::decoded<lockstep_result_t>(*body);
   if (!result || result->participant_name != link->name) return;
+  if (!is_history && !sequencer_.is_possible(*result)) return;
   if (is_history) {
     membership_.on_history_taken(*link, *result, run_, steady);
   } else {

@@ -1,9 +1,34 @@
 #include "bus/lockstep/membership.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include "bus/channel_pattern.h"
+#include "bus/node_identity.h"
+#include "core/check.h"
+
 namespace halocline::conductor {
+
+namespace {
+
+constexpr std::size_t kLongestExpression = 256;
+
+// Of what it subscribes to; empty where all can be followed.
+std::string objection_to_subscriptions(const lockstep_join_t& join) {
+  try {
+    for (const std::string& expression : join.subscriptions) {
+      if (expression.size() > kLongestExpression)
+        return "it subscribes with an expression of more than 256 characters";
+      [[maybe_unused]] const bus::ChannelPattern pattern(expression);
+    }
+  } catch (const InvalidArgument& problem) {
+    return std::string("it subscribes to what is none: ") + problem.what();
+  }
+  return "";
+}
+
+}  // namespace
 
 Membership::Membership(const Sequencer& sequencer, ParticipantLinks& links, GrantSender& grants,
                        std::string scenario_digest, Outputs outputs)
@@ -54,6 +79,9 @@ std::string Membership::objection_to(const lockstep_join_t& join, const Particip
   if (join.run_id != 0 && join.run_id != run.id) return "it took part in another run";
   if (join.scenario_digest != scenario_digest_) return "its scenario is not the conductor's";
   if (join.incarnation < link.incarnation) return "a later incarnation of it takes part";
+  if (join.step_stage < 0 || join.step_stage > static_cast<int>(bus::Stage::kChannel))
+    return "its stage is none";
+  if (std::string objection = objection_to_subscriptions(join); !objection.empty()) return objection;
   const std::int64_t ahead = join.turns_taken - sequencer_.turns_taken(link.name);
   const auto& round = sequencer_.round();
   const bool in_round = std::find(round.begin(), round.end(), link.name) != round.end();
