@@ -1,5 +1,6 @@
 #include "bus/wire_layout.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
@@ -53,6 +54,7 @@ class Walk {
     if (!read_int32(length) || length < 1) return "impossible string length";
     if (static_cast<std::size_t>(length) > left_) return "string longer than the message";
     if (bytes_[length - 1] != 0) return "string without its end";
+    if (std::find(bytes_, bytes_ + length - 1, 0) != bytes_ + length - 1) return "string with a zero in it";
     skip(static_cast<std::size_t>(length));
     return "";
   }

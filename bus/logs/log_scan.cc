@@ -11,6 +11,8 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kWord{0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kWordBytes = kWord.size(), kHeaderBytes = kWordBytes + 24;
 constexpr std::size_t kLongestChannel = 63;  // LCM's own limit
+constexpr std::int64_t kLastStamp_us =
+    3'155'760'000'000'000;  // a century: sums of times within it cannot overflow
 
 std::uint64_t big_endian(LogBytes bytes, std::size_t at, std::size_t count) {
   std::uint64_t value = 0;
@@ -49,6 +51,8 @@ std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at) {
   event.stamp_us = static_cast<std::int64_t>(big_endian(log, at + 12, 8));
   const std::size_t channel_size = big_endian(log, at + 20, 4), data_size = big_endian(log, at + 24, 4);
   if (channel_size == 0 || channel_size > kLongestChannel) return std::nullopt;
+  if (event.number < 0 || event.stamp_us < -kLastStamp_us || event.stamp_us > kLastStamp_us)
+    return std::nullopt;
   event.size = kHeaderBytes + channel_size + data_size;
   if (log.size() - at < event.size) return std::nullopt;
   const std::size_t channel_at = at + kHeaderBytes;
@@ -83,7 +87,7 @@ bool is_sound(LogBytes log, const EventPlace& event) {
   if (!inner) return true;
   const std::size_t end = event.offset + event.size;
   const bool followed = end == log.size() || word_at(log, end);
-  return followed && !(inner->number == event.number + 1 && fill_exactly(log, *inner, end));
+  return followed && !(inner->number - 1 == event.number && fill_exactly(log, *inner, end));
 }
 
 // Whether the last bytes of a log are the beginning of an event.

@@ -5,8 +5,8 @@
 // changed within the data of an event do not show here. What shows is where events begin, and the lengths in
 // their headers. Rules:
 //
-// - A header is plausible when the channel has 1 to 63 bytes, no control characters, and the event ends
-// within the log.
+// - A header is plausible when the number is not negative, the stamp lies within a century of 0, the channel has 1 to 63 bytes, no
+//   control characters, and the event ends within the log.
 // - An event that is followed by another word, or by the end of the log, is sound; but when other events with the
 //   numbers that follow fill its data exactly to the end, its length is corrupt and it is damage.
 // - One that is followed by anything else is sound, too, unless a plausible header begins within its data: then its

@@ -106,6 +106,13 @@ TEST(WireLayout, AStringOfLengthZeroOrWithoutItsEndIsRefused) {
   EXPECT_EQ(misfit_of<node_status_t>(bytes), "string without its end");
 }
 
+// It would be encoded as a shorter one.
+TEST(WireLayout, AStringWithAZeroInItIsRefused) {
+  auto bytes = encoded(valid_message<node_status_t>(1));
+  bytes[8 + 3 * 8 + 4] = 0;
+  EXPECT_EQ(misfit_of<node_status_t>(bytes), "string with a zero in it");
+}
+
 TEST(WireLayout, NothingAtAllIsTooShort) {
   EXPECT_EQ(misfit(wire_layout<sim_clock_t>(), nullptr, 0), "too short");
   const std::uint8_t seven[7] = {};

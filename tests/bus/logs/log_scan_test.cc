@@ -165,6 +165,20 @@ TEST(LogScan, AnEventCutByTheEndOfTheFileIsDistinguishedFromGarbage) {
   EXPECT_FALSE(scan(log).cut_short);
 }
 
+// Differences of such times overflow.
+TEST(LogScan, AnEventOfNoTimeIsDamage) {
+  Bytes log;
+  append_event(log, 0, "A", {1});
+  const std::size_t damaged_at = log.size();
+  append_event(log, 1, "B", {2});
+  log[damaged_at + 12] = 0x80;  // its stamp: INT64_MIN and a little
+  const std::size_t next_at = log.size();
+  append_event(log, 2, "C", {3});
+  const LogStep step = next_event(log, damaged_at);
+  EXPECT_EQ(step.damage.size, next_at - damaged_at);
+  EXPECT_EQ(step.event.channel, "C");
+}
+
 TEST(LogScan, OtherFilesDoNotLookLikeALog) {
   const std::string text = "[scenario]\nname = \"seamount\"\n";
   EXPECT_FALSE(looks_like_a_log({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
