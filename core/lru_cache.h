@@ -1,4 +1,4 @@
-// A map of bounded size: when it is full, the entry that was used least recently makes room.
+// A map of bounded size: when it is full, the entry that was used least recently makes room; forget_unused() drops the rest of long ago.
 //
 //   LruCache<std::string, Spectrum> spectra(/*capacity=*/32);
 //   const Spectrum& spectrum = spectra.find_or_make(name, [&] { return compute_spectrum(name); });
@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <map>
 #include <type_traits>
@@ -34,6 +35,7 @@ class LruCache {
     const auto entry = entries_.find(key);
     if (entry == entries_.end()) return nullptr;
     by_use_.splice(by_use_.begin(), by_use_, entry->second.place);
+    entry->second.used_in = period_;
     return &entry->second.value;
   }
 
@@ -41,7 +43,7 @@ class LruCache {
   Value& insert(Key key, Value value) {
     if (Value* known = find(key)) return *known = std::move(value);
     if (entries_.size() == capacity_) evict_least_recently_used();
-    const auto entry = entries_.try_emplace(std::move(key), Entry{std::move(value), {}}).first;
+    const auto entry = entries_.try_emplace(std::move(key), Entry{std::move(value), {}, period_}).first;
     by_use_.push_front(&entry->first);
     entry->second.place = by_use_.begin();
     return entry->second.value;
@@ -59,6 +61,13 @@ class LruCache {
     by_use_.clear();
   }
 
+  // Drops what was neither found nor inserted since the call before this one.
+  void forget_unused() {
+    while (!entries_.empty() && entries_.find(*by_use_.back())->second.used_in != period_)
+      evict_least_recently_used();
+    ++period_;
+  }
+
   std::size_t size() const { return entries_.size(); }
   std::size_t capacity() const { return capacity_; }
 
@@ -67,6 +76,7 @@ class LruCache {
   struct Entry {
     Value value;
     typename Order::iterator place;
+    std::uint64_t used_in;  // the period, between two calls of forget_unused()
   };
 
   void evict_least_recently_used() {
@@ -78,6 +88,7 @@ class LruCache {
   std::conditional_t<std::is_void_v<Hash>, std::map<Key, Entry>, std::unordered_map<Key, Entry, Hash>>
       entries_;
   Order by_use_;
+  std::uint64_t period_ = 0;
 };
 
 }  // namespace halocline

@@ -65,7 +65,15 @@ std::shared_ptr<const acoustics::RayWater> LinkSearches::water_of(SimTime at, do
   });
 }
 
+void LinkSearches::forget_unused(SimTime at) {
+  if (at < next_forgetting_) return;
+  own_.forget_unused();
+  shared_.forget_unused();
+  next_forgetting_ = at + kKept;
+}
+
 LinkSearches::Task LinkSearches::task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed) {
+  forget_unused(at);
   const acoustics::Environment& environment = waters_->at(at);
   const LinkEnd &first = reversed ? to : from, &last = reversed ? from : to;
   const Vec3 way = last.position_ned_m - first.position_ned_m;

@@ -8,7 +8,7 @@
 // RayModel::reuse_for_packets, but a link that waits for its first turn, or was granted its query in other water or over another
 // seabed, is searched at once; else as for itself.
 //
-// What is found is kept, and searched again when it was forgotten: answers are functions of environment, terrain and query
+// What is found is kept for kKept after its last use, and searched again when it was forgotten: answers are functions of environment, terrain and query
 // alone, and of the ticks so far where there is a budget. Of several servers one searches for two vehicles
 // (path_exchange.h). Not thread-safe.
 #pragma once
@@ -40,6 +40,9 @@ namespace halocline::channel_server {
 class LinkSearches {
  public:
   using Paths = std::shared_ptr<const FoundPaths>;
+  // Simulation time, twice that at most: vehicles that go round find the cells of the round before, and what is kept is that of
+  // forty minutes, however long the run.
+  static constexpr SimDuration kKept = SimDuration::from_milliseconds(1'200'000);
   // A link, ready to be searched without touching what is kept.
   struct Task {
     EndPair ends;
@@ -97,6 +100,7 @@ class LinkSearches {
 
   std::shared_ptr<const acoustics::RayWater> water_of(SimTime at, double frequency_hz);
   Task task_of(SimTime at, const LinkEnd& from, const LinkEnd& to, bool reversed);
+  void forget_unused(SimTime at);
   Task shared_task_of(SimTime at, const LinkEnd& from, const LinkEnd& to);
   // The task of a table where its own query is `now`.
   Task granted_task(SimTime at, Task now);
@@ -116,6 +120,7 @@ class LinkSearches {
   LruCache<std::pair<EnvironmentTimeline::WaterId, double>, std::shared_ptr<const acoustics::RayWater>>
       ray_waters_;
   Cache own_, shared_;
+  SimTime next_forgetting_ = SimTime() + kKept;
   std::optional<SearchBudget> budget_;
   PathExchange* exchange_ = nullptr;  // of a server that is alone
   std::int64_t searches_ = 0;

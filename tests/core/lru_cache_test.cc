@@ -113,6 +113,22 @@ TEST(LruCache, IsEmptyAndUsableOnceCleared) {
   EXPECT_EQ(kept(std::move(cache)), (std::vector<int>{3, 4}));
 }
 
+TEST(LruCache, ForgetsWhatWasNotUsedBetweenTwoCalls) {
+  Cache cache(4);
+  for (int key = 0; key < 3; ++key) cache.insert(key, "");
+  cache.forget_unused();
+  EXPECT_EQ(cache.size(), 3U);
+  cache.find(1);
+  cache.insert(3, "");
+  cache.forget_unused();
+  EXPECT_EQ(cache.size(), 2U);
+  EXPECT_NE(cache.find(1), nullptr);
+  EXPECT_NE(cache.find(3), nullptr);
+  cache.forget_unused();
+  cache.forget_unused();
+  EXPECT_EQ(cache.size(), 0U);
+}
+
 TEST(LruCache, KeysNeedOnlyAnOrderAndValuesMayBeMoveOnly) {
   LruCache<std::tuple<int, std::string>, std::unique_ptr<int>> cache(2);
   cache.insert({1, "a"}, std::make_unique<int>(10));

@@ -76,6 +76,13 @@ TEST_F(SoakTest, HoursOfAHarbourNeedNoMoreMemoryInTheirSecondHalf) {
       << use.first_half << " to " << use.second_half;
 }
 
+// What was found along rays is forgotten (LinkSearches::kKept); the rest of an hour fills what is bounded. The heap's own bytes grow in
+// steps of its caches: 2 % of what is in use.
+TEST_F(SoakTest, HoursAlongRaysNeedNoMoreMemoryThanTheFirst) {
+  const Use use = bytes_in_use(load("harbour", {}), 3600, 3600);
+  EXPECT_LT(use.second_half, 1.02 * use.first_half) << use.first_half << " to " << use.second_half;
+}
+
 TEST_F(SoakTest, HoursOfRangesAndPositionsNeedNoMoreMemoryInTheirSecondHalf) {
   const Use use = bytes_in_use(load("ranging", busy(0)), 7200, 7200);
   EXPECT_LT(use.second_half - use.first_half, kMaxGrowth_bytes)
