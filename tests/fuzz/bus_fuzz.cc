@@ -8,8 +8,10 @@
 
 #include "bus/bus.h"
 #include "bus/event_log.h"
+#include "bus/node_identity.h"
 #include "clients/mission/mission_store.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 #include "tests/fuzz/bus_message.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -3,12 +3,15 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "bus/message_codec.h"
+#include "clients/modem/modem_client.h"
 #include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/door_options.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "clients/modem_gateway/protocols/protocols.h"
 #include "core/check.h"

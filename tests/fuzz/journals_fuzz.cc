@@ -2,6 +2,7 @@
 // records with check sums that hold, which the fuzzer need not find.
 #include <array>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "bus/runtime/state_journal.h"
 #include "core/archive.h"
 #include "core/check.h"
+#include "core/sim_time.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"
 

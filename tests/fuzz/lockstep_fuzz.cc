@@ -1,10 +1,12 @@
 // A lockstep run of a conductor and two participants that say anything: joins, answers, grants and notices as bytes, and results that fit
 // the turn that was granted but for what the fuzzer puts in. What breaks the promises of lockstep may end the run (std::runtime_error).
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bus/lockstep/journal.h"
 #include "bus/lockstep/lockstep_conductor.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/lockstep/lockstep_wire.h"

@@ -6,6 +6,7 @@
 #include "bus/event_log.h"
 #include "bus/runtime/lockstep_runner.h"
 #include "clients/halocline/scenario/composition.h"
+#include "core/sim_time.h"
 #include "tests/fuzz/bus_message.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"

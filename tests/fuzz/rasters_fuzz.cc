@@ -2,6 +2,8 @@
 #include <string>
 
 #include "bathymetry/rasters/raster_loader.h"
+#include "bathymetry/rasters/raster_options.h"
+#include "bathymetry/terrain/local_frame.h"
 #include "core/check.h"
 #include "core/units.h"
 #include "tests/fuzz/fuzz_input.h"

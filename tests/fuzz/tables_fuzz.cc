@@ -8,6 +8,7 @@
 #include "acoustics/sea/profile_reader.h"
 #include "clients/halocline/arrivals/sea_files.h"
 #include "clients/halocline/calc/calc.h"
+#include "clients/halocline/calc/quantity.h"
 #include "core/check.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/scratch_file.h"

@@ -10,8 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "bus/channel_pattern.h"
+#include "bus/lockstep/journal.h"
 #include "bus/lockstep/journal_replay.h"
 #include "bus/lockstep/lockstep_conductor.h"
+#include "bus/lockstep/sequencer.h"
 #include "bus/message_codec.h"
 #include "core/sim_time.h"
 
