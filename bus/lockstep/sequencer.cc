@@ -17,8 +17,7 @@ auto order_of(const Member& member) {
 
 constexpr int kServices = static_cast<int>(bus::Stage::kTerrain);
 
-// All channels of the family that an expression belongs to: subscriptions to each vehicle's channel make one. What is neither a channel
-// nor a prefix of some stays as it is.
+// All channels of the family of an expression: subscriptions to each vehicle's make one. What is no channel and no prefix stays.
 std::string family_of(const std::string& expression) {
   const bus::ChannelPattern pattern(expression);
   const bool is_text = !pattern.only_channel().empty() || !pattern.only_prefix().empty();
@@ -211,18 +210,6 @@ bool Sequencer::shares_its_stage(const Member& member) const {
   return std::any_of(members_.begin(), members_.end(), [&](const auto& other) {
     return other.get() != &member && other->present && other->schedule.stage == member.schedule.stage;
   });
-}
-
-bool Sequencer::is_possible(const lockstep_result_t& result) const {
-  const std::int64_t instant = instant_of(*find(result.participant_name)).nanoseconds();
-  const std::int64_t latest = std::max(instant, horizon_.nanoseconds() - (horizon_ > now() ? 1 : 0));
-  if (result.num_steps < 0 || result.reached_ns < instant || result.reached_ns > latest) return false;
-  std::int64_t before = instant;
-  for (const lockstep_message_t& message : result.outputs) {
-    if (message.instant_ns < before || message.instant_ns > result.reached_ns) return false;
-    before = message.instant_ns;
-  }
-  return true;
 }
 
 void Sequencer::complete(std::vector<lockstep_result_t> results) {

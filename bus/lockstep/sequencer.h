@@ -73,9 +73,9 @@ class Sequencer {
   bool in_round() const { return !round_.empty(); }
   const std::vector<std::string>& round() const { return round_; }
   lockstep_turn_t turn_of(const std::string& name) const;
-  // Whether it can come of the turn of its participant, one of the round: steps and messages in the order of time, from the turn's instant
-  // to before its horizon.
-  [[nodiscard]] bool is_possible(const lockstep_result_t& result) const;
+  // Of a turn of the round: its instant, and before what its steps are.
+  SimTime instant_of(const std::string& name) const { return instant_of(*find(name)); }
+  SimTime horizon() const { return horizon_; }
   // One result for each of the round, in whatever order. Throws std::runtime_error when one of the stage published before the
   // instant until which it promised to be quiet, and another is beyond that.
   void complete(std::vector<lockstep_result_t> results);
