@@ -14,6 +14,7 @@
 #include "bus/runtime/lockstep_process.h"
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/receive_filter.h"
 #include "bus/transport.h"
 #include "conductor/bus_bridge.h"
 #include "conductor/conductor_node.h"
@@ -36,9 +37,10 @@ class Run {
       : run_(run),
         events_(identity.name),
         grants_lcm_(bus::open_transport(bus::effective_url(run.sync_url))),
-        answers_lcm_(bus::open_transport(bus::next_port(bus::effective_url(run.sync_url)))),
+        answers_lcm_(bus::open_transport(answers_url(run))),
         publisher_(*grants_lcm_, {identity.name, 0}),
         receiver_(*answers_lcm_, {identity.name, 0}),
+        filter_(*answers_lcm_, answers_url(run), bus::accepted_hosts(scenario.accept, answers_url(run))),
         bus_lcm_(bus_lcm),
         node_(memq_, {identity.name, bus::session_of(scenario.seed, identity.name), bus::Stage::kTime},
               scenario.clock_period, 0.0),
@@ -77,18 +79,23 @@ class Run {
   }
 
  private:
+  static std::string answers_url(const LockstepRun& run) {
+    return bus::next_port(bus::effective_url(run.sync_url));
+  }
+
   void begin(const bus::Scenario& scenario) {
     JournalContents journal;
     if (!run_.journal_path.empty()) journal = read_journal(run_.journal_path);
-    if (journal.bytes_cut_off > 0)
-      events_.warning("journal-repaired", "bytes=" + std::to_string(journal.bytes_cut_off));
+    if (journal.bytes_cut_off > 0 || journal.bits_mended > 0)
+      events_.warning("journal-repaired", "bytes_cut_off=" + std::to_string(journal.bytes_cut_off) +
+                                              " bits_mended=" + std::to_string(journal.bits_mended));
     if (!run_.journal_path.empty()) journal_.emplace(run_.journal_path);
     LockstepRules rules;
     rules.expected = run_.expected;
     rules.expected.insert(node_.name());
     rules.end = SimTime() + scenario.duration;
     rules.drop_after = run_.drop_after;
-    rules.scenario_digest = bus::digest_of(scenario);
+    rules.agreement = bus::agreement_on(scenario);
     rules.lookahead = run_.lookahead && run_.rate == 0;
     conductor_.emplace(std::move(rules), bus::draw_incarnation(), outputs());
     conductor_->add_local(turns_.introduction(), [this](const lockstep_turn_t& t) { return turns_.take(t); });
@@ -142,6 +149,7 @@ class Run {
     receiver_.subscribe<lockstep_answer_t>(
         bus::channels::kLockstepAnswer,
         [this](const lockstep_answer_t& m) { conductor_->on_answer(m, bus::steady_now()); });
+    filter_.follow(&receiver_.receives(), nullptr);
   }
 
   void dispatch_until(SimTime wake) {
@@ -154,6 +162,7 @@ class Run {
   bus::EventLog events_;
   std::unique_ptr<lcm::LCM> grants_lcm_, answers_lcm_;
   bus::Bus publisher_, receiver_;
+  bus::ReceiveFilter filter_;
   lcm::LCM& bus_lcm_;
   lcm::LCM memq_{"memq://"};
   ConductorNode node_;

@@ -43,6 +43,39 @@ std::optional<View> whole_record(View bytes) {
   return bytes.first(kHead + length);
 }
 
+// The records that begin in `bytes`, one after the other up to where none is whole; returns the bytes that they take.
+std::size_t take_whole(View bytes, std::vector<JournalFile::Record>& records) {
+  std::size_t at = 0;
+  while (const auto record = whole_record(bytes.subspan(at))) {
+    records.push_back({(*record)[4], {record->begin() + JournalFile::kHeadBytes, record->end()}});
+    at += record->size();
+  }
+  return at;
+}
+
+// Where the next whole record begins in `bytes`; their end where there is none.
+std::size_t next_whole(View bytes) {
+  std::size_t at = 0;
+  while (at < bytes.size() && !whole_record(bytes.subspan(at))) ++at;
+  return at;
+}
+
+// Whether the first `size` bytes are a whole record once one of their bits is flipped, which is done then. That another bit than the
+// flipped one fits the check sum of 64 bits has the chance of 8 size / 2^64.
+bool mend(std::span<std::uint8_t> bytes, std::size_t size) {
+  constexpr std::size_t kLargest = 65'536;  // 2^19 check sums of it take seconds
+  if (size > kLargest) return false;
+  for (std::size_t bit = 0; bit < 8 * size; ++bit) {
+    std::uint8_t& byte = bytes[bit / 8];
+    const auto mask = static_cast<std::uint8_t>(1u << bit % 8);
+    byte ^= mask;
+    const auto record = whole_record(bytes.first(size));
+    if (record && record->size() == size) return true;
+    byte ^= mask;
+  }
+  return false;
+}
+
 bool lock(int file) {
   struct flock all {};
   all.l_type = F_WRLCK;
@@ -112,18 +145,21 @@ JournalFile::~JournalFile() { close(file_); }
 
 JournalFile::Contents JournalFile::read() {
   Contents contents;
-  const std::vector<std::uint8_t> bytes = content_of(file_);
+  std::vector<std::uint8_t> bytes = content_of(file_);
+  const std::span all(bytes);
   std::size_t end = std::min(kJournalHeaderBytes, bytes.size());
-  for (std::size_t at = end; at < bytes.size();) {
-    const auto record = whole_record(View(bytes).subspan(at));
-    if (!record) {
-      ++at;
+  while (true) {
+    end += take_whole(all.subspan(end), contents.records);
+    const std::size_t damaged = next_whole(all.subspan(end));
+    if (damaged == 0) break;
+    if (mend(all.subspan(end), damaged)) {
+      ++contents.bits_mended;
+      [[maybe_unused]] const ssize_t kept = pwrite(file_, &bytes[end], damaged, static_cast<off_t>(end));
       continue;
     }
-    contents.bytes_damaged += at - end;
-    contents.records.push_back({(*record)[4], {record->begin() + kHeadBytes, record->end()}});
-    at += record->size();
-    end = at;
+    if (end + damaged == bytes.size()) break;
+    contents.bytes_damaged += damaged;
+    end += damaged;
   }
   contents.bytes_cut = bytes.size() - end;
   if (contents.bytes_cut > 0 && ftruncate(file_, static_cast<off_t>(end)) == 0) end_ = end;

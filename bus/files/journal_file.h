@@ -2,7 +2,8 @@
 //
 // A header of 16 bytes names the kind of journal; then records: a word that begins each, kind, length, a check sum (XXH3) over these and the
 // body, body. Appended records are handed to the kernel before append() returns, all of them or none; nothing is forced to the disk.
-// What a kill cut off at the end is no record, nor is one of which a bit changed: those behind it are found by their word.
+// What a kill cut off at the end is no record. One flipped bit of a record is found by its check sum, and set right; a record that is damaged
+// otherwise is left out, and those behind it are found by their word.
 //
 // A file that is neither empty nor of this kind is not touched, nor is one that another process has open (POSIX record lock).
 #pragma once
@@ -36,6 +37,7 @@ class JournalFile {
   };
   struct Contents {
     std::vector<Record> records;
+    std::size_t bits_mended = 0;    // flipped ones, set right in the file, too
     std::size_t bytes_damaged = 0;  // between whole records
     std::size_t bytes_cut = 0;      // behind the last whole one
   };

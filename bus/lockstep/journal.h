@@ -24,10 +24,10 @@ struct JournalEntry {
 };
 
 // All whole entries of the file, oldest first; empty when there is no file. The bytes behind the last whole one are
-// cut off the file, and counted. Throws InvalidArgument for a file that is damaged before that, is none of ours, or that another process has.
+// cut off the file, and one flipped bit of an entry is set right; both are counted. Throws InvalidArgument for a file that is damaged otherwise, because what follows would not follow from it, is none of ours, or that another process has.
 struct JournalContents {
   std::vector<JournalEntry> entries;
-  std::size_t bytes_cut_off = 0;
+  std::size_t bytes_cut_off = 0, bits_mended = 0;
 };
 JournalContents read_journal(const std::string& path);
 

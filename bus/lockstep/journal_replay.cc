@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "bus/lockstep/agreement.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {
@@ -33,10 +34,12 @@ std::int64_t number_of(const bus::Bytes& bytes) {
   return number;
 }
 
-void apply_join(const bus::Bytes& bytes, const std::string& scenario_digest, Sequencer& sequencer) {
+void apply_join(const bus::Bytes& bytes, const std::string& agreement, Sequencer& sequencer) {
   const auto join = expected(bus::decoded<lockstep_join_t>(bytes));
-  if (!join.scenario_digest.empty() && join.scenario_digest != scenario_digest)
-    throw std::runtime_error("the journal is of another scenario; remove it or name another");
+  const std::string other =
+      join.scenario_digest.empty() ? "" : bus::disagreement(join.scenario_digest, agreement);
+  if (!other.empty())
+    throw std::runtime_error("the journal is of another run; remove it or name another: " + other);
   sequencer.admit(join);
 }
 
@@ -55,7 +58,7 @@ void apply_round(const bus::Bytes& bytes, bool ending, Sequencer& sequencer) {
 
 }  // namespace
 
-RunState replay_journal(const std::vector<JournalEntry>& entries, const std::string& scenario_digest,
+RunState replay_journal(const std::vector<JournalEntry>& entries, const std::string& agreement,
                         Sequencer& sequencer) {
   RunState run;
   for (const auto& [kind, bytes] : entries) {
@@ -64,7 +67,7 @@ RunState replay_journal(const std::vector<JournalEntry>& entries, const std::str
         run.id = number_of(bytes);
         break;
       case EntryKind::kJoin:
-        apply_join(bytes, scenario_digest, sequencer);
+        apply_join(bytes, agreement, sequencer);
         break;
       case EntryKind::kRound:
         apply_round(bytes, run.ending, sequencer);

@@ -12,8 +12,8 @@
 namespace halocline::conductor {
 
 // Applies the entries to a new sequencer, which publishes the messages of the run again. Throws std::runtime_error for
-// a journal of another scenario (by `scenario_digest`), and for entries that no conductor wrote.
-RunState replay_journal(const std::vector<JournalEntry>& entries, const std::string& scenario_digest,
+// a journal of another run (by `agreement`: agreement.h), and for entries that no conductor wrote.
+RunState replay_journal(const std::vector<JournalEntry>& entries, const std::string& agreement,
                         Sequencer& sequencer);
 
 // A local participant takes its turns again. Throws std::runtime_error when it publishes otherwise than before.

@@ -44,7 +44,7 @@ LockstepConductor::LockstepConductor(LockstepRules rules, std::int64_t run_id, O
                 grant.run_id = run_.id;
                 outputs_.grant(channel, grant);
               }),
-      membership_(sequencer_, links_, grants_, rules_.scenario_digest, {outputs_.notice, outputs_.report}) {}
+      membership_(sequencer_, links_, grants_, rules_.agreement, {outputs_.notice, outputs_.report}) {}
 
 void LockstepConductor::add_local(const lockstep_join_t& introduction, TakeTurn take) {
   ParticipantLink& link = links_.of(introduction.participant_name);
@@ -58,7 +58,7 @@ void LockstepConductor::add_local(const lockstep_join_t& introduction, TakeTurn 
 void LockstepConductor::start() { record(EntryKind::kRun, bytes_of(std::to_string(run_.id))); }
 
 void LockstepConductor::resume(const std::vector<JournalEntry>& entries) {
-  run_ = replay_journal(entries, rules_.scenario_digest, sequencer_);
+  run_ = replay_journal(entries, rules_.agreement, sequencer_);
   for (auto& [name, link] : links_) {
     if (!link.take) continue;
     link.wants_to_join = !sequencer_.knows(name);

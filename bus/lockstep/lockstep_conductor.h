@@ -28,8 +28,8 @@ struct LockstepRules {
   SimTime end;                     // instants up to here, this one included
   // Silence (steady time) of an awaited participant after which it is dropped; 0: never.
   SimDuration drop_after = SimDuration();
-  std::string scenario_digest = {};  // that participants must share; empty: none
-  bool lookahead = true;             // a participant that steps alone may run ahead (lockstep_schedule.h)
+  std::string agreement = {};  // what participants must agree upon (agreement.h); empty: nothing
+  bool lookahead = true;       // a participant that steps alone may run ahead (lockstep_schedule.h)
 };
 
 class LockstepConductor {

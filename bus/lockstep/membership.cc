@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bus/channel_pattern.h"
+#include "bus/lockstep/agreement.h"
 #include "bus/node_identity.h"
 #include "core/check.h"
 
@@ -31,11 +32,11 @@ std::string objection_to_subscriptions(const lockstep_join_t& join) {
 }  // namespace
 
 Membership::Membership(const Sequencer& sequencer, ParticipantLinks& links, GrantSender& grants,
-                       std::string scenario_digest, Outputs outputs)
+                       std::string agreement, Outputs outputs)
     : sequencer_(sequencer),
       links_(links),
       grants_(grants),
-      scenario_digest_(std::move(scenario_digest)),
+      agreement_(std::move(agreement)),
       outputs_(std::move(outputs)) {}
 
 void Membership::on_join(const lockstep_join_t& join, const RunState& run, SimTime steady) {
@@ -77,7 +78,8 @@ std::string Membership::objection_to(const lockstep_join_t& join, const Particip
                                      const RunState& run) const {
   if (link.take) return "its name is taken by the conductor itself";
   if (join.run_id != 0 && join.run_id != run.id) return "it took part in another run";
-  if (join.scenario_digest != scenario_digest_) return "its scenario is not the conductor's";
+  if (const std::string other = bus::disagreement(join.scenario_digest, agreement_); !other.empty())
+    return "it does not agree with the conductor: " + other;
   if (join.incarnation < link.incarnation) return "a later incarnation of it takes part";
   if (join.step_stage < 0 || join.step_stage > static_cast<int>(bus::Stage::kChannel))
     return "its stage is none";

@@ -29,9 +29,9 @@ class Membership {
     std::function<void(const lockstep_notice_t&)> notice;
     std::function<void(const std::string& event, const std::string& detail)> report;
   };
-  // `scenario_digest`: what a participant's must equal. All references must outlive this.
-  Membership(const Sequencer& sequencer, ParticipantLinks& links, GrantSender& grants,
-             std::string scenario_digest, Outputs outputs);
+  // `agreement`: what participants must agree upon (agreement.h). All references must outlive this.
+  Membership(const Sequencer& sequencer, ParticipantLinks& links, GrantSender& grants, std::string agreement,
+             Outputs outputs);
 
   void on_join(const lockstep_join_t& join, const RunState& run, SimTime steady);
   // All turns of the last grant_history() were taken, with the result of the last of them.
@@ -54,7 +54,7 @@ class Membership {
   const Sequencer& sequencer_;
   ParticipantLinks& links_;
   GrantSender& grants_;
-  std::string scenario_digest_;
+  std::string agreement_;
   Outputs outputs_;
 };
 

@@ -42,8 +42,10 @@ void CrashJournal::open(Rule rule) {
   kept_ = rule.kept;
   journal_ = std::make_unique<MessageJournal>(
       MessageJournal::Rule{rule.path, rule.kept, rule.keep_last, rule.keep_all});
-  if (const std::size_t bytes = journal_->bytes_damaged(); bytes > 0)
-    bus_.log().warning("journal-damaged", "file=" + rule.path + " bytes_left_out=" + std::to_string(bytes));
+  const std::size_t bytes = journal_->bytes_damaged(), bits = journal_->bits_mended();
+  if (bytes > 0 || bits > 0)
+    bus_.log().warning("journal-damaged", "file=" + rule.path + " bytes_left_out=" + std::to_string(bytes) +
+                                              " bits_mended=" + std::to_string(bits));
   for (JournalledMessage& entry : journal_->take_inherited()) {
     last_step_ = entry.at;
     const bool is_output = entry.kind == Kind::kOutput;

@@ -10,9 +10,11 @@
 #include "bus/channels.h"
 #include "bus/config/config.h"
 #include "bus/event_log.h"
+#include "bus/lockstep/agreement.h"
 #include "bus/lockstep/lockstep_participant.h"
 #include "bus/runtime/lockstep_turns.h"
 #include "bus/runtime/node_process.h"
+#include "bus/runtime/receive_filter.h"
 #include "bus/transport.h"
 #include "core/hash.h"
 #include "core/sim_time.h"
@@ -26,11 +28,12 @@ constexpr SimDuration kLastTurnTimeout = SimDuration::from_milliseconds(800);
 // The participant's side of the synchronisation channel: receives grants and notices, publishes joins and answers.
 class SyncPlane {
  public:
-  SyncPlane(const std::string& url, const std::string& name)
-      : grants_lcm_(open_transport(effective_url(url))),
-        answers_lcm_(open_transport(next_port(effective_url(url)))),
+  SyncPlane(const std::string& url, const std::string& name, const std::string& accept)
+      : grants_lcm_(open_transport(url)),
+        answers_lcm_(open_transport(next_port(url))),
         receiver_(*grants_lcm_, {name, 0}),
-        publisher_(*answers_lcm_, {name, 0}) {}
+        publisher_(*answers_lcm_, {name, 0}),
+        filter_(*grants_lcm_, url, accepted_hosts(accept, url)) {}
 
   void connect(LockstepParticipant& participant, const std::string& name) {
     const auto on_grant = [&participant](const lockstep_grant_t& m) {
@@ -41,6 +44,7 @@ class SyncPlane {
     receiver_.subscribe<lockstep_notice_t>(
         channels::kLockstepNotice,
         [&participant](const lockstep_notice_t& m) { participant.on_notice(m, steady_now()); });
+    filter_.follow(&receiver_.receives(), nullptr);
   }
   LockstepParticipant::Outputs outputs() {
     return {[this](const lockstep_join_t& m) { publisher_.publish(channels::kLockstepJoin, m); },
@@ -54,14 +58,15 @@ class SyncPlane {
  private:
   std::unique_ptr<lcm::LCM> grants_lcm_, answers_lcm_;
   Bus receiver_, publisher_;
+  ReceiveFilter filter_;
 };
 
 }  // namespace
 
-std::string digest_of(const Scenario& scenario) {
+std::string agreement_on(const Scenario& scenario) {
   Scenario shared = scenario;
   const std::string text = to_toml([&](ConfigVisitor& v) { visit(v, shared); }, /*with_comments=*/false);
-  return std::to_string(fnv1a(text));
+  return agreement_on(std::to_string(fnv1a(text)));
 }
 
 std::int64_t draw_incarnation() {
@@ -69,14 +74,14 @@ std::int64_t draw_incarnation() {
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count() * 1000 + getpid() % 1000;
 }
 
-void run_lockstep_participant(Node& node, const std::string& sync_url, const std::string& scenario_digest,
+void run_lockstep_participant(Node& node, const std::string& sync_url, const Scenario& scenario,
                               const std::function<bool()>& should_stop) {
   EventLog log(node.name());
   LockstepTurns turns(node);
   lockstep_join_t join = turns.introduction();
   join.incarnation = draw_incarnation();
-  join.scenario_digest = scenario_digest;
-  SyncPlane plane(sync_url, node.name());
+  join.scenario_digest = agreement_on(scenario);
+  SyncPlane plane(effective_url(sync_url), node.name(), scenario.accept);
   LockstepParticipant participant(
       join, [&turns](const lockstep_turn_t& turn) { return turns.take(turn); }, plane.outputs());
   plane.connect(participant, node.name());

@@ -52,6 +52,7 @@ std::optional<JournalledMessage> to_entry(const JournalFile::Record& record) {
 void MessageJournal::read(JournalFile& file) {
   const JournalFile::Contents contents = file.read();
   bytes_damaged_ += contents.bytes_damaged + contents.bytes_cut;
+  bits_mended_ += contents.bits_mended;
   for (const JournalFile::Record& record : contents.records) {
     if (auto entry = to_entry(record)) inherited_.push_back(std::move(*entry));
   }

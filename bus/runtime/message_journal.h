@@ -58,8 +58,9 @@ class MessageJournal {
   // What the earlier incarnation left, by time; moved out, once.
   std::vector<JournalledMessage> take_inherited() { return std::move(inherited_); }
 
-  // Bytes of the earlier incarnation's files that were no whole entry.
+  // Bytes of the earlier incarnation's files that were no whole entry; flipped bits that were set right (journal_file.h).
   std::size_t bytes_damaged() const { return bytes_damaged_; }
+  std::size_t bits_mended() const { return bits_mended_; }
   // The disk refused an entry; nothing more is written.
   bool is_given_up() const { return file_ == nullptr; }
 
@@ -83,7 +84,7 @@ class MessageJournal {
 
   Rule rule_;
   std::unique_ptr<JournalFile> file_;
-  std::size_t bytes_damaged_ = 0;
+  std::size_t bytes_damaged_ = 0, bits_mended_ = 0;
   SimTime file_begins_ = SimTime::never();
   std::optional<SimTime> idle_step_;
   std::vector<JournalledMessage> inherited_, inputs_;

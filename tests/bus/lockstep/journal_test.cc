@@ -20,6 +20,14 @@ class JournalTest : public ::testing::Test {
     for (std::uint8_t i = 0; i < 3; ++i)
       EXPECT_TRUE(journal.append({EntryKind::kRound, bus::Bytes(10u + i, i)}));
   }
+  void flip(std::size_t bit) const {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    const auto at = static_cast<std::streamoff>(bit / 8);
+    file.seekg(at);
+    const int byte = file.get();
+    file.seekp(at);
+    file.put(static_cast<char>(byte ^ (1 << bit % 8)));
+  }
   std::string path_ = ::testing::TempDir() + "halocline-journal-" + std::to_string(getpid());
 };
 
@@ -59,13 +67,29 @@ TEST_F(JournalTest, GoesOnBehindWhatWasCutOff) {
   EXPECT_EQ(contents.entries[2].kind, EntryKind::kOver);
 }
 
+// Whichever it is, of word, kind, length, check sum or body.
+TEST_F(JournalTest, AFlippedBitIsSetRight) {
+  constexpr std::size_t kHead = bus::JournalFile::kHeadBytes, kSecond = bus::kJournalHeaderBytes + kHead + 10;
+  for (std::size_t bit = 8 * kSecond; bit < 8 * (kSecond + kHead + 11); ++bit) {
+    write_three();
+    flip(bit);
+    for (const std::size_t mended : {1u, 0u}) {
+      const JournalContents contents = read_journal(path_);
+      ASSERT_EQ(contents.entries.size(), 3u) << bit;
+      EXPECT_EQ(contents.entries[1].kind, EntryKind::kRound);
+      EXPECT_EQ(contents.entries[1].bytes, bus::Bytes(11, 1));
+      EXPECT_EQ(contents.bits_mended, mended);
+    }
+    std::remove(path_.c_str());
+  }
+}
+
 // Entries behind it do not follow from those before.
-TEST_F(JournalTest, ARunIsNotContinuedFromADamagedJournal) {
+TEST_F(JournalTest, ARunIsNotContinuedFromAJournalThatIsDamagedFurther) {
   write_three();
-  std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(bus::kJournalHeaderBytes + bus::JournalFile::kHeadBytes + 10 + bus::JournalFile::kHeadBytes + 4);
-  file.put('x');
-  file.close();
+  constexpr std::size_t kBody = bus::kJournalHeaderBytes + 2 * bus::JournalFile::kHeadBytes + 10;
+  flip(8 * kBody);
+  flip(8 * kBody + 9);
   EXPECT_THROW(read_journal(path_), InvalidArgument);
 }
 

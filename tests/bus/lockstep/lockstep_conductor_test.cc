@@ -16,10 +16,12 @@
 namespace halocline::conductor {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::Messages;
 using testing::NetworkRules;
+using ::testing::Not;
 using testing::SimulatedLockstep;
 using ::testing::StartsWith;
 
@@ -149,11 +151,11 @@ TEST(LockstepConductor, AJournalOfAnotherScenarioIsRefused) {
   lockstep_join_t join{};
   join.incarnation = 9;
   join.participant_name = "a";
-  join.scenario_digest = "that";
+  join.scenario_digest = "scenario=that";
   LockstepConductor::Outputs outputs;
   outputs.report = [](const std::string&, const std::string&) {};
-  LockstepConductor same({.expected = {"a"}, .end = kEnd, .scenario_digest = "that"}, 5, outputs);
-  LockstepConductor other({.expected = {"a"}, .end = kEnd, .scenario_digest = "this"}, 5, outputs);
+  LockstepConductor same({.expected = {"a"}, .end = kEnd, .agreement = "scenario=that"}, 5, outputs);
+  LockstepConductor other({.expected = {"a"}, .end = kEnd, .agreement = "scenario=this"}, 5, outputs);
   const std::vector<JournalEntry> journal{{EntryKind::kRun, {'5'}}, {EntryKind::kJoin, bus::encoded(join)}};
   EXPECT_NO_THROW(same.resume(journal));
   EXPECT_THROW(other.resume(journal), std::runtime_error);
@@ -263,21 +265,24 @@ TEST(LockstepConductor, TheCostOfARoundIsAGrantAndAnAnswerEach) {
   EXPECT_LT(run.datagrams(), 6 * turns + 200);
 }
 
-TEST(LockstepConductor, AParticipantOfAnotherScenarioIsExpelled) {
+TEST(LockstepConductor, AParticipantWithOtherArithmeticIsExpelledAndTheReasonNamesIt) {
   std::vector<lockstep_notice_t> notices;
   LockstepConductor::Outputs outputs;
   outputs.notice = [&](const lockstep_notice_t& notice) { notices.push_back(notice); };
   outputs.record = [](const JournalEntry&) {};
   outputs.report = [](const std::string&, const std::string&) {};
-  LockstepConductor conductor({.expected = {"a"}, .end = kEnd, .scenario_digest = "this"}, 5, outputs);
+  LockstepConductor conductor({.expected = {"a"}, .end = kEnd, .agreement = "scenario=1 arithmetic=2"}, 5,
+                              outputs);
   conductor.start();
   lockstep_join_t join{};
   join.incarnation = 9;
   join.participant_name = "a";
-  join.scenario_digest = "that";
+  join.scenario_digest = "scenario=1 arithmetic=3";
   conductor.on_join(join, SimTime());
   ASSERT_EQ(notices.size(), 1u);
   EXPECT_EQ(notices[0].notice_kind, lockstep_notice_t::EXPELLED);
+  EXPECT_THAT(notices[0].reason,
+              AllOf(HasSubstr("arithmetic"), HasSubstr("is '3', not '2'"), Not(HasSubstr("scenario"))));
   EXPECT_THAT(conductor.waiting_for(), Contains("a"));
 }
 

@@ -103,8 +103,8 @@ TEST_F(MessageJournalTest, AnEntryWhoseBytesChangedIsNoEntry) {
   EXPECT_EQ(inherited(*open()), (Lines{"i1 STATE.a 5"}));
 }
 
-// Whichever bit it is, of head or body.
-TEST_F(MessageJournalTest, OneFlippedBitCostsOneEntry) {
+// Whichever bit it is, of head or body; two of them cost the entry.
+TEST_F(MessageJournalTest, OneFlippedBitCostsNothingAndTwoCostOneEntry) {
   constexpr int kEntries = 1294;
   {
     const auto journal = open();
@@ -112,16 +112,22 @@ TEST_F(MessageJournalTest, OneFlippedBitCostsOneEntry) {
   }
   const auto size = std::filesystem::file_size(path_);
   for (const auto at : {size / 2, size / 2 + 7, size / 2 + 20, size / 3}) {
-    const auto flip = [&] {
+    const auto flip = [&](int bits) {
       std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
       file.seekg(static_cast<std::streamoff>(at));
       const int byte = file.get();
       file.seekp(static_cast<std::streamoff>(at));
-      file.put(static_cast<char>(byte ^ 4));
+      file.put(static_cast<char>(byte ^ bits));
     };
     const std::string saved = path_ + ".saved";
     std::filesystem::copy_file(path_, saved, std::filesystem::copy_options::overwrite_existing);
-    flip();
+    flip(4);
+    const auto mended = open();
+    EXPECT_EQ(inherited(*mended).size(), kEntries + 0u);
+    EXPECT_EQ(mended->bits_mended(), 1u);
+    EXPECT_EQ(mended->bytes_damaged(), 0u);
+    std::filesystem::copy_file(saved, path_, std::filesystem::copy_options::overwrite_existing);
+    flip(5);
     const auto journal = open();
     EXPECT_EQ(inherited(*journal).size(), kEntries - 1u);
     EXPECT_GT(journal->bytes_damaged(), 0u);
