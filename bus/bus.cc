@@ -212,8 +212,8 @@ void Bus::restore_history(std::string_view channel, std::int64_t session, std::i
   if (repair_) repair_->restore_history(channel, session, sequence, std::move(bytes));
 }
 
-bool Bus::is_rival(std::string_view channel, std::int64_t session) {
-  if (!repair_ || sessions_.on_message(steady_, channel, session)) return false;
+bool Bus::is_rival(std::string_view channel, std::int64_t session, std::optional<std::int32_t> receiver) {
+  if (!repair_ || sessions_.on_message(steady_, channel, session, receiver)) return false;
   refuse_rival(channel, session);
   return true;
 }

@@ -18,9 +18,11 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -115,7 +117,8 @@ class Bus {
   const std::vector<const Subscription*>& subscriptions_to(std::string_view channel);
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
-  bool is_rival(std::string_view channel, std::int64_t session);
+  // `receiver`: of an OUTCOME (session_watch.h).
+  bool is_rival(std::string_view channel, std::int64_t session, std::optional<std::int32_t> receiver);
   void refuse_rival(std::string_view channel, std::int64_t session);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
   void on_heartbeat(std::string_view node, const flow_heartbeat_t& heartbeat);
@@ -188,8 +191,12 @@ bool Bus::accept(std::string_view channel, const void* data, std::size_t size, M
   }
   bool is_duplicate = false;
   if constexpr (IsOfFlow<Message>) {
-    if (is_rival(channel, message.session)) return false;
-    is_duplicate = is_repetition(channel, message.session, sequence_of(message)) && !IsPacketToSend<Message>;
+    std::optional<std::int32_t> receiver;
+    if constexpr (std::is_same_v<Message, packet_outcome_t>) receiver = message.receiver_id;
+    if (is_rival(channel, message.session, receiver)) return false;
+    // A SEND that was received is repeated by its sender, who waits for the receipt, and by repair, for somebody else.
+    is_duplicate = is_repetition(channel, message.session, sequence_of(message)) &&
+                   (is_repair_ || !IsPacketToSend<Message>);
   }
   ++counters_.received;
   if (is_duplicate) return false;

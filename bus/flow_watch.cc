@@ -90,6 +90,7 @@ FlowWatch::Classification FlowWatch::on_message(SimTime steady, std::string_view
     publisher->last = sequence;
   } else if (distance(sequence, publisher->last) >= kRepetitionReach ||
              steady - publisher->received_at >= kRepetitionAge) {
+    if (publisher->is_listed) return {.is_repeated = true};
     publisher->first = publisher->last = sequence;  // it starts its sequence anew
   } else if (sequence < publisher->first) {         // reordered with the first received
     result.newly_missing = note_missing(*publisher, steady, sequence + 1, publisher->first);
@@ -109,6 +110,7 @@ std::int64_t FlowWatch::on_last(SimTime steady, std::string_view channel, std::i
   Publisher* publisher = find(channel, session);
   if (publisher == nullptr && !makes_flow) return 0;
   if (publisher == nullptr) publisher = &add(channel, session, last + 1);
+  publisher->is_listed = true;
   std::int64_t newly_missing = 0;
   if (from_its_start && publisher->first > 0) {
     newly_missing += note_missing(*publisher, steady, 0, publisher->first);

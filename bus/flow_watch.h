@@ -93,6 +93,8 @@ class FlowWatch {
     std::int64_t first = 0, last = -1;  // nothing before first is expected; last was received, or announced
     SimTime received_at;
     bool is_heard = false;  // by more than a heartbeat
+    bool is_listed =
+        false;  // in a heartbeat: its numbers go on for as long as its session, what is far behind is a duplicate
     std::map<std::int64_t, Missing> missing;
   };
   // Sessions kept per channel: the one silent for longest makes room, so that memory stays bounded.

@@ -65,6 +65,8 @@ class FieldChecker {
     const auto length = static_cast<double>(value.size());
     if (field.is_name && !is_valid_name(value)) {
       problem = std::string(field.name) + " is no name: " + std::string(kNameRule);
+    } else if (!is_one_line(value)) {
+      problem = std::string(field.name) + " is not " + std::string(kLineRule);
     } else if (length < field.min || length > field.max) {
       problem = "the length of " + range_problem(field, length);
     }

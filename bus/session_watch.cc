@@ -1,6 +1,7 @@
 #include "bus/session_watch.h"
 
 #include <algorithm>
+#include <string>
 
 namespace halocline::bus {
 
@@ -40,8 +41,21 @@ bool SessionWatch::on_heartbeat(SimTime steady, std::string_view node, std::int6
   return false;
 }
 
-bool SessionWatch::on_message(SimTime steady, std::string_view channel, std::int64_t session) {
+bool SessionWatch::decides(SimTime steady, std::int32_t receiver, std::int64_t session) {
+  if (receiver == 0) return !refused_outcomes_.contains(session);
+  const bool is_holder = holds(steady, "OUTCOME." + std::to_string(receiver), session);
+  if (is_holder) {
+    refused_outcomes_.erase(session);
+  } else {
+    note(steady, refused_outcomes_, session);
+  }
+  return is_holder;
+}
+
+bool SessionWatch::on_message(SimTime steady, std::string_view channel, std::int64_t session,
+                              std::optional<std::int32_t> receiver) {
   if (session != 0 && is_recent(steady, rivals_, session)) return false;
+  if (receiver) return decides(steady, *receiver, session);
   const bool is_held = std::any_of(kHeld.begin(), kHeld.end(),
                                    [&](const Family& family) { return channel.starts_with(family.prefix); });
   return !is_held || holds(steady, channel, session);

@@ -4,7 +4,8 @@
 // heard of it for kSilence: no heartbeat of the session, and no message on the channel. Until then another session of that name is a
 // rival: its messages on all channels are refused. A restarted process is taken up at once when the one before has been silent so long;
 // what it published meanwhile is repaired (flow_repair.h). A publisher without heartbeats keeps its channels by publishing once
-// in kSilence.
+// in kSilence. OUTCOME is of one publisher for each receiver, because channel servers share the receivers (shards). A row of several
+// receivers, which every shard publishes, is refused from whoever was last refused one of a single receiver.
 //
 // Pure: values in, values out; `steady` is the caller's steady time, never set back. Bounded: of names beyond kMaxNames every session is
 // believed.
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -34,8 +36,9 @@ class SessionWatch {
 
   // HEARTBEAT.<node> of a session. False: of a rival.
   bool on_heartbeat(SimTime steady, std::string_view node, std::int64_t session);
-  // A message on any channel, of a session or of none (0). False: of a rival.
-  bool on_message(SimTime steady, std::string_view channel, std::int64_t session);
+  // A message on any channel, of a session or of none (0); of an OUTCOME with its receiver, 0 of several. False: of a rival.
+  bool on_message(SimTime steady, std::string_view channel, std::int64_t session,
+                  std::optional<std::int32_t> receiver = {});
 
  private:
   struct Holder {
@@ -46,10 +49,12 @@ class SessionWatch {
   static bool is_recent(SimTime steady, const Times& times, std::int64_t session);
   static void note(SimTime steady, Times& times, std::int64_t session);
   bool holds(SimTime steady, std::string_view name, std::int64_t session);
+  bool decides(SimTime steady, std::int32_t receiver, std::int64_t session);
 
   std::unordered_map<std::string, Holder, TextHash, std::equal_to<>> holders_;  // by node, by channel
   Times heartbeats_,
-      rivals_;  // of the nodes that are believed, and of those that are not: the last heartbeat
+      rivals_;              // of the nodes that are believed, and of those that are not: the last heartbeat
+  Times refused_outcomes_;  // of those that were last refused the outcome of a receiver
 };
 
 }  // namespace halocline::bus

@@ -1,5 +1,5 @@
 // Names of vehicles, nodes and clients: the suffixes of channels, so kept to characters that mean nothing to
-// a regular expression or a file system.
+// a regular expression or a file system. All other texts, of files and of messages, are one line each.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,15 @@ inline constexpr std::int32_t kBroadcastId = 0;  // as a destination: every vehi
 // True when `name` matches [a-z0-9_-]{1,24}.
 [[nodiscard]] bool is_valid_name(std::string_view name);
 
+// False where `text` holds control characters, those of eight bits in UTF-8 among them: line ends, and what commands a terminal.
+[[nodiscard]] bool is_one_line(std::string_view text);
+
 // `text` as a terminal may show it: what is not a visible character of ASCII or a space becomes '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 
 // What is_valid_name accepts, in words for error messages.
 inline constexpr std::string_view kNameRule = "1 to 24 characters of a-z, 0-9, '_' and '-'";
+// Likewise is_one_line.
+inline constexpr std::string_view kLineRule = "one line without control characters";
 
 }  // namespace halocline

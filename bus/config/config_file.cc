@@ -9,6 +9,7 @@
 
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
+#include "core/names.h"
 
 namespace halocline::bus {
 namespace {
@@ -80,7 +81,7 @@ void collect_unknown(ConfigDocument& document, const toml::table& table, const s
     } else if (!tolerant) {
       const std::string suggestion = suggestion_for(document, prefix, key.str());
       document.add_error(
-          document.place_of(value) + ": " + name + " is unknown" +
+          document.place_of(value) + ": " + printable(name) + " is unknown" +
           (suggestion.empty() ? "; the keys of a scenario are in docs/scenarios.md" : suggestion));
     }
   }

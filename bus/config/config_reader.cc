@@ -10,6 +10,7 @@
 #include "bus/config/config.h"
 #include "bus/config/config_document.h"
 #include "core/frames.h"
+#include "core/names.h"
 
 namespace halocline::bus {
 namespace {
@@ -124,6 +125,7 @@ void ConfigReader::text(std::string_view key, std::string& value, const std::vec
   if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), read) == allowed.end()) {
     return fail(*node, key, "allowed are " + names);
   }
+  if (!is_one_line(read)) return fail(*node, key, "allowed is " + std::string(kLineRule));
   value = read;
 }
 

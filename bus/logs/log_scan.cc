@@ -5,6 +5,8 @@
 #include <cstring>
 #include <optional>
 
+#include "core/names.h"
+
 namespace halocline::clients {
 namespace {
 
@@ -38,10 +40,6 @@ std::size_t find_word(LogBytes log, std::size_t from, std::size_t end) {
   return end;
 }
 
-bool is_text(std::string_view channel) {
-  return std::none_of(channel.begin(), channel.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
-}
-
 // The event whose word stands at `at`, when its header is plausible.
 std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at) {
   if (!word_at(log, at) || log.size() - at < kHeaderBytes) return std::nullopt;
@@ -58,7 +56,7 @@ std::optional<EventPlace> plausible_at(LogBytes log, std::size_t at) {
   const std::size_t channel_at = at + kHeaderBytes;
   event.channel = {reinterpret_cast<const char*>(log.data()) + channel_at, channel_size};
   event.data = log.subspan(channel_at + channel_size, data_size);
-  return is_text(event.channel) ? std::optional(event) : std::nullopt;
+  return is_one_line(event.channel) ? std::optional(event) : std::nullopt;
 }
 
 // The first plausible event that begins within the data of `outer`, or in its last bytes.

@@ -96,13 +96,12 @@ class NodeTime {
   bool is_behind() const { return is_behind_; }  // the next slice waits
 
   void update() {
-    constexpr SimDuration kSlice = SimDuration::from_milliseconds(10'000);
     now_.steady = steady_now();
     const bool restarted = source_.restarted();
     if (const auto known = source_.now(now_.steady)) {
       const bool goes_on = now_.sim_known && !restarted;
       const SimTime begin = goes_on ? std::max(now_.sim, std::min(node_.due().sim, *known)) : *known;
-      now_.sim = std::min(*known, begin + kSlice);
+      now_.sim = std::min(*known, begin + slice_);
       now_.sim_known = true;
       is_behind_ = now_.sim < *known;
     }
@@ -113,15 +112,28 @@ class NodeTime {
 
   void step_if_due() {
     const Due due = node_.due();
-    if (due.steady <= now_.steady || due.sim == SimTime::at_once() || (now_.sim_known && due.sim <= now_.sim))
+    if (due.steady <= now_.steady || due.sim == SimTime::at_once() ||
+        (now_.sim_known && due.sim <= now_.sim)) {
       node_.step(now_);
+      adapt_slice(steady_now() - now_.steady);
+    }
   }
 
  private:
+  // A step took so long: the next slice is halved or doubled towards kAim.
+  void adapt_slice(SimDuration took) {
+    constexpr SimDuration kAim = SimDuration::from_milliseconds(100);
+    constexpr SimDuration kShortest = SimDuration::from_milliseconds(10);
+    if (took > kAim) slice_ = std::max(kShortest, SimDuration::from_nanoseconds(slice_.nanoseconds() / 2));
+    if (took + took < kAim) slice_ = std::min(kLongestSlice, slice_ * 2);
+  }
+
+  static constexpr SimDuration kLongestSlice = SimDuration::from_milliseconds(10'000);
   Node& node_;
   TimeSource& source_;
   Now now_{SimTime(), steady_now(), false};
   bool is_behind_ = false;
+  SimDuration slice_ = kLongestSlice;
   std::int64_t refused_ = 0;
 };
 
@@ -145,7 +157,7 @@ void run_in_lockstep(const NodeRun& run, const NodeProgram& program) {
                               program.stage};
   const auto node =
       program.make_node({memq, identity, run.scenario, run.folder, run.sync_url, true, run.file.get()});
-  run_lockstep_participant(*node, run.sync_url, digest_of(run.scenario), stop_requested);
+  run_lockstep_participant(*node, run.sync_url, run.scenario, stop_requested);
 }
 
 void run_on_transport(const NodeRun& run, const NodeProgram& program, EventLog& log) {

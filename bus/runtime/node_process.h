@@ -74,7 +74,7 @@ inline constexpr int kExitConfiguration = 2, kExitNetwork = 69;
 // Parses the command line, runs the node until a signal, and returns the exit code. Never throws.
 [[nodiscard]] int run_node_program(int argc, char** argv, const NodeProgram& program);
 
-// The loop alone. A node that is far behind the time steps by slices of 10 s. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource. `filter`: of `lcm`, on
+// The loop alone. A node that is far behind the time steps by slices of simulation time, of which each takes about a tenth of a second. `should_stop` is called at least every 0.1 s. The conductor brings its own TimeSource. `filter`: of `lcm`, on
 // which nothing else is received then; null for none.
 void run_node(lcm::LCM& lcm, Node& node, TimeSource& time, const std::function<bool()>& should_stop,
               ReceiveFilter* filter = nullptr);

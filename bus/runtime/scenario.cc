@@ -49,8 +49,6 @@ void visit_vehicle(ConfigVisitor& v, VehicleEntry& vehicle) {
   vehicle.battery = battery;
 }
 
-bool is_control(unsigned char c) { return c < ' ' || c == 0x7f; }
-
 // Names folders and files.
 bool is_valid_scenario_name(std::string_view name) {
   constexpr std::size_t kLongest = 64;
@@ -111,8 +109,6 @@ void visit(ConfigVisitor& v, Scenario& s) {
           "name",
           "allowed are 1 to 64 letters, digits, '_', '-', '.' and spaces, a letter, digit or '_' first");
     section.text("description", s.description, {}, "one line for a person");
-    if (std::any_of(s.description.begin(), s.description.end(), is_control))
-      section.problem("description", "allowed is one line without control characters");
     integer_as(section, "seed", s.seed, {0, 9e15, "", "seed of all random draws"});
     seconds(section, "duration_s", s.duration, {0.001, kLongestRunS, "s", "simulated time of a run"});
     section.number("origin_latitude_deg", s.origin_latitude_deg,

@@ -70,14 +70,13 @@ bool ConductorTime::is_witnessed(const sim_clock_t& clock, SimTime received) {
 }
 
 // The session is heard as expected: it is followed further, and nothing else is true.
-void ConductorTime::refuse_others() {
-  const auto leaps =
-      std::erase_if(witnesses_, [&](const Heard& one) { return one.clock.session == last_->clock.session; });
+void ConductorTime::refuse_unexpected() {
+  std::erase_if(witnesses_, [&](const Heard& one) { return one.clock.session == last_->clock.session; });
   const auto refuse = [this](std::int64_t count, std::string_view reason) {
     bus_.counters().rivals += count;
     if (count > 0) bus_.refuse(channels::kClock, reason);
   };
-  refuse(static_cast<std::int64_t>(leaps), "utime is far from what is expected, and no other CLOCK agrees");
+  refuse(std::exchange(num_leaps_, 0), "utime is far from what is expected of its session");
   refuse(std::exchange(num_others_, 0),
          "session is of a second conductor; the first is followed until it is silent for 3 s");
 }
@@ -85,9 +84,9 @@ void ConductorTime::refuse_others() {
 void ConductorTime::on_clock(const sim_clock_t& clock, SimTime received) {
   const bool is_followed = last_ && clock.session == last_->clock.session;
   if (is_followed && agree(*last_, clock, received)) {
-    refuse_others();
-  } else if (last_ && !is_followed && received - last_->received < kSilence) {
-    ++num_others_;
+    refuse_unexpected();
+  } else if (last_ && received - last_->received < kSilence) {
+    ++(is_followed ? num_leaps_ : num_others_);
     return;
   } else if (!is_witnessed(clock, received)) {
     return;
@@ -100,7 +99,7 @@ void ConductorTime::take(const sim_clock_t& clock, SimTime received) {
   const bool goes_on = last_ && clock.session == last_->clock.session && agree(*last_, clock, received);
   if (!goes_on) {
     witnesses_.clear();
-    num_others_ = 0;
+    num_others_ = num_leaps_ = 0;
   }
   if (!goes_on || clock.clock_rate != rate_) samples_.clear();
   if (!goes_on && latest_ > sim + kJumpBack) {

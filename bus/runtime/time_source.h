@@ -67,9 +67,9 @@ class TimeSource {
 // (steady - utime / rate) of the last second is the best estimate of the offset between the clocks.
 //
 // Anybody may publish CLOCK. A session is taken up when two of its CLOCKs agree: the second tells the time that the first lets
-// expect, within kLeap (of simulated or of steady time, whichever is longer). It stays until it has been silent for kSilence; CLOCKs
-// of other sessions are refused until then, and count as refused once the session is heard again. Within the session a CLOCK that
-// leaps counts only when the next one agrees with it. A restarted conductor goes on from the time of the others, who coast until they take it up.
+// expect, within kLeap (of simulated or of steady time, whichever is longer). It stays until nothing as expected has come of it for
+// kSilence. CLOCKs of other sessions, and of its own that leap, are refused until then, and count as refused once it is heard
+// again. A restarted conductor goes on from the time of the others, who coast until they take it up.
 class ConductorTime : public TimeSource {
  public:
   static constexpr SimDuration kSilence = SimDuration::from_milliseconds(3000);
@@ -96,7 +96,7 @@ class ConductorTime : public TimeSource {
   };
   static bool agree(const Heard& before, const sim_clock_t& clock, SimTime received);
   bool is_witnessed(const sim_clock_t& clock, SimTime received);
-  void refuse_others();
+  void refuse_unexpected();
   void take(const sim_clock_t& clock, SimTime received);
   // When the message being handled was received (steady); bounded, as the wall clock may have been set meanwhile.
   SimTime received() const;
@@ -106,7 +106,7 @@ class ConductorTime : public TimeSource {
   double rate_ = 0;
   std::optional<Heard> last_;    // of the session that is followed
   std::deque<Heard> witnesses_;  // the latest of each session that nothing has agreed with yet
-  std::int64_t num_others_ = 0;  // CLOCKs of other sessions since the last one
+  std::int64_t num_others_ = 0, num_leaps_ = 0;  // CLOCKs of other sessions, and leaps, since the last one
   std::deque<Sample> samples_;
   std::optional<SimTime> paused_at_;
   SimTime latest_ = SimTime::at_once();

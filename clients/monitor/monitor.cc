@@ -35,7 +35,8 @@ constexpr SimDuration kRequestTime = SimDuration::from_milliseconds(25);
 
 std::unique_ptr<Source> open_source(const MonitorOptions& options) {
   if (!options.logs.empty()) return std::make_unique<LogSource>(options.logs, options.scenario);
-  return std::make_unique<BusSource>(options.lcm_url, SimDuration::from_seconds(options.history_s));
+  return std::make_unique<BusSource>(options.lcm_url, options.accept,
+                                     SimDuration::from_seconds(options.history_s));
 }
 
 }  // namespace

@@ -40,6 +40,9 @@ void describe(CLI::App& app, MonitorOptions& options) {
   app.add_option("--lcm-url", options.lcm_url,
                  "of the bus; default: LCM_DEFAULT_URL, or "
                  "udpm on this host");
+  app.add_option("--accept", options.accept,
+                 "other hosts whose messages are received: any, or addresses and ranges as "
+                 "10.0.3.7,10.0.4.0/24; default: any if the bus has ttl=1, none with ttl=0");
   app.add_option(
       "--scenario", options.scenario,
       "configuration of the log, for rays and budgets; default: what the log holds, or the file beside it");

@@ -241,6 +241,21 @@ TEST_F(FlowRepairTest, ASendThatIsRepeatedOnPurposeIsReceivedEachTime) {
   EXPECT_EQ(received, 3);
 }
 
+TEST_F(FlowRepairTest, ASendThatRepairBringsToSomebodyElseIsReceivedOnce) {
+  start(0);
+  enable_repair();
+  int received = 0;
+  receiver_->subscribe<modem_send_t>(channels::kSend,
+                                     [&](std::string_view, const modem_send_t&) { ++received; });
+  const modem_send_t send = valid_message<modem_send_t>(1);
+  const Bytes bytes = encoded(send);
+  publisher_->publish("SEND.a", send);
+  pass(10);
+  publisher_->publish_bytes("REPAIR.SEND.a", bytes.data(), bytes.size());
+  pass(10);
+  EXPECT_EQ(received, 1);
+}
+
 // How many messages of a flow that a heartbeat did not list are missing when it is received for the first time, with number 1000.
 std::int64_t missing_of_unlisted_flow(int flows_kept) {
   FlowWatch watch;

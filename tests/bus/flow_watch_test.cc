@@ -196,6 +196,18 @@ TEST_F(FlowWatchTest, APublisherThatRestartsItsSequenceAfterASilenceIsReceived) 
   EXPECT_FALSE(watch_.on_message(at_ms(2000), "A", 1, 0).is_repeated);
 }
 
+// A datagram that the network delivers again much later, or that somebody replays: without the heartbeat it would be a new start, after which all that
+// followed is missing, repaired and handled a second time.
+TEST_F(FlowWatchTest, AnOldDuplicateOfAFlowThatAHeartbeatListsIsIgnored) {
+  for (std::int64_t sequence = 0; sequence <= 200; ++sequence) receive({sequence});
+  watch_.on_last(SimTime(), "A", 1, 200, true, true);
+  EXPECT_TRUE(watch_.on_message(at_ms(1), "A", 1, 100, false).is_repeated);
+  EXPECT_TRUE(watch_.on_message(at_ms(1500), "A", 1, 200, false).is_repeated);
+  EXPECT_TRUE(watch_.on_message(at_ms(60'000), "A", 1, 0, false).is_repeated);
+  EXPECT_EQ(watch_.on_last(at_ms(60'001), "A", 1, 200, true, true), 0);
+  EXPECT_EQ(watch_.on_message(at_ms(60'002), "A", 1, 201, false).newly_missing, 0);
+}
+
 TEST_F(FlowWatchTest, ALostTailShowsInTheLastNumberOfTheHeartbeat) {
   receive({0, 1});
   EXPECT_EQ(watch_.on_last(SimTime(), "A", 1, 3, false), 2);

@@ -203,6 +203,14 @@ TEST(MessageChecks, RefusesAClientNameThatNoChannelMayHave) {
   }
 }
 
+TEST(MessageChecks, ATextIsOneLineWithoutControlCharacters) {
+  auto status = testing::valid_message<node_status_t>(1);
+  status.status_text = "idle";
+  EXPECT_EQ(problem_in(status), "");
+  status.status_text = "idle\x1b[2J";
+  EXPECT_EQ(problem_in(status), "status_text is not one line without control characters");
+}
+
 TEST(MessageChecks, RefusesTimesThatWouldOverflow) {
   for (const std::int64_t utime :
        {std::numeric_limits<std::int64_t>::min(), std::int64_t{-4'000'000'000'000'000},

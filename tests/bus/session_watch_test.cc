@@ -42,8 +42,32 @@ TEST(SessionWatch, AChannelOfAVehicleHasOnePublisherWhateverTheNodesAreCalled) {
     }
     EXPECT_TRUE(watch.on_message(at_ms(ms), "STATE.auv-2", 2));
     EXPECT_TRUE(watch.on_message(at_ms(ms), "SEND.auv-1", 2));  // several programs may use a modem
-    EXPECT_TRUE(watch.on_message(at_ms(ms), "OUTCOME", 2));     // shards
   }
+}
+
+// Shard 1 has the receivers 1 and 3, shard 2 those with even ids. A second server under another name, 9, decides for all of them, and its rows of
+// those out of reach (receiver 0) come first.
+TEST(SessionWatch, OutcomesOfAReceiverHaveOnePublisherAndShardsShareTheReceivers) {
+  SessionWatch watch;
+  const auto outcome = [&](int ms, std::int64_t session, std::int32_t receiver) {
+    return watch.on_message(at_ms(ms), "OUTCOME", session, receiver);
+  };
+  for (int ms = 0; ms < 60'000; ms += 250) {
+    watch.on_heartbeat(at_ms(ms), "channel-server-0", 1);
+    watch.on_heartbeat(at_ms(ms), "channel-server-1", 2);
+    watch.on_heartbeat(at_ms(ms), "other", 9);
+    EXPECT_TRUE(outcome(ms, 1, 0));
+    EXPECT_TRUE(outcome(ms, 2, 0));
+    EXPECT_EQ(outcome(ms + 1, 9, 0), ms == 0);  // it has not decided for anybody yet
+    EXPECT_TRUE(outcome(ms + 2, 1, 1));
+    EXPECT_TRUE(outcome(ms + 2, 1, 3));
+    EXPECT_TRUE(outcome(ms + 2, 2, 2));
+    for (const std::int32_t receiver : {1, 2, 3}) EXPECT_FALSE(outcome(ms + 3, 9, receiver));
+  }
+  // Once a shard is gone for a second, another may have its receivers, and rows of several.
+  EXPECT_FALSE(outcome(60'700, 9, 2));
+  EXPECT_TRUE(outcome(60'752, 9, 2));
+  EXPECT_TRUE(outcome(60'753, 9, 0));
 }
 
 // States by dead reckoning may be minutes apart.

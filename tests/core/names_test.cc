@@ -17,5 +17,14 @@ TEST(Names, RefusesWhatARegularExpressionOrAFileSystemWouldRead) {
   }
 }
 
+TEST(Names, ALineHasNoControlCharacters) {
+  for (const char* line : {"", "a b", "~", "\xc3\xa9", "\xe2\x82\xac", "\xc2\xa0"})
+    EXPECT_TRUE(is_one_line(line)) << line;
+  for (const char* bad : {"a\nb", "\x1b[2J", "\x7f", "\t", "\r",
+                          "\xc2\x9b"
+                          "2J"})
+    EXPECT_FALSE(is_one_line(bad)) << bad;
+}
+
 }  // namespace
 }  // namespace halocline

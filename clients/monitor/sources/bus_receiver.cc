@@ -25,8 +25,12 @@ constexpr std::size_t kMaxPosted = 1000;
 
 }  // namespace
 
-BusReceiver::BusReceiver(std::string lcm_url, std::string node)
-    : url_(std::move(lcm_url)), node_(std::move(node)), conductor_ns_(kNoTime), thread_([this] { run(); }) {}
+BusReceiver::BusReceiver(std::string lcm_url, bus::AcceptedHosts hosts, std::string node)
+    : url_(std::move(lcm_url)),
+      node_(std::move(node)),
+      hosts_(std::move(hosts)),
+      conductor_ns_(kNoTime),
+      thread_([this] { run(); }) {}
 
 BusReceiver::~BusReceiver() {
   stop_ = true;
@@ -67,6 +71,7 @@ void BusReceiver::receive(lcm::LCM& lcm) {
     const auto* bytes = static_cast<const std::uint8_t*>(data);
     batch.push_back({bus.received_at().to_utime(), std::string(channel), {bytes, bytes + size}});
   });
+  bus::ReceiveFilter(lcm, url_, hosts_).follow(&bus.receives(), clock.receives());
   is_open_ = true;
   while (!stop_) {
     sleep_for(kTurnMs);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bus/message_codec.h"
+#include "bus/runtime/receive_filter.h"
 #include "clients/monitor/sources/handover.h"
 #include "core/sim_time.h"
 
@@ -23,7 +24,7 @@ namespace halocline::monitor {
 class BusReceiver {
  public:
   // `node` is its name in what it logs.
-  BusReceiver(std::string lcm_url, std::string node);
+  BusReceiver(std::string lcm_url, bus::AcceptedHosts hosts, std::string node);
   ~BusReceiver();
   BusReceiver(const BusReceiver&) = delete;
   BusReceiver& operator=(const BusReceiver&) = delete;
@@ -46,6 +47,7 @@ class BusReceiver {
   void sleep_for(int milliseconds) const;
 
   std::string url_, node_;
+  bus::AcceptedHosts hosts_;
   Handover handover_;
   std::mutex posted_mutex_;
   std::vector<BusMessage> posted_;

@@ -20,10 +20,10 @@ constexpr double kAlive_s = 3.5;
 
 }  // namespace
 
-BusSource::BusSource(const std::string& lcm_url, SimDuration history)
+BusSource::BusSource(const std::string& lcm_url, const std::string& accept, SimDuration history)
     : url_(bus::effective_url(lcm_url)),
       history_(history),
-      receiver_(url_, "monitor"),
+      receiver_(url_, bus::accepted_hosts(accept, url_), "monitor"),
       last_message_(bus::steady_now()) {
   mission_.limit_history(history_);
 }

@@ -21,7 +21,7 @@ namespace halocline::monitor {
 class BusSource : public Source {
  public:
   // `history`: how much of the past is kept.
-  BusSource(const std::string& lcm_url, SimDuration history);
+  BusSource(const std::string& lcm_url, const std::string& accept, SimDuration history);
 
   void update() override;
   const clients::MissionStore& mission() const override { return mission_; }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -191,6 +192,32 @@ TEST(ReceiveFilter, UnicastOfAnotherHostIsReceivedOnlyWhereItIsAccepted) {
   EXPECT_TRUE(received_with("10.9.0.3, 10.9.0.2", {"CLOCK"}));
   EXPECT_TRUE(received_with("10.9.0.0/24", {"CLOCK"}));
   EXPECT_FALSE(received_with("10.9.0.0/24", {"STATE"}));
+}
+
+// On their ordinary bus, and on the two ports of lockstep.
+TEST(ReceiveFilter, EveryProgramThatListensLeavesOutOtherHosts) {
+  using halocline::testing::Process;
+  const OtherHost other;
+  const std::string scenario = HALOCLINE_TEST_DATA "/scenarios/two_vehicles.toml";
+  const auto command = [&](const std::string& program, const std::vector<std::string>& options) {
+    std::vector<std::string> words{HALOCLINE_BIN_DIR "/halocline-" + program};
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  };
+  const std::map<int, std::vector<std::string>> listening{
+      {7667, command("monitor", {"--port", "0"})},
+      {7677, command("channel-server", {scenario, "--time-source", "lockstep"})},
+      {7678, command("conductor", {scenario, "--lockstep", "--expect", "none"})}};
+  for (const auto& [port, words] : listening) {
+    Process process(words);
+    const auto left_out_after = [&, at = port] {
+      other.send("LC02\\001\\001\\001\\001LOCKSTEP_GRANT\\000x", at);
+      usleep(100'000);
+      return left_out(at);
+    };
+    for (int i = 0; i < 100 && left_out_after() == 0; ++i) EXPECT_TRUE(process.running()) << process.output();
+    EXPECT_GT(left_out(port), 0) << words[0];
+  }
 }
 
 class ReceiveFilterOfLcmTest : public ::testing::Test {

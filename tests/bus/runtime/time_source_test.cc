@@ -172,22 +172,31 @@ TEST_F(ConductorTimeTest, AStrayClockTenYearsAheadIsRefusedAndReported) {
       std::string::npos);
 }
 
-TEST_F(ConductorTimeTest, AStrayClockOfTheSameSessionIsRefusedForWantOfAWitness) {
+// Forged ones that agree with each other, as many as come between two true ones.
+TEST_F(ConductorTimeTest, LeapsOfTheSameSessionAreRefusedWhileItIsHeardAsExpected) {
   follow(1, 100);
-  for (const double leap_s : {3600.0, 10 * kYear_s, -99.0}) {
-    receive(1.05, 100 + leap_s);
-    EXPECT_NEAR(now(1.06), 100.06, 1e-6);
+  int forged = 0;
+  for (int tick = 1; tick <= 600; ++tick) {
+    for (const double leap_s : {3600.0, 10 * kYear_s, -99.0}) {
+      for (const double later_s : {0.02, 0.03, 0.04}) {
+        receive(0.9 + 0.1 * tick + later_s, 100 + 0.1 * tick + leap_s + later_s);
+        ++forged;
+      }
+    }
+    ASSERT_NEAR(now(0.95 + 0.1 * tick), 99.95 + 0.1 * tick, 1e-6);
+    receive(1 + 0.1 * tick, 100 + 0.1 * tick);
+    ASSERT_EQ(time_.num_refused(), forged);
   }
-  receive(1.1, 100.1);
-  EXPECT_NEAR(now(1.2), 100.2, 1e-6);
-  EXPECT_EQ(time_.num_refused(), 1);  // of several the last waits
+  EXPECT_FALSE(time_.restarted());
 }
 
-TEST_F(ConductorTimeTest, ALeapThatASecondClockConfirmsIsFollowed) {
+TEST_F(ConductorTimeTest, ALeapIsFollowedAfterThreeSecondsWithoutTheExpectedTime) {
   follow(1, 100);
-  receive(1.1, 4000);
-  receive(1.2, 4000.1);
-  EXPECT_NEAR(now(1.3), 4000.2, 1e-6);
+  for (int tick = 1; tick <= 29; ++tick) receive(1 + 0.1 * tick, 4000 + 0.1 * tick);
+  EXPECT_NEAR(now(3.95), 102.95, 1e-6);
+  receive(4.0, 4003);
+  receive(4.1, 4003.1);
+  EXPECT_NEAR(now(4.2), 4003.2, 1e-6);
   EXPECT_FALSE(time_.restarted());
 }
 
