@@ -3,13 +3,11 @@
 // A message that does not decode, or holds what cannot be (message_codec.h), is counted, reported with its channel and reason
 // (the 1st, 10th, 100th, ... of a kind), and ignored. A gap in a publisher's (session, sequence) is counted and repaired after
 // enable_repair(). An exception that a handler throws never crosses LCM's C frames: rethrow_if_failed() throws it.
-//
 //   Bus bus(lcm, {"channel-server", session});
 //   bus.subscribe<vehicle_state_t>(channels::kState, [&](std::string_view vehicle, const vehicle_state_t& s) { ... });
 //   bus.publish(channels::kOutcome, outcome);
 //
-// One Bus belongs to one node; several may share an lcm::LCM, and must with memq, of one queue per LCM object. Not thread-safe. The
-// lcm::LCM must outlive the Bus.
+// One Bus belongs to one node; several may share an lcm::LCM, which outlives them, and must with memq. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +20,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -117,7 +114,6 @@ class Bus {
   const std::vector<const Subscription*>& subscriptions_to(std::string_view channel);
   template <class Message>
   [[nodiscard]] bool accept(std::string_view channel, const void* data, std::size_t size, Message& message);
-  // `receiver`: of an OUTCOME (session_watch.h).
   bool is_rival(std::string_view channel, std::int64_t session, std::optional<std::int32_t> receiver);
   void refuse_rival(std::string_view channel, std::int64_t session);
   bool is_repetition(std::string_view channel, std::int64_t session, std::int64_t sequence);
@@ -191,10 +187,7 @@ bool Bus::accept(std::string_view channel, const void* data, std::size_t size, M
   }
   bool is_duplicate = false;
   if constexpr (IsOfFlow<Message>) {
-    std::optional<std::int32_t> receiver;
-    if constexpr (std::is_same_v<Message, packet_outcome_t>) receiver = message.receiver_id;
-    if (is_rival(channel, message.session, receiver)) return false;
-    // A SEND that was received is repeated by its sender, who waits for the receipt, and by repair, for somebody else.
+    if (is_rival(channel, message.session, receiver_of(message))) return false;
     is_duplicate = is_repetition(channel, message.session, sequence_of(message)) &&
                    (is_repair_ || !IsPacketToSend<Message>);
   }

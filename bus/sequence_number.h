@@ -2,13 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
 #include "bus/messages.h"
 
 namespace halocline::bus {
 
-// A packet is numbered by its own sequence, because a SEND is repeated on purpose.
+// A packet is numbered by its own sequence, because a SEND is repeated on purpose: by its sender, on SEND. What comes on REPAIR is for somebody
+// else where it was received before.
 template <class Message>
 concept IsPacketToSend = requires(const Message& m) {
   m.packet_sequence;
@@ -32,6 +34,13 @@ std::int64_t sequence_of(const Message& message) {
   } else {
     return message.sequence;
   }
+}
+
+// Of an OUTCOME, whose publishers share the receivers (session_watch.h).
+template <class Message>
+std::optional<std::int32_t> receiver_of(const Message& message) {
+  if constexpr (std::is_same_v<Message, packet_outcome_t>) return message.receiver_id;
+  return std::nullopt;
 }
 
 }  // namespace halocline::bus

@@ -4,11 +4,9 @@
 #include <map>
 #include <sstream>
 
-#include <fmt/format.h>
-
 #include "bus/channel_table.h"
+#include "bus/lockstep/arithmetic_digest.h"
 #include "bus/version.h"
-#include "core/arithmetic_digest.h"
 #include "core/random.h"
 
 namespace halocline::bus {
@@ -45,8 +43,10 @@ std::string explained(const std::string& what) {
 }  // namespace
 
 std::string agreement_on(std::string_view scenario) {
-  return fmt::format("scenario={} version={} messages={:016x} arithmetic={:016x}", scenario, kVersion,
-                     message_digest(), arithmetic_digest());
+  std::ostringstream text;
+  text << "scenario=" << scenario << " version=" << kVersion << std::hex << " messages=" << message_digest()
+       << " arithmetic=" << arithmetic_digest();
+  return text.str();
 }
 
 std::string disagreement(std::string_view theirs, std::string_view ours) {

@@ -1,4 +1,4 @@
-#include "core/arithmetic_digest.h"
+#include "bus/lockstep/arithmetic_digest.h"
 
 #include <array>
 #include <bit>
@@ -10,7 +10,7 @@
 #include "core/hash.h"
 #include "core/random.h"
 
-namespace halocline {
+namespace halocline::bus {
 namespace {
 
 namespace el = elementary;
@@ -71,4 +71,4 @@ std::uint64_t arithmetic_digest() {
   return digest;
 }
 
-}  // namespace halocline
+}  // namespace halocline::bus

@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-namespace halocline {
+namespace halocline::bus {
 
 std::uint64_t arithmetic_digest();
 
-}  // namespace halocline
+}  // namespace halocline::bus
