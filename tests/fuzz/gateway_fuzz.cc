@@ -30,12 +30,14 @@ constexpr std::int32_t kVehicle = 1;
 class Port : public ProtocolPort {
  public:
   SimTime now() const override { return at; }
+  SimTime clock_at(SimTime time) const override { return time + SimDuration::from_milliseconds(250); }
   void write(ClientId, std::string_view bytes) override { written += bytes.size(); }
   std::int64_t send(SimTime start, std::int32_t, std::span<const std::uint8_t>,
                     clients::SendOptions) override {
     started = std::max(at, start);
     return next_packet++;
   }
+  void sleep_until(SimTime) override {}
   bool is_own(std::int64_t send_session) const override { return send_session == kSession; }
   const vehicle_sensors_t* sensors() const override { return measured ? &*measured : nullptr; }
   const vehicle_state_t* state() const override { return place ? &*place : nullptr; }

@@ -49,14 +49,14 @@ TEST(Sentence, OwnEchoesAreDistinguishedFromNoiseAndFromOthers) {
               HasSubstr("its own late echoes (97.0 dB) were louder than the noise (90.0 dB)"));
   EXPECT_THAT(sentence(o, name), HasSubstr("SINR 2.7 dB; 60 % of such packets survive"));
   o.num_colliders = 1;
-  o.colliders.push_back({2, 0, 7, 5});
+  o.colliders.push_back({2, 0, 7, 5, 0});
   EXPECT_THAT(sentence(o, name), HasSubstr("disturbed by auv-2:5"));
 }
 
 TEST(Sentence, ACollisionIsWithAPacketThatWasFollowedOrWithOneThatDisturbed) {
   packet_outcome_t o = with_numbers(packet_outcome_t::COLLIDED);
   o.num_colliders = 1;
-  o.colliders.push_back({2, 0, 7, 5});
+  o.colliders.push_back({2, 0, 7, 5, 0});
   EXPECT_THAT(sentence(o, name), HasSubstr("disturbed by auv-2:5, without which"));
   o.success_probability = o.acquisition_probability = 0;
   EXPECT_THAT(sentence(o, name), HasSubstr("the receiver was following auv-2:5"));

@@ -63,7 +63,7 @@ void add_mission(MissionStore& store) {
     packet_outcome_t o = outcome(1, 2, i, i * 10 * kSecond, static_cast<std::int8_t>(i));
     if (i == packet_outcome_t::COLLIDED) {
       o.num_colliders = 1;
-      o.colliders.push_back({2, 0, 7, 5});
+      o.colliders.push_back({2, 0, 7, 5, 0});
     }
     add(store, "OUTCOME", o);
   }
