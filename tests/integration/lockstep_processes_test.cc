@@ -274,8 +274,8 @@ TEST(LockstepProcesses, VehiclesOnTheOrdinaryBusTakePart) {
   ASSERT_TRUE(fleet.wait_for_log(fleet.log_of_one_process().size() / 3)) << fleet.conductor_output();
   fleet.kill_and_restart("conductor");
   ASSERT_TRUE(fleet.run_to_the_end(kLimit)) << fleet.conductor_output();
-  EXPECT_THAT(visitor.output(), HasSubstr("was accepted"));
-  EXPECT_THAT(neighbour.output(), HasSubstr("from vehicle 77 after 0."));
+  EXPECT_THAT(visitor.output(), HasSubstr("packet 0 accepted"));
+  EXPECT_THAT(neighbour.output(), HasSubstr(": from vehicle 77, "));
   auto events = fleet.events_by_channel();
   EXPECT_GT(events["STATE.visitor"], 200) << "ten a second for thirty seconds, at best";
   EXPECT_GT(events["LINKS.visitor"], 20);

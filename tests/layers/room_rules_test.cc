@@ -34,10 +34,10 @@ TEST(RoomRules, OnlyTheBusIncludesLcm) {
 }
 
 TEST(RoomRules, TheForeignVehicleKnowsLcmAndMessageTypesAlone) {
-  EXPECT_TRUE(allowed("clients/examples/foreign_vehicle.cc", "lcm/lcm-cpp.hpp"));
-  EXPECT_TRUE(allowed("clients/examples/foreign_vehicle.cc", "halocline/vehicle_state_t.hpp"));
-  EXPECT_FALSE(allowed("clients/examples/foreign_vehicle.cc", "core/sim_time.h"));
-  EXPECT_FALSE(allowed("clients/examples/foreign_vehicle.cc", "bus/bus.h"));
+  EXPECT_TRUE(allowed("clients/examples/cpp/foreign_vehicle.cc", "lcm/lcm-cpp.hpp"));
+  EXPECT_TRUE(allowed("clients/examples/cpp/foreign_vehicle.cc", "halocline/vehicle_state_t.hpp"));
+  EXPECT_FALSE(allowed("clients/examples/cpp/foreign_vehicle.cc", "core/sim_time.h"));
+  EXPECT_FALSE(allowed("clients/examples/cpp/foreign_vehicle.cc", "bus/bus.h"));
 }
 
 TEST(RoomRules, MessageTypesStayOutOfPureFiles) {
