@@ -185,7 +185,8 @@ TEST(LockstepProcesses, AConductorThatRefusesItsJournalLeavesTheLogAsItWas) {
   const std::string log = fleet.log_bytes();
   fleet.start_conductor({"--set", "scenario.seed=77"});
   EXPECT_NE(fleet.at("conductor").wait(kLimit), 0);
-  EXPECT_THAT(fleet.conductor_output(), HasSubstr("the journal is of another run; remove it or name another: scenario"));
+  EXPECT_THAT(fleet.conductor_output(),
+              HasSubstr("the journal is of another run; remove it or name another: scenario"));
   EXPECT_EQ(fleet.log_bytes(), log);
 }
 
