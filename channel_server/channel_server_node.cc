@@ -68,6 +68,8 @@ ChannelServerNode::ChannelServerNode(lcm::LCM& lcm, bus::NodeIdentity identity, 
       rays_(rules.ray_queries),
       queries_(vehicles_, *water_.propagation, predictor_, echoes_, rays_,
                {rules.bottom_points, rules.ray_queries.answer_deadline}),
+      places_(vehicles_, *water_.propagation, predictor_, rules.ray_queries.answer_deadline,
+              pool_.sharing_out()),
       publisher_(bus()),
       journal_(bus(), publisher_),
       inbox_(bus(), rules.medium.shard, vehicles_.equipment()),
@@ -102,13 +104,13 @@ bus::Due ChannelServerNode::on_due() const {
   if (recovery_) return {.steady = std::min(seabed_.due(), recovery_->due())};
   const SimTime instant = table_waits_ ? SimTime::never() : next_instant();
   return {.sim = std::min({instant, medium_.next_event(), inbox_.due()}),
-          .steady = std::min({seabed_.due(), queries_.due(), exchange_.due()})};
+          .steady = std::min({seabed_.due(), queries_.due(), places_.due(), exchange_.due()})};
 }
 
 // Between ticks it publishes what packets come to and answers; other servers receive only the answers of that.
 SimTime ChannelServerNode::on_quiet_until(const ChannelTest& matters) const {
-  for (const bus::Family& family :
-       {channels::kReceipt, channels::kReceive, channels::kModemEvent, channels::kLinkReply}) {
+  for (const bus::Family& family : {channels::kReceipt, channels::kReceive, channels::kModemEvent,
+                                    channels::kLinkReply, channels::kBestPlaceReply}) {
     if (matters(family.of("any"))) return SimTime::at_once();
   }
   for (const std::string_view channel : {channels::kOutcome, channels::kEnvironment, channels::kRayQuery}) {
@@ -251,15 +253,21 @@ void ChannelServerNode::forget_old(SimTime now) {
 }
 
 void ChannelServerNode::answer_queries(const bus::Now& now) {
-  for (const link_query_t& query : inbox_.take_queries()) {
-    queries_.submit(to_query(query), now.sim_known ? std::optional(now.sim) : std::nullopt, now.steady);
-  }
+  const auto sim = now.sim_known ? std::optional(now.sim) : std::nullopt;
+  for (const link_query_t& query : inbox_.take_queries()) queries_.submit(to_query(query), sim, now.steady);
+  for (const best_place_query_t& query : inbox_.take_place_queries())
+    places_.submit(to_query(query), sim, now.steady);
+  const auto places = places_.take_replies(now.steady);  // asks for the seabed that it needs
   seabed_.publish_queries(now);
-  for (const LinkReply& reply : queries_.take_replies(now.steady)) {
-    link_reply_t message = to_message(reply);
-    message.session = bus().identity().session;
-    bus().publish(channels::kLinkReply.of(reply.client), message);
-  }
+  const auto publish = [&](const auto& replies, const bus::Family& family) {
+    for (const auto& reply : replies) {
+      auto message = to_message(reply);
+      message.session = bus().identity().session;
+      bus().publish(family.of(reply.client), message);
+    }
+  };
+  publish(queries_.take_replies(now.steady), channels::kLinkReply);
+  publish(places, channels::kBestPlaceReply);
 }
 
 bool ChannelServerNode::recover(const bus::Now& now) {
@@ -296,6 +304,7 @@ void ChannelServerNode::on_restart(const bus::Now& now) {
   water_.waters->clear();
   seabed_.clear();
   queries_.clear();
+  places_.clear();
   tables_.clear();
   kept_rows_.clear();
   exchange_.clear();

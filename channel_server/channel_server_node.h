@@ -1,8 +1,8 @@
 // The channel server on the bus: receives states, modems and transmissions of vehicles; publishes the scenario, the water,
-// the link tables, and the outcome of every packet; answers link queries. --interface lists its channels.
+// the link tables, and the outcome of every packet; answers queries of links and of best places. --interface lists its channels.
 //
 // Of several servers of one water (rules.medium.shard) each receives what all the others receive and publishes its
-// share; the first also ENVIRONMENT and SCENARIO; LINK_QUERYs go by their request_id; MODEM_REPLY passes on answers to pings,
+// share; the first also ENVIRONMENT and SCENARIO; queries go by their request_id; MODEM_REPLY passes on answers to pings,
 // FOUND_PATHS the paths that two of them need.
 // With a journal a server that was killed goes on where it was (server_recovery.h).
 #pragma once
@@ -24,6 +24,7 @@
 #include "channel_server/inbox.h"
 #include "channel_server/input_processor.h"
 #include "channel_server/link_table_publisher.h"
+#include "channel_server/links/best_place_service.h"
 #include "channel_server/links/kept_rows.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_query_service.h"
@@ -103,6 +104,7 @@ class ChannelServerNode : public bus::Node {
   MultipathCache echoes_;
   RayQueryClient rays_;
   LinkQueryService queries_;
+  BestPlaceService places_;
 
   bus::NumberedPublisher publisher_;
   bus::CrashJournal journal_;

@@ -5,6 +5,7 @@
 
 #include "bus/channels.h"
 #include "bus/subscription.h"
+#include "channel_server/links/best_place_service.h"
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/vehicles/vehicle_noise.h"
 
@@ -40,13 +41,7 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipmen
   bus_.subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
     keep(inputs_.sends, vehicle, m, channels::kSend);
   });
-  bus_.subscribe<link_query_t>(channels::kLinkQuery, [this, shard](const link_query_t& m) {
-    if ((m.request_id % shard.count + shard.count) % shard.count != shard.index) return;
-    if (queries_.size() >= LinkQueryService::kMaxWaiting) {
-      return bus_.refuse(channels::kLinkQuery, "too many queries at once");
-    }
-    queries_.push_back(m);
-  });
+  subscribe_queries(shard);
   bus_.subscribe<environment_change_t>(channels::kSetEnvironment, [this](const environment_change_t& m) {
     if (inputs_.changes.size() >= kMaxChanges) {
       return bus_.refuse(channels::kSetEnvironment, "too many changes at once");
@@ -59,6 +54,25 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipmen
       return bus_.refuse(channels::kModemReply, "too many messages at once");
     }
     inputs_.modem_replies.push_back(m);
+  });
+}
+
+// Of several servers each answers the queries of its request_ids.
+void Inbox::subscribe_queries(const Shard& shard) {
+  const auto is_ours = [shard](std::int64_t request_id) {
+    return (request_id % shard.count + shard.count) % shard.count == shard.index;
+  };
+  bus_.subscribe<link_query_t>(channels::kLinkQuery, [this, is_ours](const link_query_t& m) {
+    if (!is_ours(m.request_id)) return;
+    if (queries_.size() >= LinkQueryService::kMaxWaiting)
+      return bus_.refuse(channels::kLinkQuery, "too many queries at once");
+    queries_.push_back(m);
+  });
+  bus_.subscribe<best_place_query_t>(channels::kBestPlaceQuery, [this, is_ours](const best_place_query_t& m) {
+    if (!is_ours(m.request_id)) return;
+    if (place_queries_.size() >= BestPlaceService::kMaxWaiting)
+      return bus_.refuse(channels::kBestPlaceQuery, "too many queries at once");
+    place_queries_.push_back(m);
   });
 }
 
@@ -98,7 +112,7 @@ void Inbox::keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehi
 }
 
 SimTime Inbox::due() const {
-  if (!queries_.empty() || !inputs_.changes.empty()) return SimTime::at_once();
+  if (!queries_.empty() || !place_queries_.empty() || !inputs_.changes.empty()) return SimTime::at_once();
   SimTime due = SimTime::never();
   for (const auto& [vehicle, send] : inputs_.sends) due = std::min(due, SimTime::from_utime(send.utime));
   for (const auto& [vehicle, listen] : inputs_.listens)

@@ -31,7 +31,7 @@ struct StepInputs {
 
 class Inbox {
  public:
-  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, of several shards MODEM_REPLY, and what the
+  // Subscribes to STATE, MODEM, LISTEN, SEND, SET_ENVIRONMENT, LINK_QUERY, BEST_PLACE_QUERY, of several shards MODEM_REPLY, and what the
   // equipment needs: GPS, BATTERY, SENSORS. The bus must outlive it.
   Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipment);
   Inbox(const Inbox&) = delete;
@@ -39,6 +39,7 @@ class Inbox {
 
   StepInputs take_inputs() { return std::exchange(inputs_, {}); }
   std::vector<link_query_t> take_queries() { return std::exchange(queries_, {}); }
+  std::vector<best_place_query_t> take_place_queries() { return std::exchange(place_queries_, {}); }
 
   // The simulation time at which a step is needed for them; states and modems wait for any.
   SimTime due() const;
@@ -48,6 +49,7 @@ class Inbox {
   void forget_after(SimTime latest);
 
  private:
+  void subscribe_queries(const Shard& shard);
   void subscribe_equipment(const VehicleEquipment& equipment);
   template <class Message>
   void keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehicle, const Message& message,
@@ -56,6 +58,7 @@ class Inbox {
   bus::Bus& bus_;
   StepInputs inputs_;
   std::vector<link_query_t> queries_;
+  std::vector<best_place_query_t> place_queries_;
 };
 
 }  // namespace halocline::channel_server

@@ -174,6 +174,32 @@ link_reply_t to_message(const LinkReply& reply) {
   return message;
 }
 
+BestPlaceQuery to_query(const best_place_query_t& message) {
+  BestPlaceQuery query{message.client_name,  message.request_id, {}, message.talker_name, {},
+                       message.listener_name};
+  if (message.utime != 0) query.at = SimTime::from_utime(message.utime);
+  for (const std::vector<double>& place : message.place_ned_m)
+    query.places_ned_m.emplace_back(place[0], place[1], place[2]);
+  return query;
+}
+
+best_place_reply_t to_message(const BestPlaceReply& reply) {
+  best_place_reply_t message{};
+  message.utime = reply.at.to_utime();
+  message.request_id = reply.request_id;
+  message.reply_status = reply.refusal.empty() ? best_place_reply_t::OK : best_place_reply_t::REFUSED;
+  message.refusal = reply.refusal;
+  const auto best = best_of(reply.scores);
+  message.best_place = best ? static_cast<std::int32_t>(*best) : -1;
+  message.num_places = static_cast<std::int32_t>(reply.scores.size());
+  for (const PlaceScore& score : reply.scores) {
+    message.mean_delivery.push_back(score.mean_delivery);
+    message.least_delivery.push_back(score.least_delivery);
+    message.mean_sinr_db.push_back(score.mean_sinr_db);
+  }
+  return message;
+}
+
 ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimTime asked_at) {
   ray_query_t message{};
   message.utime = asked_at.to_utime();

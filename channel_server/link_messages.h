@@ -1,4 +1,4 @@
-// Link tables, link queries and their replies, ray queries and their answers, from messages and back.
+// Link tables, link queries and their replies, likewise of best places, ray queries and their answers, from messages and back.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bus/messages.h"
+#include "channel_server/links/best_place_service.h"
 #include "channel_server/links/link_query_service.h"
 #include "channel_server/links/link_table.h"
 #include "channel_server/links/ray_query_client.h"
@@ -22,6 +23,9 @@ std::vector<link_table_t> to_messages(const LinkTable& table, SimTime at);
 // An end that cannot be read (a modem with a NaN) carries the problem.
 LinkQuery to_query(const link_query_t& message);
 link_reply_t to_message(const LinkReply& reply);
+
+BestPlaceQuery to_query(const best_place_query_t& message);
+best_place_reply_t to_message(const BestPlaceReply& reply);
 
 ray_query_t to_message(const RayQueryBatch& batch, std::string_view client, SimTime asked_at);
 std::vector<RayAnswer> to_answers(const ray_reply_t& message);

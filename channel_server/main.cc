@@ -22,14 +22,15 @@ int main(int argc, char** argv) {
   program.stage = halocline::bus::Stage::kChannel;
   program.interface =
       "subscribes: STATE.<vehicle>, MODEM.<vehicle>, LISTEN.<vehicle>, SEND.<vehicle>, LINK_QUERY, "
-      "SET_ENVIRONMENT,\n"
+      "BEST_PLACE_QUERY,\n            SET_ENVIRONMENT,\n"
       "            GPS.<vehicle> (of vehicles with a clock), BATTERY.<vehicle> (with a battery),\n"
       "            SENSORS.<vehicle> (whose propeller makes noise),\n"
       "            MODEM_REPLY, FOUND_PATHS.<itself> (of other shards),\n"
       "            RAY_REPLY.<itself>, CLOCK (with --time-source conductor)\n"
       "publishes:  LINKS.<vehicle>, RECEIPT.<vehicle>, RECEIVE.<vehicle>, MODEM_EVENT.<vehicle>, OUTCOME,\n"
       "            ENVIRONMENT, SCENARIO,\n"
-      "            LINK_REPLY.<client>, RAY_QUERY, MODEM_REPLY and FOUND_PATHS.<shard> (as a shard),\n"
+      "            LINK_REPLY.<client>, BEST_PLACE_REPLY.<client>, RAY_QUERY, MODEM_REPLY and "
+      "FOUND_PATHS.<shard> (as a shard),\n"
       "            MODEM_ENERGY.<vehicle> (of vehicles with a battery), STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   std::string share, journal;

@@ -9,6 +9,9 @@
 
 #include "acoustics/modem/modem.h"
 #include "acoustics/sea/environment.h"
+#include "acoustics/sea/sound_speed_profile.h"
+#include "bus/runtime/thread_pool.h"
+#include "channel_server/links/best_place_service.h"
 #include "channel_server/links/echo_survey.h"
 #include "channel_server/links/link_predictor.h"
 #include "channel_server/links/link_table.h"
@@ -76,16 +79,19 @@ double seamount_z_m(const Vec3& place) {
   return from_top_m > 1500 ? 200 : 140 - 60 * std::cos(from_top_m / 1500 * 3.14159265358979);
 }
 
-void answer_requests(SeabedMap& seabed) {
+template <class DepthAt>
+void answer_requests(SeabedMap& seabed, DepthAt seabed_z_m) {
   for (TileSurvey& tile : seabed.take_requests()) {
     std::vector<RayAnswer> answers;
     for (const TerrainRay& ray : tile.rays()) {
-      answers.push_back({RayAnswer::Kind::kHit, seamount_z_m(ray.origin_ned_m)});
+      answers.push_back({RayAnswer::Kind::kHit, seabed_z_m(ray.origin_ned_m)});
     }
     tile.take(answers);
     seabed.store(tile);
   }
 }
+
+void answer_requests(SeabedMap& seabed) { answer_requests(seabed, seamount_z_m); }
 
 void survey_tables(RayPropagation& propagation, SeabedMap& seabed, const std::vector<PlacedVehicle>& vehicles,
                    SimTime now) {
@@ -121,6 +127,47 @@ void ray_link_table(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * vehicles * (vehicles - 1));
 }
 BENCHMARK(ray_link_table)->Arg(3)->Arg(20)->Unit(benchmark::kMillisecond);
+
+// A best-place answer of 1600 links: 40 depths, 40 listeners within 5 km, along rays in layered water over level ground; each
+// question is of another place, so every link is searched.
+void best_place(benchmark::State& state) {
+  constexpr int kListeners = 40, kDepths = 40;
+  const auto seabed = std::make_shared<SeabedMap>(SeabedRule{});
+  acoustics::Environment summer;
+  summer.profile = acoustics::SoundSpeedProfile::from_speeds(
+      {{0, 1525}, {15, 1525}, {30, 1508}, {50, 1502}, {100, 1503}}, {15, 38});
+  RayPropagation propagation(std::make_shared<EnvironmentTimeline>(summer), seabed, {});
+  LinkPredictor predictor({});
+  VehicleRegistry fleet({}, {});
+  bus::ThreadPool pool(static_cast<int>(state.range(0)));
+  BestPlaceService service(fleet, propagation, predictor, SimDuration::from_milliseconds(250),
+                           pool.sharing_out());
+  const SimTime now = SimTime::from_seconds(100);
+  BestPlaceQuery query{.client = "bench"};
+  for (VehicleId id = 1; id <= kListeners; ++id) {
+    const Vec3 place(120.0 * id, 700.0 * (id % 7), 10.0 + 12 * (id % 7));
+    const std::string problem = fleet.add_state("v" + std::to_string(id), id, {now, place, Vec3::Zero()});
+    require(problem.empty(), problem);
+    query.listeners.push_back("v" + std::to_string(id));
+  }
+  for (auto _ : state) {
+    state.PauseTiming();
+    ++query.request_id;
+    query.places_ned_m.clear();
+    for (int i = 0; i < kDepths; ++i)
+      query.places_ned_m.emplace_back(0.1 * static_cast<double>(query.request_id), 0, 5 + 2 * i);
+    service.submit(query, now, now);
+    while (service.take_replies(now).empty()) answer_requests(*seabed, [](const Vec3&) { return 100.0; });
+    query.places_ned_m.front().x() += 0.01;
+    for (Vec3& place : query.places_ned_m) place.x() += 0.05;
+    ++query.request_id;
+    state.ResumeTiming();
+    service.submit(query, now, now);
+    benchmark::DoNotOptimize(service.take_replies(now));
+  }
+  state.SetItemsProcessed(state.iterations() * kListeners * kDepths);
+}
+BENCHMARK(best_place)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 
 // A medium and its fleet, whose time moves on while the clock of the benchmark stands.
 struct BusyWater {

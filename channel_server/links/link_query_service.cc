@@ -17,8 +17,6 @@ namespace {
 
 // Beyond it a position is a unit mixed up (the same bound as for vehicles).
 constexpr double kFarthestM = 1e7;
-// By so much the smooth seabed of rays may lie above that of the terrain, m: a place less far inside is taken as on it.
-constexpr double kSeabedErrorM = 1;
 
 // From the surface to `deepest_m`: even steps, and the rows between which a table is linear, so far as there is room.
 std::vector<acoustics::SpeedRow> column_of(const acoustics::SoundSpeedProfile& profile, double deepest_m) {
@@ -94,7 +92,7 @@ LinkQueryService::ResolvedEnd LinkQueryService::resolve(const LinkEndRequest& en
   resolved.problem = end.problem;
   if (resolved.problem.empty() && end.modem) resolved.problem = problem_of_modem(end.modem->modem);
   if (resolved.problem.empty() && end.vehicle.empty())
-    resolved.problem = problem_of_place(end.position_ned_m, sim.value_or(SimTime()));
+    resolved.problem = problem_of_place(propagation_, end.position_ned_m, sim.value_or(SimTime()));
   if (!resolved.problem.empty()) {
     resolved.status = LinkAnswer::Status::kBadInput;
     return resolved;
@@ -126,11 +124,11 @@ LinkQueryService::ResolvedEnd LinkQueryService::resolve_vehicle(const LinkEndReq
   return resolved;
 }
 
-std::string LinkQueryService::problem_of_place(const Vec3& position_ned_m, SimTime at) const {
+std::string problem_of_place(const Propagation& propagation, const Vec3& position_ned_m, SimTime at) {
   for (const double coordinate : position_ned_m) {
     if (!(std::abs(coordinate) <= kFarthestM)) return "position_ned_m is no position within 1e7 m";
   }
-  const double depth_m = depth_below_surface_m(position_ned_m, propagation_.environment(at).sea_surface_z_m);
+  const double depth_m = depth_below_surface_m(position_ned_m, propagation.environment(at).sea_surface_z_m);
   if (depth_m < 0) return "position_ned_m lies above the sea surface (z is down)";
   if (depth_m > acoustics::kDeepestWater) return "position_ned_m lies deeper than 12000 m";
   return {};

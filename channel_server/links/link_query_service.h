@@ -71,6 +71,12 @@ struct LinkReply {
   std::optional<LinkDetails> details = {};  // where the query wants paths and its link is answered
 };
 
+// Why a position is none in the sea, whatever the seabed; empty when it is one.
+[[nodiscard]] std::string problem_of_place(const Propagation& propagation, const Vec3& position_ned_m,
+                                           SimTime at);
+// By so much the smooth seabed of rays may lie above that of the terrain, m: a place less far inside is taken as on it.
+inline constexpr double kSeabedErrorM = 1;
+
 class LinkQueryService {
  public:
   static constexpr std::size_t kMaxLinks = 200;   // of one query
@@ -118,7 +124,6 @@ class LinkQueryService {
   bool is_waiting(const LinkQuery& query) const;
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
-  [[nodiscard]] std::string problem_of_place(const Vec3& position_ned_m, SimTime at) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);
   // Or why there can be none.
   void set_reception(const ResolvedEnd& from, const ResolvedEnd& to, SimTime at, LinkAnswer& answer);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "clients/autopilot/link_seeker.h"
 #include "core/check.h"
 
 namespace halocline::clients {
@@ -70,10 +71,12 @@ void visit_where(ConfigVisitor& v, Behaviour& b) {
   v.number("altitude_m", b.altitude_m, {0, 1000, "m", "above the ground instead of a depth; 0: not used"});
   v.number("max_depth_m", b.max_depth_m, {0, 12000, "m", "z never passed on the way to an altitude"});
   degrees(v, "heading_deg", b.heading_rad, {-360, 360, "deg", "of heading, and of a survey's first track"});
-  v.number("center_north_m", b.center_north_m, {-1e6, 1e6, "m", "middle of a loiter or a survey"});
-  v.number("center_east_m", b.center_east_m, {-1e6, 1e6, "m", "middle of a loiter or a survey"});
+  v.number("center_north_m", b.center_north_m,
+           {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
+  v.number("center_east_m", b.center_east_m,
+           {-1e6, 1e6, "m", "middle of a loiter or a survey, or of the depths of seek_link"});
   v.number("radius_m", b.radius_m,
-           {1, 1e5, "m", "of a loiter, and of a follower's circle without its leader"});
+           {1, 1e5, "m", "of a loiter, of seek_link, and of a follower's circle without its leader"});
   bus::choice(v, "sense", b.sense, {"clockwise", "counterclockwise"}, "of a loiter, seen from above");
   v.number("length_m", b.length_m, {1, 1e5, "m", "of a survey's box, along its tracks"});
   v.number("width_m", b.width_m, {0, 1e5, "m", "of a survey's box, across its tracks"});
@@ -93,15 +96,41 @@ void visit_formation(ConfigVisitor& v, Formation& f) {
   v.number("max_speed_mps", f.max_speed_mps, {0.01, 50, "m/s", "to catch up with"});
 }
 
+void visit_search(ConfigVisitor& v, LinkSearch& s) {
+  v.text("listeners", s.listeners, {}, "vehicles that are to hear it, with spaces between");
+  v.number("shallowest_m", s.shallowest_m,
+           {0, 12000, "m", "z of the first depth, where there are no waypoints"});
+  v.number("deepest_m", s.deepest_m, {0, 12000, "m", "z of the last"});
+  v.number("step_m", s.step_m, {0.1, 1000, "m", "between them"});
+  v.number("period_s", s.period_s, {2, 1e5, "s", "between questions where it is best heard"});
+  v.number("least_gain", s.least_gain, {0, 1, "", "of the delivery probability, for which it moves"});
+}
+
+// What seeks a link needs places and listeners.
+void check_search(ConfigVisitor& v, const Behaviour& b) {
+  constexpr std::size_t kMaxLinks = 1600;  // of best_place_query_t
+  const std::size_t listeners = listeners_of(b.search).size();
+  if (listeners == 0) v.problem("search.listeners", "at least one vehicle, with kind = seek_link");
+  if (b.waypoints.empty() && b.search.deepest_m < b.search.shallowest_m)
+    v.problem("search.deepest_m", "shallowest_m or more");
+  else if (places_of(b).size() * listeners > kMaxLinks)
+    v.problem("search.listeners", "at most 1600 listeners times places or depths");
+}
+
 void visit_behaviour(ConfigVisitor& v, Behaviour& b) {
-  bus::choice(v, "kind", b.kind, {"waypoints", "heading", "loiter", "survey", "follow", "wait"},
+  bus::choice(v, "kind", b.kind, {"waypoints", "heading", "loiter", "survey", "follow", "wait", "seek_link"},
               "what is done");
-  v.points("waypoints", b.waypoints, {-1e6, 1e6, "m", "of waypoints: north, east, down of each"});
-  v.number("duration_s", b.duration_s, {0, 1e7, "s", "of heading, loiter, follow and wait; 0: for ever"});
+  v.points("waypoints", b.waypoints,
+           {-1e6, 1e6, "m", "of waypoints, or the places of seek_link: north, east, down of each"});
+  v.number("duration_s", b.duration_s,
+           {0, 1e7, "s", "of heading, loiter, follow, wait and seek_link; 0: for ever"});
   v.number("speed_mps", b.speed_mps, {0, 50, "m/s", "through the water; 0: the mission's"});
   visit_where(v, b);
   v.section("formation", "kind = follow: the place beside a leader, kept by its acoustic reports",
             [&](ConfigVisitor& formation) { visit_formation(formation, b.formation); });
+  v.section("search", "kind = seek_link: who is to hear it, and at which depths it may be",
+            [&](ConfigVisitor& search) { visit_search(search, b.search); });
+  if (!v.writing() && b.kind == BehaviourKind::kSeekLink) check_search(v, b);
   if (!v.writing() && b.kind == BehaviourKind::kWaypoints && b.waypoints.empty())
     v.problem("waypoints", "at least one point [north, east, down], with kind = waypoints");
 }
@@ -197,6 +226,22 @@ void check_leaders(ConfigVisitor& v, const AutopilotConfig& config) {
   }
 }
 
+void check_listeners(ConfigVisitor& v, const AutopilotConfig& config) {
+  for (const PilotConfig& seeker : config.vehicles) {
+    for (const Behaviour& behaviour : seeker.behaviours) {
+      if (behaviour.kind != BehaviourKind::kSeekLink) continue;
+      for (const std::string& name : listeners_of(behaviour.search)) {
+        const bool is_known = name != seeker.vehicle &&
+                              std::any_of(config.vehicles.begin(), config.vehicles.end(),
+                                          [&](const PilotConfig& other) { return other.vehicle == name; });
+        if (!is_known)
+          v.problem("vehicle", "for the search.listeners of " + seeker.vehicle +
+                                   " other vehicles of the scenario; given is '" + name + "'");
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::map<std::int32_t, Vec3> beacons_of(const AutopilotConfig& config, const PilotConfig& pilot) {
@@ -231,7 +276,9 @@ void visit(ConfigVisitor& v, AutopilotConfig& config) {
   v.list(
       "vehicle", "A vehicle", config.vehicles.size(), [&](std::size_t n) { config.vehicles.resize(n); },
       [&](ConfigVisitor& item, std::size_t i) { visit_vehicle(item, config.vehicles[i]); });
-  if (!v.writing()) check_leaders(v, config);
+  if (v.writing()) return;
+  check_leaders(v, config);
+  check_listeners(v, config);
 }
 
 }  // namespace halocline::clients

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "bus/config/config.h"
-#include "clients/autopilot/acoustic_fix.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/glide_laws.h"
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
-#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/navigation/acoustic_fix.h"
+#include "clients/autopilot/navigation/navigator.h"
 #include "clients/autopilot/plan.h"
 #include "core/frames.h"
 #include "core/sim_time.h"

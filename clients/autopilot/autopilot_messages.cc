@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kMaxBehavioursOfPlan = 100, kMaxWaypointsOfPlan = 1200;
 
 // The order of the enumerations is that of the messages' constants.
-static_assert(static_cast<int>(BehaviourKind::kWait) == plan_behaviour_t::WAIT);
+static_assert(static_cast<int>(BehaviourKind::kSeekLink) == plan_behaviour_t::SEEK_LINK);
 static_assert(static_cast<int>(AtEnd::kSurface) == vehicle_plan_t::SURFACE);
-static_assert(static_cast<int>(Activity::kSurfacing) == autopilot_status_t::SURFACING);
+static_assert(static_cast<int>(Activity::kSeekingLink) == autopilot_status_t::SEEKING_LINK);
 static_assert(static_cast<int>(DepthRule::kAvoidingSeabed) == autopilot_status_t::DEPTH_AVOIDING_SEABED);
 
 plan_behaviour_t to_message(const Behaviour& behaviour, double speed_mps) {
@@ -32,6 +32,7 @@ plan_behaviour_t to_message(const Behaviour& behaviour, double speed_mps) {
   message.center_east_m = behaviour.center_east_m;
   message.radius_m = behaviour.radius_m;
   message.is_clockwise = behaviour.sense == Sense::kClockwise ? 1 : 0;
+  if (behaviour.kind == BehaviourKind::kSeekLink) message.listener_names = behaviour.search.listeners;
   if (behaviour.kind != BehaviourKind::kFollow) return message;
   message.leader_name = behaviour.formation.leader;
   message.place_ahead_m = behaviour.formation.along_m;

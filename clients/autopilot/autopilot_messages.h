@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "bus/messages.h"
-#include "clients/autopilot/acoustic_fix.h"
-#include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/formation.h"
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
-#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/navigation/acoustic_fix.h"
+#include "clients/autopilot/navigation/attitude_keeper.h"
+#include "clients/autopilot/navigation/navigator.h"
 #include "clients/autopilot/plan.h"
 #include "clients/autopilot/seabed_ahead.h"
 #include "clients/autopilot/vehicle_pilot.h"

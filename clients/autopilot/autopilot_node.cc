@@ -9,6 +9,7 @@
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/seabed_ahead.h"
 #include "core/check.h"
+#include "core/csv_table.h"
 
 namespace halocline::clients {
 namespace {
@@ -38,6 +39,9 @@ void AutopilotNode::add_pilot(const AutopilotConfig& all, const PilotConfig& con
   pilots_.back()->beacons = beacons_of(all, config);
   subscribe(*pilots_.back());
   join_formation(all, *pilots_.back());
+  const auto seeks = [](const Behaviour& behaviour) { return behaviour.kind == BehaviourKind::kSeekLink; };
+  if (std::any_of(config.behaviours.begin(), config.behaviours.end(), seeks))
+    pilots_.back()->finder = std::make_unique<PlaceFinder>(bus(), config.vehicle);
 }
 
 void AutopilotNode::subscribe(Pilot& pilot) {
@@ -185,6 +189,12 @@ vehicle_command_t AutopilotNode::command_for(Pilot& pilot, const SetPoints& poin
 SetPoints AutopilotNode::steer(Pilot& pilot, const Situation& situation, SimTime instant) {
   const auto before = pilot.pilot.progress();
   const auto phase_before = pilot.pilot.follow_phase();
+  if (pilot.finder && pilot.finder->step(instant, pilot.pilot.seeker())) {
+    const Vec3& place = pilot.pilot.seeker()->chosen();
+    bus().log().info("better-heard",
+                     "vehicle=" + pilot.config.vehicle + " north_m=" + format_number(place.x()) +
+                         " east_m=" + format_number(place.y()) + " z_m=" + format_number(place.z()));
+  }
   SetPoints points = pilot.pilot.steer_for(situation);
   if (pilot.config.steering == Steering::kBuoyancy) points.speed_mps = 0;  // it follows from the buoyancy
   report_progress(pilot, before);
@@ -248,6 +258,7 @@ void AutopilotNode::on_restart(const bus::Now& now) {
       pilot->attitude.emplace(pilot->config.navigator.gyro_bias_radps);
     }
     if (pilot->link) pilot->link->restart(now.sim);
+    if (pilot->finder) pilot->finder->restart();
   }
 }
 
@@ -260,6 +271,7 @@ void AutopilotNode::Pilot::archive(Archive& a) {
   a(state, sensors, looked, pilot, sequence, situation, ping, reported);
   if (navigator) a(*navigator, *attitude);
   if (link) a(*link);
+  if (finder) a(*finder);
 }
 
 std::string AutopilotNode::status_text() const {

@@ -1,6 +1,7 @@
 // Steers the vehicles that have a mission: receives their STATE and SENSORS and publishes their COMMAND on the time
 // grid, with PLAN at each change and once a minute and AUTOPILOT at each change and once a second; leaders of a formation also
-// publish SEND, followers receive RECEIVE.
+// publish SEND, followers receive RECEIVE; those that seek a link ask
+// by BEST_PLACE_QUERY.
 //
 // Position and attitude come from STATE (the true position), speed through the water and altitude
 // from SENSORS where a vehicle publishes it. With navigate_by = sensors all comes from SENSORS (navigator.h),
@@ -19,11 +20,12 @@
 #include "bus/node_identity.h"
 #include "bus/numbered_publisher.h"
 #include "bus/runtime/node.h"
-#include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_config.h"
 #include "clients/autopilot/formation_link.h"
 #include "clients/autopilot/guidance.h"
-#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/navigation/attitude_keeper.h"
+#include "clients/autopilot/navigation/navigator.h"
+#include "clients/autopilot/place_finder.h"
 #include "clients/autopilot/plan.h"
 #include "clients/autopilot/vehicle_pilot.h"
 #include "core/archive.h"
@@ -65,6 +67,7 @@ class AutopilotNode : public bus::Node {
     std::optional<AttitudeKeeper> attitude{};  // likewise
     std::optional<Situation> situation{};      // the latest
     std::unique_ptr<FormationLink> link{};
+    std::unique_ptr<PlaceFinder> finder{};
     std::optional<vehicle_dvl_t> ping{};  // the latest that holds a velocity
     std::map<std::int32_t, Vec3> beacons{};
     Reported reported{};

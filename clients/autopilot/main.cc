@@ -18,8 +18,9 @@ int main(int argc, char** argv) {
   program.interface =
       "receives:  CLOCK, STATE.<vehicle>, SENSORS.<vehicle>, DVL.<vehicle>, GPS.<vehicle>, USBL.<vehicle>,\n"
       "           ESTIMATE.<vehicle>,\n"
-      "           RECEIPT.<vehicle>, RECEIVE.<vehicle>\n"
-      "publishes: COMMAND.<vehicle>, PLAN.<vehicle>, AUTOPILOT.<vehicle>, SEND.<vehicle>, STATUS.<name>";
+      "           RECEIPT.<vehicle>, RECEIVE.<vehicle>, BEST_PLACE_REPLY.<vehicle>\n"
+      "publishes: COMMAND.<vehicle>, PLAN.<vehicle>, AUTOPILOT.<vehicle>, SEND.<vehicle>,\n"
+      "           BEST_PLACE_QUERY, STATUS.<name>";
   program.visit_config = [&](halocline::bus::ConfigVisitor& v) { visit(v, config); };
   program.make_node = [&](const NodeProgram::Context& context) {
     return std::make_unique<halocline::clients::AutopilotNode>(context.lcm, context.identity, config);

@@ -2,7 +2,8 @@
 //
 // Behaviours: waypoints (guidance.h); a heading kept; a loiter, a circle of given radius and sense about a
 // point (the vector field of guidance.h, mirrored for counterclockwise); a survey, parallel tracks over a
-// rectangle joined outside of it; following a leader (formation.h gives its set points); waiting, stopped. Waypoints and
+// rectangle joined outside of it; following a leader (formation.h gives its set points); waiting, stopped; seeking a
+// link, a circle about one of several places (link_seeker.h chooses). Waypoints and
 // surveys end at their last point, the others after their duration. Each at a depth, or at a height above
 // the ground (seabed_ahead.h turns it into a depth). After the last one: again from the first, hold
 // (circle where it ended; a loiter goes on), stop, or come to the surface. Frame: world NED, metres; z of a depth is down from
@@ -19,7 +20,7 @@
 
 namespace halocline::clients {
 
-enum class BehaviourKind { kWaypoints, kHeading, kLoiter, kSurvey, kFollow, kWait };
+enum class BehaviourKind { kWaypoints, kHeading, kLoiter, kSurvey, kFollow, kWait, kSeekLink };
 enum class Sense { kClockwise, kCounterclockwise };
 
 // Where a follower keeps from its leader, and what it does without it.
@@ -35,23 +36,33 @@ struct Formation {
   double max_speed_mps = 2;   // to catch up with
 };
 
+// Where a vehicle that seeks a link may go, and how it chooses.
+struct LinkSearch {
+  std::string listeners{};  // names, with spaces between: who is to hear it
+  // Depths above the centre, z, where no places are given: the first, the last, the step above 0.
+  double shallowest_m = 5, deepest_m = 50, step_m = 5;
+  double period_s = 60;      // between questions, above 0
+  double least_gain = 0.05;  // of mean delivery, for which it moves, 0..1
+};
+
 struct Behaviour {
   BehaviourKind kind = BehaviourKind::kWaypoints;
-  std::vector<Vec3> waypoints{};
-  double duration_s = 0;                         // of heading, loiter, follow and wait; 0: for ever
+  std::vector<Vec3> waypoints{};                 // of seeking a link: the places; none: depths
+  double duration_s = 0;                         // of heading, loiter, follow, wait, seek_link; 0: for ever
   double speed_mps = 0;                          // through the water; 0: the mission's
   double depth_m = 10;                           // z, of heading, loiter and survey
   double altitude_m = 0;                         // above the ground, instead of depth; 0: not used
   double max_depth_m = 1000;                     // z never passed on the way down to an altitude
   double heading_rad = 0;                        // of heading; of a survey's first track
-  double center_north_m = 0, center_east_m = 0;  // of loiter and survey
-  double radius_m = 30;                          // of a loiter, and of a lost follower's circle; above 0
+  double center_north_m = 0, center_east_m = 0;  // of loiter, survey and seek_link
+  double radius_m = 30;  // of a loiter, a place sought and a lost follower's circle; above 0
   Sense sense = Sense::kClockwise;
   double length_m = 200,
          width_m = 100;         // of a survey's box, along and across its tracks; above 0, 0 or above
   double track_spacing_m = 25;  // of a survey, above 0
   double turn_m = 30;           // how far outside of the box its tracks end, 0 or above
   Formation formation{};
+  LinkSearch search{};
 };
 
 // The points of a survey: each track from `turn_m` before the box to `turn_m` behind it, to and fro, the

@@ -36,6 +36,7 @@ SetPoints VehiclePilot::steer_for(const Situation& situation) {
 }
 
 SetPoints VehiclePilot::planned(const Situation& situation) {
+  if (const LinkSeeker* seeker = this->seeker()) return circling(*seeker, situation.position_ned_m);
   auto& follower = followers_[progress_->index];
   if (!follower || progress_->ended) return set_points(plan_, *progress_, situation.position_ned_m);
   SetPoints points = follower->steer_for(situation.time_s, situation.position_ned_m);
@@ -44,6 +45,21 @@ SetPoints VehiclePilot::planned(const Situation& situation) {
   points.speed_mps += situation.water_speed_mps - situation.velocity_ned_mps.dot(bow);
   points.speed_mps = std::max(points.speed_mps, kMinSpeedMps);
   return points;
+}
+
+LinkSeeker* VehiclePilot::seeker() {
+  if (!progress_ || progress_->ended || !seekers_[progress_->index]) return nullptr;
+  return &*seekers_[progress_->index];
+}
+
+// With thrusters: to the place itself.
+SetPoints VehiclePilot::circling(const LinkSeeker& seeker, const Vec3& position_ned_m) const {
+  const Behaviour& behaviour = plan_.behaviours[progress_->index];
+  return {.course_rad = course_on_circle(seeker.chosen(), behaviour.radius_m,
+                                         behaviour.sense == Sense::kClockwise, position_ned_m),
+          .z_ned_m = seeker.chosen().z(),
+          .speed_mps = plan_.routes[progress_->index].speed_mps,
+          .station_ned_m = seeker.chosen()};
 }
 
 std::optional<FollowPhase> VehiclePilot::follow_phase() const {
@@ -93,6 +109,7 @@ Activity VehiclePilot::activity() const {
   }
   const BehaviourKind kind = plan_.behaviours[progress_->index].kind;
   if (kind == BehaviourKind::kWait) return Activity::kWaiting;
+  if (kind == BehaviourKind::kSeekLink) return Activity::kSeekingLink;
   if (kind == BehaviourKind::kHeading) return Activity::kKeepingHeading;
   return kind == BehaviourKind::kLoiter ? Activity::kLoitering : Activity::kFollowingLeg;
 }
@@ -106,6 +123,7 @@ std::string VehiclePilot::text() const {
   if (kind == BehaviourKind::kHeading) return "keeps a heading";
   if (kind == BehaviourKind::kLoiter) return "circles";
   if (kind == BehaviourKind::kWait) return "waits";
+  if (kind == BehaviourKind::kSeekLink) return "seeks where it is best heard";
   return kind == BehaviourKind::kSurvey ? "surveys, " + to_waypoint : to_waypoint;
 }
 
@@ -114,15 +132,21 @@ void VehiclePilot::archive(Archive& a) {
   for (auto& follower : followers_) {
     if (follower) a(*follower);
   }
+  for (auto& seeker : seekers_) {
+    if (seeker) a(*seeker);
+  }
 }
 
 void VehiclePilot::restart() {
   seabed_.clear();
   followers_.clear();
+  seekers_.clear();
   for (const Behaviour& behaviour : plan_.behaviours) {
     const bool follows = behaviour.kind == BehaviourKind::kFollow;
     followers_.push_back(follows ? std::optional(Follower(behaviour.formation, behaviour.radius_m))
                                  : std::nullopt);
+    const bool seeks = behaviour.kind == BehaviourKind::kSeekLink;
+    seekers_.push_back(seeks ? std::optional(LinkSeeker(behaviour)) : std::nullopt);
   }
   progress_.reset();
   integrals_ = {};

@@ -15,6 +15,7 @@
 #include "clients/autopilot/glide_laws.h"
 #include "clients/autopilot/guidance.h"
 #include "clients/autopilot/hover_laws.h"
+#include "clients/autopilot/link_seeker.h"
 #include "clients/autopilot/plan.h"
 #include "clients/autopilot/seabed_ahead.h"
 #include "core/archive.h"
@@ -50,7 +51,8 @@ enum class Activity {
   kLeaderLost,      // keeps its course
   kCirclingSafely,  // without its leader
   kWaiting,
-  kSurfacing,  // where the plan ended
+  kSurfacing,    // where the plan ended
+  kSeekingLink,  // at the place where it is best heard, or on the way there
 };
 
 class VehiclePilot {
@@ -78,6 +80,8 @@ class VehiclePilot {
   // Of the behaviour at hand; empty when it does not follow.
   std::optional<FollowPhase> follow_phase() const;
   const Plan& plan() const { return plan_; }
+  // Of the behaviour at hand; null when it does not seek a link.
+  LinkSeeker* seeker();
   // Of the latest situation; kWaitingForState before the first.
   Activity activity() const;
   // What it does, in words.
@@ -88,11 +92,13 @@ class VehiclePilot {
 
  private:
   SetPoints planned(const Situation& situation);
+  SetPoints circling(const LinkSeeker& seeker, const Vec3& position_ned_m) const;
 
   Plan plan_;
   SeabedRules seabed_rules_;
   SeabedAhead seabed_;
   std::vector<std::optional<Follower>> followers_;  // of each behaviour that follows
+  std::vector<std::optional<LinkSeeker>> seekers_;  // of each that seeks a link
   std::optional<PlanProgress> progress_;
   Integrals integrals_;
   HoverIntegrals hover_integrals_;

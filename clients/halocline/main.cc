@@ -18,10 +18,10 @@ void describe(CLI::App& app, int& exit_code) {
       hc::footer("  halocline run scenarios/seamount.toml\n  halocline link scenarios/seamount.toml --from "
                  "auv-1 --to auv-2\n  halocline SUBCOMMAND --help"));
   for (const auto add :
-       {hc::add_run_command, hc::add_link_command, hc::add_arrivals_command, hc::add_calc_command,
-        hc::add_report_command, hc::add_outcomes_command, hc::add_log_command, hc::add_replay_command,
-        hc::add_compare_command, hc::add_sweep_command, hc::add_vehicle_command, hc::add_waveform_command,
-        hc::add_view_command, hc::add_config_command, hc::add_completion_command}) {
+       {hc::add_run_command, hc::add_link_command, hc::add_coverage_command, hc::add_arrivals_command,
+        hc::add_calc_command, hc::add_report_command, hc::add_outcomes_command, hc::add_log_command,
+        hc::add_replay_command, hc::add_compare_command, hc::add_sweep_command, hc::add_vehicle_command,
+        hc::add_waveform_command, hc::add_view_command, hc::add_config_command, hc::add_completion_command}) {
     add(app, exit_code);
   }
 }

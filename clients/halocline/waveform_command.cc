@@ -16,6 +16,7 @@
 #include "clients/halocline/analysis/run_files.h"
 #include "clients/halocline/commands.h"
 #include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/vehicle_track.h"
 #include "clients/halocline/waveform/received_waveform.h"
 #include "clients/halocline/waveform/wav_file.h"
 #include "core/check.h"

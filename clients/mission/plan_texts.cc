@@ -24,6 +24,8 @@ std::string behaviour_text(const vehicle_plan_t& plan) {
       return "follows " + plan.behaviours[index].leader_name;
     case plan_behaviour_t::WAIT:
       return "waits";
+    case plan_behaviour_t::SEEK_LINK:
+      return "seeks where it is heard by " + plan.behaviours[index].listener_names;
     default:
       return "carries out its plan";
   }
@@ -60,6 +62,8 @@ std::string doing(const autopilot_status_t& status, const vehicle_plan_t* plan) 
       return "waits";
     case autopilot_status_t::SURFACING:
       return "has finished its plan and rises";
+    case autopilot_status_t::SEEKING_LINK:
+      return "seeks where it is best heard";
     default:
       return "";
   }

@@ -98,11 +98,11 @@ TEST(MessageChecks, LeaveUncheckedWhatIsAnsweredOneByOne) {
     visit_fields(visitor, message);
   };
   std::apply([&](auto... message) { (collect(message), ...); }, AllMessages());
-  EXPECT_THAT(unchecked,
-              ElementsAre("link_query_t.receivers", "link_query_t.transmitters", "ray_query_t.direction",
-                          "ray_query_t.max_range_m", "ray_query_t.offset_m", "ray_query_t.sample_spacing_m",
-                          "terrain_query_t.corner_east_m", "terrain_query_t.corner_north_m",
-                          "terrain_query_t.post_spacing_m"));
+  EXPECT_THAT(unchecked, ElementsAre("best_place_query_t.place_ned_m", "link_query_t.receivers",
+                                     "link_query_t.transmitters", "ray_query_t.direction",
+                                     "ray_query_t.max_range_m", "ray_query_t.offset_m",
+                                     "ray_query_t.sample_spacing_m", "terrain_query_t.corner_east_m",
+                                     "terrain_query_t.corner_north_m", "terrain_query_t.post_spacing_m"));
 }
 
 TEST(MessageChecks, NestedMessagesAreChecked) {

@@ -30,8 +30,9 @@ bool is_between_programs(std::string_view channel) {
 }
 
 bool is_of_channel_server(std::string_view channel) {
-  return is_one_of(family_of(channel), {"SCENARIO", "ENVIRONMENT", "LINKS", "RECEIPT", "RECEIVE",
-                                        "MODEM_EVENT", "MODEM_ENERGY", "OUTCOME", "LINK_REPLY"});
+  return is_one_of(family_of(channel),
+                   {"SCENARIO", "ENVIRONMENT", "LINKS", "RECEIPT", "RECEIVE", "MODEM_EVENT", "MODEM_ENERGY",
+                    "OUTCOME", "LINK_REPLY", "BEST_PLACE_REPLY"});
 }
 
 bool is_of_vehicle_sim(std::string_view channel) {

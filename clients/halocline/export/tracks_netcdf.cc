@@ -3,15 +3,13 @@
 #include <cstddef>
 #include <functional>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <netcdf.h>
 
 #include "bus/version.h"
 #include "clients/foxglove/foxglove_messages.h"
 #include "clients/halocline/export/mission_export.h"
+#include "clients/halocline/export/netcdf_output.h"
 #include "clients/mission/mission_store.h"
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/timed_series.h"
@@ -19,55 +17,6 @@
 
 namespace halocline::clients {
 namespace {
-
-class TracksFile {
- public:
-  explicit TracksFile(const std::string& path) : path_(path) {
-    checked(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
-  }
-  ~TracksFile() {
-    if (id_ >= 0) nc_abort(id_);
-  }
-  TracksFile(const TracksFile&) = delete;
-  TracksFile& operator=(const TracksFile&) = delete;
-
-  void close() {
-    const int id = id_;
-    id_ = -1;
-    checked(nc_close(id));
-  }
-  int dimension(const char* name, std::size_t size) {
-    int dimension = 0;
-    checked(nc_def_dim(id_, name, size, &dimension));
-    return dimension;
-  }
-  int variable(const char* name, nc_type type, int dimension) {
-    int variable = 0;
-    checked(nc_def_var(id_, name, type, 1, &dimension, &variable));
-    return variable;
-  }
-  void attribute(int variable, const char* name, const std::string& value) {
-    checked(nc_put_att_text(id_, variable, name, value.size(), value.data()));
-  }
-  void attribute(const char* name, const std::string& value) { attribute(NC_GLOBAL, name, value); }
-  void put(int variable, const std::vector<double>& values) {
-    checked(nc_put_var_double(id_, variable, values.data()));
-  }
-  void put(int variable, const std::vector<int>& values) {
-    checked(nc_put_var_int(id_, variable, values.data()));
-  }
-  void put(int variable, const std::vector<const char*>& values) {
-    std::vector<const char*> texts = values;
-    checked(nc_put_var_string(id_, variable, texts.data()));
-  }
-
- private:
-  void checked(int status) const {
-    if (status != NC_NOERR) throw std::runtime_error("cannot write " + path_ + ": " + nc_strerror(status));
-  }
-  std::string path_;
-  int id_ = -1;
-};
 
 struct Quantity {
   const char* name;
@@ -105,9 +54,9 @@ std::vector<Quantity> quantities(const MissionStore& mission) {
   return all;
 }
 
-void write_quantity(TracksFile& file, const MissionStore& mission, const Quantity& quantity,
+void write_quantity(NetcdfOutput& file, const MissionStore& mission, const Quantity& quantity,
                     int observations) {
-  const int variable = file.variable(quantity.name, NC_DOUBLE, observations);
+  const int variable = file.variable(quantity.name, NetcdfOutput::Type::kDouble, {observations});
   const std::string name = quantity.name;
   if (*quantity.standard_name != '\0') file.attribute(variable, "standard_name", quantity.standard_name);
   file.attribute(variable, "units", quantity.unit);
@@ -140,7 +89,7 @@ void write_file(const MissionStore& mission, const std::string& path) {
     total += vehicle.track.size();
   }
   AtomicFile replacement(path);
-  TracksFile file(replacement.temporary_path());
+  NetcdfOutput file(replacement.temporary_path());
   file.attribute("Conventions", "CF-1.8");
   file.attribute("featureType", "trajectory");
   file.attribute("title",
@@ -148,11 +97,11 @@ void write_file(const MissionStore& mission, const std::string& path) {
   file.attribute("source", std::string("halocline ") + bus::kVersion);
   const int trajectories = file.dimension("trajectory", names.size()),
             observations = file.dimension("obs", total);
-  const int name = file.variable("trajectory", NC_STRING, trajectories);
+  const int name = file.variable("trajectory", NetcdfOutput::Type::kText, {trajectories});
   file.attribute(name, "cf_role", "trajectory_id");
   file.attribute(name, "long_name", "name of the vehicle");
   file.put(name, names);
-  const int size = file.variable("rowSize", NC_INT, trajectories);
+  const int size = file.variable("rowSize", NetcdfOutput::Type::kInteger, {trajectories});
   file.attribute(size, "long_name", "number of states of the vehicle");
   file.attribute(size, "sample_dimension", "obs");
   file.put(size, sizes);

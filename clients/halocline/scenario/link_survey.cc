@@ -15,17 +15,16 @@
 #include "acoustics/link/received_field.h"
 #include "acoustics/modem/modem.h"
 #include "acoustics/rays/arrivals.h"
+#include "acoustics/sea/environment.h"
 #include "acoustics/sea/published_range.h"
 #include "bathymetry/ray_service.h"
 #include "bathymetry/terrain/terrain.h"
 #include "bus/runtime/scenario.h"
 #include "channel_server/channel_server_config.h"
-#include "channel_server/propagation/environment_timeline.h"
 #include "channel_server/propagation/propagation.h"
-#include "channel_server/propagation/ray_propagation.h"
 #include "channel_server/propagation/seabed_map.h"
-#include "channel_server/propagation/straight_propagation.h"
 #include "channel_server/propagation/terrain_rays.h"
+#include "clients/halocline/scenario/link_surveyor.h"
 #include "core/check.h"
 #include "core/csv_table.h"
 #include "core/elementary.h"
@@ -100,24 +99,6 @@ acoustics::Arrivals straight_arrival(const channel_server::Reception& reception,
   return {.paths = {path}};
 }
 
-void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end) {
-  const RayAnswer below =
-      query(terrain, bathymetry::QueryMode::kDepth, {channel_server::depth_ray(end.position_ned_m)}).front();
-  const bool known = below.kind == RayAnswer::Kind::kHit;
-  require(!known || end.position_ned_m.z() <= below.result_m,
-          "'" + end.name + "' lies inside the seabed: z is " + format_number(end.position_ned_m.z()) +
-              " m, that of the seabed there " + format_number(std::round(100 * below.result_m) / 100) + " m");
-}
-
-// Whether the terrain stands in the straight line between two points; false where it is not known.
-bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from, const Vec3& to) {
-  const Vec3 way = to - from;
-  const double length = way.norm() - channel_server::EchoSurvey::kShortOfBottomM;
-  if (length <= 0) return false;
-  return query(terrain, bathymetry::QueryMode::kOccluded, {{from, way, length}}).front().kind ==
-         RayAnswer::Kind::kHit;
-}
-
 // The paths of a reception, whichever propagation found them.
 LinkArrivals link_arrivals(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to,
                            const channel_server::Reception& reception, acoustics::Arrivals arrivals) {
@@ -162,6 +143,28 @@ LinkSurveyEnd link_end(const ScenarioConfig& config, const std::string& text) {
   return end;
 }
 
+std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3& place_ned_m) {
+  const RayAnswer below =
+      query(terrain, bathymetry::QueryMode::kDepth, {channel_server::depth_ray(place_ned_m)}).front();
+  return below.kind == RayAnswer::Kind::kHit ? std::optional(below.result_m) : std::nullopt;
+}
+
+void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end) {
+  const auto seabed_m = seabed_z_m(terrain, end.position_ned_m);
+  require(!seabed_m || end.position_ned_m.z() <= *seabed_m,
+          "'" + end.name + "' lies inside the seabed: z is " + format_number(end.position_ned_m.z()) +
+              " m, that of the seabed there " + format_number(std::round(100 * seabed_m.value_or(0)) / 100) +
+              " m");
+}
+
+bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from_ned_m, const Vec3& to_ned_m) {
+  const Vec3 way = to_ned_m - from_ned_m;
+  const double length = way.norm() - channel_server::EchoSurvey::kShortOfBottomM;
+  if (length <= 0) return false;
+  return query(terrain, bathymetry::QueryMode::kOccluded, {{from_ned_m, way, length}}).front().kind ==
+         RayAnswer::Kind::kHit;
+}
+
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,
                                          const Vec3& to_ned_m, int bottom_points) {
   channel_server::EchoSurvey survey(from_ned_m, to_ned_m, bottom_points);
@@ -191,47 +194,38 @@ LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, 
   const channel_server::LinkEnd here{0, from.position_ned_m, from.velocity_ned_mps, &from.modem.modem};
   const acoustics::Modem &transmitter = from.modem.modem, &receiver = receiving_modem(to.modem, transmitter);
   const channel_server::LinkEnd there{0, to.position_ned_m, to.velocity_ned_mps, &receiver};
-  const auto waters = std::make_shared<channel_server::EnvironmentTimeline>(
-      make_environment(config.channel_server.environment, config.scenario, config.folder));
-  channel_server::ServerRules rules = config.channel_server.rules;
-  rules.medium.fading = config.channel_server.propagation.fading;
-  channel_server::LinkPredictor predictor = make_predictor(rules);
-  const auto forecast = [&](const channel_server::Reception& reception) {
-    return predictor.forecast(*predictor.rates_of(transmitter), transmitter, receiver, reception);
-  };
+  const acoustics::Environment environment =
+      make_environment(config.channel_server.environment, config.scenario, config.folder);
+  LinkSurveyor surveyor(config, terrain, environment);
+  const channel_server::ServerRules rules = rules_of(config);
   const acoustics::Transducers beams{from.modem.modem.beam, to.modem.modem.beam};
   require_above_seabed(*terrain, from);
   require_above_seabed(*terrain, to);
   LinkSurvey answer;
   answer.notes = acoustics::beyond_published_ranges(
-      waters->at(SimTime()), from.modem.modem.band(),
+      environment, from.modem.modem.band(),
       std::max(depth_below_surface_m(from.position_ned_m, config.scenario.sea_surface_z_m),
                depth_below_surface_m(to.position_ned_m, config.scenario.sea_surface_z_m)));
-  if (config.channel_server.propagation.model == channel_server::PropagationModel::kRays) {
-    channel_server::RayPropagation propagation(
-        waters, std::make_shared<channel_server::SeabedMap>(rules.seabed), make_rays(config.channel_server));
-    const auto seabed = survey_bottom(*terrain, from.position_ned_m, to.position_ned_m, rules.seabed);
-    answer.reception = propagation.reception_over(SimTime(), here, there, seabed);
-    answer.forecast = forecast(answer.reception);
-    const bool rays = answer.reception.used == channel_server::PropagationUsed::kRays;
-    answer.arrivals = link_arrivals(config, from, to, answer.reception,
-                                    rays ? propagation.arrivals_over(SimTime(), here, there, seabed)
-                                         : straight_arrival(answer.reception, beams));
-    answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
+  const LinkSurveyor::Seabed seabed =
+      surveyor.along_rays() ? survey_bottom(*terrain, from.position_ned_m, to.position_ned_m, rules.seabed)
+                            : nullptr;
+  auto [reception, forecast] = surveyor.survey(here, there, seabed);
+  answer.reception = std::move(reception);
+  answer.forecast = forecast;
+  const bool has_rays = answer.reception.used == channel_server::PropagationUsed::kRays;
+  answer.arrivals =
+      link_arrivals(config, from, to, answer.reception,
+                    has_rays                         ? surveyor.arrivals(here, there, seabed)
+                    : answer.reception.paths.empty() ? acoustics::Arrivals()
+                                                     : straight_arrival(answer.reception, beams));
+  answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
+  if (surveyor.along_rays()) {
     answer.multipath = multipath_of(answer.reception, receiver.min_receivable_level);
     return answer;
   }
-  channel_server::StraightPropagation propagation(waters, rules.medium.fading);
-  const bool cut = is_cut(*terrain, from.position_ned_m, to.position_ned_m);
-  answer.reception =
-      cut ? propagation.blocked(SimTime(), here, there) : propagation.reception(SimTime(), here, there);
-  answer.forecast = forecast(answer.reception);
-  answer.arrivals = link_arrivals(config, from, to, answer.reception,
-                                  cut ? acoustics::Arrivals() : straight_arrival(answer.reception, beams));
-  answer.arrivals.spreads = {answer.reception.delay_spread_s, answer.forecast.rms_delay_spread_s};
-  const auto survey = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
-  answer.multipath =
-      multipath_of(survey, /*reversed=*/false, SimTime(), propagation, from.modem.modem, to.modem.modem);
+  const auto echoes = survey_echoes(*terrain, from.position_ned_m, to.position_ned_m, rules.bottom_points);
+  answer.multipath = multipath_of(echoes, /*reversed=*/false, SimTime(), surveyor.straight(),
+                                  from.modem.modem, to.modem.modem);
   return answer;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,15 @@ Vec3 parse_vector(const std::string& text, const std::string& what);
 
 // Throws InvalidArgument when an end lies inside the seabed. A straight path that the terrain cuts is blocked.
 LinkSurvey survey_link(const ScenarioConfig& config, const LinkSurveyEnd& from, const LinkSurveyEnd& to);
+
+// z of the seabed under a place, m; empty where it is not known.
+std::optional<double> seabed_z_m(const bathymetry::Terrain& terrain, const Vec3& place_ned_m);
+
+// Whether the terrain stands in the straight line between two points; false where it is not known.
+bool is_cut(const bathymetry::Terrain& terrain, const Vec3& from_ned_m, const Vec3& to_ned_m);
+
+// Throws InvalidArgument where the end lies inside the seabed.
+void require_above_seabed(const bathymetry::Terrain& terrain, const LinkSurveyEnd& end);
 
 // Which echoes the bottom can send between two points of a terrain.
 channel_server::EchoSurvey survey_echoes(const bathymetry::Terrain& terrain, const Vec3& from_ned_m,

@@ -56,6 +56,7 @@ class MissionChecks {
     const bool by_altitude = b.altitude_m > 0;
     switch (b.kind) {
       case BehaviourKind::kWaypoints:
+      case BehaviourKind::kSeekLink:  // the server judges its depths, which may be none in places
         return check_waypoints(key + ".waypoints", b.waypoints, by_altitude);
       case BehaviourKind::kSurvey:
         return check_track(key, "survey", b, along(survey_points(b)));

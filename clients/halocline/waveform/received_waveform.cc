@@ -3,35 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <numbers>
 
-#include <unistd.h>
-
-#include "bus/logs/log_reader.h"
-#include "clients/halocline/scenario/embedded_run.h"
 #include "clients/halocline/waveform/recorded_noise.h"
 #include "clients/halocline/waveform/scenario_links.h"
 #include "core/check.h"
 
 namespace halocline::clients {
-using acoustics::Samples;
 
-Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end) {
-  lcm::LCM lcm("memq://");
-  Composition all(lcm, config, Composition::kRun, nullptr, terrain);
-  EmbeddedRun run{.end = end,
-                  .log_path = std::filesystem::temp_directory_path() /
-                              ("halocline-waveform-" + std::to_string(getpid()) + ".lcm")};
-  run.quiet = true;
-  run.threads = all.threads();
-  const std::unique_ptr<const std::string, void (*)(const std::string*)> removed(
-      &run.log_path, [](const std::string* path) { std::filesystem::remove(*path); });
-  run_embedded(all.nodes(), run);
-  LogReader log(run.log_path);
-  return read_recording(log, config.scenario, Played::kWithEquipment);
-}
+using acoustics::Samples;
 
 Samples received_waveform(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,
                           const Recording& run, const std::vector<SentWaveform>& sent,

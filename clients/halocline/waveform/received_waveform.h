@@ -36,9 +36,6 @@ struct WaveformRules {
   bool has_noise = true;
 };
 
-// The run of the scenario's vehicles on its terrain until `end`, in memory.
-Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end);
-
 // Of one rate. Throws InvalidArgument where senders' rates differ, a vehicle is not of the scenario, or has no state.
 acoustics::Samples received_waveform(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain,
                                      const Recording& run, const std::vector<SentWaveform>& sent,

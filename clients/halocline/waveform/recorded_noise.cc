@@ -19,7 +19,7 @@
 #include "channel_server/vehicles/vehicle_equipment.h"
 #include "channel_server/vehicles/vehicle_noise.h"
 #include "channel_server/world_messages.h"
-#include "clients/halocline/waveform/vehicle_track.h"
+#include "clients/halocline/scenario/vehicle_track.h"
 #include "core/random.h"
 #include "core/sim_time.h"
 #include "core/units.h"

@@ -18,7 +18,7 @@
 #include "channel_server/water_model.h"
 #include "clients/halocline/analysis/recording.h"
 #include "clients/halocline/scenario/composition.h"
-#include "clients/halocline/waveform/vehicle_track.h"
+#include "clients/halocline/scenario/vehicle_track.h"
 #include "core/sim_time.h"
 #include "core/units.h"
 

@@ -13,7 +13,8 @@ namespace {
 using nlohmann::json;
 
 const char* kind_text(const vehicle_plan_t& plan) {
-  constexpr const char* kKinds[] = {"waypoints", "heading", "loiter", "survey", "follow", "wait"};
+  constexpr const char* kKinds[] = {"waypoints", "heading", "loiter",   "survey",
+                                    "follow",    "wait",    "seek link"};
   const auto index = static_cast<std::size_t>(plan.behaviour_index);
   if (index >= plan.behaviours.size()) return "waypoints";
   const int kind = plan.behaviours[index].behaviour_kind;

@@ -1,11 +1,11 @@
-#include "clients/autopilot/acoustic_fix.h"
+#include "clients/autopilot/navigation/acoustic_fix.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/navigation/navigator.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::clients {

@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/autopilot/attitude_keeper.h"
 #include "clients/autopilot/autopilot_messages.h"
 #include "clients/autopilot/control_laws.h"
 #include "clients/autopilot/guidance.h"
-#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/navigation/attitude_keeper.h"
+#include "clients/autopilot/navigation/navigator.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 #include "tests/support/tolerance.h"

@@ -1,4 +1,4 @@
-#include "clients/autopilot/navigator.h"
+#include "clients/autopilot/navigation/navigator.h"
 
 #include <cmath>
 #include <numbers>

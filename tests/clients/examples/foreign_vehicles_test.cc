@@ -99,8 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Languages, ForeignVehicle,
                          ::testing::Values("c/foreign_vehicle.c", "cpp/foreign_vehicle.cc",
                                            "java/ForeignVehicle.java", "lua/foreign_vehicle.lua",
                                            "python/foreign_vehicle.py"),
-                         [](const auto& info) {
-                           const std::string file = info.param;
+                         [](const auto& vehicle) {
+                           const std::string file = vehicle.param;
                            return file.substr(0, file.find('/'));
                          });
 

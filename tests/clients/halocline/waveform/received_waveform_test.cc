@@ -24,7 +24,7 @@
 #include "channel_server/water_model.h"
 #include "clients/halocline/scenario/composition.h"
 #include "clients/halocline/scenario/link_survey.h"
-#include "clients/halocline/waveform/vehicle_track.h"
+#include "clients/halocline/scenario/vehicle_track.h"
 #include "clients/halocline/waveform/wav_file.h"
 #include "core/check.h"
 #include "core/frames.h"

@@ -1,4 +1,4 @@
-#include "clients/autopilot/attitude_keeper.h"
+#include "clients/autopilot/navigation/attitude_keeper.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,35 @@
-#include "clients/halocline/waveform/vehicle_track.h"
+#include "clients/halocline/scenario/vehicle_track.h"
 
+#include <filesystem>
 #include <iterator>
+#include <memory>
+#include <string>
 #include <variant>
 
+#include <lcm/lcm-cpp.hpp>
+#include <unistd.h>
+
 #include "bus/channels.h"
+#include "bus/logs/log_reader.h"
+#include "clients/halocline/scenario/embedded_run.h"
 #include "core/check.h"
 
 namespace halocline::clients {
+
+Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end) {
+  lcm::LCM lcm("memq://");
+  Composition all(lcm, config, Composition::kRun, nullptr, terrain);
+  EmbeddedRun run{.end = end,
+                  .log_path = std::filesystem::temp_directory_path() /
+                              ("halocline-track-" + std::to_string(getpid()) + ".lcm")};
+  run.quiet = true;
+  run.threads = all.threads();
+  const std::unique_ptr<const std::string, void (*)(const std::string*)> removed(
+      &run.log_path, [](const std::string* path) { std::filesystem::remove(*path); });
+  run_embedded(all.nodes(), run);
+  LogReader log(run.log_path);
+  return read_recording(log, config.scenario, Played::kWithEquipment);
+}
 
 VehicleTrack::VehicleTrack(const Recording& recording, const std::string& vehicle) {
   const std::string channel = bus::channels::kState.of(vehicle);

@@ -1,4 +1,4 @@
-#include "clients/autopilot/acoustic_fix.h"
+#include "clients/autopilot/navigation/acoustic_fix.h"
 
 #include <algorithm>
 #include <cmath>

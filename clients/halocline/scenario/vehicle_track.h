@@ -5,11 +5,16 @@
 #include <map>
 #include <string>
 
+#include "bathymetry/rasters/terrain_recipe.h"
 #include "clients/halocline/analysis/recording.h"
+#include "clients/halocline/scenario/composition.h"
 #include "core/frames.h"
 #include "core/sim_time.h"
 
 namespace halocline::clients {
+
+// The run of the scenario's vehicles on its terrain until `end`.
+Recording record_run(const ScenarioConfig& config, const bathymetry::PreparedTerrain& terrain, SimTime end);
 
 class VehicleTrack {
  public:

@@ -1,0 +1,158 @@
+#include "channel_server/links/best_place_service.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "channel_server/links/link_query_service.h"
+#include "core/names.h"
+
+namespace halocline::channel_server {
+namespace {
+
+bool is_better(const PlaceScore& a, const PlaceScore& b) {
+  return a.mean_delivery != b.mean_delivery ? a.mean_delivery > b.mean_delivery
+                                            : a.mean_sinr_db > b.mean_sinr_db;
+}
+
+// Over all listeners.
+PlaceScore score_of(const LinkForecast* forecasts, std::size_t count) {
+  PlaceScore score{.least_delivery = 1, .mean_sinr_db = 0, .in_water = true};
+  for (std::size_t i = 0; i < count; ++i) {
+    const LinkForecast& forecast = forecasts[i];
+    score.mean_delivery += forecast.delivery_probability / static_cast<double>(count);
+    score.least_delivery = std::min(score.least_delivery, forecast.delivery_probability);
+    score.mean_sinr_db += forecast.sinr_db / static_cast<double>(count);
+  }
+  score.mean_delivery = std::min(score.mean_delivery, 1.0);  // a sum of shares may round above it
+  return score;
+}
+
+}  // namespace
+
+std::optional<std::size_t> best_of(const std::vector<PlaceScore>& scores) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (scores[i].in_water && (!best || is_better(scores[i], scores[*best]))) best = i;
+  }
+  return best;
+}
+
+BestPlaceService::BestPlaceService(const VehicleRegistry& fleet, Propagation& propagation,
+                                   LinkPredictor& predictor, SimDuration timeout, ForEach for_each)
+    : fleet_(fleet),
+      propagation_(propagation),
+      predictor_(predictor),
+      timeout_(timeout),
+      for_each_(std::move(for_each)) {}
+
+void BestPlaceService::submit(const BestPlaceQuery& query, std::optional<SimTime> sim, SimTime steady) {
+  const bool is_known = std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return waiting.reply.client == query.client && waiting.reply.request_id == query.request_id;
+  });
+  if (is_known) return;
+  Waiting waiting;
+  waiting.reply = {query.client, query.request_id, {}, refusal_of(query, sim), {}};
+  waiting.deadline = steady + timeout_;
+  if (waiting.reply.refusal.empty()) {
+    waiting.reply.at = std::clamp(query.at.value_or(*sim), *sim - kMostOff, *sim + kMostOff);
+    waiting.reply.refusal = resolve(query, waiting);
+  }
+  waiting_.push_back(std::move(waiting));
+}
+
+std::string BestPlaceService::refusal_of(const BestPlaceQuery& query, std::optional<SimTime> sim) const {
+  const std::size_t places = query.places_ned_m.size(), listeners = query.listeners.size();
+  if (places < 1 || listeners < 1 || places > kMaxLinks || listeners > kMaxLinks ||
+      places * listeners > kMaxLinks)
+    return std::to_string(places) + " places times " + std::to_string(listeners) +
+           " listeners; allowed is 1 to " + std::to_string(kMaxLinks) + " together, 1 and up of each";
+  if (!sim) return "no simulation time is known yet";
+  if (waiting_.size() >= kMaxWaiting) return "too many queries are waiting; try again later";
+  return {};
+}
+
+std::string BestPlaceService::resolve(const BestPlaceQuery& query, Waiting& waiting) const {
+  const SimTime at = waiting.reply.at;
+  waiting.places_ned_m = query.places_ned_m;
+  waiting.talker = fleet_.configured_modems().standard;
+  if (!query.talker.empty()) {
+    if (!is_valid_name(query.talker)) return "talker_name is no name: " + std::string(kNameRule);
+    waiting.talker = fleet_.modem(query.talker, at);
+  }
+  for (const std::string& name : query.listeners) {
+    if (!is_valid_name(name)) return "a listener_name is no name: " + std::string(kNameRule);
+    if (name == query.talker) return "the listener " + name + " is the talker itself";
+    const auto id = fleet_.id_of(name);
+    const auto place = id ? fleet_.placement(*id, at, at) : std::nullopt;
+    if (!place) return "the listener " + name + " is unknown, or its state is too old";
+    waiting.listeners.push_back(
+        {{*id, place->position_ned_m, place->velocity_ned_mps, nullptr}, fleet_.modem(*id, at)});
+  }
+  return {};
+}
+
+bool BestPlaceService::is_in_water(const Vec3& place_ned_m, SimTime at) const {
+  return problem_of_place(propagation_, place_ned_m, at).empty() &&
+         propagation_.depth_inside_seabed_m(place_ned_m) <= kSeabedErrorM;
+}
+
+// Place by place; none of one that is no place in the water.
+std::vector<EndPair> BestPlaceService::links_of(const Waiting& waiting) const {
+  std::vector<EndPair> links;
+  for (const Vec3& place : waiting.places_ned_m) {
+    if (!is_in_water(place, waiting.reply.at)) continue;
+    for (const Listener& listener : waiting.listeners) {
+      LinkEnd to = listener.end;
+      to.modem = &receiving_modem(listener.modem, waiting.talker.modem);
+      links.push_back({{0, place, Vec3::Zero(), &waiting.talker.modem}, to});
+    }
+  }
+  return links;
+}
+
+bool BestPlaceService::answer(Waiting& waiting, bool is_overdue) {
+  const SimTime at = waiting.reply.at;
+  const std::vector<EndPair> links = links_of(waiting);
+  bool are_ready = true;  // all are asked, so that all that is missing is requested together
+  for (const EndPair& link : links)
+    are_ready = propagation_.is_ready_for_packet(at, link.from, link.to) && are_ready;
+  if (!are_ready && !is_overdue) return false;
+  std::vector<std::optional<Reception>> receptions = propagation_.packet_receptions(at, links, for_each_);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!receptions[i])
+      receptions[i] = propagation_.reception_without_capacity(at, links[i].from, links[i].to);
+  }
+  const auto rates = predictor_.rates_of(waiting.talker.modem);
+  std::vector<LinkForecast> forecasts(links.size());
+  for_each_(links.size(), [&](std::size_t i) {
+    forecasts[i] = predictor_.forecast(*rates, *links[i].from.modem, *links[i].to.modem, *receptions[i]);
+    if (receptions[i]->paths.empty()) forecasts[i].sinr_db = kSilence.value;
+  });
+  const std::size_t listeners = waiting.listeners.size();
+  const LinkForecast* next = forecasts.data();
+  for (const Vec3& place : waiting.places_ned_m) {
+    const bool in_water = is_in_water(place, at);
+    waiting.reply.scores.push_back(in_water ? score_of(next, listeners) : PlaceScore());
+    if (in_water) next += listeners;
+  }
+  return true;
+}
+
+std::vector<BestPlaceReply> BestPlaceService::take_replies(SimTime steady) {
+  std::vector<BestPlaceReply> replies;
+  std::erase_if(waiting_, [&](Waiting& waiting) {
+    if (waiting.reply.refusal.empty() && !answer(waiting, steady >= waiting.deadline)) return false;
+    replies.push_back(std::move(waiting.reply));
+    return true;
+  });
+  return replies;
+}
+
+SimTime BestPlaceService::due() const {
+  SimTime due = SimTime::never();
+  for (const Waiting& waiting : waiting_) due = std::min(due, waiting.deadline);
+  return due;
+}
+
+}  // namespace halocline::channel_server

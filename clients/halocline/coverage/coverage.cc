@@ -1,0 +1,204 @@
+#include "clients/halocline/coverage/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bus/runtime/thread_pool.h"
+#include "channel_server/propagation/seabed_map.h"
+#include "channel_server/propagation/seabed_profile.h"
+#include "clients/halocline/coverage/link_column.h"
+#include "clients/halocline/scenario/link_surveyor.h"
+#include "core/check.h"
+#include "core/elementary.h"
+
+namespace halocline::clients {
+namespace {
+
+using Seabed = LinkSurveyor::Seabed;
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotLooked = std::numeric_limits<double>::infinity();
+constexpr double kDeliveryTolerance = 0.002, kLevelToleranceDb = 0.03, kDelayToleranceS = 3e-7;
+
+// What is not asked for need not be right; delivery always is.
+Sample tolerances(const std::vector<CoverageQuantity>& wanted) {
+  const auto asks = [&](CoverageQuantity quantity) {
+    return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+  };
+  const bool level = asks(CoverageQuantity::kLevel) || asks(CoverageQuantity::kSnr);
+  return {kDeliveryTolerance, level ? kLevelToleranceDb : kNotLooked,
+          asks(CoverageQuantity::kDelay) ? kDelayToleranceS : kNotLooked};
+}
+
+// z of a terrain that is level everywhere; empty for others.
+std::optional<double> level_z_m(const bathymetry::Terrain& terrain) {
+  const double z_m = terrain.grid(0).post(0, 0);
+  for (std::size_t i = 0; i < terrain.grid_count(); ++i) {
+    const auto& posts = terrain.grid(i).posts();
+    if (!std::all_of(posts.begin(), posts.end(), [z_m](float post_m) { return post_m == z_m; }))
+      return std::nullopt;
+  }
+  return z_m;
+}
+
+class Mapping {
+ public:
+  Mapping(const ScenarioConfig& config, const std::shared_ptr<const bathymetry::Terrain>& terrain,
+          const LinkSurveyEnd& from, const CoverageArea& area, const std::vector<CoverageQuantity>& wanted,
+          int threads)
+      : column_({config, terrain, from}),
+        terrain_(*terrain),
+        from_ned_m_(from.position_ned_m),
+        surface_z_m_(config.scenario.sea_surface_z_m),
+        area_(area),
+        tolerance_(tolerances(wanted)),
+        pool_(threads),
+        threads_(static_cast<std::size_t>(threads)) {
+    const std::size_t cells = area.side * area.side;
+    for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s})
+      values->assign(area.depths_m.size(), std::vector<double>(cells, kNothing));
+    map_.area = area;
+  }
+
+  Coverage run() {
+    seabed_z_m_.resize(area_.side * area_.side, kNothing);
+    for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell)
+      seabed_z_m_[cell] = seabed_z_m(terrain_, place(cell, 0)).value_or(kNothing);
+    const auto level = level_z_m(terrain_);
+    if (level && column_.depends_on_range_alone()) {
+      by_range(*level);
+    } else {
+      over_terrain();
+    }
+    map_.noise_level_db = column_.noise_level_db();
+    return std::move(map_);
+  }
+
+ private:
+  Vec3 place(std::size_t cell, double depth_m) const {
+    return {area_.north_m(cell / area_.side), area_.east_m(cell % area_.side), depth_m + surface_z_m_};
+  }
+  bool is_water(std::size_t cell, std::size_t depth) const {
+    return area_.depths_m[depth] + surface_z_m_ <= seabed_z_m_[cell];
+  }
+  void set(std::size_t cell, std::size_t depth, const Sample& sample) {
+    map_.delivery[depth][cell] = sample[0];
+    map_.level_db[depth][cell] = sample[1];
+    map_.delay_s[depth][cell] = sample[2];
+  }
+
+  // Each thread takes every so many of the items.
+  template <class Item>
+  void share(std::size_t count, const Item& item) {
+    pool_.for_each(threads_, [&](std::size_t thread) {
+      LinkSurveyor surveyor = column_.surveyor();
+      for (std::size_t i = thread; i < count; i += threads_) item(surveyor, i);
+    });
+  }
+
+  void by_range(double bottom_z_m) {
+    std::vector<double> ranges;
+    std::vector<double> of_cells;
+    for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
+      const Vec3 way = place(cell, 0) - from_ned_m_;
+      of_cells.push_back(std::round(elementary::hypot(way.x(), way.y()) / kSameRangeM) * kSameRangeM);
+      if (!std::isnan(seabed_z_m_[cell])) ranges.push_back(of_cells.back());
+    }
+    std::sort(ranges.begin(), ranges.end());
+    ranges.erase(std::unique(ranges.begin(), ranges.end()), ranges.end());
+    if (ranges.empty()) return;
+    const auto seabed = std::make_shared<const channel_server::SeabedProfile>(
+        channel_server::SeabedProfile::flat(bottom_z_m));
+    share(area_.depths_m.size(), [&](LinkSurveyor& surveyor, std::size_t depth) {
+      const double z_m = area_.depths_m[depth] + surface_z_m_;
+      if (z_m > bottom_z_m) return;
+      const auto samples = sampled(ranges, area_.cell_m, tolerance_, [&](double range_m) {
+        return column_.link(surveyor, {from_ned_m_.x() + range_m, from_ned_m_.y(), z_m}, seabed);
+      });
+      for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
+        if (!is_water(cell, depth)) continue;
+        const auto at = std::lower_bound(ranges.begin(), ranges.end(), of_cells[cell]) - ranges.begin();
+        set(cell, depth, samples[static_cast<std::size_t>(at)]);
+      }
+    });
+  }
+
+  void over_terrain() {
+    channel_server::SeabedMap seabed = column_.seabed_map();
+    for (std::size_t cell = 0; cell < seabed_z_m_.size() && column_.along_rays(); ++cell) {
+      while (!std::isnan(seabed_z_m_[cell]) && !seabed.is_surveyed(from_ned_m_, place(cell, 0)))
+        answer_requests(terrain_, seabed);
+    }
+    share(seabed_z_m_.size(), [&](LinkSurveyor& surveyor, std::size_t cell) {
+      if (std::isnan(seabed_z_m_[cell])) return;
+      const Seabed profile = column_.along_rays() ? seabed.between(from_ned_m_, place(cell, 0)) : nullptr;
+      for (std::size_t depth = 0; depth < area_.depths_m.size(); ++depth) {
+        if (is_water(cell, depth))
+          set(cell, depth, column_.link(surveyor, place(cell, area_.depths_m[depth]), profile));
+      }
+    });
+  }
+
+  static constexpr double kSameRangeM = 1e-6;
+
+  LinkColumn column_;
+  const bathymetry::Terrain& terrain_;
+  Vec3 from_ned_m_;
+  double surface_z_m_;
+  const CoverageArea& area_;
+  Sample tolerance_;
+  bus::ThreadPool pool_;
+  std::size_t threads_;
+  std::vector<double> seabed_z_m_;  // under each cell; NaN where not known
+  Coverage map_;
+};
+
+}  // namespace
+
+Coverage compute_coverage(const ScenarioConfig& config,
+                          const std::shared_ptr<const bathymetry::Terrain>& terrain,
+                          const LinkSurveyEnd& from, const CoverageArea& area,
+                          const std::vector<CoverageQuantity>& wanted, int threads) {
+  require_above_seabed(*terrain, from);
+  return Mapping(config, terrain, from, area, wanted, threads).run();
+}
+
+std::vector<double> Coverage::values(CoverageQuantity quantity, std::size_t depth) const {
+  switch (quantity) {
+    case CoverageQuantity::kDelivery:
+      return delivery.at(depth);
+    case CoverageQuantity::kDelay:
+      return delay_s.at(depth);
+    case CoverageQuantity::kLevel:
+      return level_db.at(depth);
+    case CoverageQuantity::kSnr:
+      break;
+  }
+  std::vector<double> snr_db = level_db.at(depth);
+  for (double& value : snr_db) value -= noise_level_db;
+  return snr_db;
+}
+
+std::optional<double> Coverage::mean_delivery(std::size_t depth) const {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double value : delivery.at(depth)) {
+    if (std::isnan(value)) continue;
+    sum += value;
+    ++count;
+  }
+  return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
+}
+
+std::optional<std::size_t> Coverage::best_depth() const {
+  std::optional<std::size_t> best;
+  for (std::size_t depth = 0; depth < delivery.size(); ++depth) {
+    const auto mean = mean_delivery(depth);
+    if (mean && (!best || *mean > *mean_delivery(*best))) best = depth;
+  }
+  return best;
+}
+
+}  // namespace halocline::clients

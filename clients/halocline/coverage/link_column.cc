@@ -1,0 +1,46 @@
+#include "clients/halocline/coverage/link_column.h"
+
+#include "acoustics/link/link_kernel.h"
+#include "acoustics/modem/modem.h"
+#include "channel_server/channel_server_config.h"
+#include "channel_server/propagation/propagation.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "core/sim_time.h"
+
+namespace halocline::clients {
+
+LinkColumn::LinkColumn(const Scene& scene)
+    : config_(scene.config),
+      terrain_(scene.terrain),
+      from_(scene.from),
+      to_(make_modems(scene.config.channel_server).standard),
+      environment_(make_environment(scene.config.channel_server.environment, scene.config.scenario,
+                                    scene.config.folder)) {}
+
+bool LinkColumn::along_rays() const {
+  return config_.channel_server.propagation.model == channel_server::PropagationModel::kRays;
+}
+
+double LinkColumn::noise_level_db() const {
+  return surveyor()
+      .straight()
+      .kernel_of(SimTime(), from_.modem.modem, receiving_modem(to_, from_.modem.modem))
+      ->noise_level()
+      .value;
+}
+
+channel_server::SeabedMap LinkColumn::seabed_map() const {
+  return channel_server::SeabedMap(config_.channel_server.rules.seabed);
+}
+
+Sample LinkColumn::link(LinkSurveyor& surveyor, const Vec3& to_ned_m,
+                        const LinkSurveyor::Seabed& seabed) const {
+  const acoustics::Modem& transmitter = from_.modem.modem;
+  const channel_server::LinkEnd here{0, from_.position_ned_m, Vec3::Zero(), &transmitter};
+  const channel_server::LinkEnd there{0, to_ned_m, Vec3::Zero(), &receiving_modem(to_, transmitter)};
+  const LinkSurveyor::Answer answer = surveyor.survey(here, there, seabed);
+  return {answer.forecast.delivery_probability, answer.reception.budget.received_level.value,
+          answer.reception.budget.delay_s};
+}
+
+}  // namespace halocline::clients

@@ -1,0 +1,46 @@
+// Links from one end to receivers with the scenario's modem, wherever they are: what maps and tracks of coverage are made of.
+#pragma once
+
+#include <memory>
+
+#include "acoustics/sea/environment.h"
+#include "bathymetry/terrain/terrain.h"
+#include "channel_server/propagation/seabed_map.h"
+#include "channel_server/vehicles/modem_schedule.h"
+#include "clients/halocline/coverage/sampling.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/link_survey.h"
+#include "clients/halocline/scenario/link_surveyor.h"
+#include "core/frames.h"
+
+namespace halocline::clients {
+
+class LinkColumn {
+ public:
+  struct Scene {
+    const ScenarioConfig& config;  // outlives this
+    std::shared_ptr<const bathymetry::Terrain> terrain;
+    LinkSurveyEnd from;
+  };
+  explicit LinkColumn(const Scene& scene);
+
+  // For one thread.
+  LinkSurveyor surveyor() const { return {config_, terrain_, environment_}; }
+  bool along_rays() const;
+  // Over level ground.
+  bool depends_on_range_alone() const { return !environment_.field; }
+  double noise_level_db() const;
+  // Of the kind that links of the scenario take their profiles from.
+  channel_server::SeabedMap seabed_map() const;
+  // Calls may overlap between threads, each with a surveyor of its own.
+  Sample link(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed) const;
+
+ private:
+  const ScenarioConfig& config_;
+  std::shared_ptr<const bathymetry::Terrain> terrain_;
+  LinkSurveyEnd from_;
+  channel_server::VehicleModem to_;
+  acoustics::Environment environment_;
+};
+
+}  // namespace halocline::clients

@@ -1,0 +1,163 @@
+// Maps of coverage against the links they are made of.
+#include "clients/halocline/coverage/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bathymetry/rasters/terrain_recipe.h"
+#include "channel_server/channel_server_config.h"
+#include "clients/halocline/coverage/coverage_track.h"
+#include "clients/halocline/scenario/composition.h"
+#include "clients/halocline/scenario/link_survey.h"
+#include "core/check.h"
+#include "core/random.h"
+#include "tests/support/tolerance.h"
+
+namespace halocline::clients {
+namespace {
+
+using ::halocline::testing::tolerance;
+
+ScenarioConfig level_sea() {
+  return load_scenario(std::string(HALOCLINE_SOURCE_DIR) + "/scenarios/shelf.toml",
+                       {"modem.source_level_db=160", "terrain.size_north_m=16000",
+                        "terrain.size_east_m=16000", "terrain.spacing_m=200"},
+                       ScenarioUse::kWater);
+}
+
+const std::vector<CoverageQuantity> kAll{CoverageQuantity::kDelivery, CoverageQuantity::kSnr,
+                                         CoverageQuantity::kLevel, CoverageQuantity::kDelay};
+
+// As far as the terrain is known. The greatest differences are those of what is interpolated; delivery at its flank, where it changes
+// by 0.1 a decibel and more, has the tolerance of the level.
+void expect_links_in_random_cells(const ScenarioConfig& config, const std::string& name,
+                                  const CoverageArea& area, double level_db, double delay_s,
+                                  double delivery) {
+  const LinkSurveyEnd from = link_end(config, name);
+  const Coverage map = compute_coverage(config, make_terrain(config).terrain, from, area, kAll, 2);
+  LinkSurveyEnd to = link_end(config, "0,0,0");
+  int looked_at = 0;
+  for (std::uint64_t i = 0; looked_at < 1000; ++i) {
+    ASSERT_LT(i, 20'000U);
+    const auto drawn = [&](std::uint32_t what, std::size_t count) {
+      const double u = uniform_at({.purpose = purpose_of("cell"), .who = what, .which = i});
+      return std::min(static_cast<std::size_t>(u * static_cast<double>(count)), count - 1);
+    };
+    const std::size_t row = drawn(0, area.side), column = drawn(1, area.side),
+                      depth = drawn(2, area.depths_m.size());
+    const std::size_t cell = row * area.side + column;
+    if (std::isnan(map.delivery[depth][cell])) continue;
+    ++looked_at;
+    to.position_ned_m = {area.north_m(row), area.east_m(column),
+                         area.depths_m[depth] + config.scenario.sea_surface_z_m};
+    const LinkSurvey link = survey_link(config, from, to);
+    ASSERT_NEAR(map.level_db[depth][cell], link.reception.budget.received_level.value, level_db)
+        << to.position_ned_m.transpose();
+    ASSERT_NEAR(map.values(CoverageQuantity::kSnr, depth)[cell], link.reception.budget.snr.value, level_db)
+        << to.position_ned_m.transpose();
+    ASSERT_NEAR(map.delay_s[depth][cell], link.reception.budget.delay_s, delay_s)
+        << to.position_ned_m.transpose();
+    ASSERT_NEAR(map.delivery[depth][cell], link.forecast.delivery_probability, delivery)
+        << to.position_ned_m.transpose();
+  }
+}
+
+TEST(Coverage, OfLevelSeaEqualsLinksIn1000RandomCells) {
+  CoverageArea area{.middle_north_m = -3250, .cell_m = 50, .side = 80, .depths_m = {5, 20, 40, 90}};
+  expect_links_in_random_cells(level_sea(), "buoy", area, tolerance(0.1), tolerance(1e-6), tolerance(0.01));
+}
+
+TEST(Coverage, OverTerrainEqualsLinksIn1000RandomCells) {
+  ScenarioConfig config = level_sea();
+  config.terrain.kind = bathymetry::TerrainKind::kRidge;
+  config.terrain.ridge = {.depth_m = 100, .height_m = 60, .half_width_m = 800};
+  CoverageArea area{.middle_north_m = -3250, .cell_m = 150, .side = 26, .depths_m = {5, 45, 90}};
+  expect_links_in_random_cells(config, "buoy", area, tolerance(1e-9), tolerance(1e-12), tolerance(1e-9));
+}
+
+TEST(Coverage, AlongStraightLinesEqualsLinksIn1000RandomCells) {
+  ScenarioConfig config = level_sea();
+  config.channel_server.propagation.model = channel_server::PropagationModel::kStraight;
+  CoverageArea area{.middle_north_m = -3250, .cell_m = 50, .side = 80, .depths_m = {5, 90}};
+  expect_links_in_random_cells(config, "buoy", area, tolerance(0.1), tolerance(1e-6), tolerance(0.01));
+}
+
+TEST(Coverage, DoesNotDependOnTheNumberOfThreads) {
+  const ScenarioConfig config = level_sea();
+  const auto terrain = make_terrain(config).terrain;
+  const CoverageArea area{.middle_north_m = -3250, .cell_m = 400, .side = 8, .depths_m = {5, 20, 90}};
+  const LinkSurveyEnd from = link_end(config, "buoy");
+  const Coverage one = compute_coverage(config, terrain, from, area, kAll, 1),
+                 three = compute_coverage(config, terrain, from, area, kAll, 3);
+  EXPECT_EQ(one.level_db, three.level_db);
+  EXPECT_EQ(one.delivery, three.delivery);
+}
+
+TEST(Coverage, HasNoValueBelowTheSeabedAndBeyondTheTerrain) {
+  const ScenarioConfig config = level_sea();
+  const CoverageArea area{.middle_north_m = 7900, .cell_m = 100, .side = 4, .depths_m = {50, 101}};
+  const Coverage map =
+      compute_coverage(config, make_terrain(config).terrain, link_end(config, "7900,0,10"), area, kAll, 1);
+  for (std::size_t cell = 0; cell < 16; ++cell) {
+    EXPECT_EQ(std::isnan(map.delivery[0][cell]), area.north_m(cell / 4) > 8000) << cell;
+    EXPECT_TRUE(std::isnan(map.delivery[1][cell]));
+  }
+  EXPECT_FALSE(map.mean_delivery(1));
+}
+
+TEST(Coverage, BestDepthIsThatOfTheGreatestMean) {
+  ScenarioConfig config = level_sea();
+  const CoverageArea area{.middle_north_m = 0, .cell_m = 500, .side = 16, .depths_m = {8, 50, 80}};
+  const Coverage map = compute_coverage(config, make_terrain(config).terrain, link_end(config, "0,0,8"), area,
+                                        {CoverageQuantity::kDelivery}, 2);
+  ASSERT_TRUE(map.best_depth());
+  for (std::size_t depth = 0; depth < 3; ++depth)
+    EXPECT_LE(*map.mean_delivery(depth), *map.mean_delivery(*map.best_depth()));
+}
+
+TEST(Coverage, AlongATrackTheBestDepthIsBetterThanEveryOther) {
+  const ScenarioConfig config = level_sea();
+  const auto terrain = make_terrain(config).terrain;
+  const LinkSurveyEnd from = link_end(config, "buoy");
+  const std::vector<double> depths{8, 50, 90, 200};
+  const std::vector<TrackPlace> track{{0, -2000, 0}, {10, 0, 500}, {20, 3000, 1000}, {30, 9000, 0}};
+  const auto choices = best_depths(config, terrain, from, track, depths, 2);
+  ASSERT_EQ(choices.size(), track.size());
+  EXPECT_FALSE(choices.back().best);  // beyond the terrain
+  for (std::size_t i = 0; i + 1 < track.size(); ++i) {
+    ASSERT_TRUE(choices[i].best);
+    for (std::size_t depth = 0; depth < 3; ++depth) {
+      LinkSurveyEnd to = link_end(config, "0,0,0");
+      to.position_ned_m = {track[i].north_m, track[i].east_m, depths[depth]};
+      const double delivery = survey_link(config, from, to).forecast.delivery_probability;
+      EXPECT_LE(delivery, choices[i].sample[0]) << i << " " << depth;
+      if (depth == choices[i].best) {
+        EXPECT_EQ(delivery, choices[i].sample[0]);
+      }
+    }
+  }
+}
+
+TEST(Coverage, DepthsAreReadAndRefused) {
+  EXPECT_EQ(depths_of("5:20:5"), (std::vector<double>{5, 10, 15, 20}));
+  EXPECT_EQ(depths_of("0:1:0.3"), (std::vector<double>{0, 0.3, 0.6, 3 * 0.3}));
+  EXPECT_EQ(depths_of("12.5"), (std::vector<double>{12.5}));
+  for (const char* text : {"", "5:", "5:4:1", "-1:5:1", "1:5:0", "1:5", "a", "1:2:3:4", "0:1e9:1"})
+    EXPECT_THROW(depths_of(text), InvalidArgument) << text;
+}
+
+TEST(Coverage, QuantitiesAreReadAndRefused) {
+  EXPECT_EQ(quantities_of("snr,delivery"),
+            (std::vector<CoverageQuantity>{CoverageQuantity::kSnr, CoverageQuantity::kDelivery}));
+  for (const char* text : {"", "snr,snr", "loudness", "snr,,level"})
+    EXPECT_THROW(quantities_of(text), InvalidArgument) << text;
+}
+
+}  // namespace
+}  // namespace halocline::clients
