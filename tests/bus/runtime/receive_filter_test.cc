@@ -150,6 +150,11 @@ class OtherHost {
                   " && ip addr add 10.9.0.1/24 dev va && ip link set va up"),
               0);
     EXPECT_EQ(run(enter_ + "ip addr add 10.9.0.2/24 dev vb && " + enter_ + "ip link set vb up"), 0);
+    // The first datagram does not wait for the link, nor for an answer to who has the address.
+    EXPECT_EQ(run("until ip link show va | grep -q 'state UP'; do sleep 0.01; done; " + enter_ +
+                  "ip neigh replace 10.9.0.1 dev vb lladdr "
+                  "$(ip link show va | sed -n 's/.*ether \\([^ ]*\\).*/\\1/p')"),
+              0);
   }
   void send(const std::string& datagram, int port) const {
     const std::string file = "/dev/udp/10.9.0.1/" + std::to_string(port);

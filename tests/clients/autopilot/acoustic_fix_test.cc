@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "clients/autopilot/navigation/navigator.h"
+#include "core/frames.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::clients {

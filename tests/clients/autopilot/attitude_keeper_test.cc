@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gtest/gtest.h>
 
+#include "core/frames.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::clients {

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gtest/gtest.h>
 
 #include "core/check.h"
+#include "core/frames.h"
 #include "tests/support/tolerance.h"
 
 namespace halocline::clients {
