@@ -41,7 +41,8 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipmen
   bus_.subscribe<modem_send_t>(channels::kSend, [this](std::string_view vehicle, const modem_send_t& m) {
     keep(inputs_.sends, vehicle, m, channels::kSend);
   });
-  subscribe_queries(shard);
+  subscribe_queries(channels::kLinkQuery, shard, queries_, LinkQueryService::kMaxWaiting);
+  subscribe_queries(channels::kBestPlaceQuery, shard, place_queries_, BestPlaceService::kMaxWaiting);
   bus_.subscribe<environment_change_t>(channels::kSetEnvironment, [this](const environment_change_t& m) {
     if (inputs_.changes.size() >= kMaxChanges) {
       return bus_.refuse(channels::kSetEnvironment, "too many changes at once");
@@ -58,22 +59,15 @@ Inbox::Inbox(bus::Bus& bus, const Shard& shard, const VehicleEquipment& equipmen
 }
 
 // Of several servers each answers the queries of its request_ids.
-void Inbox::subscribe_queries(const Shard& shard) {
-  const auto is_ours = [shard](std::int64_t request_id) {
-    return (request_id % shard.count + shard.count) % shard.count == shard.index;
-  };
-  bus_.subscribe<link_query_t>(channels::kLinkQuery, [this, is_ours](const link_query_t& m) {
-    if (!is_ours(m.request_id)) return;
-    if (queries_.size() >= LinkQueryService::kMaxWaiting)
-      return bus_.refuse(channels::kLinkQuery, "too many queries at once");
-    queries_.push_back(m);
-  });
-  bus_.subscribe<best_place_query_t>(channels::kBestPlaceQuery, [this, is_ours](const best_place_query_t& m) {
-    if (!is_ours(m.request_id)) return;
-    if (place_queries_.size() >= BestPlaceService::kMaxWaiting)
-      return bus_.refuse(channels::kBestPlaceQuery, "too many queries at once");
-    place_queries_.push_back(m);
-  });
+template <class Query>
+void Inbox::subscribe_queries(std::string_view channel, const Shard& shard, std::vector<Query>& queries,
+                              std::size_t most) {
+  bus_.subscribe<Query>(
+      channel, [this, channel, index = shard.index, count = shard.count, &queries, most](const Query& query) {
+        if ((query.request_id % count + count) % count != index) return;
+        if (queries.size() >= most) return bus_.refuse(channel, "too many queries at once");
+        queries.push_back(query);
+      });
 }
 
 void Inbox::subscribe_equipment(const VehicleEquipment& equipment) {

@@ -49,7 +49,9 @@ class Inbox {
   void forget_after(SimTime latest);
 
  private:
-  void subscribe_queries(const Shard& shard);
+  template <class Query>
+  void subscribe_queries(std::string_view channel, const Shard& shard, std::vector<Query>& queries,
+                         std::size_t most);
   void subscribe_equipment(const VehicleEquipment& equipment);
   template <class Message>
   void keep(StepInputs::ByVehicle<Message>& messages, std::string_view vehicle, const Message& message,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "channel_server/links/link_query_service.h"
+#include "channel_server/links/waiting_queries.h"
 #include "core/names.h"
 
 namespace halocline::channel_server {
@@ -47,10 +48,7 @@ BestPlaceService::BestPlaceService(const VehicleRegistry& fleet, Propagation& pr
       for_each_(std::move(for_each)) {}
 
 void BestPlaceService::submit(const BestPlaceQuery& query, std::optional<SimTime> sim, SimTime steady) {
-  const bool is_known = std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return waiting.reply.client == query.client && waiting.reply.request_id == query.request_id;
-  });
-  if (is_known) return;
+  if (is_among(waiting_, query)) return;
   Waiting waiting;
   waiting.reply = {query.client, query.request_id, {}, refusal_of(query, sim), {}};
   waiting.deadline = steady + timeout_;
@@ -97,11 +95,12 @@ bool BestPlaceService::is_in_water(const Vec3& place_ned_m, SimTime at) const {
          propagation_.depth_inside_seabed_m(place_ned_m) <= kSeabedErrorM;
 }
 
-// Place by place; none of one that is no place in the water.
-std::vector<EndPair> BestPlaceService::links_of(const Waiting& waiting) const {
+std::vector<EndPair> BestPlaceService::links_of(const Waiting& waiting,
+                                                const std::vector<bool>& in_water) const {
   std::vector<EndPair> links;
-  for (const Vec3& place : waiting.places_ned_m) {
-    if (!is_in_water(place, waiting.reply.at)) continue;
+  for (std::size_t i = 0; i < in_water.size(); ++i) {
+    if (!in_water[i]) continue;
+    const Vec3& place = waiting.places_ned_m[i];
     for (const Listener& listener : waiting.listeners) {
       LinkEnd to = listener.end;
       to.modem = &receiving_modem(listener.modem, waiting.talker.modem);
@@ -113,7 +112,9 @@ std::vector<EndPair> BestPlaceService::links_of(const Waiting& waiting) const {
 
 bool BestPlaceService::answer(Waiting& waiting, bool is_overdue) {
   const SimTime at = waiting.reply.at;
-  const std::vector<EndPair> links = links_of(waiting);
+  std::vector<bool> in_water;
+  for (const Vec3& place : waiting.places_ned_m) in_water.push_back(is_in_water(place, at));
+  const std::vector<EndPair> links = links_of(waiting, in_water);
   bool are_ready = true;  // all are asked, so that all that is missing is requested together
   for (const EndPair& link : links)
     are_ready = propagation_.is_ready_for_packet(at, link.from, link.to) && are_ready;
@@ -131,10 +132,9 @@ bool BestPlaceService::answer(Waiting& waiting, bool is_overdue) {
   });
   const std::size_t listeners = waiting.listeners.size();
   const LinkForecast* next = forecasts.data();
-  for (const Vec3& place : waiting.places_ned_m) {
-    const bool in_water = is_in_water(place, at);
-    waiting.reply.scores.push_back(in_water ? score_of(next, listeners) : PlaceScore());
-    if (in_water) next += listeners;
+  for (const bool is_scored : in_water) {
+    waiting.reply.scores.push_back(is_scored ? score_of(next, listeners) : PlaceScore());
+    if (is_scored) next += listeners;
   }
   return true;
 }

@@ -89,7 +89,8 @@ class BestPlaceService {
   // False while the seabed is awaited, unless that is over.
   [[nodiscard]] bool answer(Waiting& waiting, bool is_overdue);
   bool is_in_water(const Vec3& place_ned_m, SimTime at) const;
-  std::vector<EndPair> links_of(const Waiting& waiting) const;
+  // Place by place, of those that are in the water.
+  std::vector<EndPair> links_of(const Waiting& waiting, const std::vector<bool>& in_water) const;
 
   const VehicleRegistry& fleet_;
   Propagation& propagation_;

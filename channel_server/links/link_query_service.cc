@@ -9,6 +9,7 @@
 #include "acoustics/rays/traced_ray.h"
 #include "acoustics/sea/sound_speed_profile.h"
 #include "channel_server/links/echo_survey.h"
+#include "channel_server/links/waiting_queries.h"
 #include "core/check.h"
 #include "core/names.h"
 
@@ -57,7 +58,7 @@ LinkQueryService::LinkQueryService(const VehicleRegistry& fleet, Propagation& pr
 }
 
 void LinkQueryService::submit(const LinkQuery& query, std::optional<SimTime> sim, SimTime steady) {
-  if (is_waiting(query)) return;
+  if (is_among(waiting_, query)) return;
   Waiting waiting;
   waiting.reply = {query.client, query.request_id, sim.value_or(SimTime()), refusal_of(query), {}};
   waiting.deadline = steady + rule_.timeout;
@@ -78,12 +79,6 @@ std::string LinkQueryService::refusal_of(const LinkQuery& query) const {
   }
   if (waiting_.size() >= kMaxWaiting) return "too many queries are waiting; try again later";
   return {};
-}
-
-bool LinkQueryService::is_waiting(const LinkQuery& query) const {
-  return std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-    return waiting.reply.client == query.client && waiting.reply.request_id == query.request_id;
-  });
 }
 
 LinkQueryService::ResolvedEnd LinkQueryService::resolve(const LinkEndRequest& end,

@@ -121,7 +121,6 @@ class LinkQueryService {
     bool is_done() const { return surveys.empty() && bottoms.empty(); }
   };
   [[nodiscard]] std::string refusal_of(const LinkQuery& query) const;
-  bool is_waiting(const LinkQuery& query) const;
   ResolvedEnd resolve(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   ResolvedEnd resolve_vehicle(const LinkEndRequest& end, std::optional<SimTime> sim) const;
   void answer(const ResolvedEnd& from, const ResolvedEnd& to, Waiting& waiting);

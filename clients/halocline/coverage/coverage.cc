@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "bus/runtime/thread_pool.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "channel_server/propagation/seabed_profile.h"
 #include "clients/halocline/coverage/link_column.h"
@@ -15,8 +14,6 @@
 
 namespace halocline::clients {
 namespace {
-
-using Seabed = LinkSurveyor::Seabed;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNotLooked = std::numeric_limits<double>::infinity();
@@ -54,8 +51,7 @@ class Mapping {
         surface_z_m_(config.scenario.sea_surface_z_m),
         area_(area),
         tolerance_(tolerances(wanted)),
-        pool_(threads),
-        threads_(static_cast<std::size_t>(threads)) {
+        threads_(threads) {
     const std::size_t cells = area.side * area.side;
     for (auto* values : {&map_.delivery, &map_.level_db, &map_.delay_s})
       values->assign(area.depths_m.size(), std::vector<double>(cells, kNothing));
@@ -89,15 +85,6 @@ class Mapping {
     map_.delay_s[depth][cell] = sample[2];
   }
 
-  // Each thread takes every so many of the items.
-  template <class Item>
-  void share(std::size_t count, const Item& item) {
-    pool_.for_each(threads_, [&](std::size_t thread) {
-      LinkSurveyor surveyor = column_.surveyor();
-      for (std::size_t i = thread; i < count; i += threads_) item(surveyor, i);
-    });
-  }
-
   void by_range(double bottom_z_m) {
     std::vector<double> ranges;
     std::vector<double> of_cells;
@@ -111,7 +98,7 @@ class Mapping {
     if (ranges.empty()) return;
     const auto seabed = std::make_shared<const channel_server::SeabedProfile>(
         channel_server::SeabedProfile::flat(bottom_z_m));
-    share(area_.depths_m.size(), [&](LinkSurveyor& surveyor, std::size_t depth) {
+    column_.share(threads_, area_.depths_m.size(), [&](LinkSurveyor& surveyor, std::size_t depth) {
       const double z_m = area_.depths_m[depth] + surface_z_m_;
       if (z_m > bottom_z_m) return;
       const auto samples = sampled(ranges, area_.cell_m, tolerance_, [&](double range_m) {
@@ -127,13 +114,12 @@ class Mapping {
 
   void over_terrain() {
     channel_server::SeabedMap seabed = column_.seabed_map();
-    for (std::size_t cell = 0; cell < seabed_z_m_.size() && column_.along_rays(); ++cell) {
-      while (!std::isnan(seabed_z_m_[cell]) && !seabed.is_surveyed(from_ned_m_, place(cell, 0)))
-        answer_requests(terrain_, seabed);
+    for (std::size_t cell = 0; cell < seabed_z_m_.size(); ++cell) {
+      if (!std::isnan(seabed_z_m_[cell])) column_.survey(place(cell, 0), seabed);
     }
-    share(seabed_z_m_.size(), [&](LinkSurveyor& surveyor, std::size_t cell) {
+    column_.share(threads_, seabed_z_m_.size(), [&](LinkSurveyor& surveyor, std::size_t cell) {
       if (std::isnan(seabed_z_m_[cell])) return;
-      const Seabed profile = column_.along_rays() ? seabed.between(from_ned_m_, place(cell, 0)) : nullptr;
+      const LinkSurveyor::Seabed profile = column_.bottom(place(cell, 0), seabed);
       for (std::size_t depth = 0; depth < area_.depths_m.size(); ++depth) {
         if (is_water(cell, depth))
           set(cell, depth, column_.link(surveyor, place(cell, area_.depths_m[depth]), profile));
@@ -149,8 +135,7 @@ class Mapping {
   double surface_z_m_;
   const CoverageArea& area_;
   Sample tolerance_;
-  bus::ThreadPool pool_;
-  std::size_t threads_;
+  int threads_;
   std::vector<double> seabed_z_m_;  // under each cell; NaN where not known
   Coverage map_;
 };

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "bus/runtime/thread_pool.h"
 #include "channel_server/propagation/seabed_map.h"
 #include "clients/halocline/coverage/link_column.h"
 #include "clients/halocline/plot/plot.h"
@@ -68,28 +67,20 @@ std::vector<DepthChoice> best_depths(const ScenarioConfig& config,
   const auto place_of = [&](const TrackPlace& place, double depth_m) {
     return Vec3(place.north_m, place.east_m, depth_m + config.scenario.sea_surface_z_m);
   };
-  for (const TrackPlace& place : track) {
-    while (column.along_rays() && !seabed.is_surveyed(from.position_ned_m, place_of(place, 0)))
-      answer_requests(*terrain, seabed);
-  }
+  for (const TrackPlace& place : track) column.survey(place_of(place, 0), seabed);
   std::vector<DepthChoice> choices(track.size());
-  bus::ThreadPool pool(threads);
-  const auto stride = static_cast<std::size_t>(threads);
-  pool.for_each(stride, [&](std::size_t thread) {
-    LinkSurveyor surveyor = column.surveyor();
-    for (std::size_t i = thread; i < track.size(); i += stride) {
-      choices[i].place = track[i];
-      const auto bottom_z_m = seabed_z_m(*terrain, place_of(track[i], 0));
-      const LinkSurveyor::Seabed profile =
-          column.along_rays() ? seabed.between(from.position_ned_m, place_of(track[i], 0)) : nullptr;
-      for (std::size_t depth = 0; depth < depths_m.size(); ++depth) {
-        const Vec3 place = place_of(track[i], depths_m[depth]);
-        if (!bottom_z_m || place.z() > *bottom_z_m) continue;
-        const Sample sample = column.link(surveyor, place, profile);
-        if (choices[i].best && !(sample > choices[i].sample)) continue;
-        choices[i].best = depth;
-        choices[i].sample = sample;
-      }
+  column.share(threads, track.size(), [&](LinkSurveyor& surveyor, std::size_t i) {
+    choices[i].place = track[i];
+    const Vec3 surface = place_of(track[i], 0);
+    const auto bottom_z_m = seabed_z_m(*terrain, surface);
+    const LinkSurveyor::Seabed profile = column.bottom(surface, seabed);
+    for (std::size_t depth = 0; depth < depths_m.size(); ++depth) {
+      const Vec3 place = place_of(track[i], depths_m[depth]);
+      if (!bottom_z_m || place.z() > *bottom_z_m) continue;
+      const Sample sample = column.link(surveyor, place, profile);
+      if (choices[i].best && !(sample > choices[i].sample)) continue;
+      choices[i].best = depth;
+      choices[i].sample = sample;
     }
   });
   return choices;

@@ -2,6 +2,7 @@
 
 #include "acoustics/link/link_kernel.h"
 #include "acoustics/modem/modem.h"
+#include "bus/runtime/thread_pool.h"
 #include "channel_server/channel_server_config.h"
 #include "channel_server/propagation/propagation.h"
 #include "channel_server/vehicles/modem_schedule.h"
@@ -17,6 +18,15 @@ LinkColumn::LinkColumn(const Scene& scene)
       environment_(make_environment(scene.config.channel_server.environment, scene.config.scenario,
                                     scene.config.folder)) {}
 
+void LinkColumn::share(int threads, std::size_t count,
+                       const std::function<void(LinkSurveyor&, std::size_t)>& item) const {
+  const auto stride = static_cast<std::size_t>(threads);
+  bus::ThreadPool(threads).for_each(stride, [&](std::size_t thread) {
+    LinkSurveyor own = surveyor();
+    for (std::size_t i = thread; i < count; i += stride) item(own, i);
+  });
+}
+
 bool LinkColumn::along_rays() const {
   return config_.channel_server.propagation.model == channel_server::PropagationModel::kRays;
 }
@@ -31,6 +41,15 @@ double LinkColumn::noise_level_db() const {
 
 channel_server::SeabedMap LinkColumn::seabed_map() const {
   return channel_server::SeabedMap(config_.channel_server.rules.seabed);
+}
+
+void LinkColumn::survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const {
+  while (along_rays() && !seabed.is_surveyed(from_.position_ned_m, to_ned_m))
+    answer_requests(*terrain_, seabed);
+}
+
+LinkSurveyor::Seabed LinkColumn::bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const {
+  return along_rays() ? seabed.between(from_.position_ned_m, to_ned_m) : nullptr;
 }
 
 Sample LinkColumn::link(LinkSurveyor& surveyor, const Vec3& to_ned_m,

@@ -1,6 +1,8 @@
 // Links from one end to receivers with the scenario's modem, wherever they are: what maps and tracks of coverage are made of.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 
 #include "acoustics/sea/environment.h"
@@ -24,18 +26,25 @@ class LinkColumn {
   };
   explicit LinkColumn(const Scene& scene);
 
-  // For one thread.
-  LinkSurveyor surveyor() const { return {config_, terrain_, environment_}; }
-  bool along_rays() const;
+  // Calls item(surveyor, i) for each i below `count`; `threads`, of which each has a surveyor, take every so many of them.
+  void share(int threads, std::size_t count,
+             const std::function<void(LinkSurveyor&, std::size_t)>& item) const;
   // Over level ground.
   bool depends_on_range_alone() const { return !environment_.field; }
   double noise_level_db() const;
-  // Of the kind that links of the scenario take their profiles from.
+  // Empty, of the kind that links of the scenario take their profiles from.
   channel_server::SeabedMap seabed_map() const;
+  // Surveys what rays to a place need of the seabed, and nothing where links are straight.
+  void survey(const Vec3& to_ned_m, channel_server::SeabedMap& seabed) const;
+  // The bottom to a place that was surveyed; null where links are straight.
+  LinkSurveyor::Seabed bottom(const Vec3& to_ned_m, const channel_server::SeabedMap& seabed) const;
   // Calls may overlap between threads, each with a surveyor of its own.
   Sample link(LinkSurveyor& surveyor, const Vec3& to_ned_m, const LinkSurveyor::Seabed& seabed) const;
 
  private:
+  LinkSurveyor surveyor() const { return {config_, terrain_, environment_}; }
+  bool along_rays() const;
+
   const ScenarioConfig& config_;
   std::shared_ptr<const bathymetry::Terrain> terrain_;
   LinkSurveyEnd from_;
