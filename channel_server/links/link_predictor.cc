@@ -71,7 +71,8 @@ LinkPredictor::Rates LinkPredictor::make_rates(const Modem& transmitter) const {
 // A packet of a constant ratio is received no less often than one whose ratio varies about that mean within it.
 double LinkPredictor::least_sinr_db(const Rates& rates) const {
   double least_db = std::numeric_limits<double>::infinity();
-  for (const auto& [curves, one_path] : rates) {
+  for (const Rate& rate : rates) {
+    const acoustics::ReceptionCurves& curves = rate.curves;
     const auto bits = static_cast<double>(curves.timing().information_bits);
     const auto received = [&](double sinr) {
       return curves.acquisition(sinr) * elementary::exp(bits * curves.log_bit_success(sinr));

@@ -22,7 +22,7 @@
 namespace halocline::clients {
 namespace {
 
-constexpr std::size_t kPoints = 600;
+constexpr std::size_t kMostPoints = 600;
 constexpr double kChartWidth_px = 1120, kStrip_px = 92;
 
 double depth_m(const TrackPoint& point) { return point.position_ned_m.z(); }
@@ -52,7 +52,8 @@ std::vector<const MissionVehicle*> shown_vehicles(const MissionStore& mission) {
 DepthRange depth_range(const MissionStore& mission, const std::vector<const MissionVehicle*>& vehicles) {
   double deepest_m = 1, seabed_m = 0, highest_m = 0;
   for (const MissionVehicle* vehicle : vehicles) {
-    for (const auto& entry : decimated_track(vehicle->track, SimTime::at_once(), SimTime::never(), kPoints)) {
+    for (const auto& entry :
+         decimated_track(vehicle->track, SimTime::at_once(), SimTime::never(), kMostPoints)) {
       const Vec3& place = entry.value.position_ned_m;
       deepest_m = std::max(deepest_m, place.z());
       highest_m = std::min(highest_m, place.z());
@@ -83,7 +84,7 @@ class DepthStrip {
   }
 
   std::string svg() {
-    const auto points = decimated_track(vehicle_.track, SimTime::at_once(), SimTime::never(), kPoints);
+    const auto points = decimated_track(vehicle_.track, SimTime::at_once(), SimTime::never(), kMostPoints);
     std::string track = "$track << EOD\n", seabed;
     for (const auto& point : points) {
       const Vec3& place = point.value.position_ned_m;
@@ -137,7 +138,7 @@ class DepthStrip {
 
   // Empty lines break the line where nothing is commanded.
   std::string commanded_rows() const {
-    const auto chosen = decimated(vehicle_.activity.all(), kPoints,
+    const auto chosen = decimated(vehicle_.activity.all(), kMostPoints,
                                   [](const autopilot_status_t& status) { return status.commanded_z_m; });
     std::string rows;
     for (const auto& [at, status] : chosen)

@@ -311,7 +311,8 @@ std::vector<vehicle_fault_t> faults_at(const clients::MissionVehicle& vehicle, S
   std::vector<vehicle_fault_t> active;
   for (const auto& [from, fault] : vehicle.faults) {
     if (from > at) continue;
-    std::erase_if(active, [&](const vehicle_fault_t& other) { return is_of_one_kind(other, fault); });
+    std::erase_if(active,
+                  [&fault = fault](const vehicle_fault_t& other) { return is_of_one_kind(other, fault); });
     if (fault.fault_mended == 0) active.push_back(fault);
   }
   return active;
