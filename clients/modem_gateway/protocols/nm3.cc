@@ -37,7 +37,7 @@ namespace {
 constexpr std::size_t kAddressDigits = 3, kLengthDigits = 2, kTimeDigits = 14;
 constexpr std::int64_t kHighestAddress = 255, kMinBytes = 2, kMaxBytes = 64;
 constexpr double kTick_s = 31.25e-6, kSupply_v = 12, kSupplyScale_v = 15;
-constexpr SimDuration kAnswerWithin = SimDuration::from_milliseconds(4000);
+constexpr SimDuration kReplyWithin = SimDuration::from_milliseconds(4000);
 // Nanoseconds in three ticks of the 24 MHz counter.
 constexpr std::int64_t kThreeTicksNs = 125;
 
@@ -223,7 +223,7 @@ class Nm3 : public Protocol {
         command, destination,
         is_ping ? clients::SendOptions{.kind = modem_send_t::PING} : clients::SendOptions{.wants_ack = true});
     const SimTime start = std::max(port_.now(), command.at.value_or(SimTime()));
-    waiting_ = {sequence, command.address, start + kAnswerWithin};
+    waiting_ = {sequence, command.address, start + kReplyWithin};
   }
 
   std::int64_t send(const Command& command, std::int32_t destination, clients::SendOptions options) {

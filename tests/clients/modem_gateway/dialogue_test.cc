@@ -1,159 +1,115 @@
 // Two Micromodems, two EvoLogics modems and a transponder in quiet water without losses: what hosts write at one end, and read at the other.
 #include <cstddef>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/sim_time.h"
-#include "tests/clients/modem_gateway/door_mission.h"
-#include "tests/clients/modem_gateway/host.h"
+#include "tests/clients/modem_gateway/door_dialogue.h"
 
 namespace halocline::modem_gateway {
 namespace {
 
-using testing::DoorMission;
-using testing::DoorVehicle;
+using testing::has_in_turn;
 using ::testing::HasSubstr;
-using testing::Host;
 
 // 1500 m/s: 1000 m are 0.6667 s, 750 m 0.5 s.
-class Dialogue : public ::testing::Test {
+class Dialogue : public ::testing::Test, public testing::DoorDialogue {
  protected:
   Dialogue()
-      : mission_({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3"},
-                  {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem"},
-                  {"transponder", 3, "micromodem-psk-1", 0, 750, ""},
-                  {"four", 4, "s2c-im", 0, 300, "evologics"},
-                  {"five", 5, "s2c-im", 750, 300, "evologics"}},
-                 0) {
-    wait(1);
-    for (const std::size_t i : {0, 1, 2, 3})
-      hosts_.push_back(std::make_unique<Host>(mission_.gateway().place_of(i)));
-    heard_.resize(hosts_.size());
-  }
-  void wait(double seconds) {
-    for (int i = 0; i < 20 * seconds; ++i) {
-      now_s_ += 0.05;
-      mission_.run_until(SimTime::from_seconds(now_s_));
-      for (std::size_t k = 0; k < hosts_.size(); ++k) heard_[k] += hosts_[k]->read();
-    }
-  }
-  // What each host has read after `host` wrote that.
-  void say(std::size_t host, const std::string& text, double seconds) {
-    for (std::string& each : heard_) each.clear();
-    hosts_[host]->write(text);
-    wait(seconds);
-  }
-
-  DoorMission mission_;
-  std::vector<std::unique_ptr<Host>> hosts_;
-  std::vector<std::string> heard_;
-  double now_s_ = 0;
+      : DoorDialogue({{"one", 1, "micromodem-psk-1", 0, 0, "micromodem", "lbl=3"},
+                      {"two", 2, "micromodem-psk-1", 1000, 0, "micromodem"},
+                      {"transponder", 3, "micromodem-psk-1", 0, 750, ""},
+                      {"four", 4, "s2c-im", 0, 300, "evologics"},
+                      {"five", 5, "s2c-im", 750, 300, "evologics"}}) {}
 };
-
-// Sentences, in their order, that stand in what was read; the rest between them may be anything.
-::testing::Matcher<const std::string&> has_in_turn(const std::vector<std::string>& sentences) {
-  return ::testing::ResultOf(
-      [sentences](const std::string& text) {
-        std::size_t at = 0, found = 0;
-        for (const std::string& sentence : sentences) {
-          at = text.find(sentence, at);
-          if (at == std::string::npos) break;
-          at += sentence.size();
-          ++found;
-        }
-        return found;
-      },
-      sentences.size());
-}
 
 TEST_F(Dialogue, APingTellsTheOneWayTime) {
   say(0, "$CCMPC,1,2\r\n", 6);
-  EXPECT_THAT(heard_[0], has_in_turn({"$CAMPC,1,2*", "$CATXP,", "$CATXF,", "$CAXST,", "$CARXP,",
-                                      "$CAMPR,2,1,0.6667*", "$CACST,6,0,"}));
-  EXPECT_THAT(heard_[1], has_in_turn({"$CARXP,0*", "$CAMPA,1,2*", "$CACST,6,0,"}));
+  EXPECT_THAT(heard[0], has_in_turn({"$CAMPC,1,2*", "$CATXP,", "$CATXF,", "$CAXST,", "$CARXP,",
+                                     "$CAMPR,2,1,0.6667*", "$CACST,6,0,"}));
+  EXPECT_THAT(heard[1], has_in_turn({"$CARXP,0*", "$CAMPA,1,2*", "$CACST,6,0,"}));
   say(0, "$CCCMD,PNG,1,2,1,0,0\r\n", 6);
-  EXPECT_THAT(heard_[0], has_in_turn({"$CACMD,PNG,1,2,1,0,0*", "$CACMR,PNR,1970-01-01T00:00:0", ",2,1,0.6666",
-                                      "$CACST,6,0,"}));
-  EXPECT_THAT(heard_[1], has_in_turn({"$CARXP,1*", "$CACMA,1970-01-01T00:00:0", ",PNG,1,2,1,0,0,,*"}));
+  EXPECT_THAT(heard[0], has_in_turn({"$CACMD,PNG,1,2,1,0,0*", "$CACMR,PNR,1970-01-01T00:00:", ",2,1,0.6666",
+                                     "$CACST,6,0,"}));
+  EXPECT_THAT(heard[1], has_in_turn({"$CARXP,1*", "$CACMA,1970-01-01T00:00:", ",PNG,1,2,"}));
 }
 
 TEST_F(Dialogue, ATransponderAnswersWithItsTravelTime) {
   say(0, "$CCPDT,1,1,0,0,3000,1,0,0,0\r\n", 6);
-  EXPECT_THAT(heard_[0], has_in_turn({"$SNPDT,1,1,0,0,3000,1,0,0,0*", "$SNTTA,0.5000,,,,"}));
+  EXPECT_THAT(heard[0], has_in_turn({"$SNPDT,1,1,0,0,3000,1,0,0,0*", "$SNTTA,0.5000,,,,"}));
   say(0, "$CCPNT,9000,5,5,3000,9500,0,0,0,1\r\n", 6);
-  EXPECT_THAT(heard_[0], has_in_turn({"$SNPNT,9000,", "$SNTTA,0.5000,,,,"}));
+  EXPECT_THAT(heard[0], has_in_turn({"$SNPNT,9000,", "$SNTTA,0.5000,,,,"}));
 }
 
 TEST_F(Dialogue, AFlexiblePacketOf100BytesArrivesWholeAndIsAcknowledged) {
   const std::string data = "000A0D2B2CFF" + std::string(188, 'A');
   say(0, "$CCTDP,2,1,1,0," + data + "\r\n", 10);
-  EXPECT_THAT(heard_[0], has_in_turn({"$CATDP,0,2,1,1,0,100*", "$CATXF,100*", "$CAXST,", "$CAACK,2,1,1,1*",
-                                      "$CACST,6,0,"}));
-  EXPECT_THAT(heard_[1], has_in_turn({"$CARXP,1*",
-                                      "$CARDP,1,2,1,1,0,,1;64;" + data.substr(0, 128) + ";1;36;" +
-                                          data.substr(128) + "*",
-                                      "$CACST,6,0,"}));
+  EXPECT_THAT(heard[0], has_in_turn({"$CATDP,0,2,1,1,0,100*", "$CATXF,100*", "$CAXST,", "$CAACK,2,1,1,1*",
+                                     "$CACST,6,0,"}));
+  EXPECT_THAT(heard[1], has_in_turn({"$CARXP,1*",
+                                     "$CARDP,1,2,1,1,0,,1;64;" + data.substr(0, 128) + ";1;36;" +
+                                         data.substr(128) + "*",
+                                     "$CACST,6,0,"}));
 }
 
 TEST_F(Dialogue, ThreeFramesAreAcknowledgedOneByOne) {
   say(0, "$CCCYC,0,1,2,1,1,3\r\n", 0.2);
   for (const auto* frame : {"61", "000A0D2B2CFF", "63"})
-    hosts_[0]->write("$CCTXD,1,2,1," + std::string(frame) + "\r\n");
+    hosts[0]->write("$CCTXD,1,2,1," + std::string(frame) + "\r\n");
   wait(12);
-  EXPECT_THAT(heard_[0],
+  EXPECT_THAT(heard[0],
               has_in_turn({"$CACYC,0,1,2,1,1,3*", "$CADRQ,", "$CADRQ,", "$CADRQ,", "$CAACK,2,1,1,1*",
                            "$CAACK,2,1,2,1*", "$CAACK,2,1,3,1*", "$CACST,6,0,"}));
-  EXPECT_THAT(heard_[1], has_in_turn({"$CARXP,1*", "$CACYC,0,1,2,1,1,3*", "$CARXD,1,2,1,1,61*",
-                                      "$CARXD,1,2,1,2,000A0D2B2CFF*", "$CARXD,1,2,1,3,63*", "$CACST,6,0,"}));
+  EXPECT_THAT(heard[1], has_in_turn({"$CARXP,1*", "$CACYC,0,1,2,1,1,3*", "$CARXD,1,2,1,1,61*",
+                                     "$CARXD,1,2,1,2,000A0D2B2CFF*", "$CARXD,1,2,1,3,63*", "$CACST,6,0,"}));
 }
 
 TEST_F(Dialogue, AtRateZeroACyclePacketComesFirst) {
-  say(0, "$CCCYC,0,1,2,0,1,1\r\n", 0.2);
+  say(0, "$CCCYC,0,1,2,0,1,1\r\n", 4);
+  EXPECT_THAT(heard[0],
+              has_in_turn({"$CACYC,0,1,2,0,1,1*", "$CATXF,2*", "$CAXST,", "$CADRQ,", ",1,2,1,32,1*"}));
+  EXPECT_THAT(heard[1], has_in_turn({"$CARXP,0*", "$CACYC,0,1,2,0,1,1*", "$CACST,"}));
   say(0, "$CCTXD,1,2,1,000A0D2B2CFF\r\n", 10);
-  EXPECT_THAT(heard_[0], has_in_turn({"$CAXST,", "$CAXST,", "$CAACK,2,1,1,1*", "$CACST,"}));
-  EXPECT_THAT(heard_[1], has_in_turn({"$CARXP,0*", "$CACYC,0,1,2,0,1,1*", "$CACST,", "$CARXP,0*",
-                                      "$CARXD,1,2,1,1,000A0D2B2CFF*", "$CACST,"}));
+  EXPECT_THAT(heard[0], has_in_turn({"$CATXD,1,2,1,6*", "$CAXST,", "$CAACK,2,1,1,1*", "$CACST,"}));
+  EXPECT_THAT(heard[1], has_in_turn({"$CARXP,0*", "$CARXD,1,2,1,1,000A0D2B2CFF*", "$CACST,"}));
 }
 
 TEST_F(Dialogue, AnotherModemIsPolled) {
   say(0, "$CCCYC,0,2,1,1,0,1\r\n", 3);
-  EXPECT_THAT(heard_[1], has_in_turn({"$CACYC,0,2,1,1,0,1*", "$CADRQ,", ",2,1,0,64,1*"}));
+  EXPECT_THAT(heard[1], has_in_turn({"$CACYC,0,2,1,1,0,1*", "$CADRQ,", ",2,1,0,64,1*"}));
   say(1, "$CCTXD,2,1,0,000A0D2B2CFF\r\n", 6);
-  EXPECT_THAT(heard_[0], has_in_turn({"$CARXP,1*", "$CACYC,0,2,1,1,0,1*", "$CARXD,2,1,0,1,000A0D2B2CFF*",
-                                      "$CACST,6,0,"}));
+  EXPECT_THAT(heard[0], has_in_turn({"$CARXP,1*", "$CACYC,0,2,1,1,0,1*", "$CARXD,2,1,0,1,000A0D2B2CFF*",
+                                     "$CACST,6,0,"}));
 }
 
 TEST_F(Dialogue, ALineOfAnotherModemIsSet) {
   say(0, "$CCMEC,1,2,3,2,17\r\n", 8);
-  EXPECT_THAT(heard_[0],
+  EXPECT_THAT(heard[0],
               has_in_turn({"$CAMEC,1,2,3,2,17*", "$CARXP,0*", "$CAMER,2,1,3,2,17*", "$CACST,6,0,"}));
 }
 
 TEST_F(Dialogue, InstantMessagesOfEveryKindArriveAsWhatTheyAre) {
   for (const std::size_t host : {2, 3}) say(host, "AT@ZX1\n", 0.1);
   say(3, "AT*SENDPBM,4,4,back\n", 0.2);
-  EXPECT_EQ(heard_[3], "OK\r\n");
+  EXPECT_EQ(heard[3], "OK\r\n");
   say(2, "AT*SENDIM,4,5,ack,a\r\nd\n", 4);
-  EXPECT_THAT(heard_[2], has_in_turn({"OK\r\n", "SENDSTART,5,im,", "SENDEND,5,im,", "RECVSTART\r\n",
-                                      "RECVEND,", "RECVSRV,5,4,ack,", "DELIVEREDIM,5\r\n", "RECVSTART\r\n",
-                                      "RECVPBM,4,5,4,", ",back\r\n"}));
-  EXPECT_THAT(heard_[3], has_in_turn({"RECVSTART\r\n", "RECVEND,", "RECVIM,4,4,5,ack,", ",0.0000,a\r\nd\r\n",
-                                      "SENDSTART,4,pbm,"}));
+  EXPECT_THAT(heard[2], has_in_turn({"OK\r\n", "SENDSTART,5,im,", "SENDEND,5,im,", "RECVSTART\r\n",
+                                     "RECVEND,", "RECVSRV,5,4,ack,", "DELIVEREDIM,5\r\n", "RECVSTART\r\n",
+                                     "RECVPBM,4,5,4,", ",back\r\n"}));
+  EXPECT_THAT(heard[3], has_in_turn({"RECVSTART\r\n", "RECVEND,", "RECVIM,4,4,5,ack,", ",0.0000,a\r\nd\r\n",
+                                     "SENDSTART,4,pbm,"}));
   say(2, "AT?T\n", 0.2);
-  EXPECT_EQ(heard_[2], "500000\r\n");
+  EXPECT_EQ(heard[2], "500000\r\n");
   say(2, "AT*SENDIMS,4,5,,abcd\n", 4);
-  EXPECT_THAT(heard_[3], has_in_turn({"RECVIMS,4,4,5,", ",0.0000,abcd\r\n"}));
+  EXPECT_THAT(heard[3], has_in_turn({"RECVIMS,4,4,5,", ",0.0000,abcd\r\n"}));
   say(2, "AT*SENDIM,4,5,force,abcd\n", 4);
-  EXPECT_THAT(heard_[3], has_in_turn({"RECVIM,4,4,5,force,", ",0.0000,abcd\r\n"}));
+  EXPECT_THAT(heard[3], has_in_turn({"RECVIM,4,4,5,force,", ",0.0000,abcd\r\n"}));
   say(2, "AT*SEND,4,5,abcd\n", 6);
-  EXPECT_THAT(heard_[2], HasSubstr("DELIVERED,1,5\r\n"));
-  EXPECT_THAT(heard_[3], has_in_turn({"RECV,4,4,5,", ",500000,0.0000,abcd\r\n"}));  // 750 m
+  EXPECT_THAT(heard[2], HasSubstr("DELIVERED,1,5\r\n"));
+  EXPECT_THAT(heard[3], has_in_turn({"RECV,4,4,5,", ",500000,0.0000,abcd\r\n"}));  // 750 m
   say(3, "AT?P\n", 1);
-  EXPECT_EQ(heard_[3], "0 1000\n\r\n");
+  EXPECT_EQ(heard[3], "0 1000\n\r\n");
 }
 
 }  // namespace

@@ -117,12 +117,18 @@ TEST(Micromodem, PingsReportTheOneWayTime) {
 TEST(Micromodem, TheSecondGenerationHasAnotherPing) {
   Bench bench;
   EXPECT_THAT(bench.say("CCCMD,PNG,1,2,1,0,0"), ElementsAre("CACMD,PNG,1,2,1,0,0"));
-  EXPECT_THAT(bench.hear(bench.answer_from(2, modem_receive_t::PING_REPLY, 0.9134)),
-              ElementsAre("CACMR,PNR,1970-01-01T00:01:39Z,2,1,0.456700,30,,,,", StartsWith("CACST,")));
+  EXPECT_THAT(
+      bench.hear(bench.answer_from(2, modem_receive_t::PING_REPLY, 0.9134)),
+      ElementsAre("CACMR,PNR,1970-01-01T00:01:39.750000,2,1,0.456700,30.0,25.00,0,0,", StartsWith("CACST,")));
   modem_receive_t ping = bench.packet_from(2, 1, "", modem_receive_t::PING);
   ping.header_number = bench.port.sent.at(0).options.header_number;
   EXPECT_THAT(bench.hear(ping),
-              ElementsAre(StartsWith("CACMA,1970-01-01T00:01:39Z,PNG,2,1,"), StartsWith("CACST,")));
+              ElementsAre("CACMA,1970-01-01T00:01:39.750000,PNG,2,1,30.0,25.00,0,0,0", StartsWith("CACST,")));
+  // Its data is left out.
+  EXPECT_THAT(bench.say("CCCMD,PNG,1,2,1,0,0A0B0C"), ElementsAre("CACMD,PNG,1,2,1,0,3"));
+  // Firmware from 3 on says first what it is.
+  Bench newest("revision=3.0.0");
+  EXPECT_THAT(newest.hear(ping)[0], "CACMA,PNG,1970-01-01T00:01:39.750000,2,1,30.0,25.00,0,0,0");
 }
 
 TEST(Micromodem, FlexiblePacketsAreSentAndReportedAsTriplets) {
@@ -138,7 +144,56 @@ TEST(Micromodem, FlexiblePacketsAreSentAndReportedAsTriplets) {
   packet.frames_good = 2;
   EXPECT_THAT(bench.hear(packet)[0], "CARDP,2,1,1,0,0,,0;2;0A0B;1;1;0C");
   Bench newer("newer_lines=yes");
-  EXPECT_THAT(newer.hear(packet)[0], StartsWith("CARFP,1970-01-01T00:01:39Z,0,2,1,0,1,0,0,,"));
+  EXPECT_THAT(newer.hear(packet)[0], "CARFP,1970-01-01T00:01:39.750000,0,2,1,1,1,0,0,,,0;2;0A0B;1;1;0C");
+  bench.say("CCCFG,recv.base64data,1");
+  EXPECT_THAT(bench.hear(packet)[0], "CARDP,2,1,1,0,0,,0;2;Cgs=;1;1;DA==");
+  // What stands for 0 may be a word.
+  EXPECT_THAT(bench.say("CCTDP,2,1,0,False,0A"), ElementsAre("CATDP,0,2,1,0,False,1"));
+}
+
+TEST(Micromodem, FramedPacketsHaveAMiniFrameAndData) {
+  Bench bench;
+  EXPECT_THAT(bench.say("CCTFP,2,1,5,1,0,0102,000A0D2B2CFF"), ElementsAre("CATFP,0,2,1,5,1,0,2,6"));
+  ASSERT_EQ(bench.port.sent.size(), 1u);
+  const auto sent = bench.port.sent[0];
+  EXPECT_EQ(sent.payload, "\x01\x02" + std::string(kHardBytes));
+  EXPECT_EQ(sent.options.rate_number, 5);
+  EXPECT_EQ(sent.options.frame_bytes, (std::vector<std::int32_t>{2, 6}));
+  EXPECT_TRUE(sent.options.wants_ack);
+  modem_receive_t packet = bench.packet_from(2, 1, sent.payload);
+  packet.rate_number = 5;
+  packet.num_frames = 2;
+  packet.frame_bytes = {2, 6};
+  packet.frames_good = 2;
+  packet.wants_ack = true;
+  packet.header_number = sent.options.header_number;
+  EXPECT_THAT(bench.hear(packet),
+              ElementsAre("CARFP,1970-01-01T00:01:39.750000,0,2,1,5,5,1,0,,0;2;0102,1;6;000A0D2B2CFF",
+                          StartsWith("CACST,6,1,")));
+  EXPECT_THAT(
+      bench.hear(bench.answer_from(2, modem_receive_t::ACK, 1.0, "\x02")),
+      ElementsAre("CACDR,1970-01-01T00:01:39.750000,0,2,1,0,0,1,0,0,0,0,0,0", StartsWith("CACST,6,0,")));
+  // Newer firmware has two fields before; without data the rate is the mini-frame's.
+  EXPECT_THAT(bench.say("CCTFP,0,0,2,1,5,0,0,0102,"), ElementsAre("CATFP,0,2,1,5,0,0,2,0"));
+  packet.rate_number = bench.port.sent[1].options.rate_number.value_or(-1);
+  packet.payload = {1, 2};
+  packet.num_frames = 1;
+  packet.frame_bytes = {2};
+  packet.frames_good = 1;
+  packet.wants_ack = false;
+  EXPECT_THAT(bench.hear(packet)[0], "CARFP,1970-01-01T00:01:39.750000,0,2,1,1,-1,0,0,,1;2;0102,");
+}
+
+TEST(Micromodem, FirmwareFrom3OnHasLongerStatistics) {
+  Bench newest("revision=3.0.0"), older("revision=2.0.20000");
+  const auto lines = newest.hear(three_frames(newest));
+  EXPECT_THAT(lines.back(), StartsWith("CACST,8,1,19700101000139.750000,12,"));
+  EXPECT_THAT(lines.back(), ::testing::EndsWith(",25000,5000,0,-1,-1,00"));
+  newest.say("CCMUC,1,2,0001");
+  newest.accept(0.5);
+  EXPECT_EQ(newest.after(1).back(),
+            "CAXST,7,19700101,000140.000000,2,0,200,4000,25000,0,1,2,0,1,1,2,2,25000");
+  EXPECT_THAT(older.hear(three_frames(older)).back(), StartsWith("CACST,6,1,19700101000139.750000,2,"));
 }
 
 TEST(Micromodem, AnotherIsAskedForDataByACyclePacketAndAsksItsHost) {
@@ -153,6 +208,14 @@ TEST(Micromodem, AnotherIsAskedForDataByACyclePacketAndAsksItsHost) {
   request.header_number = asker.port.sent[0].options.header_number;
   EXPECT_THAT(sender.hear(request),
               ElementsAre("CACYC,0,2,3,1,1,3", StartsWith("CACST,"), "CADRQ,000140,2,3,1,64,1"));
+  // For the asker itself at any address.
+  asker.say("CCCFG,SRC,100");
+  asker.say("CCCYC,0,2,100,0,0,1");
+  sender.say("CCTXD,2,3,0,");
+  sender.addresses.assign(5, 100);
+  request.payload.assign(asker.port.sent[1].payload.begin(), asker.port.sent[1].payload.end());
+  EXPECT_THAT(sender.hear(request),
+              ElementsAre("CACYC,0,2,100,0,0,1", StartsWith("CACST,"), "CADRQ,000140,2,100,0,32,1"));
 }
 
 TEST(Micromodem, ATransmissionStartsOnAWholeSecondWhereSynchronised) {
@@ -190,6 +253,21 @@ TEST(Micromodem, RangesToTranspondersOneAfterTheOther) {
               ElementsAre(StartsWith("SNTTA,,0.1250,,,")));
 }
 
+TEST(Micromodem, TranspondersMayBeNamedByTheFrequencyOrCodeOfTheirAnswer) {
+  Bench bench("lbl=11:25000/12:3F0A");
+  bench.say("CCPNT,26000,5,5,1500,25000,24000,0,0,1");
+  EXPECT_EQ(bench.port.sent.at(0).destination, 11);
+  EXPECT_THAT(bench.hear(bench.answer_from(11, modem_receive_t::PING_REPLY, 0.25)),
+              ElementsAre(StartsWith("SNTTA,0.1250,,,,")));
+  EXPECT_THAT(bench.say("CCPGT,9000,28,00FF,1500,10000,3F0A,25000,0000,0,0,0"),
+              ElementsAre(HasSubstr("SNPGT,")));
+  EXPECT_EQ(bench.port.sent.at(1).destination, 12);
+  bench.hear(bench.answer_from(12, modem_receive_t::PING_REPLY, 0.5));
+  EXPECT_EQ(bench.port.sent.at(2).destination, 11);
+  EXPECT_THAT(bench.hear(bench.answer_from(11, modem_receive_t::PING_REPLY, 0.25)),
+              ElementsAre(StartsWith("SNTTA,0.2500,0.1250,,,")));
+}
+
 TEST(Micromodem, GenericRangingHasItsOwnSentence) {
   Bench bench("lbl=11");
   EXPECT_THAT(bench.say("CCPGT,9000,7,1,1500,10000,1,0,0,0,2000,0"),
@@ -225,11 +303,14 @@ TEST(Micromodem, SetsALineOfAnotherModemAndTellsWhenItIsSet) {
   EXPECT_THAT(asker.say("CCMEC,1,2,16,0,0"), ElementsAre(HasSubstr(",NMEA,3,")));
 }
 
-TEST(Micromodem, EchoesTheRest) {
+TEST(Micromodem, RefusesSoundsThatAreNoPackets) {
   Bench bench;
-  EXPECT_THAT(bench.say("CCSWP,1,2"), ElementsAre("CASWP,1,2"));
-  EXPECT_THAT(bench.say("CCMSQ,1"), ElementsAre("CAMSQ,1"));
-  EXPECT_THAT(bench.say("CCRSP,1"), ElementsAre("CARSP,1"));
+  for (const auto* sound : {"CCSWP,1,2", "CCMSQ,1", "CCRSP,0,1,0"})
+    EXPECT_THAT(bench.say(sound), ElementsAre(HasSubstr(",NMEA,2,no sound of "))) << sound;
+}
+
+TEST(Micromodem, MeasuresTheNoise) {
+  Bench bench;
   EXPECT_THAT(bench.say("CCCFR,500"), ElementsAre("CACFR,500"));
   const auto noise = bench.after(0.6);
   ASSERT_EQ(noise.size(), 1u);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "clients/modem_gateway/protocols/base64.h"
 #include "clients/modem_gateway/protocols/unet/unet_json.h"
 #include "core/check.h"
 #include "core/names.h"

@@ -1,10 +1,10 @@
 // WHOI Micromodem, first and second generation: NMEA sentences, CC from the host, CA and SN from the modem.
 //
-// Options: `revision` (0.94.0.00 is the first generation, 2.0.31000 the second), `pps` (its clock has a pulse a second, modem_clock.h),
-// `broadcast` (the address of all; 15 is another where no modem has been given it), `lbl` (addresses of up to four transponders, with /
-// between), `newer_lines` (CARFP in the place of CARDP).
+// Options: `revision` (0.94.0.00 is the first generation, 2.0.31000 the second, 3.0.0 its newer firmware), `pps` (its clock has a pulse a
+// second, modem_clock.h), `broadcast` (the address of all; 15 is another where no modem has been given it), `lbl` (up to four
+// transponders, micromodem_lbl.h), `newer_lines` (CARFP in the place of CARDP).
 //
-// Answers go to the host that asked, everything else to all. Left out: the sounds of CCMSQ and CCSWP; they are echoed.
+// Answers go to the host that asked, everything else to all. Left out: the sounds of CCMSQ, CCSWP and CCRSP; they are refused.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -46,12 +46,11 @@ class Micromodem : public Protocol {
   explicit Micromodem(ProtocolContext context)
       : core_(context),
         port_(context.port),
-        addresses_(context.addresses),
         housekeeping_(core_),
-        lbl_(port_, [this](const MicromodemLbl::Times& times) { report_lbl(times); }),
+        lbl_(core_, context.addresses),
         transmitter_(core_),
         remote_(core_, transmitter_, housekeeping_) {
-    read_transponders(context.options.take("lbl", ""));
+    lbl_.name_transponders(context.options.take("lbl", ""));
     context.options.require_all_taken();
   }
 
@@ -108,7 +107,7 @@ class Micromodem : public Protocol {
     std::string_view id;
     Command command;
   };
-  static constexpr std::array<Named, 10> commands() {
+  static constexpr std::array<Named, 8> commands() {
     return {{{"CCCYC", &Micromodem::begin_cycle},
              {"CCTXD", &Micromodem::take_hex},
              {"CCTXA", &Micromodem::take_text},
@@ -116,9 +115,7 @@ class Micromodem : public Protocol {
              {"CCMPC", &Micromodem::ping},
              {"CCCMD", &Micromodem::command},
              {"CCTDP", &Micromodem::send_flexible},
-             {"CCPDT", &Micromodem::range_digital},
-             {"CCPGT", &Micromodem::range_generic},
-             {"CCPNT", &Micromodem::range_narrow_band}}};
+             {"CCTFP", &Micromodem::send_framed}}};
   }
 
   void take_line(ClientId client, std::string_view line) {
@@ -130,36 +127,27 @@ class Micromodem : public Protocol {
     for (const Named& named : commands()) {
       if (named.id == sentence.id) return (this->*named.command)(client, sentence);
     }
-    if (remote_.obey(client, sentence)) return;
+    if (remote_.obey(client, sentence) || lbl_.obey(client, sentence)) return;
     if (!housekeeping_.obey(client, sentence)) core_.refuse(client, NmeaError::kUnknown, "unknown command");
-  }
-
-  void read_transponders(const std::string& text) {
-    if (text.empty()) return;
-    const auto parts = fields_of(text, '/');
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const auto address = integer_in(parts[i], 1, MicromodemCore::kHighestAddress);
-      require(i < kTransponders && address,
-              "option lbl is '" + text + "'; allowed are up to four addresses from 1 to 127 with / between");
-      transponders_[i] = static_cast<std::int32_t>(*address);
-    }
   }
 
   void begin_cycle(ClientId client, const NmeaSentence& sentence) {
     const auto n = sentence.numbers<6>();
     if (!n || sentence.fields.size() != 6) return core_.refuse_argument(client, sentence);
     const MicromodemCycle cycle{(*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4], (*n)[5]};
-    const bool is_possible = cycle.source <= MicromodemCore::kHighestAddress && cycle.wants_ack <= 1 &&
-                             cycle.destination <= MicromodemCore::kHighestAddress &&
-                             cycle.rate < kMicromodemRates && cycle.frames >= 1 &&
-                             cycle.frames <= micromodem_rate(static_cast<int>(cycle.rate)).max_frames;
+    const bool is_possible =
+        cycle.source <= MicromodemCore::kHighestAddress && cycle.wants_ack <= 1 &&
+        cycle.destination <= MicromodemCore::kHighestAddress && cycle.rate < kMicromodemRates &&
+        cycle.frames >= 1 && cycle.frames <= micromodem_rate(static_cast<int>(cycle.rate)).max_frames &&
+        (cycle.source == core_.own_address() || can_be_asked_for(cycle, core_.own_address()));
     if (!is_possible) return core_.refuse_argument(client, sentence);
     if (transmitter_.is_busy()) return core_.refuse(client, NmeaError::kBusy, "cycle under way");
     core_.echo(client, sentence);
     if (cycle.source == core_.own_address())
       return transmitter_.begin(cycle, core_.vehicle_of(cycle.destination), cycle.rate == 0);
     // Another is to send: a cycle packet tells it.
-    transmitter_.send({Kind::kCycle, core_.vehicle_of(cycle.source), cycle.source, cycle_packet(cycle, true)},
+    transmitter_.send({Kind::kCycle, core_.vehicle_of(cycle.source), cycle.source,
+                       cycle_packet(cycle, core_.own_address())},
                       mini_packet(MicromodemKind::kCycle));
   }
 
@@ -177,7 +165,7 @@ class Micromodem : public Protocol {
   void take_hex(ClientId client, const NmeaSentence& sentence) {
     const auto data = bytes_of_hex(sentence.field(3));
     if (!data || sentence.fields.size() != 4) return core_.refuse_argument(client, sentence);
-    take_data(client, sentence, *data);
+    take_data(client, sentence, std::move(*data));
   }
   // Text may hold commas.
   void take_text(ClientId client, const NmeaSentence& sentence) {
@@ -186,13 +174,13 @@ class Micromodem : public Protocol {
     for (std::size_t i = 4; i < sentence.fields.size(); ++i) text += "," + std::string(sentence.fields[i]);
     take_data(client, sentence, as_bytes(text));
   }
-  void take_data(ClientId client, const NmeaSentence& sentence, const std::vector<std::uint8_t>& data) {
+  void take_data(ClientId client, const NmeaSentence& sentence, std::vector<std::uint8_t> data) {
     const auto n = sentence.numbers<3>();
-    if (!n || (*n)[2] > 1 || !transmitter_.wants_data(data.size()))
+    if (!n || (*n)[2] > 1 || !transmitter_.can_take(data.size()))
       return core_.refuse_argument(client, sentence);
     core_.say(client,
               fmt::format("CA{},{},{},{},{}", sentence.id.substr(2), (*n)[0], (*n)[1], (*n)[2], data.size()));
-    transmitter_.take_data(data, (*n)[2] != 0);
+    transmitter_.take_data(std::move(data), (*n)[2] != 0);
   }
 
   void send_mini(ClientId client, const NmeaSentence& sentence) {
@@ -215,71 +203,87 @@ class Micromodem : public Protocol {
     transmitter_.send({Kind::kPing, to, (*n)[1], {}}, {.kind = modem_send_t::PING, .rate_number = 0});
   }
 
-  // CCCMD,PNG,src,dest,rate,cdr,nbytes: the second generation's ping.
+  // CCCMD,PNG,src,dest,rate,cdr,data: the second generation's ping. Its data is left out; the answer has its number of bytes.
   void command(ClientId client, const NmeaSentence& sentence) {
-    const auto n = sentence.numbers<3>(1);
+    const auto n = sentence.numbers<4>(1);
     const std::int32_t to = n ? core_.vehicle_of((*n)[1]) : kBroadcastId;
     const bool is_possible =
         sentence.field(0) == "PNG" && n && (*n)[2] < kMicromodemRates && can_be_pinged(to);
     if (!is_possible) return core_.refuse_argument(client, sentence);
-    core_.echo(client, sentence);
-    transmitter_.send({Kind::kNewPing, to, (*n)[1], {}},
+    const auto [source, destination, rate, cdr] = *n;
+    const auto data = bytes_of_hex(sentence.field(5));
+    core_.say(client, fmt::format("CACMD,PNG,{},{},{},{},{}", source, destination, rate, cdr,
+                                  data ? std::to_string(data->size()) : sentence.field(5)));
+    transmitter_.send({Kind::kNewPing, to, destination, {}},
                       {.kind = modem_send_t::PING,
-                       .rate_number = static_cast<std::int32_t>((*n)[2]),
+                       .rate_number = static_cast<std::int32_t>(rate),
                        .header_number = static_cast<int>(MicromodemKind::kNewPing)});
   }
 
-  // CCTDP,dest,rate,ack,0,HEX.
+  // CCTDP,dest,rate,ack,0,HEX. What stands for 0 is not looked at.
   void send_flexible(ClientId client, const NmeaSentence& sentence) {
-    const auto n = sentence.numbers<4>();
+    const auto n = sentence.numbers<3>();
     auto data = bytes_of_hex(sentence.field(4));
     if (!n || !data || data->empty() || (*n)[1] >= kMicromodemRates || (*n)[2] > 1)
       return core_.refuse_argument(client, sentence);
-    const auto [destination, rate, ack, reserved] = *n;
-    const std::int32_t to = core_.vehicle_of(destination);
-    core_.say(client, fmt::format("CATDP,0,{},{},{},{},{}", destination, rate, ack, reserved, data->size()));
-    transmitter_.send({Kind::kFlexible, to, destination, std::move(*data)},
-                      {.wants_ack = ack == 1 && to != kBroadcastId,
-                       .rate_number = static_cast<std::int32_t>(rate),
-                       .header_number = static_cast<int>(MicromodemKind::kFlexible)});
+    const auto [destination, rate, ack] = *n;
+    core_.say(client,
+              fmt::format("CATDP,0,{},{},{},{},{}", destination, rate, ack, sentence.field(3), data->size()));
+    send_packet(Kind::kFlexible, MicromodemKind::kFlexible, destination, std::move(*data),
+                {.wants_ack = ack == 1, .rate_number = static_cast<std::int32_t>(rate)});
   }
 
-  // CCPDT,group,channel,sync,pps_to,timeout_ms,a,b,c,d: which of the four transponders.
-  void range_digital(ClientId client, const NmeaSentence& sentence) { range(client, sentence, 4, 5); }
-  // CCPGT,ftx,bits,code,timeout_ms,frx,a,b,c,d,bandwidth,0: codes of their answers.
-  void range_generic(ClientId client, const NmeaSentence& sentence) { range(client, sentence, 3, 5); }
-  // CCPNT,ftx,ttx,trx,timeout_ms,fa,fb,fc,fd,flag: frequencies of their answers, 0 where not used.
-  void range_narrow_band(ClientId client, const NmeaSentence& sentence) { range(client, sentence, 3, 4); }
-  void range(ClientId client, const NmeaSentence& sentence, std::size_t timeout_at, std::size_t first) {
-    const auto timeout = sentence.numbers<1>(timeout_at);
-    const auto wanted = sentence.numbers<kTransponders>(first);
-    if (!timeout || !wanted) return core_.refuse_argument(client, sentence);
-    if (lbl_.is_busy()) return core_.refuse(client, NmeaError::kBusy, "ranging under way");
-    core_.echo(client, sentence, "SN");
-    MicromodemLbl::Asked asked;
-    for (std::size_t i = 0; i < kTransponders; ++i) {
-      if ((*wanted)[i] != 0 && transponders_[i]) asked[i] = addresses_.vehicle_of(*transponders_[i]);
+  // CCTFP,dest,rate of the mini-frame,rate of data,ack,0,HEX of the mini-frame,HEX of data; firmware from 3 on has 0,0 before. The medium
+  // knows one rate a packet, that of the data where there is any.
+  void send_framed(ClientId client, const NmeaSentence& sentence) {
+    const std::size_t first = sentence.fields.size() == 9 ? 2 : 0;
+    const auto n = sentence.numbers<4>(first);
+    auto mini = bytes_of_hex(sentence.field(first + 5)), data = bytes_of_hex(sentence.field(first + 6));
+    const bool is_possible = n && mini && data && !(mini->empty() && data->empty()) &&
+                             (*n)[1] < kMicromodemRates && (*n)[2] < kMicromodemRates && (*n)[3] <= 1;
+    if (!is_possible) return core_.refuse_argument(client, sentence);
+    const auto [destination, mini_rate, data_rate, ack] = *n;
+    core_.say(client, fmt::format("CATFP,0,{},{},{},{},0,{},{}", destination, mini_rate, data_rate, ack,
+                                  mini->size(), data->size()));
+    std::vector<std::int32_t> frames;
+    const bool has_mini = !mini->empty();
+    if (has_mini) frames.push_back(static_cast<std::int32_t>(mini->size()));
+    const auto rate = static_cast<std::int32_t>(data->empty() ? mini_rate : data_rate);
+    for (std::size_t begin = 0; begin < data->size();) {
+      const std::size_t size =
+          std::min(data->size() - begin,
+                   static_cast<std::size_t>(micromodem_rate(static_cast<int>(rate)).frame_bytes));
+      frames.push_back(static_cast<std::int32_t>(size));
+      begin += size;
     }
-    lbl_.start(asked, SimDuration::from_milliseconds(timeout->front()));
+    mini->insert(mini->end(), data->begin(), data->end());
+    send_packet(has_mini ? Kind::kFramedMini : Kind::kFramed,
+                has_mini ? MicromodemKind::kFramedMini : MicromodemKind::kFramed, destination,
+                std::move(*mini),
+                {.wants_ack = ack == 1, .rate_number = rate, .frame_bytes = std::move(frames)});
   }
-  void report_lbl(const MicromodemLbl::Times& times) const {
-    std::string body = "SNTTA";
-    for (const auto& time : times) body += time ? fmt::format(",{:.4f}", *time) : ",";
-    core_.say_all(body + "," + core_.clock().hhmmss(core_.reading(), 2));
+  void send_packet(Kind kind, MicromodemKind number, std::int64_t destination, std::vector<std::uint8_t> data,
+                   clients::SendOptions options) {
+    const std::int32_t to = core_.vehicle_of(destination);
+    options.wants_ack = options.wants_ack && to != kBroadcastId;
+    options.header_number = static_cast<int>(number);
+    transmitter_.send({kind, to, destination, std::move(data)}, std::move(options));
   }
 
   // A PING_REPLY or an ACK to a packet of this door.
   void take_answer(const modem_receive_t& packet) {
     if (lbl_.takes(packet)) return;
     const Listener listener = core_.listener();
-    if (packet.packet_kind == modem_receive_t::ACK) return core_.say_all(lines_of_ack(listener, packet));
+    const auto sent = transmitter_.sent_as(packet.packet_sequence);
+    if (packet.packet_kind == modem_receive_t::ACK)
+      return core_.say_all(sent == Kind::kFramed || sent == Kind::kFramedMini
+                               ? lines_of_framed_ack(listener, packet, sent == Kind::kFramedMini)
+                               : lines_of_ack(listener, packet));
     std::vector<std::string> lines;
     const std::int32_t responder = listener.address(packet.source_id);
     const double one_way_s = packet.two_way_travel_time_s / 2;
-    const std::string time = core_.clock().iso(SimTime::from_utime(packet.arrival_utime));
-    lines.push_back(transmitter_.is_new_ping(packet.packet_sequence)
-                        ? fmt::format("CACMR,PNR,{},{},{},{:.6f},{:.0f},,,,", time, responder,
-                                      core_.own_address(), one_way_s, packet.snr_db)
+    lines.push_back(sent == Kind::kNewPing
+                        ? ping_answer(listener, packet, one_way_s)
                         : fmt::format("CAMPR,{},{},{:.4f}", responder, core_.own_address(), one_way_s));
     add_statistics(listener, packet, lines);
     core_.say_all(lines);
@@ -287,8 +291,6 @@ class Micromodem : public Protocol {
 
   MicromodemCore core_;
   ProtocolPort& port_;
-  AddressBook& addresses_;
-  std::array<std::optional<std::int32_t>, kTransponders> transponders_;
   MicromodemHousekeeping housekeeping_;
   MicromodemLbl lbl_;
   MicromodemTransmitter transmitter_;

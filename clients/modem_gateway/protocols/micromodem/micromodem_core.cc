@@ -13,6 +13,7 @@ namespace {
 
 // The broadcast address of four bits, which software of the first generation uses.
 constexpr std::int32_t kOfFourBits = 15;
+constexpr int kFirstOfVersion8 = 3;  // first number of the revision
 
 }  // namespace
 
@@ -23,14 +24,14 @@ MicromodemCore::MicromodemCore(ProtocolContext& context)
       clock_(context.options.take_flag("pps", true)) {
   DoorOptions& options = context.options;
   revision_ = options.take("revision", "2.0.31000");
-  const auto parts = fields_of(revision_, '.');
-  const bool is_revision = parts.size() >= 3 && parts.size() <= 4 &&
-                           std::all_of(parts.begin(), parts.end(), [](std::string_view part) {
-                             return integer_in(part, 0, 1'000'000'000).has_value();
-                           });
-  require(is_revision, "option revision is '" + revision_ +
-                           "'; allowed are three or four numbers, as 0.94.0.00 and 2.0.31000");
-  is_second_generation_ = parts[0] != "0" && parts[0] != "1";
+  std::vector<std::int64_t> parts;
+  for (const std::string_view part : fields_of(revision_, '.'))
+    parts.push_back(integer_in(part, 0, 1'000'000'000).value_or(-1));
+  require((parts.size() == 3 || parts.size() == 4) && std::ranges::min(parts) >= 0,
+          "option revision is '" + revision_ +
+              "'; allowed are three or four numbers, as 0.94.0.00 and 2.0.31000");
+  generation_ = static_cast<int>(parts[0]);
+  has_clock_sources_ = parts >= std::vector<std::int64_t>{2, 0, 26'038};
   broadcast_ = static_cast<std::int32_t>(options.take_number("broadcast", 0, 0, kHighestAddress));
   has_newer_lines_ = options.take_flag("newer_lines", false);
 }
@@ -42,12 +43,21 @@ std::int32_t MicromodemCore::vehicle_of(std::int64_t address) const {
 }
 
 ReporterState MicromodemCore::state() const {
-  return {clock_, is_second_generation_, static_cast<int>(settings_.number("AGN")),
-          static_cast<int>(settings_.number("FC0"))};
+  const int version = generation_ >= kFirstOfVersion8 ? kNewestVersion
+                      : is_second_generation()        ? kVersion
+                                                      : kOldVersion;
+  return {clock_,
+          version,
+          has_clock_sources_,
+          static_cast<int>(settings_.number("AGN")),
+          static_cast<int>(settings_.number("FC0")),
+          static_cast<int>(settings_.number("pwramp.txlevel"))};
 }
 
 Listener MicromodemCore::listener() const {
-  return {state(), addresses_, broadcast_, settings_.is_on("CST"), has_newer_lines_};
+  return {state(),          addresses_,
+          broadcast_,       settings_.is_on("CST"),
+          has_newer_lines_, settings_.is_on("recv.base64data")};
 }
 
 SimTime MicromodemCore::start_of_transmission() const {

@@ -39,6 +39,7 @@ class MicromodemCore {
   ModemClock& clock() { return clock_; }
   const ModemClock& clock() const { return clock_; }
   const std::string& revision() const { return revision_; }
+  bool is_second_generation() const { return generation_ >= 2; }
 
   std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
   void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
@@ -48,7 +49,7 @@ class MicromodemCore {
   ReporterState state() const;
   // Of a transmission that is asked for now: on a whole second where the modem is synchronised.
   SimTime start_of_transmission() const;
-  bool reports_transmissions() const { return is_second_generation_ || settings_.is_on("XST"); }
+  bool reports_transmissions() const { return is_second_generation() || settings_.is_on("XST"); }
 
   // A sentence to one host, or to all.
   void say(ClientId client, const std::string& body) const { port_.write(client, nmea_line(body)); }
@@ -66,7 +67,9 @@ class MicromodemCore {
   MicromodemSettings settings_;
   ModemClock clock_;
   std::string revision_;
-  bool is_second_generation_ = true, has_newer_lines_ = false;
+  int generation_ = 2;             // the first number of the revision
+  bool has_clock_sources_ = true;  // from 2.0.26038 on
+  bool has_newer_lines_ = false;
   std::int32_t broadcast_ = 0;
 };
 

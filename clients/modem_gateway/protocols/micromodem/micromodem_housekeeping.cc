@@ -21,8 +21,10 @@ constexpr SimDuration kRevisionPeriod = SimDuration::from_milliseconds(5000);
 constexpr SimDuration kRebootTime = SimDuration::from_milliseconds(300);
 constexpr int kNoiseValues = 14;
 constexpr std::size_t kMaxSettings = 1000;
-// CCSWP and CCMSQ make sounds for tests, CCRSP answers them: none is simulated.
-constexpr std::array<std::string_view, 3> kEchoed{"CCSWP", "CCMSQ", "CCRSP"};
+// Sounds for tests that are no packets, which the medium does not know.
+constexpr std::array<std::string_view, 3> kSounds{"CCSWP", "CCMSQ", "CCRSP"};
+// Of the commands, as pyacomms counts: from 11 on CCTMS and CCTMQ are known.
+constexpr int kFirstLevel = 1, kSecondLevel = 11;
 
 }  // namespace
 
@@ -38,10 +40,14 @@ bool MicromodemHousekeeping::obey(ClientId client, const NmeaSentence& sentence)
     set_time(client, sentence);
   else if (id == "CCTMQ")
     query_time(client);
+  else if (id == "CCCLQ")
+    core_.say(client, "CACLQ," + core_.clock().comma_separated(core_.reading()));
+  else if (id == "CCALQ")
+    query_level(client);
   else if (id == "CCCFR")
     query_noise(client, sentence);
-  else if (std::find(kEchoed.begin(), kEchoed.end(), id) != kEchoed.end())
-    core_.echo(client, sentence);
+  else if (std::find(kSounds.begin(), kSounds.end(), id) != kSounds.end())
+    core_.refuse(client, NmeaError::kUnknown, "no sound of " + std::string(id) + " is simulated");
   else
     return false;
   return true;
@@ -69,7 +75,9 @@ void MicromodemHousekeeping::query(ClientId client, const NmeaSentence& sentence
   if (name.empty()) return core_.refuse_argument(client, sentence);
   const MicromodemSettings& settings = core_.settings();
   const auto answer = [&](std::string_view key) {
-    const std::string value = key == "SRC" ? std::to_string(core_.own_address()) : settings.value(key);
+    const std::string value = key == "SRC"                     ? std::to_string(core_.own_address())
+                              : key == "info.firmware_version" ? core_.revision()
+                                                               : settings.value(key);
     core_.say(client, fmt::format("CACFG,{},{}", key, value));
   };
   if (name != "ALL" && name != "TOP") return answer(name);
@@ -89,7 +97,12 @@ void MicromodemHousekeeping::set_clock(ClientId client, const NmeaSentence& sent
   const auto time = n ? calendar_seconds((*n)[0], (*n)[1], (*n)[2], (*n)[3], (*n)[4], (*n)[5]) : std::nullopt;
   if (!time) return core_.refuse_argument(client, sentence);
   core_.clock().set(core_.reading(), *time);
-  core_.say(client, "CACLK," + core_.clock().comma_separated(core_.reading()));
+  // As it will be with the next pulse: hosts compare it with their own clock, a second later.
+  core_.say(client, "CACLK," + ModemClock::comma_separated_of(*time));
+}
+
+void MicromodemHousekeeping::query_level(ClientId client) const {
+  core_.say(client, fmt::format("CAALQ,AUV,{}", core_.is_second_generation() ? kSecondLevel : kFirstLevel));
 }
 
 void MicromodemHousekeeping::set_time(ClientId client, const NmeaSentence& sentence) {

@@ -1,4 +1,4 @@
-// The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and those that are only echoed.
+// The commands of a Micromodem that touch no sound: settings, clock, revision, reboot, noise, and sounds for tests, which are refused.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,7 @@ class MicromodemHousekeeping {
   void set_clock(ClientId client, const NmeaSentence& sentence);
   void set_time(ClientId client, const NmeaSentence& sentence);
   void query_time(ClientId client) const;
+  void query_level(ClientId client) const;
   void query_noise(ClientId client, const NmeaSentence& sentence);
   void report_noise();
   void say_revision(const char* who) const;

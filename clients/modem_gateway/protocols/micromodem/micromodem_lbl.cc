@@ -2,35 +2,102 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "clients/modem_gateway/protocols/fields.h"
+#include "core/check.h"
+
 namespace halocline::modem_gateway {
 namespace {
 
 // Of the modem that answers a ping (docs/packets.md).
 constexpr SimDuration kTurnaround = SimDuration::from_milliseconds(100);
 
+// Where a command has its time-out, ms, and the first of four fields that name transponders.
+struct Ranging {
+  std::string_view id;
+  std::size_t timeout_at, first;
+  bool by_code;
+};
+// CCPDT,group,channel,sync,pps_to,timeout_ms,a,b,c,d: which of the four.
+// CCPGT,ftx,bits,code,timeout_ms,frx,a,b,c,d,bandwidth,0: codes of their answers.
+// CCPNT,ftx,ttx,trx,timeout_ms,fa,fb,fc,fd,flag: frequencies of their answers.
+constexpr std::array<Ranging, 3> kRangings{
+    {{"CCPDT", 4, 5, false}, {"CCPGT", 3, 5, true}, {"CCPNT", 3, 4, true}}};
+
+bool is_used(std::string_view field) { return field.find_first_not_of('0') != std::string_view::npos; }
+
 }  // namespace
 
-void MicromodemLbl::start(const Asked& asked, SimDuration timeout) {
-  asked_ = asked;
+void MicromodemLbl::name_transponders(const std::string& text) {
+  if (text.empty()) return;
+  const auto parts = fields_of(text, '/');
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto colon = std::min(parts[i].find(':'), parts[i].size());
+    const auto address = integer_in(parts[i].substr(0, colon), 1, MicromodemCore::kHighestAddress);
+    require(
+        i < kTransponders && address,
+        "option lbl is '" + text +
+            "'; allowed are up to four addresses from 1 to 127 with / between, each perhaps with : and the "
+            "frequency or code of its answer");
+    transponders_[i] = Transponder{static_cast<std::int32_t>(*address),
+                                   std::string(parts[i].substr(std::min(colon + 1, parts[i].size())))};
+  }
+}
+
+// The vehicle of the transponder that a field names.
+std::optional<std::int32_t> MicromodemLbl::named(std::string_view field, std::size_t place,
+                                                 bool by_code) const {
+  if (!is_used(field)) return std::nullopt;
+  for (const auto& transponder : transponders_) {
+    if (by_code && transponder && transponder->code == field)
+      return addresses_.vehicle_of(transponder->address);
+  }
+  const auto& at_place = transponders_[place];
+  const bool has_place = at_place && !(by_code && !at_place->code.empty());
+  return has_place ? std::optional(addresses_.vehicle_of(at_place->address)) : std::nullopt;
+}
+
+bool MicromodemLbl::obey(ClientId client, const NmeaSentence& sentence) {
+  const auto ranging = std::find_if(kRangings.begin(), kRangings.end(),
+                                    [&](const Ranging& each) { return each.id == sentence.id; });
+  if (ranging == kRangings.end()) return false;
+  const auto timeout = sentence.numbers<1>(ranging->timeout_at);
+  if (!timeout || sentence.fields.size() < ranging->first + kTransponders) {
+    core_.refuse_argument(client, sentence);
+    return true;
+  }
+  if (is_busy()) {
+    core_.refuse(client, NmeaError::kBusy, "ranging under way");
+    return true;
+  }
+  core_.echo(client, sentence, "SN");
+  timeout_ = SimDuration::from_milliseconds(timeout->front());
   times_ = {};
-  timeout_ = timeout;
+  for (std::size_t i = 0; i < kTransponders; ++i)
+    asked_[i] = named(sentence.field(ranging->first + i), i, ranging->by_code);
   const bool asks =
-      std::any_of(asked.begin(), asked.end(), [](const auto& vehicle) { return vehicle.has_value(); });
-  if (asks) return ask_from(0);
+      std::any_of(asked_.begin(), asked_.end(), [](const auto& vehicle) { return vehicle.has_value(); });
+  if (asks) {
+    ask_from(0);
+    return true;
+  }
   // Nobody answers: done after the time-out.
   place_ = kTransponders - 1;
   sequence_ = kNotSent;
-  until_ = port_.now() + timeout;
+  until_ = core_.now() + timeout_;
+  return true;
 }
 
 void MicromodemLbl::ask_from(std::size_t place) {
   for (place_ = place; place_ < kTransponders; ++place_) {
     if (!asked_[place_]) continue;
-    sequence_ = port_.send(port_.now(), *asked_[place_], {}, {.kind = modem_send_t::PING, .rate_number = 0});
-    until_ = port_.now() + kReceiptWithin;
+    sequence_ =
+        core_.port().send(core_.now(), *asked_[place_], {}, {.kind = modem_send_t::PING, .rate_number = 0});
+    until_ = core_.now() + kReceiptWithin;
     return;
   }
-  done_(times_);
+  report();
 }
 
 bool MicromodemLbl::takes(const modem_receipt_t& receipt) {
@@ -40,7 +107,7 @@ bool MicromodemLbl::takes(const modem_receipt_t& receipt) {
   const SimDuration duration = SimDuration::from_seconds(receipt.duration_s);
   // The answer takes as long as the ping.
   until_ = accepted ? SimTime::from_utime(receipt.start_utime) + duration + duration + kTurnaround + timeout_
-                    : port_.now();
+                    : core_.now();
   return true;
 }
 
@@ -52,8 +119,14 @@ bool MicromodemLbl::takes(const modem_receive_t& packet) {
   return true;
 }
 
+void MicromodemLbl::report() {
+  std::string body = "SNTTA";
+  for (const auto& time : times_) body += time ? fmt::format(",{:.4f}", *time) : ",";
+  core_.say_all(body + "," + core_.clock().hhmmss(core_.reading(), 2));
+}
+
 void MicromodemLbl::step() {
-  if (is_busy() && port_.now() >= until_) ask_from(place_ + 1);
+  if (is_busy() && core_.now() >= until_) ask_from(place_ + 1);
 }
 
 }  // namespace halocline::modem_gateway

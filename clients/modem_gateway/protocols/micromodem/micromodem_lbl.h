@@ -1,37 +1,38 @@
-// Long-baseline ranging of a Micromodem: the travel times to up to four transponders, vehicles of the scenario whose modems answer pings.
+// Long-baseline ranging of a Micromodem (CCPDT, CCPNT, CCPGT): the travel times to up to four transponders, vehicles of the scenario whose
+// modems answer pings.
 //
-// The medium knows pings to one vehicle, so transponders are asked one after the other, each for `timeout` after its ping has ended;
-// a real one asks all at once.
+// The medium knows pings to one vehicle, so transponders are asked one after the other, each for the host's time-out after its ping has
+// ended; a real one asks all at once. A transponder has a place, A to D, and may have a code: the frequency or the sequence by which hosts
+// name its answer in CCPNT and CCPGT. Without one they name it by its place.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <utility>
+#include <string>
+#include <string_view>
 
 #include "bus/messages.h"
+#include "clients/modem_gateway/protocols/address_book.h"
+#include "clients/modem_gateway/protocols/micromodem/micromodem_core.h"
+#include "clients/modem_gateway/protocols/micromodem/nmea.h"
 #include "clients/modem_gateway/protocols/protocol.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 
-inline constexpr std::size_t kTransponders = 4;
-
 class MicromodemLbl {
  public:
-  using Times = std::array<std::optional<double>, kTransponders>;  // one-way, s; none where not heard
-  // Vehicles to ask, in their places; none: not asked.
-  using Asked = std::array<std::optional<std::int32_t>, kTransponders>;
-  using Done = std::function<void(const Times&)>;
+  static constexpr std::size_t kTransponders = 4;
 
-  // `done` is called once for each start().
-  MicromodemLbl(ProtocolPort& port, Done done) : port_(port), done_(std::move(done)) {}
+  // Both must outlive it.
+  MicromodemLbl(MicromodemCore& core, const AddressBook& addresses) : core_(core), addresses_(addresses) {}
 
-  bool is_busy() const { return place_ < kTransponders; }
-  // Only while it is not busy.
-  void start(const Asked& asked, SimDuration timeout);
+  // ADDRESS or ADDRESS:CODE, / between. Throws InvalidArgument for another text.
+  void name_transponders(const std::string& text);
+  // False for a command that is none of these.
+  bool obey(ClientId client, const NmeaSentence& sentence);
   // Whether that packet is a ping of its own, and takes its receipt or answer.
   bool takes(const modem_receipt_t& receipt);
   bool takes(const modem_receive_t& packet);
@@ -40,12 +41,21 @@ class MicromodemLbl {
   void step();
 
  private:
-  void ask_from(std::size_t place);
+  struct Transponder {
+    std::int32_t address = 0;
+    std::string code = "";
+  };
 
-  ProtocolPort& port_;
-  Done done_;
-  Asked asked_;
-  Times times_;
+  bool is_busy() const { return place_ < kTransponders; }
+  std::optional<std::int32_t> named(std::string_view field, std::size_t place, bool by_code) const;
+  void ask_from(std::size_t place);
+  void report();
+
+  MicromodemCore& core_;
+  const AddressBook& addresses_;
+  std::array<std::optional<Transponder>, kTransponders> transponders_;
+  std::array<std::optional<std::int32_t>, kTransponders> asked_;  // vehicles
+  std::array<std::optional<double>, kTransponders> times_;        // one-way, s; none where not heard
   SimDuration timeout_;
   std::size_t place_ = kTransponders;  // that is asked
   std::int64_t sequence_ = -1;

@@ -6,12 +6,21 @@
 
 #include <fmt/format.h>
 
+#include "clients/modem_gateway/protocols/base64.h"
 #include "clients/modem_gateway/protocols/fields.h"
 #include "core/names.h"
 #include "core/sim_time.h"
 
 namespace halocline::modem_gateway {
 namespace {
+
+constexpr std::int64_t kToTheSender = 31;
+
+bool is_flexible(const modem_receive_t& packet) {
+  const MicromodemKind kind = kind_of(packet);
+  return kind == MicromodemKind::kFlexible || kind == MicromodemKind::kFramed ||
+         kind == MicromodemKind::kFramedMini;
+}
 
 MicromodemPacket type_of(std::int8_t kind, int rate, bool is_flexible) {
   switch (kind) {
@@ -60,20 +69,28 @@ void add_data(const Listener& listener, const modem_receive_t& packet, std::vect
   });
 }
 
+std::string arrival_of(const Listener& listener, const modem_receive_t& packet) {
+  return listener.state.clock.iso_us(SimTime::from_utime(packet.arrival_utime));
+}
+
+// CARDP,src,dest,rate,ack,0,mini,data and CARFP,time,0,src,dest,rate of the mini-frame,rate of data (-1: none),ack,0,,mini,data
 void add_flexible(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
-  std::string data;
-  for_each_frame(packet, [&](std::size_t, bool is_good, std::span<const std::uint8_t> bytes) {
-    data += fmt::format("{}{};{};{}", data.empty() ? "" : ";", is_good ? 1 : 0, bytes.size(), hex_of(bytes));
+  std::string mini, data;
+  const bool has_mini = kind_of(packet) == MicromodemKind::kFramedMini;
+  for_each_frame(packet, [&](std::size_t i, bool is_good, std::span<const std::uint8_t> bytes) {
+    std::string& part = has_mini && i == 0 ? mini : data;
+    part += fmt::format("{}{};{};{}", part.empty() ? "" : ";", is_good ? 1 : 0, bytes.size(),
+                        listener.has_base64 ? base64_of(bytes) : hex_of(bytes));
   });
   const auto source = listener.address(packet.source_id),
              destination = listener.address(packet.destination_id);
   const int ack = packet.wants_ack != 0 ? 1 : 0;
+  const bool is_newer = listener.has_newer_lines || kind_of(packet) != MicromodemKind::kFlexible;
   lines.push_back(
-      listener.has_newer_lines
-          ? fmt::format("CARFP,{},0,{},{},{},{},0,0,,{},",
-                        listener.state.clock.iso(SimTime::from_utime(packet.arrival_utime)), source,
-                        destination, ack, packet.rate_number, data)
-          : fmt::format("CARDP,{},{},{},{},0,,{}", source, destination, packet.rate_number, ack, data));
+      is_newer ? fmt::format("CARFP,{},0,{},{},{},{},{},0,,{},{}", arrival_of(listener, packet), source,
+                             destination, packet.rate_number, data.empty() ? -1 : packet.rate_number, ack,
+                             mini, data)
+               : fmt::format("CARDP,{},{},{},{},0,,{}", source, destination, packet.rate_number, ack, data));
 }
 
 void add_mini(const Listener& listener, const modem_receive_t& packet, std::vector<std::string>& lines) {
@@ -92,11 +109,14 @@ void add_ping(const Listener& listener, const modem_receive_t& packet, std::vect
   const auto source = listener.address(packet.source_id),
              destination = listener.address(packet.destination_id);
   if (packet.destination_id != packet.receiver_id) return;
-  lines.push_back(kind_of(packet) != MicromodemKind::kNewPing
-                      ? fmt::format("CAMPA,{},{}", source, destination)
-                      : fmt::format("CACMA,{},PNG,{},{},{},0,0,,",
-                                    listener.state.clock.iso(SimTime::from_utime(packet.arrival_utime)),
-                                    source, destination, packet.rate_number));
+  if (kind_of(packet) != MicromodemKind::kNewPing)
+    return lines.push_back(fmt::format("CAMPA,{},{}", source, destination));
+  const std::string time = arrival_of(listener, packet);
+  // Firmware from 3 on has what it is before the time.
+  lines.push_back(fmt::format("CACMA,{},{},{},{},{:.1f},{:.2f},{},0,0",
+                              listener.state.version == kNewestVersion ? "PNG" : time,
+                              listener.state.version == kNewestVersion ? time : "PNG", source, destination,
+                              packet.snr_db, packet.snr_out_db, listener.state.level));
 }
 
 }  // namespace
@@ -109,9 +129,13 @@ std::string MicromodemCycle::fields() const {
   return fmt::format("{},{},{},{},{},{}", command, source, destination, rate, wants_ack, frames);
 }
 
-std::vector<std::uint8_t> cycle_packet(const MicromodemCycle& cycle, bool asks_for_data) {
-  const auto other = static_cast<std::uint64_t>(asks_for_data ? cycle.destination : cycle.source);
-  const std::uint64_t bits = (asks_for_data ? 1u : 0u) << 11 | (other & 15) << 7 |
+bool can_be_asked_for(const MicromodemCycle& cycle, std::int64_t asker) {
+  return cycle.destination == asker || cycle.destination < kToTheSender;
+}
+
+std::vector<std::uint8_t> cycle_packet(const MicromodemCycle& cycle, std::optional<std::int64_t> asker) {
+  const std::int64_t to = !asker ? 0 : cycle.destination == *asker ? kToTheSender : cycle.destination;
+  const std::uint64_t bits = (asker ? 1u : 0u) << 12 | static_cast<std::uint64_t>(to) << 7 |
                              static_cast<std::uint64_t>(cycle.rate & 7) << 4 |
                              static_cast<std::uint64_t>(cycle.wants_ack & 1) << 3 |
                              static_cast<std::uint64_t>((cycle.frames - 1) & 7);
@@ -123,10 +147,13 @@ std::optional<CyclePacket> cycle_in(const std::vector<std::uint8_t>& payload, st
   if (payload.size() != 2) return std::nullopt;
   const unsigned bits = static_cast<unsigned>(payload[0]) << 8 | payload[1];
   CyclePacket packet;
-  packet.asks_for_data = (bits >> 11 & 1) != 0;
+  packet.asks_for_data = (bits >> 12 & 1) != 0;
+  const std::int64_t asked_for = bits >> 7 & 31;
   packet.cycle = {0,
                   packet.asks_for_data ? addressee : sender,
-                  packet.asks_for_data ? std::int64_t{bits >> 7 & 15} : addressee,
+                  !packet.asks_for_data       ? addressee
+                  : asked_for == kToTheSender ? sender
+                                              : asked_for,
                   bits >> 4 & 7,
                   bits >> 3 & 1,
                   (bits & 7) + 1};
@@ -154,7 +181,7 @@ void add_statistics(const Listener& listener, const modem_receive_t& packet,
   ReceptionReport report = report_of(packet);
   report.source = listener.address(packet.source_id);
   report.destination = listener.address(packet.destination_id);
-  report.type = type_of(packet.packet_kind, packet.rate_number, kind_of(packet) == MicromodemKind::kFlexible);
+  report.type = type_of(packet.packet_kind, packet.rate_number, is_flexible(packet));
   if (report.num_bad > 0 && packet.rate_number != 0) report.psk_error = 3;
   lines.push_back(cacst(listener.state, report));
 }
@@ -164,7 +191,7 @@ std::vector<std::string> lines_of(const Listener& listener, const modem_receive_
   if (packet.packet_kind == modem_receive_t::PING) add_ping(listener, packet, lines);
   if (packet.packet_kind == modem_receive_t::MINI_PACKET) add_mini(listener, packet, lines);
   if (packet.packet_kind == modem_receive_t::DATA) {
-    if (kind_of(packet) == MicromodemKind::kFlexible)
+    if (is_flexible(packet))
       add_flexible(listener, packet, lines);
     else
       add_data(listener, packet, lines);
@@ -182,6 +209,26 @@ std::vector<std::string> lines_of_ack(const Listener& listener, const modem_rece
   }
   add_statistics(listener, ack, lines);
   return lines;
+}
+
+// CACDR,time,0,src,dest,rate of the mini-frame,mask of mini-frames,mask of data frames,six reserved
+std::vector<std::string> lines_of_framed_ack(const Listener& listener, const modem_receive_t& ack,
+                                             bool has_mini) {
+  unsigned good = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, ack.payload.size()); ++i)
+    good |= static_cast<unsigned>(ack.payload[i]) << 8 * i;
+  std::vector<std::string> lines{fmt::format("CACDR,{},0,{},{},{},{:X},{:X},0,0,0,0,0,0",
+                                             arrival_of(listener, ack), listener.address(ack.source_id),
+                                             listener.address(ack.destination_id), ack.rate_number,
+                                             has_mini ? good & 1 : 0, has_mini ? good >> 1 : good)};
+  add_statistics(listener, ack, lines);
+  return lines;
+}
+
+std::string ping_answer(const Listener& listener, const modem_receive_t& answer, double one_way_s) {
+  return fmt::format("CACMR,PNR,{},{},{},{:.6f},{:.1f},{:.2f},{},0,", arrival_of(listener, answer),
+                     listener.address(answer.source_id), listener.address(answer.destination_id), one_way_s,
+                     answer.snr_db, answer.snr_out_db, listener.state.level);
 }
 
 std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss, SimTime arrival) {

@@ -24,6 +24,8 @@ enum class MicromodemKind {
   kControl = 4,       // mini-packet: set a line of the modem it is for
   kControlReply = 5,  // mini-packet: it is set
   kSleep = 6,         // mini-packet: sleep for so many minutes
+  kFramed = 7,        // data: flexible, of the newer command
+  kFramedMini = 8,    // the same, its first frame the mini-frame
 };
 MicromodemKind kind_of(const modem_receive_t& packet);
 
@@ -34,9 +36,11 @@ struct MicromodemCycle {
   std::string fields() const;  // command,source,destination,rate,ack,frames
 };
 
-// A cycle packet of 13 bits: whether it asks its receiver for data, the address that is not in the packet's own header (4 bits), rate (3),
-// acknowledgement (1), frames less one (3).
-std::vector<std::uint8_t> cycle_packet(const MicromodemCycle& cycle, bool asks_for_data);
+// A cycle packet of 13 bits: whether it asks its receiver for data, to which address (5 bits; 31 for the packet's sender), rate (3),
+// acknowledgement (1), frames less one (3). `asker`: its sender's address, where it asks.
+std::vector<std::uint8_t> cycle_packet(const MicromodemCycle& cycle, std::optional<std::int64_t> asker);
+// Whether the packet has room for the destination of what is asked for.
+bool can_be_asked_for(const MicromodemCycle& cycle, std::int64_t asker);
 // `sender`, `addressee`: of the packet. None where it holds no cycle.
 struct CyclePacket {
   MicromodemCycle cycle;
@@ -57,6 +61,7 @@ struct Listener {
   std::int32_t broadcast;   // address that stands for all
   bool reports_statistics;  // setting CST
   bool has_newer_lines;     // CARFP in the place of CARDP
+  bool has_base64;          // data of flexible packets in base64, setting recv.base64data
 
   std::int32_t address(std::int32_t vehicle_id) const;
 };
@@ -65,6 +70,11 @@ struct Listener {
 std::vector<std::string> lines_of(const Listener& listener, const modem_receive_t& packet);
 // Of an acknowledgement: the frames that it says were right.
 std::vector<std::string> lines_of_ack(const Listener& listener, const modem_receive_t& ack);
+// The same for a packet of CCTFP: masks of its mini-frame and of its data frames.
+std::vector<std::string> lines_of_framed_ack(const Listener& listener, const modem_receive_t& ack,
+                                             bool has_mini);
+// Of the answer to a ping of the second generation.
+std::string ping_answer(const Listener& listener, const modem_receive_t& answer, double one_way_s);
 // For a packet that was detected and lost; `arrival` by the vehicle's clock.
 std::vector<std::string> lines_of(const Listener& listener, const packet_outcome_t& loss, SimTime arrival);
 // CACST alone, where it is reported.

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "clients/modem_gateway/protocols/fields.h"
+
 namespace halocline::modem_gateway {
 namespace {
 
@@ -35,12 +37,14 @@ void MicromodemRemote::set_line(ClientId client, const NmeaSentence& sentence) {
   core_.say_all(fmt::format("CAMER,{},{},{}", destination, destination, control_fields(packet)));
 }
 
-// CCMSC,source,destination,minutes; 0: reboot.
+// CCMSC,source,destination,minutes; 0: reboot, -1: until it is woken, here for as long as can be told. What follows is not looked at.
 void MicromodemRemote::sleep(ClientId client, const NmeaSentence& sentence) {
-  const auto n = sentence.numbers<3>();
-  if (!n || (*n)[2] > kMaxMinutes) return core_.refuse_argument(client, sentence);
+  const auto n = sentence.numbers<2>();
+  const auto asked = integer_in(sentence.field(2), -1, kMaxMinutes);
+  if (!n || !asked) return core_.refuse_argument(client, sentence);
   core_.echo(client, sentence);
-  const auto [source, destination, minutes] = *n;
+  const auto [source, destination] = *n;
+  const std::int64_t minutes = *asked < 0 ? kMaxMinutes : *asked;
   if (destination == core_.own_address()) return housekeeping_.sleep(minutes);
   send(MicromodemKind::kSleep, destination,
        {static_cast<std::uint8_t>(minutes >> 8), static_cast<std::uint8_t>(minutes & 255)});

@@ -20,7 +20,7 @@ constexpr std::array<MicromodemRate, kMicromodemRates> kRates{{{1, 32, 80, 4000}
                                                                {2, 256, 1300, 5000},
                                                                {8, 256, 5300, 5000},
                                                                {6, 32, 500, 5000}}};
-constexpr int kVersion = 6, kProbeLength = 200;
+constexpr int kNewestTransmission = 7, kProbeLength = 200;
 
 double ratio_of(double db) { return elementary::exp10(db / 10); }
 double db_of(double ratio) { return 10 * elementary::log10(ratio); }
@@ -28,7 +28,7 @@ double db_of(double ratio) { return 10 * elementary::log10(ratio); }
 // Bit 0: the clock was set; 1: it has pulses.
 int clock_mode(const ModemClock& clock) { return (clock.is_set() ? 1 : 0) + (clock.has_pps() ? 2 : 0); }
 
-// Of a reception by the second generation. Bits 0 and 1: who set the clock (2 a user); 2 to 4: where pulses come from (3 outside).
+// Of a reception by newer firmware. Bits 0 and 1: who set the clock (2 a user); 2 to 4: where pulses come from (3 outside).
 int clock_sources(const ModemClock& clock) {
   return (clock.is_set() ? 2 : 0) + (clock.has_pps() ? 3 << 2 : 0);
 }
@@ -81,11 +81,11 @@ std::string cacst(const ReporterState& modem, const ReceptionReport& r) {
   const long peak =
       std::clamp(std::lround(kFullScale * elementary::exp10((r.level_db - kFullScale_db) / 20)), 1L, 32767L);
   const std::string arrival =
-      modem.is_second_generation
-          ? std::to_string(kVersion) + "," + std::to_string(static_cast<int>(r.mode)) + "," +
+      modem.version != kOldVersion
+          ? std::to_string(modem.version) + "," + std::to_string(static_cast<int>(r.mode)) + "," +
                 modem.clock.yyyymmdd(r.arrival) + modem.clock.hhmmss(r.arrival, 6)
           : std::to_string(static_cast<int>(r.mode)) + "," + modem.clock.hhmmss(r.arrival, 4);
-  const int mode = modem.is_second_generation ? clock_sources(modem.clock) : clock_mode(modem.clock);
+  const int mode = modem.has_clock_sources ? clock_sources(modem.clock) : clock_mode(modem.clock);
   return fmt::format("CACST,{},{},{},{:.0f},{:.0f},{:.0f},{},0,0,0,0,", arrival, mode, peak,
                      2 * db_of(static_cast<double>(peak)), r.snr_db, r.level_db, modem.gain) +
          fmt::format("{},{},{},{},{},{},{},{:.0f},{:.0f},{:.0f},{:.0f},{:.1f},{:.0f},{:.2f},{:.0f},{},{:.0f}",
@@ -93,17 +93,21 @@ std::string cacst(const ReporterState& modem, const ReceptionReport& r) {
                      r.num_bad, r.snr_db, r.snr_db, r.snr_out_db, r.sinr_db, mse_db(r.sinr_db),
                      255 * sinr / (1 + sinr), kSoundSpeed_mps * (r.doppler_factor - 1), r.noise_db,
                      modem.carrier_hz,
-                     micromodem_rate(std::clamp(r.rate, 0, kMicromodemRates - 1)).bandwidth_hz);
+                     micromodem_rate(std::clamp(r.rate, 0, kMicromodemRates - 1)).bandwidth_hz) +
+         (modem.version == kNewestVersion ? ",0,-1,-1,00" : "");
 }
 
 std::string caxst(const ReporterState& modem, const TransmissionReport& t) {
-  const std::string version = modem.is_second_generation ? std::to_string(kVersion) + "," : "";
+  const bool is_newest = modem.version == kNewestVersion;
+  const std::string version =
+      modem.version == kOldVersion ? "" : std::to_string(is_newest ? kNewestTransmission : kVersion) + ",";
   return fmt::format("CAXST,{}{},{},{},{},{},{:.0f},{},{},{},{},{},{},{},{},{}", version,
-                     modem.clock.yyyymmdd(t.at), modem.clock.hhmmss(t.at, 4), clock_mode(modem.clock),
-                     static_cast<int>(t.mode), kProbeLength,
+                     modem.clock.yyyymmdd(t.at), modem.clock.hhmmss(t.at, is_newest ? 6 : 4),
+                     clock_mode(modem.clock), static_cast<int>(t.mode), kProbeLength,
                      micromodem_rate(std::clamp(t.rate, 0, kMicromodemRates - 1)).bandwidth_hz,
                      modem.carrier_hz, t.rate, t.source, t.destination, t.wants_ack ? 1 : 0,
-                     t.frames_expected, t.frames_sent, static_cast<int>(t.type), t.bytes);
+                     t.frames_expected, t.frames_sent, static_cast<int>(t.type), t.bytes) +
+         (is_newest ? "," + std::to_string(modem.carrier_hz) : "");
 }
 
 }  // namespace halocline::modem_gateway

@@ -6,7 +6,8 @@
 //           expected, frames sent, packet type, bytes
 //
 // The second generation sends version 6: the version first, and the time of arrival as yyyymmddhhmmss.ffffff in the place of
-// hhmmss.ssss. Numbers that are the modem's own:
+// hhmmss.ssss. Firmware from 3 on sends CACST in version 8, with four more fields (0,-1,-1,00), and CAXST in version 7, with microseconds
+// and the carrier once more. Numbers that are the modem's own:
 //   peak     of the matched filter, 32767 at 180 dB re 1 uPa;  power = 20 log10(peak), dB;  ratio = SNR, dB
 //   SNR in   of all paths into the receiver, SNR of symbols after its window, SNR out per bit, RSS as in; dB
 //   quality  255 SINR / (1 + SINR)
@@ -65,11 +66,14 @@ struct TransmissionReport {
 };
 
 // Of the modem that reports.
+inline constexpr int kOldVersion = 0, kVersion = 6, kNewestVersion = 8;
 struct ReporterState {
   const ModemClock& clock;
-  bool is_second_generation;
-  int gain = 0;  // of the receiver, its setting AGN
+  int version = kVersion;         // of CACST
+  bool has_clock_sources = true;  // in its clock mode, firmware from 2.0.26038 on
+  int gain = 0;                   // of the receiver, its setting AGN
   int carrier_hz = 0;
+  int level = 0;  // of the transmitter, its setting pwramp.txlevel
 };
 // Bodies of sentences, without $ and checksum.
 std::string cacst(const ReporterState& modem, const ReceptionReport& report);

@@ -11,8 +11,8 @@
 namespace halocline::modem_gateway {
 namespace {
 
-// Between a cycle packet and its data.
-constexpr SimDuration kGap = SimDuration::from_milliseconds(50);
+// Of frames that wait for a cycle: as many as the largest packet has.
+constexpr std::size_t kMostFrames = 8, kLargestFrame = 256;
 // How long the kind of a packet is known, for its answer.
 constexpr SimDuration kRemembered = SimDuration::from_milliseconds(60'000);
 
@@ -21,6 +21,8 @@ MicromodemPacket type_of(MicromodemTransmitter::Kind kind, int rate) {
     case MicromodemTransmitter::Kind::kData:
       return rate == 0 ? MicromodemPacket::kFsk : MicromodemPacket::kPsk;
     case MicromodemTransmitter::Kind::kFlexible:
+    case MicromodemTransmitter::Kind::kFramed:
+    case MicromodemTransmitter::Kind::kFramedMini:
       return MicromodemPacket::kFlexible;
     default:
       return rate == 0 ? MicromodemPacket::kFskMini : MicromodemPacket::kPskMini;
@@ -34,26 +36,41 @@ clients::SendOptions mini_packet(MicromodemKind kind) {
 }
 
 void MicromodemTransmitter::begin(const MicromodemCycle& cycle, std::int32_t to, bool has_cycle_packet) {
-  cycle_ = Cycle{cycle, to, has_cycle_packet, {}, {}, false, false, {}};
-  ask_for_data();
+  cycle_ = Cycle{.wanted = cycle, .to = to};
+  if (!has_cycle_packet) return ask_for_data();
+  cycle_->announcement = send_at(core_.start_of_transmission(),
+                                 {Kind::kCycle, to, cycle.destination, cycle_packet(cycle, std::nullopt)},
+                                 mini_packet(MicromodemKind::kCycle));
+}
+
+std::size_t MicromodemTransmitter::frame_size() const {
+  return static_cast<std::size_t>(micromodem_rate(static_cast<int>(cycle_->wanted.rate)).frame_bytes);
 }
 
 void MicromodemTransmitter::ask_for_data() {
+  while (!waiting_.empty()) {
+    Frame frame = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (frame.bytes.size() <= frame_size()) return take_data(std::move(frame.bytes), frame.wants_ack);
+    core_.port().note("frame-dropped", "bytes=" + std::to_string(frame.bytes.size()));
+  }
   const MicromodemCycle& wanted = cycle_->wanted;
   cycle_->asked = core_.now();
   core_.say_all(fmt::format("CADRQ,{},{},{},{},{},{}", core_.clock().hhmmss(core_.reading()), wanted.source,
-                            wanted.destination, wanted.wants_ack,
-                            micromodem_rate(static_cast<int>(wanted.rate)).frame_bytes,
+                            wanted.destination, wanted.wants_ack, frame_size(),
                             cycle_->frame_bytes.size() + 1));
 }
 
-bool MicromodemTransmitter::wants_data(std::size_t bytes) const {
-  return cycle_ && !cycle_->is_complete &&
-         bytes <=
-             static_cast<std::size_t>(micromodem_rate(static_cast<int>(cycle_->wanted.rate)).frame_bytes);
+bool MicromodemTransmitter::can_take(std::size_t bytes) const {
+  if (cycle_ && !cycle_->announcement) return bytes <= frame_size();
+  return bytes <= kLargestFrame && waiting_.size() < kMostFrames;
 }
 
-void MicromodemTransmitter::take_data(const std::vector<std::uint8_t>& bytes, bool wants_ack) {
+void MicromodemTransmitter::take_data(std::vector<std::uint8_t> bytes, bool wants_ack) {
+  if (!cycle_ || cycle_->announcement) {
+    if (!bytes.empty()) waiting_.push_back({std::move(bytes), wants_ack});
+    return;
+  }
   if (bytes.empty()) return complete();
   cycle_->payload.insert(cycle_->payload.end(), bytes.begin(), bytes.end());
   cycle_->frame_bytes.push_back(static_cast<std::int32_t>(bytes.size()));
@@ -64,18 +81,9 @@ void MicromodemTransmitter::take_data(const std::vector<std::uint8_t>& bytes, bo
 
 // All data is there: transmits, or where the host had none is done.
 void MicromodemTransmitter::complete() {
-  cycle_->is_complete = true;
-  if (cycle_->frame_bytes.empty()) return cycle_.reset();
-  if (!cycle_->has_cycle_packet) return send_data(core_.start_of_transmission());
-  MicromodemCycle announced = cycle_->wanted;
-  announced.frames = static_cast<std::int64_t>(cycle_->frame_bytes.size());
-  send({Kind::kCycle, cycle_->to, announced.destination, cycle_packet(announced, false)},
-       mini_packet(MicromodemKind::kCycle));
-}
-
-void MicromodemTransmitter::send_data(SimTime start) {
   const Cycle cycle = *std::exchange(cycle_, std::nullopt);
-  send_at(start, {Kind::kData, cycle.to, cycle.wanted.destination, cycle.payload},
+  if (cycle.frame_bytes.empty()) return;
+  send_at(core_.start_of_transmission(), {Kind::kData, cycle.to, cycle.wanted.destination, cycle.payload},
           {.wants_ack = cycle.wants_ack && cycle.to != kBroadcastId,
            .rate_number = static_cast<std::int32_t>(cycle.wanted.rate),
            .frame_bytes = cycle.frame_bytes});
@@ -85,7 +93,8 @@ void MicromodemTransmitter::send(Transmission transmission, clients::SendOptions
   send_at(core_.start_of_transmission(), std::move(transmission), std::move(options));
 }
 
-void MicromodemTransmitter::send_at(SimTime start, Transmission transmission, clients::SendOptions options) {
+std::int64_t MicromodemTransmitter::send_at(SimTime start, Transmission transmission,
+                                            clients::SendOptions options) {
   OnItsWay sent;
   sent.report.rate = options.rate_number.value_or(0);
   sent.report.source = core_.own_address();
@@ -100,11 +109,21 @@ void MicromodemTransmitter::send_at(SimTime start, Transmission transmission, cl
   sent.transmission = std::move(transmission);
   sent.forgotten = start + kRemembered;
   sent_[sequence] = std::move(sent);
+  return sequence;
 }
 
-bool MicromodemTransmitter::is_new_ping(std::int64_t packet_sequence) const {
+std::optional<MicromodemTransmitter::Kind> MicromodemTransmitter::sent_as(
+    std::int64_t packet_sequence) const {
   const auto found = sent_.find(packet_sequence);
-  return found != sent_.end() && found->second.transmission.packet == Kind::kNewPing;
+  return found == sent_.end() ? std::nullopt : std::optional(found->second.transmission.packet);
+}
+
+// The cycle packet is over: its host is asked for the data. Where it was not sent nothing comes of the cycle.
+void MicromodemTransmitter::end_announcement(std::int64_t sequence, bool was_sent) {
+  if (!cycle_ || cycle_->announcement != sequence) return;
+  if (!was_sent) return cycle_.reset();
+  cycle_->announcement.reset();
+  ask_for_data();
 }
 
 void MicromodemTransmitter::on_receipt(const modem_receipt_t& receipt) {
@@ -121,13 +140,10 @@ void MicromodemTransmitter::on_receipt(const modem_receipt_t& receipt) {
     sent.report.frames_sent = 0;
     core_.port().note("send-refused", "result=" + std::to_string(receipt.receipt_result));
   }
-  const bool announces = sent.transmission.packet == Kind::kCycle && cycle_ && cycle_->is_complete;
-  if (announces && sent.is_accepted) send_data(sent.ends + kGap);
-  if (announces && !sent.is_accepted) cycle_.reset();
 }
 
 SimTime MicromodemTransmitter::data_due() const {
-  if (!cycle_ || cycle_->is_complete) return SimTime::never();
+  if (!cycle_ || cycle_->asked == SimTime::never()) return SimTime::never();
   const std::int64_t timeout_s = std::clamp<std::int64_t>(core_.settings().number("DTO"), 1, 3600);
   return cycle_->asked + SimDuration::from_milliseconds(1000) * timeout_s;
 }
@@ -145,19 +161,17 @@ void MicromodemTransmitter::step() {
     cycle_.reset();
   }
   for (auto it = sent_.begin(); it != sent_.end();) {
-    if (advance(it->second)) {
+    if (advance(it->first, it->second)) {
       ++it;
       continue;
     }
-    // A cycle packet that had no receipt: nothing came of the cycle.
-    const bool is_unanswered = it->second.transmission.packet == Kind::kCycle && !it->second.has_receipt;
-    if (is_unanswered && cycle_ && cycle_->is_complete) cycle_.reset();
+    end_announcement(it->first, false);  // of one that had no receipt
     it = sent_.erase(it);
   }
 }
 
 // Writes what has happened to it by now; false when it may be forgotten.
-bool MicromodemTransmitter::advance(OnItsWay& sent) {
+bool MicromodemTransmitter::advance(std::int64_t sequence, OnItsWay& sent) {
   const SimTime now = core_.now();
   if (now >= sent.begins) {
     sent.report.at = core_.port().clock_at(std::exchange(sent.begins, SimTime::never()));
@@ -167,6 +181,7 @@ bool MicromodemTransmitter::advance(OnItsWay& sent) {
     sent.ends = SimTime::never();
     if (sent.is_accepted) core_.say_all(fmt::format("CATXF,{}", sent.report.bytes));
     if (core_.reports_transmissions()) core_.say_all(caxst(core_.state(), sent.report));
+    end_announcement(sequence, sent.is_accepted);
   }
   return now < sent.forgotten;
 }

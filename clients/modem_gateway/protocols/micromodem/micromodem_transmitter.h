@@ -1,12 +1,14 @@
 // The sending side of a Micromodem: data cycles, and what it writes of each transmission.
 //
-// A cycle asks its host for its frames one by one (CADRQ), then sends them as one packet, at rate 0 after a cycle packet. Of every
-// transmission: CATXP when its sound begins, CATXF when it ends, then CAXST. Data that does not come in time ends the cycle
-// (CAERR,...,DATA_TIMEOUT).
+// A cycle asks its host for its frames one by one (CADRQ), then sends them as one packet. At rate 0 a cycle packet goes out first, and the
+// host is asked when that has ended. Frames that a host gives without being asked wait for the next cycle, which then does not ask for
+// them. Of every transmission: CATXP when its sound begins, CATXF when it ends, then CAXST. Data that does not come in time ends the
+// cycle (CAERR,...,DATA_TIMEOUT).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <vector>
@@ -25,7 +27,7 @@ clients::SendOptions mini_packet(MicromodemKind kind);
 
 class MicromodemTransmitter {
  public:
-  enum class Kind { kData, kCycle, kMini, kPing, kNewPing, kFlexible };
+  enum class Kind { kData, kCycle, kMini, kPing, kNewPing, kFlexible, kFramed, kFramedMini };
   struct Transmission {
     Kind packet = Kind::kData;
     std::int32_t to = 0;           // vehicle
@@ -40,14 +42,15 @@ class MicromodemTransmitter {
   bool is_busy() const { return cycle_.has_value(); }
   // A cycle whose data this modem's host is asked for; with a cycle packet before it where told.
   void begin(const MicromodemCycle& cycle, std::int32_t to, bool has_cycle_packet);
-  // Whether a frame of that size is awaited.
-  bool wants_data(std::size_t bytes) const;
-  // The next frame, which is wanted; an empty one ends the data.
-  void take_data(const std::vector<std::uint8_t>& bytes, bool wants_ack);
+  // Whether a frame of that size is awaited, or may wait for a cycle.
+  bool can_take(std::size_t bytes) const;
+  // The next frame, which can be taken; an empty one ends the data.
+  void take_data(std::vector<std::uint8_t> bytes, bool wants_ack);
 
   // One packet, from the modem's next start on.
   void send(Transmission transmission, clients::SendOptions options);
-  bool is_new_ping(std::int64_t packet_sequence) const;
+  // What was sent with that number; none where it is forgotten.
+  std::optional<Kind> sent_as(std::int64_t packet_sequence) const;
 
   void on_receipt(const modem_receipt_t& receipt);
   SimTime next() const;
@@ -57,12 +60,15 @@ class MicromodemTransmitter {
   struct Cycle {
     MicromodemCycle wanted;
     std::int32_t to = 0;
-    bool has_cycle_packet = false;
-    std::vector<std::uint8_t> payload;
-    std::vector<std::int32_t> frame_bytes;
+    std::optional<std::int64_t> announcement = {};  // its cycle packet, until that has ended
+    std::vector<std::uint8_t> payload = {};
+    std::vector<std::int32_t> frame_bytes = {};
     bool wants_ack = false;
-    bool is_complete = false;
-    SimTime asked;  // for the next frame
+    SimTime asked = SimTime::never();  // for the next frame
+  };
+  struct Frame {
+    std::vector<std::uint8_t> bytes;
+    bool wants_ack;
   };
   struct OnItsWay {
     Transmission transmission;
@@ -73,14 +79,16 @@ class MicromodemTransmitter {
 
   // When the cycle is given up for want of data; never() without one.
   SimTime data_due() const;
+  std::size_t frame_size() const;
   void ask_for_data();
   void complete();
-  void send_data(SimTime start);
-  void send_at(SimTime start, Transmission transmission, clients::SendOptions options);
-  bool advance(OnItsWay& sent);
+  std::int64_t send_at(SimTime start, Transmission transmission, clients::SendOptions options);
+  void end_announcement(std::int64_t sequence, bool was_sent);
+  bool advance(std::int64_t sequence, OnItsWay& sent);
 
   MicromodemCore& core_;
   std::optional<Cycle> cycle_;
+  std::deque<Frame> waiting_;  // for a cycle
   std::map<std::int64_t, OnItsWay> sent_;
 };
 

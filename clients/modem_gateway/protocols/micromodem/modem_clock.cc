@@ -56,8 +56,8 @@ std::string ModemClock::yyyymmdd(SimTime time) const {
   return fmt::format("{:04}{:02}{:02}", at.year, at.month, at.day);
 }
 
-std::string ModemClock::comma_separated(SimTime time) const {
-  const Calendar at = calendar_of(calendar_us(time));
+std::string ModemClock::comma_separated_of(std::int64_t calendar_s) {
+  const Calendar at = calendar_of(calendar_s * kSecond_us);
   return fmt::format("{:04},{:02},{:02},{:02},{:02},{:02}", at.year, at.month, at.day, at.hour, at.minute,
                      at.second);
 }
@@ -66,6 +66,11 @@ std::string ModemClock::iso(SimTime time) const {
   const Calendar at = calendar_of(calendar_us(time));
   return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", at.year, at.month, at.day, at.hour, at.minute,
                      at.second);
+}
+
+std::string ModemClock::iso_us(SimTime time) const {
+  const std::string whole = iso(time);
+  return whole.substr(0, whole.size() - 1) + hhmmss(time, 6).substr(6);
 }
 
 std::optional<std::int64_t> calendar_seconds(std::int64_t year, std::int64_t month, std::int64_t day,

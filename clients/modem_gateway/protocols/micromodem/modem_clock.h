@@ -30,8 +30,12 @@ class ModemClock {
 
   std::string hhmmss(SimTime time, int decimals = 0) const;  // cut off, not rounded
   std::string yyyymmdd(SimTime time) const;
-  std::string comma_separated(SimTime time) const;  // yyyy,mm,dd,hh,mm,ss
-  std::string iso(SimTime time) const;              // yyyy-mm-ddThh:mm:ssZ
+  std::string comma_separated(SimTime time) const {
+    return comma_separated_of(calendar_us(time) / 1'000'000);
+  }
+  static std::string comma_separated_of(std::int64_t calendar_s);  // yyyy,mm,dd,hh,mm,ss
+  std::string iso(SimTime time) const;                             // yyyy-mm-ddThh:mm:ssZ
+  std::string iso_us(SimTime time) const;                          // yyyy-mm-ddThh:mm:ss.ffffff
 
  private:
   bool has_pps_;

@@ -1,4 +1,4 @@
-// Messages of fjage as JSON: envelopes, arrays of bytes, base 64.
+// Messages of fjage as JSON: envelopes, arrays of bytes.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,6 @@
 #include <nlohmann/json.hpp>
 
 namespace halocline::modem_gateway {
-
-std::string base64_of(std::span<const std::uint8_t> bytes);
-// None for a text that is no base 64.
-std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text);
 
 // An array of bytes as hosts send it: a list of numbers from -128 to 255, or {"clazz": "[B", "data": BASE64}. None for anything else; no
 // bytes for null.
