@@ -46,7 +46,7 @@ TEST(Evologics, TakesCommandsInAnyPiecesAndWithAnyEnd) {
 
 TEST(Evologics, RefusesInTheModemsWords) {
   S2cBench bench;
-  EXPECT_EQ(bench.say("hello"), "ERROR UNKNOWN COMMAND\r\n");
+  EXPECT_EQ(bench.say("hello"), "ERROR WRONG FORMAT\r\n");
   EXPECT_EQ(bench.say("AT!XY1"), "ERROR UNKNOWN COMMAND\r\n");
   EXPECT_EQ(bench.say("AT?XY"), "ERROR UNKNOWN COMMAND\r\n");
   EXPECT_EQ(bench.say("AT!L9"), "ERROR OUT OF RANGE\r\n");
@@ -58,7 +58,7 @@ TEST(Evologics, RefusesInTheModemsWords) {
   EXPECT_EQ(bench.say("AT*SENDIM,65,2,noack," + std::string(65, 'x')), "ERROR WRONG FORMAT\r\n");
   EXPECT_EQ(bench.say("AT*SENDIM,3,1,noack,abc"), "ERROR WRONG DESTINATION ADDRESS\r\n");  // its own
   EXPECT_EQ(bench.say("AT*SENDIM,p9,3,2,noack,abc"), "ERROR PROTOCOL ID\r\n");
-  EXPECT_EQ(bench.ask(std::string(9000, 'x') + "\nAT?L\n"), "ERROR UNKNOWN COMMAND\r\n0\r\n");
+  EXPECT_EQ(bench.ask(std::string(9000, 'x') + "\nAT?L\n"), "ERROR WRONG FORMAT\r\n0\r\n");
   EXPECT_TRUE(bench.port.sent.empty());
 }
 
@@ -100,6 +100,19 @@ TEST(Evologics, AMessageWithoutAcknowledgementEndsWithItsSound) {
   bench.accept(0.2);
   EXPECT_EQ(bench.wait(0.3), "");
   EXPECT_EQ(bench.say("AT*SENDIM,3,255,noack,abc"), "OK\r\n");
+}
+
+TEST(Evologics, TheAddressBeyondTheHighestIsThatOfAll) {
+  S2cBench bench;
+  bench.say("AT!AM14");
+  EXPECT_EQ(bench.say("AT*SENDIM,3,16,noack,abc"), "ERROR WRONG DESTINATION ADDRESS\r\n");
+  for (const auto* all : {"15", "255"}) {
+    EXPECT_EQ(bench.say("AT*SENDIM,3," + std::string(all) + ",noack,abc"), "OK\r\n");
+    EXPECT_EQ(bench.port.sent.back().destination, kBroadcastId);
+    bench.accept(0.2);
+    bench.wait(0.3);
+  }
+  EXPECT_THAT(bench.receive(bench.message_from(5, kBroadcastId, "hi")), StartsWith("RECVIM,2,5,15,noack,"));
 }
 
 TEST(Evologics, AReceptionCancelsAMessageUnlessItIsForced) {
@@ -169,6 +182,7 @@ TEST(Evologics, InDataModeCommandsAreEscapedAndAnswersWrapped) {
   bench.wait(1);
   EXPECT_EQ(bench.say("+++AT!L1"), "+++AT!L:2:OK\r\n");
   EXPECT_EQ(bench.say("+++AT?L"), "+++AT?L:1:1\r\n");
+  EXPECT_EQ(bench.say("+++AT?MODE"), "+++AT?MODE:2:AT\r\n");
   EXPECT_EQ(bench.receive(bench.message_from(5, 1, "hello")),
             "+++AT:" + std::to_string(("RECVIM,5,5,1,noack,"s + kQuality).size() + 5) +
                 ":RECVIM,5,5,1,noack," + kQuality + "hello\r\n");
@@ -243,7 +257,6 @@ TEST(Evologics, ItsVoltageFallsWithTheBattery) {
 
 TEST(Evologics, RefusesOptionsThatItLacks) {
   EXPECT_THROW(S2cBench("mode=serial"), InvalidArgument);
-  EXPECT_THROW(S2cBench("paths=all"), InvalidArgument);
   EXPECT_THROW(S2cBench("colour=red"), InvalidArgument);
 }
 

@@ -3,7 +3,7 @@
 //
 // Each host has its own mode; ATO and ATC change it. Bytes that are no commands in data mode go to the remote address (!AR) as bursts of up
 // to 1024 bytes, once 50 ms have passed without more; what comes of another's stream is written as it is to hosts in data mode, and as
-// RECV to the others. Options: `mode` (net or data, of a host that connects), `paths` (how ?P shows them: lines, or dune).
+// RECV to the others. Options: `mode` (net or data, of a host that connects; ?MODE says NET or AT).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -40,7 +40,8 @@ constexpr SimDuration kStreamPause = SimDuration::from_milliseconds(50);
 constexpr std::size_t kMaxStreamBurst = 1024, kMaxStream = 16 * kMaxStreamBurst;
 // Packets whose bearing may still come.
 constexpr std::size_t kMaxRecent = 32;
-constexpr std::size_t kDunePaths = 8;
+// The table of ?P has as many lines, filled up with zeros: hosts read so many.
+constexpr std::size_t kLeastPaths = 8;
 // An answer to ?P that the channel does not give in time is empty.
 constexpr SimDuration kPathsWithin = SimDuration::from_milliseconds(800);
 
@@ -54,10 +55,6 @@ class Evologics : public Protocol {
     const std::string mode = context.options.take("mode", "net");
     require(mode == "net" || mode == "data", "option mode is '" + mode + "'; allowed are net and data");
     begins_in_data_mode_ = mode == "data";
-    const std::string paths = context.options.take("paths", "lines");
-    require(paths == "lines" || paths == "dune",
-            "option paths is '" + paths + "'; allowed are lines and dune");
-    shows_paths_for_dune_ = paths == "dune";
     context.options.require_all_taken();
   }
 
@@ -166,11 +163,11 @@ class Evologics : public Protocol {
 
   void obey(ClientId client, const S2cCommand& command) {
     const std::string& name = command.name;
-    if (!command.is_well_formed)
-      return answer(client, name, name.empty() ? "ERROR UNKNOWN COMMAND" : "ERROR WRONG FORMAT");
+    if (!command.is_well_formed) return answer(client, name, "ERROR WRONG FORMAT");
     if (!command.fields.empty()) return answer(client, name, sender_.take(command));
     if (name == "O" || name == "C") return change_mode(client, name == "O");
     if (name == "?P") return ask_paths(client);
+    if (name == "?MODE") return answer(client, name, begins_in_data_mode_ ? "AT" : "NET");
     answer(client, name, settings_.answer(command).value_or("ERROR UNKNOWN COMMAND"));
   }
 
@@ -190,13 +187,10 @@ class Evologics : public Protocol {
     paths_due_ = SimTime::never();
     answer(*std::exchange(paths_client_, std::nullopt), "?P", paths_text(std::move(paths)));
   }
-  // A line for each; DUNE reads 16 numbers of one line, here of the first eight.
-  std::string paths_text(std::vector<ShownPath> paths) const {
-    if (shows_paths_for_dune_) paths.resize(kDunePaths);
+  static std::string paths_text(std::vector<ShownPath> paths) {
+    paths.resize(std::max(paths.size(), kLeastPaths));
     std::string text;
-    for (const auto& [delay_us, amplitude] : paths)
-      text += fmt::format("{} {}{}", delay_us, amplitude, shows_paths_for_dune_ ? " " : "\n");
-    if (shows_paths_for_dune_) text.pop_back();
+    for (const auto& [delay_us, amplitude] : paths) text += fmt::format("{} {}\n", delay_us, amplitude);
     return text;
   }
 
@@ -251,7 +245,7 @@ class Evologics : public Protocol {
   ProtocolPort& port_;
   S2cSender sender_;
   S2cSettings settings_;
-  bool begins_in_data_mode_ = false, shows_paths_for_dune_ = false;
+  bool begins_in_data_mode_ = false;
   std::map<ClientId, S2cReader> hosts_;
   std::deque<Recent> recent_;
   std::int32_t last_source_ = kBroadcastId;

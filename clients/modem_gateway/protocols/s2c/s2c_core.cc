@@ -27,11 +27,11 @@ void S2cCore::reset_settings() {
 }
 
 std::int32_t S2cCore::vehicle_of(std::int64_t address) const {
-  return address == kS2cBroadcast ? kBroadcastId : addresses_.vehicle_of(static_cast<std::int32_t>(address));
+  return is_broadcast(address) ? kBroadcastId : addresses_.vehicle_of(static_cast<std::int32_t>(address));
 }
 
 std::int32_t S2cCore::address_of(std::int32_t vehicle_id) const {
-  return vehicle_id == kBroadcastId ? kS2cBroadcast : addresses_.address_of(vehicle_id).value_or(vehicle_id);
+  return vehicle_id == kBroadcastId ? broadcast() : addresses_.address_of(vehicle_id).value_or(vehicle_id);
 }
 
 std::int64_t S2cCore::setting(std::string_view name) const {

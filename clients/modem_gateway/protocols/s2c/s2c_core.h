@@ -29,7 +29,6 @@ struct S2cPayload {
 };
 S2cPayload s2c_payload(const modem_receive_t& packet);
 
-inline constexpr std::int32_t kS2cBroadcast = 255;
 inline constexpr std::int32_t kS2cImRate = 0, kS2cBurstRate = 1;
 
 class S2cCore {
@@ -44,7 +43,10 @@ class S2cCore {
   std::int32_t vehicle_id() const { return vehicle_id_; }
   std::int32_t own_address() const { return addresses_.address_of(vehicle_id_).value_or(0); }
   void take_address(std::int32_t address) { addresses_.assign(vehicle_id_, address); }
-  // Of vehicle and address, kBroadcastId and 255 standing for all.
+  // The address of all: all bits of addresses up to the highest (!AM), 255 for 254. 255 stands for it in any case.
+  std::int32_t broadcast() const { return static_cast<std::int32_t>(setting("!AM")) + 1; }
+  bool is_broadcast(std::int64_t address) const { return address == broadcast() || address == kAll; }
+  // Of vehicle and address, kBroadcastId and broadcast() standing for all.
   std::int32_t vehicle_of(std::int64_t address) const;
   std::int32_t address_of(std::int32_t vehicle_id) const;
 
@@ -68,6 +70,8 @@ class S2cCore {
   }
 
  private:
+  static constexpr std::int64_t kAll = 255;
+
   ProtocolPort& port_;
   AddressBook& addresses_;
   std::int32_t vehicle_id_;

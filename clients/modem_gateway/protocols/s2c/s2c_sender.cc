@@ -48,12 +48,12 @@ S2cMessage::Type type_of(const std::string& command) {
 }
 
 // The flag of an instant message, the time of a synchronous one; "" where that is well.
-std::string take_last_field(const S2cCommand& command, S2cMessage& message) {
+std::string take_last_field(const S2cCore& core, const S2cCommand& command, S2cMessage& message) {
   const std::string& last = command.fields.back();
   switch (message.type) {
     case S2cMessage::Type::kInstant:
       if (last != "ack" && last != "noack" && last != "force") return "ERROR WRONG FORMAT";
-      message.wants_ack = last == "ack" && message.address != kS2cBroadcast;
+      message.wants_ack = last == "ack" && !core.is_broadcast(message.address);
       if (last == "force") message.payload.kind = S2cKind::kForced;
       return "";
     case S2cMessage::Type::kSynchronous: {
@@ -84,14 +84,14 @@ std::string S2cSender::take(const S2cCommand& command) {
     if (!protocol) return "ERROR PROTOCOL ID";
     message.payload.protocol = static_cast<int>(*protocol);
   }
-  const auto address = integer_in(command.fields[at + 1], 1, kS2cBroadcast);
+  const auto address = integer_in(command.fields[at + 1], 1, 255);
   const bool is_reachable = address && *address != core_.own_address() &&
-                            (*address <= core_.setting("!AM") || *address == kS2cBroadcast);
+                            (*address <= core_.setting("!AM") || core_.is_broadcast(*address));
   if (!is_reachable) return "ERROR WRONG DESTINATION ADDRESS";
   message.address = static_cast<std::int32_t>(*address);
   message.payload.bytes = as_bytes(command.data);
-  message.wants_ack = message.type == S2cMessage::Type::kBurst && message.address != kS2cBroadcast;
-  const std::string problem = take_last_field(command, message);
+  message.wants_ack = message.type == S2cMessage::Type::kBurst && !core_.is_broadcast(message.address);
+  const std::string problem = take_last_field(core_, command, message);
   return problem.empty() ? take(std::move(message)) : problem;
 }
 

@@ -78,7 +78,6 @@ std::optional<std::string> S2cSettings::query(const std::string& name) const {
   if (name == "?BV") return fmt::format("{:.1f}", battery_v());
   if (name == "?T") return std::to_string(sender_.propagation_us());
   if (name == "?CLOCK") return std::to_string(core_.reading().to_utime() / 1'000'000);
-  if (name == "?MODE") return "NET";
   if (name == "?PID" || name == "?DI") return "0";
   if (name == "?UP" || name == "?UPX") return position_;
   if (name == "?S") return status();
