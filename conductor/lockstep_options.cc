@@ -1,24 +1,20 @@
 #include "conductor/lockstep_options.h"
 
-#include <charconv>
 #include <set>
 #include <sstream>
-#include <system_error>
 
 #include "conductor/lockstep_run.h"
 #include "core/check.h"
+#include "core/csv_table.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {
 namespace {
 
 double number_of(const std::string& option, const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  require(whole && value >= 0 && value <= 1e6,
-          option + " is '" + text + "'; allowed is a number from 0 to 1e6");
-  return value;
+  const auto value = parse_number(text, 0.0, 1e6);
+  require(value.has_value(), option + " is '" + text + "'; allowed is a number from 0 to 1e6");
+  return *value;
 }
 
 std::set<std::string> names_of(const std::string& list) {

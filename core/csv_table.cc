@@ -104,14 +104,6 @@ std::string csv_cell(std::string_view text) {
   return cell + "\"";
 }
 
-std::optional<double> parse_number(std::string_view cell) {
-  if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 std::string format_number(double value) {
   char text[32];  // the longest double takes 24 characters
   const auto [end, error] = std::to_chars(text, text + sizeof(text), value);

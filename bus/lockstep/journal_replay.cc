@@ -1,16 +1,15 @@
 #include "bus/lockstep/journal_replay.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "bus/lockstep/agreement.h"
+#include "core/csv_table.h"
 #include "core/sim_time.h"
 
 namespace halocline::conductor {
@@ -27,11 +26,7 @@ Decoded expected(std::optional<Decoded> decoded) {
 }
 
 std::int64_t number_of(const bus::Bytes& bytes) {
-  const std::string text = text_of(bytes);
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) refuse();
-  return number;
+  return expected(parse_number<std::int64_t>(text_of(bytes)));
 }
 
 void apply_join(const bus::Bytes& bytes, const std::string& agreement, Sequencer& sequencer) {

@@ -1,6 +1,9 @@
 #include "core/csv_table.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -62,12 +65,28 @@ TEST(CsvTable, AnEmptyTextHasNoHeader) {
   EXPECT_THAT(read("\n").errors, ElementsAre(HasSubstr("no header")));
 }
 
-TEST(CsvTable, NumbersAreWholeCellsAndFinite) {
+TEST(ParseNumber, RealNumbersAreWholeTextsAndFinite) {
   EXPECT_EQ(parse_number("-1.5e3"), -1500);
   EXPECT_EQ(parse_number("+2"), 2);
-  for (const char* bad : {"", "1x", "nan", "inf", "1e999", "0x10", "1 2", "+-3", "1,5"}) {
+  for (const char* bad : {"", "+", "1x", " 1", "nan", "inf", "1e999", "0x10", "1 2", "+-3", "++3", "1,5"})
     EXPECT_EQ(parse_number(bad), std::nullopt) << bad;
-  }
+}
+
+TEST(ParseNumber, IntegersFillTheirTypeAndNoMore) {
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(parse_number<std::int64_t>("-9223372036854775808"), kLeast);
+  EXPECT_EQ(parse_number<std::uint64_t>("18446744073709551615"), std::numeric_limits<std::uint64_t>::max());
+  for (const char* bad : {"9223372036854775808", "1.0", "1e3", ""})
+    EXPECT_EQ(parse_number<std::int64_t>(bad), std::nullopt) << bad;
+  EXPECT_EQ(parse_number<std::uint64_t>("-1"), std::nullopt);
+}
+
+TEST(ParseNumber, BoundsAreIncluded) {
+  EXPECT_EQ(parse_number<int>("3", 3, 5), 3);
+  EXPECT_EQ(parse_number<int>("5", 3, 5), 5);
+  EXPECT_EQ(parse_number<int>("6", 3, 5), std::nullopt);
+  EXPECT_EQ(parse_number("2.9999", 3.0, 5.0), std::nullopt);
+  EXPECT_EQ(parse_number("nan", 3.0, 5.0), std::nullopt);
 }
 
 TEST(CsvTable, WrittenNumbersReadBackAsTheSameDouble) {

@@ -1,14 +1,12 @@
 #include "clients/halocline/export/mission_export.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -24,6 +22,7 @@
 #include "clients/mission/packet_reasons.h"
 #include "core/atomic_file.h"
 #include "core/check.h"
+#include "core/csv_table.h"
 #include "core/shared_module.h"
 #include "core/sim_time.h"
 
@@ -109,16 +108,13 @@ std::string escaped(const std::string& text) {
 void set_origin(MissionStore& mission, const std::string& text) {
   MissionScenario scenario = mission.scenario();
   const std::size_t comma = text.find(',');
-  const auto number = [&](std::string_view part, double& value) {
-    const auto [stop, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    return error == std::errc() && stop == part.data() + part.size();
-  };
-  const bool is_sound = comma != std::string::npos &&
-                        number(std::string_view(text).substr(0, comma), scenario.origin_latitude_deg) &&
-                        number(std::string_view(text).substr(comma + 1), scenario.origin_longitude_deg) &&
-                        std::abs(scenario.origin_latitude_deg) < 90 &&
-                        std::abs(scenario.origin_longitude_deg) <= 360;
-  require(is_sound, "--origin is '" + text + "'; allowed is LATITUDE,LONGITUDE in degrees, as 43.5,7.25");
+  const auto latitude_deg = parse_number(text.substr(0, comma), -90.0, 90.0);
+  const auto longitude_deg =
+      comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1), -360.0, 360.0);
+  require(latitude_deg && longitude_deg && std::abs(*latitude_deg) < 90,
+          "--origin is '" + text + "'; allowed is LATITUDE,LONGITUDE in degrees, as 43.5,7.25");
+  scenario.origin_latitude_deg = *latitude_deg;
+  scenario.origin_longitude_deg = *longitude_deg;
   mission.set_scenario(std::move(scenario));
 }
 

@@ -1,11 +1,9 @@
 #include "clients/halocline/scenario/link_survey.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <sstream>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -75,9 +73,9 @@ bool parse_position(const std::string& text, Vec3& position) {
   int count = 0;
   for (; std::getline(in, part, ','); ++count) {
     if (count == 3) return false;
-    const char* end = part.data() + part.size();
-    const auto [stop, error] = std::from_chars(part.data(), end, position[count]);
-    if (error != std::errc() || stop != end || !std::isfinite(position[count])) return false;
+    const auto number = parse_number(part);
+    if (!number) return false;
+    position[count] = *number;
   }
   return count == 3;
 }

@@ -1,16 +1,15 @@
 #include "clients/halocline/sweep/sweep_plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <set>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/check.h"
+#include "core/csv_table.h"
 
 namespace halocline::clients {
 namespace {
@@ -58,14 +57,6 @@ std::vector<std::string> values_of(const std::string& key, const std::string& te
   return values;
 }
 
-std::optional<std::int64_t> parse_seed(std::string_view text) {
-  std::int64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || end != text.data() + text.size() || seed < 0 || seed > kMaxSeed)
-    return std::nullopt;
-  return seed;
-}
-
 }  // namespace
 
 std::size_t SweepPlan::points() const {
@@ -90,8 +81,10 @@ std::vector<std::int64_t> parse_seeds(const std::string& text) {
       "seeds '" + text + "'; allowed are whole numbers and ranges, 0 to 9e15: 1..20 or 1,5,9..12";
   for (const std::string& part : split(text)) {
     const auto dots = part.find("..");
-    const auto first = parse_seed(trimmed(part.substr(0, dots)));
-    const auto last = dots == std::string::npos ? first : parse_seed(trimmed(part.substr(dots + 2)));
+    const auto first = parse_number(trimmed(part.substr(0, dots)), std::int64_t{0}, kMaxSeed);
+    const auto last = dots == std::string::npos
+                          ? first
+                          : parse_number(trimmed(part.substr(dots + 2)), std::int64_t{0}, kMaxSeed);
     require(first && last && *first <= *last, wrong);
     require(*last - *first < static_cast<std::int64_t>(SweepPlan::kMaxRuns), wrong);
     for (std::int64_t seed = *first; seed <= *last; ++seed) seeds.insert(seed);

@@ -1,20 +1,11 @@
 #include "clients/modem_gateway/protocols/fields.h"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
+
+#include "core/csv_table.h"
 
 namespace halocline::modem_gateway {
 namespace {
-
-template <class Number>
-std::optional<Number> whole_number(std::string_view text, Number lowest, Number highest) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
-  return value >= lowest && value <= highest ? std::optional(value) : std::nullopt;  // no NaN, either
-}
 
 int value_of_digit(char digit) {
   if (digit >= '0' && digit <= '9') return digit - '0';
@@ -43,11 +34,11 @@ std::vector<std::string_view> fields_of(std::string_view text, char separator) {
 }
 
 std::optional<std::int64_t> integer_in(std::string_view text, std::int64_t lowest, std::int64_t highest) {
-  return whole_number<std::int64_t>(text, lowest, highest);
+  return parse_number<std::int64_t>(text, lowest, highest);
 }
 
 std::optional<double> number_in(std::string_view text, double lowest, double highest) {
-  return whole_number<double>(text, lowest, highest);
+  return parse_number<double>(text, lowest, highest);
 }
 
 std::string hex_of(std::span<const std::uint8_t> bytes) {

@@ -1,13 +1,12 @@
 #include "clients/monitor/pages/packet_json.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
-#include <system_error>
 
 #include "clients/mission/mission_vehicle.h"
 #include "clients/mission/packet_book.h"
 #include "clients/mission/packet_reasons.h"
+#include "core/csv_table.h"
 #include "core/frames.h"
 
 namespace halocline::monitor {
@@ -70,11 +69,7 @@ std::vector<const clients::PacketRecord*> PacketIndex::departing(const clients::
 std::string packet_key(const clients::PacketRecord& packet) { return "p" + std::to_string(packet.number); }
 
 std::optional<std::uint64_t> packet_number(std::string_view key) {
-  std::uint64_t number = 0;
-  if (!key.starts_with('p')) return std::nullopt;
-  const auto [stop, error] = std::from_chars(key.data() + 1, key.data() + key.size(), number);
-  if (error != std::errc() || stop != key.data() + key.size()) return std::nullopt;
-  return number;
+  return key.starts_with('p') ? parse_number<std::uint64_t>(key.substr(1)) : std::nullopt;
 }
 
 double sound_speed_at(const clients::MissionStore& mission, double depth_m, SimTime at) {
