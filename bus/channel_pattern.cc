@@ -1,14 +1,20 @@
 #include "bus/channel_pattern.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
-#include <regex>
 #include <utility>
+
+#include <re2/re2.h>
 
 #include "core/check.h"
 
 namespace halocline::bus {
 namespace {
+
+// Bytes that an expression and the automaton made of it while matching may take. Where they do not do, an expression is refused, and
+// matching goes on without an automaton, in the same order of time.
+constexpr std::int64_t kMaxExpressionBytes = 256 << 10;
 
 constexpr std::string_view kSpecial = R"(\^$.|?*+()[]{})";
 
@@ -28,7 +34,18 @@ std::optional<std::string> literal(std::string_view expression) {
 }  // namespace
 
 struct ChannelPattern::Expression {
-  std::regex regex;
+  explicit Expression(const std::string& text) : regex(text, options()) {}
+
+  static re2::RE2::Options options() {
+    re2::RE2::Options options;
+    options.set_encoding(re2::RE2::Options::EncodingLatin1);  // a byte is a character
+    options.set_max_mem(kMaxExpressionBytes);
+    options.set_never_capture(true);
+    options.set_log_errors(false);
+    return options;
+  }
+
+  re2::RE2 regex;
 };
 
 ChannelPattern::ChannelPattern(const std::string& expression) {
@@ -38,16 +55,13 @@ ChannelPattern::ChannelPattern(const std::string& expression) {
     text_ = std::move(*text);
     return;
   }
-  try {
-    expression_ = std::make_shared<const Expression>(
-        Expression{std::regex(expression, std::regex::ECMAScript | std::regex::optimize)});
-  } catch (const std::regex_error& error) {
-    throw InvalidArgument("'" + expression + "' is no regular expression: " + error.what());
-  }
+  expression_ = std::make_shared<const Expression>(expression);
+  const re2::RE2& regex = expression_->regex;
+  require(regex.ok(), "'" + expression + "' is no regular expression: " + regex.error());
 }
 
 bool ChannelPattern::matches(std::string_view channel) const {
-  if (expression_) return std::regex_match(channel.begin(), channel.end(), expression_->regex);
+  if (expression_) return re2::RE2::FullMatch({channel.data(), channel.size()}, expression_->regex);
   return is_prefix_ ? channel.starts_with(text_) : channel == text_;
 }
 

@@ -1,7 +1,8 @@
 // Whether a channel is matched by a subscription's expression, as LCM would have it: the whole channel, not a part.
 //
-// What Bus subscribes to, escaped channels and escaped prefixes before ".*", is compared as text; any other
-// expression is one of std::regex (ECMAScript), which agrees with LCM's (GLib) in all that channels need.
+// What Bus subscribes to, escaped channels and escaped prefixes before ".*", is compared as text; any other expression is one of
+// RE2, which agrees with LCM's (GLib) in all that channels need, but has neither look-around nor back-references. Whatever the
+// expression, the time of a match is at most its length times the channel's: one of a stranger (JOIN) cannot stop a process.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,7 @@ class ChannelPattern {
  private:
   std::string text_;        // the channel, or what it begins with
   bool is_prefix_ = false;  // text_ is what it begins with
-  struct Expression;        // of std::regex, whose header is left out of what all nodes include
+  struct Expression;        // of RE2, whose header is left out of what all nodes include
   std::shared_ptr<const Expression> expression_;  // where it is no text
 };
 

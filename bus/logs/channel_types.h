@@ -16,14 +16,19 @@ inline bool is_on(std::string_view channel, const bus::Family& family) {
   return channel.starts_with(family.prefix) && is_valid_name(channel.substr(family.prefix.size()));
 }
 
+// The channel whose message a REPAIR channel carries; any other as it is.
+inline std::string_view without_repair(std::string_view channel) {
+  constexpr std::string_view kRepair = bus::channels::kRepair.prefix;
+  while (channel.starts_with(kRepair)) channel.remove_prefix(kRepair.size());
+  return channel;
+}
+
 // Calls `f.template operator()<Message>()` with the type of `channel` (of the channel repaired, for REPAIR); returns
 // false for any other channel.
 template <class Function>
 bool with_type_of(std::string_view channel, Function&& f) {
-  constexpr std::string_view kRepair = bus::channels::kRepair.prefix;
-  while (channel.starts_with(kRepair)) channel.remove_prefix(kRepair.size());
   return bus::any_channel([&]<class Message>(const auto& ours) {
-    if (!is_on(channel, ours)) return false;
+    if (!is_on(without_repair(channel), ours)) return false;
     f.template operator()<Message>();
     return true;
   });

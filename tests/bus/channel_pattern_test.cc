@@ -1,5 +1,7 @@
 #include "bus/channel_pattern.h"
 
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,6 +35,24 @@ TEST(ChannelPattern, AnyOtherExpressionMatchesTheWholeChannel) {
 }
 
 TEST(ChannelPattern, WhatIsNoExpressionIsRefused) { EXPECT_THROW(ChannelPattern("(STATE"), InvalidArgument); }
+
+// Backtracking would try 2^60 ways.
+TEST(ChannelPattern, AMatchTakesLinearTimeWhateverTheExpression) {
+  const std::string channel(60, 'a');
+  for (const char* expression : {"(a*)*b", "(a|a)+b", "(a+)+\\.x", "(.*a){20}b", "((a{0,30}){0,30}){0,1}b"})
+    EXPECT_FALSE(ChannelPattern(expression).matches(channel)) << expression;
+  EXPECT_TRUE(ChannelPattern("(a*)*b").matches(channel + "b"));
+}
+
+TEST(ChannelPattern, AnExpressionThatNeedsMuchMemoryIsRefused) {
+  EXPECT_THROW(ChannelPattern("((a{1000}){1000}){1000}"), InvalidArgument);
+  EXPECT_THROW(ChannelPattern("(((.{30}){30}){30})b"), InvalidArgument);
+}
+
+TEST(ChannelPattern, AnyByteIsACharacter) {
+  EXPECT_TRUE(ChannelPattern("a.\\.(b|c)").matches("a\xff.b"));
+  EXPECT_TRUE(ChannelPattern("(\xe9|x)").matches("\xe9"));
+}
 
 TEST(ChannelPatterns, AChannelHasThePlacesOfThoseThatMatchIt) {
   ChannelPatterns patterns;

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <regex>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "bus/channel_pattern.h"
 #include "bus/logs/channel_types.h"
 #include "bus/message_field.h"
 #include "bus/message_fields.h"
@@ -140,7 +140,8 @@ class Exporter {
     }
     RowCounter counter;
     visit_fields(counter, message);
-    std::ofstream& file = file_of<Message>(std::string(family_of(event.channel)));
+    const std::string family(family_of(without_repair(event.channel)));
+    std::ofstream& file = file_of<Message>(family);
     const std::string start =
         std::to_string(event.number) + "," + std::to_string(event.stamp_us) + "," + event.channel;
     for (std::size_t row = 0; row < counter.rows; ++row) {
@@ -149,8 +150,7 @@ class Exporter {
       visit_fields(writer, message);
       file << line << "\n";
     }
-    result.rows_by_file[path_of(std::string(family_of(event.channel)))] +=
-        static_cast<std::int64_t>(counter.rows);
+    result.rows_by_file[path_of(family)] += static_cast<std::int64_t>(counter.rows);
   }
 
   void close() {
@@ -189,22 +189,14 @@ class Exporter {
   std::map<std::string, std::ofstream> files_;
 };
 
-std::regex compiled(const std::string& pattern) {
-  try {
-    return std::regex(pattern);
-  } catch (const std::regex_error& error) {
-    throw InvalidArgument("the channel pattern '" + pattern + "' is no regular expression: " + error.what());
-  }
-}
-
 }  // namespace
 
 ExportResult export_csv(LogReader& log, const std::string& folder, const std::string& channel_pattern) {
-  const std::regex wanted = compiled(channel_pattern.empty() ? ".*" : channel_pattern);
+  const bus::ChannelPattern wanted(channel_pattern.empty() ? ".*" : channel_pattern);
   Exporter exporter(folder);
   LoggedEvent event;
   while (log.next(event)) {
-    if (!channel_pattern.empty() && !std::regex_match(event.channel, wanted)) continue;
+    if (!wanted.matches(event.channel)) continue;
     const bool ours = with_type_of(event.channel, [&]<class Message>() { exporter.add<Message>(event); });
     if (!ours) ++exporter.result.foreign;
   }

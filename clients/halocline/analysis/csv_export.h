@@ -20,8 +20,8 @@ struct ExportResult {
   std::int64_t undecodable = 0;                      // on our channels, but no sound message
 };
 
-// Exports the events whose channel matches `channel_pattern` (an ECMAScript regular expression for the whole
-// name; empty: all) into `folder`, which is made when it is missing; files of an earlier export are removed. Throws
+// Exports the events whose channel matches `channel_pattern` (a regular expression of RE2 for the whole name; empty:
+// all) into `folder`, which is made when it is missing; files of an earlier export are removed. Throws
 // InvalidArgument for a bad pattern, std::runtime_error when a file cannot be written.
 ExportResult export_csv(LogReader& log, const std::string& folder, const std::string& channel_pattern = "");
 

@@ -99,6 +99,20 @@ TEST(StrangeParticipants, AJoinThatCannotBeFollowedIsExpelled) {
   EXPECT_THAT(bench.conductor.waiting_for(), ::testing::Contains("a"));
 }
 
+// With backtracking the conductor would try 2^60 ways for the first output of another.
+TEST(StrangeParticipants, AnExpressionThatBacktracksHoldsNobodyUp) {
+  Bench bench;
+  bench.join("a", 2, {"(a*)*b"});
+  bench.join("b", 3);
+  lockstep_result_t result = result_of("b");
+  result.outputs.resize(1);
+  result.num_outputs = 1;
+  result.outputs[0].channel_name = std::string(60, 'a');
+  bench.answer(3, result);
+  bench.answer(2, result_of("a"));
+  EXPECT_THAT(bench.published, ::testing::ElementsAre(std::string(60, 'a')));
+}
+
 // Of "(STATE\.a|DVL\.b)" the part before the dot is no expression: whoever is told to stop there would end.
 TEST(StrangeParticipants, WhatEndsALookaheadIsAnExpressionWhateverSomeSubscribeTo) {
   Bench bench;

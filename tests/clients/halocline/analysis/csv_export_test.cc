@@ -141,6 +141,17 @@ TEST_F(CsvExport, ForeignAndUndecodableEventsAreCountedNotFatal) {
   EXPECT_EQ(lines("state.csv").size(), 2u);
 }
 
+TEST_F(CsvExport, RepairedMessagesAreInTheFileOfTheirType) {
+  file_.add(100, "REPAIR.STATE.auv-1", state_at(100, 1.5));
+  file_.add(200, "REPAIR.CLOCK", testing::clock_at(200));
+  file_.add(300, "STATE.auv-1", state_at(300, 2));
+  EXPECT_EQ(exported().rows_by_file.size(), 2u);
+  const auto states = lines("state.csv");
+  ASSERT_EQ(states.size(), 3u);
+  EXPECT_THAT(states[1], ::testing::StartsWith("0,100,REPAIR.STATE.auv-1,100,"));
+  EXPECT_EQ(lines("clock.csv").size(), 2u);
+}
+
 TEST_F(CsvExport, PatternChoosesChannels) {
   file_.add(5, "STATE.auv-1", state_at(5));
   file_.add(5, "STATE.auv-2", state_at(5));

@@ -1,0 +1,49 @@
+#include <vector>
+
+#include "tests/layers/room_table.h"
+
+namespace halocline::layers {
+
+const std::vector<Exemption>& exemptions() {
+  static const std::vector<Exemption> table{
+      {"bathymetry/terrain/local_frame", "GeographicLib/", "the one place of geodesy"},
+      {"bathymetry/rasters/gdal_", "gdal", "the module that reads rasters"},
+      {"bathymetry/rasters/gdal_", "ogr", "the module that reads rasters"},
+      {"bathymetry/rasters/gdal_", "cpl_", "the module that reads rasters"},
+      {"clients/halocline/coverage/coverage_gdal", "gdal", "the module that writes maps"},
+      {"clients/halocline/coverage/coverage_gdal", "ogr", "the module that writes maps"},
+      {"clients/halocline/coverage/coverage_netcdf", "ogr", "the module that writes maps"},
+      {"acoustics/sea/profile_grid_reader", "gdal", "the module that reads grids of profiles"},
+      {"ocean/netcdf_file", "netcdf.h", "the module that reads ocean fields"},
+      {"acoustics/fading/channel_record_hdf5", "hdf5.h", "the module that reads measured channels"},
+      {"vehicle_sim/world/ode_", "ode/", "the one place of the Open Dynamics Engine"},
+      {"clients/halocline/sweep/sweep_netcdf", "netcdf.h", "the module that writes sweeps"},
+      {"vehicle_sim/main.cc", "bathymetry/rasters/terrain_recipe.h",
+       "vehicles touch the ground that the bathymetry service answers from: its main makes the same terrain"},
+      {"vehicle_sim/main.cc", "bathymetry/bathymetry_config.h",
+       "vehicles touch the ground that the bathymetry service answers from: its main makes the same terrain"},
+      {"clients/monitor/web/web_server", "boost/", "the one place of HTTP and WebSockets"},
+      {"clients/monitor/sources/log_nodes", "clients/halocline/scenario/composition.h",
+       "the links of a log are computed by the nodes that its configuration describes"},
+      {"clients/monitor/sources/log_nodes", "channel_server/world_messages.h",
+       "the links of a log are computed by the nodes that its configuration describes"},
+      {"clients/monitor/sources/modems", "channel_server/world_messages.h",
+       "the modems of those who publish none are in the configuration"},
+      {"clients/monitor/sources/modems", "channel_server/channel_server_config.h",
+       "the modems of those who publish none are in the configuration"},
+      {"clients/monitor/sources/modems", "bus/config/config.h",
+       "the modems of those who publish none are in the configuration"},
+      {"clients/monitor/sources/modems", "acoustics/modem/half_delivery.h",
+       "scales are centred at what a modem needs"},
+      {"clients/halocline/export/netcdf_output", "netcdf.h", "what modules write netCDF by"},
+      {"core/shared_module", "dlfcn.h", "the one place that loads modules"},
+      {"core/shared_module", "unistd.h", "modules lie beside the program, whose place the system knows"},
+      {"clients/halocline/analysis/confidence", "boost/", "the one place of statistics"},
+      {"core/hash", "xxhash.h", "the one place of hashing"},
+      {"core/huge_page_vector", "sys/mman.h", "the one place that asks for large pages"},
+      {"core/atomic_file", "", "files are replaced as a whole in one place"},
+  };
+  return table;
+}
+
+}  // namespace halocline::layers
