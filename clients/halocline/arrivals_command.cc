@@ -1,7 +1,6 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -31,15 +30,6 @@ std::vector<acoustics::RayLink> links_of(const ArrivalsArguments& arguments) {
   std::ifstream file(arguments.links);
   require(file.is_open(), "cannot read " + arguments.links);
   return read_links(file, arguments.links);
-}
-
-std::optional<acoustics::RaySolver> solver_of(const std::string& name) {
-  if (name.empty() || name == "auto") return std::nullopt;
-  for (const auto solver :
-       {acoustics::RaySolver::kImages, acoustics::RaySolver::kSnell, acoustics::RaySolver::kArcs}) {
-    if (name == to_name(solver)) return solver;
-  }
-  throw InvalidArgument("'" + name + "' is no solver; allowed: auto, images, snell, arcs");
 }
 
 OutputFormat format_of(const std::string& name) {

@@ -155,4 +155,13 @@ acoustics::RaySea make_sea(const SeaDescription& sea) {
           surface_of(sea), options};
 }
 
+std::optional<acoustics::RaySolver> solver_of(const std::string& name) {
+  if (name.empty() || name == "auto") return std::nullopt;
+  for (const auto solver :
+       {acoustics::RaySolver::kImages, acoustics::RaySolver::kSnell, acoustics::RaySolver::kArcs}) {
+    if (name == to_name(solver)) return solver;
+  }
+  throw InvalidArgument("'" + name + "' is no solver; allowed: auto, images, snell, arcs");
+}
+
 }  // namespace halocline::clients

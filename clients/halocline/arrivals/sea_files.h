@@ -51,4 +51,7 @@ acoustics::RaySea make_sea(const SeaDescription& description);
 std::vector<acoustics::ProfiledDepth> read_bottom_profile(std::istream& in, const std::string& name);
 std::vector<acoustics::RayLink> read_links(std::istream& in, const std::string& name);
 
+// None for "auto" and an empty name. Throws InvalidArgument for a name that is no solver's.
+std::optional<acoustics::RaySolver> solver_of(const std::string& name);
+
 }  // namespace halocline::clients
