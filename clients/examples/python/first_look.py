@@ -16,7 +16,7 @@ scenario, log, picture = sys.argv[1:] + ["scenarios/harbour.toml", "runs/harbour
 
 # %% Where the vehicles went
 tables = halocline.read_log(log, channels=r"STATE\..*|OUTCOME")
-state, outcome = tables["state"], tables["outcome"]
+state = tables["state"]
 tracks = {name: state["position_ned_m"][state["channel"] == name] for name in np.unique(state["channel"])}
 for name, track in tracks.items():
     metres = np.linalg.norm(np.diff(track, axis=0), axis=1).sum()
@@ -24,10 +24,13 @@ for name, track in tracks.items():
 
 # %% What became of the packets
 names = halocline.names_of("outcome", "outcome")
-for value, count in zip(*np.unique(outcome["outcome"], return_counts=True)):
-    print(f"{names[value]:12} {count}")
-received = outcome["outcome"] == names.index("received")
-print(f"SINR of what was received: {np.median(outcome['sinr_db'][received]):.1f} dB in the median")
+if "outcome" in tables:
+    outcome = tables["outcome"]
+    for value, count in zip(*np.unique(outcome["outcome"], return_counts=True)):
+        print(f"{names[value]:12} {count}")
+    received = outcome["outcome"] == names.index("received")
+    if received.any():
+        print(f"SINR of what was received: {np.median(outcome['sinr_db'][received]):.1f} dB in the median")
 
 # %% One link of it: budget and paths
 vehicles = [name.removeprefix("STATE.") for name in tracks]
